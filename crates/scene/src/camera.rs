@@ -1,0 +1,36 @@
+//! The camera of a validated scene.
+
+use glam::DVec3;
+
+/// A camera without a lens: rays start at one point or run in parallel.
+///
+/// `right`, `up` and `back` are orthonormal and are the columns of the rotation `world_from_camera`;
+/// the camera looks along −`back`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera {
+    /// Where the camera stands.
+    pub origin: DVec3,
+    /// +X of camera space: to the right in the picture.
+    pub right: DVec3,
+    /// +Y of camera space: upwards in the picture.
+    pub up: DVec3,
+    /// +Z of camera space: away from what is looked at.
+    pub back: DVec3,
+    /// How rays spread.
+    pub projection: Projection,
+}
+
+/// How the rays of a camera spread.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Projection {
+    /// All rays start at the origin. `half_height` is tan(vertical field of view / 2).
+    Perspective {
+        /// Half the picture's height at distance 1.
+        half_height: f64,
+    },
+    /// All rays are parallel.
+    Orthographic {
+        /// Half the picture's height in scene units.
+        half_height: f64,
+    },
+}

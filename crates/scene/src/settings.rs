@@ -1,0 +1,41 @@
+//! How a validated scene is to be rendered.
+
+use spectra::BandGrid;
+
+/// How a scene is to be rendered.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RenderSettings {
+    /// Width of the picture in pixels.
+    pub width: u32,
+    /// Height of the picture in pixels.
+    pub height: u32,
+    /// Samples (paths) per pixel.
+    pub samples: u32,
+    /// Chooses the sequence of random numbers.
+    pub seed: u32,
+    /// Bands that each pixel has.
+    pub bands: BandGrid,
+    /// Where in its band a sample's wavelength lies.
+    pub sampling: WavelengthSampling,
+    /// The most segments of a path, from 1 to [`RenderSettings::MAX_PATH_SEGMENTS`]. The camera ray is the
+    /// first; the one that reaches a light or the environment counts.
+    pub max_path_segments: u32,
+    /// Exposure of the developed picture in stops: 0 shows radiance 1 at every wavelength as white.
+    pub exposure_ev: f64,
+}
+
+impl RenderSettings {
+    /// The longest path that can be asked for.
+    pub const MAX_PATH_SEGMENTS: u32 = 32;
+    /// The widest or highest picture that can be asked for.
+    pub const MAX_SIDE: u32 = 32_768;
+}
+
+/// Where in its band a sample's wavelength lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WavelengthSampling {
+    /// One offset is drawn per sample, for all bands: a band holds the mean over its width.
+    Random,
+    /// Always the centre of the band: fixed wavelengths.
+    Centre,
+}

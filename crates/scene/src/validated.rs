@@ -1,0 +1,115 @@
+//! The validated scene.
+
+use crate::{Camera, Emission, Material, Object, RenderSettings};
+use spectra::BandTable;
+
+/// Index of a spectrum in [`Scene::spectra`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct SpectrumId(pub(crate) u32);
+
+impl SpectrumId {
+    /// The position in the list.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// Index of a material in [`Scene::materials`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct MaterialId(pub(crate) u32);
+
+impl MaterialId {
+    /// The position in the list.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// What surrounds the objects.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Environment {
+    /// The same radiance from every direction.
+    Constant(Emission),
+    /// A mixture by the height h = dot(direction, +Y): `horizon` at 0, `zenith` at 1, `ground` at −1,
+    /// linear in h between.
+    Gradient {
+        /// Radiance from straight above.
+        zenith: Emission,
+        /// Radiance from the horizon.
+        horizon: Emission,
+        /// Radiance from straight below.
+        ground: Emission,
+    },
+}
+
+/// A scene that can be rendered.
+///
+/// Spectra are tables on the band grid of [`RenderSettings::bands`]; nothing refers to a name or a file any more.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    pub(crate) settings: RenderSettings,
+    pub(crate) camera: Camera,
+    pub(crate) spectra: Vec<BandTable>,
+    pub(crate) observer: [BandTable; 3],
+    pub(crate) materials: Vec<Material>,
+    pub(crate) objects: Vec<Object>,
+    pub(crate) environment: Environment,
+}
+
+impl Scene {
+    /// How it is to be rendered.
+    pub fn settings(&self) -> &RenderSettings {
+        &self.settings
+    }
+
+    /// Where it is seen from.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// All spectra that materials and lights refer to.
+    pub fn spectra(&self) -> &[BandTable] {
+        &self.spectra
+    }
+
+    /// One of the spectra.
+    pub fn spectrum(&self, id: SpectrumId) -> &BandTable {
+        &self.spectra[id.index()]
+    }
+
+    /// The CIE 1931 2° colour-matching functions x̄, ȳ, z̄.
+    pub fn observer(&self) -> &[BandTable; 3] {
+        &self.observer
+    }
+
+    /// All materials.
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// The material of an object.
+    pub fn material(&self, id: MaterialId) -> &Material {
+        &self.materials[id.index()]
+    }
+
+    /// All objects.
+    pub fn objects(&self) -> &[Object] {
+        &self.objects
+    }
+
+    /// Indices of the objects that light can be sent from: emitting spheres and rectangles.
+    pub fn lights(&self) -> Vec<usize> {
+        todo!("emitters with a scale and a spectrum above 0, except infinite planes")
+    }
+
+    /// What surrounds the objects.
+    pub fn environment(&self) -> &Environment {
+        &self.environment
+    }
+
+    /// The same scene with every number rounded to the nearest `f32`, as a GPU receives it.
+    #[must_use]
+    pub fn rounded_to_f32(&self) -> Self {
+        todo!()
+    }
+}

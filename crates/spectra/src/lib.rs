@@ -1,0 +1,28 @@
+//! Numbers over wavelength.
+//!
+//! Wavelengths are vacuum wavelengths in nanometres. Everything is `f64` until a renderer fills a
+//! [`SpectralImage`], which holds `f32`.
+//!
+//! * [`Tabulated`] is a table over wavelength, linear between its points; [`Spectrum`] a constant or a table.
+//! * [`OpticalConstants`] is a complex index n + ik over wavelength, k ≥ 0 absorbs.
+//! * [`BandGrid`] divides the rendered range into N uniform bands.
+//! * [`BandTable`] is a spectrum resampled onto a grid, fine enough for any wavelength drawn within a band.
+//! * [`SpectralImage`] is what a renderer produces: radiance per pixel and band.
+//! * [`illuminant`], [`observer_1931`], [`optical_constants`] and [`reflectance`] are the data that the project carries.
+
+mod band_grid;
+mod band_table;
+mod data;
+mod optical_constants;
+mod spectral_image;
+mod spectrum;
+
+pub use band_grid::{BandGrid, BandGridError};
+pub use band_table::BandTable;
+pub use data::{
+    DataSet, KM_LUMENS_PER_WATT, illuminant, illuminant_names, material_names, observer_1931,
+    optical_constants, reflectance, reflectance_names,
+};
+pub use optical_constants::OpticalConstants;
+pub use spectral_image::SpectralImage;
+pub use spectrum::{OutOfRange, Spectrum, Tabulated, TabulatedError};

@@ -1,0 +1,166 @@
+//! A number over wavelength: a constant or a table.
+
+use thiserror::Error;
+
+/// A table over wavelength, linear between its points. Rising wavelengths, finite values, at least one point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tabulated {
+    nm: Vec<f64>,
+    values: Vec<f64>,
+}
+
+/// Why points do not make a [`Tabulated`].
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum TabulatedError {
+    /// No points at all.
+    #[error("the table has no points")]
+    Empty,
+    /// A wavelength or value is NaN or infinite.
+    #[error("point {index} of the table is not finite")]
+    NotFinite {
+        /// Which point, counted from 0.
+        index: usize,
+    },
+    /// A wavelength is not above the one before it.
+    #[error("wavelengths must rise, but point {index} of the table ({nm} nm) does not")]
+    NotRising {
+        /// Which point, counted from 0.
+        index: usize,
+        /// Its wavelength.
+        nm: f64,
+    },
+}
+
+/// A spectrum was asked for where its table has no value.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error("no value at {nm} nm: the table covers {min_nm} to {max_nm} nm")]
+pub struct OutOfRange {
+    /// The wavelength asked for.
+    pub nm: f64,
+    /// First wavelength of the table.
+    pub min_nm: f64,
+    /// Last wavelength of the table.
+    pub max_nm: f64,
+}
+
+impl Tabulated {
+    /// A table through the points (wavelength in nm, value).
+    ///
+    /// # Errors
+    /// When there are no points, one is not finite, or the wavelengths do not rise.
+    pub fn new(points: Vec<(f64, f64)>) -> Result<Self, TabulatedError> {
+        if points.is_empty() {
+            return Err(TabulatedError::Empty);
+        }
+        for (index, &(nm, value)) in points.iter().enumerate() {
+            if !nm.is_finite() || !value.is_finite() {
+                return Err(TabulatedError::NotFinite { index });
+            }
+            if index > 0 && nm <= points[index - 1].0 {
+                return Err(TabulatedError::NotRising { index, nm });
+            }
+        }
+        let (nm, values) = points.into_iter().unzip();
+        Ok(Self { nm, values })
+    }
+
+    /// First and last wavelength, nm.
+    pub fn range_nm(&self) -> (f64, f64) {
+        (self.nm[0], self.nm[self.nm.len() - 1])
+    }
+
+    /// The points as (wavelength in nm, value).
+    pub fn points(&self) -> impl ExactSizeIterator<Item = (f64, f64)> + '_ {
+        self.nm.iter().copied().zip(self.values.iter().copied())
+    }
+
+    /// The value at `nm`, linear between points.
+    ///
+    /// # Errors
+    /// When `nm` lies outside the table by more than 1e-9 nm.
+    pub fn at(&self, nm: f64) -> Result<f64, OutOfRange> {
+        let (min_nm, max_nm) = self.range_nm();
+        if !(nm >= min_nm - 1e-9 && nm <= max_nm + 1e-9) {
+            return Err(OutOfRange { nm, min_nm, max_nm });
+        }
+        let above = self.nm.partition_point(|&x| x <= nm);
+        Ok(match above {
+            0 => self.values[0],
+            i if i == self.nm.len() => self.values[i - 1],
+            i => {
+                let t = (nm - self.nm[i - 1]) / (self.nm[i] - self.nm[i - 1]);
+                self.values[i - 1] + (self.values[i] - self.values[i - 1]) * t
+            }
+        })
+    }
+
+    /// The value at `nm`, and beyond the ends the value at the nearer end.
+    pub fn clamped_at(&self, nm: f64) -> f64 {
+        let (min_nm, max_nm) = self.range_nm();
+        // `clamp` keeps a NaN, which then reads the first value.
+        self.at(nm.clamp(min_nm, max_nm)).unwrap_or(self.values[0])
+    }
+}
+
+/// A number over wavelength.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Spectrum {
+    /// The same at every wavelength.
+    Constant(f64),
+    /// A table that has no value outside its range.
+    Table(Tabulated),
+    /// A table that keeps its end values outside its range (`extrapolate = "clamp"`).
+    ClampedTable(Tabulated),
+}
+
+impl Spectrum {
+    /// The value at `nm`.
+    ///
+    /// # Errors
+    /// When a [`Spectrum::Table`] has no value there.
+    pub fn at(&self, nm: f64) -> Result<f64, OutOfRange> {
+        match self {
+            Self::Constant(value) => Ok(*value),
+            Self::Table(table) => table.at(nm),
+            Self::ClampedTable(table) => Ok(table.clamped_at(nm)),
+        }
+    }
+
+    /// The same spectrum times `factor`.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let scale = |table: &Tabulated| Tabulated {
+            nm: table.nm.clone(),
+            values: table.values.iter().map(|v| v * factor).collect(),
+        };
+        match self {
+            Self::Constant(value) => Self::Constant(value * factor),
+            Self::Table(table) => Self::Table(scale(table)),
+            Self::ClampedTable(table) => Self::ClampedTable(scale(table)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn between_points_the_table_is_linear_and_outside_it_is_an_error() {
+        let table = Tabulated::new(vec![(400.0, 1.0), (500.0, 3.0), (510.0, 0.0)]).unwrap();
+        assert_eq!(table.at(450.0), Ok(2.0));
+        assert_eq!(table.at(510.0), Ok(0.0));
+        assert_eq!(table.at(400.0), Ok(1.0));
+        assert!(table.at(399.0).is_err() && table.at(511.0).is_err() && table.at(f64::NAN).is_err());
+        assert_eq!(table.clamped_at(300.0), 1.0);
+        assert_eq!(table.clamped_at(900.0), 0.0);
+    }
+
+    #[test]
+    fn bad_points_are_refused() {
+        assert_eq!(Tabulated::new(vec![]), Err(TabulatedError::Empty));
+        assert!(Tabulated::new(vec![(1.0, f64::NAN)]).is_err());
+        assert!(Tabulated::new(vec![(2.0, 0.0), (2.0, 1.0)]).is_err());
+    }
+}
