@@ -94,7 +94,7 @@ mod tests {
     fn projected_facets_cover_the_surface_once() {
         for slope in [0.05, 0.1, 0.3, 0.6, 1.0] {
             let area = over_hemisphere(|w| half_vector_pdf(w[2], slope));
-            assert!((area - 1.0).abs() < 1e-5, "{slope}: {area}");
+            assert!((area - 1.0).abs() < 5e-5, "{slope}: {area}");
         }
     }
 
