@@ -1,6 +1,18 @@
 //! The tables that the project carries, by name.
+//!
+//! The figures stand in `data/` beside this crate's `src/`, each file with its source and licence
+//! in the head; see [`table`] for the form. They are part of the program: nothing is read at run time.
 
-use crate::{OpticalConstants, Spectrum, Tabulated};
+mod illuminants;
+mod materials;
+mod observer;
+mod reflectances;
+mod table;
+
+pub use illuminants::{illuminant, illuminant_names};
+pub use materials::{material_names, optical_constants};
+pub use observer::observer_1931;
+pub use reflectances::{reflectance, reflectance_names};
 
 /// Maximum luminous efficacy of radiation, lm/W (CIE 018:2019; 683 as the CIE rounds 683.002).
 pub const KM_LUMENS_PER_WATT: f64 = 683.0;
@@ -16,18 +28,29 @@ pub struct DataSet<T> {
     pub data: T,
 }
 
-/// The CIE 1931 2° colour-matching functions x̄, ȳ, z̄ at 1 nm, 360 to 830 nm.
-pub fn observer_1931() -> &'static [Tabulated; 3] { todo!() }
-/// A CIE illuminant by name (`"D65"`), relative, scaled so that its luminance equals that of the
-/// equal-energy spectrum of value 1: ∫S ȳ dλ = ∫ȳ dλ over 380 to 780 nm (1 nm rule).
-pub fn illuminant(name: &str) -> Option<DataSet<Spectrum>> { todo!() }
-/// Names that [`illuminant`] knows.
-pub fn illuminant_names() -> Vec<&'static str> { todo!() }
-/// Optical constants by name (`"gold"`, `"water"`).
-pub fn optical_constants(name: &str) -> Option<DataSet<OpticalConstants>> { todo!() }
-/// Names that [`optical_constants`] knows.
-pub fn material_names() -> Vec<&'static str> { todo!() }
-/// A diffuse reflectance by name.
-pub fn reflectance(name: &str) -> Option<DataSet<Spectrum>> { todo!() }
-/// Names that [`reflectance`] knows.
-pub fn reflectance_names() -> Vec<&'static str> { todo!() }
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every set of one kind: names sorted and unique, each found by its name, each with its source.
+    fn check_kind<T>(names: &[&'static str], get: impl Fn(&str) -> Option<DataSet<T>>) {
+        assert!(!names.is_empty());
+        assert!(names.windows(2).all(|pair| pair[0] < pair[1]), "{names:?}");
+        for &name in names {
+            let set = get(name).unwrap_or_else(|| panic!("{name} is listed but not found"));
+            assert_eq!(set.name, name);
+            assert!(set.citation.len() > 20, "{name}: {}", set.citation);
+        }
+        assert!(get("unobtainium").is_none());
+    }
+
+    #[test]
+    fn every_data_set_loads_and_names_its_source() {
+        check_kind(&illuminant_names(), illuminant);
+        check_kind(&material_names(), optical_constants);
+        check_kind(&reflectance_names(), reflectance);
+        assert_eq!(illuminant_names().len(), 8 + 12);
+        assert_eq!(material_names().len(), 13);
+        assert_eq!(reflectance_names().len(), 24);
+    }
+}

@@ -1,0 +1,176 @@
+//! CIE illuminants.
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+use super::DataSet;
+use super::observer::observer_1931;
+use super::table::{Table, TableError, embedded};
+use crate::{OutOfRange, Spectrum};
+
+/// Wavelengths of the 1 nm rule: 380, 381 … 780 nm.
+fn rule_1nm() -> impl Iterator<Item = f64> {
+    (380..=780).map(f64::from)
+}
+
+/// ∫ S ȳ dλ over 380 to 780 nm by the 1 nm rule.
+fn luminance(spectrum: &Spectrum) -> Result<f64, OutOfRange> {
+    let [_, y_bar, _] = observer_1931();
+    rule_1nm()
+        .map(|nm| Ok(spectrum.at(nm)? * y_bar.at(nm)?))
+        .sum()
+}
+
+/// The same spectrum with the luminance of the equal-energy spectrum of value 1.
+fn normalised(spectrum: &Spectrum) -> Result<Spectrum, OutOfRange> {
+    Ok(spectrum.scaled(luminance(&Spectrum::Constant(1.0))? / luminance(spectrum)?))
+}
+
+/// The illuminants of one data file.
+fn read(table: &Table) -> Result<Vec<DataSet<Spectrum>>, TableError> {
+    let citation = table.citation()?;
+    let set = |name| {
+        Ok(DataSet {
+            name,
+            citation: citation.clone(),
+            data: Spectrum::Table(table.series(name)?),
+        })
+    };
+    table.series_names().into_iter().map(set).collect()
+}
+
+fn all() -> &'static BTreeMap<&'static str, DataSet<Spectrum>> {
+    static ALL: OnceLock<BTreeMap<&'static str, DataSet<Spectrum>>> = OnceLock::new();
+    ALL.get_or_init(|| {
+        let standard = include_str!("../../data/illuminants/standard.csv");
+        let fluorescent = include_str!("../../data/illuminants/fluorescent.csv");
+        let mut sets = embedded("illuminants/standard.csv", standard, read);
+        sets.extend(embedded("illuminants/fluorescent.csv", fluorescent, read));
+        for set in &mut sets {
+            set.data = normalised(&set.data)
+                .unwrap_or_else(|gap| panic!("illuminant {}: {gap}", set.name));
+        }
+        sets.push(DataSet {
+            name: "E",
+            citation: "Equal-energy spectrum: CIE 015:2018, Colorimetry, 4th edition, DOI 10.25039/TR.015.2018."
+                .to_owned(),
+            data: Spectrum::Constant(1.0),
+        });
+        sets.into_iter().map(|set| (set.name, set)).collect()
+    })
+}
+
+/// A CIE illuminant by name (`"D65"`), relative, scaled so that its luminance equals that of the
+/// equal-energy spectrum of value 1: ∫S ȳ dλ = ∫ȳ dλ over 380 to 780 nm (1 nm rule).
+///
+/// A, B, C, D50, D55, D65 and D75 are linear between the points of their 5 nm tables, which for the
+/// D series is the definition. FL1 to FL12 are line lamps that are *defined* by sums over their 5 nm
+/// tables: read as linear between the points, as here, their chromaticity y moves by about 2e-4 from
+/// the published one, and a mercury line is as wide as the table's step. E is the constant 1.
+/// Ranges: 300 to 780 nm (B from 320 nm), FL1 to FL12 380 to 780 nm.
+pub fn illuminant(name: &str) -> Option<DataSet<Spectrum>> {
+    all().get(name).cloned()
+}
+
+/// Names that [`illuminant`] knows, sorted.
+pub fn illuminant_names() -> Vec<&'static str> {
+    all().keys().copied().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// XYZ, scaled to Y = 100, by plain sums at 380, 380 + `step` … 780 nm.
+    fn white_point(spectrum: &Spectrum, step: u32) -> [f64; 3] {
+        let mut xyz = [0.0; 3];
+        for nm in (380..=780).step_by(step as usize).map(f64::from) {
+            for (sum, function) in xyz.iter_mut().zip(observer_1931()) {
+                *sum += spectrum.at(nm).unwrap() * function.at(nm).unwrap();
+            }
+        }
+        xyz.map(|value| 100.0 * value / xyz[1])
+    }
+
+    /// X and Z at Y = 100, from plain double-precision sums over the same published tables,
+    /// computed apart from this code (numpy).
+    const WHITE_POINTS: [(&str, u32, f64, f64); 16] = [
+        ("A", 5, 109.848_993_121, 35.582_473_632_4),
+        ("A", 1, 109.847_886_503, 35.587_346_062_6),
+        ("C", 5, 98.071_714_216, 118.224_892_313),
+        ("C", 1, 98.059_413_975_3, 118.163_796_804),
+        ("D50", 5, 96.419_686_124_9, 82.512_259_200_4),
+        ("D50", 1, 96.421_468_222_7, 82.501_706_935_5),
+        ("D55", 5, 95.679_089_933_4, 92.136_745_658_6),
+        ("D55", 1, 95.680_007_103_1, 92.123_102_684_8),
+        ("D65", 5, 95.042_966_940_2, 108.880_054_703),
+        ("D65", 1, 95.042_281_762_9, 108.861_009_241),
+        ("D75", 5, 94.967_384_935_6, 122.614_030_164),
+        ("D75", 1, 94.965_315_426_3, 122.590_218_187),
+        ("E", 5, 100.000_923_755, 100.000_993_944),
+        ("E", 1, 99.998_745_068_8, 99.990_319_865_3),
+        ("FL2", 5, 99.185_758_445_2, 67.393_784_195_5),
+        ("FL11", 5, 100.961_005_324, 64.350_584_665_1),
+    ];
+
+    #[test]
+    fn white_points_equal_an_independent_computation() {
+        for (name, step, x, z) in WHITE_POINTS {
+            let xyz = white_point(&illuminant(name).unwrap().data, step);
+            // The expected figures have 12 digits.
+            assert!(
+                (xyz[0] - x).abs() < 1e-9,
+                "{name} {step} nm: X {} {x}",
+                xyz[0]
+            );
+            assert!(
+                (xyz[2] - z).abs() < 1e-9,
+                "{name} {step} nm: Z {} {z}",
+                xyz[2]
+            );
+        }
+    }
+
+    #[test]
+    fn chromaticities_are_those_that_the_cie_publishes() {
+        // CIE 015:2018; the rule is the sum at 5 nm.
+        let published = [
+            ("A", 0.44758, 0.40745),
+            ("C", 0.31006, 0.31616),
+            ("D50", 0.34567, 0.35851),
+            ("D65", 0.31272, 0.32903),
+            ("FL11", 0.38054, 0.37692),
+        ];
+        for (name, x, y) in published {
+            let xyz = white_point(&illuminant(name).unwrap().data, 5);
+            let sum: f64 = xyz.iter().sum();
+            assert!((xyz[0] / sum - x).abs() < 1e-5, "{name}: {}", xyz[0] / sum);
+            assert!((xyz[1] / sum - y).abs() < 1e-5, "{name}: {}", xyz[1] / sum);
+        }
+    }
+
+    #[test]
+    fn every_illuminant_has_the_luminance_of_equal_energy() {
+        let expected = luminance(&Spectrum::Constant(1.0)).unwrap();
+        for name in illuminant_names() {
+            let found = luminance(&illuminant(name).unwrap().data).unwrap();
+            assert!((found / expected - 1.0).abs() < 1e-14, "{name}: {found}");
+        }
+    }
+
+    #[test]
+    fn illuminant_a_follows_its_formula() {
+        // CIE 015:2018, equation (1): S = 100 (560/λ)⁵ (exp(c/560) − 1)/(exp(c/λ) − 1), c = 1.435e7/2848 nm.
+        let c = 1.435e7 / 2848.0;
+        let formula = |nm: f64| {
+            100.0 * (560.0 / nm).powi(5) * (f64::exp(c / 560.0) - 1.0) / (f64::exp(c / nm) - 1.0)
+        };
+        let a = illuminant("A").unwrap().data;
+        let scale = a.at(560.0).unwrap() / formula(560.0);
+        for nm in (380..=780).step_by(5).map(f64::from) {
+            let ratio = a.at(nm).unwrap() / (scale * formula(nm));
+            // The table has six digits.
+            assert!((ratio - 1.0).abs() < 6e-6, "{nm} nm: {ratio}");
+        }
+    }
+}

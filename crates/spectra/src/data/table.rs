@@ -1,0 +1,218 @@
+//! The form of the project's data files.
+//!
+//! ```text
+//! # name: Au-Johnson
+//! # citation: who measured it, where it was published
+//! # licence: under which terms the figures came here
+//! nm,n,k
+//! 300.9,1.53,1.889
+//! ```
+//!
+//! A head of `# key: value` lines, then blocks of comma-separated numbers. A line that starts with
+//! a letter names the columns and opens a block; an empty cell has no value in the source; empty
+//! lines separate blocks.
+
+use std::collections::BTreeMap;
+
+use thiserror::Error;
+
+use crate::{Tabulated, TabulatedError};
+
+/// A data file, read.
+#[derive(Debug)]
+pub(super) struct Table {
+    head: BTreeMap<&'static str, &'static str>,
+    blocks: Vec<Block>,
+}
+
+/// Columns of one block.
+#[derive(Debug)]
+struct Block {
+    columns: Vec<&'static str>,
+    rows: Vec<Vec<Option<f64>>>,
+}
+
+/// What is wrong with a data file. Lines are counted from 1.
+#[derive(Debug, Error, PartialEq)]
+pub(super) enum TableError {
+    #[error("line {0}: a line of the head must be `# key: value`")]
+    Head(usize),
+    #[error("line {0}: numbers before the names of their columns")]
+    NoColumns(usize),
+    #[error("line {line}: {found} cells, but {expected} columns")]
+    Cells {
+        line: usize,
+        found: usize,
+        expected: usize,
+    },
+    #[error("line {line}: {cell:?} is not a number")]
+    NotANumber { line: usize, cell: &'static str },
+    #[error("the head has no {0:?}")]
+    MissingKey(&'static str),
+    #[error("no block has the columns {0:?}")]
+    MissingColumns(Vec<&'static str>),
+    #[error("column {column:?}: {source}")]
+    Points {
+        column: &'static str,
+        source: TabulatedError,
+    },
+}
+
+impl Table {
+    /// Reads the text of a data file.
+    pub(super) fn parse(text: &'static str) -> Result<Self, TableError> {
+        let mut head = BTreeMap::new();
+        let mut blocks: Vec<Block> = Vec::new();
+        for (line, content) in (1..).zip(text.lines()) {
+            if let Some(comment) = content.strip_prefix('#') {
+                let (key, value) = comment.split_once(':').ok_or(TableError::Head(line))?;
+                head.insert(key.trim(), value.trim());
+            } else if content.starts_with(|c: char| c.is_ascii_alphabetic()) {
+                let columns = content.split(',').map(str::trim).collect();
+                blocks.push(Block {
+                    columns,
+                    rows: Vec::new(),
+                });
+            } else if !content.trim().is_empty() {
+                let block = blocks.last_mut().ok_or(TableError::NoColumns(line))?;
+                block.rows.push(cells(line, content, block.columns.len())?);
+            }
+        }
+        Ok(Self { head, blocks })
+    }
+
+    /// A value of the head.
+    pub(super) fn head(&self, key: &'static str) -> Result<&'static str, TableError> {
+        self.head
+            .get(key)
+            .copied()
+            .ok_or(TableError::MissingKey(key))
+    }
+
+    /// The name of the set, its source and its licence, as one text.
+    pub(super) fn citation(&self) -> Result<String, TableError> {
+        Ok(format!(
+            "{}: {}. Licence: {}.",
+            self.head("name")?,
+            self.head("citation")?,
+            self.head("licence")?
+        ))
+    }
+
+    /// The names of the columns of the first block that follow its first one, `nm`.
+    pub(super) fn series_names(&self) -> Vec<&'static str> {
+        self.blocks
+            .first()
+            .map_or_else(Vec::new, |block| block.columns[1..].to_vec())
+    }
+
+    /// The rows that have a value in both `x` and `y`, from the block with these columns.
+    pub(super) fn pairs(
+        &self,
+        x: &'static str,
+        y: &'static str,
+    ) -> Result<Vec<(f64, f64)>, TableError> {
+        for block in &self.blocks {
+            let place = |name| block.columns.iter().position(|&column| column == name);
+            if let (Some(x), Some(y)) = (place(x), place(y)) {
+                return Ok(block
+                    .rows
+                    .iter()
+                    .filter_map(|row| Some((row[x]?, row[y]?)))
+                    .collect());
+            }
+        }
+        Err(TableError::MissingColumns(vec![x, y]))
+    }
+
+    /// Column `column` over wavelength.
+    pub(super) fn series(&self, column: &'static str) -> Result<Tabulated, TableError> {
+        Tabulated::new(self.pairs("nm", column)?)
+            .map_err(|source| TableError::Points { column, source })
+    }
+}
+
+/// The numbers of one row.
+fn cells(
+    line: usize,
+    content: &'static str,
+    expected: usize,
+) -> Result<Vec<Option<f64>>, TableError> {
+    let row = content
+        .split(',')
+        .map(|cell| match cell.trim() {
+            "" => Ok(None),
+            cell => cell
+                .parse()
+                .map(Some)
+                .map_err(|_| TableError::NotANumber { line, cell }),
+        })
+        .collect::<Result<Vec<_>, _>>()?;
+    if row.len() == expected {
+        Ok(row)
+    } else {
+        Err(TableError::Cells {
+            line,
+            found: row.len(),
+            expected,
+        })
+    }
+}
+
+/// Loads a file that is part of the program with `load`.
+///
+/// # Panics
+/// When the file is damaged, which no user can cause: the test that loads every set stands before that.
+pub(super) fn embedded<T>(
+    file: &str,
+    text: &'static str,
+    load: impl Fn(&Table) -> Result<T, TableError>,
+) -> T {
+    Table::parse(text)
+        .and_then(|table| load(&table))
+        .unwrap_or_else(|error| panic!("the program's own data file {file}: {error}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn head_blocks_and_gaps_are_read() {
+        let table =
+            Table::parse("# name: a set\n# citation: x: y\n# licence: z\nb,c\n1,2\n\nnm,p,q\n400,1,\n410,2,5e-1\n")
+                .unwrap();
+        assert_eq!(table.citation().unwrap(), "a set: x: y. Licence: z.");
+        assert_eq!(table.series_names(), ["c"]);
+        assert_eq!(table.pairs("b", "c").unwrap(), [(1.0, 2.0)]);
+        assert_eq!(table.series("p").unwrap().range_nm(), (400.0, 410.0));
+        assert_eq!(table.series("q").unwrap().range_nm(), (410.0, 410.0));
+        assert_eq!(table.head("notes"), Err(TableError::MissingKey("notes")));
+        assert!(table.series("r").is_err());
+    }
+
+    #[test]
+    fn faults_name_their_line() {
+        let fault = |text| Table::parse(text).unwrap_err();
+        assert_eq!(fault("# no colon\n"), TableError::Head(1));
+        assert_eq!(fault("400,1\n"), TableError::NoColumns(1));
+        assert_eq!(
+            fault("nm,n\n400,x\n"),
+            TableError::NotANumber { line: 2, cell: "x" }
+        );
+        assert!(matches!(
+            fault("nm,n\n400\n"),
+            TableError::Cells {
+                line: 2,
+                found: 1,
+                expected: 2
+            }
+        ));
+    }
+
+    #[test]
+    fn falling_wavelengths_are_refused() {
+        let table = Table::parse("nm,n\n410,1\n400,1\n").unwrap();
+        assert!(matches!(table.series("n"), Err(TableError::Points { .. })));
+    }
+}
