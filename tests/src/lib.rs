@@ -1,1 +1,3 @@
-//! t
+//! The harness of the suites in `tests/`.
+
+pub mod wgsl;

@@ -1,0 +1,87 @@
+// Sending light from a source straight to a surface, through the free films in between.
+
+struct Sent {
+    light: u32,
+    direction: vec3f,
+    /// Density of the direction, the choice among the lights included; 0 where nothing can arrive.
+    pdf: f32,
+}
+
+/// The factor of a film at a point: its reflectance or its transmittance.
+fn film_factor(material: u32, point: SurfacePoint, center: vec3f, reflects: bool) -> Factor {
+    var kind = select(FACTOR_FILM_TRANSMITS, FACTOR_FILM_REFLECTS, reflects);
+    if (materials[material].is_transparent == 0u) {
+        kind = select(FACTOR_LOSSY_FILM_TRANSMITS, FACTOR_LOSSY_FILM_REFLECTS, reflects);
+    }
+    let thickness_nm = film_thickness(material, point.position, center);
+    return Factor(kind, materials[material].spectrum, point.cosine, thickness_nm);
+}
+
+/// Chooses a light and a direction towards it.
+fn send_to_light(walk: Walk, sample: Sample, object: u32, point: SurfacePoint) -> Sent {
+    if (frame.light_count == 0u || walk.segment + 1u > frame.max_path_segments) {
+        return Sent(NONE, point.normal, 0.0);
+    }
+    let random = random_at(sample, walk, 0u);
+    let count = f32(frame.light_count);
+    let light = lights[min(u32(random.x * count), frame.light_count - 1u)];
+    let direction = sample_light(light, point.position, random.y, random.z);
+    if (dot(direction, point.normal) <= 0.0) {
+        return Sent(light, direction, 0.0);
+    }
+    return Sent(light, direction, light_pdf(light, point.position, direction) / count);
+}
+
+/// Adds to the vertex what arrives from the light. `reflection` is the surface's function times the cosine,
+/// without its spectral factor; `scatter_pdf` the density with which scattering would have found this direction
+/// (balance heuristic: reflection / pdf × pdf / (pdf + scatter_pdf)).
+fn connect(
+    vertex_in: Vertex,
+    walk: Walk,
+    object: u32,
+    point: SurfacePoint,
+    sent: Sent,
+    reflection: f32,
+    scatter_pdf: f32,
+) -> Vertex {
+    var vertex = vertex_in;
+    if (reflection <= 0.0) {
+        return vertex;
+    }
+    vertex.first_crossing = crossing_count;
+    let allowed = frame.max_path_segments - walk.segment - 1u;
+    if (!arrives(Ray(point.position, sent.direction), object, sent.light, allowed)) {
+        crossing_count = vertex.first_crossing;
+        return vertex;
+    }
+    vertex.end_crossing = crossing_count;
+    let material = objects[sent.light].material;
+    vertex.connection = materials[material].emission;
+    vertex.connection_weight = materials[material].emission_scale * reflection / (sent.pdf + scatter_pdf);
+    return vertex;
+}
+
+/// Follows a ray to a light, recording the films that it crosses; false where something opaque is in the way
+/// or more films than `allowed`.
+fn arrives(ray_in: Ray, from_object: u32, light: u32, allowed: u32) -> bool {
+    var ray = ray_in;
+    var from_now = from_object;
+    for (var crossed = 0u; crossed <= allowed; crossed++) {
+        let hit = nearest_hit(ray, from_now);
+        if (hit.object == light) {
+            return true;
+        }
+        if (hit.object == NONE || crossed == allowed) {
+            return false;
+        }
+        let material = objects[hit.object].material;
+        if (materials[material].surface != SURFACE_FILM) {
+            return false;
+        }
+        let point = surface_point(hit.object, ray, hit.distance);
+        push_crossing(film_factor(material, point, objects[hit.object].center, false));
+        ray.origin = point.position;
+        from_now = hit.object;
+    }
+    return false;
+}

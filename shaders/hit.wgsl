@@ -1,0 +1,38 @@
+// The nearest surface along a ray.
+
+struct Hit {
+    /// Index of the object, NONE where the ray leaves the scene.
+    object: u32,
+    distance: f32,
+}
+
+/// Distance along a ray to one object, below 0 where it misses. `from_object` is the object that the ray starts on, or NONE.
+fn distance_to(index: u32, ray: Ray, from_object: u32) -> f32 {
+    let origin = ray.origin - objects[index].center;
+    if (objects[index].shape == SHAPE_SPHERE) {
+        return intersect_sphere(origin, ray.direction, objects[index].radius, index == from_object);
+    }
+    if (index == from_object) {
+        return -1.0;
+    }
+    let distance = intersect_plane(origin, ray.direction, objects[index].normal);
+    if (objects[index].shape == SHAPE_RECTANGLE && distance > 0.0) {
+        let place = origin + distance * ray.direction;
+        let inside = abs(dot(place, objects[index].tangent)) <= objects[index].half_width
+            && abs(dot(place, objects[index].bitangent)) <= objects[index].half_height;
+        return select(-1.0, distance, inside);
+    }
+    return distance;
+}
+
+/// The nearest object along a ray.
+fn nearest_hit(ray: Ray, from_object: u32) -> Hit {
+    var nearest = Hit(NONE, 3.0e38);
+    for (var index = 0u; index < frame.object_count; index++) {
+        let distance = distance_to(index, ray, from_object);
+        if (distance > 0.0 && distance < nearest.distance) {
+            nearest = Hit(index, distance);
+        }
+    }
+    return nearest;
+}

@@ -1,0 +1,186 @@
+// Generated from crates/gpu/src/layout.rs: edit there, then run
+//     PELLICLE_BLESS=1 cargo test -p pellicle-tests --test layout
+
+/// Invocations of a workgroup along each side of the picture.
+const WORKGROUP_SIDE: u32 = 8u;
+
+/// No object, no light.
+const NONE: u32 = 4294967295u;
+
+/// Projection: all rays start at the camera's origin.
+const PROJECTION_PERSPECTIVE: u32 = 0u;
+
+/// Projection: all rays run in parallel.
+const PROJECTION_ORTHOGRAPHIC: u32 = 1u;
+
+/// Shape: a sphere.
+const SHAPE_SPHERE: u32 = 0u;
+
+/// Shape: an unbounded plane.
+const SHAPE_PLANE: u32 = 1u;
+
+/// Shape: a plane bounded to a rectangle.
+const SHAPE_RECTANGLE: u32 = 2u;
+
+/// Surface: Lambertian.
+const SURFACE_DIFFUSE: u32 = 0u;
+
+/// Surface: a smooth or rough conductor.
+const SURFACE_CONDUCTOR: u32 = 1u;
+
+/// Surface: a free film.
+const SURFACE_FILM: u32 = 2u;
+
+/// Thickness: the same everywhere.
+const THICKNESS_CONSTANT: u32 = 0u;
+
+/// Thickness: linear in the polar angle about a sphere's centre.
+const THICKNESS_POLAR: u32 = 1u;
+
+/// Thickness: linear along a line in space, constant beyond its ends.
+const THICKNESS_LINEAR: u32 = 2u;
+
+/// Spectral factor of a path's vertex: 1.
+const FACTOR_ONE: u32 = 0u;
+
+/// Spectral factor: a reflectance from a table.
+const FACTOR_REFLECTANCE: u32 = 1u;
+
+/// Spectral factor: Fresnel reflectance of a conductor.
+const FACTOR_CONDUCTOR: u32 = 2u;
+
+/// Spectral factor: reflectance of a film without absorption.
+const FACTOR_FILM_REFLECTS: u32 = 3u;
+
+/// Spectral factor: transmittance of a film without absorption.
+const FACTOR_FILM_TRANSMITS: u32 = 4u;
+
+/// Spectral factor: reflectance of a film of any index.
+const FACTOR_LOSSY_FILM_REFLECTS: u32 = 5u;
+
+/// Spectral factor: transmittance of a film of any index.
+const FACTOR_LOSSY_FILM_TRANSMITS: u32 = 6u;
+
+/// What holds for a whole render.
+struct Frame {
+    /// Where the camera stands.
+    camera_origin: vec3f,
+    /// A `PROJECTION_` tag.
+    projection: u32,
+    /// +X of camera space: to the right in the picture.
+    camera_right: vec3f,
+    /// Half the picture's height: at distance 1, or in scene units when orthographic.
+    half_height: f32,
+    /// +Y of camera space: upwards in the picture.
+    camera_up: vec3f,
+    /// Lower end of the first band, nm.
+    band_min_nm: f32,
+    /// +Z of camera space: away from what is looked at.
+    camera_back: vec3f,
+    /// Width of a band, nm.
+    band_width_nm: f32,
+    /// Width and height of the picture in pixels.
+    image_size: vec2u,
+    /// Chooses the sequence of random numbers.
+    seed: u32,
+    /// The most segments of a path.
+    max_path_segments: u32,
+    /// Groups of four bands; the last may be padded with dark bands.
+    groups: u32,
+    /// Steps that a band is divided into by the spectra's knots.
+    steps: u32,
+    /// 1 where each sample draws its wavelengths, 0 where they lie at the bands' centres.
+    draws_wavelengths: u32,
+    /// Number of objects.
+    object_count: u32,
+    /// Number of lights.
+    light_count: u32,
+    /// Spectrum of the radiance from above, from the horizon and from below.
+    zenith: u32,
+    /// See `zenith`.
+    horizon: u32,
+    /// See `zenith`.
+    ground: u32,
+    /// Factor of the radiance from above, from the horizon and from below.
+    zenith_scale: f32,
+    /// See `zenith_scale`.
+    horizon_scale: f32,
+    /// See `zenith_scale`.
+    ground_scale: f32,
+    /// First of the observer's three spectra.
+    observer: u32,
+}
+
+/// What holds for one dispatch: a run of samples of one tile.
+struct Batch {
+    /// The tile's first pixel in the picture.
+    tile_origin: vec2u,
+    /// Width and height of the tile.
+    tile_size: vec2u,
+    /// Samples that were taken before.
+    first_sample: u32,
+    /// Samples to take now.
+    sample_count: u32,
+    /// Fills the size up to what a uniform buffer asks for.
+    padding: vec2u,
+}
+
+/// A shape made of a material.
+struct Object {
+    /// Centre of a sphere or rectangle, a point of a plane.
+    center: vec3f,
+    /// Radius of a sphere.
+    radius: f32,
+    /// Unit normal of a plane or rectangle.
+    normal: vec3f,
+    /// A `SHAPE_` tag.
+    shape: u32,
+    /// First axis of a plane or rectangle.
+    tangent: vec3f,
+    /// Half the width of a rectangle, along `tangent`.
+    half_width: f32,
+    /// Second axis of a plane or rectangle.
+    bitangent: vec3f,
+    /// Half the height of a rectangle, along `bitangent`.
+    half_height: f32,
+    /// Index of its material.
+    material: u32,
+    /// Whether light can be sent from it: 1 or 0.
+    is_light: u32,
+    /// Fills the size up to a multiple of 16.
+    padding: vec2u,
+}
+
+/// What a surface is made of.
+struct Material {
+    /// A `SURFACE_` tag.
+    surface: u32,
+    /// Spectrum: reflectance (even squares of a checker), or n of an index, whose k is the next one.
+    spectrum: u32,
+    /// Spectrum: reflectance of the odd squares; the same as `spectrum` without a checker.
+    odd_spectrum: u32,
+    /// Side of a checker's squares.
+    checker_size: f32,
+    /// Root mean square slope of a rough conductor, 0 when smooth.
+    roughness: f32,
+    /// 1 where a film does not absorb and has n ≥ 1 everywhere, so that the short formula holds.
+    is_transparent: u32,
+    /// Spectrum that it emits.
+    emission: u32,
+    /// Factor of what it emits; 0 where it emits nothing.
+    emission_scale: f32,
+    /// The pole's direction (polar), or where a linear thickness starts.
+    thickness_from: vec3f,
+    /// A `THICKNESS_` tag.
+    thickness: u32,
+    /// From start to end of a linear thickness, over the square of its length.
+    thickness_along: vec3f,
+    /// Thickness at the pole, at the start or everywhere, nm.
+    thickness_nm: f32,
+    /// Added to it: per radian of polar angle, or from start to end, nm.
+    thickness_slope_nm: f32,
+    /// 1 where it reflects nothing, so that a path ends.
+    is_black: u32,
+    /// Fills the size up to a multiple of 16.
+    padding: vec2u,
+}

@@ -1,0 +1,71 @@
+// What a traced path remembers until its spectrum is evaluated.
+
+/// A factor that depends on wavelength.
+struct Factor {
+    /// A FACTOR_ tag.
+    kind: u32,
+    /// Its spectrum: a reflectance, or n of an index, whose k is the next one.
+    spectrum: u32,
+    /// Cosine at the surface or facet.
+    cosine: f32,
+    thickness_nm: f32,
+}
+
+/// A place where a path met a surface, or where it ended.
+struct Vertex {
+    /// What the path is multiplied by here, with its scalar weight.
+    scatter: Factor,
+    weight: f32,
+    /// Radiance that joins the path here, before the factor.
+    emission: u32,
+    emission_weight: f32,
+    /// Radiance sent from a light, through the surface's factor at its own cosine and the films in between.
+    connection: u32,
+    connection_weight: f32,
+    connection_cosine: f32,
+    first_crossing: u32,
+    end_crossing: u32,
+}
+
+/// The path of this invocation. MAX_VERTICES and MAX_CROSSINGS follow from the scene, so that neither can overflow.
+var<private> vertices: array<Vertex, MAX_VERTICES>;
+var<private> vertex_count: u32;
+/// Films that connections pass through.
+var<private> crossings: array<Factor, MAX_CROSSINGS>;
+var<private> crossing_count: u32;
+
+fn begin_record() {
+    vertex_count = 0u;
+    crossing_count = 0u;
+}
+
+/// A vertex that does nothing yet.
+fn plain_vertex() -> Vertex {
+    let one = Factor(FACTOR_ONE, 0u, 1.0, 0.0);
+    return Vertex(one, 0.0, 0u, 0.0, 0u, 0.0, 1.0, crossing_count, crossing_count);
+}
+
+fn push_vertex(vertex: Vertex) {
+    vertices[vertex_count] = vertex;
+    vertex_count += 1u;
+}
+
+fn push_crossing(crossing: Factor) {
+    // Rounding can make a ray meet the edge of two touching films once too often; that crossing is left out.
+    if (crossing_count < MAX_CROSSINGS) {
+        crossings[crossing_count] = crossing;
+        crossing_count += 1u;
+    }
+}
+
+/// Radiance `weight` × `spectrum` that joins at the path's end.
+fn push_emission(spectrum: u32, weight: f32) {
+    if (weight <= 0.0) {
+        return;
+    }
+    var vertex = plain_vertex();
+    vertex.weight = 1.0;
+    vertex.emission = spectrum;
+    vertex.emission_weight = weight;
+    push_vertex(vertex);
+}

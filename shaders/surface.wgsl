@@ -1,0 +1,59 @@
+// What a scene's surface is at a point.
+
+/// The point that a ray hits and the unit normal there, on the ray's side.
+struct SurfacePoint {
+    position: vec3f,
+    normal: vec3f,
+    /// Cosine between the ray and the normal, ≥ 0.
+    cosine: f32,
+}
+
+fn surface_point(index: u32, ray: Ray, distance: f32) -> SurfacePoint {
+    let center = objects[index].center;
+    var position = ray.origin + distance * ray.direction;
+    var normal = objects[index].normal;
+    if (objects[index].shape == SHAPE_SPHERE) {
+        // Put back onto the sphere: what the distance lost does not add up along a path.
+        normal = normalize(position - center);
+        position = center + objects[index].radius * normal;
+    }
+    let cosine = dot(normal, ray.direction);
+    return SurfacePoint(position, select(normal, -normal, cosine > 0.0), abs(cosine));
+}
+
+/// Thickness of a film at a point of its surface, nm.
+fn film_thickness(material: u32, position: vec3f, center: vec3f) -> f32 {
+    let base = materials[material].thickness_nm;
+    let slope = materials[material].thickness_slope_nm;
+    let first = materials[material].thickness_from;
+    switch (materials[material].thickness) {
+        case THICKNESS_POLAR: {
+            let radial = position - center;
+            return base + slope * polar_angle(dot(radial, first), length(cross(radial, first)));
+        }
+        case THICKNESS_LINEAR: {
+            let along = dot(position - first, materials[material].thickness_along);
+            return base + slope * clamp(along, 0.0, 1.0);
+        }
+        default: {
+            return base;
+        }
+    }
+}
+
+/// Spectrum of a diffuse reflectance at a point: one of the two of a checker, or the only one.
+fn reflectance_spectrum(material: u32, index: u32, position: vec3f) -> u32 {
+    let even = materials[material].spectrum;
+    let odd = materials[material].odd_spectrum;
+    if (even == odd) {
+        return even;
+    }
+    let local = (position - objects[index].center) / materials[material].checker_size;
+    var squares = floor(local);
+    if (objects[index].shape != SHAPE_SPHERE) {
+        let axes = vec2f(dot(local, objects[index].tangent), dot(local, objects[index].bitangent));
+        squares = vec3f(floor(axes), 0.0);
+    }
+    let half = 0.5 * (squares.x + squares.y + squares.z);
+    return select(odd, even, half == floor(half));
+}

@@ -1,0 +1,76 @@
+//! The layout that host and shader share: the generated file is fresh, and naga sees the same offsets as Rust.
+
+use pellicle_tests::wgsl::root;
+use std::collections::BTreeMap;
+
+#[test]
+fn the_generated_file_is_fresh() {
+    let path = root().join("shaders/layout.wgsl");
+    let expected = gpu::layout::wgsl();
+    if std::env::var_os("PELLICLE_BLESS").is_some() {
+        std::fs::write(&path, &expected).expect("the file can be written");
+    }
+    let found = std::fs::read_to_string(&path).expect("shaders/layout.wgsl exists");
+    assert!(
+        found == expected,
+        "shaders/layout.wgsl is stale; write it anew with PELLICLE_BLESS=1 cargo test -p pellicle-tests --test layout"
+    );
+}
+
+/// Size and offset of every member of every struct, as naga lays them out.
+fn structs_of_naga() -> BTreeMap<String, (u32, BTreeMap<String, u32>)> {
+    let module = naga::front::wgsl::parse_str(&gpu::layout::wgsl()).expect("layout parses");
+    let mut structs = BTreeMap::new();
+    for (_, ty) in module.types.iter() {
+        if let naga::TypeInner::Struct { members, span } = &ty.inner {
+            let offsets = members
+                .iter()
+                .map(|member| (member.name.clone().unwrap_or_default(), member.offset))
+                .collect();
+            structs.insert(ty.name.clone().unwrap_or_default(), (*span, offsets));
+        }
+    }
+    structs
+}
+
+macro_rules! assert_layout {
+    ($structs:expr, $name:ident: $($field:ident),+) => {
+        let (size, offsets) = &$structs[stringify!($name)];
+        assert_eq!(*size as usize, size_of::<gpu::layout::$name>(), stringify!($name));
+        let expected: BTreeMap<String, u32> = [$((
+            stringify!($field).to_owned(),
+            std::mem::offset_of!(gpu::layout::$name, $field) as u32,
+        )),+].into();
+        for (field, offset) in &expected {
+            assert_eq!(offsets.get(field), Some(offset), "{}.{field}", stringify!($name));
+        }
+    };
+}
+
+#[test]
+fn naga_sees_the_offsets_of_rust() {
+    let structs = structs_of_naga();
+    assert_eq!(structs.len(), 4);
+    assert_layout!(structs, Frame: camera_origin, projection, camera_back, image_size, groups, light_count, zenith, observer);
+    assert_layout!(structs, Batch: tile_origin, tile_size, first_sample, sample_count);
+    assert_layout!(structs, Object: center, radius, normal, tangent, bitangent, half_height, material, is_light);
+    assert_layout!(structs, Material: surface, roughness, emission_scale, thickness_from, thickness_along, thickness_slope_nm, is_black);
+}
+
+/// The comparison above can fail: a struct with a member more has another size.
+#[test]
+fn a_shifted_member_is_noticed() {
+    let shifted = gpu::layout::wgsl().replace(
+        "    projection: u32,",
+        "    other: vec4u,\n    projection: u32,",
+    );
+    let module = naga::front::wgsl::parse_str(&shifted).expect("still parses");
+    let frame = module
+        .types
+        .iter()
+        .find(|(_, ty)| ty.name.as_deref() == Some("Frame"));
+    let naga::TypeInner::Struct { span, .. } = frame.expect("Frame exists").1.inner else {
+        panic!("Frame is a struct");
+    };
+    assert_ne!(span as usize, size_of::<gpu::layout::Frame>());
+}
