@@ -1,1 +1,18 @@
-//! todo
+//! The renderer on the GPU, by wgpu: Vulkan, Metal or DX12, hardware or software.
+//!
+//! A [`scene::Scene`] becomes a [`PackedScene`], whose structs ([`layout`]) the shader shares. The shader
+//! is put together from the [`modules`] of `shaders/`. A [`Gpu`] is an open adapter; [`render`] runs a
+//! scene on it, tile by tile and batch by batch, and reads back a [`spectra::SpectralImage`].
+
+mod device;
+pub mod layout;
+pub mod modules;
+mod pack;
+mod render;
+mod tiles;
+
+pub use device::{
+    AdapterChoice, AdapterDescription, DeviceError, Gpu, INSTALL_HINT, OpenError, adapters,
+};
+pub use pack::PackedScene;
+pub use render::{RenderError, SceneBindings, bind_scene, compile, render};

@@ -1,0 +1,310 @@
+//! What lies in the buffers that host and shader share, written once.
+//!
+//! The macros below take documented Rust types, prove at compile time that Rust places every field
+//! where WGSL expects it, and give the text of `shaders/layout.wgsl`. That file is committed, and a test proves it fresh.
+
+/// A type with the same bytes in Rust and in WGSL (WGSL specification, section 14.4.1).
+trait Shared {
+    const NAME: &'static str;
+    const ALIGN: usize;
+    const SIZE: usize;
+}
+
+macro_rules! shared {
+    ($($rust:ty = $name:literal, $align:literal, $size:literal;)*) => {
+        $(impl Shared for $rust {
+            const NAME: &'static str = $name;
+            const ALIGN: usize = $align;
+            const SIZE: usize = $size;
+        })*
+    };
+}
+
+shared! {
+    u32 = "u32", 4, 4;
+    f32 = "f32", 4, 4;
+    [u32; 2] = "vec2u", 8, 8;
+    [f32; 2] = "vec2f", 8, 8;
+    [f32; 3] = "vec3f", 16, 12;
+    [f32; 4] = "vec4f", 16, 16;
+}
+
+/// A field as WGSL declares it.
+struct Field {
+    doc: &'static str,
+    name: &'static str,
+    wgsl_type: &'static str,
+}
+
+/// A declaration of `layout.wgsl`.
+struct Declaration {
+    doc: &'static str,
+    name: &'static str,
+    body: Body,
+}
+
+enum Body {
+    Struct(&'static [Field]),
+    Constant(u32),
+}
+
+const fn larger(a: usize, b: usize) -> usize {
+    if a > b { a } else { b }
+}
+
+macro_rules! structs {
+    ($list:ident; $(
+        #[doc = $doc:literal]
+        pub struct $name:ident {
+            $(#[doc = $field_doc:literal] pub $field:ident: $type:ty,)*
+        }
+    )*) => {
+        $(
+            #[doc = $doc]
+            #[repr(C)]
+            #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+            pub struct $name {
+                $(#[doc = $field_doc] pub $field: $type,)*
+            }
+
+            const _: () = {
+                let mut end = 0;
+                let mut align = 4;
+                $(
+                    let start = usize::next_multiple_of(end, <$type as Shared>::ALIGN);
+                    assert!(
+                        std::mem::offset_of!($name, $field) == start,
+                        concat!("WGSL places ", stringify!($name), ".", stringify!($field), " elsewhere"),
+                    );
+                    end = start + <$type as Shared>::SIZE;
+                    align = larger(align, <$type as Shared>::ALIGN);
+                )*
+                assert!(
+                    std::mem::size_of::<$name>() == usize::next_multiple_of(end, align),
+                    concat!("WGSL gives ", stringify!($name), " another size"),
+                );
+            };
+        )*
+        const $list: &[Declaration] = &[$(Declaration {
+            doc: $doc,
+            name: stringify!($name),
+            body: Body::Struct(&[$(Field {
+                doc: $field_doc,
+                name: stringify!($field),
+                wgsl_type: <$type as Shared>::NAME,
+            }),*]),
+        }),*];
+    };
+}
+
+macro_rules! constants {
+    ($list:ident; $(#[doc = $doc:literal] pub const $name:ident = $value:expr;)*) => {
+        $(#[doc = $doc] pub const $name: u32 = $value;)*
+        const $list: &[Declaration] = &[$(Declaration {
+            doc: $doc,
+            name: stringify!($name),
+            body: Body::Constant($name),
+        }),*];
+    };
+}
+
+constants! { CONSTANTS;
+    /// Invocations of a workgroup along each side of the picture.
+    pub const WORKGROUP_SIDE = 8;
+    /// No object, no light.
+    pub const NONE = 0xffff_ffff;
+
+    /// Projection: all rays start at the camera's origin.
+    pub const PROJECTION_PERSPECTIVE = 0;
+    /// Projection: all rays run in parallel.
+    pub const PROJECTION_ORTHOGRAPHIC = 1;
+
+    /// Shape: a sphere.
+    pub const SHAPE_SPHERE = 0;
+    /// Shape: an unbounded plane.
+    pub const SHAPE_PLANE = 1;
+    /// Shape: a plane bounded to a rectangle.
+    pub const SHAPE_RECTANGLE = 2;
+
+    /// Surface: Lambertian.
+    pub const SURFACE_DIFFUSE = 0;
+    /// Surface: a smooth or rough conductor.
+    pub const SURFACE_CONDUCTOR = 1;
+    /// Surface: a free film.
+    pub const SURFACE_FILM = 2;
+
+    /// Thickness: the same everywhere.
+    pub const THICKNESS_CONSTANT = 0;
+    /// Thickness: linear in the polar angle about a sphere's centre.
+    pub const THICKNESS_POLAR = 1;
+    /// Thickness: linear along a line in space, constant beyond its ends.
+    pub const THICKNESS_LINEAR = 2;
+
+    /// Spectral factor of a path's vertex: 1.
+    pub const FACTOR_ONE = 0;
+    /// Spectral factor: a reflectance from a table.
+    pub const FACTOR_REFLECTANCE = 1;
+    /// Spectral factor: Fresnel reflectance of a conductor.
+    pub const FACTOR_CONDUCTOR = 2;
+    /// Spectral factor: reflectance of a film without absorption.
+    pub const FACTOR_FILM_REFLECTS = 3;
+    /// Spectral factor: transmittance of a film without absorption.
+    pub const FACTOR_FILM_TRANSMITS = 4;
+    /// Spectral factor: reflectance of a film of any index.
+    pub const FACTOR_LOSSY_FILM_REFLECTS = 5;
+    /// Spectral factor: transmittance of a film of any index.
+    pub const FACTOR_LOSSY_FILM_TRANSMITS = 6;
+}
+
+structs! { STRUCTS;
+    /// What holds for a whole render.
+    pub struct Frame {
+        /// Where the camera stands.
+        pub camera_origin: [f32; 3],
+        /// A `PROJECTION_` tag.
+        pub projection: u32,
+        /// +X of camera space: to the right in the picture.
+        pub camera_right: [f32; 3],
+        /// Half the picture's height: at distance 1, or in scene units when orthographic.
+        pub half_height: f32,
+        /// +Y of camera space: upwards in the picture.
+        pub camera_up: [f32; 3],
+        /// Lower end of the first band, nm.
+        pub band_min_nm: f32,
+        /// +Z of camera space: away from what is looked at.
+        pub camera_back: [f32; 3],
+        /// Width of a band, nm.
+        pub band_width_nm: f32,
+        /// Width and height of the picture in pixels.
+        pub image_size: [u32; 2],
+        /// Chooses the sequence of random numbers.
+        pub seed: u32,
+        /// The most segments of a path.
+        pub max_path_segments: u32,
+        /// Groups of four bands; the last may be padded with dark bands.
+        pub groups: u32,
+        /// Steps that a band is divided into by the spectra's knots.
+        pub steps: u32,
+        /// 1 where each sample draws its wavelengths, 0 where they lie at the bands' centres.
+        pub draws_wavelengths: u32,
+        /// Number of objects.
+        pub object_count: u32,
+        /// Number of lights.
+        pub light_count: u32,
+        /// Spectrum of the radiance from above, from the horizon and from below.
+        pub zenith: u32,
+        /// See `zenith`.
+        pub horizon: u32,
+        /// See `zenith`.
+        pub ground: u32,
+        /// Factor of the radiance from above, from the horizon and from below.
+        pub zenith_scale: f32,
+        /// See `zenith_scale`.
+        pub horizon_scale: f32,
+        /// See `zenith_scale`.
+        pub ground_scale: f32,
+        /// First of the observer's three spectra.
+        pub observer: u32,
+    }
+
+    /// What holds for one dispatch: a run of samples of one tile.
+    pub struct Batch {
+        /// The tile's first pixel in the picture.
+        pub tile_origin: [u32; 2],
+        /// Width and height of the tile.
+        pub tile_size: [u32; 2],
+        /// Samples that were taken before.
+        pub first_sample: u32,
+        /// Samples to take now.
+        pub sample_count: u32,
+        /// Fills the size up to what a uniform buffer asks for.
+        pub padding: [u32; 2],
+    }
+
+    /// A shape made of a material.
+    pub struct Object {
+        /// Centre of a sphere or rectangle, a point of a plane.
+        pub center: [f32; 3],
+        /// Radius of a sphere.
+        pub radius: f32,
+        /// Unit normal of a plane or rectangle.
+        pub normal: [f32; 3],
+        /// A `SHAPE_` tag.
+        pub shape: u32,
+        /// First axis of a plane or rectangle.
+        pub tangent: [f32; 3],
+        /// Half the width of a rectangle, along `tangent`.
+        pub half_width: f32,
+        /// Second axis of a plane or rectangle.
+        pub bitangent: [f32; 3],
+        /// Half the height of a rectangle, along `bitangent`.
+        pub half_height: f32,
+        /// Index of its material.
+        pub material: u32,
+        /// Whether light can be sent from it: 1 or 0.
+        pub is_light: u32,
+        /// Fills the size up to a multiple of 16.
+        pub padding: [u32; 2],
+    }
+
+    /// What a surface is made of.
+    pub struct Material {
+        /// A `SURFACE_` tag.
+        pub surface: u32,
+        /// Spectrum: reflectance (even squares of a checker), or n of an index, whose k is the next one.
+        pub spectrum: u32,
+        /// Spectrum: reflectance of the odd squares; the same as `spectrum` without a checker.
+        pub odd_spectrum: u32,
+        /// Side of a checker's squares.
+        pub checker_size: f32,
+        /// Root mean square slope of a rough conductor, 0 when smooth.
+        pub roughness: f32,
+        /// 1 where a film does not absorb and has n ≥ 1 everywhere, so that the short formula holds.
+        pub is_transparent: u32,
+        /// Spectrum that it emits.
+        pub emission: u32,
+        /// Factor of what it emits; 0 where it emits nothing.
+        pub emission_scale: f32,
+        /// The pole's direction (polar), or where a linear thickness starts.
+        pub thickness_from: [f32; 3],
+        /// A `THICKNESS_` tag.
+        pub thickness: u32,
+        /// From start to end of a linear thickness, over the square of its length.
+        pub thickness_along: [f32; 3],
+        /// Thickness at the pole, at the start or everywhere, nm.
+        pub thickness_nm: f32,
+        /// Added to it: per radian of polar angle, or from start to end, nm.
+        pub thickness_slope_nm: f32,
+        /// 1 where it reflects nothing, so that a path ends.
+        pub is_black: u32,
+        /// Fills the size up to a multiple of 16.
+        pub padding: [u32; 2],
+    }
+}
+
+/// The text of `shaders/layout.wgsl`.
+pub fn wgsl() -> String {
+    let mut text = String::from(
+        "// Generated from crates/gpu/src/layout.rs: edit there, then run\n\
+         //     PELLICLE_BLESS=1 cargo test -p pellicle-tests --test layout\n",
+    );
+    for declaration in CONSTANTS.iter().chain(STRUCTS) {
+        text.push_str(&format!("\n///{}\n", declaration.doc));
+        match declaration.body {
+            Body::Constant(value) => {
+                text.push_str(&format!("const {}: u32 = {value}u;\n", declaration.name));
+            }
+            Body::Struct(fields) => {
+                text.push_str(&format!("struct {} {{\n", declaration.name));
+                for field in fields {
+                    text.push_str(&format!(
+                        "    ///{}\n    {}: {},\n",
+                        field.doc, field.name, field.wgsl_type
+                    ));
+                }
+                text.push_str("}\n");
+            }
+        }
+    }
+    text
+}

@@ -1,0 +1,175 @@
+//! The WGSL modules and what each of them needs.
+//!
+//! Declarations of WGSL may come in any order, so a shader is the concatenation of a module and all
+//! that it requires. Tests prove that `requires` is true and minimal and that no module is missing from the table.
+
+/// One file of `shaders/`.
+#[derive(Clone, Copy, Debug)]
+pub struct Module {
+    /// The file's stem.
+    pub name: &'static str,
+    /// Its text.
+    pub source: &'static str,
+    /// Modules whose declarations it uses.
+    pub requires: &'static [&'static str],
+}
+
+macro_rules! modules {
+    ($($name:literal: [$($requires:literal),*];)*) => {
+        &[$(Module {
+            name: $name,
+            source: include_str!(concat!("../../../shaders/", $name, ".wgsl")),
+            requires: &[$($requires),*],
+        }),*]
+    };
+}
+
+/// Name of the module that is made for each scene: sizes of the arrays that hold a path.
+pub const LIMITS: &str = "limits";
+
+/// All modules, from those that need nothing to the renderer.
+pub const MODULES: &[Module] = modules! {
+    "layout": [];
+    "trig": [];
+    "random": [];
+    "complex": [];
+    "sampling": ["trig"];
+    "intersect": [];
+    "fresnel": ["complex"];
+    "film": ["complex", "trig"];
+    "microfacet": ["trig"];
+    "bindings": ["layout"];
+    "spectrum": ["bindings"];
+    "camera": ["bindings", "layout"];
+    "surface": ["bindings", "camera", "layout", "trig"];
+    "hit": ["bindings", "camera", "intersect", "layout"];
+    "light": ["bindings", "layout", "sampling", "trig"];
+    "record": ["layout", "limits"];
+    "walk": ["bindings", "camera", "random", "surface"];
+    "connect": ["bindings", "camera", "hit", "layout", "light", "record", "surface", "walk"];
+    "path": [
+        "bindings", "camera", "connect", "hit", "layout", "light", "microfacet", "random", "record",
+        "sampling", "spectrum", "surface", "trig", "walk"
+    ];
+    "evaluate": ["film", "fresnel", "layout", "record", "spectrum"];
+    "render": ["bindings", "evaluate", "layout", "path", "spectrum", "walk"];
+};
+
+/// How long a path's record may become.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RecordLimits {
+    /// Vertices of a path.
+    pub vertices: u32,
+    /// Films that all connections of a path pass through together.
+    pub crossings: u32,
+}
+
+impl RecordLimits {
+    fn wgsl(self) -> String {
+        format!(
+            "const MAX_VERTICES: u32 = {}u;\nconst MAX_CROSSINGS: u32 = {}u;\n",
+            self.vertices, self.crossings
+        )
+    }
+}
+
+/// A shader put together from modules, which remembers where each line came from.
+#[derive(Clone, Debug)]
+pub struct Shader {
+    text: String,
+    /// First line (counted from 0) and name of each part.
+    parts: Vec<(usize, String)>,
+}
+
+impl Shader {
+    /// The modules in `roots` and all that they require, each once, then `extra` (an entry point of a test, or nothing).
+    ///
+    /// # Panics
+    /// When a module is not in the table: that is a fault of the program, found by any test.
+    pub fn assemble(roots: &[&str], limits: RecordLimits, extra: &str) -> Self {
+        let mut names = Vec::new();
+        for root in roots {
+            collect(root, &mut names);
+        }
+        let mut shader = Self {
+            text: String::new(),
+            parts: Vec::new(),
+        };
+        for name in names {
+            if name == LIMITS {
+                shader.push(LIMITS, &limits.wgsl());
+            } else {
+                shader.push(&format!("shaders/{name}.wgsl"), module(name).source);
+            }
+        }
+        shader.push("(extra)", extra);
+        shader
+    }
+
+    fn push(&mut self, name: &str, text: &str) {
+        self.parts
+            .push((self.text.lines().count(), name.to_owned()));
+        self.text.push_str(text);
+        if !self.text.ends_with('\n') {
+            self.text.push('\n');
+        }
+    }
+
+    /// The whole text.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The file and line (counted from 1) that a line (counted from 1) of [`Self::text`] comes from.
+    pub fn origin_of_line(&self, line: usize) -> (&str, usize) {
+        let index = line.saturating_sub(1);
+        let part = self.parts.partition_point(|(first, _)| *first <= index);
+        let (first, name) = &self.parts[part.saturating_sub(1)];
+        (name, index - first + 1)
+    }
+}
+
+/// Looks a module up.
+fn module(name: &str) -> &'static Module {
+    MODULES
+        .iter()
+        .find(|module| module.name == name)
+        .unwrap_or_else(|| panic!("no module {name} in the table"))
+}
+
+/// Adds what `name` requires, then `name`.
+fn collect<'a>(name: &'a str, names: &mut Vec<&'a str>) {
+    if names.contains(&name) {
+        return;
+    }
+    if name != LIMITS {
+        for required in module(name).requires {
+            collect(required, names);
+        }
+    }
+    names.push(name);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_traced_back_to_its_file() {
+        let limits = RecordLimits {
+            vertices: 1,
+            crossings: 1,
+        };
+        let shader = Shader::assemble(&["fresnel"], limits, "fn extra() {}");
+        let text: Vec<_> = shader.text().lines().collect();
+        let line = text
+            .iter()
+            .position(|l| l.starts_with("fn reflectance_unpolarised"))
+            .unwrap();
+        let (file, in_file) = shader.origin_of_line(line + 1);
+        assert_eq!(file, "shaders/fresnel.wgsl");
+        let source = module("fresnel").source.lines().nth(in_file - 1).unwrap();
+        assert_eq!(source, text[line]);
+        assert_eq!(shader.origin_of_line(text.len()), ("(extra)", 1));
+    }
+}

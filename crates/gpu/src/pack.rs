@@ -1,0 +1,275 @@
+//! From a scene to the numbers that the shader reads: the only place where `f64` becomes `f32`.
+
+use crate::layout::{self, Frame};
+use crate::modules::RecordLimits;
+use glam::DVec3;
+use scene::{
+    Emission, Environment, Material, Object, Pattern, Projection, Scene, Shape, SpectrumId,
+    Thickness, WavelengthSampling,
+};
+use spectra::BandTable;
+
+/// A scene as the shader reads it.
+#[derive(Clone, Debug)]
+pub struct PackedScene {
+    /// What holds for the whole render.
+    pub frame: Frame,
+    /// All objects.
+    pub objects: Vec<layout::Object>,
+    /// All materials.
+    pub materials: Vec<layout::Material>,
+    /// Indices of the objects that light can be sent from.
+    pub lights: Vec<u32>,
+    /// All spectra and the observer: `[spectrum][knot][group of four bands]`.
+    pub spectra: Vec<[f32; 4]>,
+    /// How long the record of a path may become.
+    pub limits: RecordLimits,
+}
+
+impl PackedScene {
+    /// Packs a scene.
+    pub fn new(scene: &Scene) -> Self {
+        let lights: Vec<u32> = scene.lights().iter().map(|&index| index as u32).collect();
+        let objects = scene.objects().iter().enumerate().map(|(index, object)| {
+            let is_light = lights.contains(&(index as u32));
+            pack_object(object, is_light)
+        });
+        let spectra = scene
+            .spectra()
+            .iter()
+            .flat_map(|table| pack_spectrum(table, false));
+        let observer = scene
+            .observer()
+            .iter()
+            .flat_map(|table| pack_spectrum(table, true));
+        Self {
+            frame: pack_frame(scene, lights.len() as u32),
+            objects: objects.collect(),
+            materials: scene
+                .materials()
+                .iter()
+                .map(|material| pack_material(scene, material))
+                .collect(),
+            spectra: spectra.chain(observer).collect(),
+            limits: record_limits(scene),
+            lights,
+        }
+    }
+}
+
+fn vec3(v: DVec3) -> [f32; 3] {
+    v.as_vec3().to_array()
+}
+
+fn id(spectrum: SpectrumId) -> u32 {
+    spectrum.index() as u32
+}
+
+fn pack_frame(scene: &Scene, light_count: u32) -> Frame {
+    let (camera, settings) = (scene.camera(), scene.settings());
+    let (projection, half_height) = match camera.projection {
+        Projection::Perspective { half_height } => (layout::PROJECTION_PERSPECTIVE, half_height),
+        Projection::Orthographic { half_height } => (layout::PROJECTION_ORTHOGRAPHIC, half_height),
+    };
+    let (zenith, horizon, ground) = match *scene.environment() {
+        Environment::Constant(all) => (all, all, all),
+        Environment::Gradient {
+            zenith,
+            horizon,
+            ground,
+        } => (zenith, horizon, ground),
+    };
+    Frame {
+        camera_origin: vec3(camera.origin),
+        projection,
+        camera_right: vec3(camera.right),
+        half_height: half_height as f32,
+        camera_up: vec3(camera.up),
+        band_min_nm: settings.bands.min_nm() as f32,
+        camera_back: vec3(camera.back),
+        band_width_nm: settings.bands.width_nm() as f32,
+        image_size: [settings.width, settings.height],
+        seed: settings.seed,
+        max_path_segments: settings.max_path_segments,
+        groups: settings.bands.count().div_ceil(4),
+        steps: BandTable::steps_of(&settings.bands),
+        draws_wavelengths: u32::from(settings.sampling == WavelengthSampling::Random),
+        object_count: scene.objects().len() as u32,
+        light_count,
+        zenith: id(zenith.spectrum),
+        horizon: id(horizon.spectrum),
+        ground: id(ground.spectrum),
+        zenith_scale: zenith.scale as f32,
+        horizon_scale: horizon.scale as f32,
+        ground_scale: ground.scale as f32,
+        observer: scene.spectra().len() as u32,
+    }
+}
+
+/// Rows of four bands; the last group is filled up with the last band, or with darkness.
+fn pack_spectrum(table: &BandTable, dark_padding: bool) -> Vec<[f32; 4]> {
+    let groups = table.bands().div_ceil(4);
+    let rows = (0..=table.steps()).map(|step| table.row(step));
+    rows.flat_map(|row| {
+        (0..groups as usize).map(move |group| {
+            std::array::from_fn(|lane| match row.get(4 * group + lane) {
+                Some(&value) => value as f32,
+                None if dark_padding => 0.0,
+                None => row[row.len() - 1] as f32,
+            })
+        })
+    })
+    .collect()
+}
+
+fn pack_object(object: &Object, is_light: bool) -> layout::Object {
+    let mut packed = layout::Object {
+        material: object.material.index() as u32,
+        is_light: u32::from(is_light),
+        ..Default::default()
+    };
+    match object.shape {
+        Shape::Sphere { center, radius } => {
+            packed.shape = layout::SHAPE_SPHERE;
+            packed.center = vec3(center);
+            packed.radius = radius as f32;
+        }
+        Shape::Plane {
+            point,
+            normal,
+            tangent,
+            bitangent,
+        } => {
+            packed.shape = layout::SHAPE_PLANE;
+            packed.center = vec3(point);
+            (packed.normal, packed.tangent, packed.bitangent) =
+                (vec3(normal), vec3(tangent), vec3(bitangent));
+        }
+        Shape::Rectangle {
+            center,
+            normal,
+            tangent,
+            bitangent,
+            half_width,
+            half_height,
+        } => {
+            packed.shape = layout::SHAPE_RECTANGLE;
+            packed.center = vec3(center);
+            (packed.normal, packed.tangent, packed.bitangent) =
+                (vec3(normal), vec3(tangent), vec3(bitangent));
+            packed.half_width = half_width as f32;
+            packed.half_height = half_height as f32;
+        }
+    }
+    packed
+}
+
+fn pack_material(scene: &Scene, material: &Material) -> layout::Material {
+    let mut packed = layout::Material::default();
+    match *material {
+        Material::Diffuse { ref reflectance } => pack_pattern(&mut packed, reflectance),
+        Material::Conductor { n, roughness, .. } => {
+            packed.surface = layout::SURFACE_CONDUCTOR;
+            packed.spectrum = id(n);
+            packed.roughness = roughness as f32;
+        }
+        Material::Film {
+            n,
+            transparent,
+            ref thickness,
+            ..
+        } => {
+            packed.surface = layout::SURFACE_FILM;
+            packed.spectrum = id(n);
+            let short_formula = transparent && scene.spectrum(n).extent().0 >= 1.0;
+            packed.is_transparent = u32::from(short_formula);
+            pack_thickness(&mut packed, thickness);
+        }
+        Material::Emitter {
+            emission: Emission { spectrum, scale },
+            reflectance,
+        } => {
+            packed.emission = id(spectrum);
+            packed.emission_scale = scale as f32;
+            match reflectance {
+                Some(reflectance) => pack_pattern(&mut packed, &Pattern::Uniform(reflectance)),
+                None => packed.is_black = 1,
+            }
+        }
+    }
+    packed
+}
+
+fn pack_pattern(packed: &mut layout::Material, pattern: &Pattern) {
+    packed.surface = layout::SURFACE_DIFFUSE;
+    match *pattern {
+        Pattern::Uniform(reflectance) => {
+            (packed.spectrum, packed.odd_spectrum) = (id(reflectance), id(reflectance));
+            packed.checker_size = 1.0;
+        }
+        Pattern::Checker { even, odd, size } => {
+            (packed.spectrum, packed.odd_spectrum) = (id(even), id(odd));
+            packed.checker_size = size as f32;
+        }
+    }
+}
+
+fn pack_thickness(packed: &mut layout::Material, thickness: &Thickness) {
+    match *thickness {
+        Thickness::Constant { nm } => {
+            packed.thickness = layout::THICKNESS_CONSTANT;
+            packed.thickness_nm = nm as f32;
+        }
+        Thickness::Polar {
+            axis,
+            pole_nm,
+            equator_nm,
+        } => {
+            packed.thickness = layout::THICKNESS_POLAR;
+            packed.thickness_from = vec3(axis);
+            packed.thickness_nm = pole_nm as f32;
+            let per_radian = (equator_nm - pole_nm) / std::f64::consts::FRAC_PI_2;
+            packed.thickness_slope_nm = per_radian as f32;
+        }
+        Thickness::Linear {
+            start,
+            end,
+            start_nm,
+            end_nm,
+        } => {
+            packed.thickness = layout::THICKNESS_LINEAR;
+            packed.thickness_from = vec3(start);
+            let along = end - start;
+            packed.thickness_along = vec3(along / along.length_squared());
+            packed.thickness_nm = start_nm as f32;
+            packed.thickness_slope_nm = (end_nm - start_nm) as f32;
+        }
+    }
+}
+
+/// A path has a vertex for each segment but the last, which may end in two terms of the environment. A
+/// connection crosses a film's sphere at most twice and a film's plane once (and the edge where films
+/// touch once more), and never more often than segments are left.
+fn record_limits(scene: &Scene) -> RecordLimits {
+    let segments = scene.settings().max_path_segments;
+    let films = scene.objects().iter().filter_map(|object| {
+        let is_film = matches!(scene.material(object.material), Material::Film { .. });
+        is_film.then_some(match object.shape {
+            Shape::Sphere { .. } => 2,
+            _ => 1,
+        })
+    });
+    let straight: u32 = films.sum();
+    let per_connection = if straight == 0 {
+        0
+    } else {
+        straight.saturating_add(2)
+    };
+    let crossings = (1..segments)
+        .map(|segment| per_connection.min(segments - segment - 1))
+        .sum();
+    RecordLimits {
+        vertices: segments + 1,
+        crossings: u32::max(crossings, 1),
+    }
+}

@@ -1,0 +1,411 @@
+//! Running a scene on a device and reading the picture back.
+
+use crate::layout::{Batch, WORKGROUP_SIDE};
+use crate::modules::Shader;
+use crate::tiles::{Planner, Tile};
+use crate::{DeviceError, Gpu, PackedScene};
+use scene::Scene;
+use spectra::{KM_LUMENS_PER_WATT, SpectralImage};
+use std::ops::ControlFlow;
+use std::time::Instant;
+use thiserror::Error;
+use wgpu::util::DeviceExt;
+
+/// Why a render did not come to its end.
+#[derive(Clone, Debug, Error)]
+#[non_exhaustive]
+pub enum RenderError {
+    /// The device failed.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+    /// The scene does not fit into what the device binds at once.
+    #[error(
+        "the scene's {what} take {bytes} bytes, but this adapter binds at most {limit} at once; {advice}"
+    )]
+    TooLarge {
+        /// What is too large.
+        what: &'static str,
+        /// How large it is.
+        bytes: u64,
+        /// How large it may be.
+        limit: u64,
+        /// What to do.
+        advice: &'static str,
+    },
+    /// The caller asked to stop.
+    #[error("stopped before the picture was finished")]
+    Stopped,
+}
+
+/// Renders a scene.
+///
+/// `on_progress` is told the samples taken so far (of width × height × samples per pixel) after each
+/// batch, and may stop the render.
+///
+/// The same scene on the same adapter and driver gives the same bits, however the work was divided.
+///
+/// # Errors
+/// When the scene is too large for the device, the device fails, or the caller stops the render.
+pub fn render(
+    gpu: &Gpu,
+    scene: &Scene,
+    on_progress: &mut dyn FnMut(u64) -> ControlFlow<()>,
+) -> Result<SpectralImage, RenderError> {
+    let settings = scene.settings();
+    let packed = PackedScene::new(scene);
+    let bindings = bind_scene(gpu, &packed)?;
+    let pipeline = compile(
+        gpu,
+        &Shader::assemble(&["render"], packed.limits, ""),
+        "render",
+    )?;
+
+    let groups = u64::from(packed.frame.groups);
+    let limits = gpu.limits();
+    let largest = limits
+        .max_storage_buffer_binding_size
+        .min(limits.max_buffer_size);
+    let mut planner = Planner::new([settings.width, settings.height], groups * 16, largest);
+    let tile_buffers = TileBuffers::new(gpu, &pipeline, u64::from(planner.max_pixels()), groups)?;
+
+    let mut image = SpectralImage::new(settings.width, settings.height, settings.bands);
+    let mut done = 0;
+    while let Some(tile) = planner.next_tile() {
+        tile_buffers.clear(gpu, tile);
+        let mut taken = 0;
+        while taken < settings.samples {
+            let samples = planner.batch(tile, settings.samples - taken);
+            let started = Instant::now();
+            tile_buffers.dispatch(gpu, (&pipeline, &bindings), tile, (taken, samples));
+            gpu.wait()?;
+            planner.learn(tile, samples, started.elapsed());
+            taken += samples;
+            done += u64::from(samples) * u64::from(tile.pixels());
+            if on_progress(done).is_break() {
+                return Err(RenderError::Stopped);
+            }
+        }
+        tile_buffers.read_back(gpu, tile, settings.samples, &mut image)?;
+    }
+    Ok(image)
+}
+
+/// Compiles a shader and makes a pipeline of one of its entry points, with a layout deduced from the shader.
+///
+/// # Errors
+/// When the shader or the pipeline is refused; the message names the module's own file and line.
+pub fn compile(
+    gpu: &Gpu,
+    shader: &Shader,
+    entry_point: &str,
+) -> Result<wgpu::ComputePipeline, DeviceError> {
+    let module = gpu
+        .device
+        .create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(entry_point),
+            source: wgpu::ShaderSource::Wgsl(shader.text().into()),
+        });
+    let info = pollster::block_on(module.get_compilation_info());
+    let mistakes: Vec<String> = info
+        .messages
+        .iter()
+        .filter(|message| message.message_type == wgpu::CompilationMessageType::Error)
+        .map(|message| match message.location {
+            Some(at) => {
+                let (file, line) = shader.origin_of_line(at.line_number as usize);
+                format!("{file}:{line}:{}: {}", at.line_position, message.message)
+            }
+            None => message.message.clone(),
+        })
+        .collect();
+    if !mistakes.is_empty() {
+        // The same mistake was also reported to the device; this report is the better one.
+        let _ = gpu.check();
+        return Err(DeviceError::Refused(mistakes.join("\n")));
+    }
+    let pipeline = gpu
+        .device
+        .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(entry_point),
+            layout: None,
+            module: &module,
+            entry_point: Some(entry_point),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        });
+    gpu.check()?;
+    Ok(pipeline)
+}
+
+/// A scene in the device's memory.
+#[derive(Debug)]
+pub struct SceneBindings {
+    buffers: [wgpu::Buffer; 5],
+}
+
+impl SceneBindings {
+    /// The bind group 0 of a pipeline that uses the bindings in `used` (0: frame, 1: objects, 2: materials, 3: lights, 4: spectra).
+    pub fn group(
+        &self,
+        gpu: &Gpu,
+        pipeline: &wgpu::ComputePipeline,
+        used: &[u32],
+    ) -> wgpu::BindGroup {
+        let entries: Vec<_> = used
+            .iter()
+            .map(|&binding| wgpu::BindGroupEntry {
+                binding,
+                resource: self.buffers[binding as usize].as_entire_binding(),
+            })
+            .collect();
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("scene"),
+            layout: &pipeline.get_bind_group_layout(0),
+            entries: &entries,
+        })
+    }
+}
+
+/// Uploads a scene.
+///
+/// # Errors
+/// When a part of it is larger than what the device binds at once, or the device fails.
+pub fn bind_scene(gpu: &Gpu, packed: &PackedScene) -> Result<SceneBindings, RenderError> {
+    let limit = gpu.limits().max_storage_buffer_binding_size;
+    let storage = |what, bytes: &[u8], stride: usize, advice| {
+        if bytes.len() as u64 > limit {
+            let bytes = bytes.len() as u64;
+            return Err(RenderError::TooLarge {
+                what,
+                bytes,
+                limit,
+                advice,
+            });
+        }
+        // A binding may not be empty: a list without elements has one that nothing reads.
+        let padding = vec![0; stride];
+        Ok(gpu
+            .device
+            .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(what),
+                contents: if bytes.is_empty() { &padding } else { bytes },
+                usage: wgpu::BufferUsages::STORAGE,
+            }))
+    };
+    let frame = gpu
+        .device
+        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("frame"),
+            contents: bytemuck::bytes_of(&packed.frame),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+    let fewer = "use fewer of them";
+    let buffers = [
+        frame,
+        storage("objects", bytemuck::cast_slice(&packed.objects), 80, fewer)?,
+        storage(
+            "materials",
+            bytemuck::cast_slice(&packed.materials),
+            80,
+            fewer,
+        )?,
+        storage("lights", bytemuck::cast_slice(&packed.lights), 4, fewer)?,
+        storage(
+            "spectra",
+            bytemuck::cast_slice(&packed.spectra),
+            16,
+            "use fewer materials and lights",
+        )?,
+    ];
+    gpu.check()?;
+    Ok(SceneBindings { buffers })
+}
+
+/// The running means of one tile.
+struct TileBuffers {
+    batch: wgpu::Buffer,
+    /// Means, deviations, colours.
+    sums: [wgpu::Buffer; 3],
+    staging: [wgpu::Buffer; 3],
+    bind_group: wgpu::BindGroup,
+    groups: u64,
+}
+
+impl TileBuffers {
+    fn new(
+        gpu: &Gpu,
+        pipeline: &wgpu::ComputePipeline,
+        pixels: u64,
+        groups: u64,
+    ) -> Result<Self, DeviceError> {
+        let buffer = |label, size, usage| {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        let batch = buffer(
+            "batch",
+            size_of::<Batch>() as u64,
+            wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        );
+        let sizes = [pixels * groups * 16, pixels * groups * 16, pixels * 16];
+        let on_device = wgpu::BufferUsages::STORAGE
+            | wgpu::BufferUsages::COPY_SRC
+            | wgpu::BufferUsages::COPY_DST;
+        let on_host = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
+        let sums = sizes.map(|size| buffer("sums", size, on_device));
+        let staging = sizes.map(|size| buffer("staging", size, on_host));
+        let entries: Vec<_> = std::iter::once(&batch)
+            .chain(&sums)
+            .zip(0..)
+            .map(|(buffer, binding)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("tile"),
+            layout: &pipeline.get_bind_group_layout(1),
+            entries: &entries,
+        });
+        gpu.check()?;
+        Ok(Self {
+            batch,
+            sums,
+            staging,
+            bind_group,
+            groups,
+        })
+    }
+
+    /// Bytes of means, deviations and colours of a tile.
+    fn bytes(&self, tile: Tile) -> [u64; 3] {
+        let pixels = u64::from(tile.pixels());
+        [
+            pixels * self.groups * 16,
+            pixels * self.groups * 16,
+            pixels * 16,
+        ]
+    }
+
+    fn clear(&self, gpu: &Gpu, tile: Tile) {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        for (buffer, bytes) in self.sums.iter().zip(self.bytes(tile)) {
+            encoder.clear_buffer(buffer, 0, Some(bytes));
+        }
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    fn dispatch(
+        &self,
+        gpu: &Gpu,
+        (pipeline, scene): (&wgpu::ComputePipeline, &SceneBindings),
+        tile: Tile,
+        (first_sample, sample_count): (u32, u32),
+    ) {
+        let batch = Batch {
+            tile_origin: tile.origin,
+            tile_size: tile.size,
+            first_sample,
+            sample_count,
+            ..Default::default()
+        };
+        gpu.queue
+            .write_buffer(&self.batch, 0, bytemuck::bytes_of(&batch));
+        let scene = scene.group(gpu, pipeline, &[0, 1, 2, 3, 4]);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &scene, &[]);
+            pass.set_bind_group(1, &self.bind_group, &[]);
+            let [x, y] = tile.size.map(|side| side.div_ceil(WORKGROUP_SIDE));
+            pass.dispatch_workgroups(x, y, 1);
+        }
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Copies the finished tile into the picture.
+    fn read_back(
+        &self,
+        gpu: &Gpu,
+        tile: Tile,
+        samples: u32,
+        image: &mut SpectralImage,
+    ) -> Result<(), DeviceError> {
+        let bytes = self.bytes(tile);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        for ((from, to), bytes) in self.sums.iter().zip(&self.staging).zip(bytes) {
+            encoder.copy_buffer_to_buffer(from, 0, to, 0, bytes);
+        }
+        gpu.queue.submit([encoder.finish()]);
+        for (buffer, bytes) in self.staging.iter().zip(bytes) {
+            // A failure to map shows as the device's error or as an unmapped range below.
+            buffer.slice(..bytes).map_async(wgpu::MapMode::Read, |_| {});
+        }
+        gpu.wait()?;
+        let mapped = |index: usize| {
+            self.staging[index]
+                .slice(..bytes[index])
+                .get_mapped_range()
+                .map_err(|error| DeviceError::Refused(error.to_string()))
+        };
+        {
+            let (means, deviations, colors) = (mapped(0)?, mapped(1)?, mapped(2)?);
+            store(
+                tile,
+                (
+                    bytemuck::cast_slice(&means),
+                    bytemuck::cast_slice(&deviations),
+                ),
+                bytemuck::cast_slice(&colors),
+                samples,
+                image,
+            );
+        }
+        self.staging.iter().for_each(wgpu::Buffer::unmap);
+        Ok(())
+    }
+}
+
+/// Reorders a tile from `[group][pixel]` to the picture's `[pixel][band]`.
+fn store(
+    tile: Tile,
+    (means, deviations): (&[[f32; 4]], &[[f32; 4]]),
+    colors: &[[f32; 4]],
+    samples: u32,
+    image: &mut SpectralImage,
+) {
+    let bands = image.bands().count() as usize;
+    let pixels = tile.pixels() as usize;
+    let n = samples as f32;
+    let to_variance = if samples > 1 {
+        1.0 / (n * (n - 1.0))
+    } else {
+        0.0
+    };
+    let to_xyz = (KM_LUMENS_PER_WATT * image.bands().width_nm()) as f32;
+    let (mut radiance, mut variance) = (vec![0.0; bands], vec![0.0; bands]);
+    for y in 0..tile.size[1] {
+        for x in 0..tile.size[0] {
+            let pixel = (y * tile.size[0] + x) as usize;
+            for band in 0..bands {
+                let place = (band / 4) * pixels + pixel;
+                radiance[band] = means[place][band % 4];
+                variance[band] = deviations[place][band % 4] * to_variance;
+            }
+            let [cx, cy, cz, _] = colors[pixel];
+            let at = (tile.origin[0] + x, tile.origin[1] + y);
+            image.set_pixel(
+                at,
+                &radiance,
+                &variance,
+                [cx * to_xyz, cy * to_xyz, cz * to_xyz],
+                samples,
+            );
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! How the picture is divided: tiles under the adapter's limits, batches under half a second.
+
+use std::time::Duration;
+
+/// Widest tile, pixels.
+const WIDTH: u32 = 512;
+/// A tile has at most this many pixels: enough to fill any GPU.
+const MAX_PIXELS: u32 = WIDTH * 512;
+/// Rows of the first tile, before anything is known about the speed.
+const FIRST_ROWS: u32 = 64;
+/// A batch aims at this time.
+const TARGET: Duration = Duration::from_millis(200);
+
+/// A rectangle of the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Tile {
+    pub(crate) origin: [u32; 2],
+    pub(crate) size: [u32; 2],
+}
+
+impl Tile {
+    pub(crate) fn pixels(self) -> u32 {
+        self.size[0] * self.size[1]
+    }
+}
+
+/// Hands out tiles, column by column, and adapts their height and the number of samples of a batch to the time that
+/// batches took. What a pixel's samples add up to does not depend on either.
+#[derive(Debug)]
+pub(crate) struct Planner {
+    image: [u32; 2],
+    next: [u32; 2],
+    max_rows: u32,
+    rows: u32,
+    seconds_per_sample: Option<f64>,
+}
+
+impl Planner {
+    /// `bytes_per_pixel` is what one pixel takes of the largest buffer, `max_bytes` what that buffer may have.
+    pub(crate) fn new(image: [u32; 2], bytes_per_pixel: u64, max_bytes: u64) -> Self {
+        let width = image[0].min(WIDTH);
+        let by_memory = (max_bytes / bytes_per_pixel).min(u64::from(MAX_PIXELS)) as u32;
+        let max_rows = (by_memory / width).clamp(1, image[1]);
+        Self {
+            image,
+            next: [0, 0],
+            max_rows,
+            rows: max_rows.min(FIRST_ROWS),
+            seconds_per_sample: None,
+        }
+    }
+
+    /// Pixels of the largest tile that will be handed out.
+    pub(crate) fn max_pixels(&self) -> u32 {
+        self.image[0].min(WIDTH) * self.max_rows
+    }
+
+    /// The next tile, or `None` when the picture is covered.
+    pub(crate) fn next_tile(&mut self) -> Option<Tile> {
+        let [x, y] = self.next;
+        if x >= self.image[0] {
+            return None;
+        }
+        let tile = Tile {
+            origin: [x, y],
+            size: [
+                WIDTH.min(self.image[0] - x),
+                self.rows.min(self.image[1] - y),
+            ],
+        };
+        let below = y + tile.size[1];
+        self.next = if below < self.image[1] {
+            [x, below]
+        } else {
+            [x + tile.size[0], 0]
+        };
+        Some(tile)
+    }
+
+    /// How many samples the next batch of a tile takes, out of `left`.
+    pub(crate) fn batch(&self, tile: Tile, left: u32) -> u32 {
+        let Some(seconds) = self.seconds_per_sample else {
+            return left.min(1);
+        };
+        let per_pass = seconds * f64::from(tile.pixels());
+        let fitting = TARGET.as_secs_f64() / per_pass.max(1e-9);
+        // Shares are even, so that no short batch is left at the end.
+        let batches = (f64::from(left) / fitting.max(1.0)).ceil().max(1.0);
+        (f64::from(left) / batches)
+            .ceil()
+            .clamp(1.0, f64::from(left)) as u32
+    }
+
+    /// Learns from a batch. Tiles grow while a single sample of all their pixels is far below the target, and shrink above it.
+    pub(crate) fn learn(&mut self, tile: Tile, samples: u32, took: Duration) {
+        let measured = took.as_secs_f64() / (f64::from(tile.pixels()) * f64::from(samples));
+        self.seconds_per_sample = Some(match self.seconds_per_sample {
+            None => measured,
+            Some(before) => 0.5 * (before + measured),
+        });
+        let pass = measured * f64::from(self.image[0].min(WIDTH)) * f64::from(self.rows);
+        if pass > TARGET.as_secs_f64() {
+            self.rows = (self.rows / 2).max(1);
+        } else if pass < 0.25 * TARGET.as_secs_f64() {
+            self.rows = (self.rows * 2).min(self.max_rows);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_cover_every_pixel_once_whatever_the_times() {
+        let image = [1300, 700];
+        let mut planner = Planner::new(image, 160, 128 << 20);
+        let mut covered = vec![0; (image[0] * image[1]) as usize];
+        let mut slow = true;
+        while let Some(tile) = planner.next_tile() {
+            assert!(tile.pixels() <= planner.max_pixels());
+            for y in tile.origin[1]..tile.origin[1] + tile.size[1] {
+                for x in tile.origin[0]..tile.origin[0] + tile.size[0] {
+                    covered[(y * image[0] + x) as usize] += 1;
+                }
+            }
+            planner.learn(tile, 1, Duration::from_millis(if slow { 900 } else { 3 }));
+            slow = !slow;
+        }
+        assert!(covered.iter().all(|&count| count == 1));
+    }
+
+    #[test]
+    fn a_tile_stays_within_the_buffer() {
+        // 256 bands, 128 MiB.
+        let planner = Planner::new([16384, 16384], 1024, 128 << 20);
+        assert!(u64::from(planner.max_pixels()) * 1024 <= 128 << 20);
+        assert!(planner.max_pixels() > 100_000);
+    }
+
+    #[test]
+    fn batches_use_up_the_samples_and_follow_the_speed() {
+        let mut planner = Planner::new([512, 64], 160, 128 << 20);
+        let tile = planner.next_tile().unwrap();
+        assert_eq!(planner.batch(tile, 1000), 1);
+        planner.learn(tile, 1, Duration::from_millis(10));
+        assert_eq!(planner.batch(tile, 1000), 20);
+        assert_eq!(planner.batch(tile, 7), 7);
+        planner.learn(tile, 20, Duration::from_secs(100));
+        assert_eq!(planner.batch(tile, 1000), 1);
+    }
+}
