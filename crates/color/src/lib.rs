@@ -1,6 +1,21 @@
-//! From spectra to pictures: CIE XYZ, the sRGB display, whole images. Arithmetic is `f64`.
+//! From spectra to pictures.
+//!
+//! ```text
+//! spectra::SpectralImage
+//!   -> xyz            CIE 1931 XYZ of a pixel, relative to an equal-energy radiance of 1, times 2^EV
+//!   -> srgb           linear sRGB, then the transfer curve
+//!   -> develop        the whole image: 8-bit RGB
+//!   -> png            a PNG file that says which colour space it is in
+//!   -> spectral_exr   a spectral OpenEXR file, from which all of the above can be done again
+//! ```
+//!
+//! Arithmetic is `f64`. Nothing here knows how the image was rendered. Files are written under another
+//! name beside the one asked for and renamed when complete, so a failure leaves no half file.
 
 mod develop;
+mod pending_file;
+pub mod png;
+pub mod spectral_exr;
 pub mod srgb;
 pub mod xyz;
 

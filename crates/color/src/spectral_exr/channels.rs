@@ -1,0 +1,129 @@
+//! Which channels a file of ours has, and which one means what.
+
+use exr::meta::attribute::{ChannelDescription, SampleType, Text};
+use exr::prelude::SmallVec;
+use spectra::BandGrid;
+
+use super::bands::{radiance_name, wavelength_text};
+
+/// The names of our own channels start so.
+const OWN: &str = "pellicle.";
+/// The names of the variances go on so.
+const VARIANCE: &str = "variance.";
+
+/// What a channel holds.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum Content {
+    /// Radiance of this band.
+    Radiance(usize),
+    /// Variance of the mean of this band.
+    Variance(usize),
+    /// X, Y or Z.
+    Xyz(usize),
+    /// Linear red, green or blue.
+    Rgb(usize),
+    /// Number of samples.
+    Samples,
+}
+
+impl Content {
+    fn sample_type(self) -> SampleType {
+        match self {
+            Self::Samples => SampleType::U32,
+            _ => SampleType::F32,
+        }
+    }
+}
+
+/// Name of the variance channel of the band with centre `nm`.
+fn variance_name(nm: f64) -> String {
+    format!("{OWN}{VARIANCE}{}", wavelength_text(nm))
+}
+
+/// The channels beside the spectrum, by name.
+fn plain() -> impl Iterator<Item = (String, Content)> {
+    let rgb = ["R", "G", "B"].into_iter().enumerate();
+    // A name that ends in `.Z` would be a depth to many readers.
+    let xyz = ["cieX", "cieY", "cieZ"].into_iter().enumerate();
+    rgb.map(|(i, name)| (name.to_owned(), Content::Rgb(i)))
+        .chain(xyz.map(|(i, name)| (format!("{OWN}{name}"), Content::Xyz(i))))
+        .chain([(format!("{OWN}samples"), Content::Samples)])
+}
+
+/// What a channel beside the spectrum holds, by its name; `None` for channels that are not ours.
+pub(super) fn plain_content(name: &str) -> Option<Content> {
+    let mut channels = plain();
+    channels
+        .find(|(own, _)| own == name)
+        .map(|(_, content)| content)
+}
+
+/// The band whose variance a channel of this name holds.
+pub(super) fn variance_band(name: &str, grid: &BandGrid) -> Option<usize> {
+    let text = name.strip_prefix(OWN)?.strip_prefix(VARIANCE)?;
+    let nm: f64 = text.strip_suffix("nm")?.replace(',', ".").parse().ok()?;
+    let band = ((nm - grid.min_nm()) / grid.width_nm()).floor();
+    // A cast takes what is negative or not a number to 0, and the name then differs.
+    let band = (band as u32).min(grid.count() - 1);
+    (variance_name(grid.centre_nm(band)) == name).then_some(band as usize)
+}
+
+/// The channels that an image is written with, in the order of their names, which the format asks for.
+#[derive(Debug)]
+pub(super) struct Channels {
+    /// What each channel holds, in that order.
+    pub(super) contents: Vec<Content>,
+    /// The channels as the header lists them.
+    pub(super) descriptions: SmallVec<[ChannelDescription; 5]>,
+}
+
+impl Channels {
+    /// The channels of an image with these bands.
+    pub(super) fn new(grid: &BandGrid, variance: bool) -> Self {
+        let mut named: Vec<(String, Content)> = plain().collect();
+        for band in 0..grid.count() {
+            let (nm, index) = (grid.centre_nm(band), band as usize);
+            named.push((radiance_name(nm), Content::Radiance(index)));
+            if variance {
+                named.push((variance_name(nm), Content::Variance(index)));
+            }
+        }
+        named.sort_by(|a, b| a.0.cmp(&b.0));
+        Self {
+            contents: named.iter().map(|&(_, content)| content).collect(),
+            descriptions: named
+                .iter()
+                .map(|(name, content)| description(name, *content))
+                .collect(),
+        }
+    }
+}
+
+fn description(name: &str, content: Content) -> ChannelDescription {
+    // Names are ASCII. The second flag matters to lossy compression only.
+    let name = Text::from_slice_unchecked(name.as_bytes());
+    ChannelDescription::new(name, content.sample_type(), false)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_channel_of_a_file_is_told_from_its_name() {
+        let grid = BandGrid::visible(48).unwrap();
+        let channels = Channels::new(&grid, true);
+        assert_eq!(channels.contents.len(), 2 * 48 + 7);
+        for (description, &content) in channels.descriptions.iter().zip(&channels.contents) {
+            let name = description.name.to_string();
+            let found =
+                plain_content(&name).or_else(|| variance_band(&name, &grid).map(Content::Variance));
+            match content {
+                Content::Radiance(_) => assert_eq!(found, None),
+                other => assert_eq!(found, Some(other), "{name}"),
+            }
+        }
+        assert_eq!(plain_content("A"), None);
+        assert_eq!(variance_band("variance.385,000000nm", &grid), None);
+    }
+}

@@ -1,0 +1,38 @@
+//! Spectral `OpenEXR` files, in the layout of Fichet, Pacanowski and Wilkie.
+//!
+//! Source: A. Fichet, R. Pacanowski and A. Wilkie, "An `OpenEXR` Layout for Spectral Images", Journal of
+//! Computer Graphics Techniques 10 (3), 2021.
+//!
+//! | channel | type | content |
+//! | --- | --- | --- |
+//! | `S0.385,000000nm` … | float | mean radiance over the band with this centre, W m⁻² sr⁻¹ nm⁻¹ |
+//! | `R`, `G`, `B` | float | developed linear sRGB for viewers, not clipped |
+//! | `pellicle.cieX`, `.cieY`, `.cieZ` | float | CIE 1931 XYZ of the pixel, cd/m² |
+//! | `pellicle.samples` | uint | number of samples of the pixel |
+//! | `pellicle.variance.385,000000nm` … | float | variance of the mean of `S0.…`, where asked for |
+//!
+//! | attribute | type | content |
+//! | --- | --- | --- |
+//! | `spectralLayoutVersion` | string | `1.0` |
+//! | `emissiveUnits` | string | `W.m^-2.sr^-1.nm^-1` |
+//! | `chromaticities` | | primaries and white of sRGB |
+//! | `software` | string | name and version |
+//! | `pellicle.lambdaMin`, `pellicle.lambdaMax` | double | ends of the band grid, nm |
+//! | `pellicle.exposureEv` | double | the exposure that R, G and B were developed with |
+//! | `pellicle.setting.…` | string | settings that the caller gave |
+//!
+//! Our own channels stand in a layer of their own, so that neither an ordinary viewer nor a reader
+//! of the layout takes them for colour, depth or spectrum.
+//!
+//! The file is in scan lines, compressed without loss; see [`write`](write()) for what that costs.
+
+mod bands;
+mod channels;
+mod metadata;
+mod read;
+mod write;
+
+pub use bands::BandLayoutError;
+pub use metadata::{Metadata, software};
+pub use read::{MAX_BYTES, ReadExrError, read};
+pub use write::{BATCH_BYTES, WriteExrError, WriteOptions, write};

@@ -1,0 +1,154 @@
+//! Gathering blocks of samples into an image.
+
+use exr::block::UncompressedBlock;
+use exr::block::lines::LineRef;
+use exr::meta::attribute::{ChannelList, SampleType};
+use exr::prelude::f16;
+use spectra::SpectralImage;
+
+use super::Plan;
+use crate::spectral_exr::channels::Content;
+use crate::xyz::BandObserver;
+
+/// An image that is being read.
+pub(super) struct Pixels {
+    plan: Plan,
+    image: SpectralImage,
+    /// How many pixels of each row have been written.
+    filled: Vec<usize>,
+    /// Makes XYZ where the file has none.
+    observer: Option<BandObserver>,
+}
+
+/// The pixels of one row of a block.
+struct Row {
+    radiance: Vec<f32>,
+    variance: Vec<f32>,
+    xyz: Vec<[f32; 3]>,
+    samples: Vec<u32>,
+}
+
+impl Pixels {
+    pub(super) fn new(plan: Plan) -> Self {
+        let (width, height) = plan.size;
+        Self {
+            image: SpectralImage::new(width as u32, height as u32, plan.grid),
+            filled: vec![0; height],
+            observer: (!plan.has_xyz()).then(|| BandObserver::new(&plan.grid)),
+            plan,
+        }
+    }
+
+    /// Index of the layer that is read.
+    pub(super) fn layer(&self) -> usize {
+        self.plan.layer
+    }
+
+    /// Takes a block's pixels over; `None` when it does not lie within the image.
+    pub(super) fn insert(
+        &mut self,
+        block: &UncompressedBlock,
+        channels: &ChannelList,
+    ) -> Option<()> {
+        if block.index.level.0 != 0 || block.index.level.1 != 0 {
+            // A smaller version of the same image.
+            return Some(());
+        }
+        let (position, size) = (block.index.pixel_position, block.index.pixel_size);
+        let (width, height) = self.plan.size;
+        if position.x().checked_add(size.width())? > width
+            || position.y().checked_add(size.height())? > height
+        {
+            return None;
+        }
+        let bands = self.plan.grid.count() as usize;
+        let mut row = Row::new(size.width(), bands);
+        let last = channels.list.len() - 1;
+        for line in block.lines(channels) {
+            let (channel, y) = (line.location.channel, line.location.position.y());
+            if let Some(content) = self.plan.contents[channel] {
+                row.take(line, channels.list[channel].sample_type, content, bands);
+            }
+            if channel == last {
+                self.put(&row, position.x(), y);
+            }
+        }
+        Some(())
+    }
+
+    fn put(&mut self, row: &Row, x0: usize, y: usize) {
+        let bands = self.plan.grid.count() as usize;
+        for (x, &xyz) in row.xyz.iter().enumerate() {
+            let values = x * bands..(x + 1) * bands;
+            let radiance = &row.radiance[values.clone()];
+            let xyz = match &self.observer {
+                Some(observer) => observer.xyz(radiance).map(|v| v as f32),
+                None => xyz,
+            };
+            let place = ((x0 + x) as u32, y as u32);
+            let variance = &row.variance[values];
+            self.image
+                .set_pixel(place, radiance, variance, xyz, row.samples[x]);
+        }
+        self.filled[y] += row.xyz.len();
+    }
+
+    /// The image, if every pixel came exactly once.
+    pub(super) fn finish(self) -> Option<SpectralImage> {
+        let width = self.plan.size.0;
+        self.filled
+            .iter()
+            .all(|&count| count == width)
+            .then_some(self.image)
+    }
+}
+
+impl Row {
+    fn new(width: usize, bands: usize) -> Self {
+        Self {
+            radiance: vec![0.0; width * bands],
+            variance: vec![0.0; width * bands],
+            xyz: vec![[0.0; 3]; width],
+            samples: vec![0; width],
+        }
+    }
+
+    /// Takes over the samples of one channel.
+    fn take(&mut self, line: LineRef<'_>, kind: SampleType, content: Content, bands: usize) {
+        match content {
+            Content::Radiance(band) => each(line, kind, |x, v| self.radiance[x * bands + band] = v),
+            Content::Variance(band) => each(line, kind, |x, v| self.variance[x * bands + band] = v),
+            Content::Xyz(axis) => each(line, kind, |x, v| self.xyz[x][axis] = v),
+            Content::Samples if kind == SampleType::U32 => {
+                for (samples, bytes) in self.samples.iter_mut().zip(words(line.value)) {
+                    *samples = u32::from_ne_bytes(bytes);
+                }
+            }
+            Content::Samples => each(line, kind, |x, v| self.samples[x] = v as u32),
+            Content::Rgb(_) => {}
+        }
+    }
+}
+
+/// Calls `put` with the index and value of every sample of a line.
+fn each(line: LineRef<'_>, kind: SampleType, put: impl FnMut(usize, f32)) {
+    let mut put = put;
+    match kind {
+        SampleType::F32 => words(line.value)
+            .enumerate()
+            .for_each(|(x, bytes)| put(x, f32::from_ne_bytes(bytes))),
+        SampleType::U32 => words(line.value)
+            .enumerate()
+            .for_each(|(x, bytes)| put(x, u32::from_ne_bytes(bytes) as f32)),
+        SampleType::F16 => line
+            .value
+            .chunks_exact(2)
+            .enumerate()
+            .for_each(|(x, bytes)| put(x, f16::from_ne_bytes([bytes[0], bytes[1]]).to_f32())),
+    }
+}
+
+/// The samples of four bytes in a line.
+fn words(bytes: &[u8]) -> impl Iterator<Item = [u8; 4]> + '_ {
+    bytes.chunks_exact(4).map(|b| [b[0], b[1], b[2], b[3]])
+}

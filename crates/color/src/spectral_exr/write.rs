@@ -1,0 +1,219 @@
+//! Writing a spectral image.
+
+use std::fs::File;
+use std::io::{self, BufWriter};
+use std::path::{Path, PathBuf};
+
+use exr::block::lines::LineIndex;
+use exr::block::writer::ChunksWriter;
+use exr::block::{BlockIndex, UncompressedBlock, chunk::Chunk};
+use exr::meta::attribute::{LineOrder, Text};
+use exr::meta::header::Header;
+use exr::meta::{BlockDescription, MetaData};
+use exr::prelude::Compression;
+use rayon::prelude::*;
+use spectra::SpectralImage;
+use thiserror::Error;
+
+use super::channels::{Channels, Content};
+use super::metadata::Metadata;
+use crate::develop::linear_rgb;
+use crate::pending_file::PendingFile;
+use crate::xyz::exposure_scale;
+
+/// What to leave out of a file.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct WriteOptions {
+    /// Write the variance of every band too, which doubles the file. On by default.
+    pub variance: bool,
+}
+
+impl Default for WriteOptions {
+    fn default() -> Self {
+        Self { variance: true }
+    }
+}
+
+/// The most bytes of uncompressed blocks at a time (a single block may be larger).
+pub const BATCH_BYTES: usize = 256 << 20;
+
+/// Why a spectral file was not written. No file is left behind.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum WriteExrError {
+    /// The file could not be opened, written or put in its place.
+    #[error("cannot write {path}")]
+    File {
+        /// The file asked for.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The image has no pixels.
+    #[error("cannot write {path}: the image has no pixels")]
+    Empty {
+        /// The file asked for.
+        path: PathBuf,
+    },
+    /// A setting's name is empty, too long or contains a zero.
+    #[error("cannot write {path}: {name:?} cannot be the name of a setting")]
+    SettingName {
+        /// The file asked for.
+        path: PathBuf,
+        /// The name as given.
+        name: String,
+    },
+    /// The image cannot be put into an `OpenEXR` file.
+    #[error("cannot encode {path} as OpenEXR")]
+    Encode {
+        /// The file asked for.
+        path: PathBuf,
+        /// What the encoder said.
+        source: exr::error::Error,
+    },
+}
+
+/// Writes a spectral file.
+///
+/// Compression is PIZ, which is lossless. Measured on 640×480 pixels, 40 bands with variance and 5 %
+/// noise, on two cores: 107 MB uncompressed become 85 MB with PIZ (0.6 s to write, 1.0 s to read),
+/// 101 MB with ZIP (1.8 s, 0.3 s) and 107 MB with RLE (0.3 s, 0.2 s). Noise fills the mantissas, so no
+/// lossless compression gains much; where the image is black, all of them do.
+///
+/// Blocks of 32 lines are cut from the image, compressed on all cores and written in order, as many
+/// at a time as [`BATCH_BYTES`] holds: that is the memory taken beside the image itself.
+///
+/// # Errors
+/// When the file cannot be written, the image has no pixels, or a setting's name cannot be an attribute's.
+pub fn write(
+    path: &Path,
+    image: &SpectralImage,
+    metadata: &Metadata,
+    options: WriteOptions,
+) -> Result<(), WriteExrError> {
+    let file_error = |source| WriteExrError::File {
+        path: path.to_owned(),
+        source,
+    };
+    if image.width() == 0 || image.height() == 0 {
+        return Err(WriteExrError::Empty {
+            path: path.to_owned(),
+        });
+    }
+    if let Some(name) = metadata.bad_setting() {
+        return Err(WriteExrError::SettingName {
+            path: path.to_owned(),
+            name: name.to_owned(),
+        });
+    }
+    let pending = PendingFile::create(path).map_err(file_error)?;
+    let file = pending.handle().map_err(file_error)?;
+    encode(file, image, metadata, options).map_err(|error| match error {
+        exr::error::Error::Io(source) => file_error(source),
+        source => WriteExrError::Encode {
+            path: path.to_owned(),
+            source,
+        },
+    })?;
+    pending.commit().map_err(file_error)
+}
+
+fn encode(
+    file: File,
+    image: &SpectralImage,
+    metadata: &Metadata,
+    options: WriteOptions,
+) -> exr::error::UnitResult {
+    let channels = Channels::new(image.bands(), options.variance);
+    let size = (image.width() as usize, image.height() as usize);
+    let mut header = Header::new(Text::default(), size, channels.descriptions.clone())
+        .with_encoding(
+            Compression::PIZ,
+            BlockDescription::ScanLines,
+            LineOrder::Increasing,
+        );
+    metadata.clone().into_header(image.bands(), &mut header);
+    let source = Source {
+        image,
+        contents: &channels.contents,
+        scale: exposure_scale(metadata.exposure_ev),
+    };
+    let headers = std::iter::once(header).collect();
+    exr::block::write(BufWriter::new(file), headers, true, |meta, writer| {
+        source.write_blocks(&meta, writer)
+    })
+}
+
+/// Where the samples of a file come from.
+struct Source<'a> {
+    image: &'a SpectralImage,
+    contents: &'a [Content],
+    scale: f64,
+}
+
+impl Source<'_> {
+    fn write_blocks(
+        &self,
+        meta: &MetaData,
+        writer: &mut impl ChunksWriter,
+    ) -> exr::error::UnitResult {
+        let blocks: Vec<(usize, BlockIndex)> =
+            exr::block::enumerate_ordered_header_block_indices(&meta.headers).collect();
+        let block_bytes = meta.headers[0].max_block_byte_size();
+        let at_a_time = (BATCH_BYTES / block_bytes).clamp(1, 2 * rayon::current_num_threads());
+        for batch in blocks.chunks(at_a_time) {
+            let chunks: Vec<exr::error::Result<Chunk>> = batch
+                .par_iter()
+                .map(|&(_, block)| self.block(meta, block).compress_to_chunk(&meta.headers))
+                .collect();
+            for (&(index, _), chunk) in batch.iter().zip(chunks) {
+                writer.write_chunk(index, chunk?)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn block(&self, meta: &MetaData, index: BlockIndex) -> UncompressedBlock {
+        let channels = &meta.headers[index.layer].channels;
+        UncompressedBlock::from_lines(channels, index, |line| self.fill(line.location, line.value))
+    }
+
+    /// The samples of one channel in one row of pixels.
+    fn fill(&self, location: LineIndex, out: &mut [u8]) {
+        let bands = self.image.bands().count() as usize;
+        let start = location.position.y() * self.image.width() as usize;
+        let pixels = start..start + location.sample_count;
+        let every_band = |values: &[f32], band: usize, out: &mut [u8]| {
+            let row = &values[pixels.start * bands..pixels.end * bands];
+            fill_with(
+                out,
+                row.iter()
+                    .skip(band)
+                    .step_by(bands)
+                    .map(|v| v.to_ne_bytes()),
+            );
+        };
+        let xyz = &self.image.xyz()[pixels.clone()];
+        match self.contents[location.channel] {
+            Content::Radiance(band) => every_band(self.image.radiance(), band, out),
+            Content::Variance(band) => every_band(self.image.variance(), band, out),
+            Content::Xyz(axis) => fill_with(out, xyz.iter().map(|v| v[axis].to_ne_bytes())),
+            Content::Rgb(channel) => {
+                let values = xyz
+                    .iter()
+                    .map(|&v| linear_rgb(v, self.scale)[channel] as f32);
+                fill_with(out, values.map(f32::to_ne_bytes));
+            }
+            Content::Samples => {
+                let samples = &self.image.samples()[pixels];
+                fill_with(out, samples.iter().map(|v| v.to_ne_bytes()));
+            }
+        }
+    }
+}
+
+fn fill_with(out: &mut [u8], values: impl Iterator<Item = [u8; 4]>) {
+    for (out, value) in out.chunks_exact_mut(4).zip(values) {
+        out.copy_from_slice(&value);
+    }
+}

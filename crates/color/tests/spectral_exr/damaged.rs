@@ -1,0 +1,111 @@
+//! Files that are damaged, cut short, or something else.
+
+use std::fs;
+
+use pellicle_color::spectral_exr::{self, ReadExrError};
+
+use crate::support::{noise, write_noisy};
+
+#[test]
+fn what_is_no_exr_file_is_told_so() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("text.exr");
+    for content in ["", "v/1", "a longer text that is no image"] {
+        fs::write(&path, content).unwrap();
+        let error = spectral_exr::read(&path).unwrap_err();
+        assert!(matches!(error, ReadExrError::NotExr { .. }), "{content:?}");
+    }
+    let missing = directory.path().join("missing.exr");
+    let error = spectral_exr::read(&missing).unwrap_err();
+    assert!(matches!(error, ReadExrError::File { .. }));
+    assert!(error.to_string().contains("missing.exr"));
+}
+
+#[test]
+fn a_file_cut_short_is_an_error_at_every_length() {
+    let directory = tempfile::tempdir().unwrap();
+    let (path, _) = write_noisy(directory.path(), true);
+    let bytes = fs::read(&path).unwrap();
+    let cut = directory.path().join("cut.exr");
+    let header = 0..2500.min(bytes.len());
+    for length in header
+        .step_by(13)
+        .chain((0..bytes.len()).step_by(997))
+        .chain([bytes.len() - 1])
+    {
+        fs::write(&cut, &bytes[..length]).unwrap();
+        let error = spectral_exr::read(&cut).unwrap_err();
+        let is_expected = match error {
+            ReadExrError::NotExr { .. } => length < 4,
+            ReadExrError::Damaged { .. } => length >= 4,
+            _ => false,
+        };
+        assert!(is_expected, "{length} bytes: {error}");
+    }
+}
+
+#[test]
+fn damaged_bytes_never_end_the_program() {
+    let directory = tempfile::tempdir().unwrap();
+    let (path, image) = write_noisy(directory.path(), true);
+    let bytes = fs::read(&path).unwrap();
+    let damaged = directory.path().join("damaged.exr");
+    let header_end = 2500.min(bytes.len());
+    let mut refused = 0;
+    for turn in 0..1500_u32 {
+        let mut copy = bytes.clone();
+        // Most of what can go wrong is in the header.
+        let range = if turn % 3 == 0 {
+            bytes.len()
+        } else {
+            header_end
+        };
+        let place = (noise(turn) * range as f32) as usize;
+        copy[place] = match turn % 4 {
+            0 => 0xff,
+            1 => 0x7f,
+            2 => copy[place] ^ 0x80,
+            _ => (noise(turn + 10_000) * 256.0) as u8,
+        };
+        fs::write(&damaged, &copy).unwrap();
+        match spectral_exr::read(&damaged) {
+            Ok((found, _)) => assert!(found.width() <= 4 * image.width()),
+            Err(_) => refused += 1,
+        }
+    }
+    assert!(
+        refused > 300,
+        "only {refused} of 1500 damaged files were refused"
+    );
+}
+
+/// Sets the four bytes after `key` in a header, `skip` bytes further on.
+fn patched(bytes: &[u8], key: &[u8], skip: usize, value: i32) -> Vec<u8> {
+    let at = bytes.windows(key.len()).position(|w| w == key).unwrap() + key.len() + skip;
+    let mut copy = bytes.to_vec();
+    copy[at..at + 4].copy_from_slice(&value.to_le_bytes());
+    copy
+}
+
+#[test]
+fn claims_of_a_huge_image_are_refused_before_memory_is_taken() {
+    let directory = tempfile::tempdir().unwrap();
+    let (path, _) = write_noisy(directory.path(), true);
+    let bytes = fs::read(&path).unwrap();
+    // Attribute: name, 0, type, 0, size of the value, then xMin, yMin, xMax, yMax.
+    let key = b"dataWindow\0box2i\0\x10\0\0\0";
+    for (max_x, max_y) in [
+        (1 << 29, 36),
+        (22, 1 << 29),
+        (1 << 29, 1 << 29),
+        (1 << 20, 1 << 13),
+    ] {
+        let copy = patched(&patched(&bytes, key, 8, max_x), key, 12, max_y);
+        fs::write(&path, copy).unwrap();
+        let error = spectral_exr::read(&path).unwrap_err();
+        assert!(
+            matches!(error, ReadExrError::Damaged { .. }),
+            "{max_x} {max_y}: {error}"
+        );
+    }
+}

@@ -1,0 +1,6 @@
+//! Spectral files: what is written is read again, and damaged files are told so.
+
+mod damaged;
+mod foreign;
+mod round_trip;
+mod support;
