@@ -1,0 +1,26 @@
+//! The surroundings as written.
+
+use super::Emission;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What surrounds the objects.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Environment {
+    /// The same radiance from every direction.
+    Constant {
+        /// The radiance.
+        emission: Emission,
+    },
+    /// A mixture by the height of the direction over the horizon.
+    Gradient {
+        /// Radiance from straight above.
+        zenith: Emission,
+        /// Radiance from the horizon.
+        horizon: Emission,
+        /// Radiance from straight below; that of the horizon when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        ground: Option<Emission>,
+    },
+}

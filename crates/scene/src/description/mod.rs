@@ -1,0 +1,47 @@
+//! A scene as it is written in a file.
+//!
+//! These types are the one description of the file format: the TOML reader and the JSON Schema
+//! (`scenes/scene.schema.json`) are both made from them. A program can fill them in as well and hand the
+//! result to [`Scene::new`](crate::Scene::new). Nothing here is checked beyond its type.
+
+mod camera;
+mod environment;
+mod material;
+mod object;
+mod render;
+mod spectrum;
+
+pub use camera::Camera;
+pub use environment::Environment;
+pub use material::{DiffuseReflectance, Material, Thickness};
+pub use object::Object;
+pub use render::{Render, WavelengthSampling};
+pub use spectrum::{Emission, Extrapolate, Index, Reflectance};
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// A Pellicle scene.
+///
+/// Right-handed space with +Y up, lengths in scene units, angles in degrees, wavelengths and film
+/// thicknesses in nanometres.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "Pellicle scene")]
+pub struct Description {
+    /// Where the scene is seen from.
+    pub camera: Camera,
+    /// How it is rendered.
+    #[serde(default)]
+    pub render: Render,
+    /// What surfaces are made of, by name.
+    #[serde(default)]
+    pub materials: BTreeMap<String, Material>,
+    /// The shapes in space.
+    #[serde(default)]
+    pub objects: Vec<Object>,
+    /// What surrounds the objects; black when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub environment: Option<Environment>,
+}

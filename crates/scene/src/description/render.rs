@@ -1,0 +1,59 @@
+//! How to render, as written.
+
+use crate::{RenderSettings, limits};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How the scene is rendered.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Render {
+    /// Width and height of the picture in pixels.
+    #[schemars(inner(range(min = 1, max = RenderSettings::MAX_SIDE)))]
+    pub size: [u32; 2],
+    /// Samples (paths) per pixel.
+    #[schemars(range(min = 1, max = limits::MAX_SAMPLES))]
+    pub samples: u32,
+    /// Number of bands that the wavelength range is divided into.
+    #[schemars(range(min = 1, max = spectra::BandGrid::MAX_COUNT))]
+    pub bands: u32,
+    /// First and last wavelength in nm.
+    #[schemars(inner(range(min = limits::BAND_NM.low, max = limits::BAND_NM.high)))]
+    pub wavelengths_nm: [f64; 2],
+    /// Where in its band a sample's wavelength lies.
+    pub sampling: WavelengthSampling,
+    /// Chooses the sequence of random numbers.
+    pub seed: u32,
+    /// The most segments of a path. The camera ray is the first; the one that reaches a light counts.
+    #[schemars(range(min = 1, max = RenderSettings::MAX_PATH_SEGMENTS))]
+    pub max_path_segments: u32,
+    /// Exposure of the developed picture in stops: 0 shows radiance 1 at every wavelength as white.
+    #[schemars(range(min = limits::EXPOSURE_EV.low, max = limits::EXPOSURE_EV.high))]
+    pub exposure_ev: f64,
+}
+
+/// Where in its band a sample's wavelength lies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum WavelengthSampling {
+    /// One offset is drawn per sample, for all bands: a band holds the mean over its width.
+    #[default]
+    Random,
+    /// Always the centre of the band: fixed wavelengths.
+    Centre,
+}
+
+impl Default for Render {
+    fn default() -> Self {
+        Self {
+            size: [640, 480],
+            samples: 64,
+            bands: 40,
+            wavelengths_nm: [380.0, 780.0],
+            sampling: WavelengthSampling::Random,
+            seed: 0,
+            max_path_segments: 12,
+            exposure_ev: 0.0,
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! The ranges that numbers of a scene must lie in.
+//!
+//! They keep every product that a renderer forms inside `f32` with room to spare, and are wide enough for
+//! anything that thin films and metals need. The JSON Schema shows the same numbers.
+
+use std::fmt;
+
+/// A closed range of numbers with its unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// The smallest number allowed.
+    pub low: f64,
+    /// The largest number allowed.
+    pub high: f64,
+    /// The unit with a space before it, or nothing.
+    pub unit: &'static str,
+}
+
+impl Range {
+    const fn new(low: f64, high: f64, unit: &'static str) -> Self {
+        Self { low, high, unit }
+    }
+
+    /// Whether `value` is a number of the range; NaN never is.
+    pub fn contains(&self, value: f64) -> bool {
+        self.low <= value && value <= self.high
+    }
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} to {}{}", self.low, self.high, self.unit)
+    }
+}
+
+/// A coordinate of a point or direction. `f32` resolves 0.06 at the ends.
+pub const COORDINATE: Range = Range::new(-1e6, 1e6, "");
+/// A radius, side or height.
+pub const LENGTH: Range = Range::new(1e-6, 1e6, "");
+/// Length of a direction vector before it is normalised, and distance between two points that define one.
+pub const MIN_DISTANCE: f64 = 1e-6;
+/// Sine of the smallest angle between two directions that span a plane (about 0.006°).
+pub const MIN_SINE: f64 = 1e-4;
+/// Vertical field of view. At 179.9° the picture is already 1100 times as high as its distance.
+pub const FOV_DEG: Range = Range::new(0.001, 179.9, "°");
+/// Thickness of a film: 100 µm is far beyond the last visible fringe.
+pub const THICKNESS_NM: Range = Range::new(0.0, 100_000.0, " nm");
+/// Real part of an index. Silver, the smallest measured one, has 0.03.
+pub const INDEX_N: Range = Range::new(0.001, 1000.0, "");
+/// Imaginary part of an index.
+pub const INDEX_K: Range = Range::new(0.0, 1000.0, "");
+/// A reflectance.
+pub const REFLECTANCE: Range = Range::new(0.0, 1.0, "");
+/// Radiance, its scale and their product: the square, which the variance needs, times 2²⁴ samples fits in `f32`.
+pub const EMISSION: Range = Range::new(0.0, 1e9, "");
+/// Roughness where it is not 0. The highlight's exponent (tan θ / m)² has a relative error of about 2⁻²³ / m²
+/// in `f32`: 3e-4 at m = 0.02, and growing to where the highlight of a smoother surface is mostly rounding.
+pub const ROUGHNESS: Range = Range::new(0.02, 1.0, "");
+/// Exposure in stops.
+pub const EXPOSURE_EV: Range = Range::new(-32.0, 32.0, " stops");
+/// Wavelengths that bands may cover.
+pub const BAND_NM: Range = Range::new(
+    spectra::BandGrid::LIMITS_NM.0,
+    spectra::BandGrid::LIMITS_NM.1,
+    " nm",
+);
+/// The narrowest range of wavelengths that bands may divide, nm.
+pub const MIN_BAND_RANGE_NM: f64 = 1.0;
+/// Wavelengths of a table.
+pub const TABLE_NM: Range = Range::new(1.0, 1e6, " nm");
+/// The most points of a table.
+pub const MAX_TABLE_POINTS: usize = 100_000;
+/// The most samples per pixel: a sum of as many ones is still exact in `f32`.
+pub const MAX_SAMPLES: u32 = 1 << 24;
+/// The most objects.
+pub const MAX_OBJECTS: usize = 65_536;
+/// The most materials.
+pub const MAX_MATERIALS: usize = 4096;
+/// The largest spectral image, in bytes.
+pub const MAX_IMAGE_BYTES: u128 = 32 << 30;
+/// The largest scene file or table file, in bytes.
+pub const MAX_FILE_BYTES: u64 = 16 << 20;

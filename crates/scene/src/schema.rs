@@ -1,0 +1,44 @@
+//! The JSON Schema of scene files.
+
+use crate::description::Description;
+use schemars::generate::SchemaSettings;
+use serde_json::Value;
+
+/// The JSON Schema (draft 7, which TOML editors understand) of scene files, made from the types of
+/// [`description`](crate::description). It is committed as `scenes/scene.schema.json`; write it anew with
+/// `PELLICLE_BLESS=1 cargo test -p pellicle-scene schema`.
+pub fn schema() -> Value {
+    let mut schema = SchemaSettings::draft07()
+        .into_generator()
+        .into_root_schema_for::<Description>()
+        .to_value();
+    remove_null(&mut schema);
+    schema
+}
+
+/// TOML has no null: an optional field is left out. `anyOf [X, null]` becomes X, and a default of null goes.
+fn remove_null(schema: &mut Value) {
+    match schema {
+        Value::Object(object) => {
+            object.retain(|key, value| key != "default" || !value.is_null());
+            if let Some(Value::Array(types)) = object.get_mut("type") {
+                types.retain(|kind| kind != "null");
+                if let [only] = types.as_slice() {
+                    let only = only.clone();
+                    object.insert("type".to_owned(), only);
+                }
+            }
+            if let Some(Value::Array(choices)) = object.get_mut("anyOf") {
+                choices.retain(|choice| choice.get("type").is_none_or(|kind| kind != "null"));
+                if choices.len() == 1
+                    && let Some(only) = object.remove("anyOf")
+                {
+                    object.insert("allOf".to_owned(), only);
+                }
+            }
+            object.values_mut().for_each(remove_null);
+        }
+        Value::Array(items) => items.iter_mut().for_each(remove_null),
+        _ => {}
+    }
+}
