@@ -1,0 +1,488 @@
+//! From a TOML tree to a description, with everything that does not fit.
+
+use super::Tree;
+use super::shape::{Field, Fields, SCENE, Shape, TAG, quoted_choice};
+use crate::description::Description;
+use crate::problem::{Location, Problem, ProblemKind};
+use crate::suggestion::nearest;
+use crate::{FieldPath, Problems};
+use std::collections::{BTreeMap, HashSet};
+use std::ops::Range;
+use toml::de::{DeArray, DeInteger, DeTable, DeValue};
+use toml::{Spanned, Value};
+
+/// What does not fit in a scene file.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Findings {
+    pub(crate) problems: Vec<Problem>,
+    /// How many more there were than could be kept.
+    pub(crate) omitted: usize,
+    /// Values that are missing or unusable and have been filled in, with all that lies around them.
+    broken: HashSet<FieldPath>,
+    around_broken: HashSet<FieldPath>,
+}
+
+impl Findings {
+    /// Whether a value, something in it or something around it had to be filled in.
+    pub(crate) fn is_broken(&self, field: &FieldPath) -> bool {
+        self.around_broken.contains(field)
+            || field.and_around().any(|part| self.broken.contains(&part))
+    }
+
+    fn add(&mut self, problem: Problem) {
+        if self.problems.len() < Problems::MAX_SHOWN {
+            self.problems.push(problem);
+        } else {
+            self.omitted += 1;
+        }
+    }
+
+    fn mark_broken(&mut self, field: &FieldPath) {
+        self.around_broken.extend(field.and_around());
+        self.broken.insert(field.clone());
+    }
+}
+
+/// The description that `tree` gives, with stand-ins where it is broken; `None` only if the types refuse what
+/// the schema accepts, which is then among the findings.
+pub(crate) fn read(text: &str, tree: &Tree<'_>) -> (Option<Description>, Findings) {
+    let mut reader = Reader {
+        text,
+        findings: Findings::default(),
+    };
+    let Shape::Table(scene) = &*SCENE else {
+        unreachable!("a scene is a table");
+    };
+    let place = Place::root();
+    let table = reader.fields(scene, tree.table(), &place, &Context::PLAIN);
+    let description = Value::Table(table).try_into::<Description>();
+    let description = description
+        .map_err(|error| {
+            reader.report(ProblemKind::WrongType, &place, error.message().to_owned());
+        })
+        .ok();
+    (description, reader.findings)
+}
+
+/// A value's name and its bytes in the file.
+#[derive(Clone)]
+struct Place {
+    field: FieldPath,
+    bytes: Range<usize>,
+}
+
+impl Place {
+    fn root() -> Self {
+        Self {
+            field: FieldPath::root(),
+            bytes: 0..0,
+        }
+    }
+}
+
+/// What is known about a table besides its own fields.
+struct Context<'a> {
+    /// Whether the field [`TAG`] has been looked at already.
+    is_tagged: bool,
+    /// Says where else an unknown field would be right.
+    elsewhere: &'a dyn Fn(&str) -> Option<String>,
+}
+
+impl Context<'_> {
+    const PLAIN: Self = Self {
+        is_tagged: false,
+        elsewhere: &|_| None,
+    };
+}
+
+struct Reader<'a> {
+    text: &'a str,
+    findings: Findings,
+}
+
+impl Reader<'_> {
+    fn value(&mut self, shape: &Shape, value: &Spanned<DeValue<'_>>, place: &Place) -> Value {
+        match (shape, value.get_ref()) {
+            (Shape::Number, DeValue::Integer(integer)) => Value::Float(float_of(integer)),
+            (Shape::Number, DeValue::Float(float)) => {
+                // What the parser takes for a number, Rust reads as one.
+                Value::Float(float.as_str().parse().unwrap_or(f64::NAN))
+            }
+            (Shape::Integer { low, high }, DeValue::Integer(integer)) => {
+                self.integer(integer, (*low, *high), shape, place)
+            }
+            (Shape::Text, DeValue::String(text)) => Value::String(text.to_string()),
+            (Shape::Choice(words), DeValue::String(text)) => self.choice(words, text, place),
+            (Shape::List { item, length }, DeValue::Array(items)) => {
+                self.list(shape, item, *length, items, place)
+            }
+            (Shape::Map(item), DeValue::Table(table)) => self.map(item, table, place),
+            (Shape::Table(fields), DeValue::Table(table)) => {
+                Value::Table(self.fields(fields, table, place, &Context::PLAIN))
+            }
+            (Shape::Tagged(variants), DeValue::Table(table)) => self.tagged(variants, table, place),
+            (Shape::AnyOf(shapes), DeValue::Table(table)) => {
+                self.any_table(shape, shapes, value, table, place)
+            }
+            (Shape::AnyOf(shapes), found) => {
+                match shapes.iter().find(|shape| accepts(shape, found)) {
+                    Some(shape) => self.value(shape, value, place),
+                    None => self.mismatch(shape, found, place),
+                }
+            }
+            (_, found) => self.mismatch(shape, found, place),
+        }
+    }
+
+    fn integer(
+        &mut self,
+        integer: &DeInteger<'_>,
+        (low, high): (i64, i64),
+        shape: &Shape,
+        place: &Place,
+    ) -> Value {
+        match i64::from_str_radix(integer.as_str(), integer.radix()) {
+            Ok(value) if (low..=high).contains(&value) => Value::Integer(value),
+            _ => {
+                let message = format!("found {integer}, expected {shape}");
+                self.report(ProblemKind::OutOfRange, place, message);
+                self.stand_in(shape, place)
+            }
+        }
+    }
+
+    fn choice(&mut self, words: &[String], text: &str, place: &Place) -> Value {
+        if words.iter().any(|word| word == text) {
+            return Value::String(text.to_owned());
+        }
+        self.unknown_word(words, text, place);
+        self.findings.mark_broken(&place.field);
+        Value::String(words.first().cloned().unwrap_or_default())
+    }
+
+    fn list(
+        &mut self,
+        shape: &Shape,
+        item: &Shape,
+        length: Option<usize>,
+        items: &DeArray<'_>,
+        place: &Place,
+    ) -> Value {
+        if length.is_some_and(|length| length != items.len()) {
+            let message = format!("found an array of {}, expected {shape}", items.len());
+            self.report(ProblemKind::WrongType, place, message);
+            return self.stand_in(shape, place);
+        }
+        let values = items.iter().enumerate().map(|(index, value)| {
+            let place = Place {
+                field: place.field.index(index),
+                bytes: value.span(),
+            };
+            self.value(item, value, &place)
+        });
+        Value::Array(values.collect())
+    }
+
+    fn map(&mut self, item: &Shape, table: &DeTable<'_>, place: &Place) -> Value {
+        let values = table.iter().map(|(key, value)| {
+            let place = Place {
+                field: place.field.key(key.get_ref()),
+                bytes: value.span(),
+            };
+            let value = self.value(item, value, &place);
+            (key.get_ref().to_string(), value)
+        });
+        Value::Table(values.collect())
+    }
+
+    fn tagged(
+        &mut self,
+        variants: &BTreeMap<String, Fields>,
+        table: &DeTable<'_>,
+        place: &Place,
+    ) -> Value {
+        let words: Vec<_> = variants.keys().cloned().collect();
+        let Some(tag) = table.get(TAG) else {
+            let message = format!("is missing; expected {}", quoted_choice(&words));
+            let at = Place {
+                field: place.field.key(TAG),
+                bytes: place.bytes.clone(),
+            };
+            self.report(ProblemKind::MissingField, &at, message);
+            return self.stand_in_of_tagged(variants, place);
+        };
+        let at = Place {
+            field: place.field.key(TAG),
+            bytes: tag.span(),
+        };
+        let DeValue::String(word) = tag.get_ref() else {
+            self.mismatch(&Shape::Choice(words), tag.get_ref(), &at);
+            return self.stand_in_of_tagged(variants, place);
+        };
+        let Some(fields) = variants.get(word.as_ref()) else {
+            self.unknown_word(&words, word, &at);
+            return self.stand_in_of_tagged(variants, place);
+        };
+        let elsewhere = |name: &str| {
+            let owners: Vec<_> = variants
+                .iter()
+                .filter(|(_, fields)| fields.0.contains_key(name))
+                .map(|(owner, _)| owner)
+                .collect();
+            (!owners.is_empty()).then(|| format!("belongs to type {}", quoted_choice(&owners)))
+        };
+        let context = Context {
+            is_tagged: true,
+            elsewhere: &elsewhere,
+        };
+        let mut values = self.fields(fields, table, place, &context);
+        values.insert(TAG.to_owned(), Value::String(word.to_string()));
+        Value::Table(values)
+    }
+
+    /// A table where one of several is possible: the one whose fields it has most of.
+    fn any_table(
+        &mut self,
+        shape: &Shape,
+        shapes: &[Shape],
+        value: &Spanned<DeValue<'_>>,
+        table: &DeTable<'_>,
+        place: &Place,
+    ) -> Value {
+        let candidates = shapes.iter().filter_map(|shape| match shape {
+            Shape::Table(fields) => Some((likeness(fields, table), fields)),
+            _ => None,
+        });
+        // The first of equals, so that the order of the format's types decides.
+        let best = candidates.reduce(|best, next| if next.0 > best.0 { next } else { best });
+        let Some((_, fields)) = best.filter(|((required, _), _)| *required > 0) else {
+            return self.mismatch(shape, value.get_ref(), place);
+        };
+        let elsewhere = |name: &str| {
+            let is_owner = |shape: &&Shape| match shape {
+                Shape::Table(other) => other.0.contains_key(name),
+                _ => false,
+            };
+            let owner = shapes.iter().find(is_owner)?;
+            Some(format!("belongs to another form, {owner}"))
+        };
+        let context = Context {
+            is_tagged: false,
+            elsewhere: &elsewhere,
+        };
+        Value::Table(self.fields(fields, table, place, &context))
+    }
+
+    /// The fields of a table; what is unknown is reported and left out, what is missing is reported and filled in.
+    fn fields(
+        &mut self,
+        fields: &Fields,
+        table: &DeTable<'_>,
+        place: &Place,
+        context: &Context<'_>,
+    ) -> toml::Table {
+        let mut meant: Vec<&str> = Vec::new();
+        let mut values = toml::Table::new();
+        for (key, value) in table {
+            let name = key.get_ref().as_ref();
+            let own = Place {
+                field: place.field.key(name),
+                bytes: value.span(),
+            };
+            match fields.0.get(name) {
+                Some(field) => {
+                    values.insert(name.to_owned(), self.value(&field.shape, value, &own));
+                }
+                None if context.is_tagged && name == TAG => {}
+                None => {
+                    let at = Place {
+                        bytes: key.span(),
+                        ..own
+                    };
+                    meant.extend(self.unknown_field(fields, table, &at, name, context));
+                }
+            }
+        }
+        for (name, field) in &fields.0 {
+            if field.is_required && !table.contains_key(name.as_str()) {
+                let value = self.missing_field(name, field, place, meant.contains(&name.as_str()));
+                values.insert(name.clone(), value);
+            }
+        }
+        values
+    }
+
+    /// Reports a field that does not exist, and returns the one that was probably meant.
+    fn unknown_field<'f>(
+        &mut self,
+        fields: &'f Fields,
+        table: &DeTable<'_>,
+        at: &Place,
+        name: &str,
+        context: &Context<'_>,
+    ) -> Option<&'f str> {
+        let free = fields.names().filter(|known| !table.contains_key(*known));
+        let suggestion = nearest(name, free);
+        let message = match ((context.elsewhere)(name), suggestion) {
+            (Some(owner), _) => format!("unknown field here: `{name}` {owner}"),
+            (None, Some(known)) => format!("unknown field; did you mean `{known}`?"),
+            (None, None) => "unknown field".to_owned(),
+        };
+        let known: Vec<_> = fields.names().map(|name| format!("`{name}`")).collect();
+        let problem = Problem::new(ProblemKind::UnknownField, &at.field, message)
+            .help(format!("the fields here are {}", known.join(", ")));
+        self.add(problem, at);
+        suggestion
+    }
+
+    /// Fills in a field that is not there, and says so unless a misspelt field already has.
+    fn missing_field(&mut self, name: &str, field: &Field, place: &Place, said: bool) -> Value {
+        let at = Place {
+            field: place.field.key(name),
+            bytes: place.bytes.clone(),
+        };
+        if !said {
+            let message = format!("is missing; expected {}", field.shape);
+            let mut problem = Problem::new(ProblemKind::MissingField, &at.field, message);
+            problem.help = field
+                .meaning
+                .as_ref()
+                .map(|text| format!("`{name}`: {text}"));
+            self.add(problem, &at);
+        }
+        self.stand_in(&field.shape, &at)
+    }
+
+    fn unknown_word(&mut self, words: &[String], word: &str, at: &Place) {
+        let known = words.iter().map(String::as_str);
+        let suggestion = nearest(word, known)
+            .map(|known| format!("; did you mean {known:?}?"))
+            .unwrap_or_default();
+        let message = format!(
+            "found {}, expected {}{suggestion}",
+            shortened(&format!("{word:?}")),
+            quoted_choice(words)
+        );
+        self.report(ProblemKind::UnknownName, at, message);
+    }
+
+    fn mismatch(&mut self, shape: &Shape, found: &DeValue<'_>, place: &Place) -> Value {
+        let source = self.text.get(place.bytes.clone()).unwrap_or_default();
+        let found = match found {
+            DeValue::Table(_) => "a table".to_owned(),
+            DeValue::Array(_) => "an array".to_owned(),
+            DeValue::Integer(_) => format!("the whole number {}", shortened(source)),
+            DeValue::Float(_) => format!("the number {}", shortened(source)),
+            DeValue::String(_) => format!("the string {}", shortened(source)),
+            DeValue::Boolean(_) => format!("the boolean {}", shortened(source)),
+            DeValue::Datetime(_) => format!("the date {}", shortened(source)),
+        };
+        let message = format!("found {found}, expected {shape}");
+        self.report(ProblemKind::WrongType, place, message);
+        self.stand_in(shape, place)
+    }
+
+    fn report(&mut self, kind: ProblemKind, place: &Place, message: String) {
+        self.add(Problem::new(kind, &place.field, message), place);
+    }
+
+    fn add(&mut self, problem: Problem, place: &Place) {
+        // Finding a line takes a walk through the file, so only for those that are kept.
+        if self.findings.problems.len() < Problems::MAX_SHOWN {
+            let location = Location::new(self.text, place.bytes.clone());
+            self.findings.add(problem.located(location));
+        } else {
+            self.findings.omitted += 1;
+        }
+    }
+
+    fn stand_in(&mut self, shape: &Shape, place: &Place) -> Value {
+        self.findings.mark_broken(&place.field);
+        any_value(shape)
+    }
+
+    fn stand_in_of_tagged(&mut self, variants: &BTreeMap<String, Fields>, place: &Place) -> Value {
+        self.findings.mark_broken(&place.field);
+        any_tagged(variants)
+    }
+}
+
+/// How many of a table's required fields are there, misspelt or not, and how many of all its fields.
+fn likeness(fields: &Fields, table: &DeTable<'_>) -> (usize, usize) {
+    let names = || table.iter().map(|(key, _)| key.get_ref().as_ref());
+    let required = fields
+        .required()
+        .filter(|field| table.contains_key(*field) || nearest(field, names()).is_some());
+    let known = names().filter(|name| fields.0.contains_key(*name));
+    (required.count(), known.count())
+}
+
+/// Whether a value that is not a table has the type that `shape` asks for.
+fn accepts(shape: &Shape, found: &DeValue<'_>) -> bool {
+    match found {
+        DeValue::Integer(_) => matches!(shape, Shape::Number | Shape::Integer { .. }),
+        DeValue::Float(_) => matches!(shape, Shape::Number),
+        DeValue::String(_) => matches!(shape, Shape::Text | Shape::Choice(_)),
+        DeValue::Array(_) => matches!(shape, Shape::List { .. }),
+        DeValue::Boolean(_) | DeValue::Datetime(_) | DeValue::Table(_) => false,
+    }
+}
+
+/// A whole number of any length as a float.
+fn float_of(integer: &DeInteger<'_>) -> f64 {
+    let (digits, sign) = match integer.as_str().strip_prefix('-') {
+        Some(digits) => (digits, -1.0),
+        None => (integer.as_str(), 1.0),
+    };
+    let radix = integer.radix();
+    if radix == 10 {
+        return digits.parse().map_or(f64::NAN, |value: f64| sign * value);
+    }
+    let append = |value: f64, digit: u32| value * f64::from(radix) + f64::from(digit);
+    let digits = digits.chars().filter_map(|c| c.to_digit(radix));
+    sign * digits.fold(0.0, append)
+}
+
+/// The smallest value of a shape, to stand in for one that is not there.
+fn any_value(shape: &Shape) -> Value {
+    match shape {
+        Shape::Number => Value::Float(1.0),
+        Shape::Integer { low, .. } => Value::Integer(*low),
+        Shape::Text => Value::String(String::new()),
+        Shape::Choice(words) => Value::String(words.first().cloned().unwrap_or_default()),
+        Shape::List { item, length } => {
+            Value::Array((0..length.unwrap_or(0)).map(|_| any_value(item)).collect())
+        }
+        Shape::Map(_) => Value::Table(toml::Table::new()),
+        Shape::Table(fields) => Value::Table(any_fields(fields)),
+        Shape::Tagged(variants) => any_tagged(variants),
+        Shape::AnyOf(shapes) => shapes.first().map_or(Value::Float(1.0), any_value),
+    }
+}
+
+fn any_fields(fields: &Fields) -> toml::Table {
+    let required = fields.0.iter().filter(|(_, field)| field.is_required);
+    required
+        .map(|(name, field)| (name.clone(), any_value(&field.shape)))
+        .collect()
+}
+
+fn any_tagged(variants: &BTreeMap<String, Fields>) -> Value {
+    let mut values = toml::Table::new();
+    if let Some((word, fields)) = variants.iter().next() {
+        values = any_fields(fields);
+        values.insert(TAG.to_owned(), Value::String(word.clone()));
+    }
+    Value::Table(values)
+}
+
+/// A piece of source that fits into a message.
+fn shortened(source: &str) -> String {
+    const MOST: usize = 40;
+    let line = source.lines().next().unwrap_or_default();
+    if line.chars().count() > MOST || line.len() < source.len() {
+        format!("{}…", line.chars().take(MOST).collect::<String>())
+    } else {
+        line.to_owned()
+    }
+}

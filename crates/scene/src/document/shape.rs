@@ -1,0 +1,263 @@
+//! What a value in a scene file may look like.
+
+use serde_json::Value as Json;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::LazyLock;
+
+/// What a value may look like: the part of JSON Schema that the format needs, in a form that is easy to walk.
+#[derive(Debug, PartialEq)]
+pub(crate) enum Shape {
+    Number,
+    Integer {
+        low: i64,
+        high: i64,
+    },
+    Text,
+    /// One of these words.
+    Choice(Vec<String>),
+    List {
+        item: Box<Shape>,
+        length: Option<usize>,
+    },
+    /// A table with keys of the user's choice.
+    Map(Box<Shape>),
+    Table(Fields),
+    /// A table whose field `type` says which fields the others are.
+    Tagged(BTreeMap<String, Fields>),
+    /// Any of several, told apart by their type or by their fields. Never nested.
+    AnyOf(Vec<Shape>),
+}
+
+/// The fields of a table.
+#[derive(Debug, Default, PartialEq)]
+pub(crate) struct Fields(pub(crate) BTreeMap<String, Field>);
+
+/// A field of a table.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Field {
+    pub(crate) shape: Shape,
+    pub(crate) is_required: bool,
+    /// What it means, for advice.
+    pub(crate) meaning: Option<String>,
+}
+
+/// The field that tells the kind of a [`Shape::Tagged`].
+pub(crate) const TAG: &str = "type";
+
+/// The shape of a whole scene file.
+pub(crate) static SCENE: LazyLock<Shape> = LazyLock::new(|| {
+    let root = crate::schema();
+    Compiler { root: &root }.shape(&root)
+});
+
+impl Fields {
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.keys().map(String::as_str)
+    }
+
+    pub(crate) fn required(&self) -> impl Iterator<Item = &str> {
+        self.0
+            .iter()
+            .filter(|(_, field)| field.is_required)
+            .map(|(name, _)| name.as_str())
+    }
+}
+
+impl fmt::Display for Shape {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number => write!(f, "a number"),
+            Self::Integer { low, high } => write!(f, "a whole number from {low} to {high}"),
+            Self::Text => write!(f, "a string"),
+            Self::Choice(words) => write!(f, "{}", quoted_choice(words)),
+            Self::List { item, length } => {
+                write!(f, "an array of ")?;
+                if let Some(length) = length {
+                    write!(f, "{length} ")?;
+                }
+                match **item {
+                    Self::Number => write!(f, "numbers"),
+                    Self::Integer { .. } => write!(f, "whole numbers"),
+                    Self::Table(_) | Self::Tagged(_) => write!(f, "tables"),
+                    _ => write!(f, "values"),
+                }
+            }
+            Self::Map(_) => write!(f, "a table"),
+            Self::Tagged(_) => write!(f, "a table with `{TAG}`"),
+            Self::Table(fields) => {
+                let required: Vec<_> = fields.required().map(|name| format!("`{name}`")).collect();
+                match required.as_slice() {
+                    [] => write!(f, "a table"),
+                    names => write!(f, "a table with {}", names.join(" and ")),
+                }
+            }
+            Self::AnyOf(shapes) => {
+                for (position, shape) in shapes.iter().enumerate() {
+                    match position {
+                        0 => {}
+                        last if last + 1 == shapes.len() => write!(f, " or ")?,
+                        _ => write!(f, ", ")?,
+                    }
+                    write!(f, "{shape}")?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+/// `"a", "b" or "c"`.
+pub(crate) fn quoted_choice<S: AsRef<str>>(words: &[S]) -> String {
+    let quoted: Vec<_> = words.iter().map(|w| format!("{:?}", w.as_ref())).collect();
+    match quoted.as_slice() {
+        [] => "nothing".to_owned(),
+        [only] => only.clone(),
+        [start @ .., last] => format!("{} or {last}", start.join(", ")),
+    }
+}
+
+/// Reads the schema of our own types. A form that it does not know is a mistake in this crate, which the first
+/// test that reads a scene shows; so it panics.
+struct Compiler<'a> {
+    root: &'a Json,
+}
+
+impl Compiler<'_> {
+    fn shape(&self, schema: &Json) -> Shape {
+        if let Some(reference) = schema["$ref"].as_str() {
+            let pointer = reference.trim_start_matches('#');
+            return match self.root.pointer(pointer) {
+                Some(target) => self.shape(target),
+                None => panic!("the schema has no {reference}"),
+            };
+        }
+        if let Some([only]) = schema["allOf"].as_array().map(Vec::as_slice) {
+            return self.shape(only);
+        }
+        if let Some(choices) = schema["oneOf"].as_array() {
+            return self.one_of(choices);
+        }
+        if let Some(choices) = schema["anyOf"].as_array() {
+            return self.any_of(choices);
+        }
+        self.plain(schema)
+    }
+
+    fn plain(&self, schema: &Json) -> Shape {
+        match schema["type"].as_str() {
+            Some("number") => Shape::Number,
+            Some("integer") => Shape::Integer {
+                low: schema["minimum"].as_f64().map_or(0, |low| low as i64),
+                high: schema["maximum"]
+                    .as_f64()
+                    .map_or(i64::from(u32::MAX), |high| high as i64),
+            },
+            Some("string") => match schema["enum"].as_array() {
+                Some(words) => Shape::Choice(words.iter().map(word).collect()),
+                None => Shape::Text,
+            },
+            Some("array") => Shape::List {
+                item: Box::new(self.shape(&schema["items"])),
+                length: schema["minItems"].as_u64().map(|length| length as usize),
+            },
+            Some("object") => match &schema["additionalProperties"] {
+                item @ Json::Object(_) => Shape::Map(Box::new(self.shape(item))),
+                _ => Shape::Table(self.fields(schema)),
+            },
+            _ => panic!("a schema of a form that the reader does not know: {schema}"),
+        }
+    }
+
+    fn one_of(&self, choices: &[Json]) -> Shape {
+        if choices.iter().all(|choice| choice["const"].is_string()) {
+            return Shape::Choice(
+                choices
+                    .iter()
+                    .map(|choice| word(&choice["const"]))
+                    .collect(),
+            );
+        }
+        let variant = |choice: &Json| {
+            let mut fields = self.fields(choice);
+            fields.0.remove(TAG);
+            (word(&choice["properties"][TAG]["const"]), fields)
+        };
+        Shape::Tagged(choices.iter().map(variant).collect())
+    }
+
+    fn any_of(&self, choices: &[Json]) -> Shape {
+        let mut shapes = Vec::new();
+        for choice in choices {
+            match self.shape(choice) {
+                Shape::AnyOf(inner) => shapes.extend(inner),
+                shape => shapes.push(shape),
+            }
+        }
+        Shape::AnyOf(shapes)
+    }
+
+    fn fields(&self, schema: &Json) -> Fields {
+        let required = schema["required"].as_array();
+        let is_required = |name: &str| required.is_some_and(|list| list.iter().any(|n| n == name));
+        let properties = schema["properties"].as_object();
+        Fields(
+            properties
+                .into_iter()
+                .flatten()
+                .map(|(name, schema)| {
+                    let field = Field {
+                        shape: self.shape_of_property(schema),
+                        is_required: is_required(name),
+                        meaning: schema["description"].as_str().map(str::to_owned),
+                    };
+                    (name.clone(), field)
+                })
+                .collect(),
+        )
+    }
+
+    /// The tag's own schema is a constant, which is looked at elsewhere.
+    fn shape_of_property(&self, schema: &Json) -> Shape {
+        if schema["const"].is_string() {
+            Shape::Choice(vec![word(&schema["const"])])
+        } else {
+            self.shape(schema)
+        }
+    }
+}
+
+fn word(schema: &Json) -> String {
+    schema.as_str().unwrap_or_default().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_schema_is_understood() {
+        let Shape::Table(scene) = &*SCENE else {
+            panic!("a scene is a table, not {}", *SCENE);
+        };
+        assert_eq!(scene.required().collect::<Vec<_>>(), ["camera"]);
+        let Shape::Tagged(cameras) = &scene.0["camera"].shape else {
+            panic!("a camera has a type");
+        };
+        assert_eq!(
+            cameras["perspective"].required().collect::<Vec<_>>(),
+            ["fov_deg", "look_at", "position"]
+        );
+        let Shape::Table(render) = &scene.0["render"].shape else {
+            panic!("render is a table");
+        };
+        assert_eq!(
+            render.0["samples"].shape,
+            Shape::Integer {
+                low: 1,
+                high: 1 << 24
+            }
+        );
+        assert_eq!(render.required().count(), 0);
+    }
+}
