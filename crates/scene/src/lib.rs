@@ -4,17 +4,42 @@
 //! [`description`] (the types as written in a file, or filled in by a program), and every number
 //! in it is finite and within its domain, every index within its list.
 //!
+//! ```text
+//! scenes/soap_bubble.toml
+//!   -> SceneFile::read      TOML, compared with the schema        what does not fit is kept for later
+//!   -> SceneFile.description    changed by the command line
+//!   -> SceneFile::validate  numbers, names and tables checked     Problems: all of them, each with its line
+//!   -> Scene
+//! ```
+//!
+//! A program that fills in a [`Description`](description::Description) itself goes straight to [`Scene::new`].
+//!
 //! Space: right-handed, lengths in scene units, +Y up by custom. Angles are radians here and
 //! degrees in files. Wavelengths and film thicknesses are nanometres.
 
 mod camera;
+pub mod description;
+mod document;
+mod field_path;
+pub mod file;
+pub mod limits;
 mod material;
 mod object;
+mod problem;
+mod rounding;
+mod schema;
 mod settings;
+mod suggestion;
+mod text_file;
+mod validate;
 mod validated;
 
 pub use camera::{Camera, Projection};
+pub use field_path::{FieldPath, Step};
+pub use file::SceneFile;
 pub use material::{Emission, Material, Pattern, Thickness};
 pub use object::{Object, Shape};
+pub use problem::{Location, Problem, ProblemKind, Problems};
+pub use schema::schema;
 pub use settings::{RenderSettings, WavelengthSampling};
 pub use validated::{Environment, MaterialId, Scene, SpectrumId};

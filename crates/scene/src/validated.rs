@@ -1,7 +1,10 @@
 //! The validated scene.
 
-use crate::{Camera, Emission, Material, Object, RenderSettings};
+use crate::description::Description;
+use crate::rounding::RoundToF32;
+use crate::{Camera, Emission, Material, Object, Problems, RenderSettings, Shape, validate};
 use spectra::BandTable;
+use std::path::Path;
 
 /// Index of a spectrum in [`Scene::spectra`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -57,6 +60,15 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// The scene that `description` describes. Tables in files are looked for from `directory`.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the description. For one that comes from a file,
+    /// [`SceneFile::validate`](crate::SceneFile::validate) also knows the lines.
+    pub fn new(description: &Description, directory: &Path) -> Result<Self, Problems> {
+        validate::scene(description, directory).map_err(Problems::of_program)
+    }
+
     /// How it is to be rendered.
     pub fn settings(&self) -> &RenderSettings {
         &self.settings
@@ -99,7 +111,19 @@ impl Scene {
 
     /// Indices of the objects that light can be sent from: emitting spheres and rectangles.
     pub fn lights(&self) -> Vec<usize> {
-        todo!("emitters with a scale and a spectrum above 0, except infinite planes")
+        let is_light = |object: &Object| {
+            let is_bounded = !matches!(object.shape, Shape::Plane { .. });
+            is_bounded
+                && match self.material(object.material) {
+                    Material::Emitter { emission, .. } => self.shines(*emission),
+                    _ => false,
+                }
+        };
+        let objects = self.objects.iter().enumerate();
+        objects
+            .filter(|(_, object)| is_light(object))
+            .map(|(index, _)| index)
+            .collect()
     }
 
     /// What surrounds the objects.
@@ -108,8 +132,15 @@ impl Scene {
     }
 
     /// The same scene with every number rounded to the nearest `f32`, as a GPU receives it.
+    ///
+    /// Axes are then orthonormal to within that rounding, and a polar film that thins out to nothing at its far
+    /// pole may come to a rounding below 0 there.
     #[must_use]
     pub fn rounded_to_f32(&self) -> Self {
-        todo!()
+        self.rounded()
+    }
+
+    fn shines(&self, emission: Emission) -> bool {
+        emission.scale > 0.0 && self.spectrum(emission.spectrum).extent().1 > 0.0
     }
 }

@@ -1,0 +1,231 @@
+//! A scene as a GPU receives it: every number rounded to the nearest `f32`.
+
+use crate::{
+    Camera, Emission, Environment, Material, Object, Pattern, Projection, RenderSettings, Scene,
+    Shape, Thickness,
+};
+use glam::DVec3;
+
+/// Rounds what can be rounded and keeps the rest.
+pub(crate) trait RoundToF32 {
+    fn rounded(&self) -> Self;
+}
+
+impl RoundToF32 for f64 {
+    fn rounded(&self) -> Self {
+        f64::from(*self as f32)
+    }
+}
+
+impl RoundToF32 for DVec3 {
+    fn rounded(&self) -> Self {
+        self.as_vec3().as_dvec3()
+    }
+}
+
+impl<T: RoundToF32> RoundToF32 for Vec<T> {
+    fn rounded(&self) -> Self {
+        self.iter().map(T::rounded).collect()
+    }
+}
+
+impl RoundToF32 for spectra::BandTable {
+    fn rounded(&self) -> Self {
+        self.map(|value| value.rounded())
+    }
+}
+
+impl RoundToF32 for Scene {
+    fn rounded(&self) -> Self {
+        Self {
+            settings: self.settings.rounded(),
+            camera: self.camera.rounded(),
+            spectra: self.spectra.rounded(),
+            observer: self.observer.each_ref().map(RoundToF32::rounded),
+            materials: self.materials.rounded(),
+            objects: self.objects.rounded(),
+            environment: self.environment.rounded(),
+        }
+    }
+}
+
+impl RoundToF32 for RenderSettings {
+    fn rounded(&self) -> Self {
+        // The ends of the bands are `f32` numbers already, by validation.
+        Self {
+            exposure_ev: self.exposure_ev.rounded(),
+            ..self.clone()
+        }
+    }
+}
+
+impl RoundToF32 for Camera {
+    fn rounded(&self) -> Self {
+        Self {
+            origin: self.origin.rounded(),
+            right: self.right.rounded(),
+            up: self.up.rounded(),
+            back: self.back.rounded(),
+            projection: self.projection.rounded(),
+        }
+    }
+}
+
+impl RoundToF32 for Projection {
+    fn rounded(&self) -> Self {
+        match self {
+            Self::Perspective { half_height } => Self::Perspective {
+                half_height: half_height.rounded(),
+            },
+            Self::Orthographic { half_height } => Self::Orthographic {
+                half_height: half_height.rounded(),
+            },
+        }
+    }
+}
+
+impl RoundToF32 for Material {
+    fn rounded(&self) -> Self {
+        match self {
+            Self::Diffuse { reflectance } => Self::Diffuse {
+                reflectance: reflectance.rounded(),
+            },
+            Self::Conductor { n, k, roughness } => Self::Conductor {
+                n: *n,
+                k: *k,
+                roughness: roughness.rounded(),
+            },
+            Self::Film {
+                n,
+                k,
+                transparent,
+                thickness,
+            } => Self::Film {
+                n: *n,
+                k: *k,
+                transparent: *transparent,
+                thickness: thickness.rounded(),
+            },
+            Self::Emitter {
+                emission,
+                reflectance,
+            } => Self::Emitter {
+                emission: emission.rounded(),
+                reflectance: *reflectance,
+            },
+        }
+    }
+}
+
+impl RoundToF32 for Emission {
+    fn rounded(&self) -> Self {
+        Self {
+            spectrum: self.spectrum,
+            scale: self.scale.rounded(),
+        }
+    }
+}
+
+impl RoundToF32 for Pattern {
+    fn rounded(&self) -> Self {
+        match self {
+            Self::Uniform(spectrum) => Self::Uniform(*spectrum),
+            Self::Checker { even, odd, size } => Self::Checker {
+                even: *even,
+                odd: *odd,
+                size: size.rounded(),
+            },
+        }
+    }
+}
+
+impl RoundToF32 for Thickness {
+    fn rounded(&self) -> Self {
+        match self {
+            Self::Constant { nm } => Self::Constant { nm: nm.rounded() },
+            Self::Polar {
+                axis,
+                pole_nm,
+                equator_nm,
+            } => Self::Polar {
+                axis: axis.rounded(),
+                pole_nm: pole_nm.rounded(),
+                equator_nm: equator_nm.rounded(),
+            },
+            Self::Linear {
+                start,
+                end,
+                start_nm,
+                end_nm,
+            } => Self::Linear {
+                start: start.rounded(),
+                end: end.rounded(),
+                start_nm: start_nm.rounded(),
+                end_nm: end_nm.rounded(),
+            },
+        }
+    }
+}
+
+impl RoundToF32 for Object {
+    fn rounded(&self) -> Self {
+        Self {
+            shape: self.shape.rounded(),
+            material: self.material,
+        }
+    }
+}
+
+impl RoundToF32 for Shape {
+    fn rounded(&self) -> Self {
+        match self {
+            Self::Sphere { center, radius } => Self::Sphere {
+                center: center.rounded(),
+                radius: radius.rounded(),
+            },
+            Self::Plane {
+                point,
+                normal,
+                tangent,
+                bitangent,
+            } => Self::Plane {
+                point: point.rounded(),
+                normal: normal.rounded(),
+                tangent: tangent.rounded(),
+                bitangent: bitangent.rounded(),
+            },
+            Self::Rectangle {
+                center,
+                normal,
+                tangent,
+                bitangent,
+                half_width,
+                half_height,
+            } => Self::Rectangle {
+                center: center.rounded(),
+                normal: normal.rounded(),
+                tangent: tangent.rounded(),
+                bitangent: bitangent.rounded(),
+                half_width: half_width.rounded(),
+                half_height: half_height.rounded(),
+            },
+        }
+    }
+}
+
+impl RoundToF32 for Environment {
+    fn rounded(&self) -> Self {
+        match self {
+            Self::Constant(emission) => Self::Constant(emission.rounded()),
+            Self::Gradient {
+                zenith,
+                horizon,
+                ground,
+            } => Self::Gradient {
+                zenith: zenith.rounded(),
+                horizon: horizon.rounded(),
+                ground: ground.rounded(),
+            },
+        }
+    }
+}

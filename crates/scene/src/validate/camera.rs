@@ -1,0 +1,65 @@
+//! The camera: from `[camera]` to its axes.
+
+use super::checks::Checks;
+use crate::limits;
+use crate::{Camera, FieldPath, Projection, description};
+
+/// Checks `[camera]`.
+pub(crate) fn check(checks: &mut Checks, camera: &description::Camera) -> Option<Camera> {
+    let top = FieldPath::root().key("camera");
+    let (position, look_at, up) = match camera {
+        description::Camera::Perspective {
+            position,
+            look_at,
+            up,
+            ..
+        }
+        | description::Camera::Orthographic {
+            position,
+            look_at,
+            up,
+            ..
+        } => (*position, *look_at, *up),
+    };
+    let projection = projection(checks, &top, camera);
+    let (position_field, look_at_field) = (top.key("position"), top.key("look_at"));
+    let origin = checks.point(&position_field, position);
+    let target = checks.point(&look_at_field, look_at);
+    let up = checks.direction(&top.key("up"), up);
+    let (origin, target) = (origin?, target?);
+    let forward = checks.distance((&look_at_field, target), (&position_field, origin))?;
+    let back = -forward.normalize();
+    let up = checks.across(
+        (&top.key("up"), up?),
+        (-back, "the direction of view"),
+        &[position_field, look_at_field],
+    )?;
+    Some(Camera {
+        origin,
+        right: up.cross(back),
+        up,
+        back,
+        projection: projection?,
+    })
+}
+
+fn projection(
+    checks: &mut Checks,
+    top: &FieldPath,
+    camera: &description::Camera,
+) -> Option<Projection> {
+    match *camera {
+        description::Camera::Perspective { fov_deg, .. } => {
+            let fov = checks.number(&top.key("fov_deg"), fov_deg, &limits::FOV_DEG)?;
+            Some(Projection::Perspective {
+                half_height: (fov.to_radians() / 2.0).tan(),
+            })
+        }
+        description::Camera::Orthographic { height, .. } => {
+            let height = checks.number(&top.key("height"), height, &limits::LENGTH)?;
+            Some(Projection::Orthographic {
+                half_height: height / 2.0,
+            })
+        }
+    }
+}

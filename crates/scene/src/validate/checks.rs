@@ -1,0 +1,137 @@
+//! The checks that many fields share, and the list of what they found.
+
+use crate::FieldPath;
+use crate::limits::{self, Range};
+use crate::problem::{Problem, ProblemKind};
+use crate::suggestion::nearest;
+use glam::DVec3;
+
+/// Collects problems. A check returns the value when it is sound.
+#[derive(Debug, Default)]
+pub(crate) struct Checks {
+    pub(crate) problems: Vec<Problem>,
+}
+
+impl Checks {
+    pub(crate) fn report(&mut self, problem: Problem) {
+        self.problems.push(problem);
+    }
+
+    /// A number within `range`.
+    pub(crate) fn number(&mut self, field: &FieldPath, value: f64, range: &Range) -> Option<f64> {
+        if range.contains(value) {
+            // −0 and 0 are the same number, and would be two entries of a list without duplicates.
+            return Some(value + 0.0);
+        }
+        let message = format!("found {value}; it must be from {range}");
+        self.report(Problem::new(ProblemKind::OutOfRange, field, message));
+        None
+    }
+
+    /// A point whose coordinates are in range.
+    pub(crate) fn point(&mut self, field: &FieldPath, point: [f64; 3]) -> Option<DVec3> {
+        let mut is_sound = true;
+        for (index, &value) in point.iter().enumerate() {
+            let coordinate = self.number(&field.index(index), value, &limits::COORDINATE);
+            is_sound &= coordinate.is_some();
+        }
+        is_sound.then_some(DVec3::from_array(point))
+    }
+
+    /// The unit vector along a direction of any length but 0.
+    pub(crate) fn direction(&mut self, field: &FieldPath, direction: [f64; 3]) -> Option<DVec3> {
+        let vector = self.point(field, direction)?;
+        if vector.length() < limits::MIN_DISTANCE {
+            let message = format!(
+                "found {}, which has no direction; its length must be at least {}",
+                shown(vector),
+                limits::MIN_DISTANCE
+            );
+            self.report(Problem::new(ProblemKind::OutOfRange, field, message));
+            return None;
+        }
+        Some(vector.normalize())
+    }
+
+    /// The vector from one point to another that must lie elsewhere; the problem is told of `field`.
+    ///
+    /// Elsewhere means: so far that the points still differ when they are rounded to `f32`.
+    pub(crate) fn distance(
+        &mut self,
+        (field, to): (&FieldPath, DVec3),
+        (other, from): (&FieldPath, DVec3),
+    ) -> Option<DVec3> {
+        let largest = from.abs().max_element().max(to.abs().max_element());
+        let least = limits::MIN_DISTANCE * largest.max(1.0);
+        let vector = to - from;
+        if vector.length() >= least {
+            return Some(vector);
+        }
+        let message = format!(
+            "found {}, which is not far enough from `{other}` {}; they must be at least {least} apart",
+            shown(to),
+            shown(from),
+        );
+        let problem = Problem::new(ProblemKind::Inconsistent, field, message);
+        self.report(problem.involving(other.clone()));
+        None
+    }
+
+    /// The part of the unit vector `up` that is at right angles to the unit vector `axis`, normalised.
+    pub(crate) fn across(
+        &mut self,
+        (field, up): (&FieldPath, DVec3),
+        (axis, what): (DVec3, &str),
+        involved: &[FieldPath],
+    ) -> Option<DVec3> {
+        let across = up - axis * up.dot(axis);
+        if across.length() >= limits::MIN_SINE {
+            return Some(across.normalize());
+        }
+        let message = format!(
+            "found a direction parallel to {what} {}; it must point elsewhere",
+            shown(axis)
+        );
+        let problem = Problem::new(ProblemKind::Inconsistent, field, message);
+        self.report(involved.iter().cloned().fold(problem, Problem::involving));
+        None
+    }
+
+    /// A name that nothing has.
+    pub(crate) fn unknown_name(
+        &mut self,
+        field: &FieldPath,
+        (what, name): (&str, &str),
+        known: &[&str],
+    ) {
+        let short: String = name.chars().take(64).collect();
+        let suggestion = nearest(name, known.iter().copied())
+            .map(|known| format!("; did you mean {known:?}?"))
+            .unwrap_or_default();
+        let message = format!("there is no {what} {short:?}{suggestion}");
+        let mut problem = Problem::new(ProblemKind::UnknownName, field, message);
+        problem.help = Some(list_of_names(what, known));
+        self.report(problem);
+    }
+}
+
+fn list_of_names(what: &str, known: &[&str]) -> String {
+    const MOST: usize = 30;
+    let names: Vec<_> = known
+        .iter()
+        .take(MOST)
+        .map(|name| format!("{name:?}"))
+        .collect();
+    match known.len() {
+        0 => format!("no {what} is known at all"),
+        count if count > MOST => {
+            format!("known are {} and {} more", names.join(", "), count - MOST)
+        }
+        _ => format!("known are {}", names.join(", ")),
+    }
+}
+
+/// A vector as TOML writes it.
+fn shown(vector: DVec3) -> String {
+    format!("[{}, {}, {}]", vector.x, vector.y, vector.z)
+}

@@ -1,0 +1,62 @@
+//! From a description to a scene: every number, name and table is looked at, and all that is wrong is told at once.
+
+mod camera;
+mod checks;
+mod environment;
+mod material;
+mod object;
+mod points;
+mod settings;
+mod spectrum_list;
+mod table_file;
+
+use crate::description::Description;
+use crate::limits::{MAX_MATERIALS, MAX_OBJECTS};
+use crate::problem::{Problem, ProblemKind};
+use crate::{FieldPath, Scene};
+use checks::Checks;
+use spectrum_list::SpectrumList;
+use std::path::Path;
+
+/// The scene that `description` describes; tables are looked for from `directory`.
+pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene, Vec<Problem>> {
+    let mut checks = Checks::default();
+    check_counts(&mut checks, description);
+    let settings = settings::check(&mut checks, &description.render);
+    let camera = camera::check(&mut checks, &description.camera);
+    let mut spectra = SpectrumList::new(settings.grid, directory);
+    let materials = material::check_all(&mut checks, &mut spectra, &description.materials);
+    let objects = object::check_all(&mut checks, &description.materials, &description.objects);
+    let environment =
+        environment::check(&mut checks, &mut spectra, description.environment.as_ref());
+    let observer = spectra.observer(&mut checks);
+    let assemble = || {
+        Some(Scene {
+            settings: settings.settings?,
+            camera: camera?,
+            spectra: spectra.into_tables(),
+            observer: observer?,
+            materials: materials?,
+            objects: objects?,
+            environment: environment?,
+        })
+    };
+    match assemble() {
+        Some(scene) if checks.problems.is_empty() => Ok(scene),
+        _ => Err(checks.problems),
+    }
+}
+
+fn check_counts(checks: &mut Checks, description: &Description) {
+    let counts = [
+        ("objects", description.objects.len(), MAX_OBJECTS),
+        ("materials", description.materials.len(), MAX_MATERIALS),
+    ];
+    for (what, count, most) in counts {
+        if count > most {
+            let message = format!("found {count} {what}; at most {most} are possible");
+            let field = FieldPath::root().key(what);
+            checks.report(Problem::new(ProblemKind::TooLarge, &field, message));
+        }
+    }
+}

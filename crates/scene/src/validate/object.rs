@@ -1,0 +1,115 @@
+//! Objects: materials by number, axes orthonormal.
+
+use super::checks::Checks;
+use crate::description::{self, Material};
+use crate::limits;
+use crate::{FieldPath, MaterialId, Object, Shape};
+use glam::DVec3;
+use std::collections::BTreeMap;
+
+/// Checks `[[objects]]`. Materials are numbered in the order of their names.
+pub(crate) fn check_all(
+    checks: &mut Checks,
+    materials: &BTreeMap<String, Material>,
+    objects: &[description::Object],
+) -> Option<Vec<Object>> {
+    let names: Vec<&str> = materials.keys().map(String::as_str).collect();
+    let top = FieldPath::root().key("objects");
+    let checked: Vec<_> = objects
+        .iter()
+        .enumerate()
+        .map(|(index, object)| {
+            let field = top.index(index);
+            let material = material(checks, &field, &names, object.material());
+            let shape = shape(checks, &field, object);
+            Some(Object {
+                shape: shape?,
+                material: material?,
+            })
+        })
+        .collect();
+    checked.into_iter().collect()
+}
+
+fn material(
+    checks: &mut Checks,
+    field: &FieldPath,
+    names: &[&str],
+    name: &str,
+) -> Option<MaterialId> {
+    if let Ok(position) = names.binary_search(&name) {
+        return Some(MaterialId(position as u32));
+    }
+    checks.unknown_name(&field.key("material"), ("material", name), names);
+    None
+}
+
+fn shape(checks: &mut Checks, field: &FieldPath, object: &description::Object) -> Option<Shape> {
+    match object {
+        description::Object::Sphere { center, radius, .. } => {
+            let center = checks.point(&field.key("center"), *center);
+            let radius = checks.number(&field.key("radius"), *radius, &limits::LENGTH);
+            Some(Shape::Sphere {
+                center: center?,
+                radius: radius?,
+            })
+        }
+        description::Object::Plane { point, normal, .. } => {
+            let point = checks.point(&field.key("point"), *point);
+            let normal = checks.direction(&field.key("normal"), *normal)?;
+            let bitangent = usual_up(normal);
+            Some(Shape::Plane {
+                point: point?,
+                normal,
+                tangent: bitangent.cross(normal),
+                bitangent,
+            })
+        }
+        description::Object::Rectangle {
+            center,
+            normal,
+            size,
+            up,
+            ..
+        } => rectangle(checks, field, (*center, *normal), *size, *up),
+    }
+}
+
+fn rectangle(
+    checks: &mut Checks,
+    field: &FieldPath,
+    (center, normal): ([f64; 3], [f64; 3]),
+    size: [f64; 2],
+    up: Option<[f64; 3]>,
+) -> Option<Shape> {
+    let center = checks.point(&field.key("center"), center);
+    let width = checks.number(&field.key("size").index(0), size[0], &limits::LENGTH);
+    let height = checks.number(&field.key("size").index(1), size[1], &limits::LENGTH);
+    let normal = checks.direction(&field.key("normal"), normal);
+    let up = up.map(|up| checks.direction(&field.key("up"), up));
+    let normal = normal?;
+    let bitangent = match up {
+        None => usual_up(normal),
+        Some(up) => checks.across(
+            (&field.key("up"), up?),
+            (normal, "the normal"),
+            &[field.key("normal")],
+        )?,
+    };
+    Some(Shape::Rectangle {
+        center: center?,
+        normal,
+        tangent: bitangent.cross(normal),
+        bitangent,
+        half_width: width? / 2.0,
+        half_height: height? / 2.0,
+    })
+}
+
+/// The second axis of a surface whose file names none: as near to +Y as it can be, or to −Z where the surface
+/// lies flat (the sine between normal and Y is below 1e-3). A floor of normal +Y so has the axes +X and −Z.
+fn usual_up(normal: DVec3) -> DVec3 {
+    let lies_flat = normal.x.hypot(normal.z) < 1e-3;
+    let up = if lies_flat { DVec3::NEG_Z } else { DVec3::Y };
+    (up - normal * up.dot(normal)).normalize()
+}

@@ -1,0 +1,130 @@
+//! Render settings: from `[render]` to [`RenderSettings`].
+
+use super::checks::Checks;
+use crate::description::{self, Render};
+use crate::limits::{self, Range};
+use crate::problem::{Problem, ProblemKind};
+use crate::{FieldPath, RenderSettings, WavelengthSampling};
+use spectra::{BandGrid, SpectralImage};
+
+/// What `[render]` gives.
+pub(crate) struct Checked {
+    /// `None` when something is wrong.
+    pub(crate) settings: Option<RenderSettings>,
+    /// The bands, when at least these are sound.
+    pub(crate) grid: Option<BandGrid>,
+}
+
+/// Checks `[render]`.
+pub(crate) fn check(checks: &mut Checks, render: &Render) -> Checked {
+    let top = FieldPath::root().key("render");
+    let grid = grid(checks, &top, render);
+    let size = size(checks, &top, render.size);
+    if let (Some(_), Some(grid)) = (size, grid) {
+        check_memory(checks, &top, render.size, grid.count());
+    }
+    let samples = whole(
+        checks,
+        &top.key("samples"),
+        render.samples,
+        limits::MAX_SAMPLES,
+    );
+    let most_segments = RenderSettings::MAX_PATH_SEGMENTS;
+    let segments = top.key("max_path_segments");
+    let max_path_segments = whole(checks, &segments, render.max_path_segments, most_segments);
+    let exposure = top.key("exposure_ev");
+    let exposure_ev = checks.number(&exposure, render.exposure_ev, &limits::EXPOSURE_EV);
+    let settings = || {
+        let [width, height] = size?;
+        Some(RenderSettings {
+            width,
+            height,
+            samples: samples?,
+            seed: render.seed,
+            bands: grid?,
+            sampling: sampling(render.sampling),
+            max_path_segments: max_path_segments?,
+            exposure_ev: exposure_ev?,
+        })
+    };
+    Checked {
+        settings: settings(),
+        grid,
+    }
+}
+
+fn sampling(written: description::WavelengthSampling) -> WavelengthSampling {
+    match written {
+        description::WavelengthSampling::Random => WavelengthSampling::Random,
+        description::WavelengthSampling::Centre => WavelengthSampling::Centre,
+    }
+}
+
+/// A whole number from 1 to `most`.
+fn whole(checks: &mut Checks, field: &FieldPath, value: u32, most: u32) -> Option<u32> {
+    let range = Range {
+        low: 1.0,
+        high: f64::from(most),
+        unit: "",
+    };
+    checks
+        .number(field, f64::from(value), &range)
+        .map(|_| value)
+}
+
+fn size(checks: &mut Checks, top: &FieldPath, size: [u32; 2]) -> Option<[u32; 2]> {
+    let field = top.key("size");
+    let width = whole(checks, &field.index(0), size[0], RenderSettings::MAX_SIDE);
+    let height = whole(checks, &field.index(1), size[1], RenderSettings::MAX_SIDE);
+    Some([width?, height?])
+}
+
+/// The ends are rounded to `f32` here: a grid that both renderers share to the last bit is worth 2e-5 nm.
+fn grid(checks: &mut Checks, top: &FieldPath, render: &Render) -> Option<BandGrid> {
+    let field = top.key("wavelengths_nm");
+    let [first, last] = render.wavelengths_nm;
+    let first_nm = checks.number(&field.index(0), first, &limits::BAND_NM);
+    let last_nm = checks.number(&field.index(1), last, &limits::BAND_NM);
+    let count = whole(checks, &top.key("bands"), render.bands, BandGrid::MAX_COUNT);
+    let (first_nm, last_nm) = (f64::from(first_nm? as f32), f64::from(last_nm? as f32));
+    if last_nm - first_nm < limits::MIN_BAND_RANGE_NM {
+        let message = format!(
+            "found {first} to {last} nm; the second must be at least {} nm above the first",
+            limits::MIN_BAND_RANGE_NM
+        );
+        checks.report(Problem::new(ProblemKind::Inconsistent, &field, message));
+        return None;
+    }
+    let grid = BandGrid::new(first_nm, last_nm, count?);
+    let refuse = |error| Problem::new(ProblemKind::OutOfRange, top, format!("{error}"));
+    grid.map_err(|error| checks.report(refuse(error))).ok()
+}
+
+fn check_memory(checks: &mut Checks, top: &FieldPath, size: [u32; 2], bands: u32) {
+    let [width, height] = size;
+    let bytes = SpectralImage::bytes(width, height, bands);
+    if bytes <= limits::MAX_IMAGE_BYTES {
+        return;
+    }
+    let gib = |bytes: u128| bytes as f64 / f64::from(1 << 30);
+    let message = format!(
+        "an image of {width} × {height} pixels with {bands} bands takes {:.1} GiB; at most {:.0} GiB are possible",
+        gib(bytes),
+        gib(limits::MAX_IMAGE_BYTES),
+    );
+    let bands_that_fit = (1..bands)
+        .rev()
+        .find(|&fewer| SpectralImage::bytes(width, height, fewer) <= limits::MAX_IMAGE_BYTES);
+    let shrink = (limits::MAX_IMAGE_BYTES as f64 / bytes as f64).sqrt();
+    let smaller = |side: u32| (f64::from(side) * shrink).max(1.0) as u32;
+    let fewer_bands = bands_that_fit
+        .map(|fewer| format!(", or {fewer} bands at this size"))
+        .unwrap_or_default();
+    let help = format!(
+        "{} × {} pixels would fit with {bands} bands{fewer_bands}",
+        smaller(width),
+        smaller(height)
+    );
+    let problem = Problem::new(ProblemKind::TooLarge, &top.key("size"), message).help(help);
+    checks.report(problem.involving(top.key("bands")));
+}

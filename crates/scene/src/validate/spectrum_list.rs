@@ -1,0 +1,360 @@
+//! Spectra: from names, tables and constants to band tables without duplicates.
+
+use super::checks::Checks;
+use super::points::{self, Column};
+use crate::description::{self, Extrapolate, Index, Reflectance};
+use crate::limits;
+use crate::problem::{Problem, ProblemKind};
+use crate::{Emission, FieldPath, SpectrumId};
+use spectra::{BandGrid, BandTable, Spectrum};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+/// The spectra of a scene, each one once.
+pub(crate) struct SpectrumList<'a> {
+    grid: Option<BandGrid>,
+    directory: &'a Path,
+    tables: Vec<BandTable>,
+    singles: HashMap<Vec<u64>, SpectrumId>,
+    pairs: HashMap<Vec<u64>, SpectrumId>,
+}
+
+/// What a spectrum is, for messages: the noun, and the range of its values.
+const REFLECTANCE: Column = Column::new("reflectance", "values", &limits::REFLECTANCE);
+const EMISSION: Column = Column::new("radiance", "values", &limits::EMISSION);
+const INDEX_N: Column = Column::new("n", "n", &limits::INDEX_N);
+const INDEX_K: Column = Column::new("k", "k", &limits::INDEX_K);
+
+impl<'a> SpectrumList<'a> {
+    /// An empty list over `grid`. Without a grid everything is still checked, but nothing comes of it.
+    pub(crate) fn new(grid: Option<BandGrid>, directory: &'a Path) -> Self {
+        Self {
+            grid,
+            directory,
+            tables: Vec::new(),
+            singles: HashMap::new(),
+            pairs: HashMap::new(),
+        }
+    }
+
+    /// All spectra, at the positions that their numbers say.
+    pub(crate) fn into_tables(self) -> Vec<BandTable> {
+        self.tables
+    }
+
+    /// Whether a spectrum is 0 everywhere.
+    pub(crate) fn is_black(&self, id: SpectrumId) -> bool {
+        self.tables[id.index()].extent() == (0.0, 0.0)
+    }
+
+    /// The CIE 1931 colour-matching functions on the grid.
+    pub(crate) fn observer(&self, checks: &mut Checks) -> Option<[BandTable; 3]> {
+        let field = FieldPath::root().key("render").key("wavelengths_nm");
+        let [x, y, z] = spectra::observer_1931().clone().map(|table| {
+            let curve = Spectrum::Table(table);
+            self.resampled(checks, &field, &curve, Advice::None)
+        });
+        Some([x?, y?, z?])
+    }
+
+    /// The number of a reflectance.
+    pub(crate) fn reflectance(
+        &mut self,
+        checks: &mut Checks,
+        field: &FieldPath,
+        written: &Reflectance,
+    ) -> Option<SpectrumId> {
+        let (spectrum, advice) = match written {
+            Reflectance::Constant(value) => {
+                let value = checks.number(field, *value, &limits::REFLECTANCE)?;
+                (Spectrum::Constant(value), Advice::None)
+            }
+            Reflectance::Name(name) => (
+                named_reflectance(checks, field, name, Extrapolate::Error)?,
+                Advice::Name(name),
+            ),
+            Reflectance::Named { name, extrapolate } => (
+                named_reflectance(checks, &field.key("name"), name, *extrapolate)?,
+                Advice::Add,
+            ),
+            Reflectance::Table {
+                nm,
+                values,
+                extrapolate,
+            } => {
+                let columns = [(REFLECTANCE, values.as_slice())];
+                let [spectrum] = points::inline(checks, field, nm, columns, *extrapolate)?;
+                (spectrum, Advice::Add)
+            }
+            Reflectance::File { csv, extrapolate } => {
+                let path = self.path(csv);
+                let [spectrum] = points::file(checks, field, &path, [REFLECTANCE], *extrapolate)?;
+                (spectrum, Advice::Add)
+            }
+        };
+        let table = self.resampled(checks, field, &spectrum, advice)?;
+        Some(self.single(&table, limits::REFLECTANCE))
+    }
+
+    /// The numbers of an index's n and k; that of k is one more than that of n.
+    pub(crate) fn index(
+        &mut self,
+        checks: &mut Checks,
+        field: &FieldPath,
+        written: &Index,
+    ) -> Option<(SpectrumId, SpectrumId)> {
+        let ([n, k], advice) = self.index_spectra(checks, field, written)?;
+        let n = self.resampled(checks, field, &n, advice)?;
+        let k = self.resampled(checks, field, &k, advice)?;
+        Some(self.pair(&n, &k))
+    }
+
+    fn index_spectra<'w>(
+        &self,
+        checks: &mut Checks,
+        field: &FieldPath,
+        written: &'w Index,
+    ) -> Option<([Spectrum; 2], Advice<'w>)> {
+        Some(match written {
+            Index::Real(n) => {
+                let n = checks.number(field, *n, &limits::INDEX_N)?;
+                ([n, 0.0].map(Spectrum::Constant), Advice::None)
+            }
+            Index::Complex([n, k]) => {
+                let n = checks.number(&field.index(0), *n, &limits::INDEX_N);
+                let k = checks.number(&field.index(1), *k, &limits::INDEX_K);
+                ([n?, k?].map(Spectrum::Constant), Advice::None)
+            }
+            Index::Name(name) => (
+                named_index(checks, field, name, Extrapolate::Error)?,
+                Advice::Name(name),
+            ),
+            Index::Named { name, extrapolate } => (
+                named_index(checks, &field.key("name"), name, *extrapolate)?,
+                Advice::Add,
+            ),
+            Index::Table {
+                nm,
+                n,
+                k,
+                extrapolate,
+            } => {
+                // Without k there are as many zeros as it takes for n alone to be judged.
+                let zeros = vec![0.0; nm.len()];
+                let k = k.as_deref().unwrap_or(&zeros);
+                let columns = [(INDEX_N, n.as_slice()), (INDEX_K, k)];
+                let spectra = points::inline(checks, field, nm, columns, *extrapolate)?;
+                (spectra, Advice::Add)
+            }
+            Index::File { csv, extrapolate } => {
+                let columns = [INDEX_N, INDEX_K];
+                let spectra = points::file(checks, field, &self.path(csv), columns, *extrapolate)?;
+                (spectra, Advice::Add)
+            }
+        })
+    }
+
+    /// An emission with the number of its spectrum.
+    pub(crate) fn emission(
+        &mut self,
+        checks: &mut Checks,
+        field: &FieldPath,
+        written: &description::Emission,
+    ) -> Option<Emission> {
+        let (spectrum, scale) = match written {
+            description::Emission::Constant { constant, scale } => {
+                let constant = checks.number(&field.key("constant"), *constant, &limits::EMISSION);
+                (constant.map(Spectrum::Constant), *scale)
+            }
+            description::Emission::Illuminant {
+                illuminant,
+                extrapolate,
+                scale,
+            } => {
+                let named = field.key("illuminant");
+                (
+                    named_illuminant(checks, &named, illuminant, *extrapolate),
+                    *scale,
+                )
+            }
+            description::Emission::Table {
+                nm,
+                values,
+                extrapolate,
+                scale,
+            } => {
+                let columns = [(EMISSION, values.as_slice())];
+                let spectrum = points::inline(checks, field, nm, columns, *extrapolate);
+                (spectrum.map(|[only]| only), *scale)
+            }
+            description::Emission::File {
+                csv,
+                extrapolate,
+                scale,
+            } => {
+                let path = self.path(csv);
+                let spectrum = points::file(checks, field, &path, [EMISSION], *extrapolate);
+                (spectrum.map(|[only]| only), *scale)
+            }
+        };
+        let scale = checks.number(&field.key("scale"), scale, &limits::EMISSION);
+        let table = self.resampled(checks, field, &spectrum?, Advice::Add)?;
+        let scale = scale?;
+        check_brightness(checks, field, table.extent().1, scale)?;
+        Some(Emission {
+            spectrum: self.single(&table, limits::EMISSION),
+            scale,
+        })
+    }
+
+    fn path(&self, csv: &Path) -> PathBuf {
+        self.directory.join(csv)
+    }
+
+    fn resampled(
+        &self,
+        checks: &mut Checks,
+        field: &FieldPath,
+        spectrum: &Spectrum,
+        advice: Advice<'_>,
+    ) -> Option<BandTable> {
+        let grid = self.grid?;
+        let error = match BandTable::new(&grid, spectrum) {
+            Ok(table) => return Some(table),
+            Err(error) => error,
+        };
+        let message = format!(
+            "the table covers {} to {} nm, but the bands cover {} to {} nm",
+            error.min_nm,
+            error.max_nm,
+            grid.min_nm(),
+            grid.max_nm()
+        );
+        let mut problem = Problem::new(ProblemKind::Inconsistent, field, message)
+            .involving(FieldPath::root().key("render").key("wavelengths_nm"));
+        problem.help = advice.text();
+        checks.report(problem);
+        None
+    }
+
+    fn single(&mut self, table: &BandTable, range: limits::Range) -> SpectrumId {
+        let table = kept_within(table, range);
+        let key = bits(&table);
+        let next = SpectrumId(self.tables.len() as u32);
+        let id = *self.singles.entry(key).or_insert(next);
+        if id == next {
+            self.tables.push(table);
+        }
+        id
+    }
+
+    fn pair(&mut self, n: &BandTable, k: &BandTable) -> (SpectrumId, SpectrumId) {
+        let n = kept_within(n, limits::INDEX_N);
+        let k = kept_within(k, limits::INDEX_K);
+        let mut key = bits(&n);
+        key.extend(bits(&k));
+        let next = SpectrumId(self.tables.len() as u32);
+        let id = *self.pairs.entry(key).or_insert(next);
+        if id == next {
+            self.tables.extend([n, k]);
+        }
+        (id, SpectrumId(id.0 + 1))
+    }
+}
+
+/// What to do about a table that is too short.
+#[derive(Clone, Copy)]
+enum Advice<'a> {
+    None,
+    /// The field `extrapolate` can be added to the table that is there.
+    Add,
+    /// The name must become a table first.
+    Name(&'a str),
+}
+
+impl Advice<'_> {
+    fn text(self) -> Option<String> {
+        let clamp = match self {
+            Self::None => return None,
+            Self::Add => "add `extrapolate = \"clamp\"`".to_owned(),
+            Self::Name(name) => format!("write {{ name = {name:?}, extrapolate = \"clamp\" }}"),
+        };
+        Some(format!(
+            "{clamp} to go on with its end values, or narrow `render.wavelengths_nm`"
+        ))
+    }
+}
+
+fn named_reflectance(
+    checks: &mut Checks,
+    field: &FieldPath,
+    name: &str,
+    extrapolate: Extrapolate,
+) -> Option<Spectrum> {
+    let Some(set) = spectra::reflectance(name) else {
+        checks.unknown_name(field, ("reflectance", name), &spectra::reflectance_names());
+        return None;
+    };
+    Some(extrapolated(set.data, extrapolate))
+}
+
+fn named_illuminant(
+    checks: &mut Checks,
+    field: &FieldPath,
+    name: &str,
+    extrapolate: Extrapolate,
+) -> Option<Spectrum> {
+    let Some(set) = spectra::illuminant(name) else {
+        checks.unknown_name(field, ("illuminant", name), &spectra::illuminant_names());
+        return None;
+    };
+    Some(extrapolated(set.data, extrapolate))
+}
+
+fn named_index(
+    checks: &mut Checks,
+    field: &FieldPath,
+    name: &str,
+    extrapolate: Extrapolate,
+) -> Option<[Spectrum; 2]> {
+    let Some(set) = spectra::optical_constants(name) else {
+        checks.unknown_name(
+            field,
+            ("material with a known index", name),
+            &spectra::material_names(),
+        );
+        return None;
+    };
+    Some([set.data.n, set.data.k].map(|spectrum| extrapolated(spectrum, extrapolate)))
+}
+
+fn extrapolated(spectrum: Spectrum, extrapolate: Extrapolate) -> Spectrum {
+    match (spectrum, extrapolate) {
+        (Spectrum::Table(table), Extrapolate::Clamp) => Spectrum::ClampedTable(table),
+        (spectrum, _) => spectrum,
+    }
+}
+
+fn check_brightness(checks: &mut Checks, field: &FieldPath, peak: f64, scale: f64) -> Option<()> {
+    if limits::EMISSION.contains(peak * scale) {
+        return Some(());
+    }
+    let message = format!(
+        "found {scale}, which makes the spectrum's peak of {peak} a radiance of {}; at most {} is possible",
+        peak * scale,
+        limits::EMISSION.high
+    );
+    let problem = Problem::new(ProblemKind::OutOfRange, &field.key("scale"), message);
+    checks.report(problem.involving(field.clone()));
+    None
+}
+
+/// Interpolation between two values in range may leave it by a rounding.
+fn kept_within(table: &BandTable, range: limits::Range) -> BandTable {
+    table.map(|value| value.clamp(range.low, range.high))
+}
+
+fn bits(table: &BandTable) -> Vec<u64> {
+    let rows = (0..=table.steps()).flat_map(|step| table.row(step));
+    rows.map(|value| value.to_bits()).collect()
+}
