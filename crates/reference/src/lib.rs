@@ -1,1 +1,25 @@
-//! todo
+//! The renderer on the CPU, in `f64`, written to be read.
+//!
+//! It computes what the GPU renderer computes, from the same random numbers, but by its own road: a path
+//! carries the whole spectrum with it from surface to surface, optics come from the crate `optics` (complex amplitudes,
+//! recursion), and no formula is shared with the shader. Comparing the two proves both.
+
+mod camera;
+mod intersect;
+mod light;
+mod microfacet;
+mod path;
+mod random;
+mod render;
+mod sampling;
+mod surface;
+
+pub use camera::{Ray, camera_ray};
+pub use intersect::{Hit, intersect_plane, intersect_sphere, nearest_hit};
+pub use light::{light_pdf, sample_light};
+pub use microfacet::{Microfacet, cook_torrance};
+pub use path::{PathSample, radiance};
+pub use random::{pcg4d, random4, unit_interval};
+pub use render::{Stopped, render};
+pub use sampling::{cone_height, frame_of, sample_cone, sample_cosine_hemisphere};
+pub use surface::{SurfacePoint, film_thickness, reflectance_spectrum, surface_point};

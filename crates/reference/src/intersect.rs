@@ -1,0 +1,98 @@
+//! Rays against analytic shapes.
+
+use crate::Ray;
+use glam::DVec3;
+use scene::{Scene, Shape};
+
+/// Distance to a sphere: the smaller positive root of |o + t d − c|² = r². A ray that starts on the
+/// sphere (`from_surface`) has one root at its start, which does not count; the other is −2 d·(o − c).
+pub fn intersect_sphere(ray: &Ray, center: DVec3, radius: f64, from_surface: bool) -> Option<f64> {
+    let from_center = ray.origin - center;
+    let b = ray.direction.dot(from_center);
+    if from_surface {
+        return Some(-2.0 * b).filter(|&t| t > 0.0);
+    }
+    let c = from_center.length_squared() - radius * radius;
+    let discriminant = b * b - c;
+    if discriminant < 0.0 {
+        return None;
+    }
+    let root = discriminant.sqrt();
+    [-b - root, -b + root].into_iter().find(|&t| t > 0.0)
+}
+
+/// Distance to a plane.
+pub fn intersect_plane(ray: &Ray, point: DVec3, normal: DVec3) -> Option<f64> {
+    let distance = (point - ray.origin).dot(normal) / ray.direction.dot(normal);
+    (distance.is_finite() && distance > 0.0).then_some(distance)
+}
+
+/// Where a ray meets the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Index of the object.
+    pub object: usize,
+    /// How far away.
+    pub distance: f64,
+}
+
+/// The nearest object along a ray, which may start on `from_object`.
+pub fn nearest_hit(scene: &Scene, ray: &Ray, from_object: Option<usize>) -> Option<Hit> {
+    let hits = (0..scene.objects().len()).filter_map(|object| {
+        let distance = distance_to(scene, ray, object, from_object == Some(object))?;
+        Some(Hit { object, distance })
+    });
+    // Of two at the same distance the first counts.
+    hits.reduce(|a, b| if b.distance < a.distance { b } else { a })
+}
+
+fn distance_to(scene: &Scene, ray: &Ray, object: usize, starts_here: bool) -> Option<f64> {
+    match scene.objects()[object].shape {
+        Shape::Sphere { center, radius } => intersect_sphere(ray, center, radius, starts_here),
+        Shape::Plane { .. } | Shape::Rectangle { .. } if starts_here => None,
+        Shape::Plane { point, normal, .. } => intersect_plane(ray, point, normal),
+        Shape::Rectangle {
+            center,
+            normal,
+            tangent,
+            bitangent,
+            half_width,
+            half_height,
+        } => intersect_plane(ray, center, normal).filter(|distance| {
+            let place = ray.origin + ray.direction * *distance - center;
+            place.dot(tangent).abs() <= half_width && place.dot(bitangent).abs() <= half_height
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const X: Ray = Ray {
+        origin: DVec3::ZERO,
+        direction: DVec3::X,
+    };
+
+    #[test]
+    fn a_sphere_is_met_from_outside_inside_and_its_own_surface() {
+        let at = |x: f64| DVec3::new(x, 0.0, 0.0);
+        assert_eq!(intersect_sphere(&X, at(5.0), 2.0, false), Some(3.0));
+        assert_eq!(intersect_sphere(&X, at(1.0), 2.0, false), Some(3.0));
+        assert_eq!(intersect_sphere(&X, at(2.0), 2.0, true), Some(4.0));
+        assert_eq!(intersect_sphere(&X, at(-2.0), 2.0, true), None);
+        assert_eq!(intersect_sphere(&X, at(-5.0), 2.0, false), None);
+        assert_eq!(
+            intersect_sphere(&X, DVec3::new(5.0, 2.1, 0.0), 2.0, false),
+            None
+        );
+    }
+
+    #[test]
+    fn a_plane_is_met_in_front_only() {
+        assert_eq!(intersect_plane(&X, DVec3::X * 2.0, DVec3::NEG_X), Some(2.0));
+        assert_eq!(intersect_plane(&X, DVec3::NEG_X, DVec3::X), None);
+        assert_eq!(intersect_plane(&X, DVec3::Y, DVec3::Y), None);
+        assert_eq!(intersect_plane(&X, DVec3::ZERO, DVec3::X), None);
+    }
+}

@@ -1,0 +1,406 @@
+//! A path through the scene with its spectrum.
+
+use crate::{
+    Hit, Ray, SurfacePoint, camera_ray, cook_torrance, film_thickness, frame_of, light_pdf,
+    nearest_hit, random4, reflectance_spectrum, sample_cosine_hemisphere, sample_light,
+    surface_point,
+};
+use glam::DVec3;
+use optics::{Complex64, StackAmplitudes};
+use scene::{
+    Emission, Environment, Material, Pattern, Scene, SpectrumId, Thickness, WavelengthSampling,
+};
+use std::f64::consts::PI;
+
+/// Nothing is seen at a smaller cosine; the bound keeps a grazing ray finite.
+const GRAZING: f64 = 1e-6;
+
+/// What one sample of a pixel brings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathSample {
+    /// Place of the wavelengths in their bands, in [0, 1).
+    pub offset: f64,
+    /// Radiance at each band's wavelength.
+    pub radiance: Vec<f64>,
+}
+
+/// Follows one sample of a pixel. `lights` are the scene's lights ([`Scene::lights`]).
+pub fn radiance(scene: &Scene, lights: &[usize], pixel: [u32; 2], sample: u32) -> PathSample {
+    let settings = scene.settings();
+    let [x, y, drawn, _] = random4(pixel, sample, 0, settings.seed);
+    let bands = settings.bands.count() as usize;
+    let mut path = Path {
+        scene,
+        lights,
+        pixel,
+        sample,
+        offset: match settings.sampling {
+            WavelengthSampling::Random => drawn,
+            WavelengthSampling::Centre => 0.5,
+        },
+        ray: camera_ray(scene, pixel, [x, y]),
+        from_object: None,
+        scattered: None,
+        segment: 1,
+        throughput: vec![1.0; bands],
+        radiance: vec![0.0; bands],
+    };
+    while path.segment <= settings.max_path_segments {
+        let Some(hit) = nearest_hit(scene, &path.ray, path.from_object) else {
+            path.add_environment();
+            break;
+        };
+        if !path.meet(hit) {
+            break;
+        }
+        path.segment += 1;
+    }
+    PathSample {
+        offset: path.offset,
+        radiance: path.radiance,
+    }
+}
+
+/// A path on its way.
+struct Path<'a> {
+    scene: &'a Scene,
+    lights: &'a [usize],
+    pixel: [u32; 2],
+    sample: u32,
+    offset: f64,
+    ray: Ray,
+    /// The object that the ray starts on.
+    from_object: Option<usize>,
+    /// Where a surface last scattered the path and with what density; none after the camera or a mirror.
+    scattered: Option<(DVec3, f64)>,
+    segment: u32,
+    throughput: Vec<f64>,
+    radiance: Vec<f64>,
+}
+
+impl Path<'_> {
+    fn random(&self, use_of: u32) -> [f64; 4] {
+        let dimension = 2 * self.segment - 1 + use_of;
+        random4(
+            self.pixel,
+            self.sample,
+            dimension,
+            self.scene.settings().seed,
+        )
+    }
+
+    fn spectrum(&self, id: SpectrumId, band: usize) -> f64 {
+        self.scene.spectrum(id).at(band as u32, self.offset)
+    }
+
+    fn index(&self, (n, k): (SpectrumId, SpectrumId), band: usize) -> Complex64 {
+        Complex64::new(self.spectrum(n, band), self.spectrum(k, band))
+    }
+
+    fn bands(&self) -> std::ops::Range<usize> {
+        0..self.radiance.len()
+    }
+
+    /// Light that joins the path here.
+    fn add(&mut self, emission: Emission, weight: f64) {
+        for band in self.bands() {
+            let light = emission.scale * self.spectrum(emission.spectrum, band);
+            self.radiance[band] += self.throughput[band] * weight * light;
+        }
+    }
+
+    fn attenuate(&mut self, factor: impl Fn(&Self, usize) -> f64) {
+        for band in self.bands() {
+            self.throughput[band] *= factor(self, band);
+        }
+    }
+
+    fn add_environment(&mut self) {
+        match *self.scene.environment() {
+            Environment::Constant(everywhere) => self.add(everywhere, 1.0),
+            Environment::Gradient {
+                zenith,
+                horizon,
+                ground,
+            } => {
+                let height = self.ray.direction.y.clamp(-1.0, 1.0);
+                self.add(horizon, 1.0 - height.abs());
+                self.add(if height >= 0.0 { zenith } else { ground }, height.abs());
+            }
+        }
+    }
+
+    /// Meets a surface; says whether the path goes on.
+    fn meet(&mut self, hit: Hit) -> bool {
+        let scene = self.scene;
+        let object = &scene.objects()[hit.object];
+        let point = surface_point(&object.shape, &self.ray, hit.distance);
+        match *scene.material(object.material) {
+            Material::Diffuse { ref reflectance } => {
+                self.meet_diffuse(hit.object, point, reflectance)
+            }
+            Material::Emitter {
+                emission,
+                reflectance,
+            } => {
+                self.add(emission, self.share_of_scattering(hit.object));
+                reflectance.is_some_and(|spectrum| {
+                    self.meet_diffuse(hit.object, point, &Pattern::Uniform(spectrum))
+                })
+            }
+            Material::Conductor { n, k, roughness } if roughness == 0.0 => {
+                self.meet_mirror(hit.object, point, (n, k))
+            }
+            Material::Conductor { n, k, roughness } => {
+                self.meet_rough_conductor(hit.object, point, (n, k), roughness)
+            }
+            Material::Film {
+                n,
+                k,
+                ref thickness,
+                ..
+            } => self.meet_film(hit.object, point, (n, k), thickness),
+        }
+    }
+
+    fn scatter(&mut self, object: usize, position: DVec3, direction: DVec3, pdf: Option<f64>) {
+        self.ray = Ray {
+            origin: position,
+            direction,
+        };
+        self.from_object = Some(object);
+        self.scattered = pdf.map(|pdf| (position, pdf));
+    }
+
+    fn meet_mirror(
+        &mut self,
+        object: usize,
+        point: SurfacePoint,
+        index: (SpectrumId, SpectrumId),
+    ) -> bool {
+        self.attenuate(|path, band| {
+            optics::reflectance_unpolarised(path.index(index, band), point.cosine.max(GRAZING))
+        });
+        let direction = mirrored(self.ray.direction, point.normal);
+        self.scatter(object, point.position, direction, None);
+        true
+    }
+
+    fn meet_film(
+        &mut self,
+        object: usize,
+        point: SurfacePoint,
+        index: (SpectrumId, SpectrumId),
+        thickness: &Thickness,
+    ) -> bool {
+        let chance = 0.25 + 0.5 * (1.0 - point.cosine).powi(3);
+        let reflects = self.random(1)[0] < chance;
+        let thickness_nm = film_thickness(
+            thickness,
+            &self.scene.objects()[object].shape,
+            point.position,
+        );
+        self.attenuate(|path, band| {
+            let film = path.film(index, thickness_nm, point.cosine, band);
+            if reflects {
+                film.reflectance.unpolarised() / chance
+            } else {
+                film.transmittance.unpolarised() / (1.0 - chance)
+            }
+        });
+        if reflects {
+            let direction = mirrored(self.ray.direction, point.normal);
+            self.scatter(object, point.position, direction, None);
+        } else {
+            // Straight on: what was said of the last scattering still holds.
+            self.ray.origin = point.position;
+            self.from_object = Some(object);
+        }
+        true
+    }
+
+    fn film(
+        &self,
+        index: (SpectrumId, SpectrumId),
+        thickness_nm: f64,
+        cosine: f64,
+        band: usize,
+    ) -> StackAmplitudes {
+        let wavelength_nm = self
+            .scene
+            .settings()
+            .bands
+            .wavelength_nm(band as u32, self.offset);
+        let index = self.index(index, band);
+        optics::film(index, thickness_nm, wavelength_nm, cosine.max(GRAZING))
+    }
+
+    fn meet_diffuse(&mut self, object: usize, point: SurfacePoint, pattern: &Pattern) -> bool {
+        let shape = &self.scene.objects()[object].shape;
+        let spectrum = reflectance_spectrum(pattern, shape, point.position);
+        if let Some(sent) = self.send_to_light(object, &point) {
+            let lambert = sent.direction.dot(point.normal) / PI;
+            let reflection = lambert / (sent.pdf + lambert);
+            self.add_connection(&sent, |path, band| {
+                reflection * path.spectrum(spectrum, band)
+            });
+        }
+        let [u, v, ..] = self.random(1);
+        let local = sample_cosine_hemisphere(u, v);
+        self.attenuate(|path, band| path.spectrum(spectrum, band));
+        let direction = (frame_of(point.normal) * local).normalize();
+        self.scatter(object, point.position, direction, Some(local.z / PI));
+        true
+    }
+
+    fn meet_rough_conductor(
+        &mut self,
+        object: usize,
+        point: SurfacePoint,
+        index: (SpectrumId, SpectrumId),
+        slope: f64,
+    ) -> bool {
+        let world_from_local = frame_of(point.normal);
+        let local_from_world = world_from_local.transpose();
+        let eye = local_from_world * -self.ray.direction;
+        if let Some(sent) = self.send_to_light(object, &point) {
+            let facet = cook_torrance(eye, local_from_world * sent.direction, slope);
+            let cosine = sent.direction.dot(point.normal);
+            let reflection = facet.reflection * cosine / (sent.pdf + facet.pdf);
+            self.add_connection(&sent, |path, band| {
+                reflection * optics::reflectance_unpolarised(path.index(index, band), facet.cosine)
+            });
+        }
+        let [u, v, ..] = self.random(1);
+        let normal = DVec3::from_array(optics::sample_beckmann(u, v, slope));
+        let light = (2.0 * eye.dot(normal) * normal - eye).normalize();
+        let facet = cook_torrance(eye, light, slope);
+        if facet.pdf <= 0.0 {
+            return false;
+        }
+        let weight = facet.reflection * light.z / facet.pdf;
+        self.attenuate(|path, band| {
+            weight * optics::reflectance_unpolarised(path.index(index, band), facet.cosine)
+        });
+        let direction = (world_from_local * light).normalize();
+        self.scatter(object, point.position, direction, Some(facet.pdf));
+        true
+    }
+
+    /// Share of an emitter that belongs to a path which happens to hit it: p / (p + q) with p the density of
+    /// the scattering and q that of connections (balance heuristic, Veach 1997, equation 9.8).
+    fn share_of_scattering(&self, object: usize) -> f64 {
+        let Some((position, pdf)) = self.scattered else {
+            return 1.0;
+        };
+        if !self.lights.contains(&object) {
+            return 1.0;
+        }
+        let shape = &self.scene.objects()[object].shape;
+        let sent = light_pdf(shape, position, self.ray.direction) / self.lights.len() as f64;
+        pdf / (pdf + sent)
+    }
+
+    /// Chooses a light, a direction towards it, and follows it there. None where nothing arrives.
+    fn send_to_light(&self, object: usize, point: &SurfacePoint) -> Option<Sent> {
+        let max_segments = self.scene.settings().max_path_segments;
+        if self.lights.is_empty() || self.segment >= max_segments {
+            return None;
+        }
+        let [pick, u, v, _] = self.random(0);
+        let light = self.lights[(pick * self.lights.len() as f64) as usize];
+        let shape = &self.scene.objects()[light].shape;
+        let direction = sample_light(shape, point.position, u, v);
+        let pdf = light_pdf(shape, point.position, direction) / self.lights.len() as f64;
+        if direction.dot(point.normal) <= 0.0 || pdf <= 0.0 {
+            return None;
+        }
+        let ray = Ray {
+            origin: point.position,
+            direction,
+        };
+        let films = self.films_on_the_way(ray, object, light, max_segments - self.segment - 1)?;
+        Some(Sent {
+            light,
+            direction,
+            pdf,
+            films,
+        })
+    }
+
+    /// The films that a ray crosses before it reaches a light; none where something opaque is in the way or
+    /// more films than `allowed`.
+    fn films_on_the_way(
+        &self,
+        mut ray: Ray,
+        object: usize,
+        light: usize,
+        allowed: u32,
+    ) -> Option<Vec<Crossing>> {
+        let mut films = Vec::new();
+        let mut from = object;
+        loop {
+            let hit = nearest_hit(self.scene, &ray, Some(from))?;
+            if hit.object == light {
+                return Some(films);
+            }
+            let met = &self.scene.objects()[hit.object];
+            let Material::Film {
+                n,
+                k,
+                ref thickness,
+                ..
+            } = *self.scene.material(met.material)
+            else {
+                return None;
+            };
+            if films.len() == allowed as usize {
+                return None;
+            }
+            let point = surface_point(&met.shape, &ray, hit.distance);
+            films.push(Crossing {
+                index: (n, k),
+                thickness_nm: film_thickness(thickness, &met.shape, point.position),
+                cosine: point.cosine,
+            });
+            ray.origin = point.position;
+            from = hit.object;
+        }
+    }
+
+    fn add_connection(&mut self, sent: &Sent, factor: impl Fn(&Self, usize) -> f64) {
+        let light = &self.scene.objects()[sent.light];
+        let Material::Emitter { emission, .. } = *self.scene.material(light.material) else {
+            return;
+        };
+        for band in self.bands() {
+            let mut arriving = emission.scale * self.spectrum(emission.spectrum, band);
+            for film in &sent.films {
+                let crossed = self.film(film.index, film.thickness_nm, film.cosine, band);
+                arriving *= crossed.transmittance.unpolarised();
+            }
+            self.radiance[band] += self.throughput[band] * factor(self, band) * arriving;
+        }
+    }
+}
+
+/// A connection to a light.
+struct Sent {
+    light: usize,
+    direction: DVec3,
+    /// Density of the direction, the choice among the lights included.
+    pdf: f64,
+    films: Vec<Crossing>,
+}
+
+/// A film that light passes straight through.
+struct Crossing {
+    index: (SpectrumId, SpectrumId),
+    thickness_nm: f64,
+    cosine: f64,
+}
+
+/// Mirrors a direction at a surface.
+fn mirrored(direction: DVec3, normal: DVec3) -> DVec3 {
+    (direction - 2.0 * direction.dot(normal) * normal).normalize()
+}

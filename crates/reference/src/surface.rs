@@ -1,0 +1,90 @@
+//! What a scene's surface is at a point.
+
+use crate::Ray;
+use glam::DVec3;
+use scene::{Pattern, Shape, SpectrumId, Thickness};
+use std::f64::consts::FRAC_PI_2;
+
+/// The point that a ray hits and the unit normal there, on the ray's side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// Where.
+    pub position: DVec3,
+    /// Unit normal, against the ray.
+    pub normal: DVec3,
+    /// Cosine between the ray and the normal, ≥ 0.
+    pub cosine: f64,
+}
+
+/// The point of a shape at a distance along a ray.
+pub fn surface_point(shape: &Shape, ray: &Ray, distance: f64) -> SurfacePoint {
+    let reached = ray.origin + ray.direction * distance;
+    let (position, outward) = match *shape {
+        Shape::Sphere { center, radius } => {
+            let normal = (reached - center).normalize();
+            (center + normal * radius, normal)
+        }
+        Shape::Plane { normal, .. } | Shape::Rectangle { normal, .. } => (reached, normal),
+    };
+    let along = outward.dot(ray.direction);
+    SurfacePoint {
+        position,
+        normal: if along > 0.0 { -outward } else { outward },
+        cosine: along.abs(),
+    }
+}
+
+fn center_of(shape: &Shape) -> DVec3 {
+    match *shape {
+        Shape::Sphere { center, .. } | Shape::Rectangle { center, .. } => center,
+        Shape::Plane { point, .. } => point,
+    }
+}
+
+/// Thickness of a film at a point of its surface, nm.
+pub fn film_thickness(thickness: &Thickness, shape: &Shape, position: DVec3) -> f64 {
+    match *thickness {
+        Thickness::Constant { nm } => nm,
+        Thickness::Polar {
+            axis,
+            pole_nm,
+            equator_nm,
+        } => {
+            let theta = (position - center_of(shape)).angle_between(axis);
+            pole_nm + (equator_nm - pole_nm) * theta / FRAC_PI_2
+        }
+        Thickness::Linear {
+            start,
+            end,
+            start_nm,
+            end_nm,
+        } => {
+            let along = (position - start).dot(end - start) / (end - start).length_squared();
+            start_nm + (end_nm - start_nm) * along.clamp(0.0, 1.0)
+        }
+    }
+}
+
+/// The spectrum of a pattern at a point.
+pub fn reflectance_spectrum(pattern: &Pattern, shape: &Shape, position: DVec3) -> SpectrumId {
+    match *pattern {
+        Pattern::Uniform(spectrum) => spectrum,
+        Pattern::Checker { even, odd, size } => {
+            let local = (position - center_of(shape)) / size;
+            let squares = match *shape {
+                Shape::Sphere { .. } => local.x.floor() + local.y.floor() + local.z.floor(),
+                Shape::Plane {
+                    tangent, bitangent, ..
+                }
+                | Shape::Rectangle {
+                    tangent, bitangent, ..
+                } => local.dot(tangent).floor() + local.dot(bitangent).floor(),
+            };
+            if squares.rem_euclid(2.0) == 0.0 {
+                even
+            } else {
+                odd
+            }
+        }
+    }
+}
