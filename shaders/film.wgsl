@@ -16,7 +16,7 @@ fn film_reflectance(n: vec4f, thickness_nm: f32, inverse_wavelength: vec4f, cosi
     let sin2 = (1.0 - c) * (1.0 + c);
     let n2 = n * n;
     let n2_cos2 = n2 - sin2; // (n cos θ₂)²
-    // The path difference is 2 n d cos θ₂: twice this many half turns of φ. Reduced before any sine is taken.
+    // φ in half turns, reduced before any sine is taken.
     let half_turns = 2.0 * thickness_nm * sqrt(n2_cos2) * inverse_wavelength;
     let sine = sin_pi4(half_turns - round(half_turns));
     let base = 4.0 * c * c * n2_cos2;
@@ -42,7 +42,8 @@ fn film_powers(n: vec4f, k: vec4f, thickness_nm: f32, inverse_wavelength: vec4f,
     let index2 = Complex4(n * n - k * k, 2.0 * n * k);
     // n cos θ₂ = √(n² − sin²θ): the root in the first quadrant runs forward and decays.
     let n_cos = complex_sqrt(Complex4(index2.re - sin2, index2.im));
-    let half_turns = 2.0 * thickness_nm * inverse_wavelength;
+    // β² turns by 2 n d cos θ₂ / λ: twice as many half turns.
+    let half_turns = 4.0 * thickness_nm * inverse_wavelength;
     let beta2 = phase_factor(n_cos.re * half_turns, n_cos.im * half_turns);
     let here = Complex4(vec4f(c), vec4f(0.0));
     let r_s = complex_div(complex_sub(here, n_cos), complex_add(here, n_cos));

@@ -1,0 +1,21 @@
+//! The device that the suites run on.
+
+use gpu::{AdapterChoice, Gpu};
+
+/// Opens the adapter named by `PELLICLE_ADAPTER`, or the best; prints which.
+///
+/// # Panics
+/// Where there is none: a suite that needs a driver fails rather than skips.
+pub fn open() -> Gpu {
+    let choice = match std::env::var("PELLICLE_ADAPTER") {
+        Ok(name) => AdapterChoice::Named(name),
+        Err(_) => AdapterChoice::Best,
+    };
+    match Gpu::open(&choice) {
+        Ok(gpu) => {
+            println!("adapter: {}", gpu.description());
+            gpu
+        }
+        Err(error) => panic!("this suite needs a driver: {error}"),
+    }
+}

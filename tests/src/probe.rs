@@ -1,0 +1,190 @@
+//! Running single WGSL functions over tables of inputs.
+
+use gpu::modules::{RecordLimits, Shader};
+use gpu::{Gpu, PackedScene};
+use std::collections::BTreeSet;
+use wgpu::util::DeviceExt;
+
+/// What a probe leaves where the shader wrote nothing: no function returns it.
+const UNWRITTEN: f32 = -1.234_567_9e33;
+
+/// A shader that calls functions under test for each row of a table.
+pub struct Probe<'a> {
+    /// Modules that it uses.
+    pub roots: &'a [&'a str],
+    /// WGSL statements: `a(0)`, `a4(1)` … read the row and `put(0, x)`, `put4(1, v)` … write results. An integer
+    /// travels as two halves of 16 bits (`integer`, `put_integer`), since a float's bits may be flushed on the way.
+    pub body: &'a str,
+    /// Numbers of a row, and results of a row.
+    pub shape: (usize, usize),
+    /// The scene behind the bindings, for functions that read one.
+    pub scene: Option<&'a PackedScene>,
+}
+
+const SMALL: RecordLimits = RecordLimits {
+    vertices: 2,
+    crossings: 1,
+};
+
+impl Probe<'_> {
+    fn shader(&self) -> Shader {
+        let (arity, results) = self.shape;
+        let extra = format!(
+            "@group(2) @binding(0) var<storage, read> probe_in: array<f32>;\n\
+             @group(2) @binding(1) var<storage, read_write> probe_out: array<f32>;\n\
+             var<private> row: u32;\n\
+             fn a(i: u32) -> f32 {{ return probe_in[row * {arity}u + i]; }}\n\
+             fn integer(i: u32) -> u32 {{ return u32(a(i)) | (u32(a(i + 1u)) << 16u); }}\n\
+             fn a3(i: u32) -> vec3f {{ return vec3f(a(i), a(i + 1u), a(i + 2u)); }}\n\
+             fn a4(i: u32) -> vec4f {{ return vec4f(a3(i), a(i + 3u)); }}\n\
+             fn put(i: u32, x: f32) {{ probe_out[row * {results}u + i] = x; }}\n\
+             fn put_integer(i: u32, x: u32) {{ put(i, f32(x & 0xffffu)); put(i + 1u, f32(x >> 16u)); }}\n\
+             fn put3(i: u32, v: vec3f) {{ put(i, v.x); put(i + 1u, v.y); put(i + 2u, v.z); }}\n\
+             fn put4(i: u32, v: vec4f) {{ put3(i, v.xyz); put(i + 3u, v.w); }}\n\
+             @compute @workgroup_size(64) fn probe(@builtin(global_invocation_id) id: vec3u) {{\n\
+                 row = id.x + id.y * 65535u * 64u;\n\
+                 if (row * {arity}u >= arrayLength(&probe_in)) {{ return; }}\n{}\n}}\n",
+            self.body
+        );
+        let limits = self.scene.map_or(SMALL, |scene| scene.limits);
+        Shader::assemble(self.roots, limits, &extra)
+    }
+
+    /// The functions that the probe really calls, directly or through others, and the scene's bindings that it reads.
+    ///
+    /// # Panics
+    /// When the probe is not valid WGSL.
+    pub fn reach(&self) -> (BTreeSet<String>, Vec<u32>) {
+        let shader = self.shader();
+        let module = naga::front::wgsl::parse_str(shader.text())
+            .unwrap_or_else(|error| panic!("{}", error.emit_to_string(shader.text())));
+        let flags = naga::valid::ValidationFlags::all();
+        let info = naga::valid::Validator::new(flags, naga::valid::Capabilities::empty())
+            .validate(&module)
+            .unwrap_or_else(|error| panic!("{}", error.emit_to_string(shader.text())));
+        let probe = module
+            .entry_points
+            .iter()
+            .position(|e| e.name == "probe")
+            .expect("declared above");
+        let used = module
+            .global_variables
+            .iter()
+            .filter(|(handle, _)| !info.get_entry_point(probe)[*handle].is_empty());
+        let bindings = used
+            .filter_map(|(_, variable)| variable.binding)
+            .filter(|binding| binding.group == 0)
+            .map(|binding| binding.binding);
+        let mut called = BTreeSet::new();
+        let mut open = calls_of(&module.entry_points[probe].function.body);
+        while let Some(handle) = open.pop() {
+            let function = &module.functions[handle];
+            if called.insert(function.name.clone().unwrap_or_default()) {
+                open.extend(calls_of(&function.body));
+            }
+        }
+        (called, bindings.collect())
+    }
+
+    /// Runs the probe over a table of rows and returns the rows of results.
+    ///
+    /// # Panics
+    /// When the device fails or a result was not written.
+    pub fn run(&self, gpu: &Gpu, table: &[f32]) -> Vec<f32> {
+        let (arity, results) = self.shape;
+        assert!(
+            !table.is_empty() && table.len().is_multiple_of(arity),
+            "the table has no whole rows"
+        );
+        let rows = table.len() / arity;
+        let pipeline =
+            gpu::compile(gpu, &self.shader(), "probe").unwrap_or_else(|error| panic!("{error}"));
+        let (device, queue) = gpu.device();
+        let storage = |contents: &[f32], usage| {
+            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: None,
+                contents: bytemuck::cast_slice(contents),
+                usage: wgpu::BufferUsages::STORAGE | usage,
+            })
+        };
+        let input = storage(table, wgpu::BufferUsages::empty());
+        let output = storage(
+            &vec![UNWRITTEN; rows * results],
+            wgpu::BufferUsages::COPY_SRC,
+        );
+        let staging = device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: output.size(),
+            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let tables = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &pipeline.get_bind_group_layout(2),
+            entries: &[&input, &output]
+                .map(|b: &wgpu::Buffer| b.as_entire_binding())
+                .into_iter()
+                .zip(0..)
+                .map(|(resource, binding)| wgpu::BindGroupEntry { binding, resource })
+                .collect::<Vec<_>>(),
+        });
+        let scene = self.scene.map(|packed| {
+            let bindings = gpu::bind_scene(gpu, packed).unwrap_or_else(|error| panic!("{error}"));
+            bindings.group(gpu, &pipeline, &self.reach().1)
+        });
+        let mut encoder = device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            pass.set_pipeline(&pipeline);
+            if let Some(scene) = &scene {
+                pass.set_bind_group(0, scene, &[]);
+            }
+            pass.set_bind_group(2, &tables, &[]);
+            let groups = rows.div_ceil(64) as u32;
+            pass.dispatch_workgroups(groups.min(65535), groups.div_ceil(65535), 1);
+        }
+        encoder.copy_buffer_to_buffer(&output, 0, &staging, 0, output.size());
+        queue.submit([encoder.finish()]);
+        staging.slice(..).map_async(wgpu::MapMode::Read, |_| {});
+        gpu.wait().unwrap_or_else(|error| panic!("{error}"));
+        let mapped = staging
+            .slice(..)
+            .get_mapped_range()
+            .expect("the results can be read");
+        let found: Vec<f32> = bytemuck::cast_slice(&mapped).to_vec();
+        let unwritten = found
+            .iter()
+            .filter(|x| x.to_bits() == UNWRITTEN.to_bits())
+            .count();
+        assert_eq!(unwritten, 0, "results were not written");
+        found
+    }
+}
+
+/// Functions that a block calls.
+fn calls_of(block: &naga::Block) -> Vec<naga::Handle<naga::Function>> {
+    let mut found = Vec::new();
+    for statement in block {
+        match statement {
+            naga::Statement::Call { function, .. } => found.push(*function),
+            naga::Statement::Block(inner) => found.extend(calls_of(inner)),
+            naga::Statement::If { accept, reject, .. } => {
+                found.extend(calls_of(accept));
+                found.extend(calls_of(reject));
+            }
+            naga::Statement::Switch { cases, .. } => {
+                for case in cases {
+                    found.extend(calls_of(&case.body));
+                }
+            }
+            naga::Statement::Loop {
+                body, continuing, ..
+            } => {
+                found.extend(calls_of(body));
+                found.extend(calls_of(continuing));
+            }
+            _ => {}
+        }
+    }
+    found
+}

@@ -1,0 +1,46 @@
+//! Every tolerance of the suites, each with its reason.
+//!
+//! One f32 rounding is 6e-8 (ε). WGSL allows division 2.5 ulp, sqrt about 2 ulp more, exp 3 + 2|x| ulp; what is stated
+//! below is the error that the formula makes of those, with room for a driver that uses all that it is allowed.
+
+use crate::agreement::Tolerance;
+
+const fn of(absolute: f64, relative: f64) -> Tolerance {
+    Tolerance { absolute, relative }
+}
+
+/// Integers and copies: the same bits.
+pub const EXACT: Tolerance = of(1e-300, 0.0);
+/// Polynomials of a few terms and sums of a few products of numbers of order one.
+pub const ARITHMETIC: Tolerance = of(5e-7, 5e-7);
+/// Trigonometric polynomials: a few ε of the largest term.
+pub const TRIGONOMETRY: Tolerance = of(4e-7, 4e-7);
+/// Directions: unit vectors after a rotation and a normalisation, each coordinate.
+pub const DIRECTION: Tolerance = of(1.5e-6, 0.0);
+/// Bare surfaces: R from a complex root and two quotients; near grazing 1 − R keeps an absolute error.
+pub const FRESNEL: Tolerance = of(2e-6, 2e-6);
+/// A film of up to 2 µm and index 2.5, to 88°: its phase has up to 28 half turns, of which f32 keeps 5e-6, times
+/// the steepness of its fringes (an independent f32 computation found 2e-5 at worst to 88° on ordinary stacks).
+pub const FILM: Tolerance = of(5e-5, 0.0);
+/// A film of up to 1 µm beyond 88°, where the fringes are steepest (there: 1.3e-4 at 89°).
+pub const FILM_GRAZING: Tolerance = of(3e-4, 0.0);
+/// A film of up to 20 µm, to 80°: 280 half turns, ten times the phase error (there: 1e-4 at 10 µm).
+pub const FILM_THICK: Tolerance = of(3e-4, 0.0);
+/// Densities and reflection functions of facets: exp of up to −80 with 3 + 2|x| ulp and a cosine to the fourth power.
+pub const FACET: Tolerance = of(1e-6, 3e-5);
+/// Distances along rays: scaled by the coordinates (up to 10) and divided by a cosine.
+pub const DISTANCE: Tolerance = of(1e-5, 1e-5);
+/// Densities of lights: squares of distances over cosines.
+pub const LIGHT_PDF: Tolerance = of(1e-6, 3e-5);
+/// Thickness over a surface: the angle's error of 3e-7 times nm per radian, and the thickness's own rounding.
+pub const THICKNESS_NM: Tolerance = of(1e-3, 1e-6);
+/// exp(iπx) with x to 6: the angle is rounded by up to 2.4e-7 half turns before it is reduced.
+pub const PHASE: Tolerance = of(1.5e-6, 0.0);
+/// Beckmann's D: the exponent tan²/m² of up to 80 carries 3 ε of its own size.
+pub const BECKMANN: Tolerance = of(1e-6, 6e-5);
+/// ln(1 − u): WGSL gives log an absolute error of 2⁻²¹ near 1, 3 ulp elsewhere.
+pub const LOGARITHM: Tolerance = of(5e-7, 1e-6);
+/// Height of a cone from the quotient of two squares: near the surface the root of 1 − sin² doubles digits lost.
+pub const CONE: Tolerance = of(5e-7, 2e-5);
+/// Distance to a sphere with the ray at least 1e-3 off its edge: the root √(r² − d²) magnifies by up to r / √(2·1e-3·r) ≈ 27.
+pub const SPHERE_DISTANCE: Tolerance = of(4e-5, 1e-5);

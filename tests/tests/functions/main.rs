@@ -1,0 +1,185 @@
+//! Every WGSL function against its twin in Rust, on many inputs with the edges among them.
+
+mod numbers;
+mod optics_functions;
+mod shapes;
+
+use gpu::Gpu;
+use gpu::modules::MODULES;
+use pellicle_tests::agreement::{Tolerance, compare};
+use pellicle_tests::probe::Probe;
+use std::collections::BTreeSet;
+use std::sync::OnceLock;
+
+/// Rows of a table of inputs.
+const ROWS: usize = 100_000;
+
+fn device() -> &'static Gpu {
+    static GPU: OnceLock<Gpu> = OnceLock::new();
+    GPU.get_or_init(pellicle_tests::device::open)
+}
+
+/// A check of one function, or of a few that belong together.
+struct Check {
+    probe: Probe<'static>,
+    /// Functions that it proves; they must really be called.
+    proves: &'static [&'static str],
+    inputs: Vec<f32>,
+    twin: fn(&[f64]) -> Vec<f64>,
+    tolerance: Tolerance,
+}
+
+/// A probe without a scene.
+const fn pure(
+    roots: &'static [&'static str],
+    shape: (usize, usize),
+    body: &'static str,
+) -> Probe<'static> {
+    Probe {
+        roots,
+        body,
+        shape,
+        scene: None,
+    }
+}
+
+impl Check {
+    fn run(&self) -> Result<String, String> {
+        let found = self.probe.run(device(), &self.inputs);
+        let actual: Vec<f64> = found.iter().map(|&x| f64::from(x)).collect();
+        let rows = self.inputs.chunks(self.probe.shape.0);
+        let expected: Vec<f64> = rows
+            .flat_map(|row| (self.twin)(&row.iter().map(|&x| f64::from(x)).collect::<Vec<_>>()))
+            .collect();
+        compare(&actual, &expected, self.tolerance)
+            .map(|report| format!("{:?}: {report}", self.proves))
+            .map_err(|report| format!("{:?}: {report}", self.proves))
+    }
+}
+
+/// Rows of numbers, each column uniform in its range, after the edges given.
+fn table(ranges: &[(f32, f32)], edges: &[&[f32]]) -> Vec<f32> {
+    let mut numbers: Vec<f32> = edges.iter().flat_map(|row| row.to_vec()).collect();
+    assert!(
+        edges.iter().all(|row| row.len() == ranges.len()),
+        "an edge has another number of columns"
+    );
+    for row in 0..ROWS as u32 {
+        for (column, &(low, high)) in ranges.iter().enumerate() {
+            let u = reference::random4([row & 0xffff, row >> 16], column as u32, 99, 1)[0] as f32;
+            numbers.push(low + (high - low) * u);
+        }
+    }
+    numbers
+}
+
+fn checks() -> Vec<Check> {
+    [
+        numbers::checks(),
+        optics_functions::checks(),
+        shapes::checks(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+#[test]
+fn every_function_agrees_with_its_twin() {
+    let results: Vec<_> = checks().iter().map(Check::run).collect();
+    for report in results.iter().flatten() {
+        println!("{report}");
+    }
+    let wrong: Vec<_> = results.into_iter().filter_map(Result::err).collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Functions that only make sense within a path are proved by the suites `paths` and `frames`.
+const PROVED_ON_PATHS: &[&str] = &[
+    "begin_record",
+    "plain_vertex",
+    "push_vertex",
+    "push_crossing",
+    "push_emission",
+    "random_at",
+    "walk_on",
+    "film_factor",
+    "send_to_light",
+    "connect",
+    "arrives",
+    "trace_path",
+    "record_environment",
+    "meet_surface",
+    "emission_share",
+    "meet_film",
+    "meet_mirror",
+    "meet_rough_conductor",
+    "meet_diffuse",
+    "factor_value",
+    "connection_value",
+    "path_radiance",
+    "camera_ray",
+    "surface_point",
+    "film_thickness",
+    "reflectance_spectrum",
+    "distance_to",
+    "nearest_hit",
+    "sample_light",
+    "light_pdf",
+    "sphere_surrounds",
+    "wavelengths_at",
+    "spectrum_at",
+    "inverse_wavelengths",
+    "accumulate",
+    "render",
+    "reflection_chance",
+];
+
+#[test]
+fn every_function_of_the_shaders_is_proved() {
+    let mut proved: BTreeSet<String> = PROVED_ON_PATHS
+        .iter()
+        .map(|&name| name.to_owned())
+        .collect();
+    for check in checks() {
+        let called = check.probe.reach().0;
+        for &name in check.proves {
+            assert!(
+                called.contains(name),
+                "{name} is not called by the probe that proves it"
+            );
+            proved.insert(name.to_owned());
+        }
+    }
+    let declared: BTreeSet<String> = MODULES
+        .iter()
+        .flat_map(|m| pellicle_tests::wgsl::functions(m.source))
+        .collect();
+    assert!(declared.len() > 60, "few functions found");
+    assert_eq!(declared, proved);
+}
+
+/// The comparison above can fail: an index one per cent off, a sine in place of a cosine.
+#[test]
+fn a_wrong_twin_is_noticed() {
+    let mut checks = optics_functions::checks();
+    let check = checks
+        .iter_mut()
+        .find(|c| c.proves.contains(&"film_reflectance"))
+        .expect("exists");
+    check.twin = |a| {
+        let wrong = optics::film((1.01 * a[0]).into(), a[1], a[2], a[3].max(1e-6));
+        vec![wrong.reflectance.unpolarised()]
+    };
+    assert!(check.run().is_err());
+    let mut checks = numbers::checks();
+    let check = checks
+        .iter_mut()
+        .find(|c| c.proves.contains(&"direction_of_turn"))
+        .expect("exists");
+    check.twin = |a| {
+        let (sine, cosine) = (std::f64::consts::TAU * a[0]).sin_cos();
+        vec![sine, cosine]
+    };
+    assert!(check.run().is_err());
+}
