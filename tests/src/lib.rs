@@ -2,6 +2,8 @@
 
 pub mod agreement;
 pub mod device;
+pub mod frames;
 pub mod probe;
+pub mod scenes;
 pub mod tolerances;
 pub mod wgsl;

@@ -44,3 +44,40 @@ pub const LOGARITHM: Tolerance = of(5e-7, 1e-6);
 pub const CONE: Tolerance = of(5e-7, 2e-5);
 /// Distance to a sphere with the ray at least 1e-3 off its edge: the root √(r² − d²) magnifies by up to r / √(2·1e-3·r) ≈ 27.
 pub const SPHERE_DISTANCE: Tolerance = of(4e-5, 1e-5);
+
+/// When two renders of the same random numbers count as the same picture.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameTolerance {
+    /// 99th percentile of the relative error in every band: f32 geometry over some ten bounces keeps 1e-4 or better.
+    pub p99: f64,
+    /// Mean signed error over the mean, in every band, without the outliers: rounding has no preferred sign.
+    pub bias: f64,
+    /// A pixel with a larger relative error in any band is an outlier: f32 took another branch (an edge, a checker's line,
+    /// the choice at a film) for at least one of its samples.
+    pub outlier: f64,
+    /// Share of pixels that may be outliers: the branches that lie within 1e-6 of the deciding value.
+    pub outlier_share: f64,
+    /// Dark values are compared with this share of the picture's mean instead of with themselves.
+    pub floor: f64,
+}
+
+/// The tolerance of all frames.
+pub const FRAMES: FrameTolerance = FrameTolerance {
+    p99: 1e-3,
+    bias: 1e-4,
+    outlier: 1e-2,
+    outlier_share: 5e-3,
+    floor: 1e-2,
+};
+
+/// Largest |z| of a picture's mean difference under different random numbers: 4.5 standard errors, 1 in 150 000, over some
+/// hundred bands and scenes.
+pub const Z_MEAN: f64 = 4.5;
+/// Share of blocks whose |z| may exceed 3: 0.27 % for a normal distribution, more for the skewed sums of rare bright paths.
+pub const Z_OVER_3: f64 = 0.03;
+
+/// Single paths: one sample per pixel, so a flipped branch is not diluted, and there are fewer pixels than in a frame.
+pub const PATHS: FrameTolerance = FrameTolerance {
+    outlier_share: 5e-3,
+    ..FRAMES
+};

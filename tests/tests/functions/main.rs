@@ -8,6 +8,7 @@ use gpu::Gpu;
 use gpu::modules::MODULES;
 use pellicle_tests::agreement::{Tolerance, compare};
 use pellicle_tests::probe::Probe;
+use pellicle_tests::scenes::{PROVED_ON_FRAMES, PROVED_ON_PATHS};
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
@@ -94,51 +95,11 @@ fn every_function_agrees_with_its_twin() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Functions that only make sense within a path are proved by the suites `paths` and `frames`.
-const PROVED_ON_PATHS: &[&str] = &[
-    "begin_record",
-    "plain_vertex",
-    "push_vertex",
-    "push_crossing",
-    "push_emission",
-    "random_at",
-    "walk_on",
-    "film_factor",
-    "send_to_light",
-    "connect",
-    "arrives",
-    "trace_path",
-    "record_environment",
-    "meet_surface",
-    "emission_share",
-    "meet_film",
-    "meet_mirror",
-    "meet_rough_conductor",
-    "meet_diffuse",
-    "factor_value",
-    "connection_value",
-    "path_radiance",
-    "camera_ray",
-    "surface_point",
-    "film_thickness",
-    "reflectance_spectrum",
-    "distance_to",
-    "nearest_hit",
-    "sample_light",
-    "light_pdf",
-    "sphere_surrounds",
-    "wavelengths_at",
-    "spectrum_at",
-    "inverse_wavelengths",
-    "accumulate",
-    "render",
-    "reflection_chance",
-];
-
 #[test]
 fn every_function_of_the_shaders_is_proved() {
     let mut proved: BTreeSet<String> = PROVED_ON_PATHS
         .iter()
+        .chain(PROVED_ON_FRAMES)
         .map(|&name| name.to_owned())
         .collect();
     for check in checks() {

@@ -1,0 +1,258 @@
+//! Comparing pictures band by band.
+
+use crate::tolerances::{FrameTolerance, Z_MEAN, Z_OVER_3};
+use spectra::SpectralImage;
+
+/// Values of `count` pixels, `bands` of each, pixel by pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct Values<'a> {
+    /// Bands of each pixel.
+    pub bands: usize,
+    /// The values.
+    pub values: &'a [f32],
+}
+
+impl<'a> Values<'a> {
+    /// Of a picture.
+    pub fn of(image: &'a SpectralImage) -> Self {
+        Self {
+            bands: image.bands().count() as usize,
+            values: image.radiance(),
+        }
+    }
+
+    fn band(self, band: usize) -> impl Iterator<Item = f64> + 'a {
+        self.values
+            .iter()
+            .skip(band)
+            .step_by(self.bands)
+            .map(|&x| f64::from(x))
+    }
+}
+
+/// Compares two pictures of the same random numbers.
+///
+/// # Errors
+/// A report of what exceeds the tolerance: 99th percentile and signed bias of every band, share of outliers. A value that is
+/// not finite, a shape that differs, and a reference that is all black are errors too.
+pub fn same_numbers(
+    actual: Values,
+    expected: Values,
+    tolerance: &FrameTolerance,
+) -> Result<String, String> {
+    if actual.bands != expected.bands || actual.values.len() != expected.values.len() {
+        return Err("the pictures have different shapes".to_owned());
+    }
+    if let Some(i) = actual.values.iter().position(|x| !x.is_finite()) {
+        return Err(format!("value {i} is {}", actual.values[i]));
+    }
+    let pixels = actual.values.len() / actual.bands.max(1);
+    let mut is_outlier = vec![false; pixels];
+    let mut worst_p99 = (0.0, 0);
+    for band in 0..actual.bands {
+        let mean = expected.band(band).sum::<f64>() / pixels as f64;
+        if mean <= 0.0 {
+            return Err(format!("band {band} of the reference is black"));
+        }
+        let errors = actual
+            .band(band)
+            .zip(expected.band(band))
+            .map(|(a, e)| (a - e).abs() / (e.abs() + tolerance.floor * mean));
+        let mut errors: Vec<f64> = errors.collect();
+        for (outlier, &error) in is_outlier.iter_mut().zip(&errors) {
+            *outlier |= error > tolerance.outlier;
+        }
+        errors.sort_by(f64::total_cmp);
+        let p99 = errors[(pixels - 1) * 99 / 100];
+        if p99 > worst_p99.0 {
+            worst_p99 = (p99, band);
+        }
+    }
+    let share = is_outlier.iter().filter(|&&o| o).count() as f64 / pixels as f64;
+    let (bias, bias_band) = worst_bias(actual, expected, &is_outlier);
+    let report = format!(
+        "p99 {:.1e} (band {}), bias {bias:.1e} (band {bias_band}), outliers {:.3} %",
+        worst_p99.0,
+        worst_p99.1,
+        100.0 * share
+    );
+    let good = worst_p99.0 <= tolerance.p99
+        && bias.abs() <= tolerance.bias
+        && share <= tolerance.outlier_share;
+    if good { Ok(report) } else { Err(report) }
+}
+
+/// The largest mean signed error over the mean, and its band, outliers left out.
+fn worst_bias(actual: Values, expected: Values, is_outlier: &[bool]) -> (f64, usize) {
+    let mut worst = (0.0_f64, 0);
+    for band in 0..actual.bands {
+        let (mut difference, mut total) = (0.0, 0.0);
+        for ((a, e), &outlier) in actual.band(band).zip(expected.band(band)).zip(is_outlier) {
+            if !outlier {
+                difference += a - e;
+                total += e;
+            }
+        }
+        let bias = difference / total;
+        if bias.abs() > worst.0.abs() || bias.is_nan() {
+            worst = (bias, band);
+        }
+    }
+    worst
+}
+
+/// Compares two pictures of different random numbers: the mean of every band, and of every block of 8×8 pixels, must differ
+/// by no more than both variances explain.
+///
+/// # Errors
+/// A report of the largest z of a mean and the share of blocks beyond 3.
+pub fn same_expectation(a: &SpectralImage, b: &SpectralImage) -> Result<String, String> {
+    const SIDE: u32 = 8;
+    let bands = a.bands().count() as usize;
+    let mut worst: f64 = 0.0;
+    let (mut beyond, mut blocks) = (0, 0);
+    for band in 0..bands {
+        let mut whole = (0.0, 0.0);
+        for y in (0..a.height()).step_by(SIDE as usize) {
+            for x in (0..a.width()).step_by(SIDE as usize) {
+                let block = block_difference((a, b), band, (x, y), SIDE);
+                whole.0 += block.0;
+                whole.1 += block.1;
+                let z = standardised(block);
+                blocks += 1;
+                beyond += u32::from(z.is_nan() || z.abs() > 3.0);
+            }
+        }
+        let z = standardised(whole);
+        worst = if z.is_nan() {
+            f64::INFINITY
+        } else {
+            worst.max(z.abs())
+        };
+    }
+    let share = f64::from(beyond) / f64::from(blocks);
+    let report = format!(
+        "largest z of a mean {worst:.2}, blocks beyond 3: {:.2} %",
+        100.0 * share
+    );
+    if worst <= Z_MEAN && share <= Z_OVER_3 {
+        Ok(report)
+    } else {
+        Err(report)
+    }
+}
+
+/// z of a difference and its variance; without noise, 0 where they agree to f32 and infinity where not.
+fn standardised((difference, variance): (f64, f64)) -> f64 {
+    if variance > 0.0 {
+        difference / variance.sqrt()
+    } else if difference.abs() < 1e-4 {
+        0.0
+    } else {
+        f64::INFINITY
+    }
+}
+
+fn block_difference(
+    (a, b): (&SpectralImage, &SpectralImage),
+    band: usize,
+    (x0, y0): (u32, u32),
+    side: u32,
+) -> (f64, f64) {
+    let bands = a.bands().count() as usize;
+    let (mut difference, mut variance) = (0.0, 0.0);
+    for y in y0..(y0 + side).min(a.height()) {
+        for x in x0..(x0 + side).min(a.width()) {
+            let i = (y * a.width() + x) as usize * bands + band;
+            difference += f64::from(a.radiance()[i]) - f64::from(b.radiance()[i]);
+            variance += f64::from(a.variance()[i]) + f64::from(b.variance()[i]);
+        }
+    }
+    (difference, variance)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tolerances::FRAMES;
+
+    fn picture() -> Vec<f32> {
+        (0..4000).map(|i| 0.5 + (i % 17) as f32 * 0.1).collect()
+    }
+
+    fn check(actual: &[f32]) -> Result<String, String> {
+        let expected = picture();
+        let (a, e) = (
+            Values {
+                bands: 4,
+                values: actual,
+            },
+            Values {
+                bands: 4,
+                values: &expected,
+            },
+        );
+        same_numbers(a, e, &FRAMES)
+    }
+
+    #[test]
+    fn the_same_picture_agrees() {
+        assert!(check(&picture()).is_ok());
+    }
+
+    #[test]
+    fn a_small_bias_is_noticed() {
+        let biased: Vec<f32> = picture().iter().map(|x| x * 1.0005).collect();
+        assert!(check(&biased).is_err());
+    }
+
+    #[test]
+    fn swapped_bands_are_noticed() {
+        let swapped: Vec<f32> = picture()
+            .chunks(4)
+            .flat_map(|p| [p[1], p[0], p[2], p[3]])
+            .collect();
+        assert!(check(&swapped).is_err());
+    }
+
+    #[test]
+    fn one_nan_is_noticed() {
+        let mut broken = picture();
+        broken[1234] = f32::NAN;
+        assert!(check(&broken).is_err());
+    }
+
+    #[test]
+    fn dead_pixels_are_noticed() {
+        let mut broken = picture();
+        broken[400..424].fill(0.0); // six pixels of a thousand: 0.6 %
+        assert!(check(&broken).is_err());
+    }
+
+    #[test]
+    fn a_black_reference_proves_nothing() {
+        let black = vec![0.0; 4000];
+        let values = Values {
+            bands: 4,
+            values: &black,
+        };
+        assert!(same_numbers(values, values, &FRAMES).is_err());
+    }
+
+    #[test]
+    fn a_shift_beyond_the_noise_is_noticed() {
+        let grid = spectra::BandGrid::visible(2).unwrap();
+        let image = |level: f32| {
+            let mut image = SpectralImage::new(16, 16, grid);
+            for y in 0..16 {
+                for x in 0..16 {
+                    image.set_pixel((x, y), &[level; 2], &[1e-4; 2], [0.0; 3], 16);
+                }
+            }
+            image
+        };
+        assert!(same_expectation(&image(1.0), &image(1.0005)).is_ok());
+        assert!(same_expectation(&image(1.0), &image(1.02)).is_err());
+        assert!(same_expectation(&image(1.0), &image(f32::NAN)).is_err());
+    }
+}

@@ -1,0 +1,78 @@
+//! The scenes that the suites render.
+
+use crate::wgsl::root;
+use scene::{Scene, SceneFile};
+
+/// Scenes of `scenes/`.
+pub const SHIPPED: &[&str] = &["soap_bubble", "film_wedge", "metal_spheres", "furnace"];
+
+/// A scene with every kind of surface, pattern, thickness, light and environment that there is.
+pub const EVERYTHING: &str = include_str!("everything.toml");
+
+/// A scene of `scenes/`, or `everything`, as a file that can still be changed.
+///
+/// # Panics
+/// When it cannot be read.
+pub fn file(name: &str) -> SceneFile {
+    let read = if name == "everything" {
+        SceneFile::parse("everything.toml", EVERYTHING, &root())
+    } else {
+        SceneFile::read(root().join("scenes").join(format!("{name}.toml")))
+    };
+    read.unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+/// The same, small, with few samples, rounded to f32 so that both renderers get the same numbers.
+///
+/// # Panics
+/// When it is not valid.
+pub fn small(name: &str, size: [u32; 2], samples: u32, bands: u32, seed: u32) -> Scene {
+    let mut file = file(name);
+    let render = &mut file.description.render;
+    (render.size, render.samples, render.bands, render.seed) = (size, samples, bands, seed);
+    file.validate()
+        .unwrap_or_else(|problems| panic!("{problems}"))
+        .rounded_to_f32()
+}
+
+/// WGSL functions that make sense only within a path; the suite `paths` proves them.
+pub const PROVED_ON_PATHS: &[&str] = &[
+    "arrives",
+    "begin_record",
+    "camera_ray",
+    "connect",
+    "connection_value",
+    "distance_to",
+    "emission_share",
+    "factor_value",
+    "film_factor",
+    "film_thickness",
+    "inverse_wavelengths",
+    "light_pdf",
+    "meet_diffuse",
+    "meet_film",
+    "meet_mirror",
+    "meet_rough_conductor",
+    "meet_surface",
+    "nearest_hit",
+    "path_radiance",
+    "plain_vertex",
+    "push_crossing",
+    "push_emission",
+    "push_vertex",
+    "random_at",
+    "record_environment",
+    "reflectance_spectrum",
+    "reflection_chance",
+    "sample_light",
+    "send_to_light",
+    "spectrum_at",
+    "sphere_surrounds",
+    "surface_point",
+    "trace_path",
+    "walk_on",
+    "wavelengths_at",
+];
+
+/// WGSL functions that the suite `frames` proves: the accumulation of samples.
+pub const PROVED_ON_FRAMES: &[&str] = &["accumulate", "render"];
