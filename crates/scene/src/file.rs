@@ -100,15 +100,18 @@ impl SceneFile {
             Ok(scene) => (Some(scene), Vec::new()),
             Err(mistakes) => (None, mistakes),
         };
+        let mut mistakes = self.not_caused_by_stand_ins(mistakes);
+        let omitted = mistakes.len().saturating_sub(Problems::MAX_SHOWN);
+        mistakes.truncate(Problems::MAX_SHOWN);
         let mut problems = self.findings.problems.clone();
-        problems.extend(self.placed(self.not_caused_by_stand_ins(mistakes)));
+        problems.extend(self.placed(mistakes));
         match scene {
             Some(scene) if problems.is_empty() => Ok(scene),
             _ => Err(Problems::of_file(
                 &self.name,
                 &self.text,
                 problems,
-                self.findings.omitted,
+                self.findings.omitted + omitted,
             )),
         }
     }
@@ -143,9 +146,7 @@ impl SceneFile {
             let location = Location::new(&self.text, tree.bytes_of(&problem.field));
             problem.located(location)
         };
-        let (shown, rest) = problems.split_at(problems.len().min(Problems::MAX_SHOWN));
-        let placed = shown.iter().cloned().map(place);
-        placed.chain(rest.iter().cloned()).collect()
+        problems.into_iter().map(place).collect()
     }
 }
 

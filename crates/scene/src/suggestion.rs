@@ -1,6 +1,7 @@
 //! "Did you mean …?"
 
-/// The candidate nearest to `word` that a slip of the keys could have turned into it.
+/// The candidate nearest to `word` that a slip of the keys could have turned into it, or else the first that goes
+/// on where it ends or ends where it goes on: `fov` means `fov_deg`.
 pub(crate) fn nearest<'a>(
     word: &str,
     candidates: impl IntoIterator<Item = &'a str>,
@@ -10,15 +11,24 @@ pub(crate) fn nearest<'a>(
         return None;
     }
     let word = word.to_lowercase();
-    candidates
+    let candidates = candidates
         .into_iter()
-        .map(|candidate| (distance(&word, &candidate.to_lowercase()), candidate))
-        .filter(|&(distance, candidate)| {
-            let length = candidate.chars().count().min(word.chars().count());
-            distance <= (length / 3).max(1) && distance < length.max(1)
-        })
-        .min_by_key(|&(distance, _)| distance)
-        .map(|(_, candidate)| candidate)
+        .map(|known| (known.to_lowercase(), known));
+    candidates
+        .filter_map(|(lower, known)| Some((badness(&word, &lower)?, known)))
+        .min_by_key(|&(badness, _)| badness)
+        .map(|(_, known)| known)
+}
+
+/// How far `word` is from `known`; `None` when they have nothing to do with each other.
+fn badness(word: &str, known: &str) -> Option<usize> {
+    let length = known.chars().count().min(word.chars().count());
+    let distance = distance(word, known);
+    if distance <= length.div_ceil(3) && distance < length {
+        return Some(distance);
+    }
+    let is_start = known.starts_with(word) || word.starts_with(known);
+    (is_start && length >= 3).then_some(usize::MAX)
 }
 
 /// The fewest insertions, deletions, replacements and swaps of neighbours between two words.
@@ -36,6 +46,9 @@ mod tests {
         assert_eq!(nearest("radus", known), Some("radius"));
         assert_eq!(nearest("Centre", known), Some("center"));
         assert_eq!(nearest("colour", known), None);
+        assert_eq!(nearest("radius_mm", known), Some("radius"));
+        assert_eq!(nearest("mat", known), Some("material"));
+        assert_eq!(nearest("m", known), None);
         assert_eq!(nearest("", known), None);
         assert_eq!(nearest(&"r".repeat(100_000), known), None);
     }

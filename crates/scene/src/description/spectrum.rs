@@ -22,7 +22,7 @@ pub enum Extrapolate {
 pub enum Reflectance {
     /// The same at every wavelength.
     Constant(#[schemars(range(min = 0.0, max = 1.0))] f64),
-    /// The name of a reflectance that Pellicle carries, such as "white".
+    /// The name of a reflectance that Pellicle carries, such as `white_9_5` of the `ColorChecker`.
     Name(String),
     /// The name of a reflectance that Pellicle carries, and what to do outside its wavelengths.
     Named {

@@ -23,6 +23,8 @@ pub(crate) struct Findings {
 }
 
 impl Findings {
+    const MOST_MARKS: usize = 10 * Problems::MAX_SHOWN;
+
     /// Whether a value, something in it or something around it had to be filled in.
     pub(crate) fn is_broken(&self, field: &FieldPath) -> bool {
         self.around_broken.contains(field)
@@ -37,9 +39,19 @@ impl Findings {
         }
     }
 
+    /// Of a file that is broken all over, whole sections are marked, so that the marks stay few.
     fn mark_broken(&mut self, field: &FieldPath) {
-        self.around_broken.extend(field.and_around());
-        self.broken.insert(field.clone());
+        let section = || {
+            field
+                .and_around()
+                .nth(field.steps().len().saturating_sub(1))
+        };
+        let marked = match self.broken.len() {
+            0..Self::MOST_MARKS => field.clone(),
+            _ => section().unwrap_or_default(),
+        };
+        self.around_broken.extend(marked.and_around());
+        self.broken.insert(marked);
     }
 }
 

@@ -68,7 +68,7 @@ impl Checks {
             return Some(vector);
         }
         let message = format!(
-            "found {}, which is not far enough from `{other}` {}; they must be at least {least} apart",
+            "found {}, which is not far enough from `{other}` {}; they must be at least {least:.1e} apart",
             shown(to),
             shown(from),
         );

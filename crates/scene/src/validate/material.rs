@@ -182,7 +182,7 @@ fn check_far_pole(
     );
     let least_nm = pole_nm / 2.0;
     let most_nm = f64::midpoint(pole_nm, range.high);
-    let help = format!("with this pole, `equator` can be from {least_nm} to {most_nm}");
+    let help = format!("with this pole, `equator` can be from {least_nm} to {most_nm} nm");
     checks.report(Problem::new(ProblemKind::OutOfRange, field, message).help(help));
     None
 }

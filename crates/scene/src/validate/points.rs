@@ -41,7 +41,7 @@ pub(crate) fn inline<const N: usize>(
     extrapolate: Extrapolate,
 ) -> Option<[Spectrum; N]> {
     let nm_field = field.key("nm");
-    let mut is_sound = check_count(checks, &nm_field, nm.len());
+    let mut is_sound = check_count(checks, &nm_field, nm.len(), "");
     for (column, values) in columns {
         let own = field.key(column.field);
         if values.len() != nm.len() {
@@ -96,7 +96,7 @@ pub(crate) fn file<const N: usize>(
             return None;
         }
     };
-    let mut is_sound = check_count(checks, &own, rows.len());
+    let mut is_sound = check_count(checks, &own, rows.len(), &format!("{}: ", path.display()));
     for (line, complaint) in faults_of_rows(&rows, &columns)
         .into_iter()
         .take(MOST_PROBLEMS)
@@ -115,11 +115,12 @@ pub(crate) fn file<const N: usize>(
     all(spectra)
 }
 
-fn check_count(checks: &mut Checks, field: &FieldPath, count: usize) -> bool {
+/// `prefix` names the table where it is not the scene's own.
+fn check_count(checks: &mut Checks, field: &FieldPath, count: usize, prefix: &str) -> bool {
     let complaint = match count {
-        0 => "the table has no points; it needs at least one".to_owned(),
+        0 => format!("{prefix}the table has no points; it needs at least one"),
         _ if count > MAX_TABLE_POINTS => {
-            format!("the table has {count} points; at most {MAX_TABLE_POINTS} are possible")
+            format!("{prefix}the table has {count} points; at most {MAX_TABLE_POINTS} are possible")
         }
         _ => return true,
     };
