@@ -1,0 +1,159 @@
+//! Files that are not what they should be, the scene's own and those it names.
+#![expect(
+    clippy::float_cmp,
+    reason = "the figures are exact in binary, or rounding is what is tested"
+)]
+
+use pellicle_scene::{Material, ProblemKind, Problems, SceneFile, file};
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+fn told(problems: &Problems) -> String {
+    format!("{problems:#}")
+}
+
+/// What is said about a scene whose metal has the index of the file `name`.
+fn with_csv(directory: &Path, name: &str) -> Result<pellicle_scene::Scene, Problems> {
+    let scene = format!(
+        "[camera]\ntype = 'perspective'\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nfov_deg = 40\n\
+         [materials.metal]\ntype = 'conductor'\nindex = {{ csv = '{name}' }}\n"
+    );
+    fs::write(directory.join("scene.toml"), scene).unwrap();
+    file::load(directory.join("scene.toml"))
+}
+
+#[test]
+fn scene_files_that_cannot_be_read_say_why() {
+    let directory = TempDir::new().unwrap();
+    let path = |name: &str| directory.path().join(name);
+    fs::write(path("binary.toml"), b"a = 1\n\xff\xfe\x00").unwrap();
+    fs::File::create(path("huge.toml"))
+        .unwrap()
+        .set_len((16 << 20) + 1)
+        .unwrap();
+    let cases = [
+        ("missing.toml", "missing.toml: cannot be opened"),
+        ("", "is a directory"),
+        (
+            "binary.toml",
+            "binary.toml: is not text: line 2 is not UTF-8",
+        ),
+        ("huge.toml", "huge.toml: is larger than 16 MiB"),
+    ];
+    for (name, expected) in cases {
+        let problems = SceneFile::read(path(name)).unwrap_err();
+        assert!(told(&problems).contains(expected), "{}", told(&problems));
+        let kinds: Vec<_> = problems.iter().map(|problem| problem.kind).collect();
+        assert_eq!(kinds, [ProblemKind::File]);
+    }
+}
+
+#[test]
+fn a_table_file_is_read_beside_the_scene() {
+    let directory = TempDir::new().unwrap();
+    let table = "\u{feff}# a metal of our own\nwavelength, n, k\n\n380, 0.5, 2\n 780 ; 0.5 ; 4\n";
+    fs::write(directory.path().join("metal.csv"), table).unwrap();
+    let scene = with_csv(directory.path(), "metal.csv").unwrap_or_else(|p| panic!("{}", told(&p)));
+    let Material::Conductor { n, k, .. } = scene.materials()[0] else {
+        panic!("{:?}", scene.materials());
+    };
+    assert_eq!(scene.spectrum(n).at(3, 0.1), 0.5);
+    // 580 nm, in the middle of the table.
+    assert!((scene.spectrum(k).at(20, 0.0) - 3.0).abs() < 1e-12);
+    fs::write(directory.path().join("glass.csv"), "380\t1.5\n780\t1.5\n").unwrap();
+    let scene = with_csv(directory.path(), "glass.csv").unwrap_or_else(|p| panic!("{}", told(&p)));
+    assert_eq!(scene.spectra()[1].extent(), (0.0, 0.0));
+}
+
+#[test]
+fn table_files_that_cannot_be_used_name_the_field_and_the_line() {
+    let directory = TempDir::new().unwrap();
+    let cases: &[(&str, &[u8], &str)] = &[
+        ("empty.csv", b"", "empty.csv: the table has no points"),
+        (
+            "heading.csv",
+            b"nm,n,k\n",
+            "heading.csv: the table has no points",
+        ),
+        (
+            "words.csv",
+            b"nm,n,k\n380,1,2\n780,x,2\n",
+            "words.csv: line 3: \"x\" is not a number",
+        ),
+        (
+            "narrow.csv",
+            b"380,1,2\n780\n",
+            "narrow.csv: line 2: found 1 columns, expected 3",
+        ),
+        (
+            "wide.csv",
+            b"380,1,2,3\n",
+            "wide.csv: line 1: found 4 columns",
+        ),
+        (
+            "falling.csv",
+            b"780,1,2\n380,1,2\n",
+            "falling.csv: line 2: found 380 nm after 780 nm",
+        ),
+        (
+            "nan.csv",
+            b"380,nan,2\n780,1,2\n",
+            "nan.csv: line 1: found n NaN; it must be from 0.001",
+        ),
+        (
+            "short.csv",
+            b"400,1,2\n700,1,2\n",
+            "the table covers 400 to 700 nm",
+        ),
+        (
+            "binary.csv",
+            b"380,1\n\xff\xff",
+            "binary.csv: is not text: line 2",
+        ),
+    ];
+    for (name, content, expected) in cases {
+        fs::write(directory.path().join(name), content).unwrap();
+        let problems = with_csv(directory.path(), name).unwrap_err();
+        let text = told(&problems);
+        assert!(text.contains(expected), "{text}");
+        assert!(text.contains("scene.toml:8:"), "{text}");
+        assert!(text.contains("materials.metal.index"), "{text}");
+        assert_eq!(problems.iter().len(), 1, "{text}");
+    }
+    let long: Vec<String> = (0..100_001)
+        .map(|i| format!("{},1,1\n", 380.0 + f64::from(i) * 0.01))
+        .collect();
+    fs::write(directory.path().join("long.csv"), long.concat()).unwrap();
+    let text = told(&with_csv(directory.path(), "long.csv").unwrap_err());
+    assert!(text.contains("has 100001 points; at most 100000"), "{text}");
+    for (name, expected) in [("none.csv", "cannot be opened"), ("", "is a directory")] {
+        let text = told(&with_csv(directory.path(), name).unwrap_err());
+        assert!(
+            text.contains(expected) && text.contains("materials.metal.index.csv"),
+            "{text}"
+        );
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn links_in_a_circle_and_devices_are_refused_at_once() {
+    let directory = TempDir::new().unwrap();
+    let here = |name: &str| directory.path().join(name);
+    std::os::unix::fs::symlink(here("b.csv"), here("a.csv")).unwrap();
+    std::os::unix::fs::symlink(here("a.csv"), here("b.csv")).unwrap();
+    let status = std::process::Command::new("mkfifo")
+        .arg(here("pipe.csv"))
+        .status();
+    assert!(status.unwrap().success());
+    for (name, expected) in [
+        ("a.csv", "cannot be opened"),
+        ("/dev/zero", "/dev/zero: is not a regular file"),
+        ("pipe.csv", "is not a regular file"),
+    ] {
+        let problems = with_csv(directory.path(), name).unwrap_err();
+        assert!(told(&problems).contains(expected), "{}", told(&problems));
+        assert_eq!(problems.iter().len(), 1);
+    }
+}

@@ -1,0 +1,184 @@
+//! Whatever is written in a scene file: no panic, and what is accepted has only sound numbers.
+
+use pellicle_scene::{Scene, SceneFile, Shape};
+use proptest::prelude::*;
+use std::path::Path;
+
+const SCENES: [&str; 4] = [
+    include_str!("../../../scenes/soap_bubble.toml"),
+    include_str!("../../../scenes/film_wedge.toml"),
+    include_str!("../../../scenes/metal_spheres.toml"),
+    include_str!("../../../scenes/furnace.toml"),
+];
+
+/// Words that mean something in a scene or to TOML, or that have broken parsers.
+const WORDS: [&str; 34] = [
+    "0",
+    "-1",
+    "1",
+    "0.5",
+    "1e300",
+    "-1e-300",
+    "1e9",
+    "1e6",
+    "1e-6",
+    "nan",
+    "inf",
+    "-inf",
+    "1e999",
+    "99999999999999999999",
+    "0xff",
+    "true",
+    "1979-05-27",
+    "\"gold\"",
+    "\"\"",
+    "[]",
+    "{}",
+    "[0, 0, 0]",
+    "[1e-6, 0, 0]",
+    "[[objects]]",
+    "[camera]",
+    "=",
+    "\"",
+    "'''",
+    ".",
+    ",",
+    "\n",
+    "#",
+    "{ constant = 1 }",
+    "{ pole = 1, equator = 2 }",
+];
+
+/// Every number of the scene is finite, before and after rounding, and no length is 0.
+fn assert_sound(scene: &Scene) {
+    for scene in [scene, &scene.rounded_to_f32()] {
+        let text = format!("{scene:?}");
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+        for object in scene.objects() {
+            assert!(object.material.index() < scene.materials().len());
+            let lengths = match object.shape {
+                Shape::Sphere { radius, .. } => [radius, 1.0, 1.0],
+                Shape::Plane {
+                    normal, tangent, ..
+                } => [normal.length(), tangent.length(), 1.0],
+                Shape::Rectangle {
+                    half_width,
+                    half_height,
+                    normal,
+                    ..
+                } => [half_width, half_height, normal.length()],
+            };
+            assert!(lengths.iter().all(|&length| length > 1e-7), "{object:?}");
+        }
+    }
+}
+
+fn try_text(text: &str) -> bool {
+    let Ok(file) = SceneFile::parse("fuzz.toml", text, Path::new("")) else {
+        return false;
+    };
+    match file.validate() {
+        Ok(scene) => {
+            assert_sound(&scene);
+            true
+        }
+        Err(problems) => {
+            assert!(problems.iter().len() > 0);
+            assert!(!format!("{problems:#}").is_empty());
+            false
+        }
+    }
+}
+
+/// `text` with one of its values, or a piece of `length` bytes, replaced by `word`.
+fn mutated(text: &str, position: usize, kind: usize, word: &str) -> String {
+    let values: Vec<_> = text.match_indices("= ").map(|(at, _)| at + 2).collect();
+    let numbers: Vec<_> = text
+        .match_indices(|c: char| c.is_ascii_digit())
+        .map(|(at, _)| at)
+        .collect();
+    let (start, end) = match kind {
+        0 => {
+            let start = values[position % values.len()];
+            (
+                start,
+                text[start..]
+                    .find('\n')
+                    .map_or(text.len(), |length| start + length),
+            )
+        }
+        1 => {
+            let start = numbers[position % numbers.len()];
+            let is_number = |c: char| c.is_ascii_digit() || c == '.';
+            let length = text[start..].find(|c| !is_number(c)).unwrap_or(1);
+            (start, start + length)
+        }
+        _ => {
+            let starts: Vec<_> = text.char_indices().map(|(at, _)| at).collect();
+            let from = position % starts.len();
+            (starts[from], starts[(from + kind).min(starts.len() - 1)])
+        }
+    };
+    format!("{}{word}{}", &text[..start], &text[end.max(start)..])
+}
+
+/// A smaller grid, so that a case takes no longer than it must.
+fn quickened(text: &str) -> String {
+    text.replace("[render]\n", "[render]\nbands = 2\n")
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_bytes_are_read_without_a_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        try_text(&String::from_utf8_lossy(&bytes));
+    }
+
+    #[test]
+    fn a_changed_scene_is_refused_or_sound(
+        scene in 0..SCENES.len(),
+        changes in prop::collection::vec((any::<usize>(), 0..6usize, 0..WORDS.len()), 1..4),
+    ) {
+        let mut text = quickened(SCENES[scene]);
+        for (position, kind, word) in changes {
+            text = mutated(&text, position, kind, WORDS[word]);
+        }
+        try_text(&text);
+    }
+
+    #[test]
+    fn numbers_of_any_size_are_refused_or_sound(
+        center in prop::array::uniform3(any::<f64>()),
+        normal in prop::array::uniform3(-1e-5..1e-5f64),
+        exponent in -320..320i32,
+        thickness in prop::array::uniform2(-10.0..2e5f64),
+    ) {
+        let text = format!(
+            "[camera]\ntype = 'perspective'\nposition = {center:?}\nlook_at = {normal:?}\nfov_deg = 1e{exponent}\n\
+             [render]\nbands = 2\n\
+             [materials.a]\ntype = 'film'\nindex = 1e{exponent}\nthickness_nm = {{ pole = {:?}, equator = {:?} }}\n\
+             [[objects]]\ntype = 'rectangle'\nmaterial = 'a'\ncenter = {normal:?}\nnormal = {normal:?}\nsize = [1e{exponent}, 1]\n",
+            thickness[0], thickness[1]
+        );
+        try_text(&text);
+    }
+}
+
+#[test]
+fn the_mutations_reach_both_verdicts() {
+    let counts = (0..400).fold((0, 0), |(accepted, refused), position| {
+        let text = mutated(
+            &quickened(SCENES[position % 4]),
+            position * 7919,
+            1,
+            WORDS[position % 9],
+        );
+        if try_text(&text) {
+            (accepted + 1, refused)
+        } else {
+            (accepted, refused + 1)
+        }
+    });
+    assert!(counts.0 > 20 && counts.1 > 20, "{counts:?}");
+}
