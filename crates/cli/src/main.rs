@@ -1,1 +1,75 @@
-fn main() {}
+//! The `pellicle` command: arguments, progress and errors; the work is done by the library.
+
+mod bench;
+mod devices;
+mod output;
+mod progress;
+mod render;
+
+use clap::{Parser, Subcommand};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Renders the colour of thin films and metals, wavelength by wavelength.
+#[derive(Parser)]
+#[command(version, about)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Render a scene to a picture (PNG) and a spectral image (EXR)
+    Render(render::Arguments),
+    /// Validate a scene without rendering it
+    Check {
+        /// The scene file
+        scene: PathBuf,
+    },
+    /// List the adapters that can render
+    Devices,
+    /// Print the JSON schema of scene files
+    Schema,
+    /// Measure samples per second on every adapter and on the CPU
+    Bench(bench::Arguments),
+}
+
+fn main() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Render(arguments) => render::run(&arguments),
+        Command::Check { scene } => check(&scene),
+        Command::Devices => {
+            devices::print();
+            Ok(())
+        }
+        Command::Schema => {
+            println!("{}", pellicle::scene::schema());
+            Ok(())
+        }
+        Command::Bench(arguments) => bench::run(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(report) => {
+            eprintln!("{report:?}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn check(scene: &std::path::Path) -> miette::Result<()> {
+    let validated = pellicle::scene::SceneFile::read(scene)?.validate()?;
+    let settings = validated.settings();
+    println!(
+        "{}: valid; {}×{} pixels, {} bands, {} samples, {} objects, {} lights",
+        scene.display(),
+        settings.width,
+        settings.height,
+        settings.bands.count(),
+        settings.samples,
+        validated.objects().len(),
+        validated.lights().len(),
+    );
+    Ok(())
+}

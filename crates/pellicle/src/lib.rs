@@ -1,1 +1,44 @@
-//! todo
+//! A spectral renderer for the colour of thin films and metals, on the GPU and verified against `f64`.
+//!
+//! # A render's way
+//!
+//! ```text
+//! scenes/soap_bubble.toml
+//!   -> scene::SceneFile       TOML as written             all mistakes at once, each with line and column
+//!   -> scene::Scene           validated: spectra as tables over the bands, nothing left to look up
+//!   -> Renderer::render       paths traced on a GPU (or on the CPU in f64), spectra evaluated along them
+//!   -> spectra::SpectralImage radiance per pixel and band, its variance, its XYZ
+//!   -> color::develop         display RGB -> color::png   |   color::spectral_exr
+//! ```
+//!
+//! A [`scene::Scene`] comes from a file ([`scene::SceneFile`]) or from a [`scene::description::Description`] that a
+//! program fills in. [`Renderer::open`] finds an adapter, [`Renderer::render`] gives a
+//! [`spectra::SpectralImage`]: radiance per pixel and band, in W m⁻² sr⁻¹ nm⁻¹ up to the scene's scale. Colour comes last and
+//! exists once, in [`color`], so that a picture can be developed again without rendering again.
+//!
+//! ```no_run
+//! use pellicle::{Backend, Renderer, color, scene};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let scene = scene::SceneFile::read("scenes/soap_bubble.toml")?.validate()?;
+//! let renderer = Renderer::open(&Backend::Auto)?;
+//! let image = renderer.render(&scene, &mut |_samples_done| std::ops::ControlFlow::Continue(()))?;
+//! let spectrum: &[f32] = image.pixel(320, 240); // one value per band
+//! # let _ = spectrum;
+//! color::png::write("soap_bubble.png".as_ref(), &color::develop(&image, 0.0))?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! The crates behind the modules can be used alone: [`optics`] for those who design coatings, [`spectra`] for data over
+//! wavelength, [`gpu`] and [`reference`] for the two renderers themselves.
+
+mod renderer;
+
+pub use color;
+pub use gpu;
+pub use optics;
+pub use reference;
+pub use renderer::{Backend, OpenError, RenderError, Renderer};
+pub use scene;
+pub use spectra;

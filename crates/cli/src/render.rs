@@ -1,0 +1,142 @@
+//! `pellicle render`.
+
+use crate::output::Outputs;
+use crate::progress;
+use clap::ValueEnum;
+use miette::{IntoDiagnostic, miette};
+use pellicle::color::spectral_exr::Metadata;
+use pellicle::gpu::AdapterChoice;
+use pellicle::scene::{RenderSettings, Scene, SceneFile};
+use pellicle::{Backend, Renderer};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::time::Instant;
+
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The scene file
+    scene: PathBuf,
+    /// Where to write: .png is a picture, .exr a spectral image, no ending both; can be repeated
+    /// [default: both, named after the scene, in the current folder]
+    #[arg(short, long, value_name = "PATH")]
+    output: Vec<PathBuf>,
+    /// What renders: auto takes the best adapter, or the CPU where there is no driver
+    #[arg(long, value_enum, default_value_t = BackendName::Auto)]
+    backend: BackendName,
+    /// Render on the adapter whose name contains this
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+    #[command(flatten)]
+    overrides: Overrides,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum BackendName {
+    Auto,
+    Gpu,
+    Cpu,
+}
+
+/// What replaces the scene's own settings.
+#[derive(clap::Args)]
+struct Overrides {
+    /// Samples per pixel, instead of the scene's
+    #[arg(long)]
+    samples: Option<u32>,
+    /// Size of the picture, instead of the scene's
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size)]
+    size: Option<[u32; 2]>,
+    /// Number of bands, instead of the scene's
+    #[arg(long)]
+    bands: Option<u32>,
+    /// Seed of the random numbers, instead of the scene's
+    #[arg(long)]
+    seed: Option<u32>,
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let parts = text.split_once(['x', '×']);
+    let parsed = parts.and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    parsed.ok_or_else(|| "a size is written like 640x480".to_owned())
+}
+
+impl Overrides {
+    fn apply(&self, file: &mut SceneFile) {
+        let render = &mut file.description.render;
+        render.samples = self.samples.unwrap_or(render.samples);
+        render.size = self.size.unwrap_or(render.size);
+        render.bands = self.bands.unwrap_or(render.bands);
+        render.seed = self.seed.unwrap_or(render.seed);
+    }
+}
+
+impl Arguments {
+    fn backend(&self) -> miette::Result<Backend> {
+        match (self.backend, &self.adapter) {
+            (BackendName::Cpu, Some(_)) => Err(miette!(
+                help = "leave one of them out",
+                "--adapter chooses a GPU, but --backend cpu wants none"
+            )),
+            (BackendName::Cpu, None) => Ok(Backend::Cpu),
+            (_, Some(name)) => Ok(Backend::Gpu(AdapterChoice::Named(name.clone()))),
+            (BackendName::Gpu, None) => Ok(Backend::Gpu(AdapterChoice::Best)),
+            (BackendName::Auto, None) => Ok(Backend::Auto),
+        }
+    }
+}
+
+/// Renders, develops and writes.
+pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
+    let mut file = SceneFile::read(&arguments.scene)?;
+    arguments.overrides.apply(&mut file);
+    let scene = file.validate()?;
+    let outputs = Outputs::new(&arguments.scene, &arguments.output)?;
+    let renderer = Renderer::open(&arguments.backend()?).into_diagnostic()?;
+    if let Renderer::Cpu { instead_of_gpu: Some(reason) } = &renderer {
+        eprintln!("rendering on the CPU: {reason}");
+    }
+    eprintln!("{}", renderer.description());
+
+    let settings = scene.settings();
+    let total = samples_of(settings);
+    let bar = progress::bar(total);
+    let started = Instant::now();
+    let image = renderer
+        .render(&scene, &mut |done| {
+            bar.set_position(done);
+            ControlFlow::Continue(())
+        })
+        .into_diagnostic()?;
+    bar.finish_and_clear();
+    let seconds = started.elapsed().as_secs_f64();
+    eprintln!(
+        "{}×{}, {} bands, {} samples per pixel: {seconds:.1} s, {:.3} million samples/s",
+        settings.width,
+        settings.height,
+        settings.bands.count(),
+        settings.samples,
+        total as f64 / seconds * 1e-6,
+    );
+    outputs.write(&image, &metadata(&scene, &renderer))
+}
+
+fn samples_of(settings: &RenderSettings) -> u64 {
+    u64::from(settings.width) * u64::from(settings.height) * u64::from(settings.samples)
+}
+
+/// What the spectral image says about how it was made.
+fn metadata(scene: &Scene, renderer: &Renderer) -> Metadata {
+    let settings = scene.settings();
+    let said = [
+        ("renderer", renderer.description()),
+        ("samples", settings.samples.to_string()),
+        ("seed", settings.seed.to_string()),
+        ("max_path_segments", settings.max_path_segments.to_string()),
+        ("sampling", format!("{:?}", settings.sampling).to_lowercase()),
+    ];
+    Metadata {
+        exposure_ev: settings.exposure_ev,
+        settings: said.into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
+        ..Metadata::default()
+    }
+}
