@@ -10,7 +10,7 @@ struct Sent {
 /// The factor of a film at a point: its reflectance or its transmittance.
 fn film_factor(material: u32, point: SurfacePoint, center: vec3f, reflects: bool) -> Factor {
     var kind = select(FACTOR_FILM_TRANSMITS, FACTOR_FILM_REFLECTS, reflects);
-    if (materials[material].is_transparent == 0u) {
+    if (HAS_LOSSY_FILMS && materials[material].is_transparent == 0u) {
         kind = select(FACTOR_LOSSY_FILM_TRANSMITS, FACTOR_LOSSY_FILM_REFLECTS, reflects);
     }
     let thickness_nm = film_thickness(material, point.position, center);
@@ -19,7 +19,8 @@ fn film_factor(material: u32, point: SurfacePoint, center: vec3f, reflects: bool
 
 /// Chooses a light and a direction towards it.
 fn send_to_light(walk: Walk, sample: Sample, object: u32, point: SurfacePoint) -> Sent {
-    if (frame.light_count == 0u || walk.segment + 1u > frame.max_path_segments) {
+    let has_lights = HAS_SPHERE_LIGHTS || HAS_RECTANGLE_LIGHTS;
+    if (!has_lights || walk.segment + 1u > frame.max_path_segments) {
         return Sent(NONE, point.normal, 0.0);
     }
     let random = random_at(sample, walk, 0u);
@@ -75,7 +76,7 @@ fn arrives(ray_in: Ray, from_object: u32, light: u32, allowed: u32) -> bool {
             return false;
         }
         let material = objects[hit.object].material;
-        if (materials[material].surface != SURFACE_FILM) {
+        if (!HAS_FILMS || materials[material].surface != SURFACE_FILM) {
             return false;
         }
         let point = surface_point(hit.object, ray, hit.distance);

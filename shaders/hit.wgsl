@@ -9,14 +9,14 @@ struct Hit {
 /// Distance along a ray to one object, below 0 where it misses. `from_object` is the object that the ray starts on, or NONE.
 fn distance_to(index: u32, ray: Ray, from_object: u32) -> f32 {
     let origin = ray.origin - objects[index].center;
-    if (objects[index].shape == SHAPE_SPHERE) {
+    if (HAS_SPHERES && objects[index].shape == SHAPE_SPHERE) {
         return intersect_sphere(origin, ray.direction, objects[index].radius, index == from_object);
     }
     if (index == from_object) {
         return -1.0;
     }
     let distance = intersect_plane(origin, ray.direction, objects[index].normal);
-    if (objects[index].shape == SHAPE_RECTANGLE && distance > 0.0) {
+    if (HAS_RECTANGLES && objects[index].shape == SHAPE_RECTANGLE && distance > 0.0) {
         let place = origin + distance * ray.direction;
         let inside = abs(dot(place, objects[index].tangent)) <= objects[index].half_width
             && abs(dot(place, objects[index].bitangent)) <= objects[index].half_height;

@@ -25,11 +25,14 @@ const SHAPE_RECTANGLE: u32 = 2u;
 /// Surface: Lambertian.
 const SURFACE_DIFFUSE: u32 = 0u;
 
-/// Surface: a smooth or rough conductor.
-const SURFACE_CONDUCTOR: u32 = 1u;
+/// Surface: a smooth conductor.
+const SURFACE_MIRROR: u32 = 1u;
+
+/// Surface: a rough conductor.
+const SURFACE_ROUGH_CONDUCTOR: u32 = 2u;
 
 /// Surface: a free film.
-const SURFACE_FILM: u32 = 2u;
+const SURFACE_FILM: u32 = 3u;
 
 /// Thickness: the same everywhere.
 const THICKNESS_CONSTANT: u32 = 0u;

@@ -4,7 +4,7 @@
 /// directions from inside it), uniform over the area of a rectangle.
 fn sample_light(light: u32, point: vec3f, u: f32, v: f32) -> vec3f {
     let towards = objects[light].center - point;
-    if (objects[light].shape == SHAPE_SPHERE) {
+    if (HAS_SPHERE_LIGHTS && objects[light].shape == SHAPE_SPHERE) {
         let distance2 = dot(towards, towards);
         if (sphere_surrounds(light, distance2)) {
             return sample_cone(u, v, 2.0);
@@ -20,7 +20,7 @@ fn sample_light(light: u32, point: vec3f, u: f32, v: f32) -> vec3f {
 /// Density with which sample_light draws a direction that hits the light, sr⁻¹.
 fn light_pdf(light: u32, point: vec3f, direction: vec3f) -> f32 {
     let towards = objects[light].center - point;
-    if (objects[light].shape == SHAPE_SPHERE) {
+    if (HAS_SPHERE_LIGHTS && objects[light].shape == SHAPE_SPHERE) {
         let distance2 = dot(towards, towards);
         if (sphere_surrounds(light, distance2)) {
             return 0.25 / PI;

@@ -8,7 +8,9 @@ fn trace_path(sample: Sample) -> Wavelengths {
     while (walk.alive) {
         let hit = nearest_hit(walk.ray, walk.from_object);
         if (hit.object == NONE) {
-            record_environment(walk.ray.direction);
+            if (HAS_ENVIRONMENT) {
+                record_environment(walk.ray.direction);
+            }
             break;
         }
         walk = meet_surface(walk, sample, hit);
@@ -48,26 +50,27 @@ fn meet_surface(walk: Walk, sample: Sample, hit: Hit) -> Walk {
         ended.alive = false;
         return ended;
     }
-    switch (materials[material].surface) {
-        case SURFACE_FILM: {
-            return meet_film(walk, sample, hit.object, point, vertex);
-        }
-        case SURFACE_CONDUCTOR: {
-            if (materials[material].roughness == 0.0) {
-                return meet_mirror(walk, hit.object, point, vertex);
-            }
-            return meet_rough_conductor(walk, sample, hit.object, point, vertex);
-        }
-        default: {
-            return meet_diffuse(walk, sample, hit.object, point, vertex);
-        }
+    let surface = materials[material].surface;
+    if (HAS_FILMS && surface == SURFACE_FILM) {
+        return meet_film(walk, sample, hit.object, point, vertex);
     }
+    if (HAS_MIRRORS && surface == SURFACE_MIRROR) {
+        return meet_mirror(walk, hit.object, point, vertex);
+    }
+    if (HAS_ROUGH_CONDUCTORS && surface == SURFACE_ROUGH_CONDUCTOR) {
+        return meet_rough_conductor(walk, sample, hit.object, point, vertex);
+    }
+    if (HAS_DIFFUSE) {
+        return meet_diffuse(walk, sample, hit.object, point, vertex);
+    }
+    return walk;
 }
 
 /// Weight of an emitter that a scattered path happens to hit, by the balance heuristic (Veach 1997, equation 9.8):
 /// the rest is what connections to that light bring.
 fn emission_share(walk: Walk, object: u32) -> f32 {
-    if (walk.scatter_pdf <= 0.0 || objects[object].is_light == 0u) {
+    let has_lights = HAS_SPHERE_LIGHTS || HAS_RECTANGLE_LIGHTS;
+    if (!has_lights || walk.scatter_pdf <= 0.0 || objects[object].is_light == 0u) {
         return 1.0;
     }
     let sent = light_pdf(object, walk.scattered_at, walk.ray.direction) / f32(frame.light_count);

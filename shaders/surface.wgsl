@@ -12,7 +12,7 @@ fn surface_point(index: u32, ray: Ray, distance: f32) -> SurfacePoint {
     let center = objects[index].center;
     var position = ray.origin + distance * ray.direction;
     var normal = objects[index].normal;
-    if (objects[index].shape == SHAPE_SPHERE) {
+    if (HAS_SPHERES && objects[index].shape == SHAPE_SPHERE) {
         // Put back onto the sphere: what the distance lost does not add up along a path.
         normal = normalize(position - center);
         position = center + objects[index].radius * normal;
@@ -26,26 +26,23 @@ fn film_thickness(material: u32, position: vec3f, center: vec3f) -> f32 {
     let base = materials[material].thickness_nm;
     let slope = materials[material].thickness_slope_nm;
     let first = materials[material].thickness_from;
-    switch (materials[material].thickness) {
-        case THICKNESS_POLAR: {
-            let radial = position - center;
-            return base + slope * polar_angle(dot(radial, first), length(cross(radial, first)));
-        }
-        case THICKNESS_LINEAR: {
-            let along = dot(position - first, materials[material].thickness_along);
-            return base + slope * clamp(along, 0.0, 1.0);
-        }
-        default: {
-            return base;
-        }
+    if (HAS_POLAR_THICKNESS && materials[material].thickness == THICKNESS_POLAR) {
+        let radial = position - center;
+        let angle = polar_angle(dot(radial, first), length(cross(radial, first)));
+        return max(base + slope * angle, 0.0); // a thickness that ends in 0 may round below it
     }
+    if (HAS_LINEAR_THICKNESS && materials[material].thickness == THICKNESS_LINEAR) {
+        let along = dot(position - first, materials[material].thickness_along);
+        return base + slope * clamp(along, 0.0, 1.0);
+    }
+    return base;
 }
 
 /// Spectrum of a diffuse reflectance at a point: one of the two of a checker, or the only one.
 fn reflectance_spectrum(material: u32, index: u32, position: vec3f) -> u32 {
     let even = materials[material].spectrum;
     let odd = materials[material].odd_spectrum;
-    if (even == odd) {
+    if (!HAS_CHECKERS || even == odd) {
         return even;
     }
     let local = (position - objects[index].center) / materials[material].checker_size;

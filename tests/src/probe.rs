@@ -97,8 +97,8 @@ impl Probe<'_> {
             "the table has no whole rows"
         );
         let rows = table.len() / arity;
-        let pipeline =
-            gpu::compile(gpu, &self.shader(), "probe").unwrap_or_else(|error| panic!("{error}"));
+        let pipeline = gpu::compile(gpu, &self.shader(), "probe", &[])
+            .unwrap_or_else(|error| panic!("{error}"));
         let (device, queue) = gpu.device();
         let storage = |contents: &[f32], usage| {
             device.create_buffer_init(&wgpu::util::BufferInitDescriptor {

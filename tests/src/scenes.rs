@@ -47,6 +47,7 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "factor_value",
     "film_factor",
     "film_thickness",
+    "film_value",
     "inverse_wavelengths",
     "light_pdf",
     "meet_diffuse",

@@ -46,7 +46,7 @@ pub fn declarations(source: &str) -> BTreeSet<String> {
             .filter(|_| line.starts_with('@'))
             .map_or_else(|| line.to_owned(), |rest| format!("var{rest}"));
         let keyword = code.split([' ', '<']).next().unwrap_or("");
-        if !["fn", "struct", "const", "var"].contains(&keyword) {
+        if !["fn", "struct", "const", "override", "var"].contains(&keyword) {
             continue;
         }
         let after = match code.find('>') {

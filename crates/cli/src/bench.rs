@@ -35,7 +35,10 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
         println!("{}: {}", index + 1, renderer.description());
     }
     println!("\nmillion samples/s, best of {ROUNDS} rounds");
-    println!("{:<16}{:>10}{:>10}{:>10}{:>14}{:>18}", "scene", "renderer", "4 bands", "40 bands", "time 40 / 4", "40 bands to CPU");
+    println!(
+        "{:<16}{:>10}{:>10}{:>10}{:>14}{:>18}",
+        "scene", "renderer", "4 bands", "40 bands", "time 40 / 4", "40 bands to CPU"
+    );
     for path in &arguments.scenes {
         let rates = measure(path, &renderers, arguments.seconds / ROUNDS as f64)?;
         let on_cpu = rates[rates.len() - 1][1];

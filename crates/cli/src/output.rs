@@ -54,7 +54,9 @@ impl Outputs {
     /// A missing folder is told before the render, not after it.
     fn check_folders(&self) -> miette::Result<()> {
         for path in self.pictures.iter().chain(&self.spectral) {
-            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+            let folder = path
+                .parent()
+                .filter(|folder| !folder.as_os_str().is_empty());
             if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
                 return Err(miette!(
                     help = "create it first, or write elsewhere with -o",

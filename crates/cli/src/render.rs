@@ -92,7 +92,10 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     let scene = file.validate()?;
     let outputs = Outputs::new(&arguments.scene, &arguments.output)?;
     let renderer = Renderer::open(&arguments.backend()?).into_diagnostic()?;
-    if let Renderer::Cpu { instead_of_gpu: Some(reason) } = &renderer {
+    if let Renderer::Cpu {
+        instead_of_gpu: Some(reason),
+    } = &renderer
+    {
         eprintln!("rendering on the CPU: {reason}");
     }
     eprintln!("{}", renderer.description());
@@ -132,11 +135,17 @@ fn metadata(scene: &Scene, renderer: &Renderer) -> Metadata {
         ("samples", settings.samples.to_string()),
         ("seed", settings.seed.to_string()),
         ("max_path_segments", settings.max_path_segments.to_string()),
-        ("sampling", format!("{:?}", settings.sampling).to_lowercase()),
+        (
+            "sampling",
+            format!("{:?}", settings.sampling).to_lowercase(),
+        ),
     ];
     Metadata {
         exposure_ev: settings.exposure_ev,
-        settings: said.into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
+        settings: said
+            .into_iter()
+            .map(|(key, value)| (key.to_owned(), value))
+            .collect(),
         ..Metadata::default()
     }
 }

@@ -128,10 +128,12 @@ constants! { CONSTANTS;
 
     /// Surface: Lambertian.
     pub const SURFACE_DIFFUSE = 0;
-    /// Surface: a smooth or rough conductor.
-    pub const SURFACE_CONDUCTOR = 1;
+    /// Surface: a smooth conductor.
+    pub const SURFACE_MIRROR = 1;
+    /// Surface: a rough conductor.
+    pub const SURFACE_ROUGH_CONDUCTOR = 2;
     /// Surface: a free film.
-    pub const SURFACE_FILM = 2;
+    pub const SURFACE_FILM = 3;
 
     /// Thickness: the same everywhere.
     pub const THICKNESS_CONSTANT = 0;

@@ -5,6 +5,7 @@
 //! scene on it, tile by tile and batch by batch, and reads back a [`spectra::SpectralImage`].
 
 mod device;
+mod features;
 pub mod layout;
 pub mod modules;
 mod pack;
@@ -14,5 +15,6 @@ mod tiles;
 pub use device::{
     AdapterChoice, AdapterDescription, DeviceError, Gpu, INSTALL_HINT, OpenError, adapters,
 };
+pub use features::Features;
 pub use pack::PackedScene;
 pub use render::{RenderError, SceneBindings, bind_scene, compile, render};

@@ -39,19 +39,20 @@ pub const MODULES: &[Module] = modules! {
     "film": ["complex", "trig"];
     "microfacet": ["trig"];
     "bindings": ["layout"];
+    "features": [];
     "spectrum": ["bindings"];
     "camera": ["bindings", "layout"];
-    "surface": ["bindings", "camera", "layout", "trig"];
-    "hit": ["bindings", "camera", "intersect", "layout"];
-    "light": ["bindings", "layout", "sampling", "trig"];
+    "surface": ["bindings", "camera", "features", "layout", "trig"];
+    "hit": ["bindings", "camera", "features", "intersect", "layout"];
+    "light": ["bindings", "features", "layout", "sampling", "trig"];
     "record": ["layout", "limits"];
     "walk": ["bindings", "camera", "random", "surface"];
-    "connect": ["bindings", "camera", "hit", "layout", "light", "record", "surface", "walk"];
+    "connect": ["bindings", "camera", "features", "hit", "layout", "light", "record", "surface", "walk"];
     "path": [
-        "bindings", "camera", "connect", "hit", "layout", "light", "microfacet", "random", "record",
+        "bindings", "camera", "connect", "features", "hit", "layout", "light", "microfacet", "random", "record",
         "sampling", "spectrum", "surface", "trig", "walk"
     ];
-    "evaluate": ["film", "fresnel", "layout", "record", "spectrum"];
+    "evaluate": ["features", "film", "fresnel", "layout", "record", "spectrum"];
     "render": ["bindings", "evaluate", "layout", "path", "spectrum", "walk"];
 };
 

@@ -1,5 +1,6 @@
 //! From a scene to the numbers that the shader reads: the only place where `f64` becomes `f32`.
 
+use crate::features::{Features, is_lossy};
 use crate::layout::{self, Frame};
 use crate::modules::RecordLimits;
 use glam::DVec3;
@@ -24,6 +25,8 @@ pub struct PackedScene {
     pub spectra: Vec<[f32; 4]>,
     /// How long the record of a path may become.
     pub limits: RecordLimits,
+    /// What the scene has.
+    pub features: Features,
 }
 
 impl PackedScene {
@@ -52,6 +55,7 @@ impl PackedScene {
                 .collect(),
             spectra: spectra.chain(observer).collect(),
             limits: record_limits(scene),
+            features: Features::of(scene),
             lights,
         }
     }
@@ -169,20 +173,20 @@ fn pack_material(scene: &Scene, material: &Material) -> layout::Material {
     match *material {
         Material::Diffuse { ref reflectance } => pack_pattern(&mut packed, reflectance),
         Material::Conductor { n, roughness, .. } => {
-            packed.surface = layout::SURFACE_CONDUCTOR;
+            packed.surface = if roughness > 0.0 {
+                layout::SURFACE_ROUGH_CONDUCTOR
+            } else {
+                layout::SURFACE_MIRROR
+            };
             packed.spectrum = id(n);
             packed.roughness = roughness as f32;
         }
         Material::Film {
-            n,
-            transparent,
-            ref thickness,
-            ..
+            n, ref thickness, ..
         } => {
             packed.surface = layout::SURFACE_FILM;
             packed.spectrum = id(n);
-            let short_formula = transparent && scene.spectrum(n).extent().0 >= 1.0;
-            packed.is_transparent = u32::from(short_formula);
+            packed.is_transparent = u32::from(!is_lossy(scene, material));
             pack_thickness(&mut packed, thickness);
         }
         Material::Emitter {

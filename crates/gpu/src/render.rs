@@ -54,11 +54,8 @@ pub fn render(
     let settings = scene.settings();
     let packed = PackedScene::new(scene);
     let bindings = bind_scene(gpu, &packed)?;
-    let pipeline = compile(
-        gpu,
-        &Shader::assemble(&["render"], packed.limits, ""),
-        "render",
-    )?;
+    let shader = Shader::assemble(&["render"], packed.limits, "");
+    let pipeline = compile(gpu, &shader, "render", packed.features.constants())?;
 
     let groups = u64::from(packed.frame.groups);
     let limits = gpu.limits();
@@ -90,7 +87,8 @@ pub fn render(
     Ok(image)
 }
 
-/// Compiles a shader and makes a pipeline of one of its entry points, with a layout deduced from the shader.
+/// Compiles a shader and makes a pipeline of one of its entry points, with a layout deduced from the shader and the
+/// overridable `constants` as given.
 ///
 /// # Errors
 /// When the shader or the pipeline is refused; the message names the module's own file and line.
@@ -98,6 +96,7 @@ pub fn compile(
     gpu: &Gpu,
     shader: &Shader,
     entry_point: &str,
+    constants: &[(&str, f64)],
 ) -> Result<wgpu::ComputePipeline, DeviceError> {
     let module = gpu
         .device
@@ -130,7 +129,10 @@ pub fn compile(
             layout: None,
             module: &module,
             entry_point: Some(entry_point),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants,
+                ..Default::default()
+            },
             cache: None,
         });
     gpu.check()?;

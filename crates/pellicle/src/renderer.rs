@@ -53,7 +53,9 @@ impl Renderer {
     /// When an adapter was asked for and there is none such, or the one found refuses.
     pub fn open(backend: &Backend) -> Result<Self, OpenError> {
         match backend {
-            Backend::Cpu => Ok(Self::Cpu { instead_of_gpu: None }),
+            Backend::Cpu => Ok(Self::Cpu {
+                instead_of_gpu: None,
+            }),
             Backend::Gpu(choice) => Gpu::open(choice).map(Self::Gpu),
             Backend::Auto => match Gpu::open(&AdapterChoice::Best) {
                 Ok(gpu) => Ok(Self::Gpu(gpu)),
@@ -91,9 +93,8 @@ impl Renderer {
                 gpu::RenderError::Stopped => RenderError::Stopped,
                 other => RenderError::Gpu(other),
             }),
-            Self::Cpu { .. } => {
-                reference::render(scene, on_progress).map_err(|reference::Stopped| RenderError::Stopped)
-            }
+            Self::Cpu { .. } => reference::render(scene, on_progress)
+                .map_err(|reference::Stopped| RenderError::Stopped),
         }
     }
 }

@@ -51,7 +51,8 @@ pub fn film_thickness(thickness: &Thickness, shape: &Shape, position: DVec3) -> 
             equator_nm,
         } => {
             let theta = (position - center_of(shape)).angle_between(axis);
-            pole_nm + (equator_nm - pole_nm) * theta / FRAC_PI_2
+            // A thickness that ends in 0 may round below it.
+            (pole_nm + (equator_nm - pole_nm) * theta / FRAC_PI_2).max(0.0)
         }
         Thickness::Linear {
             start,

@@ -109,7 +109,10 @@ mod tests {
     #[test]
     fn knots_are_even_and_fine_enough_for_any_grid() {
         for (count, steps) in [(1, 400), (4, 100), (16, 26), (256, 2), (1024, 2)] {
-            assert_eq!(BandTable::steps_of(&BandGrid::visible(count).unwrap()), steps);
+            assert_eq!(
+                BandTable::steps_of(&BandGrid::visible(count).unwrap()),
+                steps
+            );
         }
     }
 

@@ -152,7 +152,9 @@ mod tests {
         assert_eq!(table.at(450.0), Ok(2.0));
         assert_eq!(table.at(510.0), Ok(0.0));
         assert_eq!(table.at(400.0), Ok(1.0));
-        assert!(table.at(399.0).is_err() && table.at(511.0).is_err() && table.at(f64::NAN).is_err());
+        assert!(
+            table.at(399.0).is_err() && table.at(511.0).is_err() && table.at(f64::NAN).is_err()
+        );
         assert_eq!(table.clamped_at(300.0), 1.0);
         assert_eq!(table.clamped_at(900.0), 0.0);
     }

@@ -1,0 +1,128 @@
+//! What a scene has, so that its pipeline leaves out the rest: the values of `shaders/features.wgsl`.
+
+use scene::{Environment, Material, Pattern, Scene, Shape, Thickness};
+
+/// Constants of a pipeline by name: 1 where the scene has the thing, 0 where it has not.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Features(Vec<(&'static str, f64)>);
+
+impl Features {
+    /// What a scene has.
+    pub fn of(scene: &Scene) -> Self {
+        let shape = |wanted: fn(&Shape) -> bool| scene.objects().iter().any(|o| wanted(&o.shape));
+        let light = |wanted: fn(&Shape) -> bool| {
+            scene
+                .lights()
+                .iter()
+                .any(|&index| wanted(&scene.objects()[index].shape))
+        };
+        let used: Vec<&Material> = scene
+            .objects()
+            .iter()
+            .map(|object| scene.material(object.material))
+            .collect();
+        let material = |wanted: fn(&Material) -> bool| used.iter().any(|material| wanted(material));
+        let is_sphere = |shape: &Shape| matches!(shape, Shape::Sphere { .. });
+        let is_rectangle = |shape: &Shape| matches!(shape, Shape::Rectangle { .. });
+        let named = [
+            ("HAS_SPHERES", shape(is_sphere)),
+            ("HAS_RECTANGLES", shape(is_rectangle)),
+            ("HAS_DIFFUSE", material(is_diffuse)),
+            ("HAS_CHECKERS", material(is_checker)),
+            (
+                "HAS_MIRRORS",
+                material(|m| matches!(m, Material::Conductor { roughness: 0.0, .. })),
+            ),
+            (
+                "HAS_ROUGH_CONDUCTORS",
+                material(
+                    |m| matches!(m, Material::Conductor { roughness, .. } if *roughness > 0.0),
+                ),
+            ),
+            (
+                "HAS_FILMS",
+                material(|m| matches!(m, Material::Film { .. })),
+            ),
+            ("HAS_LOSSY_FILMS", used.iter().any(|m| is_lossy(scene, m))),
+            (
+                "HAS_POLAR_THICKNESS",
+                material(|m| {
+                    matches!(
+                        m,
+                        Material::Film {
+                            thickness: Thickness::Polar { .. },
+                            ..
+                        }
+                    )
+                }),
+            ),
+            (
+                "HAS_LINEAR_THICKNESS",
+                material(|m| {
+                    matches!(
+                        m,
+                        Material::Film {
+                            thickness: Thickness::Linear { .. },
+                            ..
+                        }
+                    )
+                }),
+            ),
+            ("HAS_SPHERE_LIGHTS", light(is_sphere)),
+            ("HAS_RECTANGLE_LIGHTS", light(is_rectangle)),
+            ("HAS_ENVIRONMENT", !is_dark(scene.environment())),
+        ];
+        Self(
+            named
+                .into_iter()
+                .map(|(name, has)| (name, f64::from(u8::from(has))))
+                .collect(),
+        )
+    }
+
+    /// The constants, for a pipeline.
+    pub fn constants(&self) -> &[(&'static str, f64)] {
+        &self.0
+    }
+}
+
+fn is_diffuse(material: &Material) -> bool {
+    matches!(
+        material,
+        Material::Diffuse { .. }
+            | Material::Emitter {
+                reflectance: Some(_),
+                ..
+            }
+    )
+}
+
+fn is_checker(material: &Material) -> bool {
+    matches!(
+        material,
+        Material::Diffuse {
+            reflectance: Pattern::Checker { .. }
+        }
+    )
+}
+
+/// A film for which the short formula of films without absorption does not hold.
+pub(crate) fn is_lossy(scene: &Scene, material: &Material) -> bool {
+    match *material {
+        Material::Film { n, transparent, .. } => !transparent || scene.spectrum(n).extent().0 < 1.0,
+        _ => false,
+    }
+}
+
+fn is_dark(environment: &Environment) -> bool {
+    match environment {
+        Environment::Constant(all) => all.scale == 0.0,
+        Environment::Gradient {
+            zenith,
+            horizon,
+            ground,
+        } => [zenith, horizon, ground]
+            .iter()
+            .all(|emission| emission.scale == 0.0),
+    }
+}

@@ -1,0 +1,16 @@
+// What a scene has. A pipeline is made for each scene with these set, so that code for what it lacks falls away: a
+// processor that runs eight or more paths in step pays for every branch that any of them might take.
+
+override HAS_SPHERES: bool = true;
+override HAS_RECTANGLES: bool = true;
+override HAS_DIFFUSE: bool = true;
+override HAS_CHECKERS: bool = true;
+override HAS_MIRRORS: bool = true;
+override HAS_ROUGH_CONDUCTORS: bool = true;
+override HAS_FILMS: bool = true;
+override HAS_LOSSY_FILMS: bool = true;
+override HAS_POLAR_THICKNESS: bool = true;
+override HAS_LINEAR_THICKNESS: bool = true;
+override HAS_SPHERE_LIGHTS: bool = true;
+override HAS_RECTANGLE_LIGHTS: bool = true;
+override HAS_ENVIRONMENT: bool = true;
