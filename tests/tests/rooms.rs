@@ -1,0 +1,142 @@
+//! The arrows between the workspace's crates, as `Cargo.toml` files declare them.
+
+use cargo_metadata::{DependencyKind, MetadataCommand, Package};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Who may depend on whom. A test crate may depend on everything.
+const ARROWS: &[(&str, &[&str])] = &[
+    ("pellicle-spectra", &[]),
+    ("pellicle-optics", &[]),
+    ("pellicle-scene", &["pellicle-spectra"]),
+    (
+        "pellicle-reference",
+        &["pellicle-scene", "pellicle-optics", "pellicle-spectra"],
+    ),
+    ("pellicle-gpu", &["pellicle-scene", "pellicle-spectra"]),
+    ("pellicle-color", &["pellicle-spectra"]),
+    (
+        "pellicle",
+        &[
+            "pellicle-color",
+            "pellicle-gpu",
+            "pellicle-optics",
+            "pellicle-reference",
+            "pellicle-scene",
+            "pellicle-spectra",
+        ],
+    ),
+    ("pellicle-cli", &["pellicle"]),
+];
+
+const TESTS: &str = "pellicle-tests";
+
+type Arrows = BTreeMap<String, BTreeSet<String>>;
+
+/// The members' dependencies on one another, those of tests left out.
+fn declared() -> Arrows {
+    let manifest = pellicle_tests::wgsl::root().join("Cargo.toml");
+    let metadata = MetadataCommand::new()
+        .manifest_path(manifest)
+        .no_deps()
+        .other_options(["--offline".to_owned()])
+        .exec()
+        .unwrap();
+    let members = metadata.workspace_packages();
+    let names: BTreeSet<String> = members.iter().map(|m| m.name.to_string()).collect();
+    let of_member = |member: &&Package| {
+        let ours = member
+            .dependencies
+            .iter()
+            .filter(|dependency| dependency.kind != DependencyKind::Development)
+            .map(|dependency| dependency.name.clone())
+            .filter(|name| names.contains(name));
+        (member.name.to_string(), ours.collect())
+    };
+    members.iter().map(of_member).collect()
+}
+
+/// What is wrong with the arrows: one that is not allowed, a member without a rule, a rule without a member.
+fn wrong(arrows: &Arrows) -> Vec<String> {
+    let mut wrong = Vec::new();
+    for (from, targets) in arrows.iter().filter(|(from, _)| *from != TESTS) {
+        let Some((_, allowed)) = ARROWS.iter().find(|(name, _)| name == from) else {
+            wrong.push(format!("{from} has no rule"));
+            continue;
+        };
+        for to in targets {
+            if !allowed.contains(&to.as_str()) {
+                wrong.push(format!("{from} depends on {to}"));
+            }
+        }
+    }
+    for (name, _) in ARROWS {
+        if !arrows.contains_key(*name) {
+            wrong.push(format!("{name} is missing"));
+        }
+    }
+    wrong
+}
+
+#[test]
+fn the_arrows_are_those_of_the_design() {
+    let arrows = declared();
+    let found = wrong(&arrows);
+    assert!(found.is_empty(), "{}", found.join("\n"));
+    // The list is read at all: these arrows exist.
+    assert!(arrows["pellicle-reference"].contains("pellicle-optics"));
+    assert!(arrows["pellicle-gpu"].contains("pellicle-scene"));
+    assert!(arrows["pellicle-cli"].contains("pellicle"));
+}
+
+/// Also by way of others: what one side reaches, the other does not share but for the scene and the numbers.
+#[test]
+fn both_renderers_share_no_physics() {
+    let arrows = declared();
+    let gpu = reached(&arrows, "pellicle-gpu");
+    let reference = reached(&arrows, "pellicle-reference");
+    let shared: BTreeSet<&str> = gpu.intersection(&reference).map(String::as_str).collect();
+    assert_eq!(
+        shared,
+        BTreeSet::from(["pellicle-scene", "pellicle-spectra"])
+    );
+    assert!(!reference.contains("pellicle-gpu"));
+    assert!(!reached(&arrows, "pellicle-optics").contains("pellicle-gpu"));
+}
+
+/// Every member that a member depends on, directly or through others.
+fn reached(arrows: &Arrows, from: &str) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    let mut open = vec![from.to_owned()];
+    while let Some(name) = open.pop() {
+        for to in &arrows[&name] {
+            if found.insert(to.clone()) {
+                open.push(to.clone());
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn a_wrong_arrow_is_noticed() {
+    let truth = declared();
+    for (from, to) in [
+        ("pellicle-gpu", "pellicle-reference"),
+        ("pellicle-gpu", "pellicle-optics"),
+        ("pellicle-reference", "pellicle-gpu"),
+        ("pellicle-optics", "pellicle-gpu"),
+        ("pellicle-spectra", "pellicle-scene"),
+        ("pellicle-cli", "pellicle-gpu"),
+        ("pellicle-color", "pellicle-tests"),
+    ] {
+        let mut arrows = truth.clone();
+        arrows.get_mut(from).unwrap().insert(to.to_owned());
+        assert_eq!(wrong(&arrows), [format!("{from} depends on {to}")]);
+    }
+    let mut arrows = truth.clone();
+    arrows.insert("pellicle-new".to_owned(), BTreeSet::new());
+    assert_eq!(wrong(&arrows), ["pellicle-new has no rule"]);
+    let mut arrows = truth;
+    arrows.remove("pellicle-color");
+    assert_eq!(wrong(&arrows), ["pellicle-color is missing"]);
+}
