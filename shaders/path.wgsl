@@ -77,19 +77,15 @@ fn emission_share(walk: Walk, object: u32) -> f32 {
     return walk.scatter_pdf / (walk.scatter_pdf + sent);
 }
 
-/// Chance with which a path follows the reflection of a film: a quarter seen steeply, more at grazing. It
-/// steers noise only; the weight undoes it.
-fn reflection_chance(cosine: f32) -> f32 {
-    let x = 1.0 - cosine;
-    return 0.25 + 0.5 * x * x * x;
-}
+/// Share of the paths that follow the reflection of a film rather than its transmission. What is bright behind a film is
+/// dimmed little, what is bright before it much; halves serve both. It steers noise only: the weight undoes it.
+const REFLECTED_SHARE: f32 = 0.5;
 
 fn meet_film(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
     var vertex = vertex_in;
-    let chance = reflection_chance(point.cosine);
-    let reflects = random_at(sample, walk, 1u).x < chance;
+    let reflects = random_at(sample, walk, 1u).x < REFLECTED_SHARE;
     vertex.scatter = film_factor(objects[object].material, point, objects[object].center, reflects);
-    vertex.weight = 1.0 / select(1.0 - chance, chance, reflects);
+    vertex.weight = 1.0 / select(1.0 - REFLECTED_SHARE, REFLECTED_SHARE, reflects);
     push_vertex(vertex);
     if (reflects) {
         return walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0);

@@ -4,7 +4,13 @@ use crate::wgsl::root;
 use scene::{Scene, SceneFile};
 
 /// Scenes of `scenes/`.
-pub const SHIPPED: &[&str] = &["soap_bubble", "film_wedge", "metal_spheres", "furnace"];
+pub const SHIPPED: &[&str] = &[
+    "soap_bubble",
+    "floating_bubble",
+    "film_wedge",
+    "metal_spheres",
+    "furnace",
+];
 
 /// A scene with every kind of surface, pattern, thickness, light and environment that there is.
 pub const EVERYTHING: &str = include_str!("everything.toml");
@@ -64,7 +70,6 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "random_at",
     "record_environment",
     "reflectance_spectrum",
-    "reflection_chance",
     "sample_light",
     "send_to_light",
     "spectrum_at",

@@ -81,3 +81,16 @@ pub const PATHS: FrameTolerance = FrameTolerance {
     outlier_share: 5e-3,
     ..FRAMES
 };
+
+/// R and T of stacks against independent f64 computations: those hold 5e-14, and a stack of seven layers loses two or three
+/// digits in either arithmetic.
+pub const ORACLE: Tolerance = of(1e-10, 0.0);
+/// Identities of stacks in f64 (energy, both directions, layers split or absent): rounding of some ten layers, times the
+/// number of passes that light makes in a layer near grazing.
+pub const IDENTITY: f64 = 1e-12;
+/// XYZ against independent sums over the same 401 wavelengths: the figures have ten to twelve digits.
+pub const ORACLE_XYZ: Tolerance = of(0.0, 1e-9);
+/// Mean XYZ of two pictures of the same random numbers: the bands' bias, and outliers of a few pixels in ten thousand.
+pub const SAME_COLOUR: f64 = 1e-3;
+/// The furnace: standard errors that the mean of a band may be off.
+pub const Z_FURNACE: f64 = 4.0;

@@ -15,6 +15,9 @@ use std::f64::consts::PI;
 /// Nothing is seen at a smaller cosine; the bound keeps a grazing ray finite.
 const GRAZING: f64 = 1e-6;
 
+/// Share of the paths that follow the reflection of a film rather than its transmission.
+const REFLECTED_SHARE: f64 = 0.5;
+
 /// What one sample of a pixel brings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathSample {
@@ -193,8 +196,7 @@ impl Path<'_> {
         index: (SpectrumId, SpectrumId),
         thickness: &Thickness,
     ) -> bool {
-        let chance = 0.25 + 0.5 * (1.0 - point.cosine).powi(3);
-        let reflects = self.random(1)[0] < chance;
+        let reflects = self.random(1)[0] < REFLECTED_SHARE;
         let thickness_nm = film_thickness(
             thickness,
             &self.scene.objects()[object].shape,
@@ -203,9 +205,9 @@ impl Path<'_> {
         self.attenuate(|path, band| {
             let film = path.film(index, thickness_nm, point.cosine, band);
             if reflects {
-                film.reflectance.unpolarised() / chance
+                film.reflectance.unpolarised() / REFLECTED_SHARE
             } else {
-                film.transmittance.unpolarised() / (1.0 - chance)
+                film.transmittance.unpolarised() / (1.0 - REFLECTED_SHARE)
             }
         });
         if reflects {

@@ -1,0 +1,226 @@
+//! Whole pictures: the GPU renderer against the reference, with the same random numbers and with different ones, and where
+//! the truth is known.
+
+use gpu::Gpu;
+use pellicle_tests::device::open;
+use pellicle_tests::frames::{Values, same_expectation, same_numbers};
+use pellicle_tests::scenes::{SHIPPED, file, small};
+use pellicle_tests::tolerances::{FRAMES, SAME_COLOUR, Z_FURNACE, Z_MEAN};
+use scene::Scene;
+use spectra::SpectralImage;
+use std::ops::ControlFlow;
+
+fn on_gpu(gpu: &Gpu, scene: &Scene) -> SpectralImage {
+    gpu::render(gpu, scene, &mut |_| ControlFlow::Continue(()))
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn on_cpu(scene: &Scene) -> SpectralImage {
+    reference::render(scene, &mut |_| ControlFlow::Continue(())).expect("nobody stops it")
+}
+
+fn all_scenes() -> impl Iterator<Item = &'static str> {
+    SHIPPED.iter().copied().chain(["everything"])
+}
+
+#[test]
+fn the_same_random_numbers_give_the_same_picture() {
+    let gpu = open();
+    let mut wrong = Vec::new();
+    for name in all_scenes() {
+        let scene = small(name, [96, 72], 16, 10, 1);
+        let (actual, expected) = (on_gpu(&gpu, &scene), on_cpu(&scene));
+        match same_numbers(Values::of(&actual), Values::of(&expected), &FRAMES) {
+            Ok(report) => println!("{name}: {report}"),
+            Err(report) => wrong.push(format!("{name}: {report}")),
+        }
+        if let Err(report) = same_colours(&actual, &expected) {
+            wrong.push(format!("{name}: {report}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// XYZ is accumulated apart from the bands, so it is compared apart: its mean over the picture.
+fn same_colours(actual: &SpectralImage, expected: &SpectralImage) -> Result<(), String> {
+    for axis in 0..3 {
+        let sum = |image: &SpectralImage| {
+            image
+                .xyz()
+                .iter()
+                .map(|xyz| f64::from(xyz[axis]))
+                .sum::<f64>()
+        };
+        let error = sum(actual) / sum(expected) - 1.0;
+        if error.is_nan() || error.abs() > SAME_COLOUR {
+            return Err(format!("mean of axis {axis} of XYZ is off by {error:.1e}"));
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn different_random_numbers_give_the_same_expectation() {
+    let gpu = open();
+    let mut wrong = Vec::new();
+    for name in all_scenes() {
+        let actual = on_gpu(&gpu, &small(name, [64, 48], 256, 8, 11));
+        let expected = on_cpu(&small(name, [64, 48], 64, 8, 22));
+        match same_expectation(&actual, &expected) {
+            Ok(report) => println!("{name}: {report}"),
+            Err(report) => wrong.push(format!("{name}: {report}")),
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A film whose index is one per cent off, or whose bands are swapped, is another picture.
+#[test]
+fn a_wrong_picture_is_noticed() {
+    let gpu = open();
+    let right = small("film_wedge", [96, 24], 16, 10, 1);
+    let mut off = file("film_wedge");
+    let render = &mut off.description.render;
+    (render.size, render.samples, render.bands, render.seed) = ([96, 24], 16, 10, 1);
+    for material in off.description.materials.values_mut() {
+        if let scene::description::Material::Film { index, .. } = material {
+            *index = scene::description::Index::Real(1.333 * 1.01);
+        }
+    }
+    let off = off.validate().expect("valid").rounded_to_f32();
+    let expected = on_cpu(&right);
+    let actual = on_gpu(&gpu, &off);
+    assert!(same_numbers(Values::of(&actual), Values::of(&expected), &FRAMES).is_err());
+    let more = |scene: &Scene| on_gpu(&gpu, scene);
+    assert!(same_expectation(&more(&off), &more(&right)).is_err());
+}
+
+/// Albedo 0.5 inside emission 0.5: the radiance is 1 everywhere, in every band.
+#[test]
+fn the_furnace_is_white() {
+    let gpu = open();
+    let scene = small("furnace", [32, 32], 64, 7, 5);
+    for (who, image) in [("gpu", on_gpu(&gpu, &scene)), ("cpu", on_cpu(&scene))] {
+        let bands = image.bands().count() as usize;
+        for band in 0..bands {
+            let of_band = |values: &[f32]| {
+                values
+                    .iter()
+                    .skip(band)
+                    .step_by(bands)
+                    .map(|&x| f64::from(x))
+                    .collect::<Vec<_>>()
+            };
+            let (radiance, variance) = (of_band(image.radiance()), of_band(image.variance()));
+            let mean = radiance.iter().sum::<f64>() / radiance.len() as f64;
+            let error = variance.iter().sum::<f64>().sqrt() / radiance.len() as f64;
+            println!("{who}, band {band}: {mean} ± {error}");
+            // 32 segments leave out 2⁻³² of the light, f32 rounds to 6e-8 a bounce.
+            assert!(
+                (mean - 1.0).abs() <= Z_FURNACE * error + 1e-6,
+                "{who}, band {band}: {mean} ± {error}"
+            );
+        }
+    }
+}
+
+/// The wedge before a constant light is R(λ) L(λ): the picture against optics alone, without a renderer.
+#[test]
+fn the_wedge_is_the_films_reflectance() {
+    const SIZE: [u32; 2] = [200, 50];
+    let scene = small("film_wedge", SIZE, 128, 8, 9);
+    let image = on_gpu(&open(), &scene);
+    let (film, ends_nm) = wedge_of(&scene);
+    let mut largest = 0.0_f64;
+    for x in 0..SIZE[0] {
+        for band in 0..8 {
+            let (found, error) = column_mean(&image, x, band);
+            // The film fills the picture from edge to edge, so a column is a step of its thickness.
+            let thickness_nm = |part: f64| {
+                let across = (f64::from(x) + part) / f64::from(SIZE[0]);
+                ends_nm.0 + (ends_nm.1 - ends_nm.0) * across
+            };
+            let parts = [0.1, 0.3, 0.5, 0.7, 0.9].map(thickness_nm);
+            let expected = parts
+                .map(|nm| mean_over_band(&scene, film, band, nm))
+                .iter()
+                .sum::<f64>()
+                / 5.0;
+            let z = (found - expected).abs() / error;
+            largest = if z.is_nan() {
+                f64::INFINITY
+            } else {
+                largest.max(z)
+            };
+        }
+    }
+    println!("largest of 1600 deviations: {largest:.2} standard errors");
+    assert!(largest < Z_MEAN, "{largest}");
+    assert!(
+        largest > 1.0,
+        "the standard error is too large to prove anything: {largest}"
+    );
+}
+
+/// Spectra of the film's index and of the light, and the film's thickness at its ends.
+fn wedge_of(scene: &Scene) -> ((scene::SpectrumId, scene::SpectrumId), (f64, f64)) {
+    let film = scene
+        .materials()
+        .iter()
+        .find_map(|material| match material {
+            scene::Material::Film {
+                n,
+                thickness:
+                    scene::Thickness::Linear {
+                        start_nm, end_nm, ..
+                    },
+                ..
+            } => Some((*n, (*start_nm, *end_nm))),
+            _ => None,
+        });
+    let (n, ends_nm) = film.expect("the wedge has a film");
+    let scene::Environment::Constant(light) = *scene.environment() else {
+        panic!("the wedge has a constant environment");
+    };
+    assert_eq!(light.scale, 1.0);
+    ((n, light.spectrum), ends_nm)
+}
+
+/// Mean of a band over a column and its standard error.
+fn column_mean(image: &SpectralImage, x: u32, band: u32) -> (f64, f64) {
+    let (mut sum, mut variance) = (0.0, 0.0);
+    for y in 0..image.height() {
+        let i = ((y * image.width() + x) * image.bands().count() + band) as usize;
+        sum += f64::from(image.radiance()[i]);
+        variance += f64::from(image.variance()[i]);
+    }
+    let rows = f64::from(image.height());
+    (sum / rows, variance.sqrt() / rows)
+}
+
+fn mean_over_band(
+    scene: &Scene,
+    (n, light): (scene::SpectrumId, scene::SpectrumId),
+    band: u32,
+    thickness_nm: f64,
+) -> f64 {
+    let steps = 100;
+    let at = |i: i32| {
+        let offset = (f64::from(i) + 0.5) / f64::from(steps);
+        let index = scene.spectrum(n).at(band, offset);
+        let wavelength = scene.settings().bands.wavelength_nm(band, offset);
+        let film = optics::film(index.into(), thickness_nm, wavelength, 1.0);
+        film.reflectance.unpolarised() * scene.spectrum(light).at(band, offset)
+    };
+    (0..steps).map(at).sum::<f64>() / f64::from(steps)
+}
+
+/// However the samples are divided, and whichever tile a pixel is in, its bits are the same.
+#[test]
+fn the_same_command_gives_the_same_bits() {
+    let gpu = open();
+    let scene = small("soap_bubble", [600, 40], 6, 5, 3);
+    assert_eq!(on_gpu(&gpu, &scene), on_gpu(&gpu, &scene));
+    let other = small("soap_bubble", [600, 40], 6, 5, 4);
+    assert_ne!(on_gpu(&gpu, &scene), on_gpu(&gpu, &other));
+}
