@@ -1,11 +1,12 @@
 //! `pellicle bench`: samples per second on every adapter and on the CPU.
 
+use crate::print;
 use miette::IntoDiagnostic;
 use pellicle::gpu::{AdapterChoice, adapters};
 use pellicle::scene::{Scene, SceneFile};
 use pellicle::{Backend, Renderer};
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 #[derive(clap::Args)]
@@ -13,8 +14,8 @@ pub(crate) struct Arguments {
     /// The scenes to render
     #[arg(default_values = ["scenes/soap_bubble.toml", "scenes/film_wedge.toml", "scenes/metal_spheres.toml"])]
     scenes: Vec<PathBuf>,
-    /// Seconds that each measurement takes at least
-    #[arg(long, default_value_t = 2.0)]
+    /// Seconds that each measurement takes, about
+    #[arg(long, default_value_t = 4.0)]
     seconds: f64,
 }
 
@@ -32,70 +33,67 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     }
     renderers.push(Renderer::open(&Backend::Cpu).into_diagnostic()?);
     for (index, renderer) in renderers.iter().enumerate() {
-        println!("{}: {}", index + 1, renderer.description());
+        print::result(format_args!("{}: {}", index + 1, renderer.description()))?;
     }
-    println!("\nmillion samples/s, best of {ROUNDS} rounds");
-    println!(
+    print::result(format_args!("\nmillion samples/s, best of {ROUNDS} rounds"))?;
+    print::result(format_args!(
         "{:<16}{:>10}{:>10}{:>10}{:>14}{:>18}",
         "scene", "renderer", "4 bands", "40 bands", "time 40 / 4", "40 bands to CPU"
-    );
+    ))?;
     for path in &arguments.scenes {
-        let rates = measure(path, &renderers, arguments.seconds / ROUNDS as f64)?;
+        let rates = measure(path, &renderers, arguments.seconds)?;
         let on_cpu = rates[rates.len() - 1][1];
         for (index, [few, many]) in rates.iter().enumerate() {
-            println!(
+            print::result(format_args!(
                 "{:<16}{:>10}{few:>10.3}{many:>10.3}{:>14.2}{:>18.2}",
                 path.file_stem().unwrap_or_default().to_string_lossy(),
                 index + 1,
                 few / many,
                 many / on_cpu,
-            );
+            ))?;
         }
     }
     Ok(())
 }
 
 /// Million samples per second of each renderer with each number of bands.
-fn measure(path: &PathBuf, renderers: &[Renderer], seconds: f64) -> miette::Result<Vec<[f64; 2]>> {
+fn measure(path: &Path, renderers: &[Renderer], seconds: f64) -> miette::Result<Vec<[f64; 2]>> {
     let mut best = vec![[0.0_f64; 2]; renderers.len()];
-    let file = SceneFile::read(path)?;
+    let mut file = SceneFile::read(path)?;
     for _ in 0..ROUNDS {
         for (renderer, best) in renderers.iter().zip(&mut best) {
             for (bands, best) in BANDS.into_iter().zip(best) {
-                let mut file = file.clone();
                 file.description.render.bands = bands;
-                file.description.render.samples = 1 << 20;
-                *best = best.max(rate(renderer, &file.validate()?, seconds)?);
+                *best = best.max(rate(renderer, &mut file, seconds)?);
             }
         }
     }
     Ok(best)
 }
 
-/// Renders until the time is over; what is counted begins after the first batches, when everything is compiled and the sizes are found.
-fn rate(renderer: &Renderer, scene: &Scene, seconds: f64) -> miette::Result<f64> {
-    const WARM_UP: f64 = 0.5;
-    let mut begun: Option<(Instant, u64)> = None;
-    let mut first: Option<Instant> = None;
-    let mut rate = 0.0;
-    let stopped = renderer.render(scene, &mut |done| {
-        let now = Instant::now();
-        let warm = now - *first.get_or_insert(now);
-        match begun {
-            None if warm.as_secs_f64() >= WARM_UP => begun = Some((now, done)),
-            None => {}
-            Some((start, before)) => {
-                let took = (now - start).as_secs_f64();
-                rate = (done - before) as f64 / took * 1e-6;
-                if took >= seconds {
-                    return ControlFlow::Break(());
-                }
-            }
-        }
-        ControlFlow::Continue(())
-    });
-    match stopped {
-        Err(pellicle::RenderError::Stopped) | Ok(_) => Ok(rate),
-        Err(error) => Err(error).into_diagnostic(),
-    }
+/// Renders the whole picture, first with a sample per pixel to learn the speed, then with as many as fill the time.
+fn rate(renderer: &Renderer, file: &mut SceneFile, seconds: f64) -> miette::Result<f64> {
+    file.description.render.samples = 1;
+    let scene = file.validate()?;
+    let first = timed(renderer, &scene)?;
+    let pixels = f64::from(scene.settings().width) * f64::from(scene.settings().height);
+    let samples = (seconds * first / pixels).ceil().clamp(2.0, 4096.0);
+    file.description.render.samples = samples as u32;
+    Ok(timed(renderer, &file.validate()?)? * 1e-6)
+}
+
+/// Samples per second of a whole render, reading back included, from the end of the first batch: what comes before it is
+/// compiling.
+fn timed(renderer: &Renderer, scene: &Scene) -> miette::Result<f64> {
+    let mut first: Option<(Instant, u64)> = None;
+    let mut total = 0;
+    renderer
+        .render(scene, &mut |done| {
+            first.get_or_insert((Instant::now(), done));
+            total = done;
+            ControlFlow::Continue(())
+        })
+        .into_diagnostic()?;
+    let (start, before) = first.unwrap_or((Instant::now(), 0));
+    Ok((total - before) as f64 / start.elapsed().as_secs_f64())
 }
