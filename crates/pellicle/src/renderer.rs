@@ -38,7 +38,7 @@ pub enum RenderError {
 #[non_exhaustive]
 pub enum Renderer {
     /// An open adapter.
-    Gpu(Gpu),
+    Gpu(Box<Gpu>),
     /// The CPU.
     Cpu {
         /// Why, where an adapter was wanted but there is no driver.
@@ -56,9 +56,9 @@ impl Renderer {
             Backend::Cpu => Ok(Self::Cpu {
                 instead_of_gpu: None,
             }),
-            Backend::Gpu(choice) => Gpu::open(choice).map(Self::Gpu),
+            Backend::Gpu(choice) => Gpu::open(choice).map(|gpu| Self::Gpu(Box::new(gpu))),
             Backend::Auto => match Gpu::open(&AdapterChoice::Best) {
-                Ok(gpu) => Ok(Self::Gpu(gpu)),
+                Ok(gpu) => Ok(Self::Gpu(Box::new(gpu))),
                 Err(error @ OpenError::NoAdapter) => Ok(Self::Cpu {
                     instead_of_gpu: Some(error),
                 }),

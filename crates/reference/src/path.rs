@@ -151,7 +151,11 @@ impl Path<'_> {
                     self.meet_diffuse(hit.object, point, &Pattern::Uniform(spectrum))
                 })
             }
-            Material::Conductor { n, k, roughness } if roughness == 0.0 => {
+            Material::Conductor {
+                n,
+                k,
+                roughness: 0.0,
+            } => {
                 self.meet_mirror(hit.object, point, (n, k))
             }
             Material::Conductor { n, k, roughness } => {

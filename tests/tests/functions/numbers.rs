@@ -77,7 +77,9 @@ fn integers(a: &[f64]) -> [u32; 4] {
 /// Rows of four random integers, as halves, and the extremes.
 fn integer_table() -> Vec<f32> {
     let mut rows = table(&[(0.0, 65536.0); 8], &[&[0.0; 8], &[65535.0; 8]]);
-    rows.iter_mut().for_each(|x| *x = x.floor().min(65535.0));
+    for x in &mut rows {
+        *x = x.floor().min(65535.0);
+    }
     rows
 }
 
