@@ -2,6 +2,7 @@
 
 pub mod agreement;
 pub mod device;
+pub mod flip;
 pub mod frames;
 pub mod probe;
 pub mod scenes;

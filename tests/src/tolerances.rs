@@ -94,3 +94,8 @@ pub const ORACLE_XYZ: Tolerance = of(0.0, 1e-9);
 pub const SAME_COLOUR: f64 = 1e-3;
 /// The furnace: standard errors that the mean of a band may be off.
 pub const Z_FURNACE: f64 = 4.0;
+
+/// Largest mean FLIP between a picture and its golden. The same driver makes the same bits; the f64 reference, which rounds
+/// otherwise as another driver does, lies within 6e-5 of the goldens made on a software driver. Forty times that leaves
+/// room for drivers that use all the error they are allowed; a film's index one per cent higher gives 0.05 and more.
+pub const PICTURES: f64 = 0.002;

@@ -1,0 +1,161 @@
+//! Developed pictures against goldens, by FLIP. A missing golden fails; bless anew, after looking at the pictures, with
+//! `PELLICLE_BLESS=1 cargo test -p pellicle-tests --test pictures`.
+
+use color::RgbImage8;
+use pellicle_tests::device;
+use pellicle_tests::flip::{Picture, mean_flip};
+use pellicle_tests::scenes::file;
+use pellicle_tests::tolerances::PICTURES;
+use pellicle_tests::wgsl::root;
+use scene::SceneFile;
+use scene::description::{Index, Material};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+const BLESS: &str = "PELLICLE_BLESS=1 cargo test -p pellicle-tests --test pictures";
+const SCENES: [(&str, [u32; 2]); 3] = [
+    ("soap_bubble", [160, 120]),
+    ("film_wedge", [160, 40]),
+    ("metal_spheres", [160, 120]),
+];
+
+/// A scene rendered small on the device and developed at its own exposure.
+fn rendered(gpu: &gpu::Gpu, mut file: SceneFile, size: [u32; 2]) -> RgbImage8 {
+    let render = &mut file.description.render;
+    (render.size, render.samples, render.seed) = (size, 64, 1);
+    let scene = file
+        .validate()
+        .unwrap_or_else(|problems| panic!("{problems}"));
+    let image = gpu::render(gpu, &scene, &mut |_| ControlFlow::Continue(())).unwrap();
+    color::develop(&image, scene.settings().exposure_ev)
+}
+
+/// The same by the reference, with the same random numbers.
+fn rendered_by_reference(mut file: SceneFile, size: [u32; 2]) -> RgbImage8 {
+    let render = &mut file.description.render;
+    (render.size, render.samples, render.seed) = (size, 64, 1);
+    let scene = file
+        .validate()
+        .unwrap_or_else(|problems| panic!("{problems}"))
+        .rounded_to_f32();
+    let image = reference::render(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
+    color::develop(&image, scene.settings().exposure_ev)
+}
+
+fn golden_path(name: &str) -> PathBuf {
+    root().join("tests/goldens").join(format!("{name}.png"))
+}
+
+/// Compares a picture with the golden at `path`.
+fn compare(actual: &Picture, path: &Path) -> Result<f64, String> {
+    let golden = Picture::read(path)
+        .map_err(|error| format!("{}: {error}; to make it: {BLESS}", path.display()))?;
+    let mean = mean_flip(&golden, actual)?;
+    if mean <= PICTURES {
+        Ok(mean)
+    } else {
+        Err(format!("mean FLIP {mean:.4}, allowed {PICTURES}"))
+    }
+}
+
+#[test]
+fn pictures_look_like_their_goldens() {
+    let gpu = device::open();
+    let bless = std::env::var("PELLICLE_BLESS").is_ok_and(|value| value == "1");
+    let mut wrong = Vec::new();
+    for (name, size) in SCENES {
+        let picture = rendered(&gpu, file(name), size);
+        let path = golden_path(name);
+        if bless {
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            color::png::write(&path, &picture).unwrap();
+        }
+        match compare(&Picture::of(&picture), &path) {
+            Ok(mean) => println!("{name}: mean FLIP {mean:.5}"),
+            Err(report) => {
+                let folder = root().join("target/pictures");
+                std::fs::create_dir_all(&folder).unwrap();
+                let saved = folder.join(format!("{name}.png"));
+                color::png::write(&saved, &picture).unwrap();
+                wrong.push(format!("{name}: {report}; see {}", saved.display()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Another implementation differs from the goldens as another driver does: in rounding.
+#[test]
+fn the_reference_paints_the_same_pictures() {
+    for (name, size) in SCENES {
+        let picture = rendered_by_reference(file(name), size);
+        let found = compare(&Picture::of(&picture), &golden_path(name));
+        println!("{name}: reference against golden: {found:?}");
+        assert!(found.is_ok(), "{name}: {found:?}");
+    }
+}
+
+/// The index of water as the project carries it, times a factor.
+fn water(factor: f64) -> Index {
+    let constants = spectra::optical_constants("water").unwrap().data;
+    let nm: Vec<f64> = (360..=830).step_by(5).map(f64::from).collect();
+    let n = nm
+        .iter()
+        .map(|&nm| factor * constants.n.at(nm).unwrap())
+        .collect();
+    Index::Table {
+        nm,
+        n,
+        k: None,
+        extrapolate: scene::description::Extrapolate::Error,
+    }
+}
+
+#[test]
+fn a_film_of_a_wrong_index_is_noticed() {
+    let gpu = device::open();
+    for (name, size) in &SCENES[..2] {
+        let with = |factor: f64| {
+            let mut file = file(name);
+            let mut films = 0;
+            for material in file.description.materials.values_mut() {
+                if let Material::Film { index, .. } = material {
+                    *index = water(factor);
+                    films += 1;
+                }
+            }
+            assert_eq!(films, 1, "{name}");
+            Picture::of(&rendered(&gpu, file, *size))
+        };
+        // The table replaces the name faithfully, so what differs below is the index.
+        let right = compare(&with(1.0), &golden_path(name));
+        assert!(right.is_ok(), "{name}: {right:?}");
+        let wrong = compare(&with(1.01), &golden_path(name));
+        println!("{name}: index + 1 %: {wrong:?}");
+        assert!(wrong.is_err(), "{name}: {wrong:?}");
+    }
+}
+
+#[test]
+fn a_missing_golden_fails_and_says_how_to_bless() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = Picture {
+        size: [1, 1],
+        codes: vec![[0; 3]],
+    };
+    let report = compare(&picture, &folder.path().join("none.png")).unwrap_err();
+    assert!(report.contains(BLESS), "{report}");
+}
+
+/// Goldens and scenes belong together: none is left over.
+#[test]
+fn every_golden_has_its_scene() {
+    let mut found: Vec<String> = std::fs::read_dir(root().join("tests/goldens"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    found.sort();
+    let mut expected = SCENES.map(|(name, _)| format!("{name}.png"));
+    expected.sort();
+    assert_eq!(found, expected);
+}
