@@ -3,6 +3,7 @@
 mod bench;
 mod devices;
 mod output;
+mod print;
 mod progress;
 mod render;
 
@@ -36,23 +37,18 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    print::keep_lines_whole();
     let result = match Arguments::parse().command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Check { scene } => check(&scene),
-        Command::Devices => {
-            devices::print();
-            Ok(())
-        }
-        Command::Schema => {
-            println!("{}", pellicle::scene::schema());
-            Ok(())
-        }
+        Command::Devices => devices::print(),
+        Command::Schema => print::result(format_args!("{:#}", pellicle::scene::schema())),
         Command::Bench(arguments) => bench::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(report) => {
-            eprintln!("{report:?}");
+            print::note(format_args!("{report:?}"));
             ExitCode::FAILURE
         }
     }
@@ -61,7 +57,7 @@ fn main() -> ExitCode {
 fn check(scene: &std::path::Path) -> miette::Result<()> {
     let validated = pellicle::scene::SceneFile::read(scene)?.validate()?;
     let settings = validated.settings();
-    println!(
+    print::result(format_args!(
         "{}: valid; {}×{} pixels, {} bands, {} samples, {} objects, {} lights",
         scene.display(),
         settings.width,
@@ -70,6 +66,5 @@ fn check(scene: &std::path::Path) -> miette::Result<()> {
         settings.samples,
         validated.objects().len(),
         validated.lights().len(),
-    );
-    Ok(())
+    ))
 }

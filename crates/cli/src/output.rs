@@ -1,10 +1,14 @@
 //! Where a render is written.
 
+use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::color;
 use pellicle::color::spectral_exr::{Metadata, WriteOptions};
 use pellicle::spectra::SpectralImage;
+use std::ffi::OsStr;
+use std::fs::OpenOptions;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// The files that a render writes.
 #[derive(Debug, Default, PartialEq, Eq)]
@@ -14,29 +18,34 @@ pub(crate) struct Outputs {
 }
 
 impl Outputs {
-    /// From what `-o` says: `.png` is a picture, `.exr` a spectral image, a name without extension both. Without any,
-    /// both are named after the scene and stand in the current folder.
+    /// From what `-o` says: `.png` is a picture, `.exr` a spectral image, a name without extension both, a folder
+    /// both, named after the scene. Without any, the folder is the current one.
     pub(crate) fn new(scene: &Path, asked: &[PathBuf]) -> miette::Result<Self> {
         let mut outputs = Self::default();
+        let stem = scene.file_stem().unwrap_or("render".as_ref());
         if asked.is_empty() {
-            let stem = scene.file_stem().unwrap_or("render".as_ref());
             outputs.add_both(Path::new(stem));
         }
         for path in asked {
-            match path.extension().and_then(|extension| extension.to_str()) {
+            let extension = path.extension().map(OsStr::to_string_lossy);
+            match extension.map(|name| name.to_lowercase()).as_deref() {
+                _ if path.is_dir() => outputs.add_both(&path.join(stem)),
+                _ if names_a_folder(path) => return Err(no_folder(path, path)),
                 Some("png") => outputs.pictures.push(path.clone()),
                 Some("exr") => outputs.spectral.push(path.clone()),
                 None => outputs.add_both(path),
-                Some(other) => {
+                Some(_) => {
                     return Err(miette!(
                         help = "end it in .png (picture) or .exr (spectral image), or leave the ending out for both",
-                        "-o {}: a file ending in .{other} cannot be written",
+                        "-o {}: a file with this ending cannot be written",
                         path.display()
                     ));
                 }
             }
         }
-        outputs.check_folders()?;
+        for path in outputs.pictures.iter().chain(&outputs.spectral) {
+            check_place(path, scene)?;
+        }
         Ok(outputs)
     }
 
@@ -51,24 +60,6 @@ impl Outputs {
         self.spectral.push(named(".exr"));
     }
 
-    /// A missing folder is told before the render, not after it.
-    fn check_folders(&self) -> miette::Result<()> {
-        for path in self.pictures.iter().chain(&self.spectral) {
-            let folder = path
-                .parent()
-                .filter(|folder| !folder.as_os_str().is_empty());
-            if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
-                return Err(miette!(
-                    help = "create it first, or write elsewhere with -o",
-                    "-o {}: there is no folder {}",
-                    path.display(),
-                    folder.display()
-                ));
-            }
-        }
-        Ok(())
-    }
-
     /// Develops and writes.
     pub(crate) fn write(&self, image: &SpectralImage, metadata: &Metadata) -> miette::Result<()> {
         if !self.pictures.is_empty() {
@@ -77,17 +68,70 @@ impl Outputs {
                 color::png::write(path, &picture)
                     .into_diagnostic()
                     .wrap_err_with(|| format!("{} was not written", path.display()))?;
-                eprintln!("wrote {}", path.display());
+                print::note(format_args!("wrote {}", path.display()));
             }
         }
         for path in &self.spectral {
             color::spectral_exr::write(path, image, metadata, WriteOptions::default())
                 .into_diagnostic()
                 .wrap_err_with(|| format!("{} was not written", path.display()))?;
-            eprintln!("wrote {}", path.display());
+            print::note(format_args!("wrote {}", path.display()));
         }
         Ok(())
     }
+}
+
+/// Whether a path that is no folder is written like one.
+fn names_a_folder(path: &Path) -> bool {
+    let ends_in_separator = path.to_string_lossy().ends_with(std::path::is_separator);
+    ends_in_separator || path.file_name().is_none()
+}
+
+fn no_folder(path: &Path, folder: &Path) -> miette::Report {
+    miette!(
+        help = "create it first, or write elsewhere with -o",
+        "-o {}: there is no folder {}",
+        path.display(),
+        folder.display()
+    )
+}
+
+/// A place that cannot be written to is told before the render, not after it.
+fn check_place(path: &Path, scene: &Path) -> miette::Result<()> {
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    if !folder.is_dir() {
+        return Err(no_folder(path, folder));
+    }
+    if path.is_dir() {
+        return Err(miette!("-o {}: this is a folder", path.display()));
+    }
+    if let (Ok(written), Ok(read)) = (path.canonicalize(), scene.canonicalize())
+        && written == read
+    {
+        return Err(miette!(
+            help = "write elsewhere with -o",
+            "{}: this would overwrite the scene file",
+            path.display()
+        ));
+    }
+    can_create_in(folder)
+        .into_diagnostic()
+        .wrap_err_with(|| format!("{}: its folder cannot be written to", path.display()))
+}
+
+/// Makes an empty file and removes it: permissions alone do not tell of read-only and virtual file systems.
+fn can_create_in(folder: &Path) -> std::io::Result<()> {
+    static COUNTER: AtomicU32 = AtomicU32::new(0);
+    let turn = COUNTER.fetch_add(1, Ordering::Relaxed);
+    let probe = folder.join(format!(".pellicle-{}-{turn}.probe", std::process::id()));
+    OpenOptions::new()
+        .write(true)
+        .create_new(true)
+        .open(&probe)?;
+    std::fs::remove_file(&probe)
 }
 
 #[cfg(test)]
@@ -111,7 +155,19 @@ mod tests {
         let found = outputs(&["a.png", "b.exr", "c"]).unwrap();
         assert_eq!(found.pictures, ["a.png", "c.png"].map(PathBuf::from));
         assert_eq!(found.spectral, ["b.exr", "c.exr"].map(PathBuf::from));
+        let found = outputs(&["A.PNG", "b.c.Exr"]).unwrap();
+        assert_eq!(found.pictures, [PathBuf::from("A.PNG")]);
+        assert_eq!(found.spectral, [PathBuf::from("b.c.Exr")]);
         assert!(outputs(&["a.jpg"]).is_err());
-        assert!(outputs(&["no/such/folder/a.png"]).is_err());
+    }
+
+    #[test]
+    fn a_folder_gets_both_files_named_after_the_scene() {
+        let found = outputs(&["."]).unwrap();
+        assert_eq!(found.pictures, [PathBuf::from("./soap_bubble.png")]);
+        assert_eq!(found.spectral, [PathBuf::from("./soap_bubble.exr")]);
+        for missing in ["no/such/folder/a.png", "no_such_folder/", "no_such/..", ""] {
+            assert!(outputs(&[missing]).is_err(), "{missing:?}");
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! `pellicle render`.
 
 use crate::output::Outputs;
-use crate::progress;
+use crate::{print, progress};
 use clap::ValueEnum;
 use miette::{IntoDiagnostic, miette};
 use pellicle::color::spectral_exr::Metadata;
@@ -16,7 +16,7 @@ use std::time::Instant;
 pub(crate) struct Arguments {
     /// The scene file
     scene: PathBuf,
-    /// Where to write: .png is a picture, .exr a spectral image, no ending both; can be repeated
+    /// Where to write: .png is a picture, .exr a spectral image, no ending or a folder both; can be repeated
     /// [default: both, named after the scene, in the current folder]
     #[arg(short, long, value_name = "PATH")]
     output: Vec<PathBuf>,
@@ -96,9 +96,9 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
         instead_of_gpu: Some(reason),
     } = &renderer
     {
-        eprintln!("rendering on the CPU: {reason}");
+        print::note(format_args!("rendering on the CPU: {reason}"));
     }
-    eprintln!("{}", renderer.description());
+    print::note(format_args!("{}", renderer.description()));
 
     let settings = scene.settings();
     let total = samples_of(settings);
@@ -112,14 +112,14 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
         .into_diagnostic()?;
     bar.finish_and_clear();
     let seconds = started.elapsed().as_secs_f64();
-    eprintln!(
+    print::note(format_args!(
         "{}×{}, {} bands, {} samples per pixel: {seconds:.1} s, {:.3} million samples/s",
         settings.width,
         settings.height,
         settings.bands.count(),
         settings.samples,
         total as f64 / seconds * 1e-6,
-    );
+    ));
     outputs.write(&image, &metadata(&scene, &renderer))
 }
 
