@@ -1,0 +1,90 @@
+//! 2. A scene made by a program: a row of soap films, each 60 nm thicker than the last.
+//!
+//! `cargo run --release --example build_a_scene [FOLDER]`
+
+use pellicle::scene::Scene;
+use pellicle::scene::description::{
+    Camera, Description, Emission, Environment, Index, Material, Object, Render, Thickness,
+};
+use pellicle::{Backend, Renderer, color};
+use std::error::Error;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+/// How many films there are.
+const COUNT: u32 = 8;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let folder = std::env::args_os()
+        .nth(1)
+        .map_or_else(std::env::temp_dir, PathBuf::from);
+
+    // The types are those of a scene file, field by field.
+    let mut description = Description {
+        camera: Camera::Orthographic {
+            position: [0.0, 0.0, 2.0],
+            look_at: [0.0; 3],
+            up: [0.0, 1.0, 0.0],
+            height: 1.0,
+        },
+        render: Render {
+            size: [8 * COUNT, 8],
+            samples: 256,
+            exposure_ev: 3.5,
+            ..Render::default()
+        },
+        materials: [].into(),
+        objects: Vec::new(),
+        environment: Some(Environment::Constant {
+            emission: Emission::Illuminant {
+                illuminant: "D65".to_owned(),
+                extrapolate: Default::default(),
+                scale: 1.0,
+            },
+        }),
+    };
+    for i in 0..COUNT {
+        let name = format!("film {i}");
+        let film = Material::Film {
+            index: Index::Name("water".to_owned()),
+            thickness_nm: Thickness::Constant(120.0 + 60.0 * f64::from(i)),
+        };
+        description.materials.insert(name.clone(), film);
+        description.objects.push(wall(&name, i, 0.0));
+    }
+    // Black sheets take what passes through the films.
+    let black = Material::Conductor {
+        index: Index::Real(1.0),
+        roughness: 0.0,
+    };
+    description.materials.insert("black".to_owned(), black);
+    for i in 0..COUNT {
+        description.objects.push(wall("black", i, -0.5));
+    }
+
+    // Validation tells every mistake at once; names of files would be looked for in the folder given here.
+    let scene = Scene::new(&description, Path::new("."))?;
+    let renderer = Renderer::open(&Backend::Auto)?;
+    let image = renderer.render(&scene, &mut |_samples| ControlFlow::Continue(()))?;
+
+    let path = folder.join("build_a_scene.png");
+    let picture = color::develop(&image, scene.settings().exposure_ev);
+    color::png::write(&path, &picture)?;
+    for i in 0..COUNT {
+        let thickness = 120 + 60 * i;
+        println!("{thickness} nm: sRGB {:?}", picture.pixel(8 * i + 4, 4));
+    }
+    println!("wrote {}", path.display());
+    Ok(())
+}
+
+/// A unit square in the i-th place of the row.
+fn wall(material: &str, i: u32, z: f64) -> Object {
+    Object::Rectangle {
+        material: material.to_owned(),
+        center: [f64::from(i) - 0.5 * f64::from(COUNT - 1), 0.0, z],
+        normal: [0.0, 0.0, 1.0],
+        size: [1.0, 1.0],
+        up: None,
+    }
+}
