@@ -1,6 +1,7 @@
 //! The harness of the suites in `tests/`.
 
 pub mod agreement;
+pub mod command;
 pub mod device;
 pub mod flip;
 pub mod frames;
