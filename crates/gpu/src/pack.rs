@@ -34,7 +34,7 @@ impl PackedScene {
     pub fn new(scene: &Scene) -> Self {
         let lights: Vec<u32> = scene.lights().iter().map(|&index| index as u32).collect();
         let objects = scene.objects().iter().enumerate().map(|(index, object)| {
-            let is_light = lights.contains(&(index as u32));
+            let is_light = lights.binary_search(&(index as u32)).is_ok();
             pack_object(object, is_light)
         });
         let spectra = scene

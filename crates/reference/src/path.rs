@@ -299,7 +299,7 @@ impl Path<'_> {
         let Some((position, pdf)) = self.scattered else {
             return 1.0;
         };
-        if !self.lights.contains(&object) {
+        if self.lights.binary_search(&object).is_err() {
             return 1.0;
         }
         let shape = &self.scene.objects()[object].shape;
