@@ -34,6 +34,7 @@ impl PendingFile {
         hidden.push(format!(".{}-{turn}.tmp", std::process::id()));
         let temporary = target.with_file_name(hidden);
         let file = OpenOptions::new()
+            .read(true)
             .write(true)
             .create_new(true)
             .open(&temporary)?;

@@ -26,6 +26,7 @@
 //!
 //! The file is in scan lines, compressed without loss; see [`write`](write()) for what that costs.
 
+mod attribute_order;
 mod bands;
 mod channels;
 mod metadata;

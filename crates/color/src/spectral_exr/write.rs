@@ -15,6 +15,7 @@ use rayon::prelude::*;
 use spectra::SpectralImage;
 use thiserror::Error;
 
+use super::attribute_order::sort_attributes;
 use super::channels::{Channels, Content};
 use super::metadata::Metadata;
 use crate::develop::linear_rgb;
@@ -116,6 +117,8 @@ pub fn write(
             source,
         },
     })?;
+    let written = pending.handle().map_err(file_error)?;
+    sort_attributes(written).map_err(file_error)?;
     pending.commit().map_err(file_error)
 }
 
