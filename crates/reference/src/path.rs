@@ -155,9 +155,7 @@ impl Path<'_> {
                 n,
                 k,
                 roughness: 0.0,
-            } => {
-                self.meet_mirror(hit.object, point, (n, k))
-            }
+            } => self.meet_mirror(hit.object, point, (n, k)),
             Material::Conductor { n, k, roughness } => {
                 self.meet_rough_conductor(hit.object, point, (n, k), roughness)
             }
