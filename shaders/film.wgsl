@@ -13,9 +13,8 @@ const GRAZING: f32 = 1e-6;
 /// R_s = (n² − 1)² S / (4 cos²θ (n² − sin²θ) + (n² − 1)² S), and for p with n² cos²θ − cos²θ₂ in place of n² − 1.
 fn film_reflectance(n: vec4f, thickness_nm: f32, inverse_wavelength: vec4f, cosine: f32) -> vec4f {
     let c = max(cosine, GRAZING);
-    let sin2 = (1.0 - c) * (1.0 + c);
     let n2 = n * n;
-    let n2_cos2 = n2 - sin2; // (n cos θ₂)²
+    let n2_cos2 = (n2 - 1.0) + c * c; // (n cos θ₂)² = n² − sin²θ, which would cancel near grazing
     // φ in half turns, reduced before any sine is taken.
     let half_turns = 2.0 * thickness_nm * sqrt(n2_cos2) * inverse_wavelength;
     let sine = sin_pi4(half_turns - round(half_turns));
@@ -24,7 +23,8 @@ fn film_reflectance(n: vec4f, thickness_nm: f32, inverse_wavelength: vec4f, cosi
     let p = (n2 * c * c - n2_cos2 / n2) * sine;
     let s2 = s * s;
     let p2 = p * p;
-    return 0.5 * (s2 / (base + s2) + p2 / (base + p2));
+    // With n = 1 at grazing everything vanishes; the tiny number makes that 0/0 a 0.
+    return 0.5 * (s2 / max(base + s2, vec4f(1e-30)) + p2 / max(base + p2, vec4f(1e-30)));
 }
 
 struct FilmPowers {
@@ -38,10 +38,9 @@ struct FilmPowers {
 /// (Born and Wolf, 7th ed., section 7.6, with r₂ = −r₁).
 fn film_powers(n: vec4f, k: vec4f, thickness_nm: f32, inverse_wavelength: vec4f, cosine: f32) -> FilmPowers {
     let c = max(cosine, GRAZING);
-    let sin2 = (1.0 - c) * (1.0 + c);
     let index2 = Complex4(n * n - k * k, 2.0 * n * k);
-    // n cos θ₂ = √(n² − sin²θ): the root in the first quadrant runs forward and decays.
-    let n_cos = complex_sqrt(Complex4(index2.re - sin2, index2.im));
+    // n cos θ₂ = √(n² − sin²θ): the root in the first quadrant runs forward and decays. 1 − cos² for sin² would cancel.
+    let n_cos = complex_sqrt(Complex4((index2.re - 1.0) + c * c, index2.im));
     // β² turns by 2 n d cos θ₂ / λ: twice as many half turns.
     let half_turns = 4.0 * thickness_nm * inverse_wavelength;
     let beta2 = phase_factor(n_cos.re * half_turns, n_cos.im * half_turns);

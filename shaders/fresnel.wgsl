@@ -7,12 +7,13 @@
 /// `cosine` in (0, 1].
 fn reflectance_unpolarised(n: vec4f, k: vec4f, cosine: f32) -> vec4f {
     let sin2 = (1.0 - cosine) * (1.0 + cosine);
-    let root = complex_sqrt(Complex4(n * n - k * k - sin2, 2.0 * n * k));
+    // n² − k² − sin²θ, without the cancellation near grazing.
+    let root = complex_sqrt(Complex4((n * n - k * k - 1.0) + cosine * cosine, 2.0 * n * k));
     let a = root.re;
     let b2 = root.im * root.im;
     let less = a - cosine;
     let more = a + cosine;
-    let r_s = (less * less + b2) / (more * more + b2);
+    let r_s = (less * less + b2) / max(more * more + b2, vec4f(1e-30));
     let steep = b2 * cosine * cosine;
     let below = a * cosine - sin2;
     let above = a * cosine + sin2;

@@ -55,6 +55,9 @@ fn cook_torrance(eye: vec3f, light: vec3f, slope: f32) -> Microfacet {
     }
     let facet = normalize(eye + light);
     let cosine = dot(eye, facet);
+    if (cosine <= 0.0) {
+        return Microfacet(0.0, 0.0, 1.0);
+    }
     let d = beckmann_d(facet.z, slope);
     let g = v_groove_g(facet.z, eye.z, light.z, cosine);
     return Microfacet(d * g / (4.0 * eye.z * light.z), d * facet.z / (4.0 * cosine), cosine);

@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
         "scene", "renderer", "4 bands", "40 bands", "time 40 / 4", "40 bands to CPU"
     ))?;
     for path in &arguments.scenes {
-        let rates = measure(path, &renderers, arguments.seconds)?;
+        let rates = measure(path, &renderers, arguments.seconds.clamp(0.1, 600.0))?;
         let on_cpu = rates[rates.len() - 1][1];
         for (index, [few, many]) in rates.iter().enumerate() {
             print::result(format_args!(
@@ -85,6 +85,7 @@ fn rate(renderer: &Renderer, file: &mut SceneFile, seconds: f64) -> miette::Resu
 /// Samples per second of a whole render, reading back included, from the end of the first batch: what comes before it is
 /// compiling.
 fn timed(renderer: &Renderer, scene: &Scene) -> miette::Result<f64> {
+    let begun = Instant::now();
     let mut first: Option<(Instant, u64)> = None;
     let mut total = 0;
     renderer
@@ -94,6 +95,7 @@ fn timed(renderer: &Renderer, scene: &Scene) -> miette::Result<f64> {
             ControlFlow::Continue(())
         })
         .into_diagnostic()?;
-    let (start, before) = first.unwrap_or((Instant::now(), 0));
+    // A picture of a single batch leaves nothing behind it to measure: then all counts.
+    let (start, before) = first.filter(|first| first.1 < total).unwrap_or((begun, 0));
     Ok((total - before) as f64 / start.elapsed().as_secs_f64())
 }

@@ -17,4 +17,5 @@ pub use device::{
 };
 pub use features::Features;
 pub use pack::PackedScene;
-pub use render::{RenderError, SceneBindings, bind_scene, compile, render};
+pub use render::{RenderError, SceneBindings, bind_scene, compile, render, render_divided};
+pub use tiles::Division;

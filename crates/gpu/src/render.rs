@@ -2,7 +2,7 @@
 
 use crate::layout::{Batch, WORKGROUP_SIDE};
 use crate::modules::Shader;
-use crate::tiles::{Planner, Tile};
+use crate::tiles::{Division, Planner, Tile};
 use crate::{DeviceError, Gpu, PackedScene};
 use scene::Scene;
 use spectra::{KM_LUMENS_PER_WATT, SpectralImage};
@@ -51,6 +51,19 @@ pub fn render(
     scene: &Scene,
     on_progress: &mut dyn FnMut(u64) -> ControlFlow<()>,
 ) -> Result<SpectralImage, RenderError> {
+    render_divided(gpu, scene, None, on_progress)
+}
+
+/// Like [`render`], with the division of the work given: for tests.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_divided(
+    gpu: &Gpu,
+    scene: &Scene,
+    division: Option<Division>,
+    on_progress: &mut dyn FnMut(u64) -> ControlFlow<()>,
+) -> Result<SpectralImage, RenderError> {
     let settings = scene.settings();
     let packed = PackedScene::new(scene);
     let bindings = bind_scene(gpu, &packed)?;
@@ -62,7 +75,8 @@ pub fn render(
     let largest = limits
         .max_storage_buffer_binding_size
         .min(limits.max_buffer_size);
-    let mut planner = Planner::new([settings.width, settings.height], groups * 16, largest);
+    let size = [settings.width, settings.height];
+    let mut planner = Planner::new(size, groups * 16, largest, division);
     let tile_buffers = TileBuffers::new(gpu, &pipeline, u64::from(planner.max_pixels()), groups)?;
 
     let mut image = SpectralImage::new(settings.width, settings.height, settings.bands);

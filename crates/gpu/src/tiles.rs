@@ -11,6 +11,16 @@ const FIRST_ROWS: u32 = 64;
 /// A batch aims at this time.
 const TARGET: Duration = Duration::from_millis(200);
 
+/// How a picture is divided among dispatches, where that is not left to the measured times. What is rendered does not depend on
+/// it, and a test renders the same picture in several divisions to prove that.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Division {
+    /// Rows of a tile, at least 1.
+    pub rows: u32,
+    /// Samples of a batch, at least 1.
+    pub samples: u32,
+}
+
 /// A rectangle of the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Tile {
@@ -32,12 +42,19 @@ pub(crate) struct Planner {
     next: [u32; 2],
     max_rows: u32,
     rows: u32,
+    fixed: Option<Division>,
+    last_batch: u32,
     seconds_per_sample: Option<f64>,
 }
 
 impl Planner {
     /// `bytes_per_pixel` is what one pixel takes of the largest buffer, `max_bytes` what that buffer may have.
-    pub(crate) fn new(image: [u32; 2], bytes_per_pixel: u64, max_bytes: u64) -> Self {
+    pub(crate) fn new(
+        image: [u32; 2],
+        bytes_per_pixel: u64,
+        max_bytes: u64,
+        fixed: Option<Division>,
+    ) -> Self {
         let width = image[0].min(WIDTH);
         let by_memory = (max_bytes / bytes_per_pixel).min(u64::from(MAX_PIXELS)) as u32;
         let max_rows = (by_memory / width).clamp(1, image[1]);
@@ -45,7 +62,11 @@ impl Planner {
             image,
             next: [0, 0],
             max_rows,
-            rows: max_rows.min(FIRST_ROWS),
+            rows: fixed
+                .map_or(FIRST_ROWS, |fixed| fixed.rows)
+                .clamp(1, max_rows),
+            fixed,
+            last_batch: 0,
             seconds_per_sample: None,
         }
     }
@@ -68,6 +89,7 @@ impl Planner {
                 self.rows.min(self.image[1] - y),
             ],
         };
+        self.last_batch = 0;
         let below = y + tile.size[1];
         self.next = if below < self.image[1] {
             [x, below]
@@ -77,26 +99,31 @@ impl Planner {
         Some(tile)
     }
 
-    /// How many samples the next batch of a tile takes, out of `left`.
-    pub(crate) fn batch(&self, tile: Tile, left: u32) -> u32 {
-        let Some(seconds) = self.seconds_per_sample else {
-            return left.min(1);
-        };
-        let per_pass = seconds * f64::from(tile.pixels());
-        let fitting = TARGET.as_secs_f64() / per_pass.max(1e-9);
-        // Shares are even, so that no short batch is left at the end.
-        let batches = (f64::from(left) / fitting.max(1.0)).ceil().max(1.0);
-        (f64::from(left) / batches)
-            .ceil()
-            .clamp(1.0, f64::from(left)) as u32
+    /// How many samples the next batch of a tile takes, out of `left`: one at first, then at most four times as many as
+    /// before, since the next tile may cost many times what this one did.
+    pub(crate) fn batch(&mut self, tile: Tile, left: u32) -> u32 {
+        if let Some(fixed) = self.fixed {
+            return fixed.samples.clamp(1, left);
+        }
+        let fitting = self.seconds_per_sample.map_or(1.0, |seconds| {
+            let per_pass = seconds * f64::from(tile.pixels());
+            TARGET.as_secs_f64() / per_pass.max(1e-9)
+        });
+        let bounded = fitting.min(4.0 * f64::from(self.last_batch)).max(1.0);
+        self.last_batch = (bounded as u32).min(left);
+        self.last_batch
     }
 
     /// Learns from a batch. Tiles grow while a single sample of all their pixels is far below the target, and shrink above it.
     pub(crate) fn learn(&mut self, tile: Tile, samples: u32, took: Duration) {
+        if self.fixed.is_some() {
+            return;
+        }
         let measured = took.as_secs_f64() / (f64::from(tile.pixels()) * f64::from(samples));
         self.seconds_per_sample = Some(match self.seconds_per_sample {
-            None => measured,
-            Some(before) => 0.5 * (before + measured),
+            // What has become slower counts at once, what has become faster by and by.
+            Some(before) if measured < before => 0.5 * (before + measured),
+            _ => measured,
         });
         let pass = measured * f64::from(self.image[0].min(WIDTH)) * f64::from(self.rows);
         if pass > TARGET.as_secs_f64() {
@@ -114,7 +141,7 @@ mod tests {
     #[test]
     fn tiles_cover_every_pixel_once_whatever_the_times() {
         let image = [1300, 700];
-        let mut planner = Planner::new(image, 160, 128 << 20);
+        let mut planner = Planner::new(image, 160, 128 << 20, None);
         let mut covered = vec![0; (image[0] * image[1]) as usize];
         let mut slow = true;
         while let Some(tile) = planner.next_tile() {
@@ -133,20 +160,25 @@ mod tests {
     #[test]
     fn a_tile_stays_within_the_buffer() {
         // 256 bands, 128 MiB.
-        let planner = Planner::new([16384, 16384], 1024, 128 << 20);
+        let planner = Planner::new([16384, 16384], 1024, 128 << 20, None);
         assert!(u64::from(planner.max_pixels()) * 1024 <= 128 << 20);
         assert!(planner.max_pixels() > 100_000);
     }
 
     #[test]
-    fn batches_use_up_the_samples_and_follow_the_speed() {
-        let mut planner = Planner::new([512, 64], 160, 128 << 20);
+    fn batches_grow_by_and_by_and_react_at_once() {
+        let mut planner = Planner::new([512, 64], 160, 128 << 20, None);
         let tile = planner.next_tile().unwrap();
+        let ms = Duration::from_millis;
         assert_eq!(planner.batch(tile, 1000), 1);
-        planner.learn(tile, 1, Duration::from_millis(10));
-        assert_eq!(planner.batch(tile, 1000), 20);
+        planner.learn(tile, 1, ms(10));
+        assert_eq!(planner.batch(tile, 1000), 4);
+        planner.learn(tile, 4, ms(40));
         assert_eq!(planner.batch(tile, 7), 7);
-        planner.learn(tile, 20, Duration::from_secs(100));
+        planner.learn(tile, 7, ms(70));
+        assert_eq!(planner.batch(tile, 1000), 20, "the target is 200 ms");
+        // Twenty times as slow: the next batch is back at the target.
+        planner.learn(tile, 20, ms(4000));
         assert_eq!(planner.batch(tile, 1000), 1);
     }
 }

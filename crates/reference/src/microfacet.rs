@@ -15,15 +15,19 @@ pub struct Microfacet {
 
 /// The reflection function of a rough mirror from `light` to `eye`; black when either is below the surface.
 pub fn cook_torrance(eye: DVec3, light: DVec3, slope: f64) -> Microfacet {
+    const BLACK: Microfacet = Microfacet {
+        reflection: 0.0,
+        pdf: 0.0,
+        cosine: 1.0,
+    };
     if eye.z <= 0.0 || light.z <= 0.0 {
-        return Microfacet {
-            reflection: 0.0,
-            pdf: 0.0,
-            cosine: 1.0,
-        };
+        return BLACK;
     }
     let facet = (eye + light).normalize();
     let cosine = eye.dot(facet);
+    if cosine <= 0.0 {
+        return BLACK;
+    }
     Microfacet {
         reflection: optics::cook_torrance(eye.to_array(), light.to_array(), slope),
         pdf: optics::reflected_pdf(facet.z, cosine, slope),
