@@ -1,6 +1,6 @@
 //! Comparing pictures band by band.
 
-use crate::tolerances::{FrameTolerance, Z_MEAN, Z_OVER_3};
+use crate::tolerances::{FrameTolerance, VarianceTolerance, Z_MEAN, Z_OVER_3};
 use spectra::SpectralImage;
 
 /// Values of `count` pixels, `bands` of each, pixel by pixel.
@@ -18,6 +18,22 @@ impl<'a> Values<'a> {
         Self {
             bands: image.bands().count() as usize,
             values: image.radiance(),
+        }
+    }
+
+    /// Of a picture's XYZ: three bands.
+    pub fn of_xyz(image: &'a SpectralImage) -> Self {
+        Self {
+            bands: 3,
+            values: bytemuck::cast_slice(image.xyz()),
+        }
+    }
+
+    /// Of a picture's variance.
+    fn of_variance(image: &'a SpectralImage) -> Self {
+        Self {
+            values: image.variance(),
+            ..Self::of(image)
         }
     }
 
@@ -101,6 +117,52 @@ fn worst_bias(actual: Values, expected: Values, is_outlier: &[bool]) -> (f64, us
     worst
 }
 
+/// Compares the variances of two pictures of the same random numbers, pixel by pixel.
+///
+/// # Errors
+/// A report of the largest 99th percentile of a band. A variance that is negative or not finite and a shape that differs are
+/// errors too.
+pub fn same_variances(
+    actual: &SpectralImage,
+    expected: &SpectralImage,
+    tolerance: &VarianceTolerance,
+) -> Result<String, String> {
+    if actual.bands() != expected.bands() || actual.variance().len() != expected.variance().len() {
+        return Err("the pictures have different shapes".to_owned());
+    }
+    let is_wrong = |x: &f32| !x.is_finite() || *x < 0.0;
+    if let Some(i) = actual.variance().iter().position(is_wrong) {
+        return Err(format!("variance {i} is {}", actual.variance()[i]));
+    }
+    let (found, sought) = (Values::of_variance(actual), Values::of_variance(expected));
+    let mut worst = (0.0, 0);
+    for band in 0..sought.bands {
+        let pixels = sought.band(band).count();
+        let mean = sought.band(band).sum::<f64>() / pixels as f64;
+        let radiance = Values::of(expected).band(band);
+        let errors = found.band(band).zip(sought.band(band)).zip(radiance);
+        let error = |((a, e), radiance): ((f64, f64), f64)| {
+            let rounding = tolerance.rounding * radiance * radiance;
+            match (a - e).abs() {
+                0.0 => 0.0,
+                off => off / (e + tolerance.floor * mean + rounding / tolerance.p99),
+            }
+        };
+        let mut errors: Vec<f64> = errors.map(error).collect();
+        errors.sort_by(f64::total_cmp);
+        let p99 = errors[(pixels - 1) * 99 / 100];
+        if p99 > worst.0 {
+            worst = (p99, band);
+        }
+    }
+    let report = format!("variance p99 {:.1e} (band {})", worst.0, worst.1);
+    if worst.0 <= tolerance.p99 {
+        Ok(report)
+    } else {
+        Err(report)
+    }
+}
+
 /// Compares two pictures of different random numbers: the mean of every band, and of every block of 8×8 pixels, must differ
 /// by no more than both variances explain.
 ///
@@ -174,7 +236,7 @@ fn block_difference(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tolerances::FRAMES;
+    use crate::tolerances::{FRAMES, VARIANCES};
 
     fn picture() -> Vec<f32> {
         (0..4000).map(|i| 0.5 + (i % 17) as f32 * 0.1).collect()
@@ -254,5 +316,41 @@ mod tests {
         assert!(same_expectation(&image(1.0), &image(1.0005)).is_ok());
         assert!(same_expectation(&image(1.0), &image(1.02)).is_err());
         assert!(same_expectation(&image(1.0), &image(f32::NAN)).is_err());
+    }
+
+    /// A picture whose variance and XYZ differ from pixel to pixel, with both passed through functions.
+    fn uneven(variance: impl Fn(f32) -> f32, xyz: impl Fn([f32; 3]) -> [f32; 3]) -> SpectralImage {
+        let mut image = SpectralImage::new(20, 20, spectra::BandGrid::visible(2).unwrap());
+        for i in 0..400 {
+            let level = 0.5 + (i % 17) as f32 * 0.1;
+            let colour = xyz([level, 1.1 * level, 1.3 * level]);
+            let variance = [variance(1e-3 * level), variance(2e-3 * level)];
+            image.set_pixel((i % 20, i / 20), &[level; 2], &variance, colour, 16);
+        }
+        image
+    }
+
+    #[test]
+    fn a_wrong_variance_is_noticed() {
+        let right = uneven(|v| v, |c| c);
+        let compare = |wrong: &SpectralImage| same_variances(wrong, &right, &VARIANCES);
+        assert!(compare(&right).is_ok());
+        assert!(compare(&uneven(|v| v * 1.001, |c| c)).is_ok());
+        assert!(compare(&uneven(|v| v * 2.0, |c| c)).is_err());
+        assert!(compare(&uneven(|v| v * 1.02, |c| c)).is_err());
+        assert!(compare(&uneven(|_| 0.0, |c| c)).is_err());
+        assert!(compare(&uneven(|v| -v, |c| c)).is_err());
+        assert!(compare(&uneven(|_| f32::NAN, |c| c)).is_err());
+    }
+
+    #[test]
+    fn a_wrong_colour_is_noticed() {
+        let right = uneven(|v| v, |c| c);
+        let compare = |wrong: &SpectralImage| {
+            same_numbers(Values::of_xyz(wrong), Values::of_xyz(&right), &FRAMES)
+        };
+        assert!(compare(&right).is_ok());
+        assert!(compare(&uneven(|v| v, |[x, y, z]| [z, y, x])).is_err());
+        assert!(compare(&uneven(|v| v, |c| c.map(|x| x * 1.01))).is_err());
     }
 }

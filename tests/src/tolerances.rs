@@ -99,3 +99,43 @@ pub const Z_FURNACE: f64 = 4.0;
 /// otherwise as another driver does, lies within 6e-5 of the goldens made on a software driver. Forty times that leaves
 /// room for drivers that use all the error they are allowed; a film's index one per cent higher gives 0.05 and more.
 pub const PICTURES: f64 = 0.002;
+
+/// Variances of two renders of the same random numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct VarianceTolerance {
+    /// 99th percentile of the relative error in every band. A variance is a sum of squared differences from the mean, so it
+    /// carries a few times the relative error of the samples.
+    pub p99: f64,
+    /// Small variances are compared with this share of the picture's mean variance instead of with themselves.
+    pub floor: f64,
+    /// The part of radiance² that rounding alone may turn into variance: samples in f32 are off by some ten ε ≈ 1e-6.
+    pub rounding: f64,
+}
+
+/// The tolerance of all variances.
+pub const VARIANCES: VarianceTolerance = VarianceTolerance {
+    p99: 5e-3,
+    floor: 1e-2,
+    rounding: 1e-10,
+};
+
+/// Closed forms: relative error besides the noise. The view is some thousandths of the distances wide (squared: below
+/// 1e-5) and f32 geometry, optics and sums of a million samples add as much again.
+pub const CLOSED_FORM: f64 = 2e-5;
+/// Closed forms that no random number touches: a Fresnel quotient or an interpolation, in f32.
+pub const CLOSED_FORM_EXACT: f64 = 5e-6;
+/// Films of some 30 half turns at fixed wavelengths: as FILM, relative to R of a tenth.
+pub const CLOSED_FORM_FILM: f64 = 2e-4;
+/// Light through a film from a small lamp, against T at normal incidence: at θ ≤ 0.02 the phase (three half turns of 100 nm
+/// per fringe) moves by θ² / 2 = 2e-4 of itself.
+pub const NEARLY_NORMAL: f64 = 5e-4;
+/// Largest standard error, relative, of a mean that is to prove a closed form: 4.5 of them notice a factor 1.02.
+pub const PROVING_ERROR: f64 = 4e-3;
+
+/// Just outside a sphere light, from 1.000 008 radii: the cone's height is 1 − √(1 − sin²) with 1 − sin² down to 1.6e-5, which
+/// keeps an error of 2e-6 from the coordinates; the root makes that 2.5e-4 of the height, and the density follows it.
+pub const NEAR_LIGHT: Tolerance = of(5e-4, 5e-4);
+/// A knot and the place after it: offset times up to 32 steps is rounded by 1e-6.
+pub const KNOT: Tolerance = of(2e-6, 0.0);
+/// A value between two knots: the place is off by up to 1e-6 of what lies between them.
+pub const SPECTRUM: Tolerance = of(2e-6, 2e-6);

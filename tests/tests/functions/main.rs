@@ -2,6 +2,7 @@
 
 mod numbers;
 mod optics_functions;
+mod scene_functions;
 mod shapes;
 
 use gpu::Gpu;
@@ -78,6 +79,7 @@ fn checks() -> Vec<Check> {
     [
         numbers::checks(),
         optics_functions::checks(),
+        scene_functions::checks(),
         shapes::checks(),
     ]
     .into_iter()
