@@ -861,21 +861,21 @@ fn every_case_occurs() {
     let objects = everything().scene.objects().len() as i64;
     assert_eq!(firsts(&nearest_hit(), nearest), (-1..objects).collect());
     assert_eq!(
-        firsts(&distance_to(), |a| a.to_vec()),
+        firsts(&distance_to(), <[f64]>::to_vec),
         (0..objects).collect()
     );
     assert_eq!(
-        firsts(&surface_point(), |a| a.to_vec()),
+        firsts(&surface_point(), <[f64]>::to_vec),
         (0..objects).collect()
     );
     assert_eq!(
         firsts(&reflectance_spectrum(), spectrum_of_pattern).len(),
         5
     );
-    assert_eq!(firsts(&film_thickness(), |a| a.to_vec()).len(), 4);
+    assert_eq!(firsts(&film_thickness(), <[f64]>::to_vec).len(), 4);
     let kinds: BTreeSet<i64> = factors()
         .iter()
-        .flat_map(|check| firsts(check, |a| a.to_vec()))
+        .flat_map(|check| firsts(check, <[f64]>::to_vec))
         .collect();
     assert_eq!(kinds, (1..=6).collect());
 }
