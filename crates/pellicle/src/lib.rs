@@ -31,7 +31,7 @@
 //! ```
 //!
 //! The crates behind the modules can be used alone: [`optics`] for those who design coatings, [`spectra`] for data over
-//! wavelength, [`gpu`] and [`reference`] for the two renderers themselves.
+//! wavelength, [`gpu`] and [`mod@reference`] for the two renderers themselves.
 
 mod renderer;
 

@@ -8,7 +8,7 @@
 //! * [`BandGrid`] divides the rendered range into N uniform bands.
 //! * [`BandTable`] is a spectrum resampled onto a grid, fine enough for any wavelength drawn within a band.
 //! * [`SpectralImage`] is what a renderer produces: radiance per pixel and band.
-//! * [`illuminant`], [`observer_1931`], [`optical_constants`] and [`reflectance`] are the data that the project carries.
+//! * [`illuminant`], [`observer_1931`], [`optical_constants()`] and [`reflectance`] are the data that the project carries.
 
 mod band_grid;
 mod band_table;
