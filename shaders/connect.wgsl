@@ -13,19 +13,19 @@ fn film_factor(material: u32, point: SurfacePoint, center: vec3f, reflects: bool
     if (HAS_LOSSY_FILMS && materials[material].is_transparent == 0u) {
         kind = select(FACTOR_LOSSY_FILM_TRANSMITS, FACTOR_LOSSY_FILM_REFLECTS, reflects);
     }
-    let thickness_nm = film_thickness(material, point.position, center);
-    return Factor(kind, materials[material].spectrum, point.cosine, thickness_nm);
+    let layer = materials[material].first_layer;
+    return Factor(kind, layers[layer].spectrum, point.cosine, layer_thickness(layer, point.position, center));
 }
 
 /// Chooses a light and a direction towards it.
-fn send_to_light(walk: Walk, sample: Sample, object: u32, point: SurfacePoint) -> Sent {
+fn send_to_light(walk: Walk, sample: Sample, point: SurfacePoint) -> Sent {
     let has_lights = HAS_SPHERE_LIGHTS || HAS_RECTANGLE_LIGHTS;
     if (!has_lights || walk.segment + 1u > frame.max_path_segments) {
         return Sent(NONE, point.normal, 0.0);
     }
     let random = random_at(sample, walk, 0u);
     let count = f32(frame.light_count);
-    let light = lights[min(u32(random.x * count), frame.light_count - 1u)];
+    let light = objects[min(u32(random.x * count), frame.light_count - 1u)].light;
     let direction = sample_light(light, point.position, random.y, random.z);
     if (dot(direction, point.normal) <= 0.0) {
         return Sent(light, direction, 0.0);

@@ -150,8 +150,10 @@ struct Object {
     material: u32,
     /// Whether light can be sent from it: 1 or 0.
     is_light: u32,
+    /// The light that has this object's number is the object `light`; NONE past the last light.
+    light: u32,
     /// Fills the size up to a multiple of 16.
-    padding: vec2u,
+    padding: u32,
 }
 
 /// What a surface is made of.
@@ -172,6 +174,18 @@ struct Material {
     emission: u32,
     /// Factor of what it emits; 0 where it emits nothing.
     emission_scale: f32,
+    /// First of its layers, the outermost.
+    first_layer: u32,
+    /// Number of its layers.
+    layer_count: u32,
+    /// 1 where it reflects nothing, so that a path ends.
+    is_black: u32,
+    /// Fills the size up to a multiple of 16.
+    padding: u32,
+}
+
+/// A layer of a film or of a coating.
+struct Layer {
     /// The pole's direction (polar), or where a linear thickness starts.
     thickness_from: vec3f,
     /// A `THICKNESS_` tag.
@@ -182,8 +196,8 @@ struct Material {
     thickness_nm: f32,
     /// Added to it: per radian of polar angle, or from start to end, nm.
     thickness_slope_nm: f32,
-    /// 1 where it reflects nothing, so that a path ends.
-    is_black: u32,
+    /// Spectrum: n of its index, whose k is the next one.
+    spectrum: u32,
     /// Fills the size up to a multiple of 16.
     padding: vec2u,
 }

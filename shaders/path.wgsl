@@ -112,7 +112,7 @@ fn meet_rough_conductor(walk: Walk, sample: Sample, object: u32, point: SurfaceP
     let world_from_local = frame_of(point.normal);
     let eye = -walk.ray.direction * world_from_local;
 
-    let sent = send_to_light(walk, sample, object, point);
+    let sent = send_to_light(walk, sample, point);
     if (sent.pdf > 0.0) {
         let facet = cook_torrance(eye, sent.direction * world_from_local, slope);
         let cosine = dot(sent.direction, point.normal);
@@ -141,7 +141,7 @@ fn meet_diffuse(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, ve
     vertex.scatter = Factor(FACTOR_REFLECTANCE, spectrum, 1.0, 0.0);
     vertex.weight = 1.0;
 
-    let sent = send_to_light(walk, sample, object, point);
+    let sent = send_to_light(walk, sample, point);
     if (sent.pdf > 0.0) {
         let lambert = max(dot(sent.direction, point.normal), 0.0) / PI;
         vertex = connect(vertex, walk, object, point, sent, lambert, lambert);

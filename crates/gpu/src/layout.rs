@@ -245,8 +245,10 @@ structs! { STRUCTS;
         pub material: u32,
         /// Whether light can be sent from it: 1 or 0.
         pub is_light: u32,
+        /// The light that has this object's number is the object `light`; NONE past the last light.
+        pub light: u32,
         /// Fills the size up to a multiple of 16.
-        pub padding: [u32; 2],
+        pub padding: u32,
     }
 
     /// What a surface is made of.
@@ -267,6 +269,18 @@ structs! { STRUCTS;
         pub emission: u32,
         /// Factor of what it emits; 0 where it emits nothing.
         pub emission_scale: f32,
+        /// First of its layers, the outermost.
+        pub first_layer: u32,
+        /// Number of its layers.
+        pub layer_count: u32,
+        /// 1 where it reflects nothing, so that a path ends.
+        pub is_black: u32,
+        /// Fills the size up to a multiple of 16.
+        pub padding: u32,
+    }
+
+    /// A layer of a film or of a coating.
+    pub struct Layer {
         /// The pole's direction (polar), or where a linear thickness starts.
         pub thickness_from: [f32; 3],
         /// A `THICKNESS_` tag.
@@ -277,8 +291,8 @@ structs! { STRUCTS;
         pub thickness_nm: f32,
         /// Added to it: per radian of polar angle, or from start to end, nm.
         pub thickness_slope_nm: f32,
-        /// 1 where it reflects nothing, so that a path ends.
-        pub is_black: u32,
+        /// Spectrum: n of its index, whose k is the next one.
+        pub spectrum: u32,
         /// Fills the size up to a multiple of 16.
         pub padding: [u32; 2],
     }

@@ -19,8 +19,8 @@ pub struct PackedScene {
     pub objects: Vec<layout::Object>,
     /// All materials.
     pub materials: Vec<layout::Material>,
-    /// Indices of the objects that light can be sent from.
-    pub lights: Vec<u32>,
+    /// The layers of all films and coatings.
+    pub layers: Vec<layout::Layer>,
     /// All spectra and the observer: `[spectrum][knot][group of four bands]`.
     pub spectra: Vec<[f32; 4]>,
     /// How long the record of a path may become.
@@ -32,11 +32,20 @@ pub struct PackedScene {
 impl PackedScene {
     /// Packs a scene.
     pub fn new(scene: &Scene) -> Self {
-        let lights: Vec<u32> = scene.lights().iter().map(|&index| index as u32).collect();
+        let lights = scene.lights();
         let objects = scene.objects().iter().enumerate().map(|(index, object)| {
-            let is_light = lights.binary_search(&(index as u32)).is_ok();
-            pack_object(object, is_light)
+            let is_light = lights.binary_search(&index).is_ok();
+            let light = lights
+                .get(index)
+                .map_or(layout::NONE, |&light| light as u32);
+            pack_object(object, is_light, light)
         });
+        let mut layers = Vec::new();
+        let materials = scene
+            .materials()
+            .iter()
+            .map(|material| pack_material(scene, material, &mut layers))
+            .collect();
         let spectra = scene
             .spectra()
             .iter()
@@ -48,15 +57,11 @@ impl PackedScene {
         Self {
             frame: pack_frame(scene, lights.len() as u32),
             objects: objects.collect(),
-            materials: scene
-                .materials()
-                .iter()
-                .map(|material| pack_material(scene, material))
-                .collect(),
+            materials,
+            layers,
             spectra: spectra.chain(observer).collect(),
             limits: record_limits(scene),
             features: Features::of(scene),
-            lights,
         }
     }
 }
@@ -126,10 +131,11 @@ fn pack_spectrum(table: &BandTable, dark_padding: bool) -> Vec<[f32; 4]> {
     .collect()
 }
 
-fn pack_object(object: &Object, is_light: bool) -> layout::Object {
+fn pack_object(object: &Object, is_light: bool, light: u32) -> layout::Object {
     let mut packed = layout::Object {
         material: object.material.index() as u32,
         is_light: u32::from(is_light),
+        light,
         ..Default::default()
     };
     match object.shape {
@@ -168,8 +174,15 @@ fn pack_object(object: &Object, is_light: bool) -> layout::Object {
     packed
 }
 
-fn pack_material(scene: &Scene, material: &Material) -> layout::Material {
-    let mut packed = layout::Material::default();
+fn pack_material(
+    scene: &Scene,
+    material: &Material,
+    layers: &mut Vec<layout::Layer>,
+) -> layout::Material {
+    let mut packed = layout::Material {
+        first_layer: layers.len() as u32,
+        ..Default::default()
+    };
     match *material {
         Material::Diffuse { ref reflectance } => pack_pattern(&mut packed, reflectance),
         Material::Conductor { n, roughness, .. } => {
@@ -185,9 +198,9 @@ fn pack_material(scene: &Scene, material: &Material) -> layout::Material {
             n, ref thickness, ..
         } => {
             packed.surface = layout::SURFACE_FILM;
-            packed.spectrum = id(n);
             packed.is_transparent = u32::from(!is_lossy(scene, material));
-            pack_thickness(&mut packed, thickness);
+            packed.layer_count = 1;
+            layers.push(pack_layer(n, thickness));
         }
         Material::Emitter {
             emission: Emission { spectrum, scale },
@@ -218,7 +231,16 @@ fn pack_pattern(packed: &mut layout::Material, pattern: &Pattern) {
     }
 }
 
-fn pack_thickness(packed: &mut layout::Material, thickness: &Thickness) {
+fn pack_layer(n: SpectrumId, thickness: &Thickness) -> layout::Layer {
+    let mut packed = layout::Layer {
+        spectrum: id(n),
+        ..Default::default()
+    };
+    pack_thickness(&mut packed, thickness);
+    packed
+}
+
+fn pack_thickness(packed: &mut layout::Layer, thickness: &Thickness) {
     match *thickness {
         Thickness::Constant { nm } => {
             packed.thickness = layout::THICKNESS_CONSTANT;

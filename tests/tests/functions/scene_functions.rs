@@ -415,9 +415,9 @@ fn film_thickness() -> Check {
         probe: world.probe(
             &["surface"],
             (4, 1),
-            "let i = u32(a(0u)); put(0u, film_thickness(objects[i].material, a3(1u), objects[i].center));",
+            "let i = u32(a(0u)); put(0u, layer_thickness(materials[objects[i].material].first_layer, a3(1u), objects[i].center));",
         ),
-        proves: &["film_thickness"],
+        proves: &["layer_thickness"],
         inputs,
         twin: |a| {
             let (world, object) = (everything(), a[0] as usize);
