@@ -7,16 +7,6 @@ struct Sent {
     pdf: f32,
 }
 
-/// The factor of a film at a point: its reflectance or its transmittance.
-fn film_factor(material: u32, point: SurfacePoint, center: vec3f, reflects: bool) -> Factor {
-    var kind = select(FACTOR_FILM_TRANSMITS, FACTOR_FILM_REFLECTS, reflects);
-    if (HAS_LOSSY_FILMS && materials[material].is_transparent == 0u) {
-        kind = select(FACTOR_LOSSY_FILM_TRANSMITS, FACTOR_LOSSY_FILM_REFLECTS, reflects);
-    }
-    let layer = materials[material].first_layer;
-    return Factor(kind, layers[layer].spectrum, point.cosine, layer_thickness(layer, point.position, center));
-}
-
 /// Chooses a light and a direction towards it.
 fn send_to_light(walk: Walk, sample: Sample, point: SurfacePoint) -> Sent {
     let has_lights = HAS_SPHERE_LIGHTS || HAS_RECTANGLE_LIGHTS;
@@ -50,9 +40,11 @@ fn connect(
         return vertex;
     }
     vertex.first_crossing = crossing_count;
+    let first_thickness = thickness_count;
     let allowed = frame.max_path_segments - walk.segment - 1u;
     if (!arrives(Ray(point.position, sent.direction), object, sent.light, allowed)) {
         crossing_count = vertex.first_crossing;
+        thickness_count = first_thickness;
         return vertex;
     }
     vertex.end_crossing = crossing_count;
@@ -80,7 +72,7 @@ fn arrives(ray_in: Ray, from_object: u32, light: u32, allowed: u32) -> bool {
             return false;
         }
         let point = surface_point(hit.object, ray, hit.distance);
-        push_crossing(film_factor(material, point, objects[hit.object].center, false));
+        push_crossing(film_factor(hit.object, point, false));
         ray.origin = point.position;
         from_now = hit.object;
     }

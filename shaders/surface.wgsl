@@ -6,6 +6,8 @@ struct SurfacePoint {
     normal: vec3f,
     /// Cosine between the ray and the normal, ≥ 0.
     cosine: f32,
+    /// Whether the ray comes from the side that the shape's own normal points to: a sphere's outside.
+    is_front: bool,
 }
 
 fn surface_point(index: u32, ray: Ray, distance: f32) -> SurfacePoint {
@@ -18,7 +20,12 @@ fn surface_point(index: u32, ray: Ray, distance: f32) -> SurfacePoint {
         position = center + objects[index].radius * normal;
     }
     let cosine = dot(normal, ray.direction);
-    return SurfacePoint(position, select(normal, -normal, cosine > 0.0), abs(cosine));
+    return SurfacePoint(position, select(normal, -normal, cosine > 0.0), abs(cosine), cosine <= 0.0);
+}
+
+/// Whether a layer's thickness varies over its surface.
+fn layer_varies(layer: u32) -> bool {
+    return layers[layer].thickness != THICKNESS_CONSTANT;
 }
 
 /// Thickness of a layer at a point of its surface, nm.

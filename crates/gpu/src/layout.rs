@@ -128,9 +128,9 @@ constants! { CONSTANTS;
 
     /// Surface: Lambertian.
     pub const SURFACE_DIFFUSE = 0;
-    /// Surface: a smooth conductor.
+    /// Surface: a smooth conductor, bare or coated.
     pub const SURFACE_MIRROR = 1;
-    /// Surface: a rough conductor.
+    /// Surface: a rough conductor, bare or coated.
     pub const SURFACE_ROUGH_CONDUCTOR = 2;
     /// Surface: a free film.
     pub const SURFACE_FILM = 3;
@@ -148,14 +148,37 @@ constants! { CONSTANTS;
     pub const FACTOR_REFLECTANCE = 1;
     /// Spectral factor: Fresnel reflectance of a conductor.
     pub const FACTOR_CONDUCTOR = 2;
-    /// Spectral factor: reflectance of a film without absorption.
-    pub const FACTOR_FILM_REFLECTS = 3;
-    /// Spectral factor: transmittance of a film without absorption.
-    pub const FACTOR_FILM_TRANSMITS = 4;
-    /// Spectral factor: reflectance of a film of any index.
-    pub const FACTOR_LOSSY_FILM_REFLECTS = 5;
-    /// Spectral factor: transmittance of a film of any index.
-    pub const FACTOR_LOSSY_FILM_TRANSMITS = 6;
+    /// Spectral factor: reflectance of layers on a conductor.
+    pub const FACTOR_COATED = 3;
+    /// Spectral factor: reflectance of a film of one layer without absorption. Those of films are greater.
+    pub const FACTOR_FILM_REFLECTS = 4;
+    /// Spectral factor: transmittance of a film of one layer without absorption.
+    pub const FACTOR_FILM_TRANSMITS = 5;
+    /// Spectral factor: reflectance of a film of one layer of any index.
+    pub const FACTOR_LOSSY_FILM_REFLECTS = 6;
+    /// Spectral factor: transmittance of a film of one layer of any index.
+    pub const FACTOR_LOSSY_FILM_TRANSMITS = 7;
+    /// Spectral factor: reflectance of a film of several layers, seen from the first.
+    pub const FACTOR_STACK_REFLECTS = 8;
+    /// Spectral factor: reflectance of a film of several layers, seen from the last.
+    pub const FACTOR_STACK_REFLECTS_BACK = 9;
+    /// Spectral factor: transmittance of a film of several layers, the same from both sides.
+    pub const FACTOR_STACK_TRANSMITS = 10;
+    /// Spectral factor: reflectance of a film by two beams.
+    pub const FACTOR_TWO_BEAM_REFLECTS = 11;
+    /// Spectral factor: transmittance of a film without interference.
+    pub const FACTOR_TWO_BEAM_TRANSMITS = 12;
+
+    /// Film: one layer without absorption and with n ≥ 1 everywhere, for which the short formula holds.
+    pub const FILM_TRANSPARENT = 0;
+    /// Film: one layer of any index.
+    pub const FILM_LOSSY = 1;
+    /// Film: several layers.
+    pub const FILM_STACK = 2;
+    /// Film: one layer, by two beams.
+    pub const FILM_TWO_BEAM = 3;
+    /// Film: one layer, by two beams with the path difference that the paper prints.
+    pub const FILM_TWO_BEAM_AS_PRINTED = 4;
 }
 
 structs! { STRUCTS;
@@ -263,8 +286,8 @@ structs! { STRUCTS;
         pub checker_size: f32,
         /// Root mean square slope of a rough conductor, 0 when smooth.
         pub roughness: f32,
-        /// 1 where a film does not absorb and has n ≥ 1 everywhere, so that the short formula holds.
-        pub is_transparent: u32,
+        /// A `FILM_` tag, of a film.
+        pub film: u32,
         /// Spectrum that it emits.
         pub emission: u32,
         /// Factor of what it emits; 0 where it emits nothing.
@@ -275,8 +298,8 @@ structs! { STRUCTS;
         pub layer_count: u32,
         /// 1 where it reflects nothing, so that a path ends.
         pub is_black: u32,
-        /// Fills the size up to a multiple of 16.
-        pub padding: u32,
+        /// Number of its layers whose thickness varies over the surface.
+        pub varying_layers: u32,
     }
 
     /// A layer of a film or of a coating.

@@ -1,12 +1,12 @@
 //! From a scene to the numbers that the shader reads: the only place where `f64` becomes `f32`.
 
-use crate::features::{Features, is_lossy};
+use crate::features::{Features, FilmForm};
 use crate::layout::{self, Frame};
 use crate::modules::RecordLimits;
 use glam::DVec3;
 use scene::{
-    Emission, Environment, Material, Object, Pattern, Projection, Scene, Shape, SpectrumId,
-    Thickness, WavelengthSampling,
+    Emission, Environment, Layer, Material, Object, PathDifference, Pattern, Projection, Scene,
+    Shape, SpectrumId, Thickness, WavelengthSampling,
 };
 use spectra::BandTable;
 
@@ -185,7 +185,12 @@ fn pack_material(
     };
     match *material {
         Material::Diffuse { ref reflectance } => pack_pattern(&mut packed, reflectance),
-        Material::Conductor { n, roughness, .. } => {
+        Material::Conductor {
+            n,
+            roughness,
+            layers: ref coating,
+            ..
+        } => {
             packed.surface = if roughness > 0.0 {
                 layout::SURFACE_ROUGH_CONDUCTOR
             } else {
@@ -193,14 +198,14 @@ fn pack_material(
             };
             packed.spectrum = id(n);
             packed.roughness = roughness as f32;
+            pack_layers(&mut packed, layers, coating);
         }
         Material::Film {
-            n, ref thickness, ..
+            layers: ref own, ..
         } => {
             packed.surface = layout::SURFACE_FILM;
-            packed.is_transparent = u32::from(!is_lossy(scene, material));
-            packed.layer_count = 1;
-            layers.push(pack_layer(n, thickness));
+            packed.film = film_tag(FilmForm::of(scene, material));
+            pack_layers(&mut packed, layers, own);
         }
         Material::Emitter {
             emission: Emission { spectrum, scale },
@@ -229,6 +234,31 @@ fn pack_pattern(packed: &mut layout::Material, pattern: &Pattern) {
             packed.checker_size = size as f32;
         }
     }
+}
+
+fn film_tag(form: Option<FilmForm>) -> u32 {
+    match form {
+        None | Some(FilmForm::Transparent) => layout::FILM_TRANSPARENT,
+        Some(FilmForm::Lossy) => layout::FILM_LOSSY,
+        Some(FilmForm::Stack) => layout::FILM_STACK,
+        Some(FilmForm::TwoBeam(PathDifference::Optical)) => layout::FILM_TWO_BEAM,
+        Some(FilmForm::TwoBeam(PathDifference::AsPrinted)) => layout::FILM_TWO_BEAM_AS_PRINTED,
+    }
+}
+
+fn pack_layers(packed: &mut layout::Material, layers: &mut Vec<layout::Layer>, own: &[Layer]) {
+    packed.layer_count = own.len() as u32;
+    packed.varying_layers = varying(own);
+    layers.extend(
+        own.iter()
+            .map(|layer| pack_layer(layer.n, &layer.thickness)),
+    );
+}
+
+/// Number of layers whose thickness varies over the surface.
+fn varying(layers: &[Layer]) -> u32 {
+    let varies = |layer: &&Layer| !matches!(layer.thickness, Thickness::Constant { .. });
+    layers.iter().filter(varies).count() as u32
 }
 
 fn pack_layer(n: SpectrumId, thickness: &Thickness) -> layout::Layer {
@@ -297,5 +327,16 @@ fn record_limits(scene: &Scene) -> RecordLimits {
     RecordLimits {
         vertices: segments + 1,
         crossings: u32::max(crossings, 1),
+        thicknesses: u32::max(most_varying(scene) * (segments + crossings), 1),
     }
+}
+
+/// The most thicknesses that one meeting with layers puts on record. A film's only layer has its place in the factor.
+fn most_varying(scene: &Scene) -> u32 {
+    let of_material = |object: &Object| match scene.material(object.material) {
+        Material::Conductor { layers, .. } => varying(layers),
+        Material::Film { layers, .. } if layers.len() > 1 => varying(layers),
+        _ => 0,
+    };
+    scene.objects().iter().map(of_material).max().unwrap_or(0)
 }

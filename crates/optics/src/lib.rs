@@ -12,6 +12,8 @@
 mod film;
 mod fresnel;
 mod microfacet;
+mod two_beam;
+pub use two_beam::{PathDifference, TwoBeam, two_beam};
 
 pub use film::{Layer, StackAmplitudes, film, stack};
 pub use fresnel::{Amplitudes, cos_refracted, fresnel, reflectance_unpolarised};

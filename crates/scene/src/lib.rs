@@ -35,9 +35,10 @@ mod validate;
 mod validated;
 
 pub use camera::{Camera, Projection};
+pub use description::PathDifference;
 pub use field_path::{FieldPath, Step};
 pub use file::SceneFile;
-pub use material::{Emission, Material, Pattern, Thickness};
+pub use material::{Emission, Interference, Layer, Material, Pattern, Thickness};
 pub use object::{Object, Shape};
 pub use problem::{Location, Problem, ProblemKind, Problems};
 pub use schema::schema;

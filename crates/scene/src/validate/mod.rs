@@ -3,6 +3,7 @@
 mod camera;
 mod checks;
 mod environment;
+mod layers;
 mod material;
 mod object;
 mod points;
