@@ -234,3 +234,39 @@ struct Layer {
     /// Fills the size up to a multiple of 16.
     padding: vec2u,
 }
+
+/// What holds for one run over a part of a batch of stacks.
+struct StackRun {
+    /// Number of wavelengths.
+    wavelength_count: u32,
+    /// Groups of four wavelengths for which each medium has its index: all of them, or 1.
+    media_groups: u32,
+    /// First stack of this run.
+    first_stack: u32,
+    /// Number of stacks of this run.
+    stack_count: u32,
+    /// Index of the medium that light comes from.
+    incident: f32,
+    /// Fills the size up to what a uniform buffer asks for.
+    padding_1: u32,
+    /// Fills the size up.
+    padding_2: vec2u,
+}
+
+/// A layer of a stack of a batch.
+struct RunLayer {
+    /// Its medium.
+    medium: u32,
+    /// Its thickness, nm.
+    thickness_nm: f32,
+}
+
+/// A stack of a batch.
+struct RunStack {
+    /// The medium below its layers.
+    substrate: u32,
+    /// First of its layers, the outermost.
+    first_layer: u32,
+    /// Number of its layers.
+    layer_count: u32,
+}

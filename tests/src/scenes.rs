@@ -74,5 +74,8 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "with_layers",
 ];
 
+/// WGSL functions that the suite `stacks` proves: batches of film stacks.
+pub const PROVED_ON_STACKS: &[&str] = &["evaluate_stacks", "run_index", "run_stack"];
+
 /// WGSL functions that the suite `frames` proves: the accumulation of samples.
 pub const PROVED_ON_FRAMES: &[&str] = &["accumulate", "render"];

@@ -319,6 +319,42 @@ structs! { STRUCTS;
         /// Fills the size up to a multiple of 16.
         pub padding: [u32; 2],
     }
+
+    /// What holds for one run over a part of a batch of stacks.
+    pub struct StackRun {
+        /// Number of wavelengths.
+        pub wavelength_count: u32,
+        /// Groups of four wavelengths for which each medium has its index: all of them, or 1.
+        pub media_groups: u32,
+        /// First stack of this run.
+        pub first_stack: u32,
+        /// Number of stacks of this run.
+        pub stack_count: u32,
+        /// Index of the medium that light comes from.
+        pub incident: f32,
+        /// Fills the size up to what a uniform buffer asks for.
+        pub padding_1: u32,
+        /// Fills the size up.
+        pub padding_2: [u32; 2],
+    }
+
+    /// A layer of a stack of a batch.
+    pub struct RunLayer {
+        /// Its medium.
+        pub medium: u32,
+        /// Its thickness, nm.
+        pub thickness_nm: f32,
+    }
+
+    /// A stack of a batch.
+    pub struct RunStack {
+        /// The medium below its layers.
+        pub substrate: u32,
+        /// First of its layers, the outermost.
+        pub first_layer: u32,
+        /// Number of its layers.
+        pub layer_count: u32,
+    }
 }
 
 /// The text of `shaders/layout.wgsl`.

@@ -59,6 +59,7 @@ pub const MODULES: &[Module] = modules! {
     "evaluate": [
         "bindings", "features", "film", "fresnel", "layout", "record", "spectrum", "stack", "surface", "two_beam"
     ];
+    "stack_batch": ["complex", "layout", "stack"];
     "render": ["bindings", "evaluate", "layout", "path", "spectrum", "walk"];
 };
 

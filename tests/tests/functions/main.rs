@@ -10,7 +10,7 @@ use gpu::Gpu;
 use gpu::modules::MODULES;
 use pellicle_tests::agreement::{Tolerance, compare};
 use pellicle_tests::probe::Probe;
-use pellicle_tests::scenes::{PROVED_ON_FRAMES, PROVED_ON_PATHS};
+use pellicle_tests::scenes::{PROVED_ON_FRAMES, PROVED_ON_PATHS, PROVED_ON_STACKS};
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
@@ -104,6 +104,7 @@ fn every_function_of_the_shaders_is_proved() {
     let mut proved: BTreeSet<String> = PROVED_ON_PATHS
         .iter()
         .chain(PROVED_ON_FRAMES)
+        .chain(PROVED_ON_STACKS)
         .map(|&name| name.to_owned())
         .collect();
     for check in checks() {
