@@ -13,6 +13,7 @@ pub mod batch;
 mod fresnel;
 mod microfacet;
 mod stack;
+mod two_beam;
 
 use bytemuck::{Pod, Zeroable};
 pub use fresnel::{Amplitudes, cos_refracted, fresnel, reflectance_unpolarised};
@@ -23,6 +24,7 @@ pub use num_complex::Complex64;
 pub use stack::{
     Layer, StackAmplitudes, ThicknessDerivative, absorptance, film, stack, thickness_derivatives,
 };
+pub use two_beam::{PathDifference, TwoBeam, two_beam};
 
 /// A power for s and for p polarised light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
