@@ -2,7 +2,9 @@
 
 mod bench;
 mod devices;
+mod materials;
 mod output;
+mod plot;
 mod print;
 mod progress;
 mod render;
@@ -30,6 +32,8 @@ enum Command {
     },
     /// List the adapters that can render
     Devices,
+    /// List the materials whose optical constants Pellicle carries, or show one
+    Materials(materials::Arguments),
     /// Print the JSON schema of scene files
     Schema,
     /// Measure samples per second on every adapter and on the CPU
@@ -42,6 +46,7 @@ fn main() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments),
         Command::Check { scene } => check(&scene),
         Command::Devices => devices::print(),
+        Command::Materials(arguments) => materials::run(&arguments),
         Command::Schema => print::result(format_args!("{:#}", pellicle::scene::schema())),
         Command::Bench(arguments) => bench::run(&arguments),
     };

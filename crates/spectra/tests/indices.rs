@@ -1,6 +1,6 @@
 //! The materials against an independent reading of the same publications, and against figures that others give.
 
-use pellicle_spectra::{material_names, optical_constants};
+use pellicle_spectra::{material_info, material_names, optical_constants};
 use std::collections::HashSet;
 
 const INDICES: &str = include_str!("data/indices.csv");
@@ -61,5 +61,15 @@ fn indices_at_spectral_lines_are_the_published_ones() {
     for (name, nm, expected, tolerance) in published {
         let n = optical_constants(name).unwrap().data.at(nm).unwrap().re;
         assert!((n - expected).abs() <= tolerance, "{name} at {nm} nm: {n}");
+    }
+}
+
+#[test]
+fn the_notice_names_every_publication() {
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let notice = words(include_str!("../../../NOTICE"));
+    for name in material_names() {
+        let citation = words(material_info(name).unwrap().citation);
+        assert!(notice.contains(&citation), "{name}: {citation}");
     }
 }
