@@ -35,6 +35,7 @@ mod validate;
 mod validated;
 
 pub use camera::{Camera, Projection};
+pub use document::SourceFile;
 pub use field_path::{FieldPath, Step};
 pub use file::SceneFile;
 pub use material::{Emission, Material, Pattern, Thickness};

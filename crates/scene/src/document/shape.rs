@@ -1,9 +1,9 @@
 //! What a value in a scene file may look like.
 
+use schemars::JsonSchema;
 use serde_json::Value as Json;
 use std::collections::BTreeMap;
 use std::fmt;
-use std::sync::LazyLock;
 
 /// What a value may look like: the part of JSON Schema that the format needs, in a form that is easy to walk.
 #[derive(Debug, PartialEq)]
@@ -45,11 +45,13 @@ pub(crate) struct Field {
 /// The field that tells the kind of a [`Shape::Tagged`].
 pub(crate) const TAG: &str = "type";
 
-/// The shape of a whole scene file.
-pub(crate) static SCENE: LazyLock<Shape> = LazyLock::new(|| {
-    let root = crate::schema();
-    Compiler { root: &root }.shape(&root)
-});
+impl Shape {
+    /// The shape of the files that are read as `T`.
+    pub(crate) fn of<T: JsonSchema>() -> Self {
+        let root = crate::schema::schema_of::<T>();
+        Compiler { root: &root }.shape(&root)
+    }
+}
 
 impl Fields {
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
@@ -234,11 +236,13 @@ fn word(schema: &Json) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::description::Description;
 
     #[test]
     fn the_schema_is_understood() {
-        let Shape::Table(scene) = &*SCENE else {
-            panic!("a scene is a table, not {}", *SCENE);
+        let shape = Shape::of::<Description>();
+        let Shape::Table(scene) = &shape else {
+            panic!("a scene is a table, not {shape}");
         };
         assert_eq!(scene.required().collect::<Vec<_>>(), ["camera"]);
         let Shape::Tagged(cameras) = &scene.0["camera"].shape else {
