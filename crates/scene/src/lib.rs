@@ -12,7 +12,8 @@
 //!   -> Scene
 //! ```
 //!
-//! A program that fills in a [`Description`](description::Description) itself goes straight to [`Scene::new`].
+//! A program that fills in a [`Description`](description::Description) itself goes straight to [`Scene::new`];
+//! [`optical_constants`] reads an index of refraction alone.
 //!
 //! Space: right-handed, lengths in scene units, +Y up by custom. Angles are radians here and
 //! degrees in files. Wavelengths and film thicknesses are nanometres.
@@ -22,6 +23,7 @@ pub mod description;
 mod document;
 mod field_path;
 pub mod file;
+mod index;
 pub mod limits;
 mod material;
 mod object;
@@ -38,6 +40,7 @@ pub use camera::{Camera, Projection};
 pub use document::SourceFile;
 pub use field_path::{FieldPath, Step};
 pub use file::SceneFile;
+pub use index::optical_constants;
 pub use material::{Emission, Material, Pattern, Thickness};
 pub use object::{Object, Shape};
 pub use problem::{Location, Problem, ProblemKind, Problems};

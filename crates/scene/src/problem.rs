@@ -147,6 +147,8 @@ pub struct Problems(Box<Inner>);
 
 #[derive(Clone, Debug)]
 struct Inner {
+    /// What has the problems, where there is no file.
+    subject: &'static str,
     name: Option<String>,
     source: Option<NamedSource<Arc<str>>>,
     list: Vec<Problem>,
@@ -159,12 +161,17 @@ impl Problems {
 
     /// Problems of a scene that a program has filled in.
     pub(crate) fn of_program(list: Vec<Problem>) -> Self {
-        Self::new(None, None, list, 0)
+        Self::new("the scene", None, None, list, 0)
+    }
+
+    /// Problems of an index of refraction that is part of no scene.
+    pub(crate) fn of_index(list: Vec<Problem>) -> Self {
+        Self::new("the index", None, None, list, 0)
     }
 
     /// A file that cannot be read.
     pub(crate) fn of_unread_file(name: String, problem: Problem) -> Self {
-        Self::new(Some(name), None, vec![problem], 0)
+        Self::new("the scene", Some(name), None, vec![problem], 0)
     }
 
     /// Problems of a file with this text; `omitted` more were found.
@@ -176,10 +183,17 @@ impl Problems {
     ) -> Self {
         list.sort_by_key(|problem| problem.location.as_ref().map(|place| place.bytes.start));
         let source = NamedSource::new(name, Arc::clone(text)).with_language("TOML");
-        Self::new(Some(name.to_owned()), Some(source), list, omitted)
+        Self::new(
+            "the scene",
+            Some(name.to_owned()),
+            Some(source),
+            list,
+            omitted,
+        )
     }
 
     fn new(
+        subject: &'static str,
         name: Option<String>,
         source: Option<NamedSource<Arc<str>>>,
         mut list: Vec<Problem>,
@@ -188,6 +202,7 @@ impl Problems {
         let omitted = omitted + list.len().saturating_sub(Self::MAX_SHOWN);
         list.truncate(Self::MAX_SHOWN);
         Self(Box::new(Inner {
+            subject,
             name,
             source,
             list,
@@ -211,7 +226,7 @@ impl Problems {
     }
 
     fn write_heading(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let subject = self.file_name().unwrap_or("the scene");
+        let subject = self.file_name().unwrap_or(self.0.subject);
         match self.0.list.len() + self.0.omitted {
             1 => write!(f, "{subject} has a problem"),
             count if self.0.omitted == 0 => write!(f, "{subject} has {count} problems"),

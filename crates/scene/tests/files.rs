@@ -4,7 +4,8 @@
     reason = "the figures are exact in binary, or rounding is what is tested"
 )]
 
-use pellicle_scene::{Material, ProblemKind, Problems, SceneFile, file};
+use pellicle_scene::description::{Extrapolate, Index};
+use pellicle_scene::{Material, ProblemKind, Problems, SceneFile, file, optical_constants};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -156,4 +157,36 @@ fn links_in_a_circle_and_devices_are_refused_at_once() {
         assert!(told(&problems).contains(expected), "{}", told(&problems));
         assert_eq!(problems.iter().len(), 1);
     }
+}
+
+#[test]
+fn an_index_alone_is_read_and_its_mistakes_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("good.csv"),
+        "400,1.5,0.25\n800,2.5,0.75\n",
+    )
+    .unwrap();
+    let file = |name: &str| Index::File {
+        csv: name.into(),
+        extrapolate: Extrapolate::Error,
+    };
+    let constants = optical_constants(&file("good.csv"), folder.path()).unwrap();
+    assert_eq!(constants.n.at(600.0), Ok(2.0));
+    assert_eq!(constants.k.at(600.0), Ok(0.5));
+    assert!(constants.n.at(399.0).is_err());
+
+    let said = |index: &Index| {
+        let problems = optical_constants(index, folder.path()).unwrap_err();
+        format!("{problems}\n{problems:#}")
+    };
+    let missing = said(&file("absent.csv"));
+    assert!(
+        missing.contains("the index has a problem\ncsv: "),
+        "{missing}"
+    );
+    assert!(missing.contains("absent.csv"), "{missing}");
+    let misspelt = said(&Index::Name("glod".to_owned()));
+    assert!(misspelt.contains("did you mean \"gold\"?"), "{misspelt}");
+    assert!(said(&Index::Complex([1.0, -1.0])).contains("[1]: found -1"));
 }

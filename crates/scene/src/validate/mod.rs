@@ -3,6 +3,7 @@
 mod camera;
 mod checks;
 mod environment;
+mod index;
 mod material;
 mod object;
 mod points;
@@ -10,11 +11,12 @@ mod settings;
 mod spectrum_list;
 mod table_file;
 
-use crate::description::Description;
+use crate::description::{Description, Index};
 use crate::limits::{MAX_MATERIALS, MAX_OBJECTS};
 use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, Scene};
 use checks::Checks;
+use spectra::OpticalConstants;
 use spectrum_list::SpectrumList;
 use std::path::Path;
 
@@ -43,6 +45,18 @@ pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene
     };
     match assemble() {
         Some(scene) if checks.problems.is_empty() => Ok(scene),
+        _ => Err(checks.problems),
+    }
+}
+
+/// The optical constants that `index` describes; files are looked for from `directory`.
+pub(crate) fn optical_constants(
+    index: &Index,
+    directory: &Path,
+) -> Result<OpticalConstants, Vec<Problem>> {
+    let mut checks = Checks::default();
+    match index::read(&mut checks, directory, &FieldPath::root(), index) {
+        Some((constants, _)) if checks.problems.is_empty() => Ok(constants),
         _ => Err(checks.problems),
     }
 }

@@ -1,12 +1,13 @@
 //! Spectra: from names, tables and constants to band tables without duplicates.
 
 use super::checks::Checks;
+use super::index;
 use super::points::{self, Column};
 use crate::description::{self, Extrapolate, Index, Reflectance};
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
 use crate::{Emission, FieldPath, SpectrumId};
-use spectra::{BandGrid, BandTable, Spectrum};
+use spectra::{BandGrid, BandTable, OpticalConstants, Spectrum};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -22,8 +23,6 @@ pub(crate) struct SpectrumList<'a> {
 /// What a spectrum is, for messages: the noun, and the range of its values.
 const REFLECTANCE: Column = Column::new("reflectance", "values", &limits::REFLECTANCE);
 const EMISSION: Column = Column::new("radiance", "values", &limits::EMISSION);
-const INDEX_N: Column = Column::new("n", "n", &limits::INDEX_N);
-const INDEX_K: Column = Column::new("k", "k", &limits::INDEX_K);
 
 impl<'a> SpectrumList<'a> {
     /// An empty list over `grid`. Without a grid everything is still checked, but nothing comes of it.
@@ -103,55 +102,11 @@ impl<'a> SpectrumList<'a> {
         field: &FieldPath,
         written: &Index,
     ) -> Option<(SpectrumId, SpectrumId)> {
-        let ([n, k], advice) = self.index_spectra(checks, field, written)?;
+        let (OpticalConstants { n, k }, advice) =
+            index::read(checks, self.directory, field, written)?;
         let n = self.resampled(checks, field, &n, advice)?;
         let k = self.resampled(checks, field, &k, advice)?;
         Some(self.pair(&n, &k))
-    }
-
-    fn index_spectra<'w>(
-        &self,
-        checks: &mut Checks,
-        field: &FieldPath,
-        written: &'w Index,
-    ) -> Option<([Spectrum; 2], Advice<'w>)> {
-        Some(match written {
-            Index::Real(n) => {
-                let n = checks.number(field, *n, &limits::INDEX_N)?;
-                ([n, 0.0].map(Spectrum::Constant), Advice::None)
-            }
-            Index::Complex([n, k]) => {
-                let n = checks.number(&field.index(0), *n, &limits::INDEX_N);
-                let k = checks.number(&field.index(1), *k, &limits::INDEX_K);
-                ([n?, k?].map(Spectrum::Constant), Advice::None)
-            }
-            Index::Name(name) => (
-                named_index(checks, field, name, Extrapolate::Error)?,
-                Advice::Name(name),
-            ),
-            Index::Named { name, extrapolate } => (
-                named_index(checks, &field.key("name"), name, *extrapolate)?,
-                Advice::Add,
-            ),
-            Index::Table {
-                nm,
-                n,
-                k,
-                extrapolate,
-            } => {
-                // Without k there are as many zeros as it takes for n alone to be judged.
-                let zeros = vec![0.0; nm.len()];
-                let k = k.as_deref().unwrap_or(&zeros);
-                let columns = [(INDEX_N, n.as_slice()), (INDEX_K, k)];
-                let spectra = points::inline(checks, field, nm, columns, *extrapolate)?;
-                (spectra, Advice::Add)
-            }
-            Index::File { csv, extrapolate } => {
-                let columns = [INDEX_N, INDEX_K];
-                let spectra = points::file(checks, field, &self.path(csv), columns, *extrapolate)?;
-                (spectra, Advice::Add)
-            }
-        })
     }
 
     /// An emission with the number of its spectrum.
@@ -264,7 +219,7 @@ impl<'a> SpectrumList<'a> {
 
 /// What to do about a table that is too short.
 #[derive(Clone, Copy)]
-enum Advice<'a> {
+pub(super) enum Advice<'a> {
     None,
     /// The field `extrapolate` can be added to the table that is there.
     Add,
@@ -311,24 +266,7 @@ fn named_illuminant(
     Some(extrapolated(set.data, extrapolate))
 }
 
-fn named_index(
-    checks: &mut Checks,
-    field: &FieldPath,
-    name: &str,
-    extrapolate: Extrapolate,
-) -> Option<[Spectrum; 2]> {
-    let Some(set) = spectra::optical_constants(name) else {
-        checks.unknown_name(
-            field,
-            ("material with a known index", name),
-            &spectra::material_names(),
-        );
-        return None;
-    };
-    Some([set.data.n, set.data.k].map(|spectrum| extrapolated(spectrum, extrapolate)))
-}
-
-fn extrapolated(spectrum: Spectrum, extrapolate: Extrapolate) -> Spectrum {
+pub(super) fn extrapolated(spectrum: Spectrum, extrapolate: Extrapolate) -> Spectrum {
     match (spectrum, extrapolate) {
         (Spectrum::Table(table), Extrapolate::Clamp) => Spectrum::ClampedTable(table),
         (spectrum, _) => spectrum,
