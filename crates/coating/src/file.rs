@@ -1,0 +1,180 @@
+//! Stack files.
+
+use crate::stack::{Layer, Medium, Stack};
+use scene::description::Index;
+use scene::{FieldPath, Problem, ProblemKind, Problems, SourceFile, limits};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use spectra::{OpticalConstants, Spectrum};
+use std::path::Path;
+
+/// The least that a stack file holds.
+const NEEDS: &str = "a stack needs at least `substrate = …`";
+
+/// A stack as it is written in a file (TOML):
+///
+/// ```toml
+/// incident = "air"
+/// substrate = "silicon"
+///
+/// [[layer]]
+/// index = "silica"
+/// thickness_nm = 300
+/// ```
+///
+/// An index is what a scene's materials accept: a number, `[n, k]`, a name, `{ name = "gold", extrapolate = "clamp" }`, a table in
+/// place `{ nm = […], n = […], k = […] }`, linear between its points, or a file, relative to this one.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StackDescription {
+    /// The medium that the light comes from; it must be transparent. Air when absent.
+    #[serde(default = "air")]
+    pub incident: Index,
+    /// The medium behind the last layer.
+    pub substrate: Index,
+    /// The layers, the first beside the incident medium.
+    #[serde(default)]
+    pub layer: Vec<LayerDescription>,
+}
+
+/// A layer as it is written in a file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LayerDescription {
+    /// What it is made of.
+    pub index: Index,
+    /// How thick it is, nm.
+    pub thickness_nm: f64,
+}
+
+fn air() -> Index {
+    Index::Name("air".to_owned())
+}
+
+/// `vacuum`, and `air` where the library has none, are n = 1.
+pub(crate) fn constants(index: &Index, directory: &Path) -> Result<OpticalConstants, Vec<Problem>> {
+    let is_one = |name: &str| match name {
+        "vacuum" => true,
+        "air" => spectra::optical_constants("air").is_none(),
+        _ => false,
+    };
+    if matches!(index, Index::Name(name) if is_one(name)) {
+        return Ok(OpticalConstants {
+            n: Spectrum::Constant(1.0),
+            k: Spectrum::Constant(0.0),
+        });
+    }
+    scene::optical_constants(index, directory)
+        .map_err(|problems| problems.iter().cloned().collect())
+}
+
+pub(crate) fn read(path: &Path) -> Result<Stack, Problems> {
+    finish(SourceFile::read(path, NEEDS)?)
+}
+
+pub(crate) fn parse(name: &str, text: &str, directory: &Path) -> Result<Stack, Problems> {
+    finish(SourceFile::parse(name, text, directory, NEEDS)?)
+}
+
+fn finish((description, source): (StackDescription, SourceFile)) -> Result<Stack, Problems> {
+    source.finish(description.check(source.directory()))
+}
+
+impl StackDescription {
+    pub(crate) fn of(stack: &Stack) -> Self {
+        let layer = |layer: &Layer| LayerDescription {
+            index: layer.medium.written().clone(),
+            thickness_nm: layer.thickness_nm,
+        };
+        Self {
+            incident: stack.incident().written().clone(),
+            substrate: stack.substrate().written().clone(),
+            layer: stack.layers().iter().map(layer).collect(),
+        }
+    }
+
+    /// The stack that this describes; files are looked for from `directory`.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it; the problems' fields say where.
+    pub fn check(&self, directory: &Path) -> Result<Stack, Vec<Problem>> {
+        let mut checks = Checks {
+            directory,
+            problems: Vec::new(),
+        };
+        let root = FieldPath::root();
+        let incident = checks.incident(&root.key("incident"), &self.incident);
+        let substrate = checks.medium(&root.key("substrate"), &self.substrate);
+        let layers = checks.layers(&root.key("layer"), &self.layer);
+        match (incident, layers, substrate) {
+            (Some(incident), Some(layers), Some(substrate)) if checks.problems.is_empty() => {
+                Ok(Stack::new(incident, layers, substrate))
+            }
+            _ => Err(checks.problems),
+        }
+    }
+}
+
+struct Checks<'a> {
+    directory: &'a Path,
+    problems: Vec<Problem>,
+}
+
+impl Checks<'_> {
+    fn medium(&mut self, field: &FieldPath, written: &Index) -> Option<Medium> {
+        match constants(written, self.directory) {
+            Ok(constants) => Some(Medium::new(written.clone(), constants)),
+            Err(problems) => {
+                let placed = problems.into_iter().map(|problem| problem.within(field));
+                self.problems.extend(placed);
+                None
+            }
+        }
+    }
+
+    fn incident(&mut self, field: &FieldPath, written: &Index) -> Option<Medium> {
+        let medium = self.medium(field, written)?;
+        if let Some(fault) = Stack::fault_of_incident(&medium) {
+            self.report(ProblemKind::OutOfRange, field, fault);
+            return None;
+        }
+        Some(medium)
+    }
+
+    fn layers(&mut self, field: &FieldPath, written: &[LayerDescription]) -> Option<Vec<Layer>> {
+        if written.len() > Stack::MAX_LAYERS {
+            let (found, most) = (written.len(), Stack::MAX_LAYERS);
+            let message = format!("found {found} layers; at most {most} are possible");
+            self.report(ProblemKind::TooLarge, field, message);
+            return None;
+        }
+        let layers: Vec<_> = written
+            .iter()
+            .enumerate()
+            .map(|(index, layer)| self.layer(&field.index(index), layer))
+            .collect();
+        layers.into_iter().collect()
+    }
+
+    fn layer(&mut self, field: &FieldPath, written: &LayerDescription) -> Option<Layer> {
+        let medium = self.medium(&field.key("index"), &written.index);
+        let thickness_nm = written.thickness_nm;
+        if !limits::THICKNESS_NM.contains(thickness_nm) {
+            let message = format!(
+                "found {thickness_nm}; it must be from {}",
+                limits::THICKNESS_NM
+            );
+            let at = field.key("thickness_nm");
+            self.report(ProblemKind::OutOfRange, &at, message);
+            return None;
+        }
+        Some(Layer {
+            medium: medium?,
+            thickness_nm,
+        })
+    }
+
+    fn report(&mut self, kind: ProblemKind, field: &FieldPath, message: String) {
+        self.problems.push(Problem::new(kind, field, message));
+    }
+}

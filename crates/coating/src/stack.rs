@@ -1,0 +1,249 @@
+//! A stack: two half spaces and the layers between them.
+
+use crate::file::{self, StackDescription};
+use crate::line::{self, LineError};
+use crate::response::Sampled;
+use miette::Diagnostic;
+use optics::Complex64;
+use scene::Problems;
+use scene::description::Index;
+use spectra::{OpticalConstants, OutOfRange, Spectrum};
+use std::path::Path;
+use thiserror::Error;
+
+/// A material as the stack's author wrote it, with its optical constants.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Medium {
+    written: Index,
+    constants: OpticalConstants,
+}
+
+impl Medium {
+    pub(crate) fn new(written: Index, constants: OpticalConstants) -> Self {
+        Self { written, constants }
+    }
+
+    /// As it was written.
+    pub fn written(&self) -> &Index {
+        &self.written
+    }
+
+    /// n and k over wavelength.
+    pub fn constants(&self) -> &OpticalConstants {
+        &self.constants
+    }
+
+    /// A short name for people: `silica`, `1.5+0.1i`, `mine.csv`, `table`.
+    pub fn label(&self) -> String {
+        match &self.written {
+            Index::Real(n) => n.to_string(),
+            Index::Complex([n, k]) => format!("{n}+{k}i"),
+            Index::Name(name) | Index::Named { name, .. } => name.clone(),
+            Index::File { csv, .. } => csv.display().to_string(),
+            _ => "table".to_owned(),
+        }
+    }
+
+    /// Whether the light is not weakened on its way through it, but for what no measurement of a film would show.
+    fn is_transparent(&self) -> bool {
+        match &self.constants.k {
+            Spectrum::Constant(k) => *k <= Stack::INCIDENT_K,
+            Spectrum::Table(table) | Spectrum::ClampedTable(table) => {
+                table.points().all(|(_, k)| k <= Stack::INCIDENT_K)
+            }
+        }
+    }
+
+    fn at(&self, nm: f64) -> Result<Complex64, OutOfRange> {
+        Ok(Complex64::new(
+            self.constants.n.at(nm)?,
+            self.constants.k.at(nm)?,
+        ))
+    }
+}
+
+/// A layer of a stack.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// What it is made of.
+    pub medium: Medium,
+    /// How thick it is, nm, ≥ 0.
+    pub thickness_nm: f64,
+}
+
+/// A stack: the incident medium, layers from there on, the substrate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stack {
+    incident: Medium,
+    layers: Vec<Layer>,
+    substrate: Medium,
+    thicknesses_nm: Vec<f64>,
+}
+
+/// Why there is no stack.
+#[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum StackError {
+    /// What is wrong with a stack file.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    File(#[from] Problems),
+    /// What is wrong with a one-line stack.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Line(#[from] LineError),
+}
+
+/// A stack was asked for at a wavelength where one of its media has no data.
+#[derive(Clone, Debug, Error, Diagnostic, PartialEq)]
+#[error("{asked} nm is outside the data of {place}, {label}, which cover {min_nm} to {max_nm} nm")]
+#[diagnostic(help(
+    "ask for wavelengths within that range; or go on with the end values, in a stack file: index = {{ name = …, extrapolate = \"clamp\" }}"
+))]
+pub struct SampleError {
+    /// Which medium: `the incident medium`, `layer 2`, `the substrate`.
+    pub place: String,
+    /// What it is called.
+    pub label: String,
+    /// The wavelength asked for, nm.
+    pub asked: f64,
+    /// The shortest wavelength of the data, nm.
+    pub min_nm: f64,
+    /// The longest wavelength of the data, nm.
+    pub max_nm: f64,
+}
+
+impl Stack {
+    /// The largest extinction coefficient of an incident medium, which must let light pass: at 1e-6 a wave of 500 nm goes on for
+    /// 40 mm. It is then taken as 0.
+    pub const INCIDENT_K: f64 = 1e-6;
+    /// The most layers.
+    pub const MAX_LAYERS: usize = 1000;
+
+    /// A stack file where `text` is a path, a one-line stack where it has a `|` in it.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, with its place.
+    pub fn open(text: &str) -> Result<Self, StackError> {
+        if text.contains('|') {
+            Ok(Self::parse(text)?)
+        } else {
+            Ok(Self::read(text)?)
+        }
+    }
+
+    /// A stack written in one line: `air | silica 300nm | silicon`.
+    ///
+    /// The first medium is the one that the light comes from, the last the substrate, and what is between are layers with their
+    /// thickness in nm or µm (um). A medium is a material's name, a number `1.5`, or `1.5+0.1i`. `air` is the library's where it
+    /// has one and n = 1 otherwise; `vacuum` is n = 1.
+    ///
+    /// # Errors
+    /// What is wrong with the first part that is wrong.
+    pub fn parse(line: &str) -> Result<Self, LineError> {
+        line::parse(line)
+    }
+
+    /// A stack file: see [`StackDescription`].
+    ///
+    /// # Errors
+    /// Everything that is wrong with it.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Problems> {
+        file::read(path.as_ref())
+    }
+
+    /// The text of a stack file; `name` is what errors call it, and tables are looked for from `directory`.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it.
+    pub fn from_toml(name: &str, text: &str, directory: &Path) -> Result<Self, Problems> {
+        file::parse(name, text, directory)
+    }
+
+    /// The incident medium must be transparent, the thicknesses finite and not negative; `line` and `file` have seen to it.
+    pub(crate) fn new(incident: Medium, layers: Vec<Layer>, substrate: Medium) -> Self {
+        let thicknesses_nm = layers.iter().map(|layer| layer.thickness_nm).collect();
+        Self {
+            incident,
+            layers,
+            substrate,
+            thicknesses_nm,
+        }
+    }
+
+    /// Why `medium` cannot be the one that the light comes from; `None` when it can.
+    pub(crate) fn fault_of_incident(medium: &Medium) -> Option<String> {
+        let label = medium.label();
+        (!medium.is_transparent()).then(|| {
+            format!("{label} absorbs; the medium that light comes from must be transparent (k = 0)")
+        })
+    }
+
+    /// The medium that the light comes from.
+    pub fn incident(&self) -> &Medium {
+        &self.incident
+    }
+
+    /// The layers, the first beside the incident medium.
+    pub fn layers(&self) -> &[Layer] {
+        &self.layers
+    }
+
+    /// The medium behind the last layer.
+    pub fn substrate(&self) -> &Medium {
+        &self.substrate
+    }
+
+    /// The layers' thicknesses in their order, nm.
+    pub fn thicknesses_nm(&self) -> &[f64] {
+        &self.thicknesses_nm
+    }
+
+    /// As a stack file would say it.
+    pub fn description(&self) -> StackDescription {
+        StackDescription::of(self)
+    }
+
+    /// The stack in one line, for people.
+    pub fn label(&self) -> String {
+        let layers = self
+            .layers
+            .iter()
+            .map(|layer| format!("{} {} nm", layer.medium.label(), layer.thickness_nm));
+        let mut parts = vec![self.incident.label()];
+        parts.extend(layers);
+        parts.push(self.substrate.label());
+        parts.join(" | ")
+    }
+
+    /// The stack at these wavelengths, nm.
+    ///
+    /// # Errors
+    /// When a medium has no data at one of them.
+    pub fn sampled(&self, wavelengths_nm: &[f64]) -> Result<Sampled, SampleError> {
+        let read = |place: &dyn Fn() -> String, medium: &Medium| {
+            let at = |&nm: &f64| {
+                medium.at(nm).map_err(|gap| SampleError {
+                    place: place(),
+                    label: medium.label(),
+                    asked: gap.nm,
+                    min_nm: gap.min_nm,
+                    max_nm: gap.max_nm,
+                })
+            };
+            wavelengths_nm.iter().map(at).collect::<Result<Vec<_>, _>>()
+        };
+        let incident = read(&|| "the incident medium".to_owned(), &self.incident)?;
+        let numbered = self.layers.iter().enumerate();
+        let layers = numbered
+            .map(|(index, layer)| read(&|| format!("layer {}", index + 1), &layer.medium))
+            .collect::<Result<Vec<_>, _>>()?;
+        let substrate = read(&|| "the substrate".to_owned(), &self.substrate)?;
+        Ok(Sampled::new(
+            wavelengths_nm.to_vec(),
+            incident.into_iter().map(|index| index.re).collect(),
+            layers,
+            substrate,
+        ))
+    }
+}
