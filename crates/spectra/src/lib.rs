@@ -3,16 +3,21 @@
 //! Wavelengths are vacuum wavelengths in nanometres. Everything is `f64` until a renderer fills a
 //! [`SpectralImage`], which holds `f32`.
 //!
-//! * [`Tabulated`] is a table over wavelength, linear between its points; [`Spectrum`] a constant or a table.
-//! * [`OpticalConstants`] is a complex index n + ik over wavelength, k ≥ 0 absorbs.
+//! * [`Tabulated`] is a table over wavelength, linear between its points, [`DispersionFormula`] an index by coefficients;
+//!   [`Spectrum`] is one of them or a constant.
+//! * [`OpticalConstants`] is a complex index n + ik over wavelength, k ≥ 0 absorbs; [`OpticalConstants::mixture`] that of
+//!   two media in one.
 //! * [`BandGrid`] divides the rendered range into N uniform bands.
 //! * [`BandTable`] is a spectrum resampled onto a grid, fine enough for any wavelength drawn within a band.
 //! * [`SpectralImage`] is what a renderer produces: radiance per pixel and band.
-//! * [`illuminant`], [`observer_1931`], [`optical_constants()`] and [`reflectance`] are the data that the project carries.
+//! * [`illuminant`], [`observer_1931`], [`optical_constants()`] and [`reflectance`] are the data that the project carries;
+//!   [`material_info`] says where a material's come from.
 
 mod band_grid;
 mod band_table;
 mod data;
+mod effective_medium;
+mod formula;
 mod optical_constants;
 mod spectral_image;
 mod spectrum;
@@ -20,9 +25,11 @@ mod spectrum;
 pub use band_grid::{BandGrid, BandGridError};
 pub use band_table::BandTable;
 pub use data::{
-    DataSet, KM_LUMENS_PER_WATT, illuminant, illuminant_names, material_names, observer_1931,
-    optical_constants, reflectance, reflectance_names,
+    DataSet, KM_LUMENS_PER_WATT, MaterialInfo, illuminant, illuminant_names, material_info,
+    material_names, observer_1931, optical_constants, reflectance, reflectance_names,
 };
+pub use effective_medium::{MixtureError, MixtureRule, bruggeman, maxwell_garnett};
+pub use formula::{DispersionFormula, FormulaError, FormulaKind};
 pub use optical_constants::OpticalConstants;
 pub use spectral_image::SpectralImage;
 pub use spectrum::{OutOfRange, Spectrum, Tabulated, TabulatedError};

@@ -1,5 +1,6 @@
-//! A number over wavelength: a constant or a table.
+//! A number over wavelength: a constant, a table or a formula.
 
+use crate::DispersionFormula;
 use thiserror::Error;
 
 /// A table over wavelength, linear between its points. Rising wavelengths, finite values, at least one point.
@@ -32,15 +33,15 @@ pub enum TabulatedError {
     },
 }
 
-/// A spectrum was asked for where its table has no value.
+/// A spectrum was asked for where its table or formula has no value.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error("no value at {nm} nm: the table covers {min_nm} to {max_nm} nm")]
+#[error("no value at {nm} nm: the data cover {min_nm} to {max_nm} nm")]
 pub struct OutOfRange {
     /// The wavelength asked for.
     pub nm: f64,
-    /// First wavelength of the table.
+    /// First wavelength of the table or formula.
     pub min_nm: f64,
-    /// Last wavelength of the table.
+    /// Last wavelength of the table or formula.
     pub max_nm: f64,
 }
 
@@ -101,6 +102,15 @@ impl Tabulated {
         // `clamp` keeps a NaN, which then reads the first value.
         self.at(nm.clamp(min_nm, max_nm)).unwrap_or(self.values[0])
     }
+
+    /// The same table with all values times `factor`.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            nm: self.nm.clone(),
+            values: self.values.iter().map(|v| v * factor).collect(),
+        }
+    }
 }
 
 /// A number over wavelength.
@@ -112,33 +122,64 @@ pub enum Spectrum {
     Table(Tabulated),
     /// A table that keeps its end values outside its range (`extrapolate = "clamp"`).
     ClampedTable(Tabulated),
+    /// A dispersion formula that has no value outside its range.
+    Formula(DispersionFormula),
+    /// A dispersion formula that keeps its end values outside its range.
+    ClampedFormula(DispersionFormula),
 }
 
 impl Spectrum {
     /// The value at `nm`.
     ///
     /// # Errors
-    /// When a [`Spectrum::Table`] has no value there.
+    /// When the table or formula has no value there.
     pub fn at(&self, nm: f64) -> Result<f64, OutOfRange> {
         match self {
             Self::Constant(value) => Ok(*value),
             Self::Table(table) => table.at(nm),
             Self::ClampedTable(table) => Ok(table.clamped_at(nm)),
+            Self::Formula(formula) => formula.at(nm),
+            Self::ClampedFormula(formula) => formula.clamped_at(nm),
         }
     }
 
-    /// The same spectrum times `factor`.
+    /// The same spectrum with its end values outside its range.
     #[must_use]
-    pub fn scaled(&self, factor: f64) -> Self {
-        let scale = |table: &Tabulated| Tabulated {
-            nm: table.nm.clone(),
-            values: table.values.iter().map(|v| v * factor).collect(),
-        };
+    pub fn clamped(self) -> Self {
         match self {
-            Self::Constant(value) => Self::Constant(value * factor),
-            Self::Table(table) => Self::Table(scale(table)),
-            Self::ClampedTable(table) => Self::ClampedTable(scale(table)),
+            Self::Table(table) => Self::ClampedTable(table),
+            Self::Formula(formula) => Self::ClampedFormula(formula),
+            unbounded => unbounded,
         }
+    }
+
+    /// First and last wavelength that has a value, nm; `None` if all have.
+    pub fn range_nm(&self) -> Option<(f64, f64)> {
+        match self {
+            Self::Table(_) | Self::Formula(_) => self.extent_nm(),
+            Self::Constant(_) | Self::ClampedTable(_) | Self::ClampedFormula(_) => None,
+        }
+    }
+
+    /// First and last wavelength of the table or formula, kept beyond or not; `None` for a constant.
+    pub(crate) fn extent_nm(&self) -> Option<(f64, f64)> {
+        match self {
+            Self::Constant(_) => None,
+            Self::Table(table) | Self::ClampedTable(table) => Some(table.range_nm()),
+            Self::Formula(formula) | Self::ClampedFormula(formula) => Some(formula.range_nm()),
+        }
+    }
+
+    /// The wavelengths at which a table has its points, nm; none of a constant or formula.
+    pub(crate) fn points_nm(&self) -> impl Iterator<Item = f64> + '_ {
+        let table = match self {
+            Self::Table(table) | Self::ClampedTable(table) => Some(table),
+            Self::Constant(_) | Self::Formula(_) | Self::ClampedFormula(_) => None,
+        };
+        table
+            .into_iter()
+            .flat_map(Tabulated::points)
+            .map(|(nm, _)| nm)
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use super::DataSet;
 use super::observer::observer_1931;
 use super::table::{Table, TableError, embedded};
-use crate::{OutOfRange, Spectrum};
+use crate::{OutOfRange, Spectrum, Tabulated};
 
 /// Wavelengths of the 1 nm rule: 380, 381 … 780 nm.
 fn rule_1nm() -> impl Iterator<Item = f64> {
@@ -22,18 +22,20 @@ fn luminance(spectrum: &Spectrum) -> Result<f64, OutOfRange> {
 }
 
 /// The same spectrum with the luminance of the equal-energy spectrum of value 1.
-fn normalised(spectrum: &Spectrum) -> Result<Spectrum, OutOfRange> {
-    Ok(spectrum.scaled(luminance(&Spectrum::Constant(1.0))? / luminance(spectrum)?))
+fn normalised(table: &Tabulated) -> Result<Spectrum, OutOfRange> {
+    let own = luminance(&Spectrum::Table(table.clone()))?;
+    let factor = luminance(&Spectrum::Constant(1.0))? / own;
+    Ok(Spectrum::Table(table.scaled(factor)))
 }
 
 /// The illuminants of one data file.
-fn read(table: &Table) -> Result<Vec<DataSet<Spectrum>>, TableError> {
+fn read(table: &Table) -> Result<Vec<DataSet<Tabulated>>, TableError> {
     let citation = table.citation()?;
     let set = |name| {
         Ok(DataSet {
             name,
             citation: citation.clone(),
-            data: Spectrum::Table(table.series(name)?),
+            data: table.series(name)?,
         })
     };
     table.series_names().into_iter().map(set).collect()
@@ -46,10 +48,13 @@ fn all() -> &'static BTreeMap<&'static str, DataSet<Spectrum>> {
         let fluorescent = include_str!("../../data/illuminants/fluorescent.csv");
         let mut sets = embedded("illuminants/standard.csv", standard, read);
         sets.extend(embedded("illuminants/fluorescent.csv", fluorescent, read));
-        for set in &mut sets {
-            set.data = normalised(&set.data)
-                .unwrap_or_else(|gap| panic!("illuminant {}: {gap}", set.name));
-        }
+        let normalised = |set: DataSet<Tabulated>| DataSet {
+            name: set.name,
+            citation: set.citation,
+            data: normalised(&set.data)
+                .unwrap_or_else(|gap| panic!("illuminant {}: {gap}", set.name)),
+        };
+        let mut sets: Vec<_> = sets.into_iter().map(normalised).collect();
         sets.push(DataSet {
             name: "E",
             citation: "Equal-energy spectrum: CIE 015:2018, Colorimetry, 4th edition, DOI 10.25039/TR.015.2018."

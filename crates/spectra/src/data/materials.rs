@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use super::DataSet;
 use super::table::{Table, TableError, embedded};
-use crate::{BandGrid, OpticalConstants, Spectrum, Tabulated};
+use crate::{DispersionFormula, FormulaKind, OpticalConstants, Spectrum};
 
 /// A material's name and its file.
 macro_rules! material {
@@ -17,119 +17,206 @@ macro_rules! material {
     };
 }
 
-const FILES: [(&str, &str); 13] = [
+const FILES: [(&str, &str); 69] = [
+    material!("air"),
+    material!("alumina"),
+    material!("alumina_film"),
     material!("aluminium"),
+    material!("aluminium_cheng"),
+    material!("aluminium_mcpeak"),
+    material!("anatase"),
     material!("bk7"),
+    material!("brass"),
+    material!("calcium_fluoride"),
     material!("chromium"),
+    material!("chromium_sytchkova"),
+    material!("cobalt"),
     material!("copper"),
+    material!("copper_mcpeak"),
+    material!("copper_querry"),
+    material!("diamond"),
+    material!("ethanol"),
+    material!("germanium"),
+    material!("glycerol"),
     material!("gold"),
+    material!("gold_mcpeak"),
+    material!("gold_olmon"),
+    material!("gold_silver"),
+    material!("hafnia"),
+    material!("hematite"),
     material!("iron"),
+    material!("ito"),
+    material!("ito_minenkov"),
+    material!("magnesium_fluoride"),
+    material!("magnesium_fluoride_film"),
+    material!("magnetite"),
     material!("nickel"),
+    material!("niobia"),
+    material!("niobium"),
+    material!("platinum"),
+    material!("pmma"),
+    material!("polystyrene"),
+    material!("polystyrene_sultanova"),
+    material!("rutile"),
+    material!("sf11"),
     material!("silica"),
+    material!("silica_film"),
     material!("silicon"),
+    material!("silicon_aspnes"),
+    material!("silicon_monoxide"),
+    material!("silicon_nitride"),
+    material!("silicon_nitride_film"),
+    material!("silicon_schinke"),
     material!("silver"),
+    material!("silver_mcpeak"),
+    material!("soda_lime"),
+    material!("tantala"),
+    material!("tantala_evaporated"),
+    material!("titania"),
+    material!("titania_amorphous"),
+    material!("titania_sarkar"),
+    material!("titania_zhukovsky"),
     material!("titanium"),
+    material!("titanium_nitride"),
+    material!("titanium_palm"),
     material!("tungsten"),
+    material!("tungsten_trioxide"),
     material!("water"),
+    material!("water_hale"),
+    material!("zinc"),
+    material!("zinc_oxide"),
+    material!("zinc_sulfide"),
+    material!("zirconia"),
 ];
 
-/// How a Sellmeier formula's second coefficient enters.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Resonance {
-    /// As a wavelength in µm, which is squared.
-    Um,
-    /// As the square of a wavelength, µm².
-    Um2,
+/// What is known about a material beside its figures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MaterialInfo {
+    /// The name by which scenes ask for it, such as `gold`.
+    pub name: &'static str,
+    /// What was measured, in a few words.
+    pub material: &'static str,
+    /// The name of the data set in the refractiveindex.info database, such as `Au-Johnson`.
+    pub data_set: &'static str,
+    /// Authors and year.
+    pub paper: &'static str,
+    /// The publication in full.
+    pub citation: &'static str,
+    /// The terms under which the figures came here.
+    pub licence: &'static str,
+    /// What is to be known before the figures are used.
+    pub notes: &'static str,
+    /// First and last wavelength where both n and k have a value, nm.
+    pub range_nm: (f64, f64),
 }
 
-/// Index by Sellmeier's formula, n² − 1 = Σ bᵢ λ² / (λ² − cᵢ) (or cᵢ² in place of cᵢ), λ in µm.
-fn sellmeier(terms: &[(f64, f64)], resonance: Resonance, nm: f64) -> f64 {
-    let um2 = (nm * 1e-3).powi(2);
-    let sum: f64 = terms
-        .iter()
-        .map(|&(b, c)| match resonance {
-            Resonance::Um => b * um2 / (um2 - c * c),
-            Resonance::Um2 => b * um2 / (um2 - c),
-        })
-        .sum();
-    (1.0 + sum).sqrt()
+/// A material's figures and what is known about them.
+struct Entry {
+    info: MaterialInfo,
+    set: DataSet<OpticalConstants>,
 }
 
-/// A Sellmeier formula evaluated at every nanometre that a band grid may touch.
-///
-/// Linear reading between the points is within 2e-7 of the formula.
-fn sellmeier_table(terms: &[(f64, f64)], resonance: Resonance) -> Result<Tabulated, TableError> {
-    let (first, last) = BandGrid::LIMITS_NM;
-    let points = (first as u32..=last as u32)
-        .map(f64::from)
-        .map(|nm| (nm, sellmeier(terms, resonance, nm)))
-        .collect();
-    Tabulated::new(points).map_err(|source| TableError::Points {
-        column: "b",
-        source,
-    })
+/// The dispersion formula of a file that has one.
+fn formula(table: &Table) -> Result<Option<DispersionFormula>, TableError> {
+    let Ok(number) = table.head("formula") else {
+        return Ok(None);
+    };
+    let kind = number.parse().ok().and_then(FormulaKind::from_number);
+    let kind = kind.ok_or(TableError::Value {
+        key: "formula",
+        value: number,
+    })?;
+    let range = table.head("range_nm")?;
+    let ends = range.split_once(" to ");
+    let ends = ends.and_then(|(low, high)| Some((low.parse().ok()?, high.parse().ok()?)));
+    let ends = ends.ok_or(TableError::Value {
+        key: "range_nm",
+        value: range,
+    })?;
+    Ok(Some(DispersionFormula::new(
+        kind,
+        table.column("coefficient"),
+        ends,
+    )?))
 }
 
-/// n from its table or formula; k from its table, or 0 where the source has none.
+/// n from its formula or table; k from its table, or 0 where the source has none.
 fn read(table: &Table) -> Result<OpticalConstants, TableError> {
-    let n = if let Ok(terms) = table.pairs("b", "c_um2") {
-        sellmeier_table(&terms, Resonance::Um2)?
-    } else if let Ok(terms) = table.pairs("b", "c_um") {
-        sellmeier_table(&terms, Resonance::Um)?
-    } else {
-        table.series("n")?
+    let n = match formula(table)? {
+        Some(formula) => Spectrum::Formula(formula),
+        None => Spectrum::Table(table.series("n")?),
     };
     let k = match table.series("k") {
         Ok(k) => Spectrum::Table(k),
         Err(TableError::MissingColumns(_)) => Spectrum::Constant(0.0),
         Err(other) => return Err(other),
     };
-    Ok(OpticalConstants {
-        n: Spectrum::Table(n),
-        k,
-    })
+    Ok(OpticalConstants { n, k })
 }
 
-fn all() -> &'static BTreeMap<&'static str, DataSet<OpticalConstants>> {
-    static ALL: OnceLock<BTreeMap<&'static str, DataSet<OpticalConstants>>> = OnceLock::new();
-    ALL.get_or_init(|| {
-        let set = |(name, text)| {
-            let (citation, data) = embedded(name, text, |t| Ok((t.citation()?, read(t)?)));
-            (
-                name,
-                DataSet {
-                    name,
-                    citation,
-                    data,
-                },
-            )
-        };
-        FILES.into_iter().map(set).collect()
-    })
+fn entry(name: &'static str, table: &Table) -> Result<Entry, TableError> {
+    let data = read(table)?;
+    let info = MaterialInfo {
+        name,
+        material: table.head("material")?,
+        data_set: table.head("name")?,
+        paper: table.head("paper")?,
+        citation: table.head("citation")?,
+        licence: table.head("licence")?,
+        notes: table.head("notes")?,
+        range_nm: data.range_nm().unwrap_or((0.0, f64::INFINITY)),
+    };
+    let citation = table.citation()?;
+    let set = DataSet {
+        name,
+        citation,
+        data,
+    };
+    Ok(Entry { info, set })
 }
 
-/// Optical constants by name (`"gold"`, `"water"`).
+/// A material, read when it is first asked for.
+fn find(name: &str) -> Option<&'static Entry> {
+    static ALL: OnceLock<BTreeMap<&'static str, (&'static str, OnceLock<Entry>)>> = OnceLock::new();
+    let all = ALL.get_or_init(|| {
+        let unread = |(name, text)| (name, (text, OnceLock::new()));
+        FILES.into_iter().map(unread).collect()
+    });
+    let (&name, (text, read)) = all.get_key_value(name)?;
+    Some(read.get_or_init(|| embedded(name, text, |table| entry(name, table))))
+}
+
+/// Optical constants by name (`"gold"`, `"water"`); [`material_info`] says where they come from.
 ///
-/// | name | data set | |
-/// | --- | --- | --- |
-/// | `gold`, `silver`, `copper` | Johnson and Christy (1972) | table |
-/// | `titanium`, `chromium`, `iron`, `nickel` | Johnson and Christy (1974) | table |
-/// | `aluminium` | Rakić (1995) | table |
-/// | `tungsten` | Weaver, Olson and Lynch (1975) | table |
-/// | `silicon` | Green (2008) | table |
-/// | `silica` | Malitson (1965), fused silica | Sellmeier, k = 0 |
-/// | `bk7` | SCHOTT, N-BK7 | Sellmeier, k from a table |
-/// | `water` | Daimon and Masumura (2007), 20 °C | Sellmeier, k = 0 |
+/// | kind | names |
+/// | --- | --- |
+/// | metals | `aluminium`, `brass`, `chromium`, `cobalt`, `copper`, `gold`, `gold_silver`, `iron`, `nickel`, `niobium`, `platinum`, `silver`, `titanium`, `tungsten`, `zinc` |
+/// | oxides | `alumina`, `anatase`, `hafnia`, `hematite`, `magnetite`, `niobia`, `rutile`, `silica`, `silicon_monoxide`, `tantala`, `titania`, `tungsten_trioxide`, `zinc_oxide`, `zirconia` |
+/// | nitrides | `silicon_nitride`, `titanium_nitride` |
+/// | fluorides | `calcium_fluoride`, `magnesium_fluoride` |
+/// | glasses | `bk7`, `sf11`, `soda_lime` |
+/// | semiconductors | `germanium`, `ito`, `silicon`, `zinc_sulfide` |
+/// | liquids | `ethanol`, `glycerol`, `water` |
+/// | polymers | `pmma`, `polystyrene` |
+/// | others | `air`, `diamond` |
 ///
-/// Tables are linear between their points, n and k each on its own, and cover at least 360 to 830 nm.
-/// The choice of set moves a metal's colour by more than any numerics: name it beside a result.
+/// A name with an ending (`gold_olmon`, `copper_mcpeak`, `silica_film`) is another set of figures of the same material. The
+/// choice of set moves a metal's colour by more than any numerics: name it beside a result.
+///
+/// Tables are linear between their points, n and k each on its own; formulas are evaluated where they are asked for.
+/// Asked for outside its range, a material is an error; some begin within the visible range (`polystyrene` at 400 nm).
 pub fn optical_constants(name: &str) -> Option<DataSet<OpticalConstants>> {
-    all().get(name).cloned()
+    find(name).map(|entry| entry.set.clone())
+}
+
+/// Where the optical constants of this name come from, and for which wavelengths.
+pub fn material_info(name: &str) -> Option<MaterialInfo> {
+    find(name).map(|entry| entry.info.clone())
 }
 
 /// Names that [`optical_constants`] knows, sorted.
 pub fn material_names() -> Vec<&'static str> {
-    all().keys().copied().collect()
+    FILES.iter().map(|&(name, _)| name).collect()
 }
 
 #[cfg(test)]
@@ -142,13 +229,56 @@ mod tests {
     }
 
     #[test]
-    fn every_material_covers_what_a_band_grid_may_touch() {
+    fn the_range_stated_is_the_range_read() {
         for name in material_names() {
-            for nm in 360..=830 {
-                let (n, k) = index(name, f64::from(nm));
+            let (low, high) = material_info(name).unwrap().range_nm;
+            let data = optical_constants(name).unwrap().data;
+            assert!(low >= 182.0 && high <= 9700.0, "{name}: {low} to {high}");
+            let steps = 1000;
+            for step in 0..=steps {
+                let nm = low + (high - low) * f64::from(step) / f64::from(steps);
+                let (n, k) = index(name, nm);
                 assert!(n > 0.0 && k >= 0.0, "{name} at {nm} nm: {n} + {k}i");
             }
+            assert!(
+                data.at(low - 0.01).is_err() && data.at(high + 0.01).is_err(),
+                "{name}"
+            );
         }
+    }
+
+    #[test]
+    fn what_begins_within_the_default_range_is_known() {
+        let short = |name: &&str| {
+            let (low, high) = material_info(name).unwrap().range_nm;
+            low > 380.0 || high < 780.0
+        };
+        let found: Vec<_> = material_names().into_iter().filter(short).collect();
+        let known = [
+            "ethanol",
+            "glycerol",
+            "pmma",
+            "polystyrene",
+            "polystyrene_sultanova",
+            "rutile",
+            "zinc_sulfide",
+        ];
+        assert_eq!(found, known);
+    }
+
+    #[test]
+    fn every_material_says_where_it_comes_from() {
+        for name in material_names() {
+            let info = material_info(name).unwrap();
+            let year = |text: &str| text.contains("19") || text.contains("20");
+            assert!(year(info.paper) && year(info.citation), "{info:?}");
+            assert!(info.licence.starts_with("CC0 1.0"), "{info:?}");
+            assert!(
+                !info.material.is_empty() && !info.data_set.is_empty(),
+                "{info:?}"
+            );
+        }
+        assert_eq!(material_info("unobtainium"), None);
     }
 
     #[test]
@@ -161,21 +291,6 @@ mod tests {
         assert!((index("bk7", 587.5618).0 - 1.51680).abs() < 1e-5);
         assert!((index("bk7", 486.1327).0 - 1.52238).abs() < 1e-5);
         assert!((index("bk7", 656.2725).0 - 1.51432).abs() < 1e-5);
-    }
-
-    #[test]
-    fn linear_reading_between_nanometres_follows_the_formula() {
-        let water = [
-            (5.684_027_565e-1, 5.101_829_712e-3),
-            (1.726_177_391e-1, 1.821_153_936e-2),
-            (2.086_189_578e-2, 2.620_722_293e-2),
-            (1.130_748_688e-1, 1.069_792_721e1),
-        ];
-        for i in 0..470 {
-            let nm = 360.5 + f64::from(i);
-            let exact = sellmeier(&water, Resonance::Um2, nm);
-            assert!((index("water", nm).0 - exact).abs() < 2e-7, "{nm} nm");
-        }
     }
 
     #[test]

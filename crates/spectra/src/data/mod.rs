@@ -10,7 +10,7 @@ mod reflectances;
 mod table;
 
 pub use illuminants::{illuminant, illuminant_names};
-pub use materials::{material_names, optical_constants};
+pub use materials::{MaterialInfo, material_info, material_names, optical_constants};
 pub use observer::observer_1931;
 pub use reflectances::{reflectance, reflectance_names};
 
@@ -50,7 +50,7 @@ mod tests {
         check_kind(&material_names(), optical_constants);
         check_kind(&reflectance_names(), reflectance);
         assert_eq!(illuminant_names().len(), 8 + 12);
-        assert_eq!(material_names().len(), 13);
+        assert_eq!(material_names().len(), 69);
         assert_eq!(reflectance_names().len(), 24);
     }
 }

@@ -8,6 +8,16 @@
 //! 300.9,1.53,1.889
 //! ```
 //!
+//! A dispersion formula has its number and range in the head, and its coefficients as a block of one column:
+//!
+//! ```text
+//! # formula: 1
+//! # range_nm: 210 to 6700
+//! coefficient
+//! 0
+//! 0.6961663
+//! ```
+//!
 //! A head of `# key: value` lines, then blocks of comma-separated numbers. A line that starts with
 //! a letter names the columns and opens a block; an empty cell has no value in the source; empty
 //! lines separate blocks.
@@ -16,7 +26,7 @@ use std::collections::BTreeMap;
 
 use thiserror::Error;
 
-use crate::{Tabulated, TabulatedError};
+use crate::{FormulaError, Tabulated, TabulatedError};
 
 /// A data file, read.
 #[derive(Debug)]
@@ -51,6 +61,13 @@ pub(super) enum TableError {
     MissingKey(&'static str),
     #[error("no block has the columns {0:?}")]
     MissingColumns(Vec<&'static str>),
+    #[error("the head's {key:?} is not what it should be: {value:?}")]
+    Value {
+        key: &'static str,
+        value: &'static str,
+    },
+    #[error(transparent)]
+    Formula(#[from] FormulaError),
     #[error("column {column:?}: {source}")]
     Points {
         column: &'static str,
@@ -104,6 +121,13 @@ impl Table {
         self.blocks
             .first()
             .map_or_else(Vec::new, |block| block.columns[1..].to_vec())
+    }
+
+    /// The numbers of the column that is a block by itself, or nothing where there is no such block.
+    pub(super) fn column(&self, name: &str) -> Vec<f64> {
+        let own = self.blocks.iter().find(|block| block.columns == [name]);
+        let rows = own.into_iter().flat_map(|block| &block.rows);
+        rows.filter_map(|row| row[0]).collect()
     }
 
     /// The rows that have a value in both `x` and `y`, from the block with these columns.
@@ -184,6 +208,9 @@ mod tests {
                 .unwrap();
         assert_eq!(table.citation().unwrap(), "a set: x: y. Licence: z.");
         assert_eq!(table.series_names(), ["c"]);
+        assert!(table.column("c").is_empty() && table.column("r").is_empty());
+        let formula = Table::parse("coefficient\n1\n2e-3\n\nnm,k\n400,0\n").unwrap();
+        assert_eq!(formula.column("coefficient"), [1.0, 2e-3]);
         assert_eq!(table.pairs("b", "c").unwrap(), [(1.0, 2.0)]);
         assert_eq!(table.series("p").unwrap().range_nm(), (400.0, 410.0));
         assert_eq!(table.series("q").unwrap().range_nm(), (410.0, 410.0));

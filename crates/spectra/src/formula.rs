@@ -1,0 +1,261 @@
+//! Dispersion formulas: the index of a transparent medium from a few coefficients.
+
+use crate::OutOfRange;
+use thiserror::Error;
+
+/// The dispersion formulas 1 to 6 of the refractiveindex.info database.
+///
+/// λ is the vacuum wavelength in µm, C₁, C₂ … are the coefficients in their order.
+///
+/// Source: M. N. Polyanskiy, Refractiveindex.info database of optical constants, Sci. Data 11, 94 (2024),
+/// DOI 10.1038/s41597-023-02898-2, and the database's own sheet of dispersion formulas.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FormulaKind {
+    /// 1: n² − 1 = C₁ + C₂λ²/(λ² − C₃²) + C₄λ²/(λ² − C₅²) + …
+    Sellmeier,
+    /// 2: n² − 1 = C₁ + C₂λ²/(λ² − C₃) + C₄λ²/(λ² − C₅) + …
+    Sellmeier2,
+    /// 3: n² = C₁ + C₂λ^C₃ + C₄λ^C₅ + …
+    Polynomial,
+    /// 4: n² = C₁ + C₂λ^C₃/(λ² − C₄^C₅) + C₆λ^C₇/(λ² − C₈^C₉) + C₁₀λ^C₁₁ + C₁₂λ^C₁₃ + …
+    RefractiveIndexInfo,
+    /// 5: n = C₁ + C₂λ^C₃ + C₄λ^C₅ + …
+    Cauchy,
+    /// 6: n − 1 = C₁ + C₂/(C₃ − λ⁻²) + C₄/(C₅ − λ⁻²) + …
+    Gases,
+}
+
+impl FormulaKind {
+    /// The formula of this number in the database, from 1 to 6.
+    pub fn from_number(number: u32) -> Option<Self> {
+        Some(match number {
+            1 => Self::Sellmeier,
+            2 => Self::Sellmeier2,
+            3 => Self::Polynomial,
+            4 => Self::RefractiveIndexInfo,
+            5 => Self::Cauchy,
+            6 => Self::Gases,
+            _ => return None,
+        })
+    }
+
+    /// Whether the terms are complete: C₁ alone, or followed by whole terms.
+    fn accepts(self, count: usize) -> bool {
+        match self {
+            Self::RefractiveIndexInfo => matches!(count, 1 | 5) || (count >= 9 && count % 2 == 1),
+            _ => count % 2 == 1,
+        }
+    }
+
+    /// n at `um`; NaN or infinite where the formula gives no real number.
+    fn index(self, coefficients: &[f64], um: f64) -> f64 {
+        let um2 = um * um;
+        let first = coefficients[0];
+        // A term without weight has no say, not even where its denominator is 0.
+        let pairs = |from: usize, term: &dyn Fn(f64, f64) -> f64| -> f64 {
+            let pairs = coefficients.get(from..).unwrap_or_default();
+            let weighted = pairs.chunks_exact(2).filter(|pair| pair[0] != 0.0);
+            weighted.map(|pair| term(pair[0], pair[1])).sum()
+        };
+        let power = |b: f64, c: f64| b * um.powf(c);
+        match self {
+            Self::Sellmeier => (1.0 + (first + pairs(1, &|b, c| b * um2 / (um2 - c * c)))).sqrt(),
+            Self::Sellmeier2 => (1.0 + (first + pairs(1, &|b, c| b * um2 / (um2 - c)))).sqrt(),
+            Self::Polynomial => (first + pairs(1, &power)).sqrt(),
+            Self::RefractiveIndexInfo => {
+                let resonances = &coefficients[1..coefficients.len().min(9)];
+                let weighted = resonances.chunks_exact(4).filter(|term| term[0] != 0.0);
+                let resonant: f64 = weighted
+                    .map(|c| c[0] * um.powf(c[1]) / (um2 - c[2].powf(c[3])))
+                    .sum();
+                (first + resonant + pairs(9, &power)).sqrt()
+            }
+            Self::Cauchy => first + pairs(1, &power),
+            Self::Gases => 1.0 + (first + pairs(1, &|b, c| b / (c - 1.0 / um2))),
+        }
+    }
+}
+
+/// A dispersion formula with its coefficients and the wavelengths that it is valid for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DispersionFormula {
+    kind: FormulaKind,
+    coefficients: Vec<f64>,
+    range_nm: (f64, f64),
+}
+
+/// Why numbers do not make a [`DispersionFormula`].
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum FormulaError {
+    /// A term is incomplete.
+    #[error("found {found} coefficients: {}", whole_terms(*kind))]
+    Count {
+        /// The formula.
+        kind: FormulaKind,
+        /// How many coefficients there are.
+        found: usize,
+    },
+    /// A coefficient is NaN or infinite.
+    #[error("coefficient {index} is not finite")]
+    NotFinite {
+        /// Which coefficient, counted from 1.
+        index: usize,
+    },
+    /// The range of wavelengths has no extent, or reaches 0.
+    #[error("{min_nm} to {max_nm} nm is not a range of wavelengths")]
+    Range {
+        /// First wavelength.
+        min_nm: f64,
+        /// Last wavelength.
+        max_nm: f64,
+    },
+}
+
+fn whole_terms(kind: FormulaKind) -> &'static str {
+    match kind {
+        FormulaKind::RefractiveIndexInfo => {
+            "one, then none, four or eight for the resonances, and after eight any number of pairs are expected"
+        }
+        _ => "one, then two for each term are expected",
+    }
+}
+
+impl DispersionFormula {
+    /// A formula that is valid from `range_nm.0` to `range_nm.1`.
+    ///
+    /// # Errors
+    /// When a term is incomplete, a number is not finite, or the range is none.
+    pub fn new(
+        kind: FormulaKind,
+        coefficients: Vec<f64>,
+        range_nm: (f64, f64),
+    ) -> Result<Self, FormulaError> {
+        if !kind.accepts(coefficients.len()) {
+            let found = coefficients.len();
+            return Err(FormulaError::Count { kind, found });
+        }
+        if let Some(at) = coefficients.iter().position(|c| !c.is_finite()) {
+            return Err(FormulaError::NotFinite { index: at + 1 });
+        }
+        let (min_nm, max_nm) = range_nm;
+        if !(min_nm > 0.0 && min_nm < max_nm && max_nm.is_finite()) {
+            return Err(FormulaError::Range { min_nm, max_nm });
+        }
+        Ok(Self {
+            kind,
+            coefficients,
+            range_nm,
+        })
+    }
+
+    /// First and last wavelength, nm.
+    pub fn range_nm(&self) -> (f64, f64) {
+        self.range_nm
+    }
+
+    /// The index at `nm`.
+    ///
+    /// # Errors
+    /// When `nm` lies outside the range by more than 1e-9 nm, or the formula gives no positive real number there.
+    pub fn at(&self, nm: f64) -> Result<f64, OutOfRange> {
+        let (min_nm, max_nm) = self.range_nm;
+        let inside = nm >= min_nm - 1e-9 && nm <= max_nm + 1e-9;
+        let n = self.kind.index(&self.coefficients, nm * 1e-3);
+        if inside && n > 0.0 && n.is_finite() {
+            return Ok(n);
+        }
+        Err(OutOfRange { nm, min_nm, max_nm })
+    }
+
+    /// The index at `nm`, and beyond the range the index at the nearer end of it.
+    ///
+    /// # Errors
+    /// When the formula gives no positive real number there.
+    pub fn clamped_at(&self, nm: f64) -> Result<f64, OutOfRange> {
+        let (min_nm, max_nm) = self.range_nm;
+        self.at(nm.clamp(min_nm, max_nm))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn formula(number: u32, coefficients: &[f64]) -> DispersionFormula {
+        let kind = FormulaKind::from_number(number).unwrap();
+        DispersionFormula::new(kind, coefficients.to_vec(), (200.0, 2000.0)).unwrap()
+    }
+
+    #[test]
+    fn every_formula_is_its_equation_worked_by_hand() {
+        // λ = 0.5 µm: λ² = 1/4 and λ⁻² = 4, so that the terms come out in whole numbers and fractions.
+        let cases: [(u32, &[f64], f64); 8] = [
+            // 1 + 2 + 3·¼/(¼ − 0.3²) = 3 + 0.75/0.16
+            (1, &[2.0, 3.0, 0.3], (3.0_f64 + 0.75 / 0.16).sqrt()),
+            // 1 + 2 + 3·¼/(¼ − 0.1) = 3 + 5
+            (2, &[2.0, 3.0, 0.1], 8.0_f64.sqrt()),
+            // 2 + 3·(½)² + 4·(½)⁻¹ = 2 + 0.75 + 8
+            (3, &[2.0, 3.0, 2.0, 4.0, -1.0], 10.75_f64.sqrt()),
+            // 2 + 3·½/(¼ − 0.2²) + 4·1/(¼ − 0.125¹) + 5·(½)² = 2 + 1.5/0.21 + 32 + 1.25
+            (
+                4,
+                &[2.0, 3.0, 1.0, 0.2, 2.0, 4.0, 0.0, 0.125, 1.0, 5.0, 2.0],
+                (2.0_f64 + 1.5 / 0.21 + 32.0 + 1.25).sqrt(),
+            ),
+            (4, &[4.0], 2.0),
+            // A term without weight whose denominator is 0: ¼ − ½².
+            (4, &[4.0, 0.0, 0.0, 0.5, 2.0], 2.0),
+            // 1.25 + 0.01·(½)⁻² + 0.001·(½)⁻⁴ = 1.25 + 0.04 + 0.016
+            (5, &[1.25, 0.01, -2.0, 0.001, -4.0], 1.306),
+            // 1 + 0.5 + 3/(10 − 4)
+            (6, &[0.5, 3.0, 10.0], 2.0),
+        ];
+        for (number, coefficients, expected) in cases {
+            let found = formula(number, coefficients).at(500.0).unwrap();
+            assert!((found - expected).abs() < 1e-14, "{number}: {found}");
+        }
+        assert_eq!(FormulaKind::from_number(0), None);
+        assert_eq!(FormulaKind::from_number(7), None);
+    }
+
+    #[test]
+    fn outside_its_range_or_without_a_real_index_a_formula_is_an_error() {
+        let cauchy = formula(5, &[1.5, 0.004, -2.0]);
+        for nm in [199.0, 2001.0, f64::NAN, f64::INFINITY] {
+            assert!(cauchy.at(nm).is_err(), "{nm}");
+        }
+        assert_eq!(cauchy.clamped_at(100.0), cauchy.at(200.0));
+        assert_eq!(cauchy.clamped_at(1e5), cauchy.at(2000.0));
+        // n² = 1 + 1·λ²/(λ² − ¼): infinite at 500 nm, −0.78 at 400 nm.
+        let pole = formula(2, &[0.0, 1.0, 0.25]);
+        assert!(pole.at(500.0).is_err() && pole.at(400.0).is_err() && pole.at(600.0).is_ok());
+    }
+
+    #[test]
+    fn incomplete_terms_and_ranges_that_are_none_are_refused() {
+        let new = |number, count, range| {
+            let kind = FormulaKind::from_number(number).unwrap();
+            DispersionFormula::new(kind, vec![1.0; count], range)
+        };
+        let range = (300.0, 800.0);
+        for number in 1..=6 {
+            assert!(new(number, 0, range).is_err() && new(number, 2, range).is_err());
+            assert!(new(number, 1, range).is_ok());
+            assert_eq!(new(number, 3, range).is_ok(), number != 4, "{number}");
+        }
+        assert!(new(4, 5, range).is_ok() && new(4, 7, range).is_err() && new(4, 13, range).is_ok());
+        for range in [
+            (0.0, 1.0),
+            (2.0, 1.0),
+            (1.0, 1.0),
+            (f64::NAN, 1.0),
+            (1.0, f64::INFINITY),
+        ] {
+            assert!(matches!(new(5, 3, range), Err(FormulaError::Range { .. })));
+        }
+        let kind = FormulaKind::Cauchy;
+        let infinite = DispersionFormula::new(kind, vec![f64::INFINITY], range);
+        assert_eq!(infinite, Err(FormulaError::NotFinite { index: 1 }));
+    }
+}
