@@ -9,16 +9,18 @@
 //! s is the polarisation whose electric field is perpendicular to the plane of incidence, p the one
 //! whose field lies in it.
 
-mod film;
 mod fresnel;
 mod microfacet;
+mod stack;
 
-pub use film::{Layer, StackAmplitudes, film, stack};
 pub use fresnel::{Amplitudes, cos_refracted, fresnel, reflectance_unpolarised};
 pub use microfacet::{
     beckmann_d, cook_torrance, half_vector_pdf, reflected_pdf, sample_beckmann, v_groove_g,
 };
 pub use num_complex::Complex64;
+pub use stack::{
+    Layer, StackAmplitudes, ThicknessDerivative, absorptance, film, stack, thickness_derivatives,
+};
 
 /// A power for s and for p polarised light.
 #[derive(Clone, Copy, Debug, PartialEq)]
