@@ -51,14 +51,9 @@ fn air() -> Index {
     Index::Name("air".to_owned())
 }
 
-/// `vacuum`, and `air` where the library has none, are n = 1.
+/// n and k; `vacuum` is n = 1.
 pub(crate) fn constants(index: &Index, directory: &Path) -> Result<OpticalConstants, Vec<Problem>> {
-    let is_one = |name: &str| match name {
-        "vacuum" => true,
-        "air" => spectra::optical_constants("air").is_none(),
-        _ => false,
-    };
-    if matches!(index, Index::Name(name) if is_one(name)) {
+    if matches!(index, Index::Name(name) if name == "vacuum") {
         return Ok(OpticalConstants {
             n: Spectrum::Constant(1.0),
             k: Spectrum::Constant(0.0),

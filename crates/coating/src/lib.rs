@@ -27,7 +27,6 @@
 
 // mod chart;
 mod colour;
-mod derivatives;
 mod file;
 mod light;
 mod line;
@@ -40,7 +39,6 @@ mod tolerance;
 
 // pub use chart::{Chart, ChartError};
 pub use colour::{Colour, ParseColourError, Side, StackColour, parse_srgb};
-pub use derivatives::{PowerDerivative, thickness_derivatives};
 pub use file::{LayerDescription, StackDescription};
 pub use light::{Light, UnknownIlluminant};
 pub use line::LineError;

@@ -1,6 +1,6 @@
 //! What a stack does to light: R, T and A over wavelength at an angle.
 
-use optics::{Complex64, Polarised, StackAmplitudes};
+use optics::{Complex64, Layer, Polarised, StackAmplitudes, ThicknessDerivative};
 use thiserror::Error;
 
 /// A stack at chosen wavelengths: numbers alone, without names or tables. Thicknesses and angles are given when it is evaluated.
@@ -127,25 +127,54 @@ impl Sampled {
     /// # Panics
     /// When there is not one thickness per layer.
     pub fn powers(&self, thicknesses_nm: &[f64], angle: Angle) -> Vec<Powers> {
-        assert_eq!(
-            thicknesses_nm.len(),
-            self.layers.len(),
-            "one thickness per layer"
-        );
-        let mut layers: Vec<_> = thicknesses_nm
-            .iter()
-            .map(|&thickness_nm| optics::Layer {
-                index: Complex64::ONE,
-                thickness_nm,
-            })
-            .collect();
-        let at = |w: usize| {
+        self.each(thicknesses_nm, |n0, layers, substrate, nm| {
+            optics::stack(n0, layers, substrate, nm, angle.cosine()).into()
+        })
+    }
+
+    /// At each wavelength the absorptance of each layer: R + T + ΣA = 1.
+    ///
+    /// # Panics
+    /// When there is not one thickness per layer.
+    pub fn absorptances(&self, thicknesses_nm: &[f64], angle: Angle) -> Vec<Vec<Polarised>> {
+        self.each(thicknesses_nm, |n0, layers, substrate, nm| {
+            optics::absorptance(n0, layers, substrate, nm, angle.cosine())
+        })
+    }
+
+    /// At each wavelength ∂R/∂d and ∂T/∂d of each layer, per nm.
+    ///
+    /// # Panics
+    /// When there is not one thickness per layer.
+    pub fn derivatives(
+        &self,
+        thicknesses_nm: &[f64],
+        angle: Angle,
+    ) -> Vec<Vec<ThicknessDerivative>> {
+        self.each(thicknesses_nm, |n0, layers, substrate, nm| {
+            optics::thickness_derivatives(n0, layers, substrate, nm, angle.cosine())
+        })
+    }
+
+    /// Something of the stack at each wavelength: of the incident index, layers, substrate and wavelength.
+    fn each<T>(
+        &self,
+        thicknesses_nm: &[f64],
+        of: impl Fn(f64, &[Layer], Complex64, f64) -> T,
+    ) -> Vec<T> {
+        let (given, needed) = (thicknesses_nm.len(), self.layers.len());
+        assert_eq!(given, needed, "one thickness per layer");
+        let layer = |&thickness_nm: &f64| Layer {
+            index: Complex64::ONE,
+            thickness_nm,
+        };
+        let mut layers: Vec<Layer> = thicknesses_nm.iter().map(layer).collect();
+        let at = |(w, &nm): (usize, &f64)| {
             for (layer, indices) in layers.iter_mut().zip(&self.layers) {
                 layer.index = indices[w];
             }
-            let (n0, nm) = (self.incident[w], self.wavelengths_nm[w]);
-            optics::stack(n0, &layers, self.substrate[w], nm, angle.cosine()).into()
+            of(self.incident[w], &layers, self.substrate[w], nm)
         };
-        (0..self.wavelengths_nm.len()).map(at).collect()
+        self.wavelengths_nm.iter().enumerate().map(at).collect()
     }
 }

@@ -2,10 +2,10 @@
 
 use crate::Side;
 use crate::colour::{Colour, StackColour};
-use crate::derivatives::{PowerDerivative, thickness_derivatives};
 use crate::response::Angle;
 use color::Lab;
 use color::lab::delta_e_2000_rate;
+use optics::ThicknessDerivative;
 
 /// How the colour of a stack hangs on its thicknesses, to first order.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,12 +34,15 @@ pub struct LayerSensitivity {
 /// When there is not one thickness per layer.
 pub fn sensitivity(stack: &StackColour, thicknesses_nm: &[f64], angle: Angle) -> Sensitivity {
     let colour = stack.at(thicknesses_nm, angle);
-    let share = |d: &PowerDerivative| match stack.side() {
+    let share = |d: &ThicknessDerivative| match stack.side() {
         Side::Reflected => d.reflectance.unpolarised(),
         Side::Transmitted => d.transmittance.unpolarised(),
     };
-    let of_layer = |derivatives: Vec<PowerDerivative>| {
-        let xyz_per_nm = stack.light().xyz(derivatives.iter().map(share));
+    // At each wavelength, of each layer.
+    let derivatives = stack.sampled().derivatives(thicknesses_nm, angle);
+    let of_layer = |layer: usize| {
+        let shares = derivatives.iter().map(|layers| share(&layers[layer]));
+        let xyz_per_nm = stack.light().xyz(shares);
         let lab_per_nm = Lab::derivative(colour.xyz, colour.white, xyz_per_nm);
         LayerSensitivity {
             xyz_per_nm,
@@ -47,10 +50,9 @@ pub fn sensitivity(stack: &StackColour, thicknesses_nm: &[f64], angle: Angle) ->
             delta_e_per_nm: delta_e_2000_rate(colour.lab(), lab_per_nm),
         }
     };
-    let derivatives = thickness_derivatives(stack.sampled(), thicknesses_nm, angle);
     Sensitivity {
         colour,
-        layers: derivatives.into_iter().map(of_layer).collect(),
+        layers: (0..thicknesses_nm.len()).map(of_layer).collect(),
     }
 }
 

@@ -7,7 +7,7 @@ use miette::Diagnostic;
 use optics::Complex64;
 use scene::Problems;
 use scene::description::Index;
-use spectra::{OpticalConstants, OutOfRange, Spectrum};
+use spectra::OpticalConstants;
 use std::path::Path;
 use thiserror::Error;
 
@@ -44,21 +44,10 @@ impl Medium {
         }
     }
 
-    /// Whether the light is not weakened on its way through it, but for what no measurement of a film would show.
-    fn is_transparent(&self) -> bool {
-        match &self.constants.k {
-            Spectrum::Constant(k) => *k <= Stack::INCIDENT_K,
-            Spectrum::Table(table) | Spectrum::ClampedTable(table) => {
-                table.points().all(|(_, k)| k <= Stack::INCIDENT_K)
-            }
-        }
-    }
-
-    fn at(&self, nm: f64) -> Result<Complex64, OutOfRange> {
-        Ok(Complex64::new(
-            self.constants.n.at(nm)?,
-            self.constants.k.at(nm)?,
-        ))
+    /// Whether visible light is weakened on its way through it, as far as its data say.
+    fn absorbs(&self) -> bool {
+        let k = |nm| self.constants.k.at(f64::from(nm)).unwrap_or(0.0);
+        (380..=780).any(|nm| k(nm) > Stack::INCIDENT_K)
     }
 }
 
@@ -94,23 +83,42 @@ pub enum StackError {
     Line(#[from] LineError),
 }
 
-/// A stack was asked for at a wavelength where one of its media has no data.
+/// Why a stack has no numbers at a wavelength.
 #[derive(Clone, Debug, Error, Diagnostic, PartialEq)]
-#[error("{asked} nm is outside the data of {place}, {label}, which cover {min_nm} to {max_nm} nm")]
-#[diagnostic(help(
-    "ask for wavelengths within that range; or go on with the end values, in a stack file: index = {{ name = …, extrapolate = \"clamp\" }}"
-))]
-pub struct SampleError {
-    /// Which medium: `the incident medium`, `layer 2`, `the substrate`.
-    pub place: String,
-    /// What it is called.
-    pub label: String,
-    /// The wavelength asked for, nm.
-    pub asked: f64,
-    /// The shortest wavelength of the data, nm.
-    pub min_nm: f64,
-    /// The longest wavelength of the data, nm.
-    pub max_nm: f64,
+#[non_exhaustive]
+pub enum SampleError {
+    /// A medium has no data there.
+    #[error(
+        "{asked_nm} nm is outside the data of {place}, {label}, which cover {min_nm} to {max_nm} nm"
+    )]
+    #[diagnostic(help(
+        "ask for wavelengths within that range; or go on with the end values, in a stack file by \
+         index = {{ name = …, extrapolate = \"clamp\" }}"
+    ))]
+    OutOfRange {
+        /// Which medium: `the incident medium`, `layer 2`, `the substrate`.
+        place: String,
+        /// What it is called.
+        label: String,
+        /// The wavelength asked for, nm.
+        asked_nm: f64,
+        /// The shortest wavelength of the data, nm.
+        min_nm: f64,
+        /// The longest wavelength of the data, nm.
+        max_nm: f64,
+    },
+    /// The incident medium absorbs there.
+    #[error(
+        "at {nm} nm the incident medium, {label}, has k = {k}; the medium that light comes from must be transparent (k = 0)"
+    )]
+    IncidentAbsorbs {
+        /// What it is called.
+        label: String,
+        /// The wavelength, nm.
+        nm: f64,
+        /// Its extinction coefficient.
+        k: f64,
+    },
 }
 
 impl Stack {
@@ -135,8 +143,8 @@ impl Stack {
     /// A stack written in one line: `air | silica 300nm | silicon`.
     ///
     /// The first medium is the one that the light comes from, the last the substrate, and what is between are layers with their
-    /// thickness in nm or µm (um). A medium is a material's name, a number `1.5`, or `1.5+0.1i`. `air` is the library's where it
-    /// has one and n = 1 otherwise; `vacuum` is n = 1.
+    /// thickness in nm or µm (um). A medium is a material's name, a number `1.5`, or `1.5+0.1i`. `air` is that of the library, n = 1.0003;
+    /// `vacuum` is n = 1.
     ///
     /// # Errors
     /// What is wrong with the first part that is wrong.
@@ -174,7 +182,7 @@ impl Stack {
     /// Why `medium` cannot be the one that the light comes from; `None` when it can.
     pub(crate) fn fault_of_incident(medium: &Medium) -> Option<String> {
         let label = medium.label();
-        (!medium.is_transparent()).then(|| {
+        medium.absorbs().then(|| {
             format!("{label} absorbs; the medium that light comes from must be transparent (k = 0)")
         })
     }
@@ -219,31 +227,50 @@ impl Stack {
     /// The stack at these wavelengths, nm.
     ///
     /// # Errors
-    /// When a medium has no data at one of them.
+    /// When a medium has no data at one of them, or the incident one absorbs.
     pub fn sampled(&self, wavelengths_nm: &[f64]) -> Result<Sampled, SampleError> {
-        let read = |place: &dyn Fn() -> String, medium: &Medium| {
-            let at = |&nm: &f64| {
-                medium.at(nm).map_err(|gap| SampleError {
-                    place: place(),
-                    label: medium.label(),
-                    asked: gap.nm,
-                    min_nm: gap.min_nm,
-                    max_nm: gap.max_nm,
-                })
-            };
-            wavelengths_nm.iter().map(at).collect::<Result<Vec<_>, _>>()
+        let incident = read("the incident medium", &self.incident, wavelengths_nm)?;
+        if let Some((&nm, index)) = wavelengths_nm
+            .iter()
+            .zip(&incident)
+            .find(|(_, index)| index.im > Self::INCIDENT_K)
+        {
+            return Err(SampleError::IncidentAbsorbs {
+                label: self.incident.label(),
+                nm,
+                k: index.im,
+            });
+        }
+        let of_layer = |(index, layer): (usize, &Layer)| {
+            read(
+                &format!("layer {}", index + 1),
+                &layer.medium,
+                wavelengths_nm,
+            )
         };
-        let incident = read(&|| "the incident medium".to_owned(), &self.incident)?;
-        let numbered = self.layers.iter().enumerate();
-        let layers = numbered
-            .map(|(index, layer)| read(&|| format!("layer {}", index + 1), &layer.medium))
-            .collect::<Result<Vec<_>, _>>()?;
-        let substrate = read(&|| "the substrate".to_owned(), &self.substrate)?;
+        let layers = self.layers.iter().enumerate().map(of_layer);
         Ok(Sampled::new(
             wavelengths_nm.to_vec(),
             incident.into_iter().map(|index| index.re).collect(),
-            layers,
-            substrate,
+            layers.collect::<Result<_, _>>()?,
+            read("the substrate", &self.substrate, wavelengths_nm)?,
         ))
     }
+}
+
+/// A medium's index at each wavelength.
+fn read(place: &str, medium: &Medium, nm: &[f64]) -> Result<Vec<Complex64>, SampleError> {
+    let at = |&nm: &f64| {
+        medium
+            .constants
+            .at(nm)
+            .map_err(|gap| SampleError::OutOfRange {
+                place: place.to_owned(),
+                label: medium.label(),
+                asked_nm: gap.nm,
+                min_nm: gap.min_nm,
+                max_nm: gap.max_nm,
+            })
+    };
+    nm.iter().map(at).collect()
 }
