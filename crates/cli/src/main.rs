@@ -2,6 +2,7 @@
 
 mod bench;
 mod devices;
+mod film;
 mod output;
 mod print;
 mod progress;
@@ -28,6 +29,7 @@ enum Command {
         /// The scene file
         scene: PathBuf,
     },
+    Film(film::Arguments),
     /// List the adapters that can render
     Devices,
     /// Print the JSON schema of scene files
@@ -41,6 +43,7 @@ fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Check { scene } => check(&scene),
+        Command::Film(arguments) => film::run(&arguments),
         Command::Devices => devices::print(),
         Command::Schema => print::result(format_args!("{:#}", pellicle::scene::schema())),
         Command::Bench(arguments) => bench::run(&arguments),

@@ -1,8 +1,9 @@
 //! The colour of a stack.
 
-use crate::response::{Angle, Powers, Sampled};
+use crate::response::{Angle, Sampled};
 use crate::{Light, SampleError, Stack};
 use color::{Lab, srgb};
+use optics::Polarised;
 use thiserror::Error;
 
 /// The side that a stack is looked at from.
@@ -15,13 +16,45 @@ pub enum Side {
     Transmitted,
 }
 
-impl Side {
-    /// The share of unpolarised light that is seen from this side.
-    pub fn share(self, powers: &Powers) -> f64 {
+/// How the light is polarised.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Polarisation {
+    /// Not at all: the mean of both.
+    #[default]
+    Unpolarised,
+    /// s: the electric field is perpendicular to the plane of incidence.
+    S,
+    /// p: it lies in that plane.
+    P,
+}
+
+impl Polarisation {
+    /// The power in light of this polarisation.
+    pub fn of(self, power: Polarised) -> f64 {
         match self {
-            Self::Reflected => powers.reflectance.unpolarised(),
-            Self::Transmitted => powers.transmittance.unpolarised(),
+            Self::Unpolarised => power.unpolarised(),
+            Self::S => power.s,
+            Self::P => power.p,
         }
+    }
+}
+
+/// How a stack is looked at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct View {
+    /// From which side.
+    pub side: Side,
+    /// In which light.
+    pub polarisation: Polarisation,
+}
+
+impl View {
+    /// What is seen of a reflected and a transmitted power, or of their derivatives.
+    pub fn of(self, reflected: Polarised, transmitted: Polarised) -> f64 {
+        self.polarisation.of(match self.side {
+            Side::Reflected => reflected,
+            Side::Transmitted => transmitted,
+        })
     }
 }
 
@@ -94,12 +127,12 @@ pub fn parse_srgb(text: &str) -> Result<[f64; 3], ParseColourError> {
     Ok(srgb::xyz_from_linear(codes.map(srgb::from_u8)))
 }
 
-/// A stack that is looked at in a light from one side: what gives its colour for any thicknesses and angle.
+/// A stack that is looked at in a light: what gives its colour for any thicknesses and angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StackColour {
     sampled: Sampled,
     light: Light,
-    side: Side,
+    view: View,
 }
 
 impl StackColour {
@@ -107,21 +140,24 @@ impl StackColour {
     ///
     /// # Errors
     /// When one of them has no data somewhere from 380 to 780 nm.
-    pub fn new(stack: &Stack, light: Light, side: Side) -> Result<Self, SampleError> {
+    pub fn new(stack: &Stack, light: Light, view: View) -> Result<Self, SampleError> {
         Ok(Self {
             sampled: stack.sampled(&Light::wavelengths_nm())?,
             light,
-            side,
+            view,
         })
     }
 
-    /// The colour with these thicknesses, nm, one per layer, at an angle, in unpolarised light.
+    /// The colour with these thicknesses, nm, one per layer, at an angle.
     ///
     /// # Panics
     /// When there is not one thickness per layer.
     pub fn at(&self, thicknesses_nm: &[f64], angle: Angle) -> Colour {
         let powers = self.sampled.powers(thicknesses_nm, angle);
-        self.colour(self.light.xyz(powers.iter().map(|p| self.side.share(p))))
+        let seen = powers
+            .iter()
+            .map(|powers| self.view.of(powers.reflectance, powers.transmittance));
+        self.colour(self.light.xyz(seen))
     }
 
     pub(crate) fn colour(&self, xyz: [f64; 3]) -> Colour {
@@ -141,9 +177,9 @@ impl StackColour {
         &self.light
     }
 
-    /// The side.
-    pub fn side(&self) -> Side {
-        self.side
+    /// How it is looked at.
+    pub fn view(&self) -> View {
+        self.view
     }
 }
 
@@ -175,7 +211,11 @@ mod tests {
     fn a_bare_surface_of_glass_is_grey_and_dark() {
         let stack = Stack::parse("1 | 1.5").unwrap();
         let colour = |side| {
-            StackColour::new(&stack, Light::named("D65").unwrap(), side)
+            let view = View {
+                side,
+                ..View::default()
+            };
+            StackColour::new(&stack, Light::named("D65").unwrap(), view)
                 .unwrap()
                 .at(&[], Angle::NORMAL)
         };

@@ -11,11 +11,11 @@
 //! ```
 //!
 //! ```
-//! use pellicle_coating::{Angle, Light, Side, Stack, StackColour};
+//! use pellicle_coating::{Angle, Light, Stack, StackColour, View};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let stack = Stack::parse("1.0 | silica 300nm | silicon")?;
-//! let colour = StackColour::new(&stack, Light::named("D65")?, Side::Reflected)?;
+//! let colour = StackColour::new(&stack, Light::named("D65")?, View::default())?;
 //! let blue = colour.at(stack.thicknesses_nm(), Angle::NORMAL);
 //! assert!(blue.lab().b < -30.0);
 //! # Ok(())
@@ -25,25 +25,26 @@
 //! Wavelengths are vacuum wavelengths, they and thicknesses in nanometres. Angles are degrees in the incident medium. Light is
 //! unpolarised where nothing else is said. Sign convention n + ik, k ≥ 0 absorbs.
 
-// mod chart;
+mod chart;
 mod colour;
 mod file;
 mod light;
 mod line;
 mod matching;
-// mod plot;
+mod picture;
+mod plot;
 mod response;
 mod sensitivity;
 mod stack;
 mod tolerance;
 
-// pub use chart::{Chart, ChartError};
-pub use colour::{Colour, ParseColourError, Side, StackColour, parse_srgb};
+pub use chart::{Chart, ChartOf};
+pub use colour::{Colour, ParseColourError, Polarisation, Side, StackColour, View, parse_srgb};
 pub use file::{LayerDescription, StackDescription};
 pub use light::{Light, UnknownIlluminant};
 pub use line::LineError;
 pub use matching::{Match, MatchBy, Matching, matches};
-// pub use plot::{Picture, Plot, PlotError};
+pub use plot::{Curve, Plot};
 pub use response::{Angle, AngleError, Powers, Sampled};
 pub use sensitivity::{LayerSensitivity, Sensitivity, sensitivity};
 pub use stack::{Layer, Medium, SampleError, Stack, StackError};

@@ -148,11 +148,11 @@ fn lowest_between((mut low, mut high): (f64, f64), f: impl Fn(f64) -> f64) -> f6
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Light, Side, Stack, parse_srgb};
+    use crate::{Light, Stack, View, parse_srgb};
 
     fn silica_on_silicon() -> StackColour {
         let stack = Stack::parse("1 | silica 0nm | silicon").unwrap();
-        StackColour::new(&stack, Light::named("D65").unwrap(), Side::Reflected).unwrap()
+        StackColour::new(&stack, Light::named("D65").unwrap(), View::default()).unwrap()
     }
 
     fn matching(wanted: [f64; 3], by: MatchBy) -> Matching {

@@ -1,6 +1,5 @@
 //! How fast the colour changes with each layer's thickness.
 
-use crate::Side;
 use crate::colour::{Colour, StackColour};
 use crate::response::Angle;
 use color::Lab;
@@ -34,10 +33,7 @@ pub struct LayerSensitivity {
 /// When there is not one thickness per layer.
 pub fn sensitivity(stack: &StackColour, thicknesses_nm: &[f64], angle: Angle) -> Sensitivity {
     let colour = stack.at(thicknesses_nm, angle);
-    let share = |d: &ThicknessDerivative| match stack.side() {
-        Side::Reflected => d.reflectance.unpolarised(),
-        Side::Transmitted => d.transmittance.unpolarised(),
-    };
+    let share = |d: &ThicknessDerivative| stack.view().of(d.reflectance, d.transmittance);
     // At each wavelength, of each layer.
     let derivatives = stack.sampled().derivatives(thicknesses_nm, angle);
     let of_layer = |layer: usize| {
@@ -59,7 +55,7 @@ pub fn sensitivity(stack: &StackColour, thicknesses_nm: &[f64], angle: Angle) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Light, Stack};
+    use crate::{Light, Side, Stack, View};
     use color::lab::delta_e_2000;
 
     /// The derivative stands against plain differences of colours.
@@ -72,7 +68,13 @@ mod tests {
             (Side::Reflected, 55.0),
             (Side::Transmitted, 30.0),
         ] {
-            let colour = StackColour::new(&stack, Light::named("D65").unwrap(), side).unwrap();
+            let colour = {
+                let view = View {
+                    side,
+                    ..View::default()
+                };
+                StackColour::new(&stack, Light::named("D65").unwrap(), view).unwrap()
+            };
             let angle = Angle::from_degrees(angle_deg).unwrap();
             let found = sensitivity(&colour, stack.thicknesses_nm(), angle);
             for (layer, found) in found.layers.iter().enumerate() {

@@ -214,10 +214,24 @@ impl Stack {
 
     /// The stack in one line, for people.
     pub fn label(&self) -> String {
-        let layers = self
-            .layers
-            .iter()
-            .map(|layer| format!("{} {} nm", layer.medium.label(), layer.thickness_nm));
+        self.labelled(|layer| format!("{} nm", self.layers[layer].thickness_nm))
+    }
+
+    /// The stack in one line, for people, where one layer (counted from 0) has the thickness d.
+    pub fn label_with_varied(&self, varied: usize) -> String {
+        self.labelled(|layer| {
+            if layer == varied {
+                "d".to_owned()
+            } else {
+                format!("{} nm", self.layers[layer].thickness_nm)
+            }
+        })
+    }
+
+    fn labelled(&self, thickness: impl Fn(usize) -> String) -> String {
+        let numbered = self.layers.iter().enumerate();
+        let layers =
+            numbered.map(|(i, layer)| format!("{} {}", layer.medium.label(), thickness(i)));
         let mut parts = vec![self.incident.label()];
         parts.extend(layers);
         parts.push(self.substrate.label());

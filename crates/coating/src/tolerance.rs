@@ -176,12 +176,12 @@ fn quantiles(nominal: &Colour, colours: &[[f64; 3]]) -> Quantiles {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Light, Side, Stack, sensitivity};
+    use crate::{Light, Stack, View, sensitivity};
 
     fn colour(line: &str) -> (StackColour, Vec<f64>) {
         let stack = Stack::parse(line).unwrap();
         let light = Light::named("D65").unwrap();
-        let colour = StackColour::new(&stack, light, Side::Reflected).unwrap();
+        let colour = StackColour::new(&stack, light, View::default()).unwrap();
         (colour, stack.thicknesses_nm().to_vec())
     }
 

@@ -1,6 +1,6 @@
 //! Colours of stacks against a computation apart from this code, from the one-line stack to linear sRGB.
 
-use pellicle_coating::{Angle, Light, Side, Stack, StackColour};
+use pellicle_coating::{Angle, Light, Stack, StackColour, View};
 
 const TABLE: &str = include_str!("data/stack_colours.csv");
 
@@ -19,7 +19,7 @@ fn rows() -> impl Iterator<Item = (&'static str, f64, &'static str, [f64; 9])> {
 fn figures(stack: &str, angle_deg: f64, illuminant: &str) -> [f64; 9] {
     let stack = Stack::parse(stack).unwrap();
     let light = Light::named(illuminant).unwrap();
-    let colour = StackColour::new(&stack, light, Side::Reflected).unwrap();
+    let colour = StackColour::new(&stack, light, View::default()).unwrap();
     let angle = Angle::from_degrees(angle_deg).unwrap();
     let colour = colour.at(stack.thicknesses_nm(), angle);
     let (xyz, lab, rgb) = (
