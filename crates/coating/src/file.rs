@@ -173,3 +173,79 @@ impl Checks<'_> {
         self.problems.push(Problem::new(kind, field, message));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(text: &str) -> Result<Stack, Problems> {
+        Stack::from_toml("stack.toml", text, Path::new(""))
+    }
+
+    const SOUND: &str = r#"
+        substrate = "silicon"
+        [[layer]]
+        index = { nm = [400, 700], n = [1.5, 1.4], k = [0, 0.2] }
+        thickness_nm = 120
+        [[layer]]
+        index = [1.46, 0.0]
+        thickness_nm = 0
+    "#;
+
+    #[test]
+    fn a_file_is_a_stack() {
+        let stack = parsed(SOUND).unwrap();
+        assert_eq!(stack.incident().label(), "air");
+        assert_eq!(stack.thicknesses_nm(), [120.0, 0.0]);
+        let sampled = stack.sampled(&[400.0, 550.0]).unwrap();
+        // Linear between the points.
+        assert!((sampled.layers()[0][1] - optics::Complex64::new(1.45, 0.1)).norm() < 1e-14);
+        let again = stack.description().check(Path::new("")).unwrap();
+        assert_eq!(again, stack);
+    }
+
+    #[test]
+    fn a_csv_file_is_looked_for_beside_the_stack() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(
+            folder.path().join("mine.csv"),
+            "nm,n,k\n300,1.5,0\n800,1.6,0.1\n",
+        )
+        .unwrap();
+        let path = folder.path().join("stack.toml");
+        std::fs::write(&path, "incident = 1\nsubstrate = { csv = \"mine.csv\" }\n").unwrap();
+        let stack = Stack::read(&path).unwrap();
+        assert_eq!(stack.substrate().label(), "mine.csv");
+        assert!((stack.sampled(&[550.0]).unwrap().substrate()[0].re - 1.55).abs() < 1e-14);
+    }
+
+    #[test]
+    fn data_that_do_not_reach_are_told_with_their_range() {
+        let error = parsed(SOUND).unwrap().sampled(&[500.0, 710.0]).unwrap_err();
+        let said = error.to_string();
+        for words in ["710 nm", "layer 1", "400 to 700 nm"] {
+            assert!(said.contains(words), "{said}");
+        }
+    }
+
+    /// Everything at once, each with line and column.
+    #[test]
+    fn mistakes_are_told_together() {
+        let text = "incident = \"gold\"\nsubstrat = 1.5\n[[layer]]\nindex = \"silca\"\nthickness_nm = -3\n\
+                    [[layer]]\nindex = { nm = [1, 2], n = [1.5] }\nthickness_nm = \"4\"\n";
+        let said = format!("{:#}", parsed(text).unwrap_err());
+        for line in [
+            "stack.toml:1:12: incident: gold absorbs",
+            "stack.toml:2:1: substrat: unknown field; did you mean `substrate`?",
+            "stack.toml:4:9: layer[0].index: there is no material",
+            "stack.toml:5:16: layer[0].thickness_nm: found -3; it must be from 0 to 100000 nm",
+            "stack.toml:7:28: layer[1].index.n: found 1 values for 2 wavelengths",
+            "stack.toml:8:16: layer[1].thickness_nm: found the string \"4\", expected a number",
+        ] {
+            assert!(said.contains(line), "{line} is not in\n{said}");
+        }
+        assert!(format!("{:#}", parsed(" ").unwrap_err()).contains("substrate"));
+        assert!(format!("{:#}", parsed("incident = 1").unwrap_err()).contains("`substrate`"));
+        assert!(format!("{:#}", parsed("substrate = ").unwrap_err()).contains("stack.toml:1"));
+    }
+}

@@ -22,9 +22,14 @@ pub struct LineError {
     at: SourceSpan,
 }
 
-const EXAMPLE: &str = "a stack is written like \"air | silica 300nm | silicon\"";
+/// A stack in one line.
+pub(crate) const EXAMPLE: &str = "air | silica 300nm | silicon";
 /// The units of a thickness, in nm. µ is a sign of its own beside the Greek letter.
 const UNITS: [(&str, f64); 4] = [("nm", 1.0), ("um", 1e3), ("\u{b5}m", 1e3), ("μm", 1e3)];
+
+fn example() -> String {
+    format!("a stack is written like {EXAMPLE:?}")
+}
 
 /// A fault before it is placed in the line.
 struct Fault {
@@ -53,7 +58,7 @@ pub(crate) fn parse(line: &str) -> Result<Stack, LineError> {
     };
     let [(first, first_bytes), layers @ .., (last, last_bytes)] = parts.as_slice() else {
         let message = "a stack needs at least an incident medium and a substrate";
-        return Err(placed(0..line.len())(Fault::new(message, EXAMPLE)));
+        return Err(placed(0..line.len())(Fault::new(message, example())));
     };
     if layers.len() > Stack::MAX_LAYERS {
         let message = format!("found {} layers", layers.len());
@@ -100,7 +105,10 @@ fn half_space(text: &str) -> Result<Medium, Fault> {
             format!(
                 "{text:?} has a thickness, but the first and the last medium go on without end"
             ),
-            format!("leave the thickness out, or add the medium behind it; {EXAMPLE}"),
+            format!(
+                "leave the thickness out, or add the medium behind it; {}",
+                example()
+            ),
         ));
     }
     medium(text)
@@ -173,7 +181,7 @@ fn medium(text: &str) -> Result<Medium, Fault> {
 /// A number, a complex number, or else a name.
 fn index(text: &str) -> Result<Index, Fault> {
     if text.is_empty() {
-        return Err(Fault::new("there is no medium here", EXAMPLE));
+        return Err(Fault::new("there is no medium here", example()));
     }
     if let Ok(n) = text.parse::<f64>() {
         return Ok(Index::Real(n));
@@ -201,5 +209,101 @@ fn complex(text: &str) -> Option<Index> {
         .map(|(at, _)| at)
         .find(|&at| at > 0 && !is_exponent(at))?;
     let (n, k) = body.split_at(split);
-    Some(Index::Complex([n.parse().ok()?, k.parse().ok()?]))
+    let k: f64 = k.parse().ok()?;
+    // 1.5-0i is transparent, and +0 makes its k a 0 without a sign.
+    Some(Index::Complex([n.parse().ok()?, k + 0.0]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(line: &str) -> (String, Range<usize>) {
+        let error = parse(line).unwrap_err();
+        let help = error.help.unwrap_or_default();
+        let at = error.at.offset()..error.at.offset() + error.at.len();
+        (format!("{}; {help}", error.message), at)
+    }
+
+    #[test]
+    fn media_are_names_and_numbers_and_thicknesses_have_units() {
+        let stack =
+            parse(" 1.0|silica 300nm | 1.5+0.1i 0.25 um|2.3e0-0i 1.5µm|gold 2 μm|1.5 + 2e-1i ")
+                .unwrap();
+        assert_eq!(stack.thicknesses_nm(), [300.0, 250.0, 1500.0, 2000.0]);
+        let media: Vec<_> = stack
+            .layers()
+            .iter()
+            .map(|l| l.medium.written().clone())
+            .collect();
+        let named = |name: &str| Index::Name(name.to_owned());
+        assert_eq!(
+            media,
+            [
+                named("silica"),
+                Index::Complex([1.5, 0.1]),
+                Index::Complex([2.3, 0.0]),
+                named("gold")
+            ]
+        );
+        assert_eq!(stack.substrate().written(), &Index::Complex([1.5, 0.2]));
+        assert_eq!(
+            stack.label(),
+            "1 | silica 300 nm | 1.5+0.1i 250 nm | 2.3+0i 1500 nm | gold 2000 nm | 1.5+0.2i"
+        );
+    }
+
+    #[test]
+    fn vacuum_is_one_and_air_is_a_little_more() {
+        let index = |line| parse(line).unwrap().sampled(&[550.0]).unwrap().incident()[0];
+        assert_eq!(index("vacuum | 1.5"), 1.0);
+        assert_eq!(index("1 | 1.5"), 1.0);
+        // Ciddor (1996): 1.000278 at 550 nm.
+        assert!((index("air | 1.5") - 1.000_278).abs() < 1e-6);
+    }
+
+    #[test]
+    fn mistakes_are_told_with_their_place_and_what_would_be_right() {
+        for (line, words, place) in [
+            ("1.5", "at least an incident medium", "1.5"),
+            ("1 | silca 3nm | 2", "did you mean \"silica\"", "silca 3nm"),
+            ("1 | silica | 2", "has no thickness", "silica"),
+            ("1 | silica 300 | 2", "nm or µm", "silica 300"),
+            ("1 | silica -3nm | 2", "from 0 to 100000 nm", "silica -3nm"),
+            ("1 | silica nannm | 2", "no thickness", "silica nannm"),
+            (
+                "1 | silica 3.4.5nm | 2",
+                "\"3.4.5\" is not a number",
+                "silica 3.4.5nm",
+            ),
+            ("1 | 300nm | 2", "no medium", "300nm"),
+            ("1 | silica 3nm", "go on without end", "silica 3nm"),
+            ("3nm | silica", "go on without end", "3nm"),
+            ("1 || 2", "nothing between two bars", "|"),
+            ("| 2", "no medium", "|"),
+            ("gold | 1", "gold absorbs", "gold"),
+            ("1+0.1i | 2", "must be transparent", "1+0.1i"),
+            ("1 | 1.5-0.1i 3nm | 2", "from 0 to 1000", "1.5-0.1i 3nm"),
+            ("1 | 1.5x 3nm | 2", "is not an index", "1.5x 3nm"),
+            ("1 | 0 3nm | 2", "from 0.001", "0 3nm"),
+        ] {
+            let (message, at) = said(line);
+            assert!(message.contains(words), "{line}: {message}");
+            assert_eq!(&line[at], place, "{line}: {message}");
+        }
+        let many = "1 |".to_owned() + &" 1.5 1nm |".repeat(1001) + " 1";
+        assert!(said(&many).0.contains("1000"));
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn no_text_panics(line in "[ |0-9a-z.+µ-]{0,40}") {
+            let _ = parse(&line);
+        }
+
+        #[test]
+        fn no_text_of_any_signs_panics(line in "\\PC*\\|\\PC*") {
+            let _ = parse(&line);
+        }
+    }
 }

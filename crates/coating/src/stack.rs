@@ -1,7 +1,7 @@
 //! A stack: two half spaces and the layers between them.
 
 use crate::file::{self, StackDescription};
-use crate::line::{self, LineError};
+use crate::line::{self, EXAMPLE, LineError};
 use crate::response::Sampled;
 use miette::Diagnostic;
 use optics::Complex64;
@@ -77,6 +77,10 @@ pub enum StackError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     File(#[from] Problems),
+    /// Neither the name of a file nor a stack in one line.
+    #[error("there is no stack file {0:?}")]
+    #[diagnostic(help("a stack in one line has | between its media, like {EXAMPLE:?}"))]
+    Nothing(String),
     /// What is wrong with a one-line stack.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -135,6 +139,8 @@ impl Stack {
     pub fn open(text: &str) -> Result<Self, StackError> {
         if text.contains('|') {
             Ok(Self::parse(text)?)
+        } else if !Path::new(text).exists() {
+            Err(StackError::Nothing(text.chars().take(200).collect()))
         } else {
             Ok(Self::read(text)?)
         }

@@ -7,7 +7,7 @@ mod spectra;
 mod swatch;
 
 use clap::ValueEnum;
-use miette::{IntoDiagnostic, miette};
+use miette::{IntoDiagnostic, WrapErr, miette};
 use numbers::{List, Vary};
 use pellicle::coating::{
     Angle, Light, MatchBy, Polarisation, Side, Stack, StackColour, View, parse_srgb,
@@ -25,7 +25,6 @@ use std::path::PathBuf;
 /// A stack file has `incident` ("air" when absent), `substrate`, and per layer `[[layer]]` with `index` and `thickness_nm`. An index
 /// is whatever a scene's materials accept, a table in place { nm = [...], n = [...], k = [...] } included.
 #[derive(clap::Args)]
-#[command(verbatim_doc_comment)]
 pub(crate) struct Arguments {
     /// A stack file, or a stack in one line (with | between its media)
     stack: String,
@@ -230,8 +229,10 @@ impl<'a> Film<'a> {
             .map_err(|error| miette!(help = "leave out --backend gpu", "{error}"))
     }
 
-    fn colour(&self) -> Result<StackColour, coating::SampleError> {
+    fn colour(&self) -> miette::Result<StackColour> {
         StackColour::new(&self.stack, self.light.clone(), self.arguments.look.view())
+            .map_err(miette::Report::from)
+            .wrap_err("a colour needs data from 380 to 780 nm")
     }
 
     /// The layer of --vary, counted from 0.
