@@ -9,10 +9,13 @@
 //! s is the polarisation whose electric field is perpendicular to the plane of incidence, p the one
 //! whose field lies in it.
 
+pub mod batch;
 mod fresnel;
 mod microfacet;
 mod stack;
+mod two_beam;
 
+use bytemuck::{Pod, Zeroable};
 pub use fresnel::{Amplitudes, cos_refracted, fresnel, reflectance_unpolarised};
 pub use microfacet::{
     beckmann_d, cook_torrance, half_vector_pdf, reflected_pdf, sample_beckmann, v_groove_g,
@@ -21,9 +24,11 @@ pub use num_complex::Complex64;
 pub use stack::{
     Layer, StackAmplitudes, ThicknessDerivative, absorptance, film, stack, thickness_derivatives,
 };
+pub use two_beam::{PathDifference, TwoBeam, two_beam};
 
 /// A power for s and for p polarised light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
 pub struct Polarised {
     /// For s polarised light.
     pub s: f64,

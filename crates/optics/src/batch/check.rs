@@ -1,0 +1,180 @@
+//! What a batch must be before it is evaluated.
+
+use super::{Media, StackBatch};
+use rayon::prelude::*;
+
+/// Why a batch cannot be evaluated.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BatchError {
+    /// The incident medium has no positive real index.
+    #[error("the incident medium has the index {0}; it must be positive and finite")]
+    Incident(f64),
+    /// A wavelength is not positive.
+    #[error("wavelength {place} is {found} nm; it must be positive and finite")]
+    Wavelength {
+        /// Which, from 0.
+        place: usize,
+        /// Its value.
+        found: f64,
+    },
+    /// A cosine is outside (0, 1].
+    #[error("cosine {place} is {found}; it must be above 0 and at most 1")]
+    Cosine {
+        /// Which, from 0.
+        place: usize,
+        /// Its value.
+        found: f64,
+    },
+    /// The table of dispersive media is no whole number of spectra.
+    #[error("{found} indices of dispersive media are no multiple of the {wavelengths} wavelengths")]
+    Media {
+        /// How many indices there are.
+        found: usize,
+        /// How many wavelengths there are.
+        wavelengths: usize,
+    },
+    /// An index is not n + ik with n ≥ 0 and k ≥ 0, not 0.
+    #[error(
+        "index {place} of the media is {found}; n and k must be finite, not negative, and not both 0"
+    )]
+    Index {
+        /// Which, from 0.
+        place: usize,
+        /// Its value.
+        found: num_complex::Complex64,
+    },
+    /// A thickness is negative.
+    #[error("layer {layer} has a thickness of {found} nm; it must be finite and not negative")]
+    Thickness {
+        /// Which, from 0.
+        layer: usize,
+        /// Its value.
+        found: f64,
+    },
+    /// A layer is of a medium that is not there.
+    #[error("layer {layer} is of medium {medium}, but there are only {media} media")]
+    LayerMedium {
+        /// Which layer, from 0.
+        layer: usize,
+        /// Its medium.
+        medium: u32,
+        /// How many media there are.
+        media: usize,
+    },
+    /// A substrate is a medium that is not there.
+    #[error("stack {stack} lies on medium {medium}, but there are only {media} media")]
+    Substrate {
+        /// Which stack, from 0.
+        stack: usize,
+        /// Its substrate.
+        medium: u32,
+        /// How many media there are.
+        media: usize,
+    },
+    /// A stack has layers that are not there.
+    #[error("stack {stack} has {count} layers from {first} on, but there are only {layers} layers")]
+    Layers {
+        /// Which stack, from 0.
+        stack: usize,
+        /// Its first layer.
+        first: u32,
+        /// How many layers it has.
+        count: u32,
+        /// How many layers there are.
+        layers: usize,
+    },
+    /// The slice for the results has another length.
+    #[error("the slice for the results has room for {found}, but the batch has {expected}")]
+    Output {
+        /// Its length.
+        found: usize,
+        /// The length needed.
+        expected: usize,
+    },
+}
+
+/// The first of many things that is wrong; looked for on all cores, since a batch may have millions.
+fn first<T: Sync>(
+    things: &[T],
+    wrong: impl Fn(usize, &T) -> Option<BatchError> + Sync,
+) -> Result<(), BatchError> {
+    let things = things.par_iter().enumerate().with_min_len(4096);
+    match things.find_map_first(|(place, thing)| wrong(place, thing)) {
+        Some(error) => Err(error),
+        None => Ok(()),
+    }
+}
+
+/// # Errors
+/// The first number outside its domain.
+pub(super) fn check(batch: &StackBatch) -> Result<(), BatchError> {
+    if !(batch.incident > 0.0 && batch.incident.is_finite()) {
+        return Err(BatchError::Incident(batch.incident));
+    }
+    first(batch.wavelengths_nm, |place, &found| {
+        let right = found > 0.0 && found.is_finite();
+        (!right).then_some(BatchError::Wavelength { place, found })
+    })?;
+    first(batch.cosines, |place, &found| {
+        let right = found > 0.0 && found <= 1.0;
+        (!right).then_some(BatchError::Cosine { place, found })
+    })?;
+    let media = check_media(batch)?;
+    first(batch.layers, |layer, of| {
+        let (found, medium) = (of.thickness_nm, of.medium);
+        if !(found >= 0.0 && found.is_finite()) {
+            return Some(BatchError::Thickness { layer, found });
+        }
+        let wrong = BatchError::LayerMedium {
+            layer,
+            medium,
+            media,
+        };
+        (medium as usize >= media).then_some(wrong)
+    })?;
+    check_stacks(batch, media)
+}
+
+/// How many media there are.
+fn check_media(batch: &StackBatch) -> Result<usize, BatchError> {
+    let wavelengths = batch.wavelengths_nm.len();
+    let (indices, media) = match batch.media {
+        Media::Constant(indices) => (indices, indices.len()),
+        Media::Dispersive(indices) if indices.len().is_multiple_of(wavelengths) => {
+            (indices, indices.len() / wavelengths.max(1))
+        }
+        Media::Dispersive(indices) => {
+            let found = indices.len();
+            return Err(BatchError::Media { found, wavelengths });
+        }
+    };
+    first(indices, |place, &found| {
+        let not_negative = found.re >= 0.0 && found.im >= 0.0;
+        let right = not_negative && found.is_finite() && found != 0.0.into();
+        (!right).then_some(BatchError::Index { place, found })
+    })?;
+    Ok(media)
+}
+
+fn check_stacks(batch: &StackBatch, media: usize) -> Result<(), BatchError> {
+    let layers = batch.layers.len();
+    first(batch.stacks, |stack, of| {
+        let medium = of.substrate;
+        if medium as usize >= media {
+            return Some(BatchError::Substrate {
+                stack,
+                medium,
+                media,
+            });
+        }
+        let (first, count) = (of.first_layer, of.layer_count);
+        let wrong = BatchError::Layers {
+            stack,
+            first,
+            count,
+            layers,
+        };
+        (first as usize + count as usize > layers).then_some(wrong)
+    })
+}

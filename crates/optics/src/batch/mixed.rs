@@ -1,0 +1,136 @@
+//! Lanes filled with whatever results come next: for batches of few wavelengths.
+
+use super::kernel::{Index, Sweep, Wave};
+use super::lanes::Lanes;
+use super::spectra::SCALED_AFTER;
+use super::{LayerOf, Powers, StackBatch, write};
+use num_complex::Complex64;
+use pulp::{Simd, WithSimd};
+
+/// Some results one after the other.
+pub(super) struct Part<'a> {
+    pub(super) batch: &'a StackBatch<'a>,
+    /// Which of the batch's results is the first.
+    pub(super) first: usize,
+    pub(super) powers: &'a mut [Powers],
+}
+
+/// What one lane computes.
+#[derive(Clone, Copy)]
+struct Item<'a> {
+    layers: &'a [LayerOf],
+    substrate: Complex64,
+    cosine: f64,
+    wavelength: usize,
+}
+
+impl<'a> Item<'a> {
+    #[inline(always)]
+    fn new(batch: &'a StackBatch, place: usize) -> Self {
+        let wavelengths = batch.wavelengths_nm.len();
+        let (row, wavelength) = (place / wavelengths, place % wavelengths);
+        let stack = batch.stacks[row / batch.cosines.len()];
+        Self {
+            layers: batch.layers_of(stack),
+            substrate: batch.index(stack.substrate, wavelength),
+            cosine: batch.cosines[row % batch.cosines.len()],
+            wavelength,
+        }
+    }
+}
+
+/// What the lanes have in common while a group of items is evaluated.
+struct Light<S: Simd> {
+    simd: S,
+    incident: Lanes<S>,
+    q0_squared: Lanes<S>,
+    half_waves_per_nm: Lanes<S>,
+}
+
+impl<S: Simd> Light<S> {
+    #[inline(always)]
+    fn wave(&self, n: &[f64; 8], k: &[f64; 8]) -> Wave<S> {
+        let clear = k[..Lanes::<S>::COUNT].iter().all(|k| *k == 0.0);
+        let (n, k) = (Lanes::load(self.simd, n), Lanes::load(self.simd, k));
+        let index = Index::new(n, k, clear, self.incident);
+        index.wave(self.q0_squared, self.half_waves_per_nm)
+    }
+}
+
+impl WithSimd for Part<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self {
+            batch,
+            first,
+            powers,
+        } = self;
+        let last = first + powers.len() - 1;
+        for (group, powers) in powers.chunks_mut(Lanes::<S>::COUNT).enumerate() {
+            let start = first + group * Lanes::<S>::COUNT;
+            // Lanes beyond the last result repeat it.
+            let mut items = [Item::new(batch, start); 8];
+            for (lane, item) in items.iter_mut().enumerate() {
+                *item = Item::new(batch, (start + lane).min(last));
+            }
+            evaluate(simd, batch, &items, powers);
+        }
+    }
+}
+
+#[inline(always)]
+fn evaluate<S: Simd>(simd: S, batch: &StackBatch, items: &[Item; 8], powers: &mut [Powers]) {
+    let (mut cosines, mut half_waves) = ([0.0; 8], [0.0; 8]);
+    let (mut n, mut k) = ([0.0; 8], [0.0; 8]);
+    for (lane, item) in items.iter().enumerate() {
+        cosines[lane] = item.cosine;
+        half_waves[lane] = 2.0 / batch.wavelengths_nm[item.wavelength];
+        (n[lane], k[lane]) = (item.substrate.re, item.substrate.im);
+    }
+    let incident = Lanes::splat(simd, batch.incident);
+    let cosines = Lanes::load(simd, &cosines);
+    let q0 = incident * cosines;
+    let light = Light {
+        simd,
+        incident,
+        q0_squared: q0 * q0,
+        half_waves_per_nm: Lanes::load(simd, &half_waves),
+    };
+    let mut sweep = Sweep::new(&light.wave(&n, &k));
+    let mut highest = 0;
+    for item in items {
+        highest = highest.max(item.layers.len());
+    }
+    for step in 0..highest {
+        if step > 0 && step % SCALED_AFTER == 0 {
+            sweep.rescale();
+        }
+        let thickness_nm = gather(batch, items, step, &mut n, &mut k);
+        sweep.pass(&light.wave(&n, &k), Lanes::load(simd, &thickness_nm));
+    }
+    write(sweep.powers(q0, cosines * incident.recip()), powers);
+}
+
+/// Thickness and index of each lane's layer so many steps above its substrate; a stack that has ended repeats the index
+/// with no thickness, which changes nothing.
+#[inline(always)]
+fn gather(
+    batch: &StackBatch,
+    items: &[Item; 8],
+    step: usize,
+    n: &mut [f64; 8],
+    k: &mut [f64; 8],
+) -> [f64; 8] {
+    let mut thickness_nm = [0.0; 8];
+    for (lane, item) in items.iter().enumerate() {
+        if step < item.layers.len() {
+            let layer = item.layers[item.layers.len() - 1 - step];
+            let index = batch.index(layer.medium, item.wavelength);
+            (n[lane], k[lane]) = (index.re, index.im);
+            thickness_nm[lane] = layer.thickness_nm;
+        }
+    }
+    thickness_nm
+}
