@@ -3,7 +3,9 @@
 mod bench;
 mod devices;
 mod film;
+mod materials;
 mod output;
+mod plot;
 mod print;
 mod progress;
 mod render;
@@ -32,6 +34,8 @@ enum Command {
     Film(film::Arguments),
     /// List the adapters that can render
     Devices,
+    /// List the materials whose optical constants Pellicle carries, or show one
+    Materials(materials::Arguments),
     /// Print the JSON schema of scene files
     Schema,
     /// Measure samples per second on every adapter and on the CPU
@@ -45,6 +49,7 @@ fn main() -> ExitCode {
         Command::Check { scene } => check(&scene),
         Command::Film(arguments) => film::run(&arguments),
         Command::Devices => devices::print(),
+        Command::Materials(arguments) => materials::run(&arguments),
         Command::Schema => print::result(format_args!("{:#}", pellicle::scene::schema())),
         Command::Bench(arguments) => bench::run(&arguments),
     };

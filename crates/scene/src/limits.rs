@@ -49,6 +49,12 @@ pub const THICKNESS_NM: Range = Range::new(0.0, 100_000.0, " nm");
 pub const INDEX_N: Range = Range::new(0.001, 1000.0, "");
 /// Imaginary part of an index.
 pub const INDEX_K: Range = Range::new(0.0, 1000.0, "");
+/// The part of a mixture that one of its media fills.
+pub const FRACTION: Range = Range::new(0.0, 1.0, "");
+/// A coefficient of a dispersion formula.
+pub const COEFFICIENT: Range = Range::new(-1e12, 1e12, "");
+/// The most terms of a dispersion formula.
+pub const MAX_FORMULA_TERMS: usize = 16;
 /// A reflectance.
 pub const REFLECTANCE: Range = Range::new(0.0, 1.0, "");
 /// Radiance, its scale and their product: the square, which the variance needs, times 2²⁴ samples fits in `f32`.
@@ -78,5 +84,5 @@ pub const MAX_OBJECTS: usize = 65_536;
 pub const MAX_MATERIALS: usize = 4096;
 /// The largest spectral image, in bytes.
 pub const MAX_IMAGE_BYTES: u128 = 32 << 30;
-/// The largest scene file or table file, in bytes.
+/// The largest file that is read, of a scene or of figures that it names, in bytes.
 pub const MAX_FILE_BYTES: u64 = 16 << 20;

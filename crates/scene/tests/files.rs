@@ -105,7 +105,7 @@ fn table_files_that_cannot_be_used_name_the_field_and_the_line() {
         (
             "short.csv",
             b"400,1,2\n700,1,2\n",
-            "the table covers 400 to 700 nm",
+            "the data cover 400 to 700 nm",
         ),
         (
             "binary.csv",

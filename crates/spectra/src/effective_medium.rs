@@ -180,3 +180,178 @@ fn knots(parts: &[&Spectrum], range: Option<(f64, f64)>) -> Option<Vec<f64>> {
     knots.dedup();
     Some(knots)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::optical_constants;
+
+    const VOID: Complex64 = Complex64::new(1.0, 0.0);
+    const GLASS: Complex64 = Complex64::new(1.5, 0.0);
+    const SILVER: Complex64 = Complex64::new(0.05, 3.2);
+    const IRON: Complex64 = Complex64::new(2.9, 3.1);
+    const MEDIA: [Complex64; 5] = [VOID, GLASS, SILVER, IRON, Complex64::new(4.1, 0.03)];
+    const RULES: [MixtureRule; 2] = [MixtureRule::Bruggeman, MixtureRule::MaxwellGarnett];
+
+    fn near(found: Complex64, expected: Complex64, tolerance: f64) -> bool {
+        (found - expected).norm() <= tolerance * expected.norm()
+    }
+
+    /// Every pair of different media at every whole per cent.
+    fn each(check: impl Fn(Complex64, Complex64, f64)) {
+        for a in MEDIA {
+            for b in MEDIA.into_iter().filter(|&b| b != a) {
+                for percent in 0..=100 {
+                    check(a, b, f64::from(percent) / 100.0);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn without_the_other_medium_a_mixture_is_the_one() {
+        for rule in RULES {
+            each(|a, b, _| {
+                assert!(near(rule.index(a, b, 0.0), a, 1e-13), "{rule:?} {a} {b}");
+                assert!(near(rule.index(a, b, 1.0), b, 1e-13), "{rule:?} {a} {b}");
+            });
+            for f in [0.0, 0.3, 1.0] {
+                assert!(near(rule.index(SILVER, SILVER, f), SILVER, 1e-14));
+            }
+        }
+    }
+
+    #[test]
+    fn bruggeman_solves_its_own_equation_and_is_passive() {
+        each(|a, b, f| {
+            let index = bruggeman(a, b, f);
+            let (e, ea, eb) = (index * index, a * a, b * b);
+            let residual = (eb - e) / (eb + e * 2.0) * f + (ea - e) / (ea + e * 2.0) * (1.0 - f);
+            assert!(residual.norm() < 1e-12, "{a} {b} {f}: {residual}");
+            assert!(index.re > 0.0 && index.im >= 0.0, "{a} {b} {f}: {index}");
+            let swapped = bruggeman(b, a, 1.0 - f);
+            assert!(near(swapped, index, 1e-12), "{a} {b} {f}: {swapped}");
+        });
+    }
+
+    #[test]
+    fn the_phase_of_a_mixture_lies_between_those_of_its_media() {
+        for rule in RULES {
+            each(|a, b, f| {
+                let phase = rule.index(a, b, f).arg();
+                let (low, high) = (a.arg().min(b.arg()), a.arg().max(b.arg()));
+                let inside = low - 1e-12 <= phase && phase <= high + 1e-12;
+                assert!(inside, "{rule:?} {a} {b} {f}: {phase}");
+            });
+        }
+    }
+
+    #[test]
+    fn bruggeman_in_closed_form() {
+        // ε 1 and 4 in equal parts: 2ε² − 2.5ε − 4 = 0 halved, ε = (2.5 + √(2.5² + 32)) / 4.
+        let index = bruggeman(VOID, Complex64::from(2.0), 0.5);
+        let expected = Complex64::from(((2.5 + 38.25_f64.sqrt()) / 4.0).sqrt());
+        assert!(near(index, expected, 1e-15), "{index}");
+        // Below its percolation threshold of 1/3 a perfect conductor in void has ε = 1/(1 − 3f): Bruggeman (1935).
+        let conductor = Complex64::new(1e7, 1e7);
+        for f in [0.01, 0.1, 0.2, 0.3] {
+            let expected = Complex64::from((1.0_f64 / (1.0 - 3.0 * f)).sqrt());
+            assert!(near(bruggeman(VOID, conductor, f), expected, 1e-10), "{f}");
+        }
+        // Above it, it conducts: ε → ε_b (3f − 1)/2.
+        let expected = conductor * ((3.0 * 0.5 - 1.0) / 2.0_f64).sqrt();
+        assert!(near(bruggeman(VOID, conductor, 0.5), expected, 1e-10));
+    }
+
+    #[test]
+    fn maxwell_garnett_in_closed_form() {
+        // ε 1 and 4 in equal parts: (4·2 + 2·1·½) / (4·½ + 1·2½) = 9 / 4.5 = 2.
+        let index = maxwell_garnett(VOID, Complex64::from(2.0), 0.5);
+        assert!(
+            near(index, Complex64::from(2.0_f64.sqrt()), 1e-15),
+            "{index}"
+        );
+        // The relation as Maxwell Garnett (1904) has it, Clausius and Mossotti's on both sides.
+        each(|a, b, f| {
+            let (e, h, i) = (maxwell_garnett(a, b, f).powu(2), a * a, b * b);
+            let left = (e - h) / (e + h * 2.0);
+            let right = (i - h) / (i + h * 2.0) * f;
+            let scale = right.norm().max(1.0);
+            assert!((left - right).norm() < 1e-10 * scale, "{a} {b} {f}");
+        });
+        // Spheres of a perfect conductor: ε = ε_h (1 + 2f)/(1 − f).
+        let conductor = Complex64::new(1e7, 1e7);
+        let expected = GLASS * (1.4_f64 / 0.8).sqrt();
+        assert!(near(
+            maxwell_garnett(GLASS, conductor, 0.2),
+            expected,
+            1e-10
+        ));
+    }
+
+    #[test]
+    fn the_rules_differ_and_maxwell_garnett_knows_host_from_inclusion() {
+        assert!((bruggeman(VOID, SILVER, 0.3) - maxwell_garnett(VOID, SILVER, 0.3)).norm() > 0.1);
+        let swapped = maxwell_garnett(SILVER, VOID, 0.7);
+        assert!((maxwell_garnett(VOID, SILVER, 0.3) - swapped).norm() > 0.1);
+    }
+
+    fn material(name: &str) -> OpticalConstants {
+        optical_constants(name).unwrap().data
+    }
+
+    #[test]
+    fn a_mixture_of_materials_is_the_rule_at_every_wavelength_of_both() {
+        let (water, gold) = (material("water"), material("gold"));
+        let mixed =
+            OpticalConstants::mixture(MixtureRule::Bruggeman, [&water, &gold], 0.25).unwrap();
+        // Gold from 261.6 nm (Johnson and Christy), water to 1129 nm (Daimon and Masumura).
+        assert_eq!(mixed.range_nm(), Some((gold.range_nm().unwrap().0, 1129.0)));
+        for tenths in 3000..8000 {
+            let nm = f64::from(tenths) / 10.0;
+            let expected = bruggeman(water.at(nm).unwrap(), gold.at(nm).unwrap(), 0.25);
+            let tolerance = if tenths % 10 == 0 { 1e-14 } else { 2e-5 };
+            assert!(near(mixed.at(nm).unwrap(), expected, tolerance), "{nm}");
+        }
+        for nm in [548.6, 381.5] {
+            let expected = bruggeman(water.at(nm).unwrap(), gold.at(nm).unwrap(), 0.25);
+            assert!(near(mixed.at(nm).unwrap(), expected, 1e-14), "{nm}");
+        }
+    }
+
+    #[test]
+    fn constants_stay_constant_and_clamped_tables_unbounded() {
+        let constant = |n: f64| OpticalConstants {
+            n: Spectrum::Constant(n),
+            k: Spectrum::Constant(0.0),
+        };
+        let rule = MixtureRule::Bruggeman;
+        let mixed = OpticalConstants::mixture(rule, [&constant(1.0), &constant(2.0)], 0.5).unwrap();
+        let expected = bruggeman(VOID, Complex64::from(2.0), 0.5).re;
+        assert_eq!(mixed.n, Spectrum::Constant(expected));
+
+        let gold = material("gold");
+        let clamped = OpticalConstants {
+            n: gold.n.clone().clamped(),
+            k: gold.k.clone().clamped(),
+        };
+        let mixed = OpticalConstants::mixture(rule, [&constant(1.0), &clamped], 0.5).unwrap();
+        assert_eq!(mixed.range_nm(), None);
+        assert_eq!(mixed.at(1.0), mixed.at(gold.range_nm().unwrap().0));
+    }
+
+    #[test]
+    fn media_without_a_common_wavelength_have_no_mixture() {
+        let table = |nm: f64| OpticalConstants {
+            n: Spectrum::Table(Tabulated::new(vec![(nm, 1.5), (nm + 50.0, 1.5)]).unwrap()),
+            k: Spectrum::Constant(0.0),
+        };
+        let mixed =
+            OpticalConstants::mixture(MixtureRule::Bruggeman, [&table(400.0), &table(500.0)], 0.5);
+        let said = mixed.unwrap_err().to_string();
+        assert!(
+            said.contains("400 to 450 nm") && said.contains("500 to 550 nm"),
+            "{said}"
+        );
+    }
+}

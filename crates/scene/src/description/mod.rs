@@ -16,7 +16,7 @@ pub use environment::Environment;
 pub use material::{DiffuseReflectance, Material, Thickness};
 pub use object::Object;
 pub use render::{Render, WavelengthSampling};
-pub use spectrum::{Emission, Extrapolate, Index, Reflectance};
+pub use spectrum::{Emission, Extrapolate, Index, MixtureRule, Reflectance, SellmeierTerms};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

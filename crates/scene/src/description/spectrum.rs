@@ -91,6 +91,60 @@ pub enum Index {
         #[serde(default)]
         extrapolate: Extrapolate,
     },
+    /// A file of the refractiveindex.info database, or one like it.
+    Database {
+        /// A YAML file with `DATA` blocks: tables of n, k or both, and the formulas 1 to 6; relative to the scene file.
+        yaml: PathBuf,
+        /// What the data say outside their wavelengths.
+        #[serde(default)]
+        extrapolate: Extrapolate,
+    },
+    /// Cauchy's formula, n = A + B/λ² + C/λ⁴ with λ in µm; k is 0.
+    Cauchy {
+        /// A, B in µm² and C in µm⁴; the later ones may be left out.
+        cauchy: Vec<f64>,
+        /// What the formula says where it gives no index.
+        #[serde(default)]
+        extrapolate: Extrapolate,
+    },
+    /// Sellmeier's formula, n² = 1 + Σ b λ²/(λ² − c) with λ in µm; k is 0.
+    Sellmeier {
+        /// The coefficients.
+        sellmeier: SellmeierTerms,
+        /// What the formula says where it gives no index.
+        #[serde(default)]
+        extrapolate: Extrapolate,
+    },
+    /// A mixture of two media, in grains far smaller than the wavelength.
+    Mixture {
+        /// The rule.
+        mixture: MixtureRule,
+        /// The two media; by Maxwell Garnett the second is spheres in the first.
+        of: Box<[Index; 2]>,
+        /// The part of the volume that the second medium fills.
+        #[schemars(range(min = limits::FRACTION.low, max = limits::FRACTION.high))]
+        fraction: f64,
+    },
+}
+
+/// The terms of Sellmeier's formula.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SellmeierTerms {
+    /// The strengths b.
+    pub b: Vec<f64>,
+    /// The squares c of the resonant wavelengths in µm², one for each strength.
+    pub c_um2: Vec<f64>,
+}
+
+/// A rule for the index of a mixture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MixtureRule {
+    /// Grains of both media side by side (Bruggeman 1935).
+    Bruggeman,
+    /// Spheres of the second medium in the first (Maxwell Garnett 1904).
+    MaxwellGarnett,
 }
 
 /// A spectrum of radiance and its scale.

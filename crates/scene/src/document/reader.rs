@@ -118,6 +118,7 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn value(&mut self, shape: &Shape, value: &Spanned<DeValue<'_>>, place: &Place) -> Value {
+        let shape = shape.resolved();
         match (shape, value.get_ref()) {
             (Shape::Number, DeValue::Integer(integer)) => Value::Float(float_of(integer)),
             (Shape::Number, DeValue::Float(float)) => {
@@ -461,7 +462,7 @@ fn float_of(integer: &DeInteger<'_>) -> f64 {
 
 /// The smallest value of a shape, to stand in for one that is not there.
 fn any_value(shape: &Shape) -> Value {
-    match shape {
+    match shape.resolved() {
         Shape::Number => Value::Float(1.0),
         Shape::Integer { low, .. } => Value::Integer(*low),
         Shape::Text => Value::String(String::new()),
@@ -473,6 +474,7 @@ fn any_value(shape: &Shape) -> Value {
         Shape::Table(fields) => Value::Table(any_fields(fields)),
         Shape::Tagged(variants) => any_tagged(variants),
         Shape::AnyOf(shapes) => shapes.first().map_or(Value::Float(1.0), any_value),
+        Shape::Again(_) => unreachable!("a resolved shape is no name"),
     }
 }
 

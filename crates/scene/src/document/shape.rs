@@ -2,8 +2,10 @@
 
 use schemars::JsonSchema;
 use serde_json::Value as Json;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
+use std::sync::LazyLock;
 
 /// What a value may look like: the part of JSON Schema that the format needs, in a form that is easy to walk.
 #[derive(Debug, PartialEq)]
@@ -27,6 +29,8 @@ pub(crate) enum Shape {
     Tagged(BTreeMap<String, Fields>),
     /// Any of several, told apart by their type or by their fields. Never nested.
     AnyOf(Vec<Shape>),
+    /// The shape of this name, within itself: an index is among other things a mixture of indices.
+    Again(String),
 }
 
 /// The fields of a table.
@@ -45,11 +49,27 @@ pub(crate) struct Field {
 /// The field that tells the kind of a [`Shape::Tagged`].
 pub(crate) const TAG: &str = "type";
 
+/// The shapes that have a name. A type that holds itself is known by its name: it must be one that scene files have too.
+static NAMED: LazyLock<BTreeMap<String, Shape>> = LazyLock::new(|| {
+    let root = crate::schema();
+    let names = root["definitions"].as_object().into_iter().flatten();
+    let shape = |name: &String| Compiler::new(&root).named(&format!("#/definitions/{name}"));
+    names.map(|(name, _)| (name.clone(), shape(name))).collect()
+});
+
 impl Shape {
     /// The shape of the files that are read as `T`.
     pub(crate) fn of<T: JsonSchema>() -> Self {
         let root = crate::schema::schema_of::<T>();
-        Compiler { root: &root }.shape(&root)
+        Compiler::new(&root).shape(&root)
+    }
+
+    /// The shape itself, where this is only its name.
+    pub(crate) fn resolved(&self) -> &Self {
+        match self {
+            Self::Again(name) => &NAMED[name],
+            shape => shape,
+        }
     }
 }
 
@@ -78,13 +98,14 @@ impl fmt::Display for Shape {
                 if let Some(length) = length {
                     write!(f, "{length} ")?;
                 }
-                match **item {
+                match *item.resolved() {
                     Self::Number => write!(f, "numbers"),
                     Self::Integer { .. } => write!(f, "whole numbers"),
                     Self::Table(_) | Self::Tagged(_) => write!(f, "tables"),
                     _ => write!(f, "values"),
                 }
             }
+            Self::Again(_) => self.resolved().fmt(f),
             Self::Map(_) => write!(f, "a table"),
             Self::Tagged(_) => write!(f, "a table with `{TAG}`"),
             Self::Table(fields) => {
@@ -123,16 +144,34 @@ pub(crate) fn quoted_choice<S: AsRef<str>>(words: &[S]) -> String {
 /// test that reads a scene shows; so it panics.
 struct Compiler<'a> {
     root: &'a Json,
+    /// The names that are being read, from the outermost.
+    open: RefCell<Vec<String>>,
 }
 
-impl Compiler<'_> {
+impl<'a> Compiler<'a> {
+    fn new(root: &'a Json) -> Self {
+        let open = RefCell::default();
+        Self { root, open }
+    }
+
+    /// The shape that a reference such as `#/definitions/Index` names.
+    fn named(&self, reference: &str) -> Shape {
+        let name = reference.trim_start_matches("#/definitions/").to_owned();
+        if self.open.borrow().contains(&name) {
+            return Shape::Again(name);
+        }
+        let Some(target) = self.root.pointer(reference.trim_start_matches('#')) else {
+            panic!("the schema has no {reference}")
+        };
+        self.open.borrow_mut().push(name);
+        let shape = self.shape(target);
+        self.open.borrow_mut().pop();
+        shape
+    }
+
     fn shape(&self, schema: &Json) -> Shape {
         if let Some(reference) = schema["$ref"].as_str() {
-            let pointer = reference.trim_start_matches('#');
-            return match self.root.pointer(pointer) {
-                Some(target) => self.shape(target),
-                None => panic!("the schema has no {reference}"),
-            };
+            return self.named(reference);
         }
         if let Some([only]) = schema["allOf"].as_array().map(Vec::as_slice) {
             return self.shape(only);

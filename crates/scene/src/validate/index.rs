@@ -1,11 +1,14 @@
 //! Indices of refraction: from what is written to n and k over wavelength.
 
 use super::checks::Checks;
+use super::database_file::{self, Block, Data};
+use super::formula;
 use super::points::{self, Column};
 use super::spectrum_list::{Advice, extrapolated};
-use crate::description::{Extrapolate, Index};
+use crate::description::{Extrapolate, Index, MixtureRule};
+use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, limits};
-use spectra::{OpticalConstants, Spectrum};
+use spectra::{DispersionFormula, OpticalConstants, Spectrum};
 use std::path::Path;
 
 const INDEX_N: Column = Column::new("n", "n", &limits::INDEX_N);
@@ -55,8 +58,133 @@ pub(crate) fn read<'w>(
             let spectra = points::file(checks, field, &path, columns, *extrapolate)?;
             (spectra, Advice::Add)
         }
+        Index::Database { yaml, extrapolate } => {
+            let spectra = database(checks, &field.key("yaml"), &directory.join(yaml))?;
+            let spectra = spectra.map(|spectrum| extrapolated(spectrum, *extrapolate));
+            (spectra, Advice::Add)
+        }
+        Index::Cauchy {
+            cauchy,
+            extrapolate,
+        } => {
+            let formula = formula::cauchy(checks, &field.key("cauchy"), cauchy)?;
+            (transparent(formula, *extrapolate), Advice::Add)
+        }
+        Index::Sellmeier {
+            sellmeier,
+            extrapolate,
+        } => {
+            let formula = formula::sellmeier(checks, &field.key("sellmeier"), sellmeier)?;
+            (transparent(formula, *extrapolate), Advice::Add)
+        }
+        Index::Mixture {
+            mixture: rule,
+            of,
+            fraction,
+        } => {
+            let OpticalConstants { n, k } =
+                mixture(checks, directory, field, (*rule, of, *fraction))?;
+            ([n, k], Advice::Part)
+        }
     };
     Some((OpticalConstants { n, k }, advice))
+}
+
+fn transparent(formula: DispersionFormula, extrapolate: Extrapolate) -> [Spectrum; 2] {
+    let n = extrapolated(Spectrum::Formula(formula), extrapolate);
+    [n, Spectrum::Constant(0.0)]
+}
+
+fn mixture(
+    checks: &mut Checks,
+    directory: &Path,
+    field: &FieldPath,
+    (rule, of, fraction): (MixtureRule, &[Index; 2], f64),
+) -> Option<OpticalConstants> {
+    let rule = match rule {
+        MixtureRule::Bruggeman => spectra::MixtureRule::Bruggeman,
+        MixtureRule::MaxwellGarnett => spectra::MixtureRule::MaxwellGarnett,
+    };
+    let parts = field.key("of");
+    let a = read(checks, directory, &parts.index(0), &of[0]);
+    let b = read(checks, directory, &parts.index(1), &of[1]);
+    let fraction = checks.number(&field.key("fraction"), fraction, &limits::FRACTION);
+    let ((a, _), (b, _), fraction) = (a?, b?, fraction?);
+    let mixture = OpticalConstants::mixture(rule, [&a, &b], fraction);
+    mixture
+        .map_err(|error| {
+            let problem = Problem::new(ProblemKind::Inconsistent, &parts, error.to_string());
+            checks.report(problem);
+        })
+        .ok()
+}
+
+/// n and k from a file of the refractiveindex.info database.
+fn database(checks: &mut Checks, field: &FieldPath, path: &Path) -> Option<[Spectrum; 2]> {
+    let blocks = match database_file::read(path) {
+        Ok(blocks) => blocks,
+        Err(error) => {
+            report(checks, ProblemKind::File, field, path, &error.to_string());
+            return None;
+        }
+    };
+    let (mut n, mut k) = (Vec::new(), Vec::new());
+    for block in &blocks {
+        let (real, imaginary) = block_spectra(checks, field, path, block)?;
+        n.extend(real);
+        k.extend(imaginary);
+    }
+    for (what, count) in [("n", n.len()), ("k", k.len())] {
+        let complaint = match count {
+            0 if what == "n" => "no block gives n".to_owned(),
+            0 | 1 => continue,
+            _ => format!("{count} blocks give {what}; only one can"),
+        };
+        report(checks, ProblemKind::Inconsistent, field, path, &complaint);
+        return None;
+    }
+    Some([n.pop()?, k.pop().unwrap_or(Spectrum::Constant(0.0))])
+}
+
+/// The n and the k that a block gives.
+fn block_spectra(
+    checks: &mut Checks,
+    field: &FieldPath,
+    path: &Path,
+    block: &Block,
+) -> Option<(Option<Spectrum>, Option<Spectrum>)> {
+    const END: Extrapolate = Extrapolate::Error;
+    Some(match &block.data {
+        Data::N(rows) => {
+            let [n] = points::rows(checks, field, path, rows, [INDEX_N], END)?;
+            (Some(n), None)
+        }
+        Data::K(rows) => {
+            let [k] = points::rows(checks, field, path, rows, [INDEX_K], END)?;
+            (None, Some(k))
+        }
+        Data::Nk(rows) => {
+            let [n, k] = points::rows(checks, field, path, rows, [INDEX_N, INDEX_K], END)?;
+            (Some(n), Some(k))
+        }
+        Data::Formula(formula) => {
+            if let Some(nm) = formula::gap_nm(formula) {
+                let complaint = format!(
+                    "line {}: the formula gives no index from {} at {nm} nm",
+                    block.line,
+                    limits::INDEX_N
+                );
+                report(checks, ProblemKind::OutOfRange, field, path, &complaint);
+                return None;
+            }
+            (Some(Spectrum::Formula(formula.clone())), None)
+        }
+    })
+}
+
+fn report(checks: &mut Checks, kind: ProblemKind, field: &FieldPath, path: &Path, complaint: &str) {
+    let message = format!("{}: {complaint}", path.display());
+    checks.report(Problem::new(kind, field, message));
 }
 
 fn named(

@@ -2,7 +2,9 @@
 
 mod camera;
 mod checks;
+mod database_file;
 mod environment;
+mod formula;
 mod index;
 mod material;
 mod object;

@@ -88,21 +88,32 @@ pub(crate) fn file<const N: usize>(
     extrapolate: Extrapolate,
 ) -> Option<[Spectrum; N]> {
     let own = field.key("csv");
-    let rows = match table_file::read::<N>(path) {
-        Ok(rows) => rows,
+    match table_file::read::<N>(path) {
+        Ok(found) => rows(checks, &own, path, &found, columns, extrapolate),
         Err(complaint) => {
             let message = format!("{}: {complaint}", path.display());
             checks.report(Problem::new(ProblemKind::File, &own, message));
-            return None;
+            None
         }
-    };
-    let mut is_sound = check_count(checks, &own, rows.len(), &format!("{}: ", path.display()));
-    for (line, complaint) in faults_of_rows(&rows, &columns)
+    }
+}
+
+/// The spectra of rows that were read from a file.
+pub(crate) fn rows<const N: usize>(
+    checks: &mut Checks,
+    field: &FieldPath,
+    path: &Path,
+    rows: &[Row<N>],
+    columns: [Column; N],
+    extrapolate: Extrapolate,
+) -> Option<[Spectrum; N]> {
+    let mut is_sound = check_count(checks, field, rows.len(), &format!("{}: ", path.display()));
+    for (line, complaint) in faults_of_rows(rows, &columns)
         .into_iter()
         .take(MOST_PROBLEMS)
     {
         let message = format!("{}: line {line}: {complaint}", path.display());
-        checks.report(Problem::new(ProblemKind::OutOfRange, &own, message));
+        checks.report(Problem::new(ProblemKind::OutOfRange, field, message));
         is_sound = false;
     }
     if !is_sound {
@@ -110,7 +121,7 @@ pub(crate) fn file<const N: usize>(
     }
     let spectra = std::array::from_fn(|column| {
         let points = rows.iter().map(|row| (row.nm, row.values[column]));
-        spectrum(checks, &own, points.collect(), extrapolate)
+        spectrum(checks, field, points.collect(), extrapolate)
     });
     all(spectra)
 }

@@ -179,7 +179,7 @@ impl<'a> SpectrumList<'a> {
             Err(error) => error,
         };
         let message = format!(
-            "the table covers {} to {} nm, but the bands cover {} to {} nm",
+            "the data cover {} to {} nm, but the bands cover {} to {} nm",
             error.min_nm,
             error.max_nm,
             grid.min_nm(),
@@ -225,12 +225,18 @@ pub(super) enum Advice<'a> {
     Add,
     /// The name must become a table first.
     Name(&'a str),
+    /// It is a part of the mixture that is too short.
+    Part,
 }
 
 impl Advice<'_> {
     fn text(self) -> Option<String> {
         let clamp = match self {
             Self::None => return None,
+            Self::Part => {
+                "add `extrapolate = \"clamp\"` to the part of the mixture that ends there"
+                    .to_owned()
+            }
             Self::Add => "add `extrapolate = \"clamp\"`".to_owned(),
             Self::Name(name) => format!("write {{ name = {name:?}, extrapolate = \"clamp\" }}"),
         };
@@ -267,9 +273,9 @@ fn named_illuminant(
 }
 
 pub(super) fn extrapolated(spectrum: Spectrum, extrapolate: Extrapolate) -> Spectrum {
-    match (spectrum, extrapolate) {
-        (Spectrum::Table(table), Extrapolate::Clamp) => Spectrum::ClampedTable(table),
-        (spectrum, _) => spectrum,
+    match extrapolate {
+        Extrapolate::Clamp => spectrum.clamped(),
+        Extrapolate::Error => spectrum,
     }
 }
 

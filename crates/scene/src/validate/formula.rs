@@ -1,0 +1,120 @@
+//! Dispersion formulas: coefficients from a scene, and for which wavelengths they give an index.
+
+use super::checks::Checks;
+use crate::FieldPath;
+use crate::description::SellmeierTerms;
+use crate::limits::{COEFFICIENT, INDEX_N, MAX_FORMULA_TERMS};
+use crate::problem::{Problem, ProblemKind};
+use spectra::{DispersionFormula, FormulaKind};
+
+/// n = A + B/λ² + C/λ⁴.
+pub(crate) fn cauchy(
+    checks: &mut Checks,
+    field: &FieldPath,
+    coefficients: &[f64],
+) -> Option<DispersionFormula> {
+    if !(1..=3).contains(&coefficients.len()) {
+        let message = format!(
+            "found {} coefficients; it must be 1 to 3: A, B, C",
+            coefficients.len()
+        );
+        checks.report(Problem::new(ProblemKind::Inconsistent, field, message));
+        return None;
+    }
+    are_in_range(checks, field, coefficients)?;
+    let powers = [0.0, -2.0, -4.0];
+    let mut terms = vec![coefficients[0]];
+    terms.extend(
+        coefficients
+            .iter()
+            .zip(powers)
+            .skip(1)
+            .flat_map(|(&c, power)| [c, power]),
+    );
+    over_all_it_gives(checks, field, FormulaKind::Cauchy, &terms)
+}
+
+/// n² = 1 + Σ b λ²/(λ² − c).
+pub(crate) fn sellmeier(
+    checks: &mut Checks,
+    field: &FieldPath,
+    terms: &SellmeierTerms,
+) -> Option<DispersionFormula> {
+    let (strengths, squares) = (field.key("b"), field.key("c_um2"));
+    let (b, c) = (terms.b.len(), terms.c_um2.len());
+    if b != c || b == 0 || b > MAX_FORMULA_TERMS {
+        let message = format!(
+            "found {b} strengths `b` for {c} resonances `c_um2`; each needs one, and there can be 1 to {MAX_FORMULA_TERMS}"
+        );
+        let problem = Problem::new(ProblemKind::Inconsistent, field, message);
+        checks.report(problem.involving(strengths).involving(squares));
+        return None;
+    }
+    let b = are_in_range(checks, &strengths, &terms.b);
+    let c = are_in_range(checks, &squares, &terms.c_um2);
+    b.and(c)?;
+    let pairs = terms.b.iter().zip(&terms.c_um2);
+    let coefficients: Vec<f64> = std::iter::once(0.0)
+        .chain(pairs.flat_map(|(&b, &c)| [b, c]))
+        .collect();
+    over_all_it_gives(checks, field, FormulaKind::Sellmeier2, &coefficients)
+}
+
+fn are_in_range(checks: &mut Checks, field: &FieldPath, coefficients: &[f64]) -> Option<()> {
+    let found = coefficients.iter().enumerate().map(|(index, &value)| {
+        checks
+            .number(&field.index(index), value, &COEFFICIENT)
+            .map(|_| ())
+    });
+    // Every one is looked at, so that all are told.
+    found.fold(Some(()), Option::and)
+}
+
+/// From 100 nm to 30 µm, every nanometre to 2.5 µm and every tenth one beyond.
+fn wavelengths_nm() -> impl Iterator<Item = f64> {
+    let fine = (100..2500).map(f64::from);
+    fine.chain((250..=3000).map(|tens| 10.0 * f64::from(tens)))
+}
+
+fn gives_an_index(formula: &DispersionFormula, nm: f64) -> bool {
+    formula.at(nm).is_ok_and(|n| INDEX_N.contains(n))
+}
+
+/// A formula whose range nobody states: it is taken to be valid where it gives an index, around 550 nm or else in the
+/// nearest range above.
+fn over_all_it_gives(
+    checks: &mut Checks,
+    field: &FieldPath,
+    kind: FormulaKind,
+    coefficients: &[f64],
+) -> Option<DispersionFormula> {
+    const MIDDLE_NM: f64 = 550.0;
+    let over = |range| DispersionFormula::new(kind, coefficients.to_vec(), range).ok();
+    let unbounded = over((1.0, 1e6))?;
+    let mut range: Option<(f64, f64)> = None;
+    for nm in wavelengths_nm() {
+        match (&mut range, gives_an_index(&unbounded, nm)) {
+            (Some(range), true) => range.1 = nm,
+            (None, true) => range = Some((nm, nm)),
+            (Some(range), false) if range.1 >= MIDDLE_NM => break,
+            (_, false) => range = None,
+        }
+    }
+    let formula = range.and_then(over);
+    if formula.is_none() {
+        let message = format!(
+            "the formula gives no index from {INDEX_N} at any wavelength from {MIDDLE_NM} nm up"
+        );
+        checks.report(Problem::new(ProblemKind::OutOfRange, field, message));
+    }
+    formula
+}
+
+/// The first wavelength of its range at which a formula gives no index that a scene may have.
+pub(crate) fn gap_nm(formula: &DispersionFormula) -> Option<f64> {
+    let (low, high) = formula.range_nm();
+    let inside = wavelengths_nm().filter(|nm| (low..=high).contains(nm));
+    inside
+        .chain([low, high])
+        .find(|&nm| !gives_an_index(formula, nm))
+}
