@@ -8,7 +8,6 @@ use color::{RgbImage8, srgb};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use rayon::prelude::*;
 
 /// The colour of a stack over the thickness of one layer and the angle of incidence.
 #[derive(Clone, Debug)]
@@ -19,7 +18,7 @@ pub struct Chart {
     nominal_nm: f64,
     range_nm: (f64, f64),
     range_deg: (f64, f64),
-    /// Linear sRGB, row by row of one angle.
+    /// Linear sRGB, column by column of one thickness.
     cells: Vec<[f64; 3]>,
 }
 
@@ -51,15 +50,19 @@ impl Chart {
     /// When there is no such layer, or not one thickness per layer.
     pub fn new(stack: &StackColour, thicknesses_nm: &[f64], of: &ChartOf) -> Self {
         let range_deg = (of.angles.0.degrees(), of.angles.1.degrees());
-        let cell = |index: usize| {
-            let (row, column) = (index / COLUMNS, index % COLUMNS);
+        let set = |column: usize| {
             let mut thicknesses = thicknesses_nm.to_vec();
-            thicknesses[of.layer] = along(of.range_nm, column as f64 / (COLUMNS - 1) as f64);
-            let deg = along(range_deg, row as f64 / (ROWS - 1) as f64);
-            // Between two angles that there are, there is an angle.
-            let angle = Angle::from_degrees(deg).unwrap_or(of.angles.1);
-            stack.at(&thicknesses, angle).linear_srgb(of.exposure_ev)
+            thicknesses[of.layer] = along(of.range_nm, share(column, COLUMNS));
+            thicknesses
         };
+        // Between two angles that there are, there is an angle.
+        let angle = |row: usize| {
+            Angle::from_degrees(along(range_deg, share(row, ROWS))).unwrap_or(of.angles.1)
+        };
+        let sets: Vec<Vec<f64>> = (0..COLUMNS).map(set).collect();
+        let angles: Vec<Angle> = (0..ROWS).map(angle).collect();
+        let colours = stack.xyz_of_all(&sets, &angles).into_iter();
+        let rgb = |xyz| stack.colour(xyz).linear_srgb(of.exposure_ev);
         let side = match stack.view().side {
             Side::Reflected => "reflected",
             Side::Transmitted => "transmitted",
@@ -80,7 +83,7 @@ impl Chart {
             nominal_nm: thicknesses_nm[of.layer],
             range_nm: of.range_nm,
             range_deg,
-            cells: (0..ROWS * COLUMNS).into_par_iter().map(cell).collect(),
+            cells: colours.map(rgb).collect(),
         }
     }
 
@@ -93,7 +96,7 @@ impl Chart {
     fn codes(&self, x: f64, y: f64) -> RGBColor {
         let (column, u) = place(x, COLUMNS);
         let (row, v) = place(y, ROWS);
-        let cell = |r: usize, c: usize| self.cells[(row + r) * COLUMNS + column + c];
+        let cell = |r: usize, c: usize| self.cells[(column + c) * ROWS + row + r];
         let (c00, c01, c10, c11) = (cell(0, 0), cell(0, 1), cell(1, 0), cell(1, 1));
         let [r, g, b] = std::array::from_fn(|i| {
             let low = c00[i] + u * (c01[i] - c00[i]);
@@ -102,6 +105,11 @@ impl Chart {
         });
         RGBColor(r, g, b)
     }
+}
+
+/// How far along a line of points the one of this number lies, from 0 to 1.
+fn share(index: usize, points: usize) -> f64 {
+    index as f64 / (points - 1) as f64
 }
 
 fn along((from, to): (f64, f64), t: f64) -> f64 {

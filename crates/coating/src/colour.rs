@@ -4,6 +4,8 @@ use crate::response::{Angle, Sampled};
 use crate::{Light, SampleError, Stack};
 use color::{Lab, srgb};
 use optics::Polarised;
+use optics::batch::Powers;
+use rayon::prelude::*;
 use thiserror::Error;
 
 /// The side that a stack is looked at from.
@@ -158,6 +160,25 @@ impl StackColour {
             .iter()
             .map(|powers| self.view.of(powers.reflectance, powers.transmittance));
         self.colour(self.light.xyz(seen))
+    }
+
+    /// XYZ with many sets of thicknesses at many angles, as `[set][angle]`, on all cores.
+    ///
+    /// # Panics
+    /// When there is not one thickness per layer.
+    pub fn xyz_of_all(&self, sets: &[Vec<f64>], angles: &[Angle]) -> Vec<[f64; 3]> {
+        /// Spectra that are in memory at a time, some 13 kB each.
+        const AT_ONCE: usize = 1024;
+        let seen = |powers: &Powers| self.view.of(powers.reflectance, powers.transmittance);
+        let xyz = |spectrum: &[Powers]| self.light.xyz(spectrum.iter().map(seen));
+        let wavelengths = self.sampled.wavelengths_nm().len();
+        sets.chunks(AT_ONCE.div_ceil(angles.len().max(1)))
+            .flat_map(|sets| {
+                let powers = self.sampled.powers_of_all(sets, angles);
+                let spectra = powers.par_chunks(wavelengths);
+                spectra.map(xyz).collect::<Vec<_>>()
+            })
+            .collect()
     }
 
     pub(crate) fn colour(&self, xyz: [f64; 3]) -> Colour {

@@ -245,7 +245,9 @@ mod tests {
             assert!(said.contains(line), "{line} is not in\n{said}");
         }
         assert!(format!("{:#}", parsed(" ").unwrap_err()).contains("substrate"));
-        assert!(format!("{:#}", parsed("incident = 1").unwrap_err()).contains("`substrate`"));
+        assert!(
+            format!("{:#}", parsed("incident = 1").unwrap_err()).contains("substrate: is missing")
+        );
         assert!(format!("{:#}", parsed("substrate = ").unwrap_err()).contains("stack.toml:1"));
     }
 }

@@ -4,7 +4,6 @@ use crate::colour::StackColour;
 use crate::response::Angle;
 use color::lab::delta_e_2000;
 use color::{Lab, srgb};
-use rayon::prelude::*;
 
 /// What is looked for, and where.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,16 +65,22 @@ pub fn matches(
     angle: Angle,
     matching: &Matching,
 ) -> Vec<Match> {
-    let at = |nm: f64| matching.look(stack, thicknesses_nm, angle, nm);
+    let set = |nm: f64| {
+        let mut thicknesses = thicknesses_nm.to_vec();
+        thicknesses[matching.layer] = nm;
+        thicknesses
+    };
+    let at = |nm: f64| matching.judge(nm, stack.at(&set(nm), angle).xyz);
     let range_nm = matching.to_nm - matching.from_nm;
     let steps = (range_nm / STEP_NM).ceil().clamp(STEPS.0, STEPS.1) as usize;
     let nm = |step: usize| {
         let along = step as f64 / steps as f64;
         matching.from_nm + along * range_nm
     };
-    let grid: Vec<f64> = (0..=steps)
-        .into_par_iter()
-        .map(|step| at(nm(step)).delta_e)
+    let sets: Vec<Vec<f64>> = (0..=steps).map(|step| set(nm(step))).collect();
+    let colours = stack.xyz_of_all(&sets, &[angle]).into_iter().enumerate();
+    let grid: Vec<f64> = colours
+        .map(|(step, xyz)| matching.judge(nm(step), xyz).delta_e)
         .collect();
     let is_lowest = |&step: &usize| {
         let before = step == 0 || grid[step] < grid[step - 1];
@@ -101,10 +106,8 @@ pub fn matches(
 }
 
 impl Matching {
-    fn look(&self, stack: &StackColour, thicknesses_nm: &[f64], angle: Angle, nm: f64) -> Match {
-        let mut thicknesses = thicknesses_nm.to_vec();
-        thicknesses[self.layer] = nm;
-        let xyz = stack.at(&thicknesses, angle).xyz;
+    /// How near the film of this thickness and colour is.
+    fn judge(&self, nm: f64, xyz: [f64; 3]) -> Match {
         let exposure_ev = match self.by {
             MatchBy::Colour => self.exposure_ev,
             // Black stays black at any exposure.

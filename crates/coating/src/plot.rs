@@ -2,8 +2,9 @@
 
 use crate::colour::{Colour, Polarisation, Side, View};
 use crate::picture::{self, Drawing, Drawn, FAINT, INK, Scale, exposure, round_range};
-use crate::response::{Angle, Powers};
+use crate::response::{Angle, absorptance};
 use color::{RgbImage8, srgb};
+use optics::batch::Powers;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -63,7 +64,7 @@ impl Plot {
             },
             Panel {
                 name: "absorptance A",
-                of: Powers::absorptance,
+                of: absorptance,
             },
         ];
         let is_seen = |panel: &Panel| self.extent(panel).1 > 1e-9;

@@ -1,6 +1,7 @@
 //! What a stack does to light: R, T and A over wavelength at an angle.
 
-use optics::{Complex64, Layer, Polarised, StackAmplitudes, ThicknessDerivative};
+use optics::batch::{LayerOf, Media, Powers, StackBatch, StackOf, evaluate};
+use optics::{Complex64, Layer, Polarised, ThicknessDerivative};
 use thiserror::Error;
 
 /// A stack at chosen wavelengths: numbers alone, without names or tables. Thicknesses and angles are given when it is evaluated.
@@ -13,31 +14,12 @@ pub struct Sampled {
     substrate: Vec<Complex64>,
 }
 
-/// The shares of the power that a stack reflects and lets pass.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Powers {
-    /// Reflectance R.
-    pub reflectance: Polarised,
-    /// Transmittance T, into the substrate.
-    pub transmittance: Polarised,
-}
-
-impl Powers {
-    /// Absorptance A = 1 − R − T.
-    pub fn absorptance(self) -> Polarised {
-        Polarised {
-            s: 1.0 - self.reflectance.s - self.transmittance.s,
-            p: 1.0 - self.reflectance.p - self.transmittance.p,
-        }
-    }
-}
-
-impl From<StackAmplitudes> for Powers {
-    fn from(found: StackAmplitudes) -> Self {
-        Self {
-            reflectance: found.reflectance,
-            transmittance: found.transmittance,
-        }
+/// Absorptance A = 1 − R − T of a whole stack.
+pub fn absorptance(powers: Powers) -> Polarised {
+    let (r, t) = (powers.reflectance, powers.transmittance);
+    Polarised {
+        s: 1.0 - r.s - t.s,
+        p: 1.0 - r.p - t.p,
     }
 }
 
@@ -128,8 +110,62 @@ impl Sampled {
     /// When there is not one thickness per layer.
     pub fn powers(&self, thicknesses_nm: &[f64], angle: Angle) -> Vec<Powers> {
         self.each(thicknesses_nm, |n0, layers, substrate, nm| {
-            optics::stack(n0, layers, substrate, nm, angle.cosine()).into()
+            let found = optics::stack(n0, layers, substrate, nm, angle.cosine());
+            Powers {
+                reflectance: found.reflectance,
+                transmittance: found.transmittance,
+            }
         })
+    }
+
+    /// R and T with many sets of thicknesses at many angles, on all cores, as `[set][angle][wavelength]`: the same numbers
+    /// as [`Self::powers`], but for the last digits.
+    ///
+    /// # Panics
+    /// When there is not one thickness per layer.
+    pub fn powers_of_all(&self, sets: &[Vec<f64>], angles: &[Angle]) -> Vec<Powers> {
+        let count = self.layers.len();
+        let layers = sets.iter().flat_map(|thicknesses_nm| {
+            assert_eq!(thicknesses_nm.len(), count, "one thickness per layer");
+            let numbered = (0..).zip(thicknesses_nm);
+            numbered.map(|(medium, &thickness_nm)| LayerOf {
+                medium,
+                thickness_nm,
+            })
+        });
+        let stack = |set: usize| StackOf {
+            substrate: count as u32,
+            first_layer: (set * count) as u32,
+            layer_count: count as u32,
+        };
+        // Only ratios of indices and the phase n d / λ count, so that all can be told in units of the incident index, which a
+        // batch has once for all wavelengths.
+        let relative = |indices: &[Complex64]| -> Vec<Complex64> {
+            indices
+                .iter()
+                .zip(&self.incident)
+                .map(|(n, n0)| n / n0)
+                .collect()
+        };
+        let media = self.layers.iter().chain([&self.substrate]);
+        let media: Vec<Complex64> = media.flat_map(|indices| relative(indices)).collect();
+        let wavelengths = self.wavelengths_nm.iter().zip(&self.incident);
+        let batch = StackBatch {
+            wavelengths_nm: &wavelengths.map(|(nm, n0)| nm / n0).collect::<Vec<_>>(),
+            cosines: &angles
+                .iter()
+                .map(|angle| angle.cosine())
+                .collect::<Vec<_>>(),
+            incident: 1.0,
+            media: Media::Dispersive(&media),
+            layers: &layers.collect::<Vec<_>>(),
+            stacks: &(0..sets.len()).map(stack).collect::<Vec<_>>(),
+        };
+        // A stack's indices and an angle's cosine are in the batch's domain, and so must thicknesses be.
+        match evaluate(&batch) {
+            Ok(powers) => powers,
+            Err(error) => panic!("{error}"),
+        }
     }
 
     /// At each wavelength the absorptance of each layer: R + T + ΣA = 1.
@@ -176,5 +212,62 @@ impl Sampled {
             of(self.incident[w], &layers, self.substrate[w], nm)
         };
         self.wavelengths_nm.iter().enumerate().map(at).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Stack;
+
+    #[test]
+    fn many_at_once_are_the_same_as_each_alone() {
+        let stack = Stack::parse("air | titania 60nm | silica 90nm | gold 8nm | bk7").unwrap();
+        let nm: Vec<f64> = (380..=780).step_by(25).map(f64::from).collect();
+        let sampled = stack.sampled(&nm).unwrap();
+        let sets = [
+            vec![60.0, 90.0, 8.0],
+            vec![0.0, 1000.0, 30.0],
+            vec![3.0, 0.0, 0.0],
+        ];
+        let angles = [0.0, 45.0, 89.0].map(|deg| Angle::from_degrees(deg).unwrap());
+        let all = sampled.powers_of_all(&sets, &angles);
+        let each = sets
+            .iter()
+            .flat_map(|set| angles.map(|angle| sampled.powers(set, angle)));
+        for (at_once, alone) in all.iter().zip(each.flatten()) {
+            for (a, b) in [
+                (at_once.reflectance.s, alone.reflectance.s),
+                (at_once.reflectance.p, alone.reflectance.p),
+                (at_once.transmittance.s, alone.transmittance.s),
+                (at_once.transmittance.p, alone.transmittance.p),
+            ] {
+                assert!((a - b).abs() < 1e-12, "{a} {b}");
+            }
+        }
+        assert_eq!(all.len(), 3 * 3 * nm.len());
+    }
+
+    #[test]
+    fn absorptances_of_the_layers_make_up_that_of_the_stack() {
+        let stack = Stack::parse("1 | 2.0+0.1i 60nm | gold 8nm | 1.5").unwrap();
+        let sampled = stack.sampled(&[450.0, 650.0]).unwrap();
+        let angle = Angle::from_degrees(50.0).unwrap();
+        let powers = sampled.powers(stack.thicknesses_nm(), angle);
+        let layers = sampled.absorptances(stack.thicknesses_nm(), angle);
+        for (powers, layers) in powers.into_iter().zip(layers) {
+            let sum: f64 = layers.iter().map(|a| a.p).sum();
+            assert!((absorptance(powers).p - sum).abs() < 1e-14 && sum > 0.1);
+        }
+    }
+
+    #[test]
+    fn angles_end_before_they_graze() {
+        assert_eq!(Angle::from_degrees(0.0), Ok(Angle::NORMAL));
+        assert!((Angle::from_degrees(60.0).unwrap().cosine() - 0.5).abs() < 1e-15);
+        assert!(Angle::from_degrees(89.99).is_ok());
+        for deg in [90.0, -1e-9, 91.0, f64::NAN, f64::INFINITY] {
+            assert!(Angle::from_degrees(deg).is_err(), "{deg}");
+        }
     }
 }

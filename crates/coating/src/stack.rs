@@ -39,8 +39,13 @@ impl Medium {
             Index::Real(n) => n.to_string(),
             Index::Complex([n, k]) => format!("{n}+{k}i"),
             Index::Name(name) | Index::Named { name, .. } => name.clone(),
-            Index::File { csv, .. } => csv.display().to_string(),
-            _ => "table".to_owned(),
+            Index::File { csv: path, .. } | Index::Database { yaml: path, .. } => {
+                path.display().to_string()
+            }
+            Index::Table { .. } => "table".to_owned(),
+            Index::Cauchy { .. } => "Cauchy".to_owned(),
+            Index::Sellmeier { .. } => "Sellmeier".to_owned(),
+            Index::Mixture { .. } => "mixture".to_owned(),
         }
     }
 

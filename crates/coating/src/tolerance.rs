@@ -7,7 +7,6 @@ use color::lab::delta_e_2000;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
-use rayon::prelude::*;
 use thiserror::Error;
 
 /// Errors of thickness: each layer's own, independent, normal.
@@ -123,12 +122,10 @@ pub fn tolerance(
 ) -> Result<Spread, ToleranceError> {
     tolerance.check(thicknesses_nm.len())?;
     let nominal = stack.at(thicknesses_nm, angle);
-    let drawn = |trial| tolerance.drawn(trial, thicknesses_nm);
-    let colours: Vec<[f64; 3]> = (0..tolerance.trials)
-        .into_par_iter()
-        .map(|trial| stack.at(&drawn(trial), angle).xyz)
+    let drawn: Vec<Vec<f64>> = (0..tolerance.trials)
+        .map(|trial| tolerance.drawn(trial, thicknesses_nm))
         .collect();
-    // Summed in order, so that threads do not change the last digit.
+    let colours = stack.xyz_of_all(&drawn, &[angle]);
     let count = f64::from(tolerance.trials);
     let mut mean = [0.0; 3];
     for xyz in &colours {
@@ -136,12 +133,13 @@ pub fn tolerance(
     }
     let mean = stack.colour(mean);
     let alone = (0..thicknesses_nm.len()).map(|layer| {
-        let colours = (0..tolerance.trials).into_par_iter().map(|trial| {
+        let one_wrong = |wrong: &Vec<f64>| {
             let mut thicknesses = thicknesses_nm.to_vec();
-            thicknesses[layer] = drawn(trial)[layer];
-            stack.at(&thicknesses, angle).xyz
-        });
-        quantiles(&nominal, &colours.collect::<Vec<_>>())
+            thicknesses[layer] = wrong[layer];
+            thicknesses
+        };
+        let sets: Vec<Vec<f64>> = drawn.iter().map(one_wrong).collect();
+        quantiles(&nominal, &stack.xyz_of_all(&sets, &[angle]))
     });
     Ok(Spread {
         nominal,

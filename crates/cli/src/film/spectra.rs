@@ -3,7 +3,7 @@
 use super::swatch::swatch;
 use super::{Film, Format};
 use crate::print;
-use pellicle::coating::{Angle, Colour, Powers, Sampled, Side};
+use pellicle::coating::{Angle, Colour, Powers, Sampled, Side, absorptance};
 use pellicle::optics::{Complex64, Polarised};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -92,7 +92,7 @@ impl<'a> Spectra<'a> {
             text.push('\n');
             for (nm, powers, absorptances) in self.rows(at) {
                 let (r, t) = (powers.reflectance, powers.transmittance);
-                let a = powers.absorptance().unpolarised();
+                let a = absorptance(*powers).unpolarised();
                 let _ = write!(text, "{nm:>9}");
                 let layers = absorptances.iter().map(|a| a.unpolarised());
                 let figures = [r.s, r.p, r.unpolarised(), t.s, t.p, t.unpolarised(), a];
