@@ -26,6 +26,16 @@ fn complex_div(a: Complex4, b: Complex4) -> Complex4 {
     );
 }
 
+/// 1 / a; where a is 0, a large number.
+fn complex_inverse(a: Complex4) -> Complex4 {
+    let scale = 1.0 / max(a.re * a.re + a.im * a.im, vec4f(1e-37));
+    return Complex4(a.re * scale, -a.im * scale);
+}
+
+fn complex_scale(factor: f32, a: Complex4) -> Complex4 {
+    return Complex4(factor * a.re, factor * a.im);
+}
+
 /// |a|².
 fn complex_norm2(a: Complex4) -> vec4f {
     return a.re * a.re + a.im * a.im;

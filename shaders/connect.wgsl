@@ -7,25 +7,15 @@ struct Sent {
     pdf: f32,
 }
 
-/// The factor of a film at a point: its reflectance or its transmittance.
-fn film_factor(material: u32, point: SurfacePoint, center: vec3f, reflects: bool) -> Factor {
-    var kind = select(FACTOR_FILM_TRANSMITS, FACTOR_FILM_REFLECTS, reflects);
-    if (HAS_LOSSY_FILMS && materials[material].is_transparent == 0u) {
-        kind = select(FACTOR_LOSSY_FILM_TRANSMITS, FACTOR_LOSSY_FILM_REFLECTS, reflects);
-    }
-    let thickness_nm = film_thickness(material, point.position, center);
-    return Factor(kind, materials[material].spectrum, point.cosine, thickness_nm);
-}
-
 /// Chooses a light and a direction towards it.
-fn send_to_light(walk: Walk, sample: Sample, object: u32, point: SurfacePoint) -> Sent {
+fn send_to_light(walk: Walk, sample: Sample, point: SurfacePoint) -> Sent {
     let has_lights = HAS_SPHERE_LIGHTS || HAS_RECTANGLE_LIGHTS;
     if (!has_lights || walk.segment + 1u > frame.max_path_segments) {
         return Sent(NONE, point.normal, 0.0);
     }
     let random = random_at(sample, walk, 0u);
     let count = f32(frame.light_count);
-    let light = lights[min(u32(random.x * count), frame.light_count - 1u)];
+    let light = objects[min(u32(random.x * count), frame.light_count - 1u)].light;
     let direction = sample_light(light, point.position, random.y, random.z);
     if (dot(direction, point.normal) <= 0.0) {
         return Sent(light, direction, 0.0);
@@ -50,9 +40,11 @@ fn connect(
         return vertex;
     }
     vertex.first_crossing = crossing_count;
+    let first_thickness = thickness_count;
     let allowed = frame.max_path_segments - walk.segment - 1u;
     if (!arrives(Ray(point.position, sent.direction), object, sent.light, allowed)) {
         crossing_count = vertex.first_crossing;
+        thickness_count = first_thickness;
         return vertex;
     }
     vertex.end_crossing = crossing_count;
@@ -80,7 +72,7 @@ fn arrives(ray_in: Ray, from_object: u32, light: u32, allowed: u32) -> bool {
             return false;
         }
         let point = surface_point(hit.object, ray, hit.distance);
-        push_crossing(film_factor(material, point, objects[hit.object].center, false));
+        push_crossing(film_factor(hit.object, point, false));
         ray.origin = point.position;
         from_now = hit.object;
     }

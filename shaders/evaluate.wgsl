@@ -5,6 +5,9 @@ fn factor_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
     if (HAS_FILMS && factor.kind >= FACTOR_FILM_REFLECTS) {
         return film_value(factor, group, at);
     }
+    if (HAS_COATINGS && factor.kind == FACTOR_COATED) {
+        return coating_value(factor, group, at);
+    }
     let first = spectrum_at(factor.spectrum, group, at);
     if ((HAS_MIRRORS || HAS_ROUGH_CONDUCTORS) && factor.kind == FACTOR_CONDUCTOR) {
         let k = spectrum_at(factor.spectrum + 1u, group, at);
@@ -15,8 +18,19 @@ fn factor_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
 
 /// The reflectance or transmittance of a film.
 fn film_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
-    let n = spectrum_at(factor.spectrum, group, at);
+    if (HAS_STACKS && factor.kind >= FACTOR_STACK_REFLECTS && factor.kind <= FACTOR_STACK_TRANSMITS) {
+        return free_stack_value(factor, group, at);
+    }
     let inverse = inverse_wavelengths(group, at);
+    if (HAS_TWO_BEAM_FILMS && factor.kind >= FACTOR_TWO_BEAM_REFLECTS) {
+        let n = spectrum_at(layers[materials[factor.spectrum].first_layer].spectrum, group, at);
+        if (factor.kind == FACTOR_TWO_BEAM_TRANSMITS) {
+            return two_beam_transmittance(n, factor.cosine);
+        }
+        let as_printed = materials[factor.spectrum].film == FILM_TWO_BEAM_AS_PRINTED;
+        return two_beam_reflectance(n, factor.thickness_nm, inverse, factor.cosine, as_printed);
+    }
+    let n = spectrum_at(factor.spectrum, group, at);
     if (HAS_LOSSY_FILMS && factor.kind >= FACTOR_LOSSY_FILM_REFLECTS) {
         let k = spectrum_at(factor.spectrum + 1u, group, at);
         let powers = film_powers(n, k, factor.thickness_nm, inverse, factor.cosine);
@@ -25,6 +39,59 @@ fn film_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
     }
     let reflectance = film_reflectance(n, factor.thickness_nm, inverse, factor.cosine);
     return select(1.0 - reflectance, reflectance, factor.kind == FACTOR_FILM_REFLECTS);
+}
+
+/// Air at the cosine of a factor.
+fn air_above(factor: Factor) -> Incident {
+    let cosine = max(factor.cosine, GRAZING);
+    return Incident(1.0, cosine * cosine);
+}
+
+/// All layers of a material put onto what lies below them, the last one first, or the first one first.
+fn with_layers(below: Stack, factor: Factor, last_first: bool, group: u32, at: Wavelengths) -> Stack {
+    let first = materials[factor.spectrum].first_layer;
+    let count = materials[factor.spectrum].layer_count;
+    let inverse = inverse_wavelengths(group, at);
+    let incident = air_above(factor);
+    var stack = below;
+    var place = factor.first_thickness;
+    if (last_first) {
+        place += materials[factor.spectrum].varying_layers;
+    }
+    for (var i = 0u; i < count; i++) {
+        let layer = first + select(i, count - 1u - i, last_first);
+        var thickness_nm = layers[layer].thickness_nm;
+        if (layer_varies(layer)) {
+            place -= select(0u, 1u, last_first);
+            thickness_nm = thicknesses[place];
+            place += select(1u, 0u, last_first);
+        }
+        let n = spectrum_at(layers[layer].spectrum, group, at);
+        let k = spectrum_at(layers[layer].spectrum + 1u, group, at);
+        stack = stack_layer(stack, n, k, thickness_nm * inverse, incident);
+    }
+    return stack;
+}
+
+/// Reflectance of layers on a conductor.
+fn coating_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
+    let spectrum = materials[factor.spectrum].spectrum;
+    let incident = air_above(factor);
+    let substrate = stack_on(spectrum_at(spectrum, group, at), spectrum_at(spectrum + 1u, group, at), incident);
+    let powers = stack_powers(with_layers(substrate, factor, true, group, at), substrate, incident);
+    return 0.5 * (powers.reflectance_s + powers.reflectance_p);
+}
+
+/// Reflectance or transmittance of a free film of several layers.
+fn free_stack_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
+    let incident = air_above(factor);
+    let substrate = stack_on(vec4f(1.0), vec4f(0.0), incident);
+    let from_front = factor.kind != FACTOR_STACK_REFLECTS_BACK;
+    let powers = stack_powers(with_layers(substrate, factor, from_front, group, at), substrate, incident);
+    if (factor.kind == FACTOR_STACK_TRANSMITS) {
+        return 0.5 * (powers.transmittance_s + powers.transmittance_p);
+    }
+    return 0.5 * (powers.reflectance_s + powers.reflectance_p);
 }
 
 /// Radiance that a vertex receives straight from a light and scatters, before the path's throughput. `scatter` is
@@ -36,7 +103,7 @@ fn connection_value(vertex: Vertex, scatter: vec4f, group: u32, at: Wavelengths)
             light *= film_value(crossings[i], group, at);
         }
     }
-    if (HAS_ROUGH_CONDUCTORS && vertex.scatter.kind == FACTOR_CONDUCTOR) {
+    if (HAS_ROUGH_CONDUCTORS && vertex.scatter.kind != FACTOR_REFLECTANCE) {
         var facet = vertex.scatter;
         facet.cosine = vertex.connection_cosine;
         return light * factor_value(facet, group, at);

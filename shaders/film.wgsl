@@ -66,20 +66,3 @@ fn film_of_boundary(r: Complex4, beta2: Complex4) -> FilmPowers {
     let transmitted = complex_norm2(complex_sub(one, r2)) * beta_norm2;
     return FilmPowers(reflected / denominator, transmitted / denominator);
 }
-
-/// exp(iπ (re + i·im)) for im ≥ 0.
-fn phase_factor(re: vec4f, im: vec4f) -> Complex4 {
-    let cosine = cosine_pi4(re);
-    let sine = cosine_pi4(re - 0.5);
-    // Past exp(−80) nothing returns; the bound keeps the argument where exp is accurate.
-    let modulus = exp(-min(PI * im, vec4f(80.0)));
-    return Complex4(cosine * modulus, sine * modulus);
-}
-
-/// cos(πx) for any x of moderate size.
-fn cosine_pi4(x: vec4f) -> vec4f {
-    // One whole period is 2; cos(πx) = 1 − 2 sin²(πx/2).
-    let half = 0.5 * x;
-    let s = sin_pi4(half - round(half));
-    return 1.0 - 2.0 * s * s;
-}

@@ -25,10 +25,10 @@ const SHAPE_RECTANGLE: u32 = 2u;
 /// Surface: Lambertian.
 const SURFACE_DIFFUSE: u32 = 0u;
 
-/// Surface: a smooth conductor.
+/// Surface: a smooth conductor, bare or coated.
 const SURFACE_MIRROR: u32 = 1u;
 
-/// Surface: a rough conductor.
+/// Surface: a rough conductor, bare or coated.
 const SURFACE_ROUGH_CONDUCTOR: u32 = 2u;
 
 /// Surface: a free film.
@@ -52,17 +52,50 @@ const FACTOR_REFLECTANCE: u32 = 1u;
 /// Spectral factor: Fresnel reflectance of a conductor.
 const FACTOR_CONDUCTOR: u32 = 2u;
 
-/// Spectral factor: reflectance of a film without absorption.
-const FACTOR_FILM_REFLECTS: u32 = 3u;
+/// Spectral factor: reflectance of layers on a conductor.
+const FACTOR_COATED: u32 = 3u;
 
-/// Spectral factor: transmittance of a film without absorption.
-const FACTOR_FILM_TRANSMITS: u32 = 4u;
+/// Spectral factor: reflectance of a film of one layer without absorption. Those of films are greater.
+const FACTOR_FILM_REFLECTS: u32 = 4u;
 
-/// Spectral factor: reflectance of a film of any index.
-const FACTOR_LOSSY_FILM_REFLECTS: u32 = 5u;
+/// Spectral factor: transmittance of a film of one layer without absorption.
+const FACTOR_FILM_TRANSMITS: u32 = 5u;
 
-/// Spectral factor: transmittance of a film of any index.
-const FACTOR_LOSSY_FILM_TRANSMITS: u32 = 6u;
+/// Spectral factor: reflectance of a film of one layer of any index.
+const FACTOR_LOSSY_FILM_REFLECTS: u32 = 6u;
+
+/// Spectral factor: transmittance of a film of one layer of any index.
+const FACTOR_LOSSY_FILM_TRANSMITS: u32 = 7u;
+
+/// Spectral factor: reflectance of a film of several layers, seen from the first.
+const FACTOR_STACK_REFLECTS: u32 = 8u;
+
+/// Spectral factor: reflectance of a film of several layers, seen from the last.
+const FACTOR_STACK_REFLECTS_BACK: u32 = 9u;
+
+/// Spectral factor: transmittance of a film of several layers, the same from both sides.
+const FACTOR_STACK_TRANSMITS: u32 = 10u;
+
+/// Spectral factor: reflectance of a film by two beams.
+const FACTOR_TWO_BEAM_REFLECTS: u32 = 11u;
+
+/// Spectral factor: transmittance of a film without interference.
+const FACTOR_TWO_BEAM_TRANSMITS: u32 = 12u;
+
+/// Film: one layer without absorption and with n ≥ 1 everywhere, for which the short formula holds.
+const FILM_TRANSPARENT: u32 = 0u;
+
+/// Film: one layer of any index.
+const FILM_LOSSY: u32 = 1u;
+
+/// Film: several layers.
+const FILM_STACK: u32 = 2u;
+
+/// Film: one layer, by two beams.
+const FILM_TWO_BEAM: u32 = 3u;
+
+/// Film: one layer, by two beams with the path difference that the paper prints.
+const FILM_TWO_BEAM_AS_PRINTED: u32 = 4u;
 
 /// What holds for a whole render.
 struct Frame {
@@ -150,8 +183,10 @@ struct Object {
     material: u32,
     /// Whether light can be sent from it: 1 or 0.
     is_light: u32,
+    /// The light that has this object's number is the object `light`; NONE past the last light.
+    light: u32,
     /// Fills the size up to a multiple of 16.
-    padding: vec2u,
+    padding: u32,
 }
 
 /// What a surface is made of.
@@ -166,12 +201,24 @@ struct Material {
     checker_size: f32,
     /// Root mean square slope of a rough conductor, 0 when smooth.
     roughness: f32,
-    /// 1 where a film does not absorb and has n ≥ 1 everywhere, so that the short formula holds.
-    is_transparent: u32,
+    /// A `FILM_` tag, of a film.
+    film: u32,
     /// Spectrum that it emits.
     emission: u32,
     /// Factor of what it emits; 0 where it emits nothing.
     emission_scale: f32,
+    /// First of its layers, the outermost.
+    first_layer: u32,
+    /// Number of its layers.
+    layer_count: u32,
+    /// 1 where it reflects nothing, so that a path ends.
+    is_black: u32,
+    /// Number of its layers whose thickness varies over the surface.
+    varying_layers: u32,
+}
+
+/// A layer of a film or of a coating.
+struct Layer {
     /// The pole's direction (polar), or where a linear thickness starts.
     thickness_from: vec3f,
     /// A `THICKNESS_` tag.
@@ -182,8 +229,44 @@ struct Material {
     thickness_nm: f32,
     /// Added to it: per radian of polar angle, or from start to end, nm.
     thickness_slope_nm: f32,
-    /// 1 where it reflects nothing, so that a path ends.
-    is_black: u32,
+    /// Spectrum: n of its index, whose k is the next one.
+    spectrum: u32,
     /// Fills the size up to a multiple of 16.
     padding: vec2u,
+}
+
+/// What holds for one run over a part of a batch of stacks.
+struct StackRun {
+    /// Number of wavelengths.
+    wavelength_count: u32,
+    /// Groups of four wavelengths for which each medium has its index: all of them, or 1.
+    media_groups: u32,
+    /// First stack of this run.
+    first_stack: u32,
+    /// Number of stacks of this run.
+    stack_count: u32,
+    /// Index of the medium that light comes from.
+    incident: f32,
+    /// Fills the size up to what a uniform buffer asks for.
+    padding_1: u32,
+    /// Fills the size up.
+    padding_2: vec2u,
+}
+
+/// A layer of a stack of a batch.
+struct RunLayer {
+    /// Its medium.
+    medium: u32,
+    /// Its thickness, nm.
+    thickness_nm: f32,
+}
+
+/// A stack of a batch.
+struct RunStack {
+    /// The medium below its layers.
+    substrate: u32,
+    /// First of its layers, the outermost.
+    first_layer: u32,
+    /// Number of its layers.
+    layer_count: u32,
 }

@@ -84,7 +84,7 @@ const REFLECTED_SHARE: f32 = 0.5;
 fn meet_film(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
     var vertex = vertex_in;
     let reflects = random_at(sample, walk, 1u).x < REFLECTED_SHARE;
-    vertex.scatter = film_factor(objects[object].material, point, objects[object].center, reflects);
+    vertex.scatter = film_factor(object, point, reflects);
     vertex.weight = 1.0 / select(1.0 - REFLECTED_SHARE, REFLECTED_SHARE, reflects);
     push_vertex(vertex);
     if (reflects) {
@@ -98,8 +98,7 @@ fn meet_film(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, verte
 
 fn meet_mirror(walk: Walk, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
     var vertex = vertex_in;
-    let spectrum = materials[objects[object].material].spectrum;
-    vertex.scatter = Factor(FACTOR_CONDUCTOR, spectrum, point.cosine, 0.0);
+    vertex.scatter = conductor_factor(object, point);
     vertex.weight = 1.0;
     push_vertex(vertex);
     return walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0);
@@ -107,12 +106,11 @@ fn meet_mirror(walk: Walk, object: u32, point: SurfacePoint, vertex_in: Vertex) 
 
 fn meet_rough_conductor(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
     var vertex = vertex_in;
-    let material = objects[object].material;
-    let slope = materials[material].roughness;
+    let slope = materials[objects[object].material].roughness;
     let world_from_local = frame_of(point.normal);
     let eye = -walk.ray.direction * world_from_local;
 
-    let sent = send_to_light(walk, sample, object, point);
+    let sent = send_to_light(walk, sample, point);
     if (sent.pdf > 0.0) {
         let facet = cook_torrance(eye, sent.direction * world_from_local, slope);
         let cosine = dot(sent.direction, point.normal);
@@ -124,7 +122,8 @@ fn meet_rough_conductor(walk: Walk, sample: Sample, object: u32, point: SurfaceP
     let normal = sample_beckmann(random.x, random.y, slope);
     let light = reflect(-eye, normal);
     let facet = cook_torrance(eye, normalize(light), slope);
-    vertex.scatter = Factor(FACTOR_CONDUCTOR, materials[material].spectrum, facet.cosine, 0.0);
+    vertex.scatter = conductor_factor(object, point);
+    vertex.scatter.cosine = facet.cosine;
     var next = walk_on(walk, object, point, normalize(world_from_local * light), facet.pdf);
     if (facet.pdf > 0.0) {
         vertex.weight = facet.reflection * light.z / facet.pdf;
@@ -138,10 +137,10 @@ fn meet_rough_conductor(walk: Walk, sample: Sample, object: u32, point: SurfaceP
 fn meet_diffuse(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
     var vertex = vertex_in;
     let spectrum = reflectance_spectrum(objects[object].material, object, point.position);
-    vertex.scatter = Factor(FACTOR_REFLECTANCE, spectrum, 1.0, 0.0);
+    vertex.scatter = Factor(FACTOR_REFLECTANCE, spectrum, 1.0, 0.0, 0u);
     vertex.weight = 1.0;
 
-    let sent = send_to_light(walk, sample, object, point);
+    let sent = send_to_light(walk, sample, point);
     if (sent.pdf > 0.0) {
         let lambert = max(dot(sent.direction, point.normal), 0.0) / PI;
         vertex = connect(vertex, walk, object, point, sent, lambert, lambert);

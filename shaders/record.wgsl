@@ -4,11 +4,14 @@
 struct Factor {
     /// A FACTOR_ tag.
     kind: u32,
-    /// Its spectrum: a reflectance, or n of an index, whose k is the next one.
+    /// Its spectrum: a reflectance, or n of an index, whose k is the next one. Of layers, the material that has them.
     spectrum: u32,
     /// Cosine at the surface or facet.
     cosine: f32,
+    /// Thickness of a film's only layer.
     thickness_nm: f32,
+    /// Of several layers: the first of the thicknesses that vary over the surface.
+    first_thickness: u32,
 }
 
 /// A place where a path met a surface, or where it ended.
@@ -33,15 +36,19 @@ var<private> vertex_count: u32;
 /// Films that connections pass through.
 var<private> crossings: array<Factor, MAX_CROSSINGS>;
 var<private> crossing_count: u32;
+/// Thicknesses of layers where they vary over a surface, at the points of the path, nm.
+var<private> thicknesses: array<f32, MAX_THICKNESSES>;
+var<private> thickness_count: u32;
 
 fn begin_record() {
     vertex_count = 0u;
     crossing_count = 0u;
+    thickness_count = 0u;
 }
 
 /// A vertex that does nothing yet.
 fn plain_vertex() -> Vertex {
-    let one = Factor(FACTOR_ONE, 0u, 1.0, 0.0);
+    let one = Factor(FACTOR_ONE, 0u, 1.0, 0.0, 0u);
     return Vertex(one, 0.0, 0u, 0.0, 0u, 0.0, 1.0, crossing_count, crossing_count);
 }
 
@@ -55,6 +62,13 @@ fn push_crossing(crossing: Factor) {
     if (crossing_count < MAX_CROSSINGS) {
         crossings[crossing_count] = crossing;
         crossing_count += 1u;
+    }
+}
+
+fn push_thickness(thickness_nm: f32) {
+    if (thickness_count < MAX_THICKNESSES) {
+        thicknesses[thickness_count] = thickness_nm;
+        thickness_count += 1u;
     }
 }
 

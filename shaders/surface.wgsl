@@ -6,6 +6,8 @@ struct SurfacePoint {
     normal: vec3f,
     /// Cosine between the ray and the normal, ≥ 0.
     cosine: f32,
+    /// Whether the ray comes from the side that the shape's own normal points to: a sphere's outside.
+    is_front: bool,
 }
 
 fn surface_point(index: u32, ray: Ray, distance: f32) -> SurfacePoint {
@@ -18,21 +20,26 @@ fn surface_point(index: u32, ray: Ray, distance: f32) -> SurfacePoint {
         position = center + objects[index].radius * normal;
     }
     let cosine = dot(normal, ray.direction);
-    return SurfacePoint(position, select(normal, -normal, cosine > 0.0), abs(cosine));
+    return SurfacePoint(position, select(normal, -normal, cosine > 0.0), abs(cosine), cosine <= 0.0);
 }
 
-/// Thickness of a film at a point of its surface, nm.
-fn film_thickness(material: u32, position: vec3f, center: vec3f) -> f32 {
-    let base = materials[material].thickness_nm;
-    let slope = materials[material].thickness_slope_nm;
-    let first = materials[material].thickness_from;
-    if (HAS_POLAR_THICKNESS && materials[material].thickness == THICKNESS_POLAR) {
+/// Whether a layer's thickness varies over its surface.
+fn layer_varies(layer: u32) -> bool {
+    return layers[layer].thickness != THICKNESS_CONSTANT;
+}
+
+/// Thickness of a layer at a point of its surface, nm.
+fn layer_thickness(layer: u32, position: vec3f, center: vec3f) -> f32 {
+    let base = layers[layer].thickness_nm;
+    let slope = layers[layer].thickness_slope_nm;
+    let first = layers[layer].thickness_from;
+    if (HAS_POLAR_THICKNESS && layers[layer].thickness == THICKNESS_POLAR) {
         let radial = position - center;
         let angle = polar_angle(dot(radial, first), length(cross(radial, first)));
         return max(base + slope * angle, 0.0); // a thickness that ends in 0 may round below it
     }
-    if (HAS_LINEAR_THICKNESS && materials[material].thickness == THICKNESS_LINEAR) {
-        let along = dot(position - first, materials[material].thickness_along);
+    if (HAS_LINEAR_THICKNESS && layers[layer].thickness == THICKNESS_LINEAR) {
+        let along = dot(position - first, layers[layer].thickness_along);
         return base + slope * clamp(along, 0.0, 1.0);
     }
     return base;

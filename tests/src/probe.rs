@@ -24,6 +24,7 @@ pub struct Probe<'a> {
 const SMALL: RecordLimits = RecordLimits {
     vertices: 2,
     crossings: 1,
+    thicknesses: 1,
 };
 
 impl Probe<'_> {

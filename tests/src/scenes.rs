@@ -43,12 +43,18 @@ pub fn small(name: &str, size: [u32; 2], samples: u32, bands: u32, seed: u32) ->
 
 /// WGSL functions that make sense only within a path; the suite `paths` proves them.
 pub const PROVED_ON_PATHS: &[&str] = &[
+    "air_above",
     "arrives",
     "begin_record",
+    "coating_value",
+    "conductor_factor",
     "connect",
     "connection_value",
     "emission_share",
     "film_factor",
+    "free_stack_value",
+    "layer_varies",
+    "layers_factor",
     "meet_diffuse",
     "meet_film",
     "meet_mirror",
@@ -58,13 +64,18 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "plain_vertex",
     "push_crossing",
     "push_emission",
+    "push_thickness",
     "push_vertex",
     "random_at",
     "record_environment",
     "send_to_light",
     "trace_path",
     "walk_on",
+    "with_layers",
 ];
+
+/// WGSL functions that the suite `stacks` proves: batches of film stacks.
+pub const PROVED_ON_STACKS: &[&str] = &["evaluate_stacks", "run_index", "run_stack"];
 
 /// WGSL functions that the suite `frames` proves: the accumulation of samples.
 pub const PROVED_ON_FRAMES: &[&str] = &["accumulate", "render"];

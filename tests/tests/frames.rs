@@ -91,7 +91,7 @@ fn a_wrong_picture_is_noticed() {
     (render.size, render.samples, render.bands, render.seed) = ([96, 24], 16, 10, 1);
     for material in off.description.materials.values_mut() {
         if let scene::description::Material::Film { index, .. } = material {
-            *index = scene::description::Index::Real(1.333 * 1.01);
+            *index = Some(scene::description::Index::Real(1.333 * 1.01));
         }
     }
     let off = off.validate().expect("valid").rounded_to_f32();
@@ -175,14 +175,12 @@ fn wedge_of(scene: &Scene) -> ((scene::SpectrumId, scene::SpectrumId), (f64, f64
         .materials()
         .iter()
         .find_map(|material| match material {
-            scene::Material::Film {
-                n,
-                thickness:
-                    scene::Thickness::Linear {
-                        start_nm, end_nm, ..
-                    },
-                ..
-            } => Some((*n, (*start_nm, *end_nm))),
+            scene::Material::Film { layers, .. } => match &layers[0].thickness {
+                scene::Thickness::Linear {
+                    start_nm, end_nm, ..
+                } => Some((layers[0].n, (*start_nm, *end_nm))),
+                _ => None,
+            },
             _ => None,
         });
     let (n, ends_nm) = film.expect("the wedge has a film");

@@ -7,6 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 const SIZES: RecordLimits = RecordLimits {
     vertices: 13,
     crossings: 20,
+    thicknesses: 20,
 };
 
 #[test]

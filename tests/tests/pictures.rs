@@ -120,7 +120,7 @@ fn a_film_of_a_wrong_index_is_noticed() {
             let mut films = 0;
             for material in file.description.materials.values_mut() {
                 if let Material::Film { index, .. } = material {
-                    *index = water(factor);
+                    *index = Some(water(factor));
                     films += 1;
                 }
             }

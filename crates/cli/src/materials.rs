@@ -209,19 +209,20 @@ mod tests {
     }
 
     #[test]
-    fn metals_have_their_colours_and_glass_is_nearly_black() {
-        let [r, g, b] = colour("gold").unwrap();
-        assert!(
-            r > 240 && g > 180 && b < 160 && r > g && g > b,
-            "{r} {g} {b}"
-        );
-        let silver = colour("silver").unwrap();
-        assert!(silver.iter().all(|&code| code > 235), "{silver:?}");
-        let glass = colour("bk7").unwrap();
-        assert!(
-            glass.iter().all(|&code| (50..65).contains(&code)),
-            "{glass:?}"
-        );
+    fn metals_and_glass_have_the_colours_of_an_independent_computation() {
+        // Normal incidence, D65, CIE 1931 2° at 1 nm, colour-science 0.4.7 and numpy.
+        for (name, expected) in [
+            ("gold", [255, 222, 163]),
+            ("silver", [254, 253, 252]),
+            ("bk7", [58, 58, 59]),
+        ] {
+            let found = colour(name).unwrap();
+            let near = found
+                .iter()
+                .zip(expected)
+                .all(|(code, other)| code.abs_diff(other) <= 1);
+            assert!(near, "{name}: {found:?}");
+        }
         assert_eq!(colour("rutile"), None);
     }
 }

@@ -46,7 +46,7 @@ pub use line::LineError;
 pub use matching::{Match, MatchBy, Matching, matches};
 pub use optics::batch::Powers;
 pub use plot::{Curve, Plot};
-pub use response::{Angle, AngleError, Sampled, absorptance};
+pub use response::{Angle, AngleError, Batch, Sampled, absorptance};
 pub use sensitivity::{LayerSensitivity, Sensitivity, sensitivity};
 pub use stack::{Layer, Medium, SampleError, Stack, StackError};
 pub use tolerance::{Quantiles, Spread, Tolerance, ToleranceError, tolerance};

@@ -69,6 +69,30 @@ impl Angle {
     }
 }
 
+/// The arrays of a [`StackBatch`]: stacks that differ in their thicknesses alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Batch {
+    wavelengths_nm: Vec<f64>,
+    cosines: Vec<f64>,
+    media: Vec<Complex64>,
+    layers: Vec<LayerOf>,
+    stacks: Vec<StackOf>,
+}
+
+impl Batch {
+    /// As what evaluates batches takes it. Indices and wavelengths are in units of the incident index.
+    pub fn as_batch(&self) -> StackBatch<'_> {
+        StackBatch {
+            wavelengths_nm: &self.wavelengths_nm,
+            cosines: &self.cosines,
+            incident: 1.0,
+            media: Media::Dispersive(&self.media),
+            layers: &self.layers,
+            stacks: &self.stacks,
+        }
+    }
+}
+
 impl Sampled {
     pub(crate) fn new(
         wavelengths_nm: Vec<f64>,
@@ -118,12 +142,11 @@ impl Sampled {
         })
     }
 
-    /// R and T with many sets of thicknesses at many angles, on all cores, as `[set][angle][wavelength]`: the same numbers
-    /// as [`Self::powers`], but for the last digits.
+    /// The stack with many sets of thicknesses at many angles, as a batch for whatever evaluates batches.
     ///
     /// # Panics
     /// When there is not one thickness per layer.
-    pub fn powers_of_all(&self, sets: &[Vec<f64>], angles: &[Angle]) -> Vec<Powers> {
+    pub fn batch(&self, sets: &[Vec<f64>], angles: &[Angle]) -> Batch {
         let count = self.layers.len();
         let layers = sets.iter().flat_map(|thicknesses_nm| {
             assert_eq!(thicknesses_nm.len(), count, "one thickness per layer");
@@ -141,29 +164,29 @@ impl Sampled {
         // Only ratios of indices and the phase n d / λ count, so that all can be told in units of the incident index, which a
         // batch has once for all wavelengths.
         let relative = |indices: &[Complex64]| -> Vec<Complex64> {
-            indices
-                .iter()
-                .zip(&self.incident)
-                .map(|(n, n0)| n / n0)
-                .collect()
+            let pairs = indices.iter().zip(&self.incident);
+            pairs.map(|(n, n0)| n / n0).collect()
         };
         let media = self.layers.iter().chain([&self.substrate]);
-        let media: Vec<Complex64> = media.flat_map(|indices| relative(indices)).collect();
         let wavelengths = self.wavelengths_nm.iter().zip(&self.incident);
-        let batch = StackBatch {
-            wavelengths_nm: &wavelengths.map(|(nm, n0)| nm / n0).collect::<Vec<_>>(),
-            cosines: &angles
-                .iter()
-                .map(|angle| angle.cosine())
-                .collect::<Vec<_>>(),
-            incident: 1.0,
-            media: Media::Dispersive(&media),
-            layers: &layers.collect::<Vec<_>>(),
-            stacks: &(0..sets.len()).map(stack).collect::<Vec<_>>(),
-        };
-        // A stack's indices and an angle's cosine are in the batch's domain, and so must thicknesses be.
-        match evaluate(&batch) {
+        Batch {
+            wavelengths_nm: wavelengths.map(|(nm, n0)| nm / n0).collect(),
+            cosines: angles.iter().map(|angle| angle.cosine()).collect(),
+            media: media.flat_map(|indices| relative(indices)).collect(),
+            layers: layers.collect(),
+            stacks: (0..sets.len()).map(stack).collect(),
+        }
+    }
+
+    /// R and T with many sets of thicknesses at many angles, on all cores, as `[set][angle][wavelength]`: the same numbers
+    /// as [`Self::powers`], but for the last digits.
+    ///
+    /// # Panics
+    /// When there is not one thickness per layer, finite and not negative.
+    pub fn powers_of_all(&self, sets: &[Vec<f64>], angles: &[Angle]) -> Vec<Powers> {
+        match evaluate(&self.batch(sets, angles).as_batch()) {
             Ok(powers) => powers,
+            // A stack's indices and an angle's cosine are in the batch's domain.
             Err(error) => panic!("{error}"),
         }
     }

@@ -1,6 +1,8 @@
 //! What a scene has, so that its pipeline leaves out the rest: the values of `shaders/features.wgsl`.
 
-use scene::{Environment, Material, Pattern, Scene, Shape, Thickness};
+use scene::{
+    Environment, Interference, Layer, Material, PathDifference, Pattern, Scene, Shape, Thickness,
+};
 
 /// Constants of a pipeline by name: 1 where the scene has the thing, 0 where it has not.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +24,14 @@ impl Features {
             .map(|object| scene.material(object.material))
             .collect();
         let material = |wanted: fn(&Material) -> bool| used.iter().any(|material| wanted(material));
+        let film = |wanted: fn(FilmForm) -> bool| {
+            let mut forms = used.iter().filter_map(|m| FilmForm::of(scene, m));
+            forms.any(wanted)
+        };
+        let thickness = |wanted: fn(&Thickness) -> bool| {
+            let mut layers = used.iter().flat_map(|m| layers_of(m));
+            layers.any(|layer| wanted(&layer.thickness))
+        };
         let is_sphere = |shape: &Shape| matches!(shape, Shape::Sphere { .. });
         let is_rectangle = |shape: &Shape| matches!(shape, Shape::Rectangle { .. });
         let named = [
@@ -39,34 +49,24 @@ impl Features {
                     |m| matches!(m, Material::Conductor { roughness, .. } if *roughness > 0.0),
                 ),
             ),
+            ("HAS_FILMS", film(|_| true)),
+            ("HAS_LOSSY_FILMS", film(|form| form == FilmForm::Lossy)),
+            ("HAS_STACKS", film(|form| form == FilmForm::Stack)),
             (
-                "HAS_FILMS",
-                material(|m| matches!(m, Material::Film { .. })),
+                "HAS_TWO_BEAM_FILMS",
+                film(|form| matches!(form, FilmForm::TwoBeam(_))),
             ),
-            ("HAS_LOSSY_FILMS", used.iter().any(|m| is_lossy(scene, m))),
+            (
+                "HAS_COATINGS",
+                material(|m| matches!(m, Material::Conductor { layers, .. } if !layers.is_empty())),
+            ),
             (
                 "HAS_POLAR_THICKNESS",
-                material(|m| {
-                    matches!(
-                        m,
-                        Material::Film {
-                            thickness: Thickness::Polar { .. },
-                            ..
-                        }
-                    )
-                }),
+                thickness(|thickness| matches!(thickness, Thickness::Polar { .. })),
             ),
             (
                 "HAS_LINEAR_THICKNESS",
-                material(|m| {
-                    matches!(
-                        m,
-                        Material::Film {
-                            thickness: Thickness::Linear { .. },
-                            ..
-                        }
-                    )
-                }),
+                thickness(|thickness| matches!(thickness, Thickness::Linear { .. })),
             ),
             ("HAS_SPHERE_LIGHTS", light(is_sphere)),
             ("HAS_RECTANGLE_LIGHTS", light(is_rectangle)),
@@ -106,11 +106,48 @@ fn is_checker(material: &Material) -> bool {
     )
 }
 
-/// A film for which the short formula of films without absorption does not hold.
-pub(crate) fn is_lossy(scene: &Scene, material: &Material) -> bool {
-    match *material {
-        Material::Film { n, transparent, .. } => !transparent || scene.spectrum(n).extent().0 < 1.0,
-        _ => false,
+/// The layers of a material, if it has any.
+fn layers_of(material: &Material) -> &[Layer] {
+    match material {
+        Material::Conductor { layers, .. } | Material::Film { layers, .. } => layers,
+        _ => &[],
+    }
+}
+
+/// The formula that serves a film.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum FilmForm {
+    /// One layer without absorption and with n ≥ 1 everywhere.
+    Transparent,
+    /// One layer of any index.
+    Lossy,
+    /// Several layers.
+    Stack,
+    /// One layer by two beams.
+    TwoBeam(PathDifference),
+}
+
+impl FilmForm {
+    /// The formula for a material; `None` where it is not a film.
+    pub(crate) fn of(scene: &Scene, material: &Material) -> Option<Self> {
+        let Material::Film {
+            layers,
+            transparent,
+            interference,
+        } = material
+        else {
+            return None;
+        };
+        Some(match (interference, layers.as_slice()) {
+            (Interference::TwoBeam(path_difference), _) => Self::TwoBeam(*path_difference),
+            (Interference::Exact, [only])
+                if *transparent && scene.spectrum(only.n).extent().0 >= 1.0 =>
+            {
+                Self::Transparent
+            }
+            (Interference::Exact, [_]) => Self::Lossy,
+            (Interference::Exact, _) => Self::Stack,
+        })
     }
 }
 

@@ -128,9 +128,9 @@ constants! { CONSTANTS;
 
     /// Surface: Lambertian.
     pub const SURFACE_DIFFUSE = 0;
-    /// Surface: a smooth conductor.
+    /// Surface: a smooth conductor, bare or coated.
     pub const SURFACE_MIRROR = 1;
-    /// Surface: a rough conductor.
+    /// Surface: a rough conductor, bare or coated.
     pub const SURFACE_ROUGH_CONDUCTOR = 2;
     /// Surface: a free film.
     pub const SURFACE_FILM = 3;
@@ -148,14 +148,37 @@ constants! { CONSTANTS;
     pub const FACTOR_REFLECTANCE = 1;
     /// Spectral factor: Fresnel reflectance of a conductor.
     pub const FACTOR_CONDUCTOR = 2;
-    /// Spectral factor: reflectance of a film without absorption.
-    pub const FACTOR_FILM_REFLECTS = 3;
-    /// Spectral factor: transmittance of a film without absorption.
-    pub const FACTOR_FILM_TRANSMITS = 4;
-    /// Spectral factor: reflectance of a film of any index.
-    pub const FACTOR_LOSSY_FILM_REFLECTS = 5;
-    /// Spectral factor: transmittance of a film of any index.
-    pub const FACTOR_LOSSY_FILM_TRANSMITS = 6;
+    /// Spectral factor: reflectance of layers on a conductor.
+    pub const FACTOR_COATED = 3;
+    /// Spectral factor: reflectance of a film of one layer without absorption. Those of films are greater.
+    pub const FACTOR_FILM_REFLECTS = 4;
+    /// Spectral factor: transmittance of a film of one layer without absorption.
+    pub const FACTOR_FILM_TRANSMITS = 5;
+    /// Spectral factor: reflectance of a film of one layer of any index.
+    pub const FACTOR_LOSSY_FILM_REFLECTS = 6;
+    /// Spectral factor: transmittance of a film of one layer of any index.
+    pub const FACTOR_LOSSY_FILM_TRANSMITS = 7;
+    /// Spectral factor: reflectance of a film of several layers, seen from the first.
+    pub const FACTOR_STACK_REFLECTS = 8;
+    /// Spectral factor: reflectance of a film of several layers, seen from the last.
+    pub const FACTOR_STACK_REFLECTS_BACK = 9;
+    /// Spectral factor: transmittance of a film of several layers, the same from both sides.
+    pub const FACTOR_STACK_TRANSMITS = 10;
+    /// Spectral factor: reflectance of a film by two beams.
+    pub const FACTOR_TWO_BEAM_REFLECTS = 11;
+    /// Spectral factor: transmittance of a film without interference.
+    pub const FACTOR_TWO_BEAM_TRANSMITS = 12;
+
+    /// Film: one layer without absorption and with n ≥ 1 everywhere, for which the short formula holds.
+    pub const FILM_TRANSPARENT = 0;
+    /// Film: one layer of any index.
+    pub const FILM_LOSSY = 1;
+    /// Film: several layers.
+    pub const FILM_STACK = 2;
+    /// Film: one layer, by two beams.
+    pub const FILM_TWO_BEAM = 3;
+    /// Film: one layer, by two beams with the path difference that the paper prints.
+    pub const FILM_TWO_BEAM_AS_PRINTED = 4;
 }
 
 structs! { STRUCTS;
@@ -245,8 +268,10 @@ structs! { STRUCTS;
         pub material: u32,
         /// Whether light can be sent from it: 1 or 0.
         pub is_light: u32,
+        /// The light that has this object's number is the object `light`; NONE past the last light.
+        pub light: u32,
         /// Fills the size up to a multiple of 16.
-        pub padding: [u32; 2],
+        pub padding: u32,
     }
 
     /// What a surface is made of.
@@ -261,12 +286,24 @@ structs! { STRUCTS;
         pub checker_size: f32,
         /// Root mean square slope of a rough conductor, 0 when smooth.
         pub roughness: f32,
-        /// 1 where a film does not absorb and has n ≥ 1 everywhere, so that the short formula holds.
-        pub is_transparent: u32,
+        /// A `FILM_` tag, of a film.
+        pub film: u32,
         /// Spectrum that it emits.
         pub emission: u32,
         /// Factor of what it emits; 0 where it emits nothing.
         pub emission_scale: f32,
+        /// First of its layers, the outermost.
+        pub first_layer: u32,
+        /// Number of its layers.
+        pub layer_count: u32,
+        /// 1 where it reflects nothing, so that a path ends.
+        pub is_black: u32,
+        /// Number of its layers whose thickness varies over the surface.
+        pub varying_layers: u32,
+    }
+
+    /// A layer of a film or of a coating.
+    pub struct Layer {
         /// The pole's direction (polar), or where a linear thickness starts.
         pub thickness_from: [f32; 3],
         /// A `THICKNESS_` tag.
@@ -277,10 +314,46 @@ structs! { STRUCTS;
         pub thickness_nm: f32,
         /// Added to it: per radian of polar angle, or from start to end, nm.
         pub thickness_slope_nm: f32,
-        /// 1 where it reflects nothing, so that a path ends.
-        pub is_black: u32,
+        /// Spectrum: n of its index, whose k is the next one.
+        pub spectrum: u32,
         /// Fills the size up to a multiple of 16.
         pub padding: [u32; 2],
+    }
+
+    /// What holds for one run over a part of a batch of stacks.
+    pub struct StackRun {
+        /// Number of wavelengths.
+        pub wavelength_count: u32,
+        /// Groups of four wavelengths for which each medium has its index: all of them, or 1.
+        pub media_groups: u32,
+        /// First stack of this run.
+        pub first_stack: u32,
+        /// Number of stacks of this run.
+        pub stack_count: u32,
+        /// Index of the medium that light comes from.
+        pub incident: f32,
+        /// Fills the size up to what a uniform buffer asks for.
+        pub padding_1: u32,
+        /// Fills the size up.
+        pub padding_2: [u32; 2],
+    }
+
+    /// A layer of a stack of a batch.
+    pub struct RunLayer {
+        /// Its medium.
+        pub medium: u32,
+        /// Its thickness, nm.
+        pub thickness_nm: f32,
+    }
+
+    /// A stack of a batch.
+    pub struct RunStack {
+        /// The medium below its layers.
+        pub substrate: u32,
+        /// First of its layers, the outermost.
+        pub first_layer: u32,
+        /// Number of its layers.
+        pub layer_count: u32,
     }
 }
 

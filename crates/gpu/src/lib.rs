@@ -10,12 +10,15 @@ pub mod layout;
 pub mod modules;
 mod pack;
 mod render;
+mod stacks;
 mod tiles;
 
 pub use device::{
     AdapterChoice, AdapterDescription, DeviceError, Gpu, INSTALL_HINT, OpenError, adapters,
 };
 pub use features::Features;
+pub use layout::RunStack;
 pub use pack::PackedScene;
 pub use render::{RenderError, SceneBindings, bind_scene, compile, render, render_divided};
+pub use stacks::{MAX_BATCH_LAYERS, StackBatch, StackError, StackPowers, evaluate_stacks};
 pub use tiles::Division;

@@ -36,7 +36,10 @@ pub const MODULES: &[Module] = modules! {
     "sampling": ["trig"];
     "intersect": [];
     "fresnel": ["complex"];
-    "film": ["complex", "trig"];
+    "phase": ["complex", "trig"];
+    "film": ["complex", "phase", "trig"];
+    "two_beam": ["film", "trig"];
+    "stack": ["complex", "phase"];
     "microfacet": ["trig"];
     "bindings": ["layout"];
     "features": [];
@@ -47,12 +50,16 @@ pub const MODULES: &[Module] = modules! {
     "light": ["bindings", "features", "layout", "sampling", "trig"];
     "record": ["layout", "limits"];
     "walk": ["bindings", "camera", "random", "surface"];
-    "connect": ["bindings", "camera", "features", "hit", "layout", "light", "record", "surface", "walk"];
+    "factor": ["bindings", "features", "layout", "record", "surface"];
+    "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "surface", "walk"];
     "path": [
-        "bindings", "camera", "connect", "features", "hit", "layout", "light", "microfacet", "random", "record",
+        "bindings", "camera", "connect", "factor", "features", "hit", "layout", "light", "microfacet", "random", "record",
         "sampling", "spectrum", "surface", "trig", "walk"
     ];
-    "evaluate": ["features", "film", "fresnel", "layout", "record", "spectrum"];
+    "evaluate": [
+        "bindings", "features", "film", "fresnel", "layout", "record", "spectrum", "stack", "surface", "two_beam"
+    ];
+    "stack_batch": ["complex", "layout", "stack"];
     "render": ["bindings", "evaluate", "layout", "path", "spectrum", "walk"];
 };
 
@@ -63,13 +70,15 @@ pub struct RecordLimits {
     pub vertices: u32,
     /// Films that all connections of a path pass through together.
     pub crossings: u32,
+    /// Thicknesses of layers that vary over a surface, of all vertices and crossings together.
+    pub thicknesses: u32,
 }
 
 impl RecordLimits {
     fn wgsl(self) -> String {
         format!(
-            "const MAX_VERTICES: u32 = {}u;\nconst MAX_CROSSINGS: u32 = {}u;\n",
-            self.vertices, self.crossings
+            "const MAX_VERTICES: u32 = {}u;\nconst MAX_CROSSINGS: u32 = {}u;\nconst MAX_THICKNESSES: u32 = {}u;\n",
+            self.vertices, self.crossings, self.thicknesses
         )
     }
 }
@@ -160,6 +169,7 @@ mod tests {
         let limits = RecordLimits {
             vertices: 1,
             crossings: 1,
+            thicknesses: 1,
         };
         let shader = Shader::assemble(&["fresnel"], limits, "fn extra() {}");
         let text: Vec<_> = shader.text().lines().collect();

@@ -1,12 +1,12 @@
 //! From a scene to the numbers that the shader reads: the only place where `f64` becomes `f32`.
 
-use crate::features::{Features, is_lossy};
+use crate::features::{Features, FilmForm};
 use crate::layout::{self, Frame};
 use crate::modules::RecordLimits;
 use glam::DVec3;
 use scene::{
-    Emission, Environment, Material, Object, Pattern, Projection, Scene, Shape, SpectrumId,
-    Thickness, WavelengthSampling,
+    Emission, Environment, Layer, Material, Object, PathDifference, Pattern, Projection, Scene,
+    Shape, SpectrumId, Thickness, WavelengthSampling,
 };
 use spectra::BandTable;
 
@@ -19,8 +19,8 @@ pub struct PackedScene {
     pub objects: Vec<layout::Object>,
     /// All materials.
     pub materials: Vec<layout::Material>,
-    /// Indices of the objects that light can be sent from.
-    pub lights: Vec<u32>,
+    /// The layers of all films and coatings.
+    pub layers: Vec<layout::Layer>,
     /// All spectra and the observer: `[spectrum][knot][group of four bands]`.
     pub spectra: Vec<[f32; 4]>,
     /// How long the record of a path may become.
@@ -32,11 +32,20 @@ pub struct PackedScene {
 impl PackedScene {
     /// Packs a scene.
     pub fn new(scene: &Scene) -> Self {
-        let lights: Vec<u32> = scene.lights().iter().map(|&index| index as u32).collect();
+        let lights = scene.lights();
         let objects = scene.objects().iter().enumerate().map(|(index, object)| {
-            let is_light = lights.binary_search(&(index as u32)).is_ok();
-            pack_object(object, is_light)
+            let is_light = lights.binary_search(&index).is_ok();
+            let light = lights
+                .get(index)
+                .map_or(layout::NONE, |&light| light as u32);
+            pack_object(object, is_light, light)
         });
+        let mut layers = Vec::new();
+        let materials = scene
+            .materials()
+            .iter()
+            .map(|material| pack_material(scene, material, &mut layers))
+            .collect();
         let spectra = scene
             .spectra()
             .iter()
@@ -48,15 +57,11 @@ impl PackedScene {
         Self {
             frame: pack_frame(scene, lights.len() as u32),
             objects: objects.collect(),
-            materials: scene
-                .materials()
-                .iter()
-                .map(|material| pack_material(scene, material))
-                .collect(),
+            materials,
+            layers,
             spectra: spectra.chain(observer).collect(),
             limits: record_limits(scene),
             features: Features::of(scene),
-            lights,
         }
     }
 }
@@ -126,10 +131,11 @@ fn pack_spectrum(table: &BandTable, dark_padding: bool) -> Vec<[f32; 4]> {
     .collect()
 }
 
-fn pack_object(object: &Object, is_light: bool) -> layout::Object {
+fn pack_object(object: &Object, is_light: bool, light: u32) -> layout::Object {
     let mut packed = layout::Object {
         material: object.material.index() as u32,
         is_light: u32::from(is_light),
+        light,
         ..Default::default()
     };
     match object.shape {
@@ -168,11 +174,23 @@ fn pack_object(object: &Object, is_light: bool) -> layout::Object {
     packed
 }
 
-fn pack_material(scene: &Scene, material: &Material) -> layout::Material {
-    let mut packed = layout::Material::default();
+fn pack_material(
+    scene: &Scene,
+    material: &Material,
+    layers: &mut Vec<layout::Layer>,
+) -> layout::Material {
+    let mut packed = layout::Material {
+        first_layer: layers.len() as u32,
+        ..Default::default()
+    };
     match *material {
         Material::Diffuse { ref reflectance } => pack_pattern(&mut packed, reflectance),
-        Material::Conductor { n, roughness, .. } => {
+        Material::Conductor {
+            n,
+            roughness,
+            layers: ref coating,
+            ..
+        } => {
             packed.surface = if roughness > 0.0 {
                 layout::SURFACE_ROUGH_CONDUCTOR
             } else {
@@ -180,14 +198,14 @@ fn pack_material(scene: &Scene, material: &Material) -> layout::Material {
             };
             packed.spectrum = id(n);
             packed.roughness = roughness as f32;
+            pack_layers(&mut packed, layers, coating);
         }
         Material::Film {
-            n, ref thickness, ..
+            layers: ref own, ..
         } => {
             packed.surface = layout::SURFACE_FILM;
-            packed.spectrum = id(n);
-            packed.is_transparent = u32::from(!is_lossy(scene, material));
-            pack_thickness(&mut packed, thickness);
+            packed.film = film_tag(FilmForm::of(scene, material));
+            pack_layers(&mut packed, layers, own);
         }
         Material::Emitter {
             emission: Emission { spectrum, scale },
@@ -218,7 +236,41 @@ fn pack_pattern(packed: &mut layout::Material, pattern: &Pattern) {
     }
 }
 
-fn pack_thickness(packed: &mut layout::Material, thickness: &Thickness) {
+fn film_tag(form: Option<FilmForm>) -> u32 {
+    match form {
+        None | Some(FilmForm::Transparent) => layout::FILM_TRANSPARENT,
+        Some(FilmForm::Lossy) => layout::FILM_LOSSY,
+        Some(FilmForm::Stack) => layout::FILM_STACK,
+        Some(FilmForm::TwoBeam(PathDifference::Optical)) => layout::FILM_TWO_BEAM,
+        Some(FilmForm::TwoBeam(PathDifference::AsPrinted)) => layout::FILM_TWO_BEAM_AS_PRINTED,
+    }
+}
+
+fn pack_layers(packed: &mut layout::Material, layers: &mut Vec<layout::Layer>, own: &[Layer]) {
+    packed.layer_count = own.len() as u32;
+    packed.varying_layers = varying(own);
+    layers.extend(
+        own.iter()
+            .map(|layer| pack_layer(layer.n, &layer.thickness)),
+    );
+}
+
+/// Number of layers whose thickness varies over the surface.
+fn varying(layers: &[Layer]) -> u32 {
+    let varies = |layer: &&Layer| !matches!(layer.thickness, Thickness::Constant { .. });
+    layers.iter().filter(varies).count() as u32
+}
+
+fn pack_layer(n: SpectrumId, thickness: &Thickness) -> layout::Layer {
+    let mut packed = layout::Layer {
+        spectrum: id(n),
+        ..Default::default()
+    };
+    pack_thickness(&mut packed, thickness);
+    packed
+}
+
+fn pack_thickness(packed: &mut layout::Layer, thickness: &Thickness) {
     match *thickness {
         Thickness::Constant { nm } => {
             packed.thickness = layout::THICKNESS_CONSTANT;
@@ -275,5 +327,16 @@ fn record_limits(scene: &Scene) -> RecordLimits {
     RecordLimits {
         vertices: segments + 1,
         crossings: u32::max(crossings, 1),
+        thicknesses: u32::max(most_varying(scene) * (segments + crossings), 1),
     }
+}
+
+/// The most thicknesses that one meeting with layers puts on record. A film's only layer has its place in the factor.
+fn most_varying(scene: &Scene) -> u32 {
+    let of_material = |object: &Object| match scene.material(object.material) {
+        Material::Conductor { layers, .. } => varying(layers),
+        Material::Film { layers, .. } if layers.len() > 1 => varying(layers),
+        _ => 0,
+    };
+    scene.objects().iter().map(of_material).max().unwrap_or(0)
 }

@@ -160,7 +160,7 @@ pub struct SceneBindings {
 }
 
 impl SceneBindings {
-    /// The bind group 0 of a pipeline that uses the bindings in `used` (0: frame, 1: objects, 2: materials, 3: lights, 4: spectra).
+    /// The bind group 0 of a pipeline that uses the bindings in `used` (0: frame, 1: objects, 2: materials, 3: layers, 4: spectra).
     pub fn group(
         &self,
         gpu: &Gpu,
@@ -222,10 +222,10 @@ pub fn bind_scene(gpu: &Gpu, packed: &PackedScene) -> Result<SceneBindings, Rend
         storage(
             "materials",
             bytemuck::cast_slice(&packed.materials),
-            80,
+            48,
             fewer,
         )?,
-        storage("lights", bytemuck::cast_slice(&packed.lights), 4, fewer)?,
+        storage("layers", bytemuck::cast_slice(&packed.layers), 48, fewer)?,
         storage(
             "spectra",
             bytemuck::cast_slice(&packed.spectra),

@@ -45,10 +45,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     for i in 0..COUNT {
         let name = format!("film {i}");
-        let film = Material::Film {
-            index: Index::Name("water".to_owned()),
-            thickness_nm: Thickness::Constant(120.0 + 60.0 * f64::from(i)),
-        };
+        let film = Material::film(
+            Index::Name("water".to_owned()),
+            Thickness::Constant(120.0 + 60.0 * f64::from(i)),
+        );
         description.materials.insert(name.clone(), film);
         description.objects.push(wall(&name, i, 0.0));
     }

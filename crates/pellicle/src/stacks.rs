@@ -1,37 +1,75 @@
-//! R and T of a stack, computed on the CPU or on a GPU.
+//! Film stacks without a scene, on the CPU in `f64` or on a GPU in `f32`.
 
-use crate::Backend;
-use coating::{Angle, Powers, Sampled};
+use crate::Renderer;
+use optics::Polarised;
+use optics::batch::{self, BatchError, Media, Powers, StackBatch};
 use thiserror::Error;
 
-/// Why there are no numbers.
+/// Why a batch of stacks was not evaluated.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum StacksError {
-    /// Stacks are computed on the CPU alone.
-    #[error("stacks cannot be computed on a GPU yet")]
-    NoGpu,
+    /// A number of the batch is outside its domain.
+    #[error(transparent)]
+    Batch(#[from] BatchError),
+    /// The GPU could not do it.
+    #[error(transparent)]
+    Gpu(#[from] gpu::StackError),
 }
 
-/// For each angle R and T at each wavelength of `stack`, with these thicknesses (nm, one per layer). [`Backend::Auto`] takes the
-/// CPU.
+/// R and T of every stack at every angle and wavelength, as `[stack][angle][wavelength]`.
+///
+/// On the CPU in `f64` on all cores ([`optics::batch::evaluate`]); on a GPU in `f32`, where R and T of ordinary stacks are within
+/// 5e-5 to 88° and 3e-4 beyond ([`gpu::evaluate_stacks`]).
 ///
 /// # Errors
-/// When the backend cannot do it.
-///
-/// # Panics
-/// When there is not one thickness per layer.
-pub fn powers(
-    stack: &Sampled,
-    thicknesses_nm: &[f64],
-    angles: &[Angle],
-    backend: &Backend,
-) -> Result<Vec<Vec<Powers>>, StacksError> {
-    match backend {
-        Backend::Cpu | Backend::Auto => Ok(angles
-            .iter()
-            .map(|&angle| stack.powers(thicknesses_nm, angle))
-            .collect()),
-        Backend::Gpu(_) => Err(StacksError::NoGpu),
+/// When a number of the batch is outside its domain, or the GPU fails.
+pub fn evaluate(renderer: &Renderer, batch: &StackBatch<'_>) -> Result<Vec<Powers>, StacksError> {
+    let Renderer::Gpu(gpu) = renderer else {
+        return Ok(batch::evaluate(batch)?);
+    };
+    batch.check()?;
+    let (media, is_dispersive) = match batch.media {
+        Media::Constant(media) => (media, false),
+        Media::Dispersive(media) => (media, true),
+    };
+    let media: Vec<[f64; 2]> = media.iter().map(|index| [index.re, index.im]).collect();
+    let layers: Vec<(u32, f64)> = batch
+        .layers
+        .iter()
+        .map(|layer| (layer.medium, layer.thickness_nm))
+        .collect();
+    let stacks: Vec<gpu::RunStack> = batch
+        .stacks
+        .iter()
+        .map(|stack| gpu::RunStack {
+            substrate: stack.substrate,
+            first_layer: stack.first_layer,
+            layer_count: stack.layer_count,
+        })
+        .collect();
+    let found = gpu::evaluate_stacks(
+        gpu,
+        &gpu::StackBatch {
+            wavelengths_nm: batch.wavelengths_nm,
+            cosines: batch.cosines,
+            incident: batch.incident,
+            media: &media,
+            is_dispersive,
+            layers: &layers,
+            stacks: &stacks,
+        },
+    )?;
+    Ok(found.into_iter().map(widened).collect())
+}
+
+fn widened([r_s, r_p, t_s, t_p]: gpu::StackPowers) -> Powers {
+    let pair = |s: f32, p: f32| Polarised {
+        s: f64::from(s),
+        p: f64::from(p),
+    };
+    Powers {
+        reflectance: pair(r_s, r_p),
+        transmittance: pair(t_s, t_p),
     }
 }

@@ -5,6 +5,7 @@
 //! recursion), and no formula is shared with the shader. Comparing the two proves both.
 
 mod camera;
+mod interference;
 mod intersect;
 mod light;
 mod microfacet;
@@ -22,4 +23,4 @@ pub use path::{PathSample, radiance};
 pub use random::{pcg4d, random4, unit_interval};
 pub use render::{Stopped, render};
 pub use sampling::{cone_height, frame_of, sample_cone, sample_cosine_hemisphere};
-pub use surface::{SurfacePoint, film_thickness, reflectance_spectrum, surface_point};
+pub use surface::{SurfacePoint, layer_thickness, reflectance_spectrum, surface_point};

@@ -1,19 +1,16 @@
 //! A path through the scene with its spectrum.
 
+use crate::interference::{LayersAt, Light};
 use crate::{
-    Hit, Ray, SurfacePoint, camera_ray, cook_torrance, film_thickness, frame_of, light_pdf,
-    nearest_hit, random4, reflectance_spectrum, sample_cosine_hemisphere, sample_light,
-    surface_point,
+    Hit, Ray, SurfacePoint, camera_ray, cook_torrance, frame_of, light_pdf, nearest_hit, random4,
+    reflectance_spectrum, sample_cosine_hemisphere, sample_light, surface_point,
 };
 use glam::DVec3;
-use optics::{Complex64, StackAmplitudes};
+use optics::Complex64;
 use scene::{
-    Emission, Environment, Material, Pattern, Scene, SpectrumId, Thickness, WavelengthSampling,
+    Emission, Environment, Interference, Material, Pattern, Scene, SpectrumId, WavelengthSampling,
 };
 use std::f64::consts::PI;
-
-/// Nothing is seen at a smaller cosine; the bound keeps a grazing ray finite.
-const GRAZING: f64 = 1e-6;
 
 /// Share of the paths that follow the reflection of a film rather than its transmission.
 const REFLECTED_SHARE: f64 = 0.5;
@@ -81,7 +78,7 @@ struct Path<'a> {
     radiance: Vec<f64>,
 }
 
-impl Path<'_> {
+impl<'a> Path<'a> {
     fn random(&self, use_of: u32) -> [f64; 4] {
         let dimension = 2 * self.segment - 1 + use_of;
         random4(
@@ -154,17 +151,30 @@ impl Path<'_> {
             Material::Conductor {
                 n,
                 k,
-                roughness: 0.0,
-            } => self.meet_mirror(hit.object, point, (n, k)),
-            Material::Conductor { n, k, roughness } => {
-                self.meet_rough_conductor(hit.object, point, (n, k), roughness)
+                ref layers,
+                roughness,
+            } => {
+                let conductor = Conductor {
+                    index: (n, k),
+                    coating: LayersAt::new(layers, &object.shape, &point),
+                };
+                if roughness > 0.0 {
+                    self.meet_rough_conductor(hit.object, point, &conductor, roughness)
+                } else {
+                    self.meet_mirror(hit.object, point, &conductor)
+                }
             }
             Material::Film {
-                n,
-                k,
-                ref thickness,
+                ref layers,
+                interference,
                 ..
-            } => self.meet_film(hit.object, point, (n, k), thickness),
+            } => {
+                let film = Film {
+                    layers: LayersAt::new(layers, &object.shape, &point),
+                    interference,
+                };
+                self.meet_film(hit.object, point, &film)
+            }
         }
     }
 
@@ -181,35 +191,22 @@ impl Path<'_> {
         &mut self,
         object: usize,
         point: SurfacePoint,
-        index: (SpectrumId, SpectrumId),
+        conductor: &Conductor<'_>,
     ) -> bool {
-        self.attenuate(|path, band| {
-            optics::reflectance_unpolarised(path.index(index, band), point.cosine.max(GRAZING))
-        });
+        self.attenuate(|path, band| path.reflectance(conductor, point.cosine, band));
         let direction = mirrored(self.ray.direction, point.normal);
         self.scatter(object, point.position, direction, None);
         true
     }
 
-    fn meet_film(
-        &mut self,
-        object: usize,
-        point: SurfacePoint,
-        index: (SpectrumId, SpectrumId),
-        thickness: &Thickness,
-    ) -> bool {
+    fn meet_film(&mut self, object: usize, point: SurfacePoint, film: &Film<'_>) -> bool {
         let reflects = self.random(1)[0] < REFLECTED_SHARE;
-        let thickness_nm = film_thickness(
-            thickness,
-            &self.scene.objects()[object].shape,
-            point.position,
-        );
         self.attenuate(|path, band| {
-            let film = path.film(index, thickness_nm, point.cosine, band);
+            let (reflectance, transmittance) = path.film(film, band);
             if reflects {
-                film.reflectance.unpolarised() / REFLECTED_SHARE
+                reflectance / REFLECTED_SHARE
             } else {
-                film.transmittance.unpolarised() / (1.0 - REFLECTED_SHARE)
+                transmittance / (1.0 - REFLECTED_SHARE)
             }
         });
         if reflects {
@@ -223,20 +220,24 @@ impl Path<'_> {
         true
     }
 
-    fn film(
-        &self,
-        index: (SpectrumId, SpectrumId),
-        thickness_nm: f64,
-        cosine: f64,
-        band: usize,
-    ) -> StackAmplitudes {
-        let wavelength_nm = self
-            .scene
-            .settings()
-            .bands
-            .wavelength_nm(band as u32, self.offset);
-        let index = self.index(index, band);
-        optics::film(index, thickness_nm, wavelength_nm, cosine.max(GRAZING))
+    /// The light of a band, for what interferes.
+    fn light(&self, band: usize) -> Light<impl Fn(SpectrumId, SpectrumId) -> Complex64> {
+        let bands = &self.scene.settings().bands;
+        Light {
+            wavelength_nm: bands.wavelength_nm(band as u32, self.offset),
+            index: move |n, k| self.index((n, k), band),
+        }
+    }
+
+    /// Reflectance and transmittance of a film.
+    fn film(&self, film: &Film<'_>, band: usize) -> (f64, f64) {
+        film.layers.free(film.interference, &self.light(band))
+    }
+
+    /// Reflectance of a conductor with what lies on it.
+    fn reflectance(&self, conductor: &Conductor<'_>, cosine: f64, band: usize) -> f64 {
+        let index = self.index(conductor.index, band);
+        conductor.coating.on(index, cosine, &self.light(band))
     }
 
     fn meet_diffuse(&mut self, object: usize, point: SurfacePoint, pattern: &Pattern) -> bool {
@@ -261,7 +262,7 @@ impl Path<'_> {
         &mut self,
         object: usize,
         point: SurfacePoint,
-        index: (SpectrumId, SpectrumId),
+        conductor: &Conductor<'_>,
         slope: f64,
     ) -> bool {
         let world_from_local = frame_of(point.normal);
@@ -272,7 +273,7 @@ impl Path<'_> {
             let cosine = sent.direction.dot(point.normal);
             let reflection = facet.reflection * cosine / (sent.pdf + facet.pdf);
             self.add_connection(&sent, |path, band| {
-                reflection * optics::reflectance_unpolarised(path.index(index, band), facet.cosine)
+                reflection * path.reflectance(conductor, facet.cosine, band)
             });
         }
         let [u, v, ..] = self.random(1);
@@ -283,9 +284,7 @@ impl Path<'_> {
             return false;
         }
         let weight = facet.reflection * light.z / facet.pdf;
-        self.attenuate(|path, band| {
-            weight * optics::reflectance_unpolarised(path.index(index, band), facet.cosine)
-        });
+        self.attenuate(|path, band| weight * path.reflectance(conductor, facet.cosine, band));
         let direction = (world_from_local * light).normalize();
         self.scatter(object, point.position, direction, Some(facet.pdf));
         true
@@ -306,7 +305,7 @@ impl Path<'_> {
     }
 
     /// Chooses a light, a direction towards it, and follows it there. None where nothing arrives.
-    fn send_to_light(&self, object: usize, point: &SurfacePoint) -> Option<Sent> {
+    fn send_to_light(&self, object: usize, point: &SurfacePoint) -> Option<Sent<'a>> {
         let max_segments = self.scene.settings().max_path_segments;
         if self.lights.is_empty() || self.segment >= max_segments {
             return None;
@@ -340,7 +339,7 @@ impl Path<'_> {
         object: usize,
         light: usize,
         allowed: u32,
-    ) -> Option<Vec<Crossing>> {
+    ) -> Option<Vec<Film<'a>>> {
         let mut films = Vec::new();
         let mut from = object;
         loop {
@@ -350,11 +349,10 @@ impl Path<'_> {
             }
             let met = &self.scene.objects()[hit.object];
             let Material::Film {
-                n,
-                k,
-                ref thickness,
+                layers,
+                interference,
                 ..
-            } = *self.scene.material(met.material)
+            } = self.scene.material(met.material)
             else {
                 return None;
             };
@@ -362,17 +360,16 @@ impl Path<'_> {
                 return None;
             }
             let point = surface_point(&met.shape, &ray, hit.distance);
-            films.push(Crossing {
-                index: (n, k),
-                thickness_nm: film_thickness(thickness, &met.shape, point.position),
-                cosine: point.cosine,
+            films.push(Film {
+                layers: LayersAt::new(layers, &met.shape, &point),
+                interference: *interference,
             });
             ray.origin = point.position;
             from = hit.object;
         }
     }
 
-    fn add_connection(&mut self, sent: &Sent, factor: impl Fn(&Self, usize) -> f64) {
+    fn add_connection(&mut self, sent: &Sent<'_>, factor: impl Fn(&Self, usize) -> f64) {
         let light = &self.scene.objects()[sent.light];
         let Material::Emitter { emission, .. } = *self.scene.material(light.material) else {
             return;
@@ -380,8 +377,7 @@ impl Path<'_> {
         for band in self.bands() {
             let mut arriving = emission.scale * self.spectrum(emission.spectrum, band);
             for film in &sent.films {
-                let crossed = self.film(film.index, film.thickness_nm, film.cosine, band);
-                arriving *= crossed.transmittance.unpolarised();
+                arriving *= self.film(film, band).1;
             }
             self.radiance[band] += self.throughput[band] * factor(self, band) * arriving;
         }
@@ -389,19 +385,25 @@ impl Path<'_> {
 }
 
 /// A connection to a light.
-struct Sent {
+struct Sent<'a> {
     light: usize,
     direction: DVec3,
     /// Density of the direction, the choice among the lights included.
     pdf: f64,
-    films: Vec<Crossing>,
+    /// The films that it passes straight through.
+    films: Vec<Film<'a>>,
 }
 
-/// A film that light passes straight through.
-struct Crossing {
+/// A free film where a path meets it.
+struct Film<'a> {
+    layers: LayersAt<'a>,
+    interference: Interference,
+}
+
+/// A conductor where a path meets it.
+struct Conductor<'a> {
     index: (SpectrumId, SpectrumId),
-    thickness_nm: f64,
-    cosine: f64,
+    coating: LayersAt<'a>,
 }
 
 /// Mirrors a direction at a surface.

@@ -14,6 +14,8 @@ pub struct SurfacePoint {
     pub normal: DVec3,
     /// Cosine between the ray and the normal, ≥ 0.
     pub cosine: f64,
+    /// Whether the ray comes from the side that the shape's own normal points to: a sphere's outside.
+    pub is_front: bool,
 }
 
 /// The point of a shape at a distance along a ray.
@@ -31,6 +33,7 @@ pub fn surface_point(shape: &Shape, ray: &Ray, distance: f64) -> SurfacePoint {
         position,
         normal: if along > 0.0 { -outward } else { outward },
         cosine: along.abs(),
+        is_front: along <= 0.0,
     }
 }
 
@@ -41,8 +44,8 @@ fn center_of(shape: &Shape) -> DVec3 {
     }
 }
 
-/// Thickness of a film at a point of its surface, nm.
-pub fn film_thickness(thickness: &Thickness, shape: &Shape, position: DVec3) -> f64 {
+/// Thickness of a layer at a point of its surface, nm.
+pub fn layer_thickness(thickness: &Thickness, shape: &Shape, position: DVec3) -> f64 {
     match *thickness {
         Thickness::Constant { nm } => nm,
         Thickness::Polar {

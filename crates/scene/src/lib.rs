@@ -37,11 +37,12 @@ mod validate;
 mod validated;
 
 pub use camera::{Camera, Projection};
+pub use description::PathDifference;
 pub use document::SourceFile;
 pub use field_path::{FieldPath, Step};
 pub use file::SceneFile;
 pub use index::optical_constants;
-pub use material::{Emission, Material, Pattern, Thickness};
+pub use material::{Emission, Interference, Layer, Material, Pattern, Thickness};
 pub use object::{Object, Shape};
 pub use problem::{Location, Problem, ProblemKind, Problems};
 pub use schema::schema;

@@ -49,6 +49,8 @@ pub const THICKNESS_NM: Range = Range::new(0.0, 100_000.0, " nm");
 pub const INDEX_N: Range = Range::new(0.001, 1000.0, "");
 /// Imaginary part of an index.
 pub const INDEX_K: Range = Range::new(0.0, 1000.0, "");
+/// The most layers of a film or coating.
+pub const MAX_LAYERS: usize = 64;
 /// The part of a mixture that one of its media fills.
 pub const FRACTION: Range = Range::new(0.0, 1.0, "");
 /// A coefficient of a dispersion formula.

@@ -1,6 +1,7 @@
 //! What a surface is made of, in a validated scene.
 
 use crate::SpectrumId;
+use crate::description::PathDifference;
 use glam::DVec3;
 
 /// What a surface is made of. Every surface has two sides that behave alike.
@@ -11,25 +12,25 @@ pub enum Material {
         /// Reflectance, in \[0, 1\] at every wavelength.
         reflectance: Pattern,
     },
-    /// An opaque metal (or any opaque medium) of complex index n + ik.
+    /// An opaque metal (or any opaque medium) of complex index n + ik, under a stack of layers.
     Conductor {
         /// Real part of the index.
         n: SpectrumId,
         /// Imaginary part of the index, k ≥ 0.
         k: SpectrumId,
+        /// What lies on it, the outermost layer first; none on a bare surface.
+        layers: Vec<Layer>,
         /// Root mean square slope m of the Beckmann distribution; 0 is a smooth mirror.
         roughness: f64,
     },
-    /// A free thin film: air, one layer, air. Rays reflect from it and pass straight through it.
+    /// A free thin film between air and air. Rays reflect from it and pass straight through it.
     Film {
-        /// Real part of the layer's index.
-        n: SpectrumId,
-        /// Imaginary part of the layer's index, k ≥ 0.
-        k: SpectrumId,
-        /// Whether k is 0 at every wavelength, so that R + T = 1.
+        /// Its layers, at least one: the first on the outside of a sphere or on the side of a plane's normal.
+        layers: Vec<Layer>,
+        /// Whether k is 0 at every wavelength in every layer, so that R + T = 1.
         transparent: bool,
-        /// Thickness over the surface.
-        thickness: Thickness,
+        /// How its reflectance and transmittance are computed.
+        interference: Interference,
     },
     /// A surface that emits the same radiance from every point in every direction, on both sides.
     Emitter {
@@ -38,6 +39,27 @@ pub enum Material {
         /// Lambertian reflectance besides; `None` is black.
         reflectance: Option<SpectrumId>,
     },
+}
+
+/// A layer of a film or of a coating.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// Real part of its index.
+    pub n: SpectrumId,
+    /// Imaginary part of its index, k ≥ 0.
+    pub k: SpectrumId,
+    /// Thickness over the surface.
+    pub thickness: Thickness,
+}
+
+/// How the interference of a free film is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interference {
+    /// All passes of the light.
+    Exact,
+    /// Two beams in reflection, none in transmission, in a single layer that does not absorb
+    /// (Suzuki, Yokoi and Toriwaki, section 4-2).
+    TwoBeam(PathDifference),
 }
 
 /// A spectrum of radiance and its scale.

@@ -1,8 +1,8 @@
 //! A scene as a GPU receives it: every number rounded to the nearest `f32`.
 
 use crate::{
-    Camera, Emission, Environment, Material, Object, Pattern, Projection, RenderSettings, Scene,
-    Shape, Thickness,
+    Camera, Emission, Environment, Layer, Material, Object, Pattern, Projection, RenderSettings,
+    Scene, Shape, Thickness,
 };
 use glam::DVec3;
 
@@ -90,21 +90,25 @@ impl RoundToF32 for Material {
             Self::Diffuse { reflectance } => Self::Diffuse {
                 reflectance: reflectance.rounded(),
             },
-            Self::Conductor { n, k, roughness } => Self::Conductor {
+            Self::Conductor {
+                n,
+                k,
+                layers,
+                roughness,
+            } => Self::Conductor {
                 n: *n,
                 k: *k,
+                layers: layers.iter().map(RoundToF32::rounded).collect(),
                 roughness: roughness.rounded(),
             },
             Self::Film {
-                n,
-                k,
+                layers,
                 transparent,
-                thickness,
+                interference,
             } => Self::Film {
-                n: *n,
-                k: *k,
+                layers: layers.iter().map(RoundToF32::rounded).collect(),
                 transparent: *transparent,
-                thickness: thickness.rounded(),
+                interference: *interference,
             },
             Self::Emitter {
                 emission,
@@ -113,6 +117,15 @@ impl RoundToF32 for Material {
                 emission: emission.rounded(),
                 reflectance: *reflectance,
             },
+        }
+    }
+}
+
+impl RoundToF32 for Layer {
+    fn rounded(&self) -> Self {
+        Self {
+            thickness: self.thickness.rounded(),
+            ..*self
         }
     }
 }

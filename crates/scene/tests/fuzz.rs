@@ -1,6 +1,7 @@
 //! Whatever is written in a scene file: no panic, and what is accepted has only sound numbers.
 
-use pellicle_scene::{Scene, SceneFile, Shape};
+use pellicle_scene::description::{Extrapolate, Index};
+use pellicle_scene::{Scene, SceneFile, Shape, optical_constants};
 use proptest::prelude::*;
 use std::path::Path;
 
@@ -12,7 +13,7 @@ const SCENES: [&str; 4] = [
 ];
 
 /// Words that mean something in a scene or to TOML, or that have broken parsers.
-const WORDS: [&str; 34] = [
+const WORDS: [&str; 37] = [
     "0",
     "-1",
     "1",
@@ -47,6 +48,42 @@ const WORDS: [&str; 34] = [
     "#",
     "{ constant = 1 }",
     "{ pole = 1, equator = 2 }",
+    "{ cauchy = [1.5, 0.004] }",
+    "{ sellmeier = { b = [1], c_um2 = [0.3] } }",
+    "{ mixture = 'bruggeman', of = [1, 'gold'], fraction = 0.5 }",
+];
+
+/// A file of the refractiveindex.info database with all that is read of one.
+const DATABASE_FILE: &str = "REFERENCES: |\n    A. Author\nDATA:\n  - type: formula 4\n    wavelength_range: 0.3 0.9\n    \
+    coefficients: 5.9 0.24 0 0.08 1 0.1 0 0.01 1 0.001 -2\n  - type: tabulated k\n    data: |\n        0.3 2e-3\n        0.9 0\n\
+    CONDITIONS: {temperature: [293, \"K\"]}\n";
+
+/// Pieces that mean something in YAML or in a number.
+const PIECES: [&str; 24] = [
+    "",
+    " ",
+    "\n",
+    "\t",
+    ":",
+    ": ",
+    "- ",
+    "[",
+    "]",
+    "{",
+    "}",
+    "|",
+    ">-",
+    "&a ",
+    "*a",
+    "!t ",
+    "\"",
+    "'",
+    "#",
+    "---\n",
+    "nan",
+    "-1",
+    "1e400",
+    "formula 3",
 ];
 
 /// Every number of the scene is finite, before and after rounding, and no length is 0.
@@ -85,6 +122,32 @@ fn try_text(text: &str) -> bool {
         Err(problems) => {
             assert!(problems.iter().len() > 0);
             assert!(!format!("{problems:#}").is_empty());
+            false
+        }
+    }
+}
+
+/// Whether `text` is accepted as a file of the database; what it gives is then an index wherever it is stated.
+fn try_database_file(text: &str) -> bool {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.yml"), text).unwrap();
+    let yaml = "a.yml".into();
+    let extrapolate = Extrapolate::Error;
+    match optical_constants(&Index::Database { yaml, extrapolate }, folder.path()) {
+        Ok(constants) => {
+            let range = constants.range_nm().expect("a file covers a range");
+            for nm in [range.0, f64::midpoint(range.0, range.1), range.1] {
+                let index = constants.at(nm);
+                let sound = index.is_ok_and(|index| index.re > 0.0 && index.im >= 0.0);
+                assert!(
+                    sound || range.0 > range.1,
+                    "{index:?} at {nm} nm of\n{text}"
+                );
+            }
+            true
+        }
+        Err(problems) => {
+            assert!(problems.iter().len() > 0);
             false
         }
     }
@@ -148,6 +211,19 @@ proptest! {
     }
 
     #[test]
+    fn a_changed_database_file_is_refused_or_sound(
+        changes in prop::collection::vec((0..DATABASE_FILE.len(), 0..4usize, 0..PIECES.len()), 1..4),
+    ) {
+        let mut text = DATABASE_FILE.to_owned();
+        for (position, length, piece) in changes {
+            let start = position.min(text.len());
+            let end = (start + length).min(text.len());
+            text.replace_range(start..end, PIECES[piece]);
+        }
+        try_database_file(&text);
+    }
+
+    #[test]
     fn numbers_of_any_size_are_refused_or_sound(
         center in prop::array::uniform3(any::<f64>()),
         normal in prop::array::uniform3(-1e-5..1e-5f64),
@@ -163,6 +239,14 @@ proptest! {
         );
         try_text(&text);
     }
+}
+
+#[test]
+fn the_database_file_is_accepted_as_it_stands() {
+    assert!(try_database_file(DATABASE_FILE));
+    assert!(!try_database_file(
+        &DATABASE_FILE[1..DATABASE_FILE.len() - 4]
+    ));
 }
 
 #[test]

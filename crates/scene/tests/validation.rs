@@ -7,8 +7,8 @@
 use glam::DVec3;
 use pellicle_scene::description::{self, Description};
 use pellicle_scene::{
-    Emission, Environment, Material, MaterialId, Pattern, Problems, Projection, Scene, SceneFile,
-    Shape, Thickness, WavelengthSampling,
+    Emission, Environment, Interference, Material, MaterialId, Pattern, Problems, Projection,
+    Scene, SceneFile, Shape, Thickness, WavelengthSampling,
 };
 use std::path::Path;
 
@@ -218,6 +218,7 @@ fn every_material_becomes_what_it_says() {
         Material::Conductor {
             n,
             k,
+            layers,
             roughness: 0.0,
         },
         Material::Conductor { roughness: 0.3, .. },
@@ -225,39 +226,25 @@ fn every_material_becomes_what_it_says() {
     else {
         panic!("{materials:?}");
     };
+    assert!(layers.is_empty());
     assert_eq!((value(&scene, *n), value(&scene, *k)), (0.5, 3.0));
-    assert!(matches!(
-        materials[4],
-        Material::Film {
-            transparent: true,
-            thickness: Thickness::Constant { nm: 300.0 },
-            ..
-        }
-    ));
-    assert!(matches!(
-        materials[5],
-        Material::Film {
-            transparent: false,
-            thickness: Thickness::Polar {
-                axis: DVec3::Y,
-                pole_nm: 300.0,
-                equator_nm: 1200.0
-            },
-            ..
-        }
-    ));
-    assert!(matches!(
-        materials[6],
-        Material::Film {
-            thickness: Thickness::Linear {
-                start: DVec3::ZERO,
-                end: DVec3::X,
-                start_nm: 112.0,
-                end_nm: 750.0
-            },
-            ..
-        }
-    ));
+    assert_eq!(
+        only_layer(&materials[4]),
+        (&Thickness::Constant { nm: 300.0 }, true)
+    );
+    let polar = Thickness::Polar {
+        axis: DVec3::Y,
+        pole_nm: 300.0,
+        equator_nm: 1200.0,
+    };
+    assert_eq!(only_layer(&materials[5]), (&polar, false));
+    let linear = Thickness::Linear {
+        start: DVec3::ZERO,
+        end: DVec3::X,
+        start_nm: 112.0,
+        end_nm: 750.0,
+    };
+    assert_eq!(only_layer(&materials[6]).0, &linear);
     let Material::Emitter {
         emission,
         reflectance: None,
@@ -280,6 +267,18 @@ fn every_material_becomes_what_it_says() {
     assert_eq!(reflectance, quarter);
 }
 
+/// The thickness of a film's only layer, and whether the film is transparent.
+fn only_layer(material: &Material) -> (&Thickness, bool) {
+    match material {
+        Material::Film {
+            layers,
+            transparent,
+            interference: Interference::Exact,
+        } if layers.len() == 1 => (&layers[0].thickness, *transparent),
+        other => panic!("{other:?}"),
+    }
+}
+
 #[test]
 fn n_and_k_are_neighbours_and_equal_spectra_are_one() {
     let scene = scene(MATERIALS);
@@ -287,7 +286,8 @@ fn n_and_k_are_neighbours_and_equal_spectra_are_one() {
         .materials()
         .iter()
         .filter_map(|material| match material {
-            Material::Conductor { n, k, .. } | Material::Film { n, k, .. } => Some((*n, *k)),
+            Material::Conductor { n, k, .. } => Some((*n, *k)),
+            Material::Film { layers, .. } => Some((layers[0].n, layers[0].k)),
             _ => None,
         })
         .collect();
@@ -463,10 +463,10 @@ fn a_scene_can_be_built_in_code() {
         },
         materials: [(
             "soap".to_owned(),
-            description::Material::Film {
-                index: description::Index::Name("water".to_owned()),
-                thickness_nm: description::Thickness::Constant(400.0),
-            },
+            description::Material::film(
+                description::Index::Name("water".to_owned()),
+                description::Thickness::Constant(400.0),
+            ),
         )]
         .into(),
         objects: vec![description::Object::Sphere {

@@ -4,12 +4,13 @@ mod numbers;
 mod optics_functions;
 mod scene_functions;
 mod shapes;
+mod stacks;
 
 use gpu::Gpu;
 use gpu::modules::MODULES;
 use pellicle_tests::agreement::{Tolerance, compare};
 use pellicle_tests::probe::Probe;
-use pellicle_tests::scenes::{PROVED_ON_FRAMES, PROVED_ON_PATHS};
+use pellicle_tests::scenes::{PROVED_ON_FRAMES, PROVED_ON_PATHS, PROVED_ON_STACKS};
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
@@ -81,6 +82,7 @@ fn checks() -> Vec<Check> {
         optics_functions::checks(),
         scene_functions::checks(),
         shapes::checks(),
+        stacks::checks(),
     ]
     .into_iter()
     .flatten()
@@ -102,6 +104,7 @@ fn every_function_of_the_shaders_is_proved() {
     let mut proved: BTreeSet<String> = PROVED_ON_PATHS
         .iter()
         .chain(PROVED_ON_FRAMES)
+        .chain(PROVED_ON_STACKS)
         .map(|&name| name.to_owned())
         .collect();
     for check in checks() {

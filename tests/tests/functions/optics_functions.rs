@@ -158,7 +158,7 @@ fn film_parts() -> Vec<Check> {
         },
         Check {
             probe: pure(
-                &["film"],
+                &["phase"],
                 (2, 2),
                 "let z = phase_factor(vec4f(a(0u)), vec4f(a(1u))); put(0u, z.re.x); put(1u, z.im.x);",
             ),
@@ -169,14 +169,6 @@ fn film_parts() -> Vec<Check> {
                 vec![z.re, z.im]
             },
             // The angle of up to 6π is rounded before it is reduced.
-            tolerance: PHASE,
-        },
-        Check {
-            probe: pure(&["film"], (1, 1), "put(0u, cosine_pi4(vec4f(a(0u))).x);"),
-            proves: &["cosine_pi4"],
-            inputs: table(&[(-6.0, 6.0)], &[&[0.0], &[1.0], &[0.5], &[-1.5]]),
-            twin: |a| vec![(PI * a[0]).cos()],
-            // Twice the square of a sine.
             tolerance: PHASE,
         },
     ]

@@ -69,7 +69,7 @@ fn wedge() -> &'static World {
 
 pub(crate) fn checks() -> Vec<Check> {
     let mut all = vec![
-        film_thickness(),
+        layer_thickness(),
         reflectance_spectrum(),
         surface_point(),
         distance_to(),
@@ -381,7 +381,15 @@ fn squared_distances() -> Vec<f32> {
 
 // Surfaces.
 
-fn film_thickness() -> Check {
+/// The thickness of a film's first layer.
+fn first_thickness(material: &Material) -> &Thickness {
+    match material {
+        Material::Film { layers, .. } => &layers[0].thickness,
+        other => panic!("{other:?} is not a film"),
+    }
+}
+
+fn layer_thickness() -> Check {
     let world = everything();
     let films = objects_where(|_, material| matches!(material, Material::Film { .. }));
     let mut inputs = rows(4, |u| {
@@ -395,16 +403,10 @@ fn film_thickness() -> Check {
     });
     for object in films {
         let center = center_of(world.shape(object));
-        let ends = match *world.material(object) {
-            Material::Film {
-                thickness: Thickness::Polar { axis, .. },
-                ..
-            } => [center + axis, center - axis],
-            Material::Film {
-                thickness: Thickness::Linear { start, end, .. },
-                ..
-            } => [start, end],
-            _ => [center, center + 1.0],
+        let ends = match *first_thickness(world.material(object)) {
+            Thickness::Polar { axis, .. } => [center + axis, center - axis],
+            Thickness::Linear { start, end, .. } => [start, end],
+            Thickness::Constant { .. } => [center, center + 1.0],
         };
         for end in ends {
             inputs.push(object as f32);
@@ -415,17 +417,14 @@ fn film_thickness() -> Check {
         probe: world.probe(
             &["surface"],
             (4, 1),
-            "let i = u32(a(0u)); put(0u, film_thickness(objects[i].material, a3(1u), objects[i].center));",
+            "let i = u32(a(0u)); put(0u, layer_thickness(materials[objects[i].material].first_layer, a3(1u), objects[i].center));",
         ),
-        proves: &["film_thickness"],
+        proves: &["layer_thickness"],
         inputs,
         twin: |a| {
             let (world, object) = (everything(), a[0] as usize);
-            let Material::Film { thickness, .. } = world.material(object) else {
-                return vec![f64::NAN];
-            };
-            vec![reference::film_thickness(
-                thickness,
+            vec![reference::layer_thickness(
+                first_thickness(world.material(object)),
                 world.shape(object),
                 vector(&a[1..]),
             )]
@@ -765,7 +764,7 @@ fn spectra() -> Vec<Check> {
 
 // Factors.
 
-const FACTOR: &str = "put4(0u, factor_value(Factor(u32(a(0u)), u32(a(1u)), a(2u), a(3u)), u32(a(4u)), wavelengths_at(a(5u))));";
+const FACTOR: &str = "put4(0u, factor_value(Factor(u32(a(0u)), u32(a(1u)), a(2u), a(3u), 0u), u32(a(4u)), wavelengths_at(a(5u))));";
 
 fn factor_twin(a: &[f64]) -> Vec<f64> {
     use gpu::layout::{
@@ -823,7 +822,8 @@ fn factors() -> Vec<Check> {
                 reflectance:
                     scene::Pattern::Uniform(spectrum) | scene::Pattern::Checker { even: spectrum, .. },
             } => surfaces.push((FACTOR_REFLECTANCE, spectrum.index())),
-            Material::Film { n, k, .. } => {
+            Material::Film { ref layers, .. } => {
+                let (n, k) = (layers[0].n, layers[0].k);
                 let spectrum = n.index();
                 let is_clear = world.scene.spectrum(n).extent().0 >= 1.0
                     && world.scene.spectrum(k).extent().1 <= 0.0;
@@ -872,12 +872,13 @@ fn every_case_occurs() {
         firsts(&reflectance_spectrum(), spectrum_of_pattern).len(),
         5
     );
-    assert_eq!(firsts(&film_thickness(), <[f64]>::to_vec).len(), 4);
+    assert_eq!(firsts(&layer_thickness(), <[f64]>::to_vec).len(), 7);
     let kinds: BTreeSet<i64> = factors()
         .iter()
         .flat_map(|check| firsts(check, <[f64]>::to_vec))
         .collect();
-    assert_eq!(kinds, (1..=6).collect());
+    // Factors of several layers read what a path has put on record, and are proved there.
+    assert_eq!(kinds, [1, 2, 4, 5, 6, 7].into());
 }
 
 /// The comparison can fail: an area one part in a thousand off, and a checker with its colours changed over.

@@ -120,6 +120,14 @@ impl StackBatch<'_> {
         self.len() == 0
     }
 
+    /// Whether every number of the batch is within its domain, as [`evaluate`] asks.
+    ///
+    /// # Errors
+    /// [`BatchError`] says which is not.
+    pub fn check(&self) -> Result<(), BatchError> {
+        check::check(self)
+    }
+
     /// Results of one stack.
     fn rows_per_stack(&self) -> usize {
         self.cosines.len() * self.wavelengths_nm.len()

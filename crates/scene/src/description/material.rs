@@ -23,12 +23,44 @@ pub enum Material {
         #[schemars(range(min = 0.0, max = limits::ROUGHNESS.high))]
         roughness: f64,
     },
-    /// A free thin film with air on both sides. Light reflects from it or passes straight through it.
+    /// A free thin film with air on both sides: one layer (`index` and `thickness_nm`) or several (`layers`).
+    /// Light reflects from it or passes straight through it, both with interference.
     Film {
-        /// The index of the layer.
-        index: Index,
-        /// How thick it is, in nm.
-        thickness_nm: Thickness,
+        /// The index of the only layer.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        index: Option<Index>,
+        /// How thick the only layer is, in nm.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        thickness_nm: Option<Thickness>,
+        /// The layers, the first on the outside of a sphere or on the side that a plane's normal points to.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        layers: Option<Vec<Layer>>,
+        /// How interference is computed.
+        #[serde(default)]
+        model: FilmModel,
+        /// What `model = "two_beam"` takes for the path difference; "optical" when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        path_difference: Option<PathDifference>,
+    },
+    /// A stack of thin films on a metal, or on any opaque medium: one layer (`index` and `thickness_nm`) or several
+    /// (`layers`). What enters the substrate is absorbed there.
+    Coated {
+        /// The index of what the layers lie on.
+        substrate: Index,
+        /// The index of the only layer.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        index: Option<Index>,
+        /// How thick the only layer is, in nm.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        thickness_nm: Option<Thickness>,
+        /// The layers, the outermost first.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        layers: Option<Vec<Layer>>,
+        /// Root mean square slope of the surface: 0 is a smooth mirror, otherwise from 0.02 to 1. Each microfacet reflects
+        /// as the stack does at the facet's own angle.
+        #[serde(default)]
+        #[schemars(range(min = 0.0, max = limits::ROUGHNESS.high))]
+        roughness: f64,
     },
     /// Emits the same radiance from every point in every direction, on both sides.
     Emitter {
@@ -38,6 +70,51 @@ pub enum Material {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         reflectance: Option<Reflectance>,
     },
+}
+
+impl Material {
+    /// A free film of one layer.
+    pub fn film(index: Index, thickness_nm: Thickness) -> Self {
+        Self::Film {
+            index: Some(index),
+            thickness_nm: Some(thickness_nm),
+            layers: None,
+            model: FilmModel::Exact,
+            path_difference: None,
+        }
+    }
+}
+
+/// A layer of a stack.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Layer {
+    /// The index of the layer.
+    pub index: Index,
+    /// How thick it is, in nm.
+    pub thickness_nm: Thickness,
+}
+
+/// How a free film's interference is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FilmModel {
+    /// All passes of the light, in reflection and in transmission.
+    #[default]
+    Exact,
+    /// Two beams in reflection and none in transmission (Suzuki, Yokoi and Toriwaki, section 4-2), for one layer that
+    /// does not absorb. Energy is not conserved: near grazing it reflects more than falls in.
+    TwoBeam,
+}
+
+/// The path difference l between the two beams of a film of thickness d and index n, refracted to the angle θ₂.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PathDifference {
+    /// l = 2 n d cos θ₂, as physics has it.
+    Optical,
+    /// l = 2 d cos θ₂, as the paper prints it, without the index.
+    AsPrinted,
 }
 
 /// A reflectance over a surface.

@@ -13,7 +13,7 @@ mod spectrum;
 
 pub use camera::Camera;
 pub use environment::Environment;
-pub use material::{DiffuseReflectance, Material, Thickness};
+pub use material::{DiffuseReflectance, FilmModel, Layer, Material, PathDifference, Thickness};
 pub use object::Object;
 pub use render::{Render, WavelengthSampling};
 pub use spectrum::{Emission, Extrapolate, Index, MixtureRule, Reflectance, SellmeierTerms};

@@ -1,6 +1,7 @@
 //! Materials: spectra by number, thicknesses nowhere negative.
 
 use super::checks::Checks;
+use super::layers::{Written, check_interference};
 use super::spectrum_list::SpectrumList;
 use crate::description::{self, DiffuseReflectance};
 use crate::limits;
@@ -40,21 +41,51 @@ fn check(
             Some(Material::Conductor {
                 n,
                 k,
+                layers: Vec::new(),
                 roughness: roughness?,
             })
         }
         description::Material::Film {
             index,
             thickness_nm,
+            layers,
+            model,
+            path_difference,
         } => {
-            let index = spectra.index(checks, &field.key("index"), index);
-            let thickness = thickness(checks, &field.key("thickness_nm"), thickness_nm);
-            let (n, k) = index?;
+            let written = Written {
+                index: index.as_ref(),
+                thickness_nm: thickness_nm.as_ref(),
+                layers: layers.as_deref(),
+            };
+            let layers = written.check(checks, spectra, field)?;
+            let asked = (*model, *path_difference);
             Some(Material::Film {
+                transparent: layers.iter().all(|layer| spectra.is_black(layer.k)),
+                interference: check_interference(checks, spectra, field, asked, &layers)?,
+                layers,
+            })
+        }
+        description::Material::Coated {
+            substrate,
+            index,
+            thickness_nm,
+            layers,
+            roughness,
+        } => {
+            let written = Written {
+                index: index.as_ref(),
+                thickness_nm: thickness_nm.as_ref(),
+                layers: layers.as_deref(),
+            };
+            let substrate = spectra.index(checks, &field.key("substrate"), substrate);
+            let layers = written.check(checks, spectra, field);
+            let roughness = check_roughness(checks, &field.key("roughness"), *roughness);
+            let (n, k) = substrate?;
+            Some(Material::Conductor {
                 n,
                 k,
-                transparent: spectra.is_black(k),
-                thickness: thickness?,
+                layers: layers?,
+                roughness: roughness?,
             })
         }
         description::Material::Emitter {
@@ -114,7 +145,7 @@ fn check_roughness(checks: &mut Checks, field: &FieldPath, roughness: f64) -> Op
     None
 }
 
-fn thickness(
+pub(super) fn thickness(
     checks: &mut Checks,
     field: &FieldPath,
     written: &description::Thickness,

@@ -6,6 +6,7 @@ mod database_file;
 mod environment;
 mod formula;
 mod index;
+mod layers;
 mod material;
 mod object;
 mod points;

@@ -46,6 +46,11 @@ impl<'a> SpectrumList<'a> {
         self.tables[id.index()].extent() == (0.0, 0.0)
     }
 
+    /// The smallest value of a spectrum.
+    pub(crate) fn least(&self, id: SpectrumId) -> f64 {
+        self.tables[id.index()].extent().0
+    }
+
     /// The CIE 1931 colour-matching functions on the grid.
     pub(crate) fn observer(&self, checks: &mut Checks) -> Option<[BandTable; 3]> {
         let field = FieldPath::root().key("render").key("wavelengths_nm");

@@ -1,4 +1,6 @@
-//! `pellicle bench`: samples per second on every adapter and on the CPU.
+//! `pellicle bench`: samples and stack evaluations per second on every adapter and on the CPU.
+
+mod stacks;
 
 use crate::print;
 use miette::IntoDiagnostic;
@@ -14,6 +16,9 @@ pub(crate) struct Arguments {
     /// The scenes to render
     #[arg(default_values = ["scenes/soap_bubble.toml", "scenes/film_wedge.toml", "scenes/metal_spheres.toml"])]
     scenes: Vec<PathBuf>,
+    /// Only film stacks, no scenes
+    #[arg(long)]
+    stacks: bool,
     /// Seconds that each measurement takes, about
     #[arg(long, default_value_t = 4.0)]
     seconds: f64,
@@ -35,13 +40,22 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     for (index, renderer) in renderers.iter().enumerate() {
         print::result(format_args!("{}: {}", index + 1, renderer.description()))?;
     }
+    let seconds = arguments.seconds.clamp(0.1, 600.0);
+    if !arguments.stacks {
+        scenes(&arguments.scenes, &renderers, seconds)?;
+    }
+    stacks::run(&renderers, seconds / 4.0)
+}
+
+/// Prints a table of samples per second.
+fn scenes(scenes: &[PathBuf], renderers: &[Renderer], seconds: f64) -> miette::Result<()> {
     print::result(format_args!("\nmillion samples/s, best of {ROUNDS} rounds"))?;
     print::result(format_args!(
         "{:<16}{:>10}{:>10}{:>10}{:>14}{:>18}",
         "scene", "renderer", "4 bands", "40 bands", "time 40 / 4", "40 bands to CPU"
     ))?;
-    for path in &arguments.scenes {
-        let rates = measure(path, &renderers, arguments.seconds.clamp(0.1, 600.0))?;
+    for path in scenes {
+        let rates = measure(path, renderers, seconds)?;
         let on_cpu = rates[rates.len() - 1][1];
         for (index, [few, many]) in rates.iter().enumerate() {
             print::result(format_args!(

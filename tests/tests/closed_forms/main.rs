@@ -1,5 +1,7 @@
 //! Pictures whose truth has a closed form: both renderers against formulas and optics, scene by scene.
 
+mod layers;
+
 use gpu::Gpu;
 use optics::Complex64;
 use pellicle_tests::device::open;

@@ -1,0 +1,150 @@
+//! Films and coatings of several layers in scene files: what is accepted, and what is told of the rest.
+#![expect(clippy::float_cmp, reason = "the figures are exact in binary")]
+
+use pellicle_scene::{
+    Interference, Material, PathDifference, Problem, Scene, SceneFile, Thickness, limits,
+};
+use std::path::Path;
+
+fn validated(body: &str) -> Result<Scene, Vec<Problem>> {
+    let text = format!(
+        "camera = {{ type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }}\n\
+         [materials.x]\n{body}\n"
+    );
+    SceneFile::parse("x.toml", &text, Path::new(""))
+        .and_then(|file| file.validate())
+        .map_err(|problems| problems.iter().cloned().collect())
+}
+
+fn material(body: &str) -> Material {
+    let scene = validated(body).unwrap_or_else(|problems| panic!("{problems:#?}"));
+    scene.materials()[0].clone()
+}
+
+/// The only problem of a material: its field and all that is said.
+fn problem(body: &str) -> (String, String) {
+    let problems = validated(body).expect_err("must not be accepted");
+    let [only] = problems.as_slice() else {
+        panic!("{problems:#?}");
+    };
+    let help = only.help.clone().unwrap_or_default();
+    (only.field.to_string(), format!("{} | {help}", only.message))
+}
+
+const TWO: &str = "layers = [{ index = 1.5, thickness_nm = 100 }, { index = [2, 0.5], thickness_nm = { pole = 10, equator = 20 } }]";
+
+#[test]
+fn a_stack_keeps_its_layers_in_order() {
+    let Material::Film {
+        layers,
+        transparent,
+        interference,
+    } = material(&format!("type = 'film'\n{TWO}"))
+    else {
+        panic!("not a film");
+    };
+    assert_eq!(layers.len(), 2);
+    assert_eq!(layers[0].thickness, Thickness::Constant { nm: 100.0 });
+    assert!(matches!(layers[1].thickness, Thickness::Polar { .. }));
+    assert!(!transparent, "the second layer absorbs");
+    assert_eq!(interference, Interference::Exact);
+}
+
+#[test]
+fn a_coating_lies_on_its_substrate() {
+    let coated = format!("type = 'coated'\nsubstrate = 'gold'\nroughness = 0.25\n{TWO}");
+    let Material::Conductor {
+        layers, roughness, ..
+    } = material(&coated)
+    else {
+        panic!("not a conductor");
+    };
+    assert_eq!((layers.len(), roughness), (2, 0.25));
+    let single = "type = 'coated'\nsubstrate = 'titanium'\nindex = 2.4\nthickness_nm = 60";
+    assert!(matches!(material(single), Material::Conductor { layers, .. } if layers.len() == 1));
+}
+
+#[test]
+fn two_beams_take_either_path_difference() {
+    let with = |rest: &str| {
+        let body =
+            format!("type = 'film'\nindex = 1.4\nthickness_nm = 300\nmodel = 'two_beam'\n{rest}");
+        match material(&body) {
+            Material::Film { interference, .. } => interference,
+            other => panic!("{other:?}"),
+        }
+    };
+    let optical = Interference::TwoBeam(PathDifference::Optical);
+    assert_eq!(with(""), optical);
+    assert_eq!(with("path_difference = 'optical'"), optical);
+    let printed = Interference::TwoBeam(PathDifference::AsPrinted);
+    assert_eq!(with("path_difference = 'as_printed'"), printed);
+}
+
+#[test]
+fn what_is_wrong_with_layers_is_told() {
+    let many = vec!["{ index = 1.5, thickness_nm = 1 }"; limits::MAX_LAYERS + 1].join(", ");
+    for (body, field, phrases) in [
+        (
+            "type = 'film'",
+            "materials.x",
+            &["`index` and `thickness_nm`", "`layers`"][..],
+        ),
+        (
+            "type = 'film'\nindex = 1.5",
+            "materials.x",
+            &["found `index`;", "`thickness_nm`"],
+        ),
+        (
+            "type = 'film'\nindex = 1.5\nlayers = []",
+            "materials.x",
+            &["found `index` and `layers`"],
+        ),
+        (
+            "type = 'film'\nlayers = []",
+            "materials.x.layers",
+            &["found 0 layers", "from 1 to 64"],
+        ),
+        (
+            &format!("type = 'film'\nlayers = [{many}]"),
+            "materials.x.layers",
+            &["found 65 layers", "from 1 to 64"],
+        ),
+        (
+            "type = 'coated'\nindex = 1.5\nthickness_nm = 100",
+            "materials.x.substrate",
+            &["missing"],
+        ),
+        (
+            "type = 'coated'\nsubstrate = 'gold'\nlayers = [{ index = 1.5, thickness_nm = -1 }]",
+            "materials.x.layers[0].thickness_nm",
+            &["found -1", "from 0"],
+        ),
+        (
+            "type = 'film'\nindex = 1.5\nthickness_nm = 100\npath_difference = 'optical'",
+            "materials.x.path_difference",
+            &["no choice", "two_beam"],
+        ),
+        (
+            "type = 'film'\nindex = [1.5, 0.1]\nthickness_nm = 100\nmodel = 'two_beam'",
+            "materials.x.model",
+            &["does not absorb", "exact"],
+        ),
+        (
+            "type = 'film'\nindex = 0.9\nthickness_nm = 100\nmodel = 'two_beam'",
+            "materials.x.model",
+            &["n ≥ 1"],
+        ),
+        (
+            &format!("type = 'film'\nmodel = 'two_beam'\n{TWO}"),
+            "materials.x.model",
+            &["single layer"],
+        ),
+    ] {
+        let (found, said) = problem(body);
+        assert_eq!(found, field, "{body}: {said}");
+        for phrase in phrases {
+            assert!(said.contains(phrase), "{body}: {said:?} lacks {phrase:?}");
+        }
+    }
+}
