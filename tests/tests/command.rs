@@ -354,7 +354,7 @@ fn the_scene_file_is_not_overwritten() {
         let stderr = place
             .run(&format!("render scene.png {SMALL} {arguments}"))
             .failed();
-        told(&stderr, &["overwrite the scene"], arguments);
+        told(&stderr, &["overwrite the file that is read"], arguments);
     }
     assert_eq!(place.names(), ["scene.png"]);
     assert_eq!(bytes(&place, "scene.png"), before);

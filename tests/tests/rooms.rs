@@ -15,8 +15,18 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("pellicle-gpu", &["pellicle-scene", "pellicle-spectra"]),
     ("pellicle-color", &["pellicle-spectra"]),
     (
+        "pellicle-coating",
+        &[
+            "pellicle-color",
+            "pellicle-optics",
+            "pellicle-scene",
+            "pellicle-spectra",
+        ],
+    ),
+    (
         "pellicle",
         &[
+            "pellicle-coating",
             "pellicle-color",
             "pellicle-gpu",
             "pellicle-optics",

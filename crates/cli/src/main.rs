@@ -2,6 +2,7 @@
 
 mod bench;
 mod devices;
+mod film;
 mod materials;
 mod output;
 mod plot;
@@ -30,6 +31,7 @@ enum Command {
         /// The scene file
         scene: PathBuf,
     },
+    Film(film::Arguments),
     /// List the adapters that can render
     Devices,
     /// List the materials whose optical constants Pellicle carries, or show one
@@ -45,6 +47,7 @@ fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Check { scene } => check(&scene),
+        Command::Film(arguments) => film::run(&arguments),
         Command::Devices => devices::print(),
         Command::Materials(arguments) => materials::run(&arguments),
         Command::Schema => print::result(format_args!("{:#}", pellicle::scene::schema())),

@@ -30,7 +30,7 @@ impl Outputs {
             let extension = path.extension().map(OsStr::to_string_lossy);
             match extension.map(|name| name.to_lowercase()).as_deref() {
                 _ if path.is_dir() => outputs.add_both(&path.join(stem)),
-                _ if names_a_folder(path) => return Err(no_folder(path, path)),
+                _ if names_a_folder(path) => return Err(no_folder("-o", path, path)),
                 Some("png") => outputs.pictures.push(path.clone()),
                 Some("exr") => outputs.spectral.push(path.clone()),
                 None => outputs.add_both(path),
@@ -44,7 +44,7 @@ impl Outputs {
             }
         }
         for path in outputs.pictures.iter().chain(&outputs.spectral) {
-            check_place(path, scene)?;
+            check_place("-o", path, scene)?;
         }
         Ok(outputs)
     }
@@ -87,33 +87,34 @@ fn names_a_folder(path: &Path) -> bool {
     ends_in_separator || path.file_name().is_none()
 }
 
-fn no_folder(path: &Path, folder: &Path) -> miette::Report {
+fn no_folder(option: &str, path: &Path, folder: &Path) -> miette::Report {
     miette!(
-        help = "create it first, or write elsewhere with -o",
-        "-o {}: there is no folder {}",
+        help = format!("create it first, or write elsewhere with {option}"),
+        "{option} {}: there is no folder {}",
         path.display(),
         folder.display()
     )
 }
 
-/// A place that cannot be written to is told before the render, not after it.
-fn check_place(path: &Path, scene: &Path) -> miette::Result<()> {
+/// A place that cannot be written to is told before the work, not after it. `option` is what asked for it, `read` the file that
+/// must not be written over.
+pub(crate) fn check_place(option: &str, path: &Path, read: &Path) -> miette::Result<()> {
     let folder = match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
     if !folder.is_dir() {
-        return Err(no_folder(path, folder));
+        return Err(no_folder(option, path, folder));
     }
     if path.is_dir() {
-        return Err(miette!("-o {}: this is a folder", path.display()));
+        return Err(miette!("{option} {}: this is a folder", path.display()));
     }
-    if let (Ok(written), Ok(read)) = (path.canonicalize(), scene.canonicalize())
+    if let (Ok(written), Ok(read)) = (path.canonicalize(), read.canonicalize())
         && written == read
     {
         return Err(miette!(
-            help = "write elsewhere with -o",
-            "{}: this would overwrite the scene file",
+            help = format!("write elsewhere with {option}"),
+            "{}: this would overwrite the file that is read",
             path.display()
         ));
     }

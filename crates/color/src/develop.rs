@@ -15,6 +15,17 @@ pub struct RgbImage8 {
 }
 
 impl RgbImage8 {
+    /// A picture of these codes, red, green and blue of each pixel in turn, row by row; `None` unless there are
+    /// 3 × `width` × `height` of them.
+    pub fn new(width: u32, height: u32, data: Vec<u8>) -> Option<Self> {
+        let expected = 3 * width as usize * height as usize;
+        (data.len() == expected).then_some(Self {
+            width,
+            height,
+            data,
+        })
+    }
+
     /// Width in pixels.
     pub fn width(&self) -> u32 {
         self.width

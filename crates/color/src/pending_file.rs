@@ -6,9 +6,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// A file being written beside its place, under another name. Dropped without [`PendingFile::commit`], it is removed.
+/// A file being written beside its place, under another name, so that a failure leaves no half file. Dropped without [`PendingFile::commit`], it is removed.
 #[derive(Debug)]
-pub(crate) struct PendingFile {
+pub struct PendingFile {
     target: PathBuf,
     temporary: PathBuf,
     file: Option<File>,
@@ -16,7 +16,10 @@ pub(crate) struct PendingFile {
 
 impl PendingFile {
     /// Opens a new file in the directory of `target`.
-    pub(crate) fn create(target: &Path) -> io::Result<Self> {
+    ///
+    /// # Errors
+    /// When `target` is a folder or names none, or its folder cannot be written to.
+    pub fn create(target: &Path) -> io::Result<Self> {
         static COUNTER: AtomicU32 = AtomicU32::new(0);
         let Some(name) = target.file_name() else {
             let message = "the path does not end in a file name";
@@ -46,7 +49,10 @@ impl PendingFile {
     }
 
     /// The file to write to. Dropping what is returned does not close the file.
-    pub(crate) fn handle(&self) -> io::Result<File> {
+    ///
+    /// # Errors
+    /// When the system gives no second handle.
+    pub fn handle(&self) -> io::Result<File> {
         match &self.file {
             Some(file) => file.try_clone(),
             None => Err(io::ErrorKind::NotFound.into()),
@@ -54,7 +60,10 @@ impl PendingFile {
     }
 
     /// Puts the file in its place, over any file that stood there.
-    pub(crate) fn commit(mut self) -> io::Result<()> {
+    ///
+    /// # Errors
+    /// When the file cannot be brought to the disk or renamed; it is then removed.
+    pub fn commit(mut self) -> io::Result<()> {
         if let Some(file) = &self.file {
             file.sync_all()?;
         }

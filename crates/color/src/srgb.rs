@@ -54,6 +54,17 @@ pub fn linear_from_xyz(xyz: [f64; 3]) -> [f64; 3] {
     times(rgb_from_xyz(), xyz)
 }
 
+/// XYZ of linear RGB, the white's Y = 1: [`linear_from_xyz`] backwards.
+pub fn xyz_from_linear(rgb: [f64; 3]) -> [f64; 3] {
+    static MATRIX: OnceLock<Matrix3> = OnceLock::new();
+    times(MATRIX.get_or_init(|| inverse(rgb_from_xyz())), rgb)
+}
+
+/// XYZ of the display's white, Y = 1.
+pub fn white_xyz() -> [f64; 3] {
+    xyz_of_chromaticity(WHITE)
+}
+
 /// The transfer curve, linear to code: 12.92 v up to 0.0031308, else 1.055 v^(1/2.4) − 0.055. For v in \[0, 1\].
 pub fn encode(linear: f64) -> f64 {
     if linear <= 0.003_130_8 {
@@ -166,6 +177,18 @@ mod tests {
                 // The figures have ten to twelve digits.
                 assert!((found - expected).abs() < 1e-10, "{found} {expected}");
             }
+        }
+    }
+
+    #[test]
+    fn xyz_and_back_is_the_same_colour() {
+        for rgb in [[1.0, 1.0, 1.0], [0.2, -0.1, 0.9], [0.0; 3]] {
+            for (back, there) in linear_from_xyz(xyz_from_linear(rgb)).into_iter().zip(rgb) {
+                assert!((back - there).abs() < 1e-14, "{back} {there}");
+            }
+        }
+        for (found, white) in xyz_from_linear([1.0; 3]).into_iter().zip(white_xyz()) {
+            assert!((found - white).abs() < 1e-14, "{found} {white}");
         }
     }
 

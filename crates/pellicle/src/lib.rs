@@ -30,12 +30,13 @@
 //! # }
 //! ```
 //!
-//! The crates behind the modules can be used alone: [`optics`] for those who design coatings, [`spectra`] for data over
+//! The crates behind the modules can be used alone: [`coating`] and [`optics`] for those who design coatings, [`spectra`] for data over
 //! wavelength, [`gpu`] and [`mod@reference`] for the two renderers themselves.
 
 mod renderer;
 pub mod stacks;
 
+pub use coating;
 pub use color;
 pub use gpu;
 pub use optics;

@@ -33,6 +33,12 @@ impl FieldPath {
         self.then(Step::Index(index))
     }
 
+    /// What `inner` names when this value is taken for its top.
+    #[must_use]
+    pub fn join(&self, inner: &Self) -> Self {
+        Self(self.0.iter().chain(&inner.0).cloned().collect())
+    }
+
     /// The steps from the top.
     pub fn steps(&self) -> &[Step] {
         &self.0

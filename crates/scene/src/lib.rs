@@ -38,6 +38,7 @@ mod validated;
 
 pub use camera::{Camera, Projection};
 pub use description::PathDifference;
+pub use document::SourceFile;
 pub use field_path::{FieldPath, Step};
 pub use file::SceneFile;
 pub use index::optical_constants;

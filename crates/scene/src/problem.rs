@@ -76,7 +76,8 @@ pub struct Problem {
 }
 
 impl Problem {
-    pub(crate) fn new(kind: ProblemKind, field: &FieldPath, message: impl Into<String>) -> Self {
+    /// A mistake in the value `field`: `message` says what was found, and what would be right.
+    pub fn new(kind: ProblemKind, field: &FieldPath, message: impl Into<String>) -> Self {
         Self {
             kind,
             field: field.clone(),
@@ -88,7 +89,8 @@ impl Problem {
     }
 
     /// Adds advice.
-    pub(crate) fn help(mut self, help: impl Into<String>) -> Self {
+    #[must_use]
+    pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
@@ -96,6 +98,16 @@ impl Problem {
     /// Names another value that the judgement rests on: where that one is broken, this problem is not shown.
     pub(crate) fn involving(mut self, field: FieldPath) -> Self {
         self.involves.push(field);
+        self
+    }
+
+    /// The same mistake, told of a value that lies within `base`.
+    #[must_use]
+    pub fn within(mut self, base: &FieldPath) -> Self {
+        self.field = base.join(&self.field);
+        for field in &mut self.involves {
+            *field = base.join(field);
+        }
         self
     }
 

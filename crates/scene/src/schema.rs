@@ -1,6 +1,7 @@
 //! The JSON Schema of scene files.
 
 use crate::description::Description;
+use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value;
 
@@ -8,9 +9,14 @@ use serde_json::Value;
 /// [`description`](crate::description). It is committed as `scenes/scene.schema.json`; write it anew with
 /// `PELLICLE_BLESS=1 cargo test -p pellicle-scene schema`.
 pub fn schema() -> Value {
+    schema_of::<Description>()
+}
+
+/// The JSON Schema of files that are read as `T`.
+pub(crate) fn schema_of<T: JsonSchema>() -> Value {
     let mut schema = SchemaSettings::draft07()
         .into_generator()
-        .into_root_schema_for::<Description>()
+        .into_root_schema_for::<T>()
         .to_value();
     remove_null(&mut schema);
     schema

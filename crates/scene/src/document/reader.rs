@@ -1,11 +1,12 @@
 //! From a TOML tree to a description, with everything that does not fit.
 
 use super::Tree;
-use super::shape::{Field, Fields, SCENE, Shape, TAG, quoted_choice};
-use crate::description::Description;
+use super::shape::{Field, Fields, Shape, TAG, quoted_choice};
 use crate::problem::{Location, Problem, ProblemKind};
 use crate::suggestion::nearest;
 use crate::{FieldPath, Problems};
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
 use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
 use toml::de::{DeArray, DeInteger, DeTable, DeValue};
@@ -57,17 +58,20 @@ impl Findings {
 
 /// The description that `tree` gives, with stand-ins where it is broken; `None` only if the types refuse what
 /// the schema accepts, which is then among the findings.
-pub(crate) fn read(text: &str, tree: &Tree<'_>) -> (Option<Description>, Findings) {
+pub(crate) fn read<T: DeserializeOwned + JsonSchema>(
+    text: &str,
+    tree: &Tree<'_>,
+) -> (Option<T>, Findings) {
     let mut reader = Reader {
         text,
         findings: Findings::default(),
     };
-    let Shape::Table(scene) = &*SCENE else {
-        unreachable!("a scene is a table");
+    let Shape::Table(fields) = Shape::of::<T>() else {
+        unreachable!("a file is a table");
     };
     let place = Place::root();
-    let table = reader.fields(scene, tree.table(), &place, &Context::PLAIN);
-    let description = Value::Table(table).try_into::<Description>();
+    let table = reader.fields(&fields, tree.table(), &place, &Context::PLAIN);
+    let description = Value::Table(table).try_into::<T>();
     let description = description
         .map_err(|error| {
             reader.report(ProblemKind::WrongType, &place, error.message().to_owned());

@@ -1,5 +1,6 @@
 //! What a value in a scene file may look like.
 
+use schemars::JsonSchema;
 use serde_json::Value as Json;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -48,13 +49,7 @@ pub(crate) struct Field {
 /// The field that tells the kind of a [`Shape::Tagged`].
 pub(crate) const TAG: &str = "type";
 
-/// The shape of a whole scene file.
-pub(crate) static SCENE: LazyLock<Shape> = LazyLock::new(|| {
-    let root = crate::schema();
-    Compiler::new(&root).shape(&root)
-});
-
-/// The shapes that have a name.
+/// The shapes that have a name. A type that holds itself is known by its name: it must be one that scene files have too.
 static NAMED: LazyLock<BTreeMap<String, Shape>> = LazyLock::new(|| {
     let root = crate::schema();
     let names = root["definitions"].as_object().into_iter().flatten();
@@ -63,6 +58,12 @@ static NAMED: LazyLock<BTreeMap<String, Shape>> = LazyLock::new(|| {
 });
 
 impl Shape {
+    /// The shape of the files that are read as `T`.
+    pub(crate) fn of<T: JsonSchema>() -> Self {
+        let root = crate::schema::schema_of::<T>();
+        Compiler::new(&root).shape(&root)
+    }
+
     /// The shape itself, where this is only its name.
     pub(crate) fn resolved(&self) -> &Self {
         match self {
@@ -274,11 +275,13 @@ fn word(schema: &Json) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::description::Description;
 
     #[test]
     fn the_schema_is_understood() {
-        let Shape::Table(scene) = &*SCENE else {
-            panic!("a scene is a table, not {}", *SCENE);
+        let shape = Shape::of::<Description>();
+        let Shape::Table(scene) = &shape else {
+            panic!("a scene is a table, not {shape}");
         };
         assert_eq!(scene.required().collect::<Vec<_>>(), ["camera"]);
         let Shape::Tagged(cameras) = &scene.0["camera"].shape else {

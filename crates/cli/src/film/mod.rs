@@ -1,0 +1,265 @@
+//! `pellicle film`.
+
+mod numbers;
+mod pictures;
+mod report;
+mod spectra;
+mod swatch;
+
+use clap::ValueEnum;
+use miette::{IntoDiagnostic, WrapErr, miette};
+use numbers::{List, Vary};
+use pellicle::coating::{
+    Angle, Light, MatchBy, Polarisation, Side, Stack, StackColour, View, parse_srgb,
+};
+use pellicle::gpu::AdapterChoice;
+use pellicle::{Backend, Renderer, coating, stacks};
+use std::path::PathBuf;
+
+/// What a stack of thin films does to light: spectra, colours, plots, tolerances.
+///
+/// STACK is a stack file (TOML), or a stack in one line such as "air | silica 300nm | silicon": the medium that light comes from,
+/// layers with thicknesses in nm or um, the substrate. A medium is a material's name, a number 1.5, or 1.5+0.1i (n + ik, k > 0
+/// absorbs). "air" has n = 1.0003 as measured; "vacuum" and 1 are 1 exactly.
+///
+/// A stack file has `incident` ("air" when absent), `substrate`, and per layer `[[layer]]` with `index` and `thickness_nm`. An index
+/// is whatever a scene's materials accept, a table in place { nm = [...], n = [...], k = [...] } included.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// A stack file, or a stack in one line (with | between its media)
+    stack: String,
+    /// Angles of incidence in degrees, 0 to less than 90: a list, or FROM:TO:STEP
+    #[arg(long, default_value = "0", value_parser = List::parse, allow_hyphen_values = true)]
+    angles: List,
+    /// Wavelengths in vacuum, nm: FROM:TO:STEP, or a list [default: 380:780:10; of a plot 380:780:1]
+    #[arg(long, value_parser = List::parse, allow_hyphen_values = true)]
+    wavelengths: Option<List>,
+    /// How R and T are printed: rows go by angle, then by wavelength [default: table, unless something else is asked for]
+    #[arg(long, value_enum, conflicts_with_all = ["wanted", "tolerance", "sensitivity"])]
+    format: Option<Format>,
+    /// Print the absorptance of each layer too
+    #[arg(long)]
+    absorptance: bool,
+    /// What computes R and T: the CPU in f64, or a GPU in f32 (to 5e-5 up to 88°)
+    #[arg(long, value_enum, default_value_t = BackendName::Cpu)]
+    backend: BackendName,
+    #[command(flatten)]
+    look: Look,
+    /// Write a plot of R, T and A over wavelength with the colour of each angle (.svg or .png)
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// Write a chart of the colour over thickness and angle of one layer (.png): of --vary [default: layer 1 from 0 to 1000 nm, or to
+    /// twice its thickness]; with several --angles, between the smallest and the largest
+    #[arg(long, value_name = "FILE")]
+    chart: Option<PathBuf>,
+    /// A layer's number from 1 and its thicknesses in nm, for --chart and --match
+    #[arg(long, value_name = "LAYER:FROM:TO", value_parser = Vary::parse, allow_hyphen_values = true)]
+    vary: Option<Vary>,
+    /// Find the thickness of --vary whose colour is nearest to this one of sRGB, like "#2e6fd0"
+    #[arg(id = "wanted", long = "match", value_name = "COLOUR", value_parser = wanted, requires = "vary")]
+    wanted: Option<Wanted>,
+    /// What has to match: the whole colour, lightness included, at --exposure; or its chromaticity, each film first made as bright as
+    /// the wanted colour
+    #[arg(long, value_enum, default_value_t = MatchByName::Colour, requires = "wanted")]
+    match_by: MatchByName,
+    /// Scatter of the colour when each layer's thickness is off by a random error of this standard deviation, like 2%
+    #[arg(long, value_name = "PERCENT", value_parser = numbers::percent, allow_hyphen_values = true)]
+    tolerance: Option<f64>,
+    /// How many stacks --tolerance draws
+    #[arg(long, default_value_t = 10_000, requires = "tolerance")]
+    trials: u32,
+    /// Which stacks --tolerance draws
+    #[arg(long, default_value_t = 0, requires = "tolerance")]
+    seed: u64,
+    /// Colour difference per nm of each layer, and dR/dd at --design
+    #[arg(long)]
+    sensitivity: bool,
+    /// The wavelength at which --sensitivity tells dR/dd, nm
+    #[arg(long, value_name = "NM", default_value = "550", value_parser = numbers::number, requires = "sensitivity")]
+    design: f64,
+}
+
+/// How colours are looked at.
+#[derive(clap::Args)]
+struct Look {
+    /// The light that colours are seen in
+    #[arg(long, value_name = "NAME", default_value = "D65")]
+    illuminant: String,
+    /// Stops by which colours are shown brighter: a soap film reflects 8 % at most
+    #[arg(long, value_name = "EV", default_value = "0", value_parser = numbers::number, allow_hyphen_values = true)]
+    exposure: f64,
+    /// Look at the light that passes, not at the reflected
+    #[arg(long)]
+    transmitted: bool,
+    /// Polarisation of the light of colours and plots
+    #[arg(long, value_enum, default_value_t = PolarisationName::Unpolarised)]
+    polarisation: PolarisationName,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Format {
+    /// For people, with the colour of each angle
+    Table,
+    /// wavelength_nm,angle_deg,Rs,Rp,Ts,Tp with 17 digits
+    Csv,
+    /// Everything, with the stack and its indices
+    Json,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum BackendName {
+    Cpu,
+    Gpu,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum MatchByName {
+    Colour,
+    Chromaticity,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum PolarisationName {
+    Unpolarised,
+    S,
+    P,
+}
+
+/// A wanted colour as it was written and as XYZ.
+#[derive(Clone, Debug)]
+struct Wanted {
+    xyz: [f64; 3],
+}
+
+fn wanted(text: &str) -> Result<Wanted, String> {
+    let xyz = parse_srgb(text).map_err(|error| error.to_string())?;
+    Ok(Wanted { xyz })
+}
+
+impl Look {
+    fn view(&self) -> View {
+        View {
+            side: if self.transmitted {
+                Side::Transmitted
+            } else {
+                Side::Reflected
+            },
+            polarisation: match self.polarisation {
+                PolarisationName::Unpolarised => Polarisation::Unpolarised,
+                PolarisationName::S => Polarisation::S,
+                PolarisationName::P => Polarisation::P,
+            },
+        }
+    }
+}
+
+/// What every part of the command needs.
+struct Film<'a> {
+    arguments: &'a Arguments,
+    stack: Stack,
+    angles: Vec<Angle>,
+    light: Light,
+    exposure_ev: f64,
+}
+
+/// Computes, prints and writes what is asked for.
+pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
+    let film = Film::new(arguments)?;
+    // What cannot be written is told before anything is computed.
+    pictures::check(&film)?;
+    let reports =
+        arguments.wanted.is_some() || arguments.tolerance.is_some() || arguments.sensitivity;
+    let pictures = arguments.plot.is_some() || arguments.chart.is_some();
+    if arguments.format.is_some() || !(reports || pictures) {
+        spectra::print(&film, arguments.format.unwrap_or(Format::Table))?;
+    }
+    report::print(&film)?;
+    pictures::write(&film)
+}
+
+impl<'a> Film<'a> {
+    fn new(arguments: &'a Arguments) -> miette::Result<Self> {
+        let look = &arguments.look;
+        let exposure = pellicle::scene::limits::EXPOSURE_EV;
+        if !exposure.contains(look.exposure) {
+            return Err(miette!(
+                "--exposure {}: it must be from {exposure}",
+                look.exposure
+            ));
+        }
+        let angle =
+            |&deg: &f64| Angle::from_degrees(deg).map_err(|error| miette!("--angles: {error}"));
+        let angles = arguments
+            .angles
+            .0
+            .iter()
+            .map(angle)
+            .collect::<Result<_, _>>()?;
+        Ok(Self {
+            arguments,
+            stack: Stack::open(&arguments.stack)?,
+            angles,
+            light: Light::named(&look.illuminant).into_diagnostic()?,
+            exposure_ev: look.exposure,
+        })
+    }
+
+    /// The wavelengths asked for, or 380 to 780 nm in these steps.
+    fn wavelengths_nm(&self, step_nm: usize) -> miette::Result<Vec<f64>> {
+        let Some(List(nm)) = &self.arguments.wavelengths else {
+            return Ok((380..=780).step_by(step_nm).map(f64::from).collect());
+        };
+        let possible = pellicle::scene::limits::TABLE_NM;
+        match nm.iter().find(|&&nm| !possible.contains(nm)) {
+            Some(nm) => Err(miette!(
+                "--wavelengths: {nm} nm; it must be from {possible}"
+            )),
+            None => Ok(nm.clone()),
+        }
+    }
+
+    /// R and T for each angle at each wavelength.
+    fn powers(&self, sampled: &coating::Sampled) -> miette::Result<Vec<Vec<coating::Powers>>> {
+        let backend = match self.arguments.backend {
+            BackendName::Cpu => Backend::Cpu,
+            BackendName::Gpu => Backend::Gpu(AdapterChoice::Best),
+        };
+        let renderer = Renderer::open(&backend).into_diagnostic()?;
+        let thicknesses = [self.stack.thicknesses_nm().to_vec()];
+        let batch = sampled.batch(&thicknesses, &self.angles);
+        let powers = stacks::evaluate(&renderer, &batch.as_batch()).into_diagnostic()?;
+        let per_angle = powers.chunks(sampled.wavelengths_nm().len());
+        Ok(per_angle.map(<[_]>::to_vec).collect())
+    }
+
+    fn colour(&self) -> miette::Result<StackColour> {
+        StackColour::new(&self.stack, self.light.clone(), self.arguments.look.view())
+            .map_err(miette::Report::from)
+            .wrap_err("a colour needs data from 380 to 780 nm")
+    }
+
+    /// The layer of --vary, counted from 0.
+    fn layer_of(&self, vary: &Vary) -> miette::Result<usize> {
+        let layers = self.stack.layers().len();
+        if (1..=layers).contains(&vary.layer) {
+            return Ok(vary.layer - 1);
+        }
+        let has = match layers {
+            0 => "the stack has no layers".to_owned(),
+            1 => "the stack has one layer, number 1".to_owned(),
+            _ => format!("the stack has layers 1 to {layers}"),
+        };
+        Err(miette!(
+            help = has,
+            "--vary: there is no layer {}",
+            vary.layer
+        ))
+    }
+
+    fn match_by(&self) -> MatchBy {
+        match self.arguments.match_by {
+            MatchByName::Colour => MatchBy::Colour,
+            MatchByName::Chromaticity => MatchBy::Chromaticity,
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Plots and charts of stacks, written to files.
+
+use super::{Film, Vary};
+use crate::{output, print};
+use miette::{IntoDiagnostic, WrapErr, miette};
+use pellicle::coating::{Angle, Chart, ChartOf, Curve, Plot};
+use pellicle::color::{PendingFile, RgbImage8, png};
+use std::ffi::OsStr;
+use std::io::Write;
+use std::path::Path;
+
+/// What a picture is written as.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Png,
+    Svg,
+}
+
+/// Tells what could not be drawn or written before anything is computed.
+pub(crate) fn check(film: &Film) -> miette::Result<()> {
+    let arguments = film.arguments;
+    if let Some(path) = &arguments.plot {
+        place("--plot", path, &[Kind::Svg, Kind::Png], film)?;
+        let nm = film.wavelengths_nm(1)?;
+        if nm.len() < 2 || !nm.windows(2).all(|pair| pair[0] < pair[1]) {
+            return Err(miette!(
+                "--plot: there must be two or more wavelengths, and they must rise"
+            ));
+        }
+        if film.angles.len() > Plot::MAX_CURVES {
+            let (found, most) = (film.angles.len(), Plot::MAX_CURVES);
+            return Err(miette!(
+                "--plot: {found} angles; at most {most} can be told apart"
+            ));
+        }
+    }
+    if let Some(path) = &arguments.chart {
+        place("--chart", path, &[Kind::Png], film)?;
+    }
+    if let Some(vary) = &arguments.vary {
+        film.layer_of(vary)?;
+    }
+    Ok(())
+}
+
+/// Draws and writes what is asked for.
+pub(crate) fn write(film: &Film) -> miette::Result<()> {
+    if let Some(path) = &film.arguments.plot {
+        let plot = plot(film)?;
+        if kind(path) == Some(Kind::Svg) {
+            write_text(path, &plot.svg())?;
+        } else {
+            write_pixels(path, &plot.pixels())?;
+        }
+        print::note(format_args!("wrote {}", path.display()));
+    }
+    if let Some(path) = &film.arguments.chart {
+        write_pixels(path, &chart(film)?.pixels())?;
+        print::note(format_args!("wrote {}", path.display()));
+    }
+    Ok(())
+}
+
+fn plot(film: &Film) -> miette::Result<Plot> {
+    let wavelengths_nm = film.wavelengths_nm(1)?;
+    let powers = film.powers(&film.stack.sampled(&wavelengths_nm)?)?;
+    // A stack that is known outside visible light alone has curves, but no colours.
+    let colour = film.colour().ok();
+    let thicknesses = film.stack.thicknesses_nm();
+    let curve = |(&angle, powers): (&Angle, Vec<_>)| Curve {
+        angle,
+        powers,
+        colour: colour.as_ref().map(|colour| colour.at(thicknesses, angle)),
+    };
+    Ok(Plot {
+        title: film.stack.label(),
+        wavelengths_nm,
+        curves: film.angles.iter().zip(powers).map(curve).collect(),
+        view: film.arguments.look.view(),
+        illuminant: film.light.name().to_owned(),
+        exposure_ev: film.exposure_ev,
+    })
+}
+
+fn chart(film: &Film) -> miette::Result<Chart> {
+    let vary = match film.arguments.vary {
+        Some(vary) => vary,
+        None => usual_range(film)?,
+    };
+    let layer = film.layer_of(&vary)?;
+    let of = ChartOf {
+        title: film.stack.label_with_varied(layer),
+        layer,
+        layer_label: film.stack.layers()[layer].medium.label(),
+        range_nm: (vary.from_nm, vary.to_nm),
+        angles: range_of_angles(&film.angles)?,
+        exposure_ev: film.exposure_ev,
+    };
+    Ok(Chart::new(
+        &film.colour()?,
+        film.stack.thicknesses_nm(),
+        &of,
+    ))
+}
+
+/// Layer 1, from 0 to 1000 nm, or to twice its thickness.
+fn usual_range(film: &Film) -> miette::Result<Vary> {
+    let first = film.stack.thicknesses_nm().first();
+    let nm = first
+        .ok_or_else(|| miette!("--chart: the stack has no layer whose thickness could vary"))?;
+    Ok(Vary {
+        layer: 1,
+        from_nm: 0.0,
+        to_nm: (2.0 * nm).max(1000.0),
+    })
+}
+
+/// From the smallest to the largest of several angles, or else from 0 to 85°.
+fn range_of_angles(angles: &[Angle]) -> miette::Result<(Angle, Angle)> {
+    let mut degrees: Vec<f64> = angles.iter().map(|angle| angle.degrees()).collect();
+    degrees.sort_by(f64::total_cmp);
+    let (low, high) = match degrees.as_slice() {
+        [low, .., high] if low < high => (*low, *high),
+        _ => (0.0, 85.0),
+    };
+    Ok((
+        Angle::from_degrees(low).into_diagnostic()?,
+        Angle::from_degrees(high).into_diagnostic()?,
+    ))
+}
+
+fn kind(path: &Path) -> Option<Kind> {
+    let ending = path.extension().map(OsStr::to_ascii_lowercase)?;
+    match ending.to_str() {
+        Some("png") => Some(Kind::Png),
+        Some("svg") => Some(Kind::Svg),
+        _ => None,
+    }
+}
+
+/// A picture's file must have an ending that says what it is, and a folder that it can be written to.
+fn place(option: &str, path: &Path, kinds: &[Kind], film: &Film) -> miette::Result<()> {
+    if !kind(path).is_some_and(|kind| kinds.contains(&kind)) {
+        let endings = if kinds.contains(&Kind::Svg) {
+            ".svg or .png"
+        } else {
+            ".png"
+        };
+        return Err(miette!(
+            help = format!("end it in {endings}"),
+            "{option} {}: a file with this ending cannot be written",
+            path.display()
+        ));
+    }
+    output::check_place(option, path, Path::new(&film.arguments.stack))
+}
+
+fn write_pixels(path: &Path, picture: &RgbImage8) -> miette::Result<()> {
+    png::write(path, picture)
+        .into_diagnostic()
+        .wrap_err_with(|| format!("{} was not written", path.display()))
+}
+
+fn write_text(path: &Path, text: &str) -> miette::Result<()> {
+    let written = PendingFile::create(path).and_then(|pending| {
+        pending.handle()?.write_all(text.as_bytes())?;
+        pending.commit()
+    });
+    written
+        .into_diagnostic()
+        .wrap_err_with(|| format!("{} was not written", path.display()))
+}

@@ -1,0 +1,213 @@
+//! What the colour hangs on: matches, tolerances, sensitivities.
+
+use super::spectra::{described, seen};
+use super::swatch::swatch;
+use super::{Film, Vary, Wanted};
+use crate::print;
+use miette::miette;
+use pellicle::coating::{self, Angle, Match, Matching, Quantiles, StackColour, Tolerance};
+use pellicle::color::srgb;
+use std::fmt::Write;
+
+/// The most matches that are told.
+const MOST_MATCHES: usize = 6;
+
+/// Prints the reports that are asked for.
+pub(crate) fn print(film: &Film) -> miette::Result<()> {
+    let arguments = film.arguments;
+    let mut reports = Vec::new();
+    if let (Some(wanted), Some(vary)) = (&arguments.wanted, &arguments.vary) {
+        reports.push(matches(film, wanted, vary)?);
+    }
+    if let Some(relative_sigma) = arguments.tolerance {
+        let errors = Tolerance {
+            relative_sigma,
+            trials: arguments.trials,
+            seed: arguments.seed,
+        };
+        let colour = film.colour()?;
+        for &angle in &film.angles {
+            reports.push(tolerance(film, &colour, angle, errors)?);
+        }
+    }
+    if arguments.sensitivity {
+        let colour = film.colour()?;
+        for &angle in &film.angles {
+            reports.push(sensitivity(film, &colour, angle)?);
+        }
+    }
+    for (index, report) in reports.iter().enumerate() {
+        if index == 0 {
+            print::result(film.stack.label())?;
+        }
+        print::result(format_args!("\n{}", report.trim_end()))?;
+    }
+    Ok(())
+}
+
+fn matches(film: &Film, wanted: &Wanted, vary: &Vary) -> miette::Result<String> {
+    let layer = film.layer_of(vary)?;
+    let [angle] = film.angles.as_slice() else {
+        return Err(miette!(
+            "--match looks at one angle; {} are given",
+            film.angles.len()
+        ));
+    };
+    let matching = Matching {
+        wanted: wanted.xyz,
+        layer,
+        from_nm: vary.from_nm,
+        to_nm: vary.to_nm,
+        exposure_ev: film.exposure_ev,
+        by: film.match_by(),
+    };
+    let found = coating::matches(
+        &film.colour()?,
+        film.stack.thicknesses_nm(),
+        *angle,
+        &matching,
+    );
+    let codes = srgb::linear_from_xyz(wanted.xyz).map(srgb::to_u8);
+    let mut text = format!(
+        "wanted {}{}: layer {}, {}, from {} to {} nm at {}° ({} under {})\n",
+        swatch(codes),
+        hex(codes),
+        vary.layer,
+        film.stack.layers()[layer].medium.label(),
+        vary.from_nm,
+        vary.to_nm,
+        angle.degrees(),
+        seen(film),
+        film.light.name(),
+    );
+    let _ = writeln!(
+        text,
+        "{:>4} {:>14} {:>10} {:>9}  colour",
+        "", "thickness / nm", "ΔE2000", "shown at"
+    );
+    for (index, found) in found.iter().take(MOST_MATCHES).enumerate() {
+        text.push_str(&line_of_match(index + 1, found));
+    }
+    if found.len() > MOST_MATCHES {
+        let _ = writeln!(text, "and {} more orders", found.len() - MOST_MATCHES);
+    }
+    Ok(text)
+}
+
+fn line_of_match(number: usize, found: &Match) -> String {
+    let codes = srgb::linear_from_xyz(found.xyz).map(srgb::to_u8);
+    format!(
+        "{number:>4} {:>14.3} {:>10.3} {:>9}  {}{}\n",
+        found.thickness_nm,
+        found.delta_e,
+        format!("{:+.2} EV", found.exposure_ev + 0.0),
+        swatch(codes),
+        hex(codes)
+    )
+}
+
+fn hex([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+fn tolerance(
+    film: &Film,
+    colour: &StackColour,
+    angle: Angle,
+    errors: Tolerance,
+) -> miette::Result<String> {
+    let thicknesses = film.stack.thicknesses_nm();
+    let spread = coating::tolerance(colour, thicknesses, angle, errors)
+        .map_err(|error| miette!("--tolerance: {error}"))?;
+    let mut text = format!(
+        "at {}°, thicknesses off by {} % (standard deviation), {} trials, seed {}\n",
+        angle.degrees(),
+        100.0 * errors.relative_sigma,
+        errors.trials,
+        errors.seed
+    );
+    let _ = writeln!(text, "nominal  {}", described(film, &spread.nominal));
+    let _ = writeln!(
+        text,
+        "mean     {}, ΔE2000 {:.3}",
+        described(film, &spread.mean),
+        spread.mean_delta_e
+    );
+    let _ = writeln!(
+        text,
+        "{:<28} {:>9} {:>9} {:>9} {:>9} {:>9}",
+        "ΔE2000 from nominal", "50 %", "90 %", "95 %", "99 %", "max"
+    );
+    let _ = writeln!(text, "{:<28} {}", "all layers", figures(&spread.all));
+    for (layer, alone) in spread.alone.iter().enumerate() {
+        let matters_most = match spread.worst_layer() {
+            Some(worst) if worst == layer && spread.alone.len() > 1 => "  matters most",
+            _ => "",
+        };
+        let name = format!("{} alone", layer_name(film, layer));
+        let _ = writeln!(text, "{name:<28} {}{matters_most}", figures(alone));
+    }
+    Ok(text)
+}
+
+fn figures(q: &Quantiles) -> String {
+    let all = [q.p50, q.p90, q.p95, q.p99, q.max];
+    all.map(|figure| format!("{figure:>9.3}")).join(" ")
+}
+
+fn layer_name(film: &Film, layer: usize) -> String {
+    let found = &film.stack.layers()[layer];
+    format!(
+        "{} {} {} nm",
+        layer + 1,
+        found.medium.label(),
+        found.thickness_nm
+    )
+}
+
+fn sensitivity(film: &Film, colour: &StackColour, angle: Angle) -> miette::Result<String> {
+    let thicknesses = film.stack.thicknesses_nm();
+    let found = coating::sensitivity(colour, thicknesses, angle);
+    let design_nm = film.arguments.design;
+    let at_design = film
+        .stack
+        .sampled(&[design_nm])?
+        .derivatives(thicknesses, angle);
+    let mut text = format!(
+        "at {}°: {}\n",
+        angle.degrees(),
+        described(film, &found.colour)
+    );
+    if found.layers.is_empty() {
+        return Err(miette!(
+            "--sensitivity: the stack has no layer whose thickness could vary"
+        ));
+    }
+    let _ = writeln!(
+        text,
+        "{:<28} {:>9} {:>9} {:>9} {:>9} {:>16}",
+        "per nm",
+        "ΔE2000",
+        "ΔL*",
+        "Δa*",
+        "Δb*",
+        format!("ΔR at {design_nm} nm")
+    );
+    for (layer, per_nm) in found.layers.iter().enumerate() {
+        let lab = per_nm.lab_per_nm;
+        let figures = [per_nm.delta_e_per_nm, lab.l, lab.a, lab.b];
+        let slope = film
+            .arguments
+            .look
+            .view()
+            .polarisation
+            .of(at_design[0][layer].reflectance);
+        let _ = writeln!(
+            text,
+            "{:<28} {} {slope:>16.3e}",
+            layer_name(film, layer),
+            figures.map(|figure| format!("{figure:>9.4}")).join(" "),
+        );
+    }
+    Ok(text)
+}

@@ -1,0 +1,237 @@
+//! R and T over wavelength and angle, as a table, as CSV or as JSON.
+
+use super::swatch::swatch;
+use super::{Film, Format};
+use crate::print;
+use pellicle::coating::{Angle, Colour, Powers, Sampled, Side, absorptance};
+use pellicle::optics::{Complex64, Polarised};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// What is known at each angle.
+struct Spectra<'a> {
+    film: &'a Film<'a>,
+    sampled: Sampled,
+    angles: Vec<AtAngle>,
+}
+
+struct AtAngle {
+    angle: Angle,
+    powers: Vec<Powers>,
+    /// At each wavelength of each layer; empty where it was not asked for.
+    absorptances: Vec<Vec<Polarised>>,
+    /// `None` where the stack's data do not cover visible light.
+    colour: Option<Colour>,
+}
+
+/// Computes and prints.
+pub(crate) fn print(film: &Film, format: Format) -> miette::Result<()> {
+    let spectra = Spectra::new(film)?;
+    match format {
+        Format::Table => print::result(spectra.table().trim_end()),
+        Format::Csv => print::result(spectra.csv().trim_end()),
+        Format::Json => print::result(spectra.json()),
+    }
+}
+
+impl<'a> Spectra<'a> {
+    fn new(film: &'a Film<'a>) -> miette::Result<Self> {
+        let sampled = film.stack.sampled(&film.wavelengths_nm(10)?)?;
+        let powers = film.powers(&sampled)?;
+        let colour = film.colour().ok();
+        let thicknesses = film.stack.thicknesses_nm();
+        let at_angle = |(&angle, powers): (&Angle, Vec<Powers>)| AtAngle {
+            angle,
+            powers,
+            absorptances: match film.arguments.absorptance {
+                true => sampled.absorptances(thicknesses, angle),
+                false => Vec::new(),
+            },
+            colour: colour.as_ref().map(|colour| colour.at(thicknesses, angle)),
+        };
+        let angles = film.angles.iter().zip(powers).map(at_angle).collect();
+        Ok(Self {
+            film,
+            angles,
+            sampled,
+        })
+    }
+
+    /// Each wavelength with what is known there.
+    fn rows<'b>(
+        &'b self,
+        at: &'b AtAngle,
+    ) -> impl Iterator<Item = (f64, &'b Powers, &'b [Polarised])> {
+        let numbered = self.sampled.wavelengths_nm().iter().enumerate();
+        numbered.map(|(w, &nm)| {
+            let absorptances = at.absorptances.get(w).map_or(&[][..], Vec::as_slice);
+            (nm, &at.powers[w], absorptances)
+        })
+    }
+
+    /// The layers whose absorptance is told, counted from 1.
+    fn layers(&self) -> std::ops::RangeInclusive<usize> {
+        1..=match self.film.arguments.absorptance {
+            true => self.film.stack.layers().len(),
+            false => 0,
+        }
+    }
+
+    fn table(&self) -> String {
+        let mut text = format!("{}\n", self.film.stack.label());
+        for at in &self.angles {
+            let _ = writeln!(text, "\n{}", self.heading(at));
+            let _ = write!(
+                text,
+                "{:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}",
+                "nm", "Rs", "Rp", "R", "Ts", "Tp", "T", "A"
+            );
+            self.layers().for_each(|layer| {
+                let _ = write!(text, " {:>9}", format!("A{layer}"));
+            });
+            text.push('\n');
+            for (nm, powers, absorptances) in self.rows(at) {
+                let (r, t) = (powers.reflectance, powers.transmittance);
+                let a = absorptance(*powers).unpolarised();
+                let _ = write!(text, "{nm:>9}");
+                let layers = absorptances.iter().map(|a| a.unpolarised());
+                let figures = [r.s, r.p, r.unpolarised(), t.s, t.p, t.unpolarised(), a];
+                for figure in figures.into_iter().chain(layers) {
+                    // A rounding of 0 is shown without a sign.
+                    let _ = write!(text, " {:>9.6}", (figure * 1e6).round() / 1e6 + 0.0);
+                }
+                text.push('\n');
+            }
+        }
+        text
+    }
+
+    fn heading(&self, at: &AtAngle) -> String {
+        let angle = format!("{}°", at.angle.degrees());
+        let Some(colour) = at.colour else {
+            return format!("{angle}: no colour, the data do not cover 380 to 780 nm");
+        };
+        format!("{angle}: {}", described(self.film, &colour))
+    }
+
+    fn csv(&self) -> String {
+        let mut text = "wavelength_nm,angle_deg,Rs,Rp,Ts,Tp".to_owned();
+        for layer in self.layers() {
+            let _ = write!(text, ",A{layer}s,A{layer}p");
+        }
+        text.push('\n');
+        for at in &self.angles {
+            for (nm, powers, absorptances) in self.rows(at) {
+                let _ = write!(text, "{nm},{}", at.angle.degrees());
+                let layers = absorptances.iter().copied();
+                for power in [powers.reflectance, powers.transmittance]
+                    .into_iter()
+                    .chain(layers)
+                {
+                    // + 0 makes a 0 of −0.
+                    let _ = write!(text, ",{:.16e},{:.16e}", power.s + 0.0, power.p + 0.0);
+                }
+                text.push('\n');
+            }
+        }
+        text
+    }
+
+    fn json(&self) -> Value {
+        let stack = &self.film.stack;
+        let complex = |indices: &[Complex64]| {
+            let n: Vec<f64> = indices.iter().map(|index| index.re).collect();
+            let k: Vec<f64> = indices.iter().map(|index| index.im).collect();
+            json!({ "n": n, "k": k })
+        };
+        let layers: Vec<Value> = self.sampled.layers().iter().map(|l| complex(l)).collect();
+        json!({
+            "about": "power reflectance R and transmittance T (into the substrate) of a stack of thin films for s and p polarised light; \
+                      index n + ik, k >= 0 absorbs; wavelengths in vacuum",
+            "program": concat!("pellicle ", env!("CARGO_PKG_VERSION")),
+            "stack": stack.description(),
+            "indices": {
+                "incident": { "n": self.sampled.incident() },
+                "layer": layers,
+                "substrate": complex(self.sampled.substrate()),
+            },
+            "wavelengths_nm": self.sampled.wavelengths_nm(),
+            "angles": self.angles.iter().map(|at| self.json_of_angle(at)).collect::<Vec<_>>(),
+        })
+    }
+
+    fn json_of_angle(&self, at: &AtAngle) -> Value {
+        let column =
+            |of: &dyn Fn(&Powers) -> f64| -> Vec<f64> { at.powers.iter().map(of).collect() };
+        let mut value = json!({
+            "angle_deg": at.angle.degrees(),
+            "Rs": column(&|p| p.reflectance.s),
+            "Rp": column(&|p| p.reflectance.p),
+            "Ts": column(&|p| p.transmittance.s),
+            "Tp": column(&|p| p.transmittance.p),
+        });
+        if !at.absorptances.is_empty() {
+            let of_layer = |layer: usize| {
+                let column = |of: &dyn Fn(&Polarised) -> f64| -> Vec<f64> {
+                    at.absorptances
+                        .iter()
+                        .map(|layers| of(&layers[layer - 1]) + 0.0)
+                        .collect()
+                };
+                json!({ "As": column(&|a| a.s), "Ap": column(&|a| a.p) })
+            };
+            value["layers"] = self.layers().map(of_layer).collect();
+        }
+        if let Some(colour) = at.colour {
+            let lab = colour.lab();
+            value["colour"] = json!({
+                "seen": seen(self.film),
+                "illuminant": self.film.light.name(),
+                "XYZ": colour.xyz,
+                "Lab": [lab.l, lab.a, lab.b],
+                "exposure_ev": self.film.exposure_ev,
+                "linear_srgb": colour.linear_srgb(self.film.exposure_ev),
+                "srgb": colour.hex(self.film.exposure_ev),
+            });
+        }
+        value
+    }
+}
+
+/// Which light is seen.
+pub(crate) fn seen(film: &Film) -> &'static str {
+    match film.arguments.look.view().side {
+        Side::Reflected => "reflected",
+        Side::Transmitted => "transmitted",
+    }
+}
+
+/// A colour in a line: swatch, code, CIELAB, how it is looked at.
+pub(crate) fn described(film: &Film, colour: &Colour) -> String {
+    let lab = colour.lab();
+    format!(
+        "{}{}  L* {:.2}  a* {:.2}  b* {:.2}  ({} under {}{}{})",
+        swatch(colour.srgb8(film.exposure_ev)),
+        colour.hex(film.exposure_ev),
+        lab.l,
+        lab.a,
+        lab.b,
+        seen(film),
+        film.light.name(),
+        exposure(film.exposure_ev),
+        if colour.is_in_srgb(film.exposure_ev) {
+            ""
+        } else {
+            "; sRGB clips it"
+        },
+    )
+}
+
+/// What is to be said of an exposure: nothing of 0.
+fn exposure(ev: f64) -> String {
+    if ev == 0.0 {
+        String::new()
+    } else {
+        format!(", shown at {ev:+} EV")
+    }
+}

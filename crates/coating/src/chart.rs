@@ -1,0 +1,198 @@
+//! The colour of a stack over the thickness of one layer and the angle: Newton's chart of any stack.
+
+use crate::colour::{Side, StackColour};
+use crate::picture::{self, Drawing, Drawn, INK, Scale, exposure};
+use crate::plot::{draw_title, polarisation};
+use crate::response::Angle;
+use color::{RgbImage8, srgb};
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+/// The colour of a stack over the thickness of one layer and the angle of incidence.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    title: String,
+    axis: String,
+    footer: String,
+    nominal_nm: f64,
+    range_nm: (f64, f64),
+    range_deg: (f64, f64),
+    /// Linear sRGB, column by column of one thickness.
+    cells: Vec<[f64; 3]>,
+}
+
+/// What is drawn.
+#[derive(Clone, Debug)]
+pub struct ChartOf {
+    /// What stands above it: the stack.
+    pub title: String,
+    /// The layer that varies, counted from 0.
+    pub layer: usize,
+    /// What the layer is made of.
+    pub layer_label: String,
+    /// Its thicknesses, from and to, nm.
+    pub range_nm: (f64, f64),
+    /// The angles, from and to.
+    pub angles: (Angle, Angle),
+    /// The colours are shown 2^EV times as bright.
+    pub exposure_ev: f64,
+}
+
+/// Thicknesses and angles at which the colour is computed; between them linear RGB is linear.
+const COLUMNS: usize = 401;
+const ROWS: usize = 35;
+
+impl Chart {
+    /// Computes the colours.
+    ///
+    /// # Panics
+    /// When there is no such layer, or not one thickness per layer.
+    pub fn new(stack: &StackColour, thicknesses_nm: &[f64], of: &ChartOf) -> Self {
+        let range_deg = (of.angles.0.degrees(), of.angles.1.degrees());
+        let set = |column: usize| {
+            let mut thicknesses = thicknesses_nm.to_vec();
+            thicknesses[of.layer] = along(of.range_nm, share(column, COLUMNS));
+            thicknesses
+        };
+        // Between two angles that there are, there is an angle.
+        let angle = |row: usize| {
+            Angle::from_degrees(along(range_deg, share(row, ROWS))).unwrap_or(of.angles.1)
+        };
+        let sets: Vec<Vec<f64>> = (0..COLUMNS).map(set).collect();
+        let angles: Vec<Angle> = (0..ROWS).map(angle).collect();
+        let colours = stack.xyz_of_all(&sets, &angles).into_iter();
+        let rgb = |xyz| stack.colour(xyz).linear_srgb(of.exposure_ev);
+        let side = match stack.view().side {
+            Side::Reflected => "reflected",
+            Side::Transmitted => "transmitted",
+        };
+        Self {
+            title: of.title.clone(),
+            axis: format!(
+                "thickness of layer {}, {} / nm",
+                of.layer + 1,
+                of.layer_label
+            ),
+            footer: format!(
+                "{}, {side}, under {}; sRGB at exposure {}, clipped where a display ends",
+                polarisation(stack.view().polarisation),
+                stack.light().name(),
+                exposure(of.exposure_ev)
+            ),
+            nominal_nm: thicknesses_nm[of.layer],
+            range_nm: of.range_nm,
+            range_deg,
+            cells: colours.map(rgb).collect(),
+        }
+    }
+
+    /// As pixels.
+    pub fn pixels(&self) -> RgbImage8 {
+        picture::pixels(self)
+    }
+
+    /// Codes at a place between 0 and 1 from the left and from the bottom.
+    fn codes(&self, x: f64, y: f64) -> RGBColor {
+        let (column, u) = place(x, COLUMNS);
+        let (row, v) = place(y, ROWS);
+        let cell = |r: usize, c: usize| self.cells[(column + c) * ROWS + row + r];
+        let (c00, c01, c10, c11) = (cell(0, 0), cell(0, 1), cell(1, 0), cell(1, 1));
+        let [r, g, b] = std::array::from_fn(|i| {
+            let low = c00[i] + u * (c01[i] - c00[i]);
+            let high = c10[i] + u * (c11[i] - c10[i]);
+            srgb::to_u8(low + v * (high - low))
+        });
+        RGBColor(r, g, b)
+    }
+}
+
+/// How far along a line of points the one of this number lies, from 0 to 1.
+fn share(index: usize, points: usize) -> f64 {
+    index as f64 / (points - 1) as f64
+}
+
+fn along((from, to): (f64, f64), t: f64) -> f64 {
+    from + (to - from) * t
+}
+
+/// The cell that a place from 0 to 1 lies in, and how far within it.
+fn place(t: f64, points: usize) -> (usize, f64) {
+    let at = t.clamp(0.0, 1.0) * (points - 1) as f64;
+    let cell = (at as usize).min(points - 2);
+    (cell, at - cell as f64)
+}
+
+impl Drawing for Chart {
+    fn size(&self) -> (u32, u32) {
+        (900, 520)
+    }
+
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: Scale) -> Drawn<B> {
+        area.fill(&WHITE)?;
+        let (head, rest) = area.split_vertically(scale.px(38.0));
+        draw_title(&head, scale, &self.title)?;
+        let (body, foot) = rest.split_vertically(scale.px(446.0));
+        let mut chart = ChartBuilder::on(&body)
+            .margin_top(scale.px(14.0))
+            .margin_left(scale.px(14.0))
+            .margin_right(scale.px(24.0))
+            .set_label_area_size(LabelAreaPosition::Left, scale.px(66.0))
+            .set_label_area_size(LabelAreaPosition::Bottom, scale.px(48.0))
+            .build_cartesian_2d(
+                self.range_nm.0..self.range_nm.1,
+                self.range_deg.0..self.range_deg.1,
+            )?;
+        self.paint(&chart.plotting_area().strip_coord_spec(), scale)?;
+        chart
+            .configure_mesh()
+            .disable_mesh()
+            .axis_style(scale.line(INK, 1.0))
+            .set_all_tick_mark_size(scale.px(4.0))
+            .label_style(scale.text(13.0))
+            .axis_desc_style(scale.text(14.0))
+            .x_desc(self.axis.as_str())
+            .y_desc("angle of incidence / °")
+            .x_labels(11)
+            .y_labels(10)
+            .x_label_formatter(&|nm| format!("{nm:.0}"))
+            .y_label_formatter(&|deg| format!("{deg:.0}"))
+            .draw()?;
+        if (self.range_nm.0..=self.range_nm.1).contains(&self.nominal_nm) {
+            let (x, y) = chart.backend_coord(&(self.nominal_nm, self.range_deg.1));
+            mark(area, scale, (x, y))?;
+        }
+        let style = scale.text(12.0).pos(Pos::new(HPos::Left, VPos::Center));
+        let place = (scale.px(80.0), scale.px(16.0));
+        foot.draw(&Text::new(self.footer.as_str(), place, style))
+    }
+}
+
+impl Chart {
+    /// In squares of half a unit, which are the pixels of a PNG.
+    fn paint<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: Scale) -> Drawn<B> {
+        let (width, height) = area.dim_in_pixel();
+        let side = scale.px(0.5).max(1);
+        let middle = |at: i32, size: u32| (f64::from(at) + 0.5 * f64::from(side)) / f64::from(size);
+        for y in (0..height as i32).step_by(side as usize) {
+            for x in (0..width as i32).step_by(side as usize) {
+                let colour = self.codes(middle(x, width), 1.0 - middle(y, height));
+                let corner = |at: i32, size: u32| (at + side).min(size as i32);
+                let square = [(x, y), (corner(x, width), corner(y, height))];
+                area.draw(&Rectangle::new(square, colour.filled()))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A small triangle above the chart: the thickness that the stack has.
+fn mark<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    scale: Scale,
+    (x, y): (i32, i32),
+) -> Drawn<B> {
+    let (half, high) = (scale.px(5.0), scale.px(8.0));
+    let corners = vec![(x, y), (x - half, y - high), (x + half, y - high)];
+    area.draw(&Polygon::new(corners, INK.filled()))
+}

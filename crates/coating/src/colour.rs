@@ -1,0 +1,247 @@
+//! The colour of a stack.
+
+use crate::response::{Angle, Sampled};
+use crate::{Light, SampleError, Stack};
+use color::{Lab, srgb};
+use optics::Polarised;
+use optics::batch::Powers;
+use rayon::prelude::*;
+use thiserror::Error;
+
+/// The side that a stack is looked at from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Side {
+    /// The light that it reflects.
+    #[default]
+    Reflected,
+    /// The light that it lets pass.
+    Transmitted,
+}
+
+/// How the light is polarised.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Polarisation {
+    /// Not at all: the mean of both.
+    #[default]
+    Unpolarised,
+    /// s: the electric field is perpendicular to the plane of incidence.
+    S,
+    /// p: it lies in that plane.
+    P,
+}
+
+impl Polarisation {
+    /// The power in light of this polarisation.
+    pub fn of(self, power: Polarised) -> f64 {
+        match self {
+            Self::Unpolarised => power.unpolarised(),
+            Self::S => power.s,
+            Self::P => power.p,
+        }
+    }
+}
+
+/// How a stack is looked at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct View {
+    /// From which side.
+    pub side: Side,
+    /// In which light.
+    pub polarisation: Polarisation,
+}
+
+impl View {
+    /// What is seen of a reflected and a transmitted power, or of their derivatives.
+    pub fn of(self, reflected: Polarised, transmitted: Polarised) -> f64 {
+        self.polarisation.of(match self.side {
+            Side::Reflected => reflected,
+            Side::Transmitted => transmitted,
+        })
+    }
+}
+
+/// A colour seen in a light: XYZ, relative to the light's Y = 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Colour {
+    /// X, Y, Z; Y = 1 for a perfect mirror.
+    pub xyz: [f64; 3],
+    /// XYZ of the light itself.
+    pub white: [f64; 3],
+}
+
+impl Colour {
+    /// CIELAB under the light's own white.
+    pub fn lab(&self) -> Lab {
+        Lab::from_xyz(self.xyz, self.white)
+    }
+
+    /// Chromaticity x, y; `None` for black.
+    pub fn chromaticity(&self) -> Option<[f64; 2]> {
+        let [x, y, z] = self.xyz;
+        let sum = x + y + z;
+        (sum > 0.0).then(|| [x / sum, y / sum])
+    }
+
+    /// Linear sRGB, 2^EV times as bright, neither adapted to the display's white nor clipped.
+    pub fn linear_srgb(&self, exposure_ev: f64) -> [f64; 3] {
+        srgb::linear_from_xyz(self.xyz.map(|v| v * exposure_ev.exp2()))
+    }
+
+    /// Codes of sRGB, 2^EV times as bright; what the display cannot show is clipped.
+    pub fn srgb8(&self, exposure_ev: f64) -> [u8; 3] {
+        self.linear_srgb(exposure_ev).map(srgb::to_u8)
+    }
+
+    /// The codes as `#2e6fd0`.
+    pub fn hex(&self, exposure_ev: f64) -> String {
+        let [r, g, b] = self.srgb8(exposure_ev);
+        format!("#{r:02x}{g:02x}{b:02x}")
+    }
+
+    /// Whether a display of sRGB can show it, 2^EV times as bright.
+    pub fn is_in_srgb(&self, exposure_ev: f64) -> bool {
+        let fits = |v: f64| (-1e-9..=1.0 + 1e-9).contains(&v);
+        self.linear_srgb(exposure_ev).into_iter().all(fits)
+    }
+}
+
+/// Why a text is not a colour.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{0:?} is not a colour; one of sRGB is written like #2e6fd0")]
+pub struct ParseColourError(String);
+
+/// XYZ, Y = 1 for the display's white, of a colour of sRGB such as `#2e6fd0` or `#28c`.
+///
+/// # Errors
+/// When it is not written so.
+pub fn parse_srgb(text: &str) -> Result<[f64; 3], ParseColourError> {
+    let refuse = || ParseColourError(text.chars().take(40).collect());
+    let digits = text.strip_prefix('#').unwrap_or(text);
+    if !digits.chars().all(|c| c.is_ascii_hexdigit()) {
+        return Err(refuse());
+    }
+    let value = u32::from_str_radix(digits, 16).map_err(|_| refuse())?;
+    let codes = match digits.len() {
+        6 => [16, 8, 0].map(|shift| (value >> shift) as u8),
+        3 => [8, 4, 0].map(|shift| 17 * ((value >> shift) & 15) as u8),
+        _ => return Err(refuse()),
+    };
+    Ok(srgb::xyz_from_linear(codes.map(srgb::from_u8)))
+}
+
+/// A stack that is looked at in a light: what gives its colour for any thicknesses and angle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StackColour {
+    sampled: Sampled,
+    light: Light,
+    view: View,
+}
+
+impl StackColour {
+    /// Reads the stack's media where the light's sums are taken.
+    ///
+    /// # Errors
+    /// When one of them has no data somewhere from 380 to 780 nm.
+    pub fn new(stack: &Stack, light: Light, view: View) -> Result<Self, SampleError> {
+        Ok(Self {
+            sampled: stack.sampled(&Light::wavelengths_nm())?,
+            light,
+            view,
+        })
+    }
+
+    /// The colour with these thicknesses, nm, one per layer, at an angle.
+    ///
+    /// # Panics
+    /// When there is not one thickness per layer.
+    pub fn at(&self, thicknesses_nm: &[f64], angle: Angle) -> Colour {
+        let powers = self.sampled.powers(thicknesses_nm, angle);
+        let seen = powers
+            .iter()
+            .map(|powers| self.view.of(powers.reflectance, powers.transmittance));
+        self.colour(self.light.xyz(seen))
+    }
+
+    /// XYZ with many sets of thicknesses at many angles, as `[set][angle]`, on all cores.
+    ///
+    /// # Panics
+    /// When there is not one thickness per layer.
+    pub fn xyz_of_all(&self, sets: &[Vec<f64>], angles: &[Angle]) -> Vec<[f64; 3]> {
+        /// Spectra that are in memory at a time, some 13 kB each.
+        const AT_ONCE: usize = 1024;
+        let seen = |powers: &Powers| self.view.of(powers.reflectance, powers.transmittance);
+        let xyz = |spectrum: &[Powers]| self.light.xyz(spectrum.iter().map(seen));
+        let wavelengths = self.sampled.wavelengths_nm().len();
+        sets.chunks(AT_ONCE.div_ceil(angles.len().max(1)))
+            .flat_map(|sets| {
+                let powers = self.sampled.powers_of_all(sets, angles);
+                let spectra = powers.par_chunks(wavelengths);
+                spectra.map(xyz).collect::<Vec<_>>()
+            })
+            .collect()
+    }
+
+    pub(crate) fn colour(&self, xyz: [f64; 3]) -> Colour {
+        Colour {
+            xyz,
+            white: self.light.white(),
+        }
+    }
+
+    /// The stack at the wavelengths of the sums.
+    pub fn sampled(&self) -> &Sampled {
+        &self.sampled
+    }
+
+    /// The light.
+    pub fn light(&self) -> &Light {
+        &self.light
+    }
+
+    /// How it is looked at.
+    pub fn view(&self) -> View {
+        self.view
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_are_written_with_three_or_six_digits() {
+        let white = parse_srgb("#ffffff").unwrap();
+        for (found, expected) in white.into_iter().zip(srgb::white_xyz()) {
+            assert!((found - expected).abs() < 1e-14);
+        }
+        assert_eq!(parse_srgb("#28c"), parse_srgb("2288CC"));
+        for bad in [
+            "", "#", "#12345", "#1234567", "#12g", "blue", "#+12345", "#é1234",
+        ] {
+            assert!(parse_srgb(bad).is_err(), "{bad:?}");
+        }
+        let colour = Colour {
+            xyz: parse_srgb("#2e6fd0").unwrap(),
+            white: srgb::white_xyz(),
+        };
+        assert_eq!(colour.hex(0.0), "#2e6fd0");
+        assert!(colour.is_in_srgb(0.0) && !colour.is_in_srgb(1.0));
+    }
+
+    #[test]
+    fn a_bare_surface_of_glass_is_grey_and_dark() {
+        let stack = Stack::parse("1 | 1.5").unwrap();
+        let colour = |side| {
+            let view = View {
+                side,
+                ..View::default()
+            };
+            StackColour::new(&stack, Light::named("D65").unwrap(), view)
+                .unwrap()
+                .at(&[], Angle::NORMAL)
+        };
+        let reflected = colour(Side::Reflected);
+        assert!((reflected.xyz[1] - 0.04).abs() < 1e-14 && reflected.lab().chroma() < 1e-10);
+        assert!((colour(Side::Transmitted).xyz[1] - 0.96).abs() < 1e-14);
+    }
+}

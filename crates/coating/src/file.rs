@@ -1,0 +1,253 @@
+//! Stack files.
+
+use crate::stack::{Layer, Medium, Stack};
+use scene::description::Index;
+use scene::{FieldPath, Problem, ProblemKind, Problems, SourceFile, limits};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use spectra::{OpticalConstants, Spectrum};
+use std::path::Path;
+
+/// The least that a stack file holds.
+const NEEDS: &str = "a stack needs at least `substrate = …`";
+
+/// A stack as it is written in a file (TOML):
+///
+/// ```toml
+/// incident = "air"
+/// substrate = "silicon"
+///
+/// [[layer]]
+/// index = "silica"
+/// thickness_nm = 300
+/// ```
+///
+/// An index is what a scene's materials accept: a number, `[n, k]`, a name, `{ name = "gold", extrapolate = "clamp" }`, a table in
+/// place `{ nm = […], n = […], k = […] }`, linear between its points, or a file, relative to this one.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StackDescription {
+    /// The medium that the light comes from; it must be transparent. Air when absent.
+    #[serde(default = "air")]
+    pub incident: Index,
+    /// The medium behind the last layer.
+    pub substrate: Index,
+    /// The layers, the first beside the incident medium.
+    #[serde(default)]
+    pub layer: Vec<LayerDescription>,
+}
+
+/// A layer as it is written in a file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LayerDescription {
+    /// What it is made of.
+    pub index: Index,
+    /// How thick it is, nm.
+    pub thickness_nm: f64,
+}
+
+fn air() -> Index {
+    Index::Name("air".to_owned())
+}
+
+/// n and k; `vacuum` is n = 1.
+pub(crate) fn constants(index: &Index, directory: &Path) -> Result<OpticalConstants, Vec<Problem>> {
+    if matches!(index, Index::Name(name) if name == "vacuum") {
+        return Ok(OpticalConstants {
+            n: Spectrum::Constant(1.0),
+            k: Spectrum::Constant(0.0),
+        });
+    }
+    scene::optical_constants(index, directory)
+        .map_err(|problems| problems.iter().cloned().collect())
+}
+
+pub(crate) fn read(path: &Path) -> Result<Stack, Problems> {
+    finish(SourceFile::read(path, NEEDS)?)
+}
+
+pub(crate) fn parse(name: &str, text: &str, directory: &Path) -> Result<Stack, Problems> {
+    finish(SourceFile::parse(name, text, directory, NEEDS)?)
+}
+
+fn finish((description, source): (StackDescription, SourceFile)) -> Result<Stack, Problems> {
+    source.finish(description.check(source.directory()))
+}
+
+impl StackDescription {
+    pub(crate) fn of(stack: &Stack) -> Self {
+        let layer = |layer: &Layer| LayerDescription {
+            index: layer.medium.written().clone(),
+            thickness_nm: layer.thickness_nm,
+        };
+        Self {
+            incident: stack.incident().written().clone(),
+            substrate: stack.substrate().written().clone(),
+            layer: stack.layers().iter().map(layer).collect(),
+        }
+    }
+
+    /// The stack that this describes; files are looked for from `directory`.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it; the problems' fields say where.
+    pub fn check(&self, directory: &Path) -> Result<Stack, Vec<Problem>> {
+        let mut checks = Checks {
+            directory,
+            problems: Vec::new(),
+        };
+        let root = FieldPath::root();
+        let incident = checks.incident(&root.key("incident"), &self.incident);
+        let substrate = checks.medium(&root.key("substrate"), &self.substrate);
+        let layers = checks.layers(&root.key("layer"), &self.layer);
+        match (incident, layers, substrate) {
+            (Some(incident), Some(layers), Some(substrate)) if checks.problems.is_empty() => {
+                Ok(Stack::new(incident, layers, substrate))
+            }
+            _ => Err(checks.problems),
+        }
+    }
+}
+
+struct Checks<'a> {
+    directory: &'a Path,
+    problems: Vec<Problem>,
+}
+
+impl Checks<'_> {
+    fn medium(&mut self, field: &FieldPath, written: &Index) -> Option<Medium> {
+        match constants(written, self.directory) {
+            Ok(constants) => Some(Medium::new(written.clone(), constants)),
+            Err(problems) => {
+                let placed = problems.into_iter().map(|problem| problem.within(field));
+                self.problems.extend(placed);
+                None
+            }
+        }
+    }
+
+    fn incident(&mut self, field: &FieldPath, written: &Index) -> Option<Medium> {
+        let medium = self.medium(field, written)?;
+        if let Some(fault) = Stack::fault_of_incident(&medium) {
+            self.report(ProblemKind::OutOfRange, field, fault);
+            return None;
+        }
+        Some(medium)
+    }
+
+    fn layers(&mut self, field: &FieldPath, written: &[LayerDescription]) -> Option<Vec<Layer>> {
+        if written.len() > Stack::MAX_LAYERS {
+            let (found, most) = (written.len(), Stack::MAX_LAYERS);
+            let message = format!("found {found} layers; at most {most} are possible");
+            self.report(ProblemKind::TooLarge, field, message);
+            return None;
+        }
+        let layers: Vec<_> = written
+            .iter()
+            .enumerate()
+            .map(|(index, layer)| self.layer(&field.index(index), layer))
+            .collect();
+        layers.into_iter().collect()
+    }
+
+    fn layer(&mut self, field: &FieldPath, written: &LayerDescription) -> Option<Layer> {
+        let medium = self.medium(&field.key("index"), &written.index);
+        let thickness_nm = written.thickness_nm;
+        if !limits::THICKNESS_NM.contains(thickness_nm) {
+            let message = format!(
+                "found {thickness_nm}; it must be from {}",
+                limits::THICKNESS_NM
+            );
+            let at = field.key("thickness_nm");
+            self.report(ProblemKind::OutOfRange, &at, message);
+            return None;
+        }
+        Some(Layer {
+            medium: medium?,
+            thickness_nm,
+        })
+    }
+
+    fn report(&mut self, kind: ProblemKind, field: &FieldPath, message: String) {
+        self.problems.push(Problem::new(kind, field, message));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(text: &str) -> Result<Stack, Problems> {
+        Stack::from_toml("stack.toml", text, Path::new(""))
+    }
+
+    const SOUND: &str = r#"
+        substrate = "silicon"
+        [[layer]]
+        index = { nm = [400, 700], n = [1.5, 1.4], k = [0, 0.2] }
+        thickness_nm = 120
+        [[layer]]
+        index = [1.46, 0.0]
+        thickness_nm = 0
+    "#;
+
+    #[test]
+    fn a_file_is_a_stack() {
+        let stack = parsed(SOUND).unwrap();
+        assert_eq!(stack.incident().label(), "air");
+        assert_eq!(stack.thicknesses_nm(), [120.0, 0.0]);
+        let sampled = stack.sampled(&[400.0, 550.0]).unwrap();
+        // Linear between the points.
+        assert!((sampled.layers()[0][1] - optics::Complex64::new(1.45, 0.1)).norm() < 1e-14);
+        let again = stack.description().check(Path::new("")).unwrap();
+        assert_eq!(again, stack);
+    }
+
+    #[test]
+    fn a_csv_file_is_looked_for_beside_the_stack() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(
+            folder.path().join("mine.csv"),
+            "nm,n,k\n300,1.5,0\n800,1.6,0.1\n",
+        )
+        .unwrap();
+        let path = folder.path().join("stack.toml");
+        std::fs::write(&path, "incident = 1\nsubstrate = { csv = \"mine.csv\" }\n").unwrap();
+        let stack = Stack::read(&path).unwrap();
+        assert_eq!(stack.substrate().label(), "mine.csv");
+        assert!((stack.sampled(&[550.0]).unwrap().substrate()[0].re - 1.55).abs() < 1e-14);
+    }
+
+    #[test]
+    fn data_that_do_not_reach_are_told_with_their_range() {
+        let error = parsed(SOUND).unwrap().sampled(&[500.0, 710.0]).unwrap_err();
+        let said = error.to_string();
+        for words in ["710 nm", "layer 1", "400 to 700 nm"] {
+            assert!(said.contains(words), "{said}");
+        }
+    }
+
+    /// Everything at once, each with line and column.
+    #[test]
+    fn mistakes_are_told_together() {
+        let text = "incident = \"gold\"\nsubstrat = 1.5\n[[layer]]\nindex = \"silca\"\nthickness_nm = -3\n\
+                    [[layer]]\nindex = { nm = [1, 2], n = [1.5] }\nthickness_nm = \"4\"\n";
+        let said = format!("{:#}", parsed(text).unwrap_err());
+        for line in [
+            "stack.toml:1:12: incident: gold absorbs",
+            "stack.toml:2:1: substrat: unknown field; did you mean `substrate`?",
+            "stack.toml:4:9: layer[0].index: there is no material",
+            "stack.toml:5:16: layer[0].thickness_nm: found -3; it must be from 0 to 100000 nm",
+            "stack.toml:7:28: layer[1].index.n: found 1 values for 2 wavelengths",
+            "stack.toml:8:16: layer[1].thickness_nm: found the string \"4\", expected a number",
+        ] {
+            assert!(said.contains(line), "{line} is not in\n{said}");
+        }
+        assert!(format!("{:#}", parsed(" ").unwrap_err()).contains("substrate"));
+        assert!(
+            format!("{:#}", parsed("incident = 1").unwrap_err()).contains("substrate: is missing")
+        );
+        assert!(format!("{:#}", parsed("substrate = ").unwrap_err()).contains("stack.toml:1"));
+    }
+}

@@ -1,0 +1,52 @@
+//! Stacks of thin films for those who design them.
+//!
+//! ```text
+//! "air | silica 300nm | silicon"  or a stack file     errors: where, what was found, what would be right
+//!   -> Stack                media (n + ik over wavelength) and layers with their thickness
+//!   -> Sampled              the stack at chosen wavelengths: numbers alone
+//!   -> powers               R, T and A for s and p over wavelength at an angle
+//!   -> Light::xyz           colour under an illuminant, CIE 1931, sums at 1 nm
+//!   -> sensitivity, tolerance, matching: how the colour depends on the thicknesses
+//!   -> plot, chart          pictures of all that
+//! ```
+//!
+//! ```
+//! use pellicle_coating::{Angle, Light, Stack, StackColour, View};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let stack = Stack::parse("1.0 | silica 300nm | silicon")?;
+//! let colour = StackColour::new(&stack, Light::named("D65")?, View::default())?;
+//! let blue = colour.at(stack.thicknesses_nm(), Angle::NORMAL);
+//! assert!(blue.lab().b < -30.0);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! Wavelengths are vacuum wavelengths, they and thicknesses in nanometres. Angles are degrees in the incident medium. Light is
+//! unpolarised where nothing else is said. Sign convention n + ik, k ≥ 0 absorbs.
+
+mod chart;
+mod colour;
+mod file;
+mod light;
+mod line;
+mod matching;
+mod picture;
+mod plot;
+mod response;
+mod sensitivity;
+mod stack;
+mod tolerance;
+
+pub use chart::{Chart, ChartOf};
+pub use colour::{Colour, ParseColourError, Polarisation, Side, StackColour, View, parse_srgb};
+pub use file::{LayerDescription, StackDescription};
+pub use light::{Light, UnknownIlluminant};
+pub use line::LineError;
+pub use matching::{Match, MatchBy, Matching, matches};
+pub use optics::batch::Powers;
+pub use plot::{Curve, Plot};
+pub use response::{Angle, AngleError, Batch, Sampled, absorptance};
+pub use sensitivity::{LayerSensitivity, Sensitivity, sensitivity};
+pub use stack::{Layer, Medium, SampleError, Stack, StackError};
+pub use tolerance::{Quantiles, Spread, Tolerance, ToleranceError, tolerance};

@@ -1,0 +1,123 @@
+//! The light that a stack is looked at in, and the observer who looks.
+
+use thiserror::Error;
+
+/// An illuminant with the CIE 1931 2° observer, as weights for sums at 380, 381 … 780 nm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Light {
+    name: String,
+    weights: Vec<[f64; 3]>,
+    white: [f64; 3],
+}
+
+/// An illuminant that nothing is known of.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("there is no illuminant {name:?}{}; known are {}", suggestion(.nearest.as_deref()), spectra::illuminant_names().join(", "))]
+pub struct UnknownIlluminant {
+    /// What was asked for.
+    pub name: String,
+    /// The one that was probably meant.
+    pub nearest: Option<String>,
+}
+
+fn suggestion(nearest: Option<&str>) -> String {
+    nearest.map_or_else(String::new, |name| format!("; did you mean {name:?}?"))
+}
+
+impl Light {
+    /// A CIE illuminant by its name: `D65`, `A`, `C`, `FL11`.
+    ///
+    /// # Errors
+    /// When there is none of that name.
+    pub fn named(name: &str) -> Result<Self, UnknownIlluminant> {
+        let unknown = || UnknownIlluminant {
+            name: name.to_owned(),
+            nearest: nearest(name),
+        };
+        let set = spectra::illuminant(name).ok_or_else(unknown)?;
+        let observer = spectra::observer_1931();
+        let at = |nm| {
+            let power = set.data.at(nm).unwrap_or(0.0);
+            observer
+                .each_ref()
+                .map(|curve| power * curve.clamped_at(nm))
+        };
+        let mut weights: Vec<[f64; 3]> = Self::wavelengths_nm().into_iter().map(at).collect();
+        let luminance: f64 = weights.iter().map(|w| w[1]).sum();
+        for weight in &mut weights {
+            *weight = weight.map(|w| w / luminance);
+        }
+        Ok(Self {
+            name: set.name.to_owned(),
+            white: sum(weights.iter().copied()),
+            weights,
+        })
+    }
+
+    /// The illuminant's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Where the sums are taken: 380, 381 … 780 nm.
+    pub fn wavelengths_nm() -> Vec<f64> {
+        (380..=780).map(f64::from).collect()
+    }
+
+    /// XYZ of the light itself, Y = 1.
+    pub fn white(&self) -> [f64; 3] {
+        self.white
+    }
+
+    /// XYZ = Σ R S (x̄, ȳ, z̄) / Σ S ȳ of a share R of the light at each of [`Self::wavelengths_nm`]: Y = 1 for a perfect mirror
+    /// (CIE 015:2018, section 7.1, at 1 nm from 380 to 780 nm).
+    pub fn xyz(&self, shares: impl IntoIterator<Item = f64>) -> [f64; 3] {
+        sum(shares
+            .into_iter()
+            .zip(&self.weights)
+            .map(|(share, weight)| weight.map(|w| share * w)))
+    }
+}
+
+fn sum(terms: impl Iterator<Item = [f64; 3]>) -> [f64; 3] {
+    terms.fold([0.0; 3], |sum, term| {
+        std::array::from_fn(|i| sum[i] + term[i])
+    })
+}
+
+/// The known name that a slip of the keys is nearest to; upper and lower case are no difference.
+fn nearest(name: &str) -> Option<String> {
+    let word: String = name.to_uppercase().chars().take(16).collect();
+    spectra::illuminant_names()
+        .into_iter()
+        .map(|known| (strsim::osa_distance(&word, known), known))
+        .min()
+        .filter(|&(distance, known)| distance < known.len())
+        .map(|(_, known)| known.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_perfect_mirror_is_the_white() {
+        for name in spectra::illuminant_names() {
+            let light = Light::named(name).unwrap();
+            let mirror = light.xyz(vec![1.0; 401]);
+            assert_eq!(mirror, light.white());
+            assert!((mirror[1] - 1.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_name_that_nothing_has_brings_a_suggestion() {
+        let said = Light::named("d65").unwrap_err().to_string();
+        assert!(said.contains("\"D65\""), "{said}");
+        let said = Light::named("tungsten bulb").unwrap_err().to_string();
+        assert!(
+            !said.contains("did you mean") && said.contains("FL11"),
+            "{said}"
+        );
+    }
+}

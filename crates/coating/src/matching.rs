@@ -1,0 +1,244 @@
+//! Which thickness of a layer gives a wanted colour.
+
+use crate::colour::StackColour;
+use crate::response::Angle;
+use color::lab::delta_e_2000;
+use color::{Lab, srgb};
+
+/// What is looked for, and where.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Matching {
+    /// The wanted colour, XYZ with Y = 1 for the display's white; see [`parse_srgb`](crate::parse_srgb).
+    pub wanted: [f64; 3],
+    /// The layer that may vary, counted from 0.
+    pub layer: usize,
+    /// The thinnest that it may be, nm.
+    pub from_nm: f64,
+    /// The thickest, nm; more than `from_nm`.
+    pub to_nm: f64,
+    /// The films are shown 2^EV times as bright.
+    pub exposure_ev: f64,
+    /// What has to be alike.
+    pub by: MatchBy,
+}
+
+/// What has to be alike.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MatchBy {
+    /// The whole colour, lightness included, at the exposure.
+    #[default]
+    Colour,
+    /// The colour but for its brightness: every film is first made as bright as the wanted colour. A film reflects little, so
+    /// that of a light colour only this much may be within reach.
+    Chromaticity,
+}
+
+/// A thickness whose colour is nearer to the wanted one than those of its neighbours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Match {
+    /// The thickness of the layer that varies, nm.
+    pub thickness_nm: f64,
+    /// Colour difference ΔE₀₀ from the wanted colour.
+    pub delta_e: f64,
+    /// The film's XYZ as it was compared, brightened.
+    pub xyz: [f64; 3],
+    /// By how many stops it was brightened.
+    pub exposure_ev: f64,
+}
+
+/// The step of the search before it is refined, nm. Colours turn over in half a wavelength of path, 20 nm and more of thickness in
+/// any medium of index below 10.
+const STEP_NM: f64 = 1.0;
+/// The fewest and the most steps.
+const STEPS: (f64, f64) = (100.0, 100_000.0);
+
+/// The local minima of the colour difference over the thickness, the best first: the nearest thickness and its runners-up, one in
+/// each order of interference.
+///
+/// Both colours are taken as a display of sRGB shows them, without adaptation, so that CIELAB is under the display's white.
+///
+/// # Panics
+/// When there is no such layer, or not one thickness per layer.
+pub fn matches(
+    stack: &StackColour,
+    thicknesses_nm: &[f64],
+    angle: Angle,
+    matching: &Matching,
+) -> Vec<Match> {
+    let set = |nm: f64| {
+        let mut thicknesses = thicknesses_nm.to_vec();
+        thicknesses[matching.layer] = nm;
+        thicknesses
+    };
+    let at = |nm: f64| matching.judge(nm, stack.at(&set(nm), angle).xyz);
+    let range_nm = matching.to_nm - matching.from_nm;
+    let steps = (range_nm / STEP_NM).ceil().clamp(STEPS.0, STEPS.1) as usize;
+    let nm = |step: usize| {
+        let along = step as f64 / steps as f64;
+        matching.from_nm + along * range_nm
+    };
+    let sets: Vec<Vec<f64>> = (0..=steps).map(|step| set(nm(step))).collect();
+    let colours = stack.xyz_of_all(&sets, &[angle]).into_iter().enumerate();
+    let grid: Vec<f64> = colours
+        .map(|(step, xyz)| matching.judge(nm(step), xyz).delta_e)
+        .collect();
+    let is_lowest = |&step: &usize| {
+        let before = step == 0 || grid[step] < grid[step - 1];
+        let after = step == steps || grid[step] <= grid[step + 1];
+        before && after
+    };
+    let mut found: Vec<Match> = (0..=steps)
+        .filter(is_lowest)
+        .map(|step| {
+            let between = (nm(step.saturating_sub(1)), nm((step + 1).min(steps)));
+            let on_grid = at(nm(step));
+            let refined = at(lowest_between(between, |nm| at(nm).delta_e));
+            // An end of the range is its own minimum.
+            if refined.delta_e < on_grid.delta_e {
+                refined
+            } else {
+                on_grid
+            }
+        })
+        .collect();
+    found.sort_by(|a, b| a.delta_e.total_cmp(&b.delta_e));
+    found
+}
+
+impl Matching {
+    /// How near the film of this thickness and colour is.
+    fn judge(&self, nm: f64, xyz: [f64; 3]) -> Match {
+        let exposure_ev = match self.by {
+            MatchBy::Colour => self.exposure_ev,
+            // Black stays black at any exposure.
+            MatchBy::Chromaticity if xyz[1] > 0.0 && self.wanted[1] > 0.0 => {
+                (self.wanted[1] / xyz[1]).log2()
+            }
+            MatchBy::Chromaticity => 0.0,
+        };
+        let xyz = xyz.map(|v| v * exposure_ev.exp2());
+        let lab = |xyz| Lab::from_xyz(xyz, srgb::white_xyz());
+        Match {
+            thickness_nm: nm,
+            delta_e: delta_e_2000(lab(self.wanted), lab(xyz)),
+            xyz,
+            exposure_ev,
+        }
+    }
+}
+
+/// Where a function of one minimum is lowest, by golden sections (Kiefer, Proc. Amer. Math. Soc. 4, 502 (1953)), to 1e-6 of the range:
+/// nearer than about the root of the rounding no minimum can be told.
+fn lowest_between((mut low, mut high): (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
+    let section = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let enough = 1e-7 * (high - low);
+    let (mut a, mut b) = (high - section * (high - low), low + section * (high - low));
+    let (mut f_a, mut f_b) = (f(a), f(b));
+    while high - low > enough {
+        if f_a <= f_b {
+            (high, b, f_b) = (b, a, f_a);
+            a = high - section * (high - low);
+            f_a = f(a);
+        } else {
+            (low, a, f_a) = (a, b, f_b);
+            b = low + section * (high - low);
+            f_b = f(b);
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Light, Stack, View, parse_srgb};
+
+    fn silica_on_silicon() -> StackColour {
+        let stack = Stack::parse("1 | silica 0nm | silicon").unwrap();
+        StackColour::new(&stack, Light::named("D65").unwrap(), View::default()).unwrap()
+    }
+
+    fn matching(wanted: [f64; 3], by: MatchBy) -> Matching {
+        Matching {
+            wanted,
+            layer: 0,
+            from_nm: 20.0,
+            to_nm: 700.0,
+            exposure_ev: 0.0,
+            by,
+        }
+    }
+
+    /// The colour of a known thickness leads back to it.
+    #[test]
+    fn the_thickness_of_a_known_colour_is_found() {
+        let stack = silica_on_silicon();
+        for nm in [87.3, 312.456, 333.3] {
+            let wanted = stack.at(&[nm], Angle::NORMAL).xyz;
+            let found = matches(
+                &stack,
+                &[0.0],
+                Angle::NORMAL,
+                &matching(wanted, MatchBy::Colour),
+            );
+            assert!(
+                (found[0].thickness_nm - nm).abs() < 1e-4,
+                "{nm}: {:?}",
+                found[0]
+            );
+            assert!(found[0].delta_e < 1e-4);
+            assert!(
+                found.len() > 1 && found[1].delta_e > found[0].delta_e,
+                "{found:?}"
+            );
+        }
+    }
+
+    /// By chromaticity the same film is found for a colour eight times as bright, and the exposure says how much brighter.
+    #[test]
+    fn brightness_can_be_left_out() {
+        let stack = silica_on_silicon();
+        let wanted = stack.at(&[250.0], Angle::NORMAL).xyz.map(|v| 8.0 * v);
+        let found = matches(
+            &stack,
+            &[0.0],
+            Angle::NORMAL,
+            &matching(wanted, MatchBy::Chromaticity),
+        );
+        assert!(
+            (found[0].thickness_nm - 250.0).abs() < 1e-4,
+            "{:?}",
+            found[0]
+        );
+        assert!((found[0].exposure_ev - 3.0).abs() < 1e-5);
+        let by_colour = matches(
+            &stack,
+            &[0.0],
+            Angle::NORMAL,
+            &matching(wanted, MatchBy::Colour),
+        );
+        assert!(by_colour[0].delta_e > 10.0);
+    }
+
+    #[test]
+    fn an_end_of_the_range_can_be_the_best() {
+        let stack = silica_on_silicon();
+        let wanted = stack.at(&[10.0], Angle::NORMAL).xyz;
+        let found = matches(
+            &stack,
+            &[0.0],
+            Angle::NORMAL,
+            &matching(wanted, MatchBy::Colour),
+        );
+        assert_eq!(found[0].thickness_nm, 20.0);
+        let _ = parse_srgb("#000").map(|black| {
+            let found = matches(
+                &stack,
+                &[0.0],
+                Angle::NORMAL,
+                &matching(black, MatchBy::Chromaticity),
+            );
+            assert!(found.iter().all(|m| m.delta_e.is_finite()));
+        });
+    }
+}

@@ -1,0 +1,164 @@
+//! Drawing: pictures made of the same strokes as SVG and as pixels, with a font of their own.
+
+use color::RgbImage8;
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::{FontStyle, register_font};
+use std::sync::Once;
+
+/// The family that labels are set in: DejaVu Sans, which comes with the program. Those who view an SVG have it or something alike.
+const FONT: &str = "DejaVu Sans, Verdana, sans-serif";
+/// A pixel of a PNG is the mean of so many by so many, which smooths every edge.
+const SUPERSAMPLING: u32 = 3;
+/// Steps of an SVG's coordinates, which are whole numbers, per unit of the drawing.
+const SVG_STEPS: u32 = 10;
+/// Pixels of a PNG per unit of the drawing.
+const PIXELS_PER_UNIT: u32 = 2;
+
+/// A drawing: given in units, drawn in pixels.
+pub(crate) trait Drawing {
+    /// Width and height in units.
+    fn size(&self) -> (u32, u32);
+
+    /// Draws on an area of `scale` pixels per unit.
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: Scale) -> Drawn<B>;
+}
+
+pub(crate) type Drawn<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+
+/// Pixels per unit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scale(pub(crate) u32);
+
+impl Scale {
+    /// A length in pixels.
+    pub(crate) fn px(self, units: f64) -> i32 {
+        (units * f64::from(self.0)).round() as i32
+    }
+
+    /// A style of text of this height.
+    pub(crate) fn text(self, units: f64) -> TextStyle<'static> {
+        TextStyle::from((FONT, units * f64::from(self.0)).into_font()).color(&INK)
+    }
+
+    /// A line of this width.
+    pub(crate) fn line(self, colour: RGBColor, units: f64) -> ShapeStyle {
+        colour.stroke_width(self.px(units).max(1) as u32)
+    }
+}
+
+/// What lines and labels are drawn with.
+pub(crate) const INK: RGBColor = RGBColor(34, 34, 34);
+/// Lines that stand back.
+pub(crate) const FAINT: RGBColor = RGBColor(222, 222, 222);
+
+/// As text of an SVG file.
+pub(crate) fn svg(drawing: &impl Drawing) -> String {
+    know_font();
+    let (width, height) = drawing.size();
+    let fine = (width * SVG_STEPS, height * SVG_STEPS);
+    let mut text = String::new();
+    {
+        let root = SVGBackend::with_string(&mut text, fine).into_drawing_area();
+        drawn(drawing.draw(&root, Scale(SVG_STEPS)));
+        drawn(root.present());
+    }
+    // The view box stays that of the fine steps.
+    let size = |(width, height)| format!("width=\"{width}\" height=\"{height}\"");
+    text.replacen(&size(fine), &size((width, height)), 1)
+}
+
+/// As pixels.
+pub(crate) fn pixels(drawing: &impl Drawing) -> RgbImage8 {
+    know_font();
+    let (width, height) = drawing.size();
+    let fine = PIXELS_PER_UNIT * SUPERSAMPLING;
+    let mut codes = vec![255; 3 * (width * fine) as usize * (height * fine) as usize];
+    {
+        let size = (width * fine, height * fine);
+        let root = BitMapBackend::with_buffer(&mut codes, size).into_drawing_area();
+        drawn(drawing.draw(&root, Scale(fine)));
+        drawn(root.present());
+    }
+    smoothed(&codes, (width * PIXELS_PER_UNIT, height * PIXELS_PER_UNIT))
+}
+
+/// Neither a string nor a buffer in memory can fail to be drawn on, and the font is there.
+fn drawn<E: std::error::Error + Send + Sync>(result: Result<(), DrawingAreaErrorKind<E>>) {
+    if let Err(error) = result {
+        unreachable!("a drawing in memory failed: {error}");
+    }
+}
+
+/// Each pixel the mean of its square of finer ones.
+fn smoothed(fine: &[u8], (width, height): (u32, u32)) -> RgbImage8 {
+    let n = SUPERSAMPLING as usize;
+    let stride = 3 * n * width as usize;
+    let mut codes = Vec::with_capacity(3 * (width * height) as usize);
+    for y in 0..height as usize {
+        for x in 0..width as usize {
+            for channel in 0..3 {
+                let start = n * y * stride + 3 * n * x + channel;
+                let square = (0..n).flat_map(|j| (0..n).map(move |i| start + j * stride + 3 * i));
+                let sum: u32 = square.map(|at| u32::from(fine[at])).sum();
+                let count = SUPERSAMPLING * SUPERSAMPLING;
+                codes.push(((sum + count / 2) / count) as u8);
+            }
+        }
+    }
+    match RgbImage8::new(width, height, codes) {
+        Some(image) => image,
+        None => unreachable!("three codes were made for each pixel"),
+    }
+}
+
+fn know_font() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        let is_font = register_font(FONT, FontStyle::Normal, dejavu::sans::regular());
+        assert!(is_font.is_ok(), "DejaVu Sans is a font");
+    });
+}
+
+/// An exposure in words.
+pub(crate) fn exposure(ev: f64) -> String {
+    if ev == 0.0 {
+        "0 EV".to_owned()
+    } else {
+        format!("{ev:+} EV")
+    }
+}
+
+/// A range of round numbers around `low` to `high`, from 0 where the values come near it.
+pub(crate) fn round_range(low: f64, high: f64) -> (f64, f64) {
+    let low = if low < 0.4 * high { 0.0 } else { low };
+    let span = (high - low).max(1e-3);
+    let size = 10.0_f64.powf((span / 5.0).log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0]
+        .map(|m| m * size)
+        .into_iter()
+        .find(|step| span / step <= 5.0)
+        .unwrap_or(10.0 * size);
+    let first = (low / step + 1e-9).floor() * step;
+    let last = (high / step - 1e-9).ceil() * step;
+    (first, last.max(first + step))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_are_round_and_hold_their_values() {
+        assert_eq!(round_range(0.0, 0.078), (0.0, 0.08));
+        assert_eq!(round_range(0.921, 1.0), (0.92, 1.0));
+        assert_eq!(round_range(0.0, 0.0).0, 0.0);
+        for (low, high) in [(0.3, 0.31), (0.0, 1e-6), (0.5, 0.5), (0.02, 0.97)] {
+            let (first, last) = round_range(low, high);
+            assert!(
+                first <= low && high <= last && first < last,
+                "{first} {last}"
+            );
+        }
+    }
+}

@@ -1,0 +1,322 @@
+//! R, T and A of a stack over wavelength, with the colour of each angle.
+
+use crate::colour::{Colour, Polarisation, Side, View};
+use crate::picture::{self, Drawing, Drawn, FAINT, INK, Scale, exposure, round_range};
+use crate::response::{Angle, absorptance};
+use color::{RgbImage8, srgb};
+use optics::batch::Powers;
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+/// A plot of R, T and A over wavelength, a curve per angle, with a swatch of each angle's colour.
+#[derive(Clone, Debug)]
+pub struct Plot {
+    /// What stands above it: the stack.
+    pub title: String,
+    /// The wavelengths, nm, rising, at least two.
+    pub wavelengths_nm: Vec<f64>,
+    /// For each angle.
+    pub curves: Vec<Curve>,
+    /// What is seen; the polarisation is that of the curves too.
+    pub view: View,
+    /// The illuminant of the swatches.
+    pub illuminant: String,
+    /// The swatches are 2^EV times as bright.
+    pub exposure_ev: f64,
+}
+
+/// What is shown of an angle.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// The angle of incidence.
+    pub angle: Angle,
+    /// R and T at each wavelength.
+    pub powers: Vec<Powers>,
+    /// The colour; `None` where the stack's data do not cover visible light.
+    pub colour: Option<Colour>,
+}
+
+impl Plot {
+    /// The most angles that can be told apart.
+    pub const MAX_CURVES: usize = 16;
+
+    /// As text of an SVG file.
+    pub fn svg(&self) -> String {
+        picture::svg(self)
+    }
+
+    /// As pixels.
+    pub fn pixels(&self) -> RgbImage8 {
+        picture::pixels(self)
+    }
+
+    /// The panels that have something to show: an A that is a rounding is none.
+    fn panels(&self) -> Vec<Panel> {
+        let all = [
+            Panel {
+                name: "reflectance R",
+                of: |p| p.reflectance,
+            },
+            Panel {
+                name: "transmittance T",
+                of: |p| p.transmittance,
+            },
+            Panel {
+                name: "absorptance A",
+                of: absorptance,
+            },
+        ];
+        let is_seen = |panel: &Panel| self.extent(panel).1 > 1e-9;
+        all.into_iter().filter(is_seen).collect()
+    }
+
+    fn values<'a>(&'a self, panel: &'a Panel, curve: &'a Curve) -> impl Iterator<Item = f64> + 'a {
+        let value = |powers: &Powers| self.view.polarisation.of((panel.of)(*powers)).max(0.0);
+        curve.powers.iter().map(value)
+    }
+
+    fn extent(&self, panel: &Panel) -> (f64, f64) {
+        let values = self
+            .curves
+            .iter()
+            .flat_map(|curve| self.values(panel, curve));
+        values.fold((f64::INFINITY, 0.0), |(low, high), v| {
+            (v.min(low), v.max(high))
+        })
+    }
+
+    fn ends_nm(&self) -> (f64, f64) {
+        let nm = &self.wavelengths_nm;
+        (nm[0], nm[nm.len() - 1])
+    }
+
+    fn draw_panel<B: DrawingBackend>(
+        &self,
+        area: &DrawingArea<B, Shift>,
+        scale: Scale,
+        panel: &Panel,
+        is_last: bool,
+    ) -> Drawn<B> {
+        let (low, high) = self.extent(panel);
+        let (bottom, top) = round_range(low, high.min(1.0));
+        let (first, last) = self.ends_nm();
+        let mut chart = ChartBuilder::on(area)
+            .margin_top(scale.px(8.0))
+            .margin_left(scale.px(14.0))
+            .margin_right(scale.px(12.0))
+            .set_label_area_size(LabelAreaPosition::Left, scale.px(66.0))
+            .set_label_area_size(
+                LabelAreaPosition::Bottom,
+                scale.px(if is_last { 40.0 } else { 12.0 }),
+            )
+            .build_cartesian_2d(first..last, bottom..top)?;
+        let decimals = if top - bottom < 0.04 { 3 } else { 2 };
+        chart
+            .configure_mesh()
+            .axis_style(scale.line(INK, 1.0))
+            .bold_line_style(scale.line(FAINT, 0.8))
+            .light_line_style(TRANSPARENT)
+            .set_all_tick_mark_size(scale.px(4.0))
+            .label_style(scale.text(13.0))
+            .axis_desc_style(scale.text(14.0))
+            .x_desc(if is_last {
+                "wavelength in vacuum / nm"
+            } else {
+                ""
+            })
+            .y_desc(panel.name)
+            .x_labels(9)
+            .y_labels(5)
+            .x_label_formatter(&|nm| {
+                if is_last {
+                    format!("{nm:.0}")
+                } else {
+                    String::new()
+                }
+            })
+            .y_label_formatter(&|value| format!("{value:.decimals$}"))
+            .draw()?;
+        if is_last {
+            draw_spectrum(
+                &chart.plotting_area().strip_coord_spec(),
+                scale,
+                (first, last),
+            )?;
+        }
+        for (index, curve) in self.curves.iter().enumerate() {
+            let values = self.values(panel, curve);
+            let points = self.wavelengths_nm.iter().copied().zip(values);
+            let style = scale.line(self.ink(index), 1.8);
+            chart.draw_series(LineSeries::new(points, style))?;
+        }
+        Ok(())
+    }
+
+    /// The colour of an angle's curve: those of Okabe and Ito (2008), which the colour-blind tell apart, or from violet to yellow.
+    fn ink(&self, index: usize) -> RGBColor {
+        const FEW: [RGBColor; 7] = [
+            RGBColor(0, 114, 178),
+            RGBColor(213, 94, 0),
+            RGBColor(0, 158, 115),
+            RGBColor(204, 121, 167),
+            RGBColor(230, 159, 0),
+            RGBColor(86, 180, 233),
+            RGBColor(0, 0, 0),
+        ];
+        if self.curves.len() <= FEW.len() {
+            return FEW[index];
+        }
+        let along = index as f64 / (self.curves.len() - 1) as f64;
+        let HSLColor(h, s, l) = HSLColor(0.78 - 0.66 * along, 0.75, 0.42);
+        let (r, g, b) = HSLColor(h, s, l).rgb();
+        RGBColor(r, g, b)
+    }
+
+    fn draw_legend<B: DrawingBackend>(
+        &self,
+        area: &DrawingArea<B, Shift>,
+        scale: Scale,
+    ) -> Drawn<B> {
+        let at = |x: f64, y: f64| (scale.px(x), scale.px(y));
+        let middle = |units| scale.text(units).pos(Pos::new(HPos::Left, VPos::Center));
+        for (line, text) in self.heading().iter().enumerate() {
+            area.draw(&Text::new(
+                text.clone(),
+                at(0.0, 20.0 + 18.0 * line as f64),
+                middle(13.0),
+            ))?;
+        }
+        for (index, curve) in self.curves.iter().enumerate() {
+            let y = 88.0 + 32.0 * index as f64;
+            let stroke = scale.line(self.ink(index), 2.5);
+            area.draw(&PathElement::new(vec![at(0.0, y), at(22.0, y)], stroke))?;
+            let angle = format!("{}°", curve.angle.degrees());
+            area.draw(&Text::new(angle, at(30.0, y), middle(14.0)))?;
+            let Some(colour) = curve.colour else {
+                continue;
+            };
+            let [r, g, b] = colour.srgb8(self.exposure_ev);
+            let swatch = [at(78.0, y - 12.0), at(122.0, y + 12.0)];
+            area.draw(&Rectangle::new(swatch, RGBColor(r, g, b).filled()))?;
+            let clipped = if colour.is_in_srgb(self.exposure_ev) {
+                ""
+            } else {
+                "*"
+            };
+            let code = format!("{}{clipped}", colour.hex(self.exposure_ev));
+            area.draw(&Text::new(code, at(130.0, y), middle(13.0)))?;
+        }
+        let is_clipped = |curve: &Curve| {
+            curve
+                .colour
+                .is_some_and(|c| !c.is_in_srgb(self.exposure_ev))
+        };
+        if self.curves.iter().any(is_clipped) {
+            let y = 88.0 + 32.0 * self.curves.len() as f64;
+            area.draw(&Text::new("* clipped to sRGB", at(0.0, y), middle(12.0)))?;
+        }
+        Ok(())
+    }
+
+    fn heading(&self) -> [String; 3] {
+        let side = match self.view.side {
+            Side::Reflected => "reflected",
+            Side::Transmitted => "transmitted",
+        };
+        [
+            polarisation(self.view.polarisation).to_owned(),
+            format!("colour {side} under {}", self.illuminant),
+            format!("shown at exposure {}", exposure(self.exposure_ev)),
+        ]
+    }
+}
+
+/// The polarisation in words.
+pub(crate) fn polarisation(polarisation: Polarisation) -> &'static str {
+    match polarisation {
+        Polarisation::Unpolarised => "unpolarised light",
+        Polarisation::S => "s polarised light",
+        Polarisation::P => "p polarised light",
+    }
+}
+
+/// A quantity over wavelength.
+struct Panel {
+    name: &'static str,
+    of: fn(Powers) -> optics::Polarised,
+}
+
+impl Drawing for Plot {
+    fn size(&self) -> (u32, u32) {
+        let legend = 130 + 32 * self.curves.len() as u32;
+        (900, (90 + 190 * self.panels().len() as u32).max(legend))
+    }
+
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: Scale) -> Drawn<B> {
+        area.fill(&WHITE)?;
+        let (head, body) = area.split_vertically(scale.px(38.0));
+        draw_title(&head, scale, &self.title)?;
+        let (panels, legend) = body.split_horizontally(scale.px(700.0));
+        let shown = self.panels();
+        // The last panel has the axis below it, and is as much higher.
+        let axis = scale.px(28.0);
+        let height = (panels.dim_in_pixel().1 as i32 - axis) / shown.len().max(1) as i32;
+        let cuts: Vec<i32> = (1..shown.len() as i32).map(|i| i * height).collect();
+        let areas = panels.split_by_breakpoints::<i32, i32, _, _>(&[], &cuts);
+        for (index, (panel, area)) in shown.iter().zip(&areas).enumerate() {
+            self.draw_panel(area, scale, panel, index + 1 == shown.len())?;
+        }
+        self.draw_legend(&legend, scale)
+    }
+}
+
+/// A line of text above a picture, shortened where it is too long.
+pub(crate) fn draw_title<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    scale: Scale,
+    title: &str,
+) -> Drawn<B> {
+    const MOST: usize = 96;
+    let shown = if title.chars().count() > MOST {
+        format!("{} …", title.chars().take(MOST).collect::<String>())
+    } else {
+        title.to_owned()
+    };
+    let style = scale.text(16.0).pos(Pos::new(HPos::Left, VPos::Center));
+    area.draw(&Text::new(shown, (scale.px(16.0), scale.px(22.0)), style))
+}
+
+/// The colours of the wavelengths, as far as a display has them, in a strip along the lower edge.
+fn draw_spectrum<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    scale: Scale,
+    (first, last): (f64, f64),
+) -> Drawn<B> {
+    let (width, height) = area.dim_in_pixel();
+    let top = height as i32 - scale.px(6.0);
+    let step = scale.px(1.0).max(1);
+    for x in (0..width as i32).step_by(step as usize) {
+        let nm = first + (last - first) * (f64::from(x) + 0.5) / f64::from(width);
+        if !(380.0..=780.0).contains(&nm) {
+            continue;
+        }
+        // One step further than its own: no gap can show between neighbours.
+        let strip = [(x, top), ((x + 2 * step).min(width as i32), height as i32)];
+        area.draw(&Rectangle::new(strip, colour_of(nm).filled()))?;
+    }
+    Ok(())
+}
+
+/// A wavelength's colour, made pale enough for a display.
+fn colour_of(nm: f64) -> RGBColor {
+    let xyz = spectra::observer_1931()
+        .each_ref()
+        .map(|curve| curve.clamped_at(nm));
+    let rgb = srgb::linear_from_xyz(xyz);
+    let paleness = rgb
+        .into_iter()
+        .fold(0.0, |paleness: f64, v| paleness.max(-v));
+    let [r, g, b] = rgb.map(|v| srgb::to_u8((v + paleness) / 1.8));
+    RGBColor(r, g, b)
+}

@@ -1,0 +1,296 @@
+//! What a stack does to light: R, T and A over wavelength at an angle.
+
+use optics::batch::{LayerOf, Media, Powers, StackBatch, StackOf, evaluate};
+use optics::{Complex64, Layer, Polarised, ThicknessDerivative};
+use thiserror::Error;
+
+/// A stack at chosen wavelengths: numbers alone, without names or tables. Thicknesses and angles are given when it is evaluated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sampled {
+    wavelengths_nm: Vec<f64>,
+    incident: Vec<f64>,
+    /// For each layer an index per wavelength.
+    layers: Vec<Vec<Complex64>>,
+    substrate: Vec<Complex64>,
+}
+
+/// Absorptance A = 1 − R − T of a whole stack.
+pub fn absorptance(powers: Powers) -> Polarised {
+    let (r, t) = (powers.reflectance, powers.transmittance);
+    Polarised {
+        s: 1.0 - r.s - t.s,
+        p: 1.0 - r.p - t.p,
+    }
+}
+
+/// An angle of incidence, from the normal, in the incident medium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Angle {
+    deg: f64,
+    cosine: f64,
+}
+
+/// An angle of incidence that there is not.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error("an angle of {0}°; it must be at least 0° and less than 90°")]
+pub struct AngleError(
+    /// The angle in degrees.
+    pub f64,
+);
+
+impl Angle {
+    /// Along the normal.
+    pub const NORMAL: Self = Self {
+        deg: 0.0,
+        cosine: 1.0,
+    };
+
+    /// An angle in degrees.
+    ///
+    /// # Errors
+    /// Unless it is at least 0 and less than 90.
+    pub fn from_degrees(deg: f64) -> Result<Self, AngleError> {
+        // sin(90° − θ) keeps the digits near grazing that cos θ loses where θ in radians is rounded.
+        let cosine = (90.0 - deg).to_radians().sin();
+        let is_possible = (0.0..90.0).contains(&deg) && cosine > 0.0;
+        is_possible
+            .then_some(Self { deg, cosine })
+            .ok_or(AngleError(deg))
+    }
+
+    /// In degrees.
+    pub fn degrees(self) -> f64 {
+        self.deg
+    }
+
+    /// Its cosine, in (0, 1].
+    pub fn cosine(self) -> f64 {
+        self.cosine
+    }
+}
+
+/// The arrays of a [`StackBatch`]: stacks that differ in their thicknesses alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Batch {
+    wavelengths_nm: Vec<f64>,
+    cosines: Vec<f64>,
+    media: Vec<Complex64>,
+    layers: Vec<LayerOf>,
+    stacks: Vec<StackOf>,
+}
+
+impl Batch {
+    /// As what evaluates batches takes it. Indices and wavelengths are in units of the incident index.
+    pub fn as_batch(&self) -> StackBatch<'_> {
+        StackBatch {
+            wavelengths_nm: &self.wavelengths_nm,
+            cosines: &self.cosines,
+            incident: 1.0,
+            media: Media::Dispersive(&self.media),
+            layers: &self.layers,
+            stacks: &self.stacks,
+        }
+    }
+}
+
+impl Sampled {
+    pub(crate) fn new(
+        wavelengths_nm: Vec<f64>,
+        incident: Vec<f64>,
+        layers: Vec<Vec<Complex64>>,
+        substrate: Vec<Complex64>,
+    ) -> Self {
+        Self {
+            wavelengths_nm,
+            incident,
+            layers,
+            substrate,
+        }
+    }
+
+    /// The wavelengths, nm.
+    pub fn wavelengths_nm(&self) -> &[f64] {
+        &self.wavelengths_nm
+    }
+
+    /// The incident medium's real index at each wavelength.
+    pub fn incident(&self) -> &[f64] {
+        &self.incident
+    }
+
+    /// For each layer its index n + ik at each wavelength.
+    pub fn layers(&self) -> &[Vec<Complex64>] {
+        &self.layers
+    }
+
+    /// The substrate's index n + ik at each wavelength.
+    pub fn substrate(&self) -> &[Complex64] {
+        &self.substrate
+    }
+
+    /// R and T at each wavelength, with these thicknesses (nm, one per layer).
+    ///
+    /// # Panics
+    /// When there is not one thickness per layer.
+    pub fn powers(&self, thicknesses_nm: &[f64], angle: Angle) -> Vec<Powers> {
+        self.each(thicknesses_nm, |n0, layers, substrate, nm| {
+            let found = optics::stack(n0, layers, substrate, nm, angle.cosine());
+            Powers {
+                reflectance: found.reflectance,
+                transmittance: found.transmittance,
+            }
+        })
+    }
+
+    /// The stack with many sets of thicknesses at many angles, as a batch for whatever evaluates batches.
+    ///
+    /// # Panics
+    /// When there is not one thickness per layer.
+    pub fn batch(&self, sets: &[Vec<f64>], angles: &[Angle]) -> Batch {
+        let count = self.layers.len();
+        let layers = sets.iter().flat_map(|thicknesses_nm| {
+            assert_eq!(thicknesses_nm.len(), count, "one thickness per layer");
+            let numbered = (0..).zip(thicknesses_nm);
+            numbered.map(|(medium, &thickness_nm)| LayerOf {
+                medium,
+                thickness_nm,
+            })
+        });
+        let stack = |set: usize| StackOf {
+            substrate: count as u32,
+            first_layer: (set * count) as u32,
+            layer_count: count as u32,
+        };
+        // Only ratios of indices and the phase n d / λ count, so that all can be told in units of the incident index, which a
+        // batch has once for all wavelengths.
+        let relative = |indices: &[Complex64]| -> Vec<Complex64> {
+            let pairs = indices.iter().zip(&self.incident);
+            pairs.map(|(n, n0)| n / n0).collect()
+        };
+        let media = self.layers.iter().chain([&self.substrate]);
+        let wavelengths = self.wavelengths_nm.iter().zip(&self.incident);
+        Batch {
+            wavelengths_nm: wavelengths.map(|(nm, n0)| nm / n0).collect(),
+            cosines: angles.iter().map(|angle| angle.cosine()).collect(),
+            media: media.flat_map(|indices| relative(indices)).collect(),
+            layers: layers.collect(),
+            stacks: (0..sets.len()).map(stack).collect(),
+        }
+    }
+
+    /// R and T with many sets of thicknesses at many angles, on all cores, as `[set][angle][wavelength]`: the same numbers
+    /// as [`Self::powers`], but for the last digits.
+    ///
+    /// # Panics
+    /// When there is not one thickness per layer, finite and not negative.
+    pub fn powers_of_all(&self, sets: &[Vec<f64>], angles: &[Angle]) -> Vec<Powers> {
+        match evaluate(&self.batch(sets, angles).as_batch()) {
+            Ok(powers) => powers,
+            // A stack's indices and an angle's cosine are in the batch's domain.
+            Err(error) => panic!("{error}"),
+        }
+    }
+
+    /// At each wavelength the absorptance of each layer: R + T + ΣA = 1.
+    ///
+    /// # Panics
+    /// When there is not one thickness per layer.
+    pub fn absorptances(&self, thicknesses_nm: &[f64], angle: Angle) -> Vec<Vec<Polarised>> {
+        self.each(thicknesses_nm, |n0, layers, substrate, nm| {
+            optics::absorptance(n0, layers, substrate, nm, angle.cosine())
+        })
+    }
+
+    /// At each wavelength ∂R/∂d and ∂T/∂d of each layer, per nm.
+    ///
+    /// # Panics
+    /// When there is not one thickness per layer.
+    pub fn derivatives(
+        &self,
+        thicknesses_nm: &[f64],
+        angle: Angle,
+    ) -> Vec<Vec<ThicknessDerivative>> {
+        self.each(thicknesses_nm, |n0, layers, substrate, nm| {
+            optics::thickness_derivatives(n0, layers, substrate, nm, angle.cosine())
+        })
+    }
+
+    /// Something of the stack at each wavelength: of the incident index, layers, substrate and wavelength.
+    fn each<T>(
+        &self,
+        thicknesses_nm: &[f64],
+        of: impl Fn(f64, &[Layer], Complex64, f64) -> T,
+    ) -> Vec<T> {
+        let (given, needed) = (thicknesses_nm.len(), self.layers.len());
+        assert_eq!(given, needed, "one thickness per layer");
+        let layer = |&thickness_nm: &f64| Layer {
+            index: Complex64::ONE,
+            thickness_nm,
+        };
+        let mut layers: Vec<Layer> = thicknesses_nm.iter().map(layer).collect();
+        let at = |(w, &nm): (usize, &f64)| {
+            for (layer, indices) in layers.iter_mut().zip(&self.layers) {
+                layer.index = indices[w];
+            }
+            of(self.incident[w], &layers, self.substrate[w], nm)
+        };
+        self.wavelengths_nm.iter().enumerate().map(at).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Stack;
+
+    #[test]
+    fn many_at_once_are_the_same_as_each_alone() {
+        let stack = Stack::parse("air | titania 60nm | silica 90nm | gold 8nm | bk7").unwrap();
+        let nm: Vec<f64> = (380..=780).step_by(25).map(f64::from).collect();
+        let sampled = stack.sampled(&nm).unwrap();
+        let sets = [
+            vec![60.0, 90.0, 8.0],
+            vec![0.0, 1000.0, 30.0],
+            vec![3.0, 0.0, 0.0],
+        ];
+        let angles = [0.0, 45.0, 89.0].map(|deg| Angle::from_degrees(deg).unwrap());
+        let all = sampled.powers_of_all(&sets, &angles);
+        let each = sets
+            .iter()
+            .flat_map(|set| angles.map(|angle| sampled.powers(set, angle)));
+        for (at_once, alone) in all.iter().zip(each.flatten()) {
+            for (a, b) in [
+                (at_once.reflectance.s, alone.reflectance.s),
+                (at_once.reflectance.p, alone.reflectance.p),
+                (at_once.transmittance.s, alone.transmittance.s),
+                (at_once.transmittance.p, alone.transmittance.p),
+            ] {
+                assert!((a - b).abs() < 1e-12, "{a} {b}");
+            }
+        }
+        assert_eq!(all.len(), 3 * 3 * nm.len());
+    }
+
+    #[test]
+    fn absorptances_of_the_layers_make_up_that_of_the_stack() {
+        let stack = Stack::parse("1 | 2.0+0.1i 60nm | gold 8nm | 1.5").unwrap();
+        let sampled = stack.sampled(&[450.0, 650.0]).unwrap();
+        let angle = Angle::from_degrees(50.0).unwrap();
+        let powers = sampled.powers(stack.thicknesses_nm(), angle);
+        let layers = sampled.absorptances(stack.thicknesses_nm(), angle);
+        for (powers, layers) in powers.into_iter().zip(layers) {
+            let sum: f64 = layers.iter().map(|a| a.p).sum();
+            assert!((absorptance(powers).p - sum).abs() < 1e-14 && sum > 0.1);
+        }
+    }
+
+    #[test]
+    fn angles_end_before_they_graze() {
+        assert_eq!(Angle::from_degrees(0.0), Ok(Angle::NORMAL));
+        assert!((Angle::from_degrees(60.0).unwrap().cosine() - 0.5).abs() < 1e-15);
+        assert!(Angle::from_degrees(89.99).is_ok());
+        for deg in [90.0, -1e-9, 91.0, f64::NAN, f64::INFINITY] {
+            assert!(Angle::from_degrees(deg).is_err(), "{deg}");
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! How fast the colour changes with each layer's thickness.
+
+use crate::colour::{Colour, StackColour};
+use crate::response::Angle;
+use color::Lab;
+use color::lab::delta_e_2000_rate;
+use optics::ThicknessDerivative;
+
+/// How the colour of a stack hangs on its thicknesses, to first order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensitivity {
+    /// The colour itself.
+    pub colour: Colour,
+    /// For each layer.
+    pub layers: Vec<LayerSensitivity>,
+}
+
+/// What one more nanometre of a layer does to the colour, to first order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LayerSensitivity {
+    /// Change of XYZ per nm.
+    pub xyz_per_nm: [f64; 3],
+    /// Change of CIELAB per nm.
+    pub lab_per_nm: Lab,
+    /// Colour difference ΔE₀₀ per nm.
+    pub delta_e_per_nm: f64,
+}
+
+/// The derivative of the colour with respect to each thickness: through XYZ, a sum over wavelength, CIELAB, and the
+/// form that ΔE₀₀ becomes between neighbours.
+///
+/// # Panics
+/// When there is not one thickness per layer.
+pub fn sensitivity(stack: &StackColour, thicknesses_nm: &[f64], angle: Angle) -> Sensitivity {
+    let colour = stack.at(thicknesses_nm, angle);
+    let share = |d: &ThicknessDerivative| stack.view().of(d.reflectance, d.transmittance);
+    // At each wavelength, of each layer.
+    let derivatives = stack.sampled().derivatives(thicknesses_nm, angle);
+    let of_layer = |layer: usize| {
+        let shares = derivatives.iter().map(|layers| share(&layers[layer]));
+        let xyz_per_nm = stack.light().xyz(shares);
+        let lab_per_nm = Lab::derivative(colour.xyz, colour.white, xyz_per_nm);
+        LayerSensitivity {
+            xyz_per_nm,
+            lab_per_nm,
+            delta_e_per_nm: delta_e_2000_rate(colour.lab(), lab_per_nm),
+        }
+    };
+    Sensitivity {
+        colour,
+        layers: (0..thicknesses_nm.len()).map(of_layer).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Light, Side, Stack, View};
+    use color::lab::delta_e_2000;
+
+    /// The derivative stands against plain differences of colours.
+    #[test]
+    fn a_nanometre_more_moves_the_colour_as_predicted() {
+        let line = "1 | 2.4 60nm | silica 90nm | 2.1+0.01i 40nm | bk7";
+        let stack = Stack::parse(line).unwrap();
+        for (side, angle_deg) in [
+            (Side::Reflected, 0.0),
+            (Side::Reflected, 55.0),
+            (Side::Transmitted, 30.0),
+        ] {
+            let colour = {
+                let view = View {
+                    side,
+                    ..View::default()
+                };
+                StackColour::new(&stack, Light::named("D65").unwrap(), view).unwrap()
+            };
+            let angle = Angle::from_degrees(angle_deg).unwrap();
+            let found = sensitivity(&colour, stack.thicknesses_nm(), angle);
+            for (layer, found) in found.layers.iter().enumerate() {
+                let at = |by_nm: f64| {
+                    let mut thicknesses = stack.thicknesses_nm().to_vec();
+                    thicknesses[layer] += by_nm;
+                    colour.at(&thicknesses, angle).lab()
+                };
+                let h = 1e-4;
+                let (up, down) = (at(h), at(-h));
+                let rate = delta_e_2000(down, up) / (2.0 * h);
+                assert!(
+                    (found.delta_e_per_nm / rate - 1.0).abs() < 1e-5,
+                    "{layer}: {} {rate}",
+                    found.delta_e_per_nm
+                );
+                assert!((found.lab_per_nm.l - (up.l - down.l) / (2.0 * h)).abs() < 1e-6);
+                assert!(rate > 1e-3, "a layer that does something");
+            }
+        }
+    }
+}

@@ -1,0 +1,257 @@
+//! How the colour scatters when thicknesses come out wrong.
+
+use crate::colour::{Colour, StackColour};
+use crate::response::Angle;
+use color::Lab;
+use color::lab::delta_e_2000;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+use thiserror::Error;
+
+/// Errors of thickness: each layer's own, independent, normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Standard deviation of a thickness relative to the thickness.
+    pub relative_sigma: f64,
+    /// How many stacks are drawn.
+    pub trials: u32,
+    /// Which ones: the same seed draws the same, on any machine and number of threads.
+    pub seed: u64,
+}
+
+/// Why there is no scatter to tell of.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum ToleranceError {
+    /// Not a deviation.
+    #[error("a tolerance of {} %; it must be more than 0 and at most 100 %", 100.0 * .0)]
+    Sigma(f64),
+    /// Too few or too many.
+    #[error("{0} trials; there must be from 1 to {max}", max = Tolerance::MAX_TRIALS)]
+    Trials(u32),
+    /// Nothing to vary.
+    #[error("the stack has no layer whose thickness could vary")]
+    NoLayers,
+}
+
+/// Colour differences ΔE₀₀ from the nominal colour, by the share of the trials that stay below.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantiles {
+    /// Of half of the trials.
+    pub p50: f64,
+    /// Of 90 %.
+    pub p90: f64,
+    /// Of 95 %.
+    pub p95: f64,
+    /// Of 99 %.
+    pub p99: f64,
+    /// The largest.
+    pub max: f64,
+}
+
+/// How the colour scatters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spread {
+    /// The colour with the thicknesses as they should be.
+    pub nominal: Colour,
+    /// The mean of the trials' XYZ.
+    pub mean: Colour,
+    /// Colour difference of the mean from the nominal colour.
+    pub mean_delta_e: f64,
+    /// When all layers vary.
+    pub all: Quantiles,
+    /// For each layer, when it alone varies.
+    pub alone: Vec<Quantiles>,
+}
+
+impl Spread {
+    /// The layer that matters most, counted from 0: with the largest 95th percentile when it varies alone.
+    pub fn worst_layer(&self) -> Option<usize> {
+        let largest =
+            |a: &(usize, &Quantiles), b: &(usize, &Quantiles)| a.1.p95.total_cmp(&b.1.p95);
+        self.alone
+            .iter()
+            .enumerate()
+            .max_by(largest)
+            .map(|(layer, _)| layer)
+    }
+}
+
+impl Tolerance {
+    /// The most trials.
+    pub const MAX_TRIALS: u32 = 10_000_000;
+
+    fn check(&self, layers: usize) -> Result<(), ToleranceError> {
+        if !(self.relative_sigma > 0.0 && self.relative_sigma <= 1.0) {
+            return Err(ToleranceError::Sigma(self.relative_sigma));
+        }
+        if !(1..=Self::MAX_TRIALS).contains(&self.trials) {
+            return Err(ToleranceError::Trials(self.trials));
+        }
+        if layers == 0 {
+            return Err(ToleranceError::NoLayers);
+        }
+        Ok(())
+    }
+
+    /// The thicknesses of a trial: each d (1 + σ z) with a normal z of its own, and never below 0.
+    fn drawn(&self, trial: u32, thicknesses_nm: &[f64]) -> Vec<f64> {
+        let mut random = ChaCha8Rng::seed_from_u64(self.seed);
+        random.set_stream(u64::from(trial));
+        let error = |&nm: &f64| {
+            let z: f64 = StandardNormal.sample(&mut random);
+            (nm * (1.0 + self.relative_sigma * z)).max(0.0)
+        };
+        thicknesses_nm.iter().map(error).collect()
+    }
+}
+
+/// Draws stacks with wrong thicknesses and looks at their colours.
+///
+/// # Errors
+/// When the tolerance makes no sense.
+///
+/// # Panics
+/// When there is not one thickness per layer.
+pub fn tolerance(
+    stack: &StackColour,
+    thicknesses_nm: &[f64],
+    angle: Angle,
+    tolerance: Tolerance,
+) -> Result<Spread, ToleranceError> {
+    tolerance.check(thicknesses_nm.len())?;
+    let nominal = stack.at(thicknesses_nm, angle);
+    let drawn: Vec<Vec<f64>> = (0..tolerance.trials)
+        .map(|trial| tolerance.drawn(trial, thicknesses_nm))
+        .collect();
+    let colours = stack.xyz_of_all(&drawn, &[angle]);
+    let count = f64::from(tolerance.trials);
+    let mut mean = [0.0; 3];
+    for xyz in &colours {
+        mean = std::array::from_fn(|i| mean[i] + xyz[i] / count);
+    }
+    let mean = stack.colour(mean);
+    let alone = (0..thicknesses_nm.len()).map(|layer| {
+        let one_wrong = |wrong: &Vec<f64>| {
+            let mut thicknesses = thicknesses_nm.to_vec();
+            thicknesses[layer] = wrong[layer];
+            thicknesses
+        };
+        let sets: Vec<Vec<f64>> = drawn.iter().map(one_wrong).collect();
+        quantiles(&nominal, &stack.xyz_of_all(&sets, &[angle]))
+    });
+    Ok(Spread {
+        nominal,
+        mean,
+        mean_delta_e: delta_e_2000(nominal.lab(), mean.lab()),
+        all: quantiles(&nominal, &colours),
+        alone: alone.collect(),
+    })
+}
+
+/// Quantiles by the nearest rank: the smallest difference that at least the share of the trials does not exceed.
+fn quantiles(nominal: &Colour, colours: &[[f64; 3]]) -> Quantiles {
+    let lab = nominal.lab();
+    let mut differences: Vec<f64> = colours
+        .iter()
+        .map(|&xyz| delta_e_2000(lab, Lab::from_xyz(xyz, nominal.white)))
+        .collect();
+    differences.sort_by(f64::total_cmp);
+    let at = |percent: usize| {
+        let rank = (percent * differences.len()).div_ceil(100);
+        differences[rank.saturating_sub(1)]
+    };
+    Quantiles {
+        p50: at(50),
+        p90: at(90),
+        p95: at(95),
+        p99: at(99),
+        max: at(100),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Light, Stack, View, sensitivity};
+
+    fn colour(line: &str) -> (StackColour, Vec<f64>) {
+        let stack = Stack::parse(line).unwrap();
+        let light = Light::named("D65").unwrap();
+        let colour = StackColour::new(&stack, light, View::default()).unwrap();
+        (colour, stack.thicknesses_nm().to_vec())
+    }
+
+    const SMALL: Tolerance = Tolerance {
+        relative_sigma: 1e-4,
+        trials: 4000,
+        seed: 1,
+    };
+
+    /// With a small error of one thickness ΔE is |z| σ d dE/dd, whose quantiles are those of a folded normal:
+    /// 0.674, 1.645, 1.960, 2.576 of the deviation.
+    #[test]
+    fn small_errors_scatter_as_the_derivative_says() {
+        let (colour, thicknesses) = colour("1 | silica 300nm | silicon");
+        let spread = tolerance(&colour, &thicknesses, Angle::NORMAL, SMALL).unwrap();
+        let rate = sensitivity(&colour, &thicknesses, Angle::NORMAL).layers[0].delta_e_per_nm;
+        let deviation = rate * SMALL.relative_sigma * thicknesses[0];
+        let found = spread.all;
+        for (found, expected) in [
+            (found.p50, 0.674),
+            (found.p90, 1.645),
+            (found.p95, 1.960),
+            (found.p99, 2.576),
+        ] {
+            // The standard error of these quantiles at 4000 trials is up to 4 %.
+            assert!(
+                (found / (expected * deviation) - 1.0).abs() < 0.1,
+                "{found} {expected}"
+            );
+        }
+        assert!(found.max >= found.p99 && spread.alone == [found]);
+        assert!(spread.mean_delta_e < 0.1 * found.p50);
+    }
+
+    #[test]
+    fn the_same_seed_draws_the_same_and_the_worst_layer_is_named() {
+        let (colour, thicknesses) = colour("1 | 2.4 60nm | 1.46 90nm | 2.4 0.5nm | 1.52");
+        let draw = |seed| {
+            let few = Tolerance {
+                trials: 200,
+                seed,
+                relative_sigma: 0.02,
+            };
+            tolerance(&colour, &thicknesses, Angle::NORMAL, few).unwrap()
+        };
+        assert_eq!(draw(1), draw(1));
+        assert_ne!(draw(1).all, draw(2).all);
+        let spread = draw(1);
+        assert_ne!(
+            spread.worst_layer(),
+            Some(2),
+            "half a nanometre matters least: {spread:?}"
+        );
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_refused() {
+        let (colour, thicknesses) = colour("1 | 1.5 60nm | 1.52");
+        let refused = |asked| tolerance(&colour, &thicknesses, Angle::NORMAL, asked).unwrap_err();
+        for relative_sigma in [0.0, -0.1, 1.5, f64::NAN] {
+            let asked = Tolerance {
+                relative_sigma,
+                ..SMALL
+            };
+            assert!(matches!(refused(asked), ToleranceError::Sigma(_)));
+        }
+        let none = Tolerance { trials: 0, ..SMALL };
+        assert_eq!(refused(none), ToleranceError::Trials(0));
+        let bare = super::tests::colour("1 | 1.5").0;
+        assert_eq!(
+            tolerance(&bare, &[], Angle::NORMAL, SMALL),
+            Err(ToleranceError::NoLayers)
+        );
+    }
+}

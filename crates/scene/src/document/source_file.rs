@@ -1,0 +1,155 @@
+//! A file that has been read as a description, and what did not fit in it.
+
+use super::{Findings, Tree, TreeError, read};
+use crate::FieldPath;
+use crate::problem::{Location, Problem, ProblemKind, Problems};
+use crate::text_file::read_text;
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A TOML file that has been read as a description, and what did not fit in it.
+///
+/// Reading compares the text with the schema of the description's type and fills in what is missing or unusable, so that
+/// the rest can still be checked; [`Self::finish`] then tells everything at once, each problem with its place.
+#[derive(Clone, Debug)]
+pub struct SourceFile {
+    findings: Findings,
+    name: String,
+    text: Arc<str>,
+    directory: PathBuf,
+}
+
+impl SourceFile {
+    /// Reads a file. `needs` says what the least is that such a file holds, for the error about an empty one.
+    ///
+    /// # Errors
+    /// When there is no such file, or it is not TOML. Other mistakes wait for [`Self::finish`].
+    pub fn read<T: DeserializeOwned + JsonSchema>(
+        path: &Path,
+        needs: &str,
+    ) -> Result<(T, Self), Problems> {
+        let name = path.display().to_string();
+        let text = read_text(path).map_err(|error| {
+            let problem = Problem::new(ProblemKind::File, &FieldPath::root(), error.to_string());
+            Problems::of_unread_file(name.clone(), problem)
+        })?;
+        let directory = path.parent().unwrap_or(Path::new(""));
+        Self::parse(&name, &text, directory, needs)
+    }
+
+    /// Reads the text of a file: `name` is what errors call it, and its own paths are relative to `directory`.
+    ///
+    /// # Errors
+    /// When the text is not TOML.
+    pub fn parse<T: DeserializeOwned + JsonSchema>(
+        name: &str,
+        text: &str,
+        directory: &Path,
+        needs: &str,
+    ) -> Result<(T, Self), Problems> {
+        let text: Arc<str> = Arc::from(text);
+        let refuse = |problem| Problems::of_file(name, &text, vec![problem], 0);
+        if text.trim().is_empty() {
+            let message = format!("the file is empty; {needs}");
+            let problem = Problem::new(ProblemKind::MissingField, &FieldPath::root(), message);
+            return Err(refuse(problem.located(Location::new(&text, 0..0))));
+        }
+        let tree = Tree::parse(&text).map_err(|TreeError { message, bytes }| {
+            let problem = Problem::new(ProblemKind::Syntax, &FieldPath::root(), message);
+            refuse(problem.located(Location::new(&text, bytes)))
+        })?;
+        let (description, findings) = read(&text, &tree);
+        drop(tree);
+        let Some(description) = description else {
+            let Findings {
+                problems, omitted, ..
+            } = findings;
+            return Err(Problems::of_file(name, &text, problems, omitted));
+        };
+        let file = Self {
+            findings,
+            name: name.to_owned(),
+            text,
+            directory: directory.to_owned(),
+        };
+        Ok((description, file))
+    }
+
+    /// Where the file's own paths start from.
+    pub fn directory(&self) -> &Path {
+        &self.directory
+    }
+
+    /// What came of checking the description, if reading found nothing wrong either.
+    ///
+    /// # Errors
+    /// Everything that reading and checking found, but for what only a stand-in caused. Mistakes of the checks are told with
+    /// the place of their field.
+    pub fn finish<T>(&self, checked: Result<T, Vec<Problem>>) -> Result<T, Problems> {
+        self.finish_changed(checked, |_| false)
+    }
+
+    /// The same, where a field that `is_changed` does not have its value from the file.
+    pub(crate) fn finish_changed<T>(
+        &self,
+        checked: Result<T, Vec<Problem>>,
+        is_changed: impl Fn(&FieldPath) -> bool,
+    ) -> Result<T, Problems> {
+        let (value, mistakes) = match checked {
+            Ok(value) => (Some(value), Vec::new()),
+            Err(mistakes) => (None, mistakes),
+        };
+        let mut mistakes = self.not_caused_by_stand_ins(mistakes);
+        let omitted = mistakes.len().saturating_sub(Problems::MAX_SHOWN);
+        mistakes.truncate(Problems::MAX_SHOWN);
+        let mut problems = self.findings.problems.clone();
+        problems.extend(self.placed(mistakes, is_changed));
+        match value {
+            Some(value) if problems.is_empty() => Ok(value),
+            _ => Err(Problems::of_file(
+                &self.name,
+                &self.text,
+                problems,
+                self.findings.omitted + omitted,
+            )),
+        }
+    }
+
+    fn not_caused_by_stand_ins(&self, mistakes: Vec<Problem>) -> Vec<Problem> {
+        let rests_on_file = |problem: &Problem| {
+            let mut grounds = std::iter::once(&problem.field).chain(&problem.involves);
+            !grounds.any(|field| self.findings.is_broken(field))
+        };
+        mistakes.into_iter().filter(rests_on_file).collect()
+    }
+
+    /// Says of each problem where in the file it lies, or that its value does not come from there.
+    fn placed(
+        &self,
+        problems: Vec<Problem>,
+        is_changed: impl Fn(&FieldPath) -> bool,
+    ) -> Vec<Problem> {
+        if problems.is_empty() {
+            return problems;
+        }
+        // The tree borrows the text, so it is made again where it is needed, which is here alone.
+        let Ok(tree) = Tree::parse(&self.text) else {
+            return problems;
+        };
+        let place = |problem: Problem| {
+            if is_changed(&problem.field) {
+                let note = "this value was set outside the file";
+                let help = match &problem.help {
+                    Some(help) => format!("{help}; {note}"),
+                    None => note.to_owned(),
+                };
+                return problem.help(help);
+            }
+            let location = Location::new(&self.text, tree.bytes_of(&problem.field));
+            problem.located(location)
+        };
+        problems.into_iter().map(place).collect()
+    }
+}
