@@ -20,8 +20,10 @@
 mod camera;
 pub mod description;
 mod document;
+mod drainage;
 mod field_path;
 pub mod file;
+mod growth;
 pub mod limits;
 mod material;
 mod object;
@@ -31,15 +33,19 @@ mod schema;
 mod settings;
 mod suggestion;
 mod text_file;
+mod thickness;
 mod validate;
 mod validated;
 
 pub use camera::{Camera, Projection};
 pub use field_path::{FieldPath, Step};
 pub use file::SceneFile;
-pub use material::{Emission, Material, Pattern, Thickness};
+pub use material::{Emission, Material, Pattern};
 pub use object::{Object, Shape};
 pub use problem::{Location, Problem, ProblemKind, Problems};
 pub use schema::schema;
 pub use settings::{RenderSettings, WavelengthSampling};
+pub use thickness::{
+    BlackFilm, Coordinate, Picture, PictureFile, Profile, Swirls, Thickness,
+};
 pub use validated::{Environment, MaterialId, Scene, SpectrumId};

@@ -1,7 +1,6 @@
 //! What a surface is made of, in a validated scene.
 
-use crate::SpectrumId;
-use glam::DVec3;
+use crate::{SpectrumId, Thickness};
 
 /// What a surface is made of. Every surface has two sides that behave alike.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +39,17 @@ pub enum Material {
     },
 }
 
+impl Material {
+    /// The thicknesses of its layers.
+    pub fn thicknesses(&self) -> impl Iterator<Item = &Thickness> {
+        let only = match self {
+            Self::Film { thickness, .. } => Some(thickness),
+            _ => None,
+        };
+        only.into_iter()
+    }
+}
+
 /// A spectrum of radiance and its scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
@@ -63,36 +73,5 @@ pub enum Pattern {
         odd: SpectrumId,
         /// Side of a square, > 0.
         size: f64,
-    },
-}
-
-/// The thickness of a film over its surface, nm, ≥ 0 everywhere.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Thickness {
-    /// The same everywhere.
-    Constant {
-        /// Thickness, nm.
-        nm: f64,
-    },
-    /// Linear in the polar angle θ seen from a sphere's centre: `pole_nm` at θ = 0, `equator_nm` at
-    /// θ = 90°, and on at the same rate (Suzuki, Yokoi and Toriwaki, section 4-4 (2)).
-    Polar {
-        /// Direction of the pole, a unit vector.
-        axis: DVec3,
-        /// Thickness at the pole, nm.
-        pole_nm: f64,
-        /// Thickness at 90° from the pole, nm.
-        equator_nm: f64,
-    },
-    /// Linear along a line in space from `start` to `end`, constant beyond its ends.
-    Linear {
-        /// Where the thickness is `start_nm`.
-        start: DVec3,
-        /// Where the thickness is `end_nm`, different from `start`.
-        end: DVec3,
-        /// Thickness at and before `start`, nm.
-        start_nm: f64,
-        /// Thickness at and beyond `end`, nm.
-        end_nm: f64,
     },
 }

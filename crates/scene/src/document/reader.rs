@@ -114,6 +114,7 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn value(&mut self, shape: &Shape, value: &Spanned<DeValue<'_>>, place: &Place) -> Value {
+        let shape = shape.resolved();
         match (shape, value.get_ref()) {
             (Shape::Number, DeValue::Integer(integer)) => Value::Float(float_of(integer)),
             (Shape::Number, DeValue::Float(float)) => {
@@ -469,6 +470,7 @@ fn any_value(shape: &Shape) -> Value {
         Shape::Table(fields) => Value::Table(any_fields(fields)),
         Shape::Tagged(variants) => any_tagged(variants),
         Shape::AnyOf(shapes) => shapes.first().map_or(Value::Float(1.0), any_value),
+        Shape::Again(_) => any_value(shape.resolved()),
     }
 }
 

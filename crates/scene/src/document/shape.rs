@@ -1,6 +1,7 @@
 //! What a value in a scene file may look like.
 
 use serde_json::Value as Json;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::LazyLock;
@@ -27,6 +28,8 @@ pub(crate) enum Shape {
     Tagged(BTreeMap<String, Fields>),
     /// Any of several, told apart by their type or by their fields. Never nested.
     AnyOf(Vec<Shape>),
+    /// A shape within itself, by its name in the schema.
+    Again(String),
 }
 
 /// The fields of a table.
@@ -48,8 +51,29 @@ pub(crate) const TAG: &str = "type";
 /// The shape of a whole scene file.
 pub(crate) static SCENE: LazyLock<Shape> = LazyLock::new(|| {
     let root = crate::schema();
-    Compiler { root: &root }.shape(&root)
+    Compiler::new(&root).shape(&root)
 });
+
+/// The shapes that [`Shape::Again`] names.
+static NAMED: LazyLock<BTreeMap<String, Shape>> = LazyLock::new(|| {
+    let root = crate::schema();
+    let definitions = root["definitions"].as_object();
+    let named = definitions.into_iter().flatten().map(|(name, _)| {
+        let reference = serde_json::json!({ "$ref": format!("#/definitions/{name}") });
+        (name.clone(), Compiler::new(&root).shape(&reference))
+    });
+    named.collect()
+});
+
+impl Shape {
+    /// This shape, or the one that it names.
+    pub(crate) fn resolved(&self) -> &Self {
+        match self {
+            Self::Again(name) => NAMED.get(name).unwrap_or(self),
+            _ => self,
+        }
+    }
+}
 
 impl Fields {
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
@@ -83,7 +107,7 @@ impl fmt::Display for Shape {
                     _ => write!(f, "values"),
                 }
             }
-            Self::Map(_) => write!(f, "a table"),
+            Self::Map(_) | Self::Again(_) => write!(f, "a table"),
             Self::Tagged(_) => write!(f, "a table with `{TAG}`"),
             Self::Table(fields) => {
                 let required: Vec<_> = fields.required().map(|name| format!("`{name}`")).collect();
@@ -121,16 +145,21 @@ pub(crate) fn quoted_choice<S: AsRef<str>>(words: &[S]) -> String {
 /// test that reads a scene shows; so it panics.
 struct Compiler<'a> {
     root: &'a Json,
+    /// References that are being followed.
+    open: RefCell<Vec<String>>,
 }
 
-impl Compiler<'_> {
+impl<'a> Compiler<'a> {
+    fn new(root: &'a Json) -> Self {
+        Self {
+            root,
+            open: RefCell::default(),
+        }
+    }
+
     fn shape(&self, schema: &Json) -> Shape {
         if let Some(reference) = schema["$ref"].as_str() {
-            let pointer = reference.trim_start_matches('#');
-            return match self.root.pointer(pointer) {
-                Some(target) => self.shape(target),
-                None => panic!("the schema has no {reference}"),
-            };
+            return self.referred(reference);
         }
         if let Some([only]) = schema["allOf"].as_array().map(Vec::as_slice) {
             return self.shape(only);
@@ -142,6 +171,20 @@ impl Compiler<'_> {
             return self.any_of(choices);
         }
         self.plain(schema)
+    }
+
+    fn referred(&self, reference: &str) -> Shape {
+        if self.open.borrow().iter().any(|open| open == reference) {
+            let name = reference.rsplit('/').next().unwrap_or_default();
+            return Shape::Again(name.to_owned());
+        }
+        let Some(target) = self.root.pointer(reference.trim_start_matches('#')) else {
+            panic!("the schema has no {reference}");
+        };
+        self.open.borrow_mut().push(reference.to_owned());
+        let shape = self.shape(target);
+        self.open.borrow_mut().pop();
+        shape
     }
 
     fn plain(&self, schema: &Json) -> Shape {

@@ -5,10 +5,12 @@ mod checks;
 mod environment;
 mod material;
 mod object;
+mod picture_file;
 mod points;
 mod settings;
 mod spectrum_list;
 mod table_file;
+mod thickness;
 
 use crate::description::Description;
 use crate::limits::{MAX_MATERIALS, MAX_OBJECTS};
@@ -20,7 +22,7 @@ use std::path::Path;
 
 /// The scene that `description` describes; tables are looked for from `directory`.
 pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene, Vec<Problem>> {
-    let mut checks = Checks::default();
+    let mut checks = Checks::new(directory);
     check_counts(&mut checks, description);
     let settings = settings::check(&mut checks, &description.render);
     let camera = camera::check(&mut checks, &description.camera);
