@@ -8,13 +8,14 @@ struct Sent {
 }
 
 /// The factor of a film at a point: its reflectance or its transmittance.
-fn film_factor(material: u32, point: SurfacePoint, center: vec3f, reflects: bool) -> Factor {
+fn film_factor(object: u32, point: SurfacePoint, reflects: bool) -> Factor {
+    let material = objects[object].material;
     var kind = select(FACTOR_FILM_TRANSMITS, FACTOR_FILM_REFLECTS, reflects);
     if (HAS_LOSSY_FILMS && materials[material].is_transparent == 0u) {
         kind = select(FACTOR_LOSSY_FILM_TRANSMITS, FACTOR_LOSSY_FILM_REFLECTS, reflects);
     }
     let layer = materials[material].first_layer;
-    return Factor(kind, layers[layer].spectrum, point.cosine, layer_thickness(layer, point.position, center));
+    return Factor(kind, layers[layer].spectrum, point.cosine, layer_thickness(layer, object, point.position));
 }
 
 /// Chooses a light and a direction towards it.
@@ -80,7 +81,7 @@ fn arrives(ray_in: Ray, from_object: u32, light: u32, allowed: u32) -> bool {
             return false;
         }
         let point = surface_point(hit.object, ray, hit.distance);
-        push_crossing(film_factor(material, point, objects[hit.object].center, false));
+        push_crossing(film_factor(hit.object, point, false));
         ray.origin = point.position;
         from_now = hit.object;
     }

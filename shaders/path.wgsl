@@ -84,7 +84,7 @@ const REFLECTED_SHARE: f32 = 0.5;
 fn meet_film(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
     var vertex = vertex_in;
     let reflects = random_at(sample, walk, 1u).x < REFLECTED_SHARE;
-    vertex.scatter = film_factor(objects[object].material, point, objects[object].center, reflects);
+    vertex.scatter = film_factor(object, point, reflects);
     vertex.weight = 1.0 / select(1.0 - REFLECTED_SHARE, REFLECTED_SHARE, reflects);
     push_vertex(vertex);
     if (reflects) {

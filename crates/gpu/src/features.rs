@@ -1,6 +1,6 @@
 //! What a scene has, so that its pipeline leaves out the rest: the values of `shaders/features.wgsl`.
 
-use scene::{Environment, Material, Pattern, Scene, Shape, Thickness};
+use scene::{Coordinate, Environment, Material, Pattern, Profile, Scene, Shape, Thickness};
 
 /// Constants of a pipeline by name: 1 where the scene has the thing, 0 where it has not.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,30 +44,6 @@ impl Features {
                 material(|m| matches!(m, Material::Film { .. })),
             ),
             ("HAS_LOSSY_FILMS", used.iter().any(|m| is_lossy(scene, m))),
-            (
-                "HAS_POLAR_THICKNESS",
-                material(|m| {
-                    matches!(
-                        m,
-                        Material::Film {
-                            thickness: Thickness::Polar { .. },
-                            ..
-                        }
-                    )
-                }),
-            ),
-            (
-                "HAS_LINEAR_THICKNESS",
-                material(|m| {
-                    matches!(
-                        m,
-                        Material::Film {
-                            thickness: Thickness::Linear { .. },
-                            ..
-                        }
-                    )
-                }),
-            ),
             ("HAS_SPHERE_LIGHTS", light(is_sphere)),
             ("HAS_RECTANGLE_LIGHTS", light(is_rectangle)),
             ("HAS_ENVIRONMENT", !is_dark(scene.environment())),
@@ -75,6 +51,7 @@ impl Features {
         Self(
             named
                 .into_iter()
+                .chain(of_thicknesses(&used))
                 .map(|(name, has)| (name, f64::from(u8::from(has))))
                 .collect(),
         )
@@ -84,6 +61,49 @@ impl Features {
     pub fn constants(&self) -> &[(&'static str, f64)] {
         &self.0
     }
+}
+
+/// What the thicknesses of layers are made of.
+fn of_thicknesses(materials: &[&Material]) -> [(&'static str, bool); 6] {
+    let parts = || {
+        let thicknesses = materials.iter().flat_map(|m| m.thicknesses());
+        thicknesses.flat_map(Thickness::parts)
+    };
+    let has = |wanted: fn(&Thickness) -> bool| parts().any(wanted);
+    [
+        (
+            "HAS_FIELDS",
+            has(|part| !matches!(part, Thickness::Constant { .. })),
+        ),
+        (
+            "HAS_COMBINED_FIELDS",
+            has(|part| matches!(part, Thickness::Sum(_) | Thickness::Product(_))),
+        ),
+        ("HAS_POLAR_FIELDS", has(is_polar)),
+        (
+            "HAS_SAMPLED_FIELDS",
+            has(|part| matches!(part, Thickness::Steps { .. } | Thickness::Profile(_))),
+        ),
+        (
+            "HAS_SWIRLS",
+            has(|part| matches!(part, Thickness::Swirls(_))),
+        ),
+        (
+            "HAS_PICTURES",
+            has(|part| matches!(part, Thickness::Picture(_))),
+        ),
+    ]
+}
+
+fn is_polar(part: &Thickness) -> bool {
+    matches!(
+        part,
+        Thickness::Polar { .. }
+            | Thickness::Profile(Profile {
+                coordinate: Coordinate::Polar { .. },
+                ..
+            })
+    )
 }
 
 fn is_diffuse(material: &Material) -> bool {

@@ -42,12 +42,16 @@ pub const MODULES: &[Module] = modules! {
     "features": [];
     "spectrum": ["bindings"];
     "camera": ["bindings", "layout"];
-    "surface": ["bindings", "camera", "features", "layout", "trig"];
+    "noise": ["bindings", "features", "layout", "random"];
+    "thickness": ["bindings", "features", "layout", "noise", "trig"];
+    "surface": ["bindings", "camera", "features", "layout"];
     "hit": ["bindings", "camera", "features", "intersect", "layout"];
     "light": ["bindings", "features", "layout", "sampling", "trig"];
     "record": ["layout", "limits"];
     "walk": ["bindings", "camera", "random", "surface"];
-    "connect": ["bindings", "camera", "features", "hit", "layout", "light", "record", "surface", "walk"];
+    "connect": [
+        "bindings", "camera", "features", "hit", "layout", "light", "record", "surface", "thickness", "walk"
+    ];
     "path": [
         "bindings", "camera", "connect", "features", "hit", "layout", "light", "microfacet", "random", "record",
         "sampling", "spectrum", "surface", "trig", "walk"

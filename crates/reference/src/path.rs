@@ -1,7 +1,7 @@
 //! A path through the scene with its spectrum.
 
 use crate::{
-    Hit, Ray, SurfacePoint, camera_ray, cook_torrance, film_thickness, frame_of, light_pdf,
+    Hit, Ray, SurfacePoint, camera_ray, cook_torrance, frame_of, layer_thickness, light_pdf,
     nearest_hit, random4, reflectance_spectrum, sample_cosine_hemisphere, sample_light,
     surface_point,
 };
@@ -199,7 +199,7 @@ impl Path<'_> {
         thickness: &Thickness,
     ) -> bool {
         let reflects = self.random(1)[0] < REFLECTED_SHARE;
-        let thickness_nm = film_thickness(
+        let thickness_nm = layer_thickness(
             thickness,
             &self.scene.objects()[object].shape,
             point.position,
@@ -364,7 +364,7 @@ impl Path<'_> {
             let point = surface_point(&met.shape, &ray, hit.distance);
             films.push(Crossing {
                 index: (n, k),
-                thickness_nm: film_thickness(thickness, &met.shape, point.position),
+                thickness_nm: layer_thickness(thickness, &met.shape, point.position),
                 cosine: point.cosine,
             });
             ray.origin = point.position;

@@ -45,7 +45,5 @@ pub use object::{Object, Shape};
 pub use problem::{Location, Problem, ProblemKind, Problems};
 pub use schema::schema;
 pub use settings::{RenderSettings, WavelengthSampling};
-pub use thickness::{
-    BlackFilm, Coordinate, Picture, PictureFile, Profile, Swirls, Thickness,
-};
+pub use thickness::{BlackFilm, Coordinate, Picture, PictureFile, Profile, Swirls, Thickness};
 pub use validated::{Environment, MaterialId, Scene, SpectrumId};

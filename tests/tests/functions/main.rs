@@ -4,6 +4,7 @@ mod numbers;
 mod optics_functions;
 mod scene_functions;
 mod shapes;
+mod thicknesses;
 
 use gpu::Gpu;
 use gpu::modules::MODULES;
@@ -81,6 +82,7 @@ fn checks() -> Vec<Check> {
         optics_functions::checks(),
         scene_functions::checks(),
         shapes::checks(),
+        thicknesses::checks(),
     ]
     .into_iter()
     .flatten()

@@ -1,8 +1,8 @@
 //! Pictures as numbers.
 
+use crate::PictureFile;
 use crate::limits::{MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE};
 use crate::text_file::{TextFileError, read_bytes};
-use crate::PictureFile;
 use image::{ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 use std::path::Path;
@@ -31,7 +31,9 @@ pub(crate) fn read(path: &Path) -> Result<PictureFile, PictureFileError> {
         return Err(PictureFileError::TooLarge { width, height });
     }
     let picture = reader(&bytes).decode()?.into_luma16();
-    let values = picture.pixels().map(|pixel| f32::from(pixel.0[0]) / 65_535.0);
+    let values = picture
+        .pixels()
+        .map(|pixel| f32::from(pixel.0[0]) / 65_535.0);
     Ok(PictureFile {
         width,
         height,

@@ -45,7 +45,11 @@ fn check_extent(
         }
     }
     let (what, found, most) = if deepest > limits::MAX_FIELD_DEPTH {
-        ("levels of sums and products", deepest, limits::MAX_FIELD_DEPTH)
+        (
+            "levels of sums and products",
+            deepest,
+            limits::MAX_FIELD_DEPTH,
+        )
     } else if parts > limits::MAX_FIELD_PARTS {
         ("parts", parts, limits::MAX_FIELD_PARTS)
     } else {
@@ -218,11 +222,7 @@ fn film(
         viscosity,
         &limits::VISCOSITY_PA_S,
     );
-    let density_kg_m3 = checks.number(
-        &field.key("density_kg_m3"),
-        density,
-        &limits::DENSITY_KG_M3,
-    );
+    let density_kg_m3 = checks.number(&field.key("density_kg_m3"), density, &limits::DENSITY_KG_M3);
     let below_nm = checks.number(&field.key("black_below"), black_below, nm);
     let black_nm = checks.number(&field.key("black"), black, nm);
     Some(Film {
@@ -248,7 +248,13 @@ fn draining(checks: &mut Checks, field: &FieldPath, written: &Drainage) -> Optio
             black_below,
             black,
         } => {
-            let film = film(checks, field, initial, (viscosity, density), (black_below, black));
+            let film = film(
+                checks,
+                field,
+                initial,
+                (viscosity, density),
+                (black_below, black),
+            );
             let radius = field.key("radius_m");
             let radius_m = checks.number(&radius, radius_m, &limits::FILM_SIZE_M)?;
             Some(draining_sphere(&film?, radius_m, checks.time_s))
@@ -263,7 +269,13 @@ fn draining(checks: &mut Checks, field: &FieldPath, written: &Drainage) -> Optio
             black_below,
             black,
         } => {
-            let film = film(checks, field, initial, (viscosity, density), (black_below, black));
+            let film = film(
+                checks,
+                field,
+                initial,
+                (viscosity, density),
+                (black_below, black),
+            );
             let height = field.key("height_m");
             let height_m = checks.number(&height, height_m, &limits::FILM_SIZE_M);
             let (top, bottom) = line(checks, field, (from, to))?;
@@ -317,7 +329,11 @@ fn draining_plane(
     // Before the first instant the line is endlessly steep.
     let most_nm2 = limits::MAX_FIELD_VALUE;
     let bottom_nm2 = (1.0 / thinning).min(most_nm2);
-    let top_nm2 = if thinning > 1.0 / most_nm2 { 0.0 } else { most_nm2 };
+    let top_nm2 = if thinning > 1.0 / most_nm2 {
+        0.0
+    } else {
+        most_nm2
+    };
     Profile {
         coordinate: Coordinate::Line { start, end },
         squares_nm2: vec![top_nm2, bottom_nm2],
@@ -376,7 +392,11 @@ fn pictured(
         Ok(file) => Some(Arc::new(file)),
         Err(error) => {
             let message = format!("{}: {error}", path.display());
-            checks.report(Problem::new(ProblemKind::File, &field.key("image"), message));
+            checks.report(Problem::new(
+                ProblemKind::File,
+                &field.key("image"),
+                message,
+            ));
             None
         }
     };
@@ -434,8 +454,14 @@ fn combined(
 fn largest(thickness: &Thickness) -> f64 {
     match thickness {
         Thickness::Constant { nm } => *nm,
-        Thickness::Polar { pole_nm, equator_nm, .. } => pole_nm.max(2.0 * equator_nm - pole_nm),
-        Thickness::Linear { start_nm, end_nm, .. } => start_nm.max(*end_nm),
+        Thickness::Polar {
+            pole_nm,
+            equator_nm,
+            ..
+        } => pole_nm.max(2.0 * equator_nm - pole_nm),
+        Thickness::Linear {
+            start_nm, end_nm, ..
+        } => start_nm.max(*end_nm),
         Thickness::Steps { nm, .. } => nm.iter().copied().fold(0.0, f64::max),
         Thickness::Profile(profile) => {
             let black = profile.black.map_or(0.0, |black| black.nm);
@@ -486,7 +512,12 @@ fn tinted(
     let description::Steel::Carbon = written.steel;
     let minutes = checks.number(&field.key("minutes"), written.minutes, &limits::MINUTES);
     let temperature = field.key("temperature_c");
-    let temperature = quantity(checks, &temperature, &written.temperature_c, &limits::HEAT_TINT_C);
+    let temperature = quantity(
+        checks,
+        &temperature,
+        &written.temperature_c,
+        &limits::HEAT_TINT_C,
+    );
     let minutes = minutes?;
     Some(match temperature? {
         Thickness::Linear {
