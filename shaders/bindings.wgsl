@@ -7,3 +7,7 @@
 @group(0) @binding(3) var<storage, read> layers: array<Layer>;
 /// Spectra as the host resampled them: [spectrum][knot within a band][group of four bands].
 @group(0) @binding(4) var<storage, read> spectra: array<vec4f>;
+/// What thicknesses that vary are made of, those of a layer one after another in postfix order.
+@group(0) @binding(5) var<storage, read> fields: array<Field>;
+/// Numbers that fields look up, row by row.
+@group(0) @binding(6) var samples: texture_2d<f32>;

@@ -9,7 +9,7 @@ fn film_factor(object: u32, point: SurfacePoint, reflects: bool) -> Factor {
         return layers_factor(select(FACTOR_STACK_TRANSMITS, reflected, reflects), object, point);
     }
     let layer = materials[material].first_layer;
-    let thickness_nm = layer_thickness(layer, point.position, objects[object].center);
+    let thickness_nm = layer_thickness(layer, object, point.position);
     if (HAS_TWO_BEAM_FILMS && film >= FILM_TWO_BEAM) {
         let kind = select(FACTOR_TWO_BEAM_TRANSMITS, FACTOR_TWO_BEAM_REFLECTS, reflects);
         return Factor(kind, material, point.cosine, thickness_nm, 0u);
@@ -37,7 +37,7 @@ fn layers_factor(kind: u32, object: u32, point: SurfacePoint) -> Factor {
     let first = materials[material].first_layer;
     for (var layer = first; layer < first + materials[material].layer_count; layer++) {
         if (layer_varies(layer)) {
-            push_thickness(layer_thickness(layer, point.position, objects[object].center));
+            push_thickness(layer_thickness(layer, object, point.position));
         }
     }
     return factor;

@@ -34,14 +34,44 @@ const SURFACE_ROUGH_CONDUCTOR: u32 = 2u;
 /// Surface: a free film.
 const SURFACE_FILM: u32 = 3u;
 
-/// Thickness: the same everywhere.
-const THICKNESS_CONSTANT: u32 = 0u;
+/// Field: the same everywhere.
+const FIELD_CONSTANT: u32 = 0u;
 
-/// Thickness: linear in the polar angle about a sphere's centre.
-const THICKNESS_POLAR: u32 = 1u;
+/// Field: linear in what it runs along.
+const FIELD_LINEAR: u32 = 1u;
 
-/// Thickness: linear along a line in space, constant beyond its ends.
-const THICKNESS_LINEAR: u32 = 2u;
+/// Field: steps of equal width.
+const FIELD_STEPS: u32 = 2u;
+
+/// Field: the root of a table.
+const FIELD_PROFILE: u32 = 3u;
+
+/// Field: noise carried along by a flow.
+const FIELD_SWIRLS: u32 = 4u;
+
+/// Field: a picture.
+const FIELD_PICTURE: u32 = 5u;
+
+/// Field: the sum of the two values before it.
+const FIELD_SUM: u32 = 6u;
+
+/// Field: the product of the two values before it.
+const FIELD_PRODUCT: u32 = 7u;
+
+/// A field runs along the polar angle about a sphere's centre.
+const ALONG_POLAR_ANGLE: u32 = 0u;
+
+/// A field runs along a line in space.
+const ALONG_LINE: u32 = 1u;
+
+/// The most values that wait for a sum or product.
+const FIELD_STACK: u32 = 5u;
+
+/// Numbers in a row of the texture that fields look up.
+const SAMPLES_WIDTH: u32 = 4096u;
+
+/// No layer is thicker, nm.
+const MAX_THICKNESS_NM: u32 = 100000u;
 
 /// Spectral factor of a path's vertex: 1.
 const FACTOR_ONE: u32 = 0u;
@@ -219,20 +249,48 @@ struct Material {
 
 /// A layer of a film or of a coating.
 struct Layer {
-    /// The pole's direction (polar), or where a linear thickness starts.
-    thickness_from: vec3f,
-    /// A `THICKNESS_` tag.
-    thickness: u32,
-    /// From start to end of a linear thickness, over the square of its length.
-    thickness_along: vec3f,
-    /// Thickness at the pole, at the start or everywhere, nm.
-    thickness_nm: f32,
-    /// Added to it: per radian of polar angle, or from start to end, nm.
-    thickness_slope_nm: f32,
     /// Spectrum: n of its index, whose k is the next one.
     spectrum: u32,
-    /// Fills the size up to a multiple of 16.
-    padding: vec2u,
+    /// Thickness where it has no fields, nm.
+    thickness_nm: f32,
+    /// First of the fields that its thickness is made of.
+    first_field: u32,
+    /// Number of its fields; 0 where the thickness is the same everywhere.
+    field_count: u32,
+}
+
+/// A part of a thickness that varies.
+struct Field {
+    /// The pole's direction, or where a line starts.
+    origin: vec3f,
+    /// A `FIELD_` tag.
+    kind: u32,
+    /// From start to end of a line, over the square of its length.
+    along: vec3f,
+    /// An `ALONG_` tag.
+    runs_along: u32,
+    /// Value at 0: at the pole, at the start, of black, the mean of swirls; thickness of the black film of a profile.
+    base: f32,
+    /// Added to it at 1: at the other pole, at the end, of white, the amplitude of swirls; the largest value of a profile.
+    swing: f32,
+    /// A profile is a black film below it; cells of swirls per unit.
+    threshold: f32,
+    /// Distance by which swirls are carried, in cells.
+    warp: f32,
+    /// Width and height of a picture on a plane; 0 for its natural size.
+    size: vec2f,
+    /// Time of swirls within its cell.
+    phase: f32,
+    /// Cells that the time of swirls has passed through.
+    cells: u32,
+    /// Chooses the pattern of swirls.
+    seed: u32,
+    /// First of the numbers that it looks up.
+    first_sample: u32,
+    /// Steps, knots of a profile, pixels of a row; octaves of swirls.
+    sample_count: u32,
+    /// Rows of a picture.
+    rows: u32,
 }
 
 /// What holds for one run over a part of a batch of stacks.

@@ -23,28 +23,6 @@ fn surface_point(index: u32, ray: Ray, distance: f32) -> SurfacePoint {
     return SurfacePoint(position, select(normal, -normal, cosine > 0.0), abs(cosine), cosine <= 0.0);
 }
 
-/// Whether a layer's thickness varies over its surface.
-fn layer_varies(layer: u32) -> bool {
-    return layers[layer].thickness != THICKNESS_CONSTANT;
-}
-
-/// Thickness of a layer at a point of its surface, nm.
-fn layer_thickness(layer: u32, position: vec3f, center: vec3f) -> f32 {
-    let base = layers[layer].thickness_nm;
-    let slope = layers[layer].thickness_slope_nm;
-    let first = layers[layer].thickness_from;
-    if (HAS_POLAR_THICKNESS && layers[layer].thickness == THICKNESS_POLAR) {
-        let radial = position - center;
-        let angle = polar_angle(dot(radial, first), length(cross(radial, first)));
-        return max(base + slope * angle, 0.0); // a thickness that ends in 0 may round below it
-    }
-    if (HAS_LINEAR_THICKNESS && layers[layer].thickness == THICKNESS_LINEAR) {
-        let along = dot(position - first, layers[layer].thickness_along);
-        return base + slope * clamp(along, 0.0, 1.0);
-    }
-    return base;
-}
-
 /// Spectrum of a diffuse reflectance at a point: one of the two of a checker, or the only one.
 fn reflectance_spectrum(material: u32, index: u32, position: vec3f) -> u32 {
     let even = materials[material].spectrum;

@@ -10,6 +10,7 @@ pub const SHIPPED: &[&str] = &[
     "film_wedge",
     "metal_spheres",
     "furnace",
+    "draining_bubble",
 ];
 
 /// A scene with every kind of surface, pattern, thickness, light and environment that there is.

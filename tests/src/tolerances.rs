@@ -37,6 +37,15 @@ pub const DISTANCE: Tolerance = of(1e-5, 1e-5);
 pub const LIGHT_PDF: Tolerance = of(1e-6, 3e-5);
 /// Thickness over a surface: the angle's error of 3e-7 times nm per radian, and the thickness's own rounding.
 pub const THICKNESS_NM: Tolerance = of(1e-3, 1e-6);
+/// Thickness by a picture of 12 × 7 pixels: a place off by 4e-7 of the picture, times 12 pixels of up to 600 nm contrast.
+pub const PICTURE_NM: Tolerance = of(3e-3, 1e-6);
+/// Thickness by a table of squares: as THICKNESS_NM, but the root is steep where the film is thin, h² / (2 h) with 4e6 nm² times 4e-7.
+pub const PROFILE_NM: Tolerance = of(3e-3, 3e-6);
+/// Noise with coordinates up to 20: those are off by 1e-6, gradients by the second derivatives' 20 times that.
+pub const NOISE: Tolerance = of(2e-5, 0.0);
+/// Thickness by swirls: the place is off by 1e-6 cells, which three steps of the flow and four octaves magnify some hundred
+/// times, times the gain of 5 and 250 nm.
+pub const SWIRLS_NM: Tolerance = of(0.05, 0.0);
 /// exp(iπx) with x to 6: the angle is rounded by up to 2.4e-7 half turns before it is reduced.
 pub const PHASE: Tolerance = of(1.5e-6, 0.0);
 /// Beckmann's D: the exponent tan²/m² of up to 80 carries 3 ε of its own size.

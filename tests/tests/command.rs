@@ -398,3 +398,71 @@ fn the_examples_run() {
     let said = example("read_a_pixel", &[]);
     told(&said, &["pixel (16, 4)", "XYZ"], "read_a_pixel");
 }
+
+/// A film that grows thicker with time, a frame each second.
+const GROWING: &str = "
+render = { size = [16, 12], samples = 2, bands = 6, time_s = 10, time_step_s = 5 }
+camera = { type = 'perspective', position = [0, 0, 3], look_at = [0, 0, 0], fov_deg = 30 }
+environment = { type = 'constant', emission = { constant = 1 } }
+[materials.film]
+type = 'film'
+index = 1.33
+thickness_nm = { drainage = { initial = 900, radius_m = 0.01, viscosity_pa_s = 1e-7 } }
+[[objects]]
+type = 'sphere'
+material = 'film'
+center = [0, 0, 0]
+radius = 0.5
+";
+
+#[test]
+fn a_sequence_has_a_numbered_file_for_each_frame_at_its_time() {
+    let place = Place::default();
+    std::fs::write(place.path("film.toml"), GROWING).unwrap();
+    let ran = place
+        .run("render film.toml --backend cpu --frames 2:4 -o a.exr")
+        .succeeded();
+    assert_eq!(place.names(), ["a_0002.exr", "a_0003.exr", "film.toml"]);
+    told(
+        &ran.stderr,
+        &["frame 2 to 3 at 20 s", "wrote a_0003.exr"],
+        "",
+    );
+    let _ = place
+        .run("render film.toml --backend cpu --time 25 -o still.exr")
+        .succeeded();
+    let (third, metadata) = exr(&place, "a_0003.exr");
+    assert_eq!(metadata.settings["time_s"], "25");
+    assert_eq!(third, exr(&place, "still.exr").0);
+    assert_ne!(third, exr(&place, "a_0002.exr").0);
+}
+
+#[test]
+fn sequences_that_cannot_be_are_refused_before_they_begin() {
+    for (frames, said) in [
+        ("--frames 4", "written like 0:48"),
+        ("--frames 4:4", "must be larger than the first"),
+        ("--frames=-1:4", "written like 0:48"),
+    ] {
+        refused(frames, &[said]);
+    }
+    refused(
+        "--time=-3",
+        &["render.time_s", "found -3", "set outside the file"],
+    );
+    let place = Place::default();
+    std::fs::write(
+        place.path("film.toml"),
+        GROWING.replace("time_step_s = 5", "time_step_s = 1e9"),
+    )
+    .unwrap();
+    let failed = place
+        .run("render film.toml --backend cpu --frames 0:3")
+        .failed();
+    told(
+        &failed,
+        &["frame 2 cannot be rendered", "render.time_s"],
+        "",
+    );
+    assert_eq!(place.names(), ["film.toml"]);
+}

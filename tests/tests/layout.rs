@@ -50,7 +50,7 @@ macro_rules! assert_layout {
 #[test]
 fn naga_sees_the_offsets_of_rust() {
     let structs = structs_of_naga();
-    assert_eq!(structs.len(), 8);
+    assert_eq!(structs.len(), 9);
     assert_layout!(structs, Frame: camera_origin, projection, camera_back, image_size, groups, light_count, zenith, observer);
     assert_layout!(structs, Batch: tile_origin, tile_size, first_sample, sample_count);
     assert_layout!(structs, Object: center, radius, normal, tangent, bitangent, half_height, material, is_light, light);
@@ -58,7 +58,8 @@ fn naga_sees_the_offsets_of_rust() {
     assert_layout!(structs, StackRun: wavelength_count, stack_count, incident);
     assert_layout!(structs, RunLayer: medium, thickness_nm);
     assert_layout!(structs, RunStack: substrate, first_layer, layer_count);
-    assert_layout!(structs, Layer: thickness_from, thickness_along, thickness_slope_nm, spectrum);
+    assert_layout!(structs, Layer: spectrum, thickness_nm, first_field, field_count);
+    assert_layout!(structs, Field: origin, kind, along, runs_along, base, swing, size, phase, cells, seed, first_sample, rows);
 }
 
 /// The comparison above can fail: a struct with a member more has another size.

@@ -60,6 +60,15 @@ impl Outputs {
         self.spectral.push(named(".exr"));
     }
 
+    /// The same with the number of a frame in each name: `name_0000.png`.
+    pub(crate) fn of_frame(&self, frame: u32) -> Self {
+        let numbered = |paths: &[PathBuf]| paths.iter().map(|path| numbered(path, frame)).collect();
+        Self {
+            pictures: numbered(&self.pictures),
+            spectral: numbered(&self.spectral),
+        }
+    }
+
     /// Develops and writes.
     pub(crate) fn write(&self, image: &SpectralImage, metadata: &Metadata) -> miette::Result<()> {
         if !self.pictures.is_empty() {
@@ -79,6 +88,14 @@ impl Outputs {
         }
         Ok(())
     }
+}
+
+/// The number goes before the ending, which every output has.
+fn numbered(path: &Path, frame: u32) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("_{frame:04}."));
+    name.push(path.extension().unwrap_or_default());
+    path.with_file_name(name)
 }
 
 /// Whether a path that is no folder is written like one.
@@ -160,6 +177,14 @@ mod tests {
         assert_eq!(found.pictures, [PathBuf::from("A.PNG")]);
         assert_eq!(found.spectral, [PathBuf::from("b.c.Exr")]);
         assert!(outputs(&["a.jpg"]).is_err());
+    }
+
+    #[test]
+    fn frames_are_numbered_before_the_ending() {
+        let found = outputs(&["a.PNG", "./c.d.exr"]).unwrap();
+        assert_eq!(found.of_frame(7).pictures, [PathBuf::from("a_0007.PNG")]);
+        let late = found.of_frame(12_345);
+        assert_eq!(late.spectral, [PathBuf::from("./c.d_12345.exr")]);
     }
 
     #[test]

@@ -3,12 +3,12 @@
 use crate::output::Outputs;
 use crate::{print, progress};
 use clap::ValueEnum;
-use miette::{IntoDiagnostic, miette};
+use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::color::spectral_exr::Metadata;
 use pellicle::gpu::AdapterChoice;
 use pellicle::scene::{RenderSettings, Scene, SceneFile};
 use pellicle::{Backend, Renderer};
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -26,6 +26,10 @@ pub(crate) struct Arguments {
     /// Render on the adapter whose name contains this
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
+    /// Render a sequence: frames FIRST up to but without END, each `time_step_s` after the one before, frame 0 at the scene's
+    /// time. They are numbered name_0000.png and so on
+    #[arg(long, value_name = "FIRST:END", value_parser = frames)]
+    frames: Option<Range<u32>>,
     #[command(flatten)]
     overrides: Overrides,
 }
@@ -52,12 +56,25 @@ struct Overrides {
     /// Seed of the random numbers, instead of the scene's
     #[arg(long)]
     seed: Option<u32>,
+    /// Time in seconds, instead of the scene's; of frame 0 with --frames
+    #[arg(long, value_name = "SECONDS")]
+    time: Option<f64>,
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {
     let parts = text.split_once(['x', '×']);
     let parsed = parts.and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     parsed.ok_or_else(|| "a size is written like 640x480".to_owned())
+}
+
+fn frames(text: &str) -> Result<Range<u32>, String> {
+    let parts = text.split_once(':');
+    let parsed = parts.and_then(|(first, end)| Some(first.parse().ok()?..end.parse().ok()?));
+    let range: Range<u32> = parsed.ok_or("frames are written like 0:48, which is 0 to 47")?;
+    if range.is_empty() {
+        return Err("the second number must be larger than the first".to_owned());
+    }
+    Ok(range)
 }
 
 impl Overrides {
@@ -67,6 +84,7 @@ impl Overrides {
         render.size = self.size.unwrap_or(render.size);
         render.bands = self.bands.unwrap_or(render.bands);
         render.seed = self.seed.unwrap_or(render.seed);
+        render.time_s = self.time.unwrap_or(render.time_s);
     }
 }
 
@@ -89,6 +107,7 @@ impl Arguments {
 pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     let mut file = SceneFile::read(&arguments.scene)?;
     arguments.overrides.apply(&mut file);
+    // What is wrong with the scene is told before anything is opened.
     let scene = file.validate()?;
     let outputs = Outputs::new(&arguments.scene, &arguments.output)?;
     let renderer = Renderer::open(&arguments.backend()?).into_diagnostic()?;
@@ -99,13 +118,53 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
         print::note(format_args!("rendering on the CPU: {reason}"));
     }
     print::note(format_args!("{}", renderer.description()));
+    match &arguments.frames {
+        None => render_one(&renderer, &scene, &outputs, ""),
+        Some(frames) => render_frames(&renderer, file, &outputs, frames.clone()),
+    }
+}
 
+/// Renders a sequence; what goes wrong names its frame, and the frames before it stay.
+fn render_frames(
+    renderer: &Renderer,
+    mut file: SceneFile,
+    outputs: &Outputs,
+    frames: Range<u32>,
+) -> miette::Result<()> {
+    let (start_s, step_s) = {
+        let render = &file.description.render;
+        (render.time_s, render.time_step_s)
+    };
+    let last = frames.end - 1;
+    let mut scene_of = |frame: u32| {
+        file.description.render.time_s = start_s + f64::from(frame) * step_s;
+        let of_frame = file.validate().map_err(miette::Report::from);
+        of_frame.wrap_err_with(|| format!("frame {frame} cannot be rendered"))
+    };
+    // The last frame has the latest time: an impossible one is told before the first is rendered.
+    scene_of(last)?;
+    for frame in frames {
+        let scene = scene_of(frame)?;
+        let heading = format!("frame {frame} to {last} at {} s, ", scene.settings().time_s);
+        render_one(renderer, &scene, &outputs.of_frame(frame), &heading)
+            .wrap_err_with(|| format!("frame {frame} failed"))?;
+    }
+    Ok(())
+}
+
+/// Renders a picture and writes it; `heading` stands before what is said about it.
+fn render_one(
+    renderer: &Renderer,
+    scene: &Scene,
+    outputs: &Outputs,
+    heading: &str,
+) -> miette::Result<()> {
     let settings = scene.settings();
     let total = samples_of(settings);
-    let bar = progress::bar(total);
+    let bar = progress::bar(total, heading);
     let started = Instant::now();
     let image = renderer
-        .render(&scene, &mut |done| {
+        .render(scene, &mut |done| {
             bar.set_position(done);
             ControlFlow::Continue(())
         })
@@ -113,14 +172,14 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     bar.finish_and_clear();
     let seconds = started.elapsed().as_secs_f64();
     print::note(format_args!(
-        "{}×{}, {} bands, {} samples per pixel: {seconds:.1} s, {:.3} million samples/s",
+        "{heading}{}×{}, {} bands, {} samples per pixel: {seconds:.1} s, {:.3} million samples/s",
         settings.width,
         settings.height,
         settings.bands.count(),
         settings.samples,
         total as f64 / seconds * 1e-6,
     ));
-    outputs.write(&image, &metadata(&scene, &renderer))
+    outputs.write(&image, &metadata(scene, renderer))
 }
 
 fn samples_of(settings: &RenderSettings) -> u64 {
@@ -134,6 +193,7 @@ fn metadata(scene: &Scene, renderer: &Renderer) -> Metadata {
         ("renderer", renderer.description()),
         ("samples", settings.samples.to_string()),
         ("seed", settings.seed.to_string()),
+        ("time_s", settings.time_s.to_string()),
         ("max_path_segments", settings.max_path_segments.to_string()),
         (
             "sampling",

@@ -1,7 +1,8 @@
 //! What a scene has, so that its pipeline leaves out the rest: the values of `shaders/features.wgsl`.
 
 use scene::{
-    Environment, Interference, Layer, Material, PathDifference, Pattern, Scene, Shape, Thickness,
+    Coordinate, Environment, Interference, Material, PathDifference, Pattern, Profile, Scene,
+    Shape, Thickness,
 };
 
 /// Constants of a pipeline by name: 1 where the scene has the thing, 0 where it has not.
@@ -27,10 +28,6 @@ impl Features {
         let film = |wanted: fn(FilmForm) -> bool| {
             let mut forms = used.iter().filter_map(|m| FilmForm::of(scene, m));
             forms.any(wanted)
-        };
-        let thickness = |wanted: fn(&Thickness) -> bool| {
-            let mut layers = used.iter().flat_map(|m| layers_of(m));
-            layers.any(|layer| wanted(&layer.thickness))
         };
         let is_sphere = |shape: &Shape| matches!(shape, Shape::Sphere { .. });
         let is_rectangle = |shape: &Shape| matches!(shape, Shape::Rectangle { .. });
@@ -60,14 +57,6 @@ impl Features {
                 "HAS_COATINGS",
                 material(|m| matches!(m, Material::Conductor { layers, .. } if !layers.is_empty())),
             ),
-            (
-                "HAS_POLAR_THICKNESS",
-                thickness(|thickness| matches!(thickness, Thickness::Polar { .. })),
-            ),
-            (
-                "HAS_LINEAR_THICKNESS",
-                thickness(|thickness| matches!(thickness, Thickness::Linear { .. })),
-            ),
             ("HAS_SPHERE_LIGHTS", light(is_sphere)),
             ("HAS_RECTANGLE_LIGHTS", light(is_rectangle)),
             ("HAS_ENVIRONMENT", !is_dark(scene.environment())),
@@ -75,6 +64,7 @@ impl Features {
         Self(
             named
                 .into_iter()
+                .chain(of_thicknesses(&used))
                 .map(|(name, has)| (name, f64::from(u8::from(has))))
                 .collect(),
         )
@@ -84,6 +74,49 @@ impl Features {
     pub fn constants(&self) -> &[(&'static str, f64)] {
         &self.0
     }
+}
+
+/// What the thicknesses of layers are made of.
+fn of_thicknesses(materials: &[&Material]) -> [(&'static str, bool); 6] {
+    let parts = || {
+        let thicknesses = materials.iter().flat_map(|m| m.thicknesses());
+        thicknesses.flat_map(Thickness::parts)
+    };
+    let has = |wanted: fn(&Thickness) -> bool| parts().any(wanted);
+    [
+        (
+            "HAS_FIELDS",
+            has(|part| !matches!(part, Thickness::Constant { .. })),
+        ),
+        (
+            "HAS_COMBINED_FIELDS",
+            has(|part| matches!(part, Thickness::Sum(_) | Thickness::Product(_))),
+        ),
+        ("HAS_POLAR_FIELDS", has(is_polar)),
+        (
+            "HAS_SAMPLED_FIELDS",
+            has(|part| matches!(part, Thickness::Steps { .. } | Thickness::Profile(_))),
+        ),
+        (
+            "HAS_SWIRLS",
+            has(|part| matches!(part, Thickness::Swirls(_))),
+        ),
+        (
+            "HAS_PICTURES",
+            has(|part| matches!(part, Thickness::Picture(_))),
+        ),
+    ]
+}
+
+fn is_polar(part: &Thickness) -> bool {
+    matches!(
+        part,
+        Thickness::Polar { .. }
+            | Thickness::Profile(Profile {
+                coordinate: Coordinate::Polar { .. },
+                ..
+            })
+    )
 }
 
 fn is_diffuse(material: &Material) -> bool {
@@ -104,14 +137,6 @@ fn is_checker(material: &Material) -> bool {
             reflectance: Pattern::Checker { .. }
         }
     )
-}
-
-/// The layers of a material, if it has any.
-fn layers_of(material: &Material) -> &[Layer] {
-    match material {
-        Material::Conductor { layers, .. } | Material::Film { layers, .. } => layers,
-        _ => &[],
-    }
 }
 
 /// The formula that serves a film.

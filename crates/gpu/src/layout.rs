@@ -3,6 +3,8 @@
 //! The macros below take documented Rust types, prove at compile time that Rust places every field
 //! where WGSL expects it, and give the text of `shaders/layout.wgsl`. That file is committed, and a test proves it fresh.
 
+use scene::limits::{MAX_FIELD_DEPTH, THICKNESS_NM};
+
 /// A type with the same bytes in Rust and in WGSL (WGSL specification, section 14.4.1).
 trait Shared {
     const NAME: &'static str;
@@ -29,8 +31,8 @@ shared! {
     [f32; 4] = "vec4f", 16, 16;
 }
 
-/// A field as WGSL declares it.
-struct Field {
+/// A member of a struct as WGSL declares it.
+struct Member {
     doc: &'static str,
     name: &'static str,
     wgsl_type: &'static str,
@@ -44,7 +46,7 @@ struct Declaration {
 }
 
 enum Body {
-    Struct(&'static [Field]),
+    Struct(&'static [Member]),
     Constant(u32),
 }
 
@@ -88,7 +90,7 @@ macro_rules! structs {
         const $list: &[Declaration] = &[$(Declaration {
             doc: $doc,
             name: stringify!($name),
-            body: Body::Struct(&[$(Field {
+            body: Body::Struct(&[$(Member {
                 doc: $field_doc,
                 name: stringify!($field),
                 wgsl_type: <$type as Shared>::NAME,
@@ -135,12 +137,32 @@ constants! { CONSTANTS;
     /// Surface: a free film.
     pub const SURFACE_FILM = 3;
 
-    /// Thickness: the same everywhere.
-    pub const THICKNESS_CONSTANT = 0;
-    /// Thickness: linear in the polar angle about a sphere's centre.
-    pub const THICKNESS_POLAR = 1;
-    /// Thickness: linear along a line in space, constant beyond its ends.
-    pub const THICKNESS_LINEAR = 2;
+    /// Field: the same everywhere.
+    pub const FIELD_CONSTANT = 0;
+    /// Field: linear in what it runs along.
+    pub const FIELD_LINEAR = 1;
+    /// Field: steps of equal width.
+    pub const FIELD_STEPS = 2;
+    /// Field: the root of a table.
+    pub const FIELD_PROFILE = 3;
+    /// Field: noise carried along by a flow.
+    pub const FIELD_SWIRLS = 4;
+    /// Field: a picture.
+    pub const FIELD_PICTURE = 5;
+    /// Field: the sum of the two values before it.
+    pub const FIELD_SUM = 6;
+    /// Field: the product of the two values before it.
+    pub const FIELD_PRODUCT = 7;
+    /// A field runs along the polar angle about a sphere's centre.
+    pub const ALONG_POLAR_ANGLE = 0;
+    /// A field runs along a line in space.
+    pub const ALONG_LINE = 1;
+    /// The most values that wait for a sum or product.
+    pub const FIELD_STACK = MAX_FIELD_DEPTH as u32 + 1;
+    /// Numbers in a row of the texture that fields look up.
+    pub const SAMPLES_WIDTH = 4096;
+    /// No layer is thicker, nm.
+    pub const MAX_THICKNESS_NM = THICKNESS_NM.high as u32;
 
     /// Spectral factor of a path's vertex: 1.
     pub const FACTOR_ONE = 0;
@@ -304,20 +326,48 @@ structs! { STRUCTS;
 
     /// A layer of a film or of a coating.
     pub struct Layer {
-        /// The pole's direction (polar), or where a linear thickness starts.
-        pub thickness_from: [f32; 3],
-        /// A `THICKNESS_` tag.
-        pub thickness: u32,
-        /// From start to end of a linear thickness, over the square of its length.
-        pub thickness_along: [f32; 3],
-        /// Thickness at the pole, at the start or everywhere, nm.
-        pub thickness_nm: f32,
-        /// Added to it: per radian of polar angle, or from start to end, nm.
-        pub thickness_slope_nm: f32,
         /// Spectrum: n of its index, whose k is the next one.
         pub spectrum: u32,
-        /// Fills the size up to a multiple of 16.
-        pub padding: [u32; 2],
+        /// Thickness where it has no fields, nm.
+        pub thickness_nm: f32,
+        /// First of the fields that its thickness is made of.
+        pub first_field: u32,
+        /// Number of its fields; 0 where the thickness is the same everywhere.
+        pub field_count: u32,
+    }
+
+    /// A part of a thickness that varies.
+    pub struct Field {
+        /// The pole's direction, or where a line starts.
+        pub origin: [f32; 3],
+        /// A `FIELD_` tag.
+        pub kind: u32,
+        /// From start to end of a line, over the square of its length.
+        pub along: [f32; 3],
+        /// An `ALONG_` tag.
+        pub runs_along: u32,
+        /// Value at 0: at the pole, at the start, of black, the mean of swirls; thickness of the black film of a profile.
+        pub base: f32,
+        /// Added to it at 1: at the other pole, at the end, of white, the amplitude of swirls; the largest value of a profile.
+        pub swing: f32,
+        /// A profile is a black film below it; cells of swirls per unit.
+        pub threshold: f32,
+        /// Distance by which swirls are carried, in cells.
+        pub warp: f32,
+        /// Width and height of a picture on a plane; 0 for its natural size.
+        pub size: [f32; 2],
+        /// Time of swirls within its cell.
+        pub phase: f32,
+        /// Cells that the time of swirls has passed through.
+        pub cells: u32,
+        /// Chooses the pattern of swirls.
+        pub seed: u32,
+        /// First of the numbers that it looks up.
+        pub first_sample: u32,
+        /// Steps, knots of a profile, pixels of a row; octaves of swirls.
+        pub sample_count: u32,
+        /// Rows of a picture.
+        pub rows: u32,
     }
 
     /// What holds for one run over a part of a batch of stacks.

@@ -45,19 +45,21 @@ pub const MODULES: &[Module] = modules! {
     "features": [];
     "spectrum": ["bindings"];
     "camera": ["bindings", "layout"];
-    "surface": ["bindings", "camera", "features", "layout", "trig"];
+    "noise": ["bindings", "features", "layout", "random"];
+    "thickness": ["bindings", "features", "layout", "noise", "trig"];
+    "surface": ["bindings", "camera", "features", "layout"];
     "hit": ["bindings", "camera", "features", "intersect", "layout"];
     "light": ["bindings", "features", "layout", "sampling", "trig"];
     "record": ["layout", "limits"];
     "walk": ["bindings", "camera", "random", "surface"];
-    "factor": ["bindings", "features", "layout", "record", "surface"];
+    "factor": ["bindings", "features", "layout", "record", "surface", "thickness"];
     "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "surface", "walk"];
     "path": [
         "bindings", "camera", "connect", "factor", "features", "hit", "layout", "light", "microfacet", "random", "record",
         "sampling", "spectrum", "surface", "trig", "walk"
     ];
     "evaluate": [
-        "bindings", "features", "film", "fresnel", "layout", "record", "spectrum", "stack", "surface", "two_beam"
+        "bindings", "features", "film", "fresnel", "layout", "record", "spectrum", "stack", "thickness", "two_beam"
     ];
     "stack_batch": ["complex", "layout", "stack"];
     "render": ["bindings", "evaluate", "layout", "path", "spectrum", "walk"];

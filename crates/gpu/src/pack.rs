@@ -1,5 +1,7 @@
 //! From a scene to the numbers that the shader reads: the only place where `f64` becomes `f32`.
 
+mod thickness;
+
 use crate::features::{Features, FilmForm};
 use crate::layout::{self, Frame};
 use crate::modules::RecordLimits;
@@ -9,6 +11,7 @@ use scene::{
     Shape, SpectrumId, Thickness, WavelengthSampling,
 };
 use spectra::BandTable;
+use thickness::Fields;
 
 /// A scene as the shader reads it.
 #[derive(Clone, Debug)]
@@ -21,6 +24,10 @@ pub struct PackedScene {
     pub materials: Vec<layout::Material>,
     /// The layers of all films and coatings.
     pub layers: Vec<layout::Layer>,
+    /// What their thicknesses are made of where they vary.
+    pub fields: Vec<layout::Field>,
+    /// Numbers that fields look up.
+    pub samples: Vec<f32>,
     /// All spectra and the observer: `[spectrum][knot][group of four bands]`.
     pub spectra: Vec<[f32; 4]>,
     /// How long the record of a path may become.
@@ -41,10 +48,11 @@ impl PackedScene {
             pack_object(object, is_light, light)
         });
         let mut layers = Vec::new();
+        let mut fields = Fields::default();
         let materials = scene
             .materials()
             .iter()
-            .map(|material| pack_material(scene, material, &mut layers))
+            .map(|material| pack_material(scene, material, &mut layers, &mut fields))
             .collect();
         let spectra = scene
             .spectra()
@@ -59,6 +67,8 @@ impl PackedScene {
             objects: objects.collect(),
             materials,
             layers,
+            fields: fields.fields,
+            samples: fields.samples,
             spectra: spectra.chain(observer).collect(),
             limits: record_limits(scene),
             features: Features::of(scene),
@@ -178,6 +188,7 @@ fn pack_material(
     scene: &Scene,
     material: &Material,
     layers: &mut Vec<layout::Layer>,
+    fields: &mut Fields,
 ) -> layout::Material {
     let mut packed = layout::Material {
         first_layer: layers.len() as u32,
@@ -198,14 +209,14 @@ fn pack_material(
             };
             packed.spectrum = id(n);
             packed.roughness = roughness as f32;
-            pack_layers(&mut packed, layers, coating);
+            pack_layers(&mut packed, (fields, layers), coating);
         }
         Material::Film {
             layers: ref own, ..
         } => {
             packed.surface = layout::SURFACE_FILM;
             packed.film = film_tag(FilmForm::of(scene, material));
-            pack_layers(&mut packed, layers, own);
+            pack_layers(&mut packed, (fields, layers), own);
         }
         Material::Emitter {
             emission: Emission { spectrum, scale },
@@ -246,12 +257,16 @@ fn film_tag(form: Option<FilmForm>) -> u32 {
     }
 }
 
-fn pack_layers(packed: &mut layout::Material, layers: &mut Vec<layout::Layer>, own: &[Layer]) {
+fn pack_layers(
+    packed: &mut layout::Material,
+    (fields, layers): (&mut Fields, &mut Vec<layout::Layer>),
+    own: &[Layer],
+) {
     packed.layer_count = own.len() as u32;
     packed.varying_layers = varying(own);
     layers.extend(
         own.iter()
-            .map(|layer| pack_layer(layer.n, &layer.thickness)),
+            .map(|layer| fields.layer(id(layer.n), &layer.thickness)),
     );
 }
 
@@ -259,48 +274,6 @@ fn pack_layers(packed: &mut layout::Material, layers: &mut Vec<layout::Layer>, o
 fn varying(layers: &[Layer]) -> u32 {
     let varies = |layer: &&Layer| !matches!(layer.thickness, Thickness::Constant { .. });
     layers.iter().filter(varies).count() as u32
-}
-
-fn pack_layer(n: SpectrumId, thickness: &Thickness) -> layout::Layer {
-    let mut packed = layout::Layer {
-        spectrum: id(n),
-        ..Default::default()
-    };
-    pack_thickness(&mut packed, thickness);
-    packed
-}
-
-fn pack_thickness(packed: &mut layout::Layer, thickness: &Thickness) {
-    match *thickness {
-        Thickness::Constant { nm } => {
-            packed.thickness = layout::THICKNESS_CONSTANT;
-            packed.thickness_nm = nm as f32;
-        }
-        Thickness::Polar {
-            axis,
-            pole_nm,
-            equator_nm,
-        } => {
-            packed.thickness = layout::THICKNESS_POLAR;
-            packed.thickness_from = vec3(axis);
-            packed.thickness_nm = pole_nm as f32;
-            let per_radian = (equator_nm - pole_nm) / std::f64::consts::FRAC_PI_2;
-            packed.thickness_slope_nm = per_radian as f32;
-        }
-        Thickness::Linear {
-            start,
-            end,
-            start_nm,
-            end_nm,
-        } => {
-            packed.thickness = layout::THICKNESS_LINEAR;
-            packed.thickness_from = vec3(start);
-            let along = end - start;
-            packed.thickness_along = vec3(along / along.length_squared());
-            packed.thickness_nm = start_nm as f32;
-            packed.thickness_slope_nm = (end_nm - start_nm) as f32;
-        }
-    }
 }
 
 /// A path has a vertex for each segment but the last, which may end in two terms of the environment. A

@@ -1,6 +1,6 @@
 //! Running a scene on a device and reading the picture back.
 
-use crate::layout::{Batch, WORKGROUP_SIDE};
+use crate::layout::{Batch, Field, SAMPLES_WIDTH, WORKGROUP_SIDE};
 use crate::modules::Shader;
 use crate::tiles::{Division, Planner, Tile};
 use crate::{DeviceError, Gpu, PackedScene};
@@ -156,11 +156,13 @@ pub fn compile(
 /// A scene in the device's memory.
 #[derive(Debug)]
 pub struct SceneBindings {
-    buffers: [wgpu::Buffer; 5],
+    buffers: [wgpu::Buffer; 6],
+    samples: wgpu::TextureView,
 }
 
 impl SceneBindings {
-    /// The bind group 0 of a pipeline that uses the bindings in `used` (0: frame, 1: objects, 2: materials, 3: layers, 4: spectra).
+    /// The bind group 0 of a pipeline that uses the bindings in `used` (0: frame, 1: objects, 2: materials, 3: layers, 4: spectra,
+    /// 5: fields, 6: samples).
     pub fn group(
         &self,
         gpu: &Gpu,
@@ -171,7 +173,10 @@ impl SceneBindings {
             .iter()
             .map(|&binding| wgpu::BindGroupEntry {
                 binding,
-                resource: self.buffers[binding as usize].as_entire_binding(),
+                resource: match self.buffers.get(binding as usize) {
+                    Some(buffer) => buffer.as_entire_binding(),
+                    None => wgpu::BindingResource::TextureView(&self.samples),
+                },
             })
             .collect();
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -225,16 +230,61 @@ pub fn bind_scene(gpu: &Gpu, packed: &PackedScene) -> Result<SceneBindings, Rend
             48,
             fewer,
         )?,
-        storage("layers", bytemuck::cast_slice(&packed.layers), 48, fewer)?,
+        storage("layers", bytemuck::cast_slice(&packed.layers), 16, fewer)?,
         storage(
             "spectra",
             bytemuck::cast_slice(&packed.spectra),
             16,
             "use fewer materials and lights",
         )?,
+        storage(
+            "thickness fields",
+            bytemuck::cast_slice(&packed.fields),
+            size_of::<Field>(),
+            fewer,
+        )?,
     ];
+    let samples = upload_samples(gpu, &packed.samples)?;
     gpu.check()?;
-    Ok(SceneBindings { buffers })
+    Ok(SceneBindings { buffers, samples })
+}
+
+/// The numbers that fields look up, as a texture: storage buffers are few.
+fn upload_samples(gpu: &Gpu, samples: &[f32]) -> Result<wgpu::TextureView, RenderError> {
+    let width = (samples.len() as u32).clamp(1, SAMPLES_WIDTH);
+    let rows = (samples.len() as u64).div_ceil(u64::from(SAMPLES_WIDTH));
+    let most = u64::from(gpu.limits().max_texture_dimension_2d);
+    if rows > most {
+        return Err(RenderError::TooLarge {
+            what: "pictures of thicknesses",
+            bytes: 4 * samples.len() as u64,
+            limit: 4 * most * u64::from(SAMPLES_WIDTH),
+            advice: "use fewer or smaller ones",
+        });
+    }
+    let height = rows.max(1) as u32;
+    let mut contents = samples.to_vec();
+    contents.resize((width * height) as usize, 0.0);
+    let texture = gpu.device.create_texture_with_data(
+        &gpu.queue,
+        &wgpu::TextureDescriptor {
+            label: Some("samples"),
+            size: wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::R32Float,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        },
+        wgpu::util::TextureDataOrder::default(),
+        bytemuck::cast_slice(&contents),
+    );
+    Ok(texture.create_view(&wgpu::TextureViewDescriptor::default()))
 }
 
 /// The running means of one tile.
@@ -331,7 +381,7 @@ impl TileBuffers {
         };
         gpu.queue
             .write_buffer(&self.batch, 0, bytemuck::bytes_of(&batch));
-        let scene = scene.group(gpu, pipeline, &[0, 1, 2, 3, 4]);
+        let scene = scene.group(gpu, pipeline, &[0, 1, 2, 3, 4, 5, 6]);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());

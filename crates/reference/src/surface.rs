@@ -2,8 +2,7 @@
 
 use crate::Ray;
 use glam::DVec3;
-use scene::{Pattern, Shape, SpectrumId, Thickness};
-use std::f64::consts::FRAC_PI_2;
+use scene::{Pattern, Shape, SpectrumId};
 
 /// The point that a ray hits and the unit normal there, on the ray's side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,35 +36,11 @@ pub fn surface_point(shape: &Shape, ray: &Ray, distance: f64) -> SurfacePoint {
     }
 }
 
-fn center_of(shape: &Shape) -> DVec3 {
+/// A shape's centre, or the origin of a plane's axes.
+pub(crate) fn center_of(shape: &Shape) -> DVec3 {
     match *shape {
         Shape::Sphere { center, .. } | Shape::Rectangle { center, .. } => center,
         Shape::Plane { point, .. } => point,
-    }
-}
-
-/// Thickness of a layer at a point of its surface, nm.
-pub fn layer_thickness(thickness: &Thickness, shape: &Shape, position: DVec3) -> f64 {
-    match *thickness {
-        Thickness::Constant { nm } => nm,
-        Thickness::Polar {
-            axis,
-            pole_nm,
-            equator_nm,
-        } => {
-            let theta = (position - center_of(shape)).angle_between(axis);
-            // A thickness that ends in 0 may round below it.
-            (pole_nm + (equator_nm - pole_nm) * theta / FRAC_PI_2).max(0.0)
-        }
-        Thickness::Linear {
-            start,
-            end,
-            start_nm,
-            end_nm,
-        } => {
-            let along = (position - start).dot(end - start) / (end - start).length_squared();
-            start_nm + (end_nm - start_nm) * along.clamp(0.0, 1.0)
-        }
     }
 }
 

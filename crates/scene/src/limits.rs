@@ -45,6 +45,44 @@ pub const MIN_SINE: f64 = 1e-4;
 pub const FOV_DEG: Range = Range::new(0.001, 179.9, "°");
 /// Thickness of a film: 100 µm is far beyond the last visible fringe.
 pub const THICKNESS_NM: Range = Range::new(0.0, 100_000.0, " nm");
+/// The deepest nesting of sums and products in a thickness.
+pub const MAX_FIELD_DEPTH: usize = 4;
+/// The most parts of a thickness, sums and products counted.
+pub const MAX_FIELD_PARTS: usize = 64;
+/// The largest value that a sum or product within a thickness may come to: its products stay inside `f32`.
+pub const MAX_FIELD_VALUE: f64 = 1e9;
+/// The most values of a stepped thickness.
+pub const MAX_STEPS: usize = 4096;
+/// Size of the largest swirls, in scene units or in radii of a sphere.
+pub const SWIRL_SCALE: Range = Range::new(1e-3, 1e6, "");
+/// Distance by which swirls are carried along, in their own size.
+pub const WARP: Range = Range::new(0.0, 4.0, "");
+/// Rate at which swirls change, in lives of a swirl per second.
+pub const SWIRL_RATE: Range = Range::new(0.0, 1000.0, " per second");
+/// Octaves of swirls: each is half as large and half as strong as the one before.
+pub const OCTAVES: Range = Range::new(1.0, 6.0, "");
+/// The widest or highest picture of a thickness, in pixels.
+pub const MAX_PICTURE_SIDE: u32 = 8192;
+/// The most pixels of such a picture.
+pub const MAX_PICTURE_PIXELS: u64 = 1 << 24;
+/// Time, and the step of a sequence.
+pub const TIME_S: Range = Range::new(0.0, 1e9, " s");
+/// A viscosity.
+pub const VISCOSITY_PA_S: Range = Range::new(1e-9, 1e6, " Pa s");
+/// The density of a liquid.
+pub const DENSITY_KG_M3: Range = Range::new(1.0, 25_000.0, " kg/m³");
+/// Radius or height of a draining film.
+pub const FILM_SIZE_M: Range = Range::new(1e-6, 1e3, " m");
+/// Thickness of a draining film at the start. What gathers at a bubble's lowest point is cut off at the end of the range.
+pub const DRAINING_NM: Range = Range::new(0.0, 20_000.0, " nm");
+/// Anodising voltage: titanium's films break down at some 100 to 150 V.
+pub const VOLTS: Range = Range::new(0.0, 150.0, " V");
+/// Growth of an anodic film. Valve metals have 1 to 3.
+pub const NM_PER_VOLT: Range = Range::new(0.1, 10.0, " nm/V");
+/// Temperature of a heat tint: where the temper colours of carbon steel lie, with some room.
+pub const HEAT_TINT_C: Range = Range::new(150.0, 400.0, " °C");
+/// Time of a heat tint.
+pub const MINUTES: Range = Range::new(0.0, 600.0, " min");
 /// Real part of an index. Silver, the smallest measured one, has 0.03.
 pub const INDEX_N: Range = Range::new(0.001, 1000.0, "");
 /// Imaginary part of an index.

@@ -1,8 +1,7 @@
 //! What a surface is made of, in a validated scene.
 
-use crate::SpectrumId;
 use crate::description::PathDifference;
-use glam::DVec3;
+use crate::{SpectrumId, Thickness};
 
 /// What a surface is made of. Every surface has two sides that behave alike.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +38,21 @@ pub enum Material {
         /// Lambertian reflectance besides; `None` is black.
         reflectance: Option<SpectrumId>,
     },
+}
+
+impl Material {
+    /// Its layers, the outermost first; none where it has none.
+    pub fn layers(&self) -> &[Layer] {
+        match self {
+            Self::Conductor { layers, .. } | Self::Film { layers, .. } => layers,
+            _ => &[],
+        }
+    }
+
+    /// The thicknesses of its layers.
+    pub fn thicknesses(&self) -> impl Iterator<Item = &Thickness> {
+        self.layers().iter().map(|layer| &layer.thickness)
+    }
 }
 
 /// A layer of a film or of a coating.
@@ -85,36 +99,5 @@ pub enum Pattern {
         odd: SpectrumId,
         /// Side of a square, > 0.
         size: f64,
-    },
-}
-
-/// The thickness of a film over its surface, nm, ≥ 0 everywhere.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Thickness {
-    /// The same everywhere.
-    Constant {
-        /// Thickness, nm.
-        nm: f64,
-    },
-    /// Linear in the polar angle θ seen from a sphere's centre: `pole_nm` at θ = 0, `equator_nm` at
-    /// θ = 90°, and on at the same rate (Suzuki, Yokoi and Toriwaki, section 4-4 (2)).
-    Polar {
-        /// Direction of the pole, a unit vector.
-        axis: DVec3,
-        /// Thickness at the pole, nm.
-        pole_nm: f64,
-        /// Thickness at 90° from the pole, nm.
-        equator_nm: f64,
-    },
-    /// Linear along a line in space from `start` to `end`, constant beyond its ends.
-    Linear {
-        /// Where the thickness is `start_nm`.
-        start: DVec3,
-        /// Where the thickness is `end_nm`, different from `start`.
-        end: DVec3,
-        /// Thickness at and before `start`, nm.
-        start_nm: f64,
-        /// Thickness at and beyond `end`, nm.
-        end_nm: f64,
     },
 }

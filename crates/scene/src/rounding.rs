@@ -2,7 +2,7 @@
 
 use crate::{
     Camera, Emission, Environment, Layer, Material, Object, Pattern, Projection, RenderSettings,
-    Scene, Shape, Thickness,
+    Scene, Shape,
 };
 use glam::DVec3;
 
@@ -147,34 +147,6 @@ impl RoundToF32 for Pattern {
                 even: *even,
                 odd: *odd,
                 size: size.rounded(),
-            },
-        }
-    }
-}
-
-impl RoundToF32 for Thickness {
-    fn rounded(&self) -> Self {
-        match self {
-            Self::Constant { nm } => Self::Constant { nm: nm.rounded() },
-            Self::Polar {
-                axis,
-                pole_nm,
-                equator_nm,
-            } => Self::Polar {
-                axis: axis.rounded(),
-                pole_nm: pole_nm.rounded(),
-                equator_nm: equator_nm.rounded(),
-            },
-            Self::Linear {
-                start,
-                end,
-                start_nm,
-                end_nm,
-            } => Self::Linear {
-                start: start.rounded(),
-                end: end.rounded(),
-                start_nm: start_nm.rounded(),
-                end_nm: end_nm.rounded(),
             },
         }
     }

@@ -22,6 +22,8 @@ pub struct RenderSettings {
     pub max_path_segments: u32,
     /// Exposure of the developed picture in stops: 0 shows radiance 1 at every wavelength as white.
     pub exposure_ev: f64,
+    /// Time of the picture, s. The thicknesses of the scene are those of this time already.
+    pub time_s: f64,
 }
 
 impl RenderSettings {

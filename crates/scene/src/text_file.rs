@@ -1,4 +1,4 @@
-//! Reading a whole text file that someone else wrote.
+//! Reading a whole file that someone else wrote.
 
 use crate::limits::MAX_FILE_BYTES;
 use std::fs::{self, File};
@@ -6,7 +6,7 @@ use std::io::{self, Read};
 use std::path::Path;
 use thiserror::Error;
 
-/// Why a text file cannot be read.
+/// Why a file cannot be read.
 #[derive(Debug, Error)]
 pub(crate) enum TextFileError {
     #[error("cannot be opened: {0}")]
@@ -22,9 +22,19 @@ pub(crate) enum TextFileError {
 }
 
 /// The text of a regular file of at most [`MAX_FILE_BYTES`].
+pub(crate) fn read_text(path: &Path) -> Result<String, TextFileError> {
+    String::from_utf8(read_bytes(path)?).map_err(|error| {
+        let sound = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        TextFileError::NotText {
+            line: sound.split(|&b| b == b'\n').count(),
+        }
+    })
+}
+
+/// The bytes of a regular file of at most [`MAX_FILE_BYTES`].
 ///
 /// What the path leads to is looked at before it is opened: to open a pipe would wait for its writer.
-pub(crate) fn read_text(path: &Path) -> Result<String, TextFileError> {
+pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, TextFileError> {
     let metadata = fs::metadata(path)?;
     if metadata.is_dir() {
         return Err(TextFileError::Directory);
@@ -39,10 +49,5 @@ pub(crate) fn read_text(path: &Path) -> Result<String, TextFileError> {
     if bytes.len() as u64 > MAX_FILE_BYTES {
         return Err(TextFileError::TooLarge);
     }
-    String::from_utf8(bytes).map_err(|error| {
-        let sound = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        TextFileError::NotText {
-            line: sound.split(|&b| b == b'\n').count(),
-        }
-    })
+    Ok(bytes)
 }

@@ -5,6 +5,7 @@ mod optics_functions;
 mod scene_functions;
 mod shapes;
 mod stacks;
+mod thicknesses;
 
 use gpu::Gpu;
 use gpu::modules::MODULES;
@@ -83,6 +84,7 @@ fn checks() -> Vec<Check> {
         scene_functions::checks(),
         shapes::checks(),
         stacks::checks(),
+        thicknesses::checks(),
     ]
     .into_iter()
     .flatten()

@@ -8,10 +8,10 @@ use pellicle_tests::probe::Probe;
 use pellicle_tests::scenes::small;
 use pellicle_tests::tolerances::{
     ARITHMETIC, DIRECTION, DISTANCE, EXACT, FILM, FRESNEL, KNOT, LIGHT_PDF, NEAR_LIGHT, SPECTRUM,
-    SPHERE_DISTANCE, THICKNESS_NM,
+    SPHERE_DISTANCE,
 };
 use reference::Ray;
-use scene::{Material, Scene, Shape, Thickness};
+use scene::{Material, Scene, Shape};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
@@ -21,9 +21,9 @@ const BANDS: u32 = 22;
 const MISS: f64 = -1.0;
 
 /// A scene as both sides read it.
-struct World {
-    scene: Scene,
-    packed: PackedScene,
+pub(crate) struct World {
+    pub(crate) scene: Scene,
+    pub(crate) packed: PackedScene,
 }
 
 impl World {
@@ -33,15 +33,15 @@ impl World {
         Self { scene, packed }
     }
 
-    fn shape(&self, object: usize) -> &Shape {
+    pub(crate) fn shape(&self, object: usize) -> &Shape {
         &self.scene.objects()[object].shape
     }
 
-    fn material(&self, object: usize) -> &Material {
+    pub(crate) fn material(&self, object: usize) -> &Material {
         self.scene.material(self.scene.objects()[object].material)
     }
 
-    fn probe(
+    pub(crate) fn probe(
         &'static self,
         roots: &'static [&'static str],
         shape: (usize, usize),
@@ -56,7 +56,7 @@ impl World {
     }
 }
 
-fn everything() -> &'static World {
+pub(crate) fn everything() -> &'static World {
     static WORLD: OnceLock<World> = OnceLock::new();
     WORLD.get_or_init(|| World::new("everything"))
 }
@@ -69,7 +69,6 @@ fn wedge() -> &'static World {
 
 pub(crate) fn checks() -> Vec<Check> {
     let mut all = vec![
-        layer_thickness(),
         reflectance_spectrum(),
         surface_point(),
         distance_to(),
@@ -83,7 +82,7 @@ pub(crate) fn checks() -> Vec<Check> {
 }
 
 /// Rows made of `columns` uniform numbers in [0, 1) each; those for which there is none are left out.
-fn rows(columns: usize, row: impl Fn(&[f64]) -> Option<Vec<f64>>) -> Vec<f32> {
+pub(crate) fn rows(columns: usize, row: impl Fn(&[f64]) -> Option<Vec<f64>>) -> Vec<f32> {
     let uniform = table(&vec![(0.0, 1.0); columns], &[]);
     let made = uniform.chunks(columns).filter_map(|u| {
         let u: Vec<f64> = u.iter().map(|&x| f64::from(x)).collect();
@@ -94,22 +93,22 @@ fn rows(columns: usize, row: impl Fn(&[f64]) -> Option<Vec<f64>>) -> Vec<f32> {
     made
 }
 
-fn pick<T: Copy>(list: &[T], u: f64) -> T {
+pub(crate) fn pick<T: Copy>(list: &[T], u: f64) -> T {
     list[(u * list.len() as f64) as usize]
 }
 
-fn unit(u: f64, v: f64) -> DVec3 {
+pub(crate) fn unit(u: f64, v: f64) -> DVec3 {
     let (z, phi) = (2.0 * u - 1.0, TAU * v);
     let sine = (1.0 - z * z).sqrt();
     DVec3::new(sine * phi.cos(), sine * phi.sin(), z)
 }
 
 /// Rounded, so that both sides see the same numbers.
-fn rounded(v: DVec3) -> DVec3 {
+pub(crate) fn rounded(v: DVec3) -> DVec3 {
     v.as_vec3().as_dvec3()
 }
 
-fn vector(a: &[f64]) -> DVec3 {
+pub(crate) fn vector(a: &[f64]) -> DVec3 {
     DVec3::from_slice(a)
 }
 
@@ -120,7 +119,7 @@ fn ray_at(a: &[f64]) -> Ray {
     }
 }
 
-fn center_of(shape: &Shape) -> DVec3 {
+pub(crate) fn center_of(shape: &Shape) -> DVec3 {
     match *shape {
         Shape::Sphere { center, .. } | Shape::Rectangle { center, .. } => center,
         Shape::Plane { point, .. } => point,
@@ -128,7 +127,7 @@ fn center_of(shape: &Shape) -> DVec3 {
 }
 
 /// A point of a shape, of a plane near its middle.
-fn point_on(shape: &Shape, u: f64, v: f64) -> DVec3 {
+pub(crate) fn point_on(shape: &Shape, u: f64, v: f64) -> DVec3 {
     let (across, along) = (2.0 * u - 1.0, 2.0 * v - 1.0);
     match *shape {
         Shape::Sphere { center, radius } => center + radius * unit(u, v),
@@ -150,7 +149,7 @@ fn point_on(shape: &Shape, u: f64, v: f64) -> DVec3 {
 }
 
 /// The objects for which something holds.
-fn objects_where(keep: impl Fn(&Shape, &Material) -> bool) -> Vec<usize> {
+pub(crate) fn objects_where(keep: impl Fn(&Shape, &Material) -> bool) -> Vec<usize> {
     let world = everything();
     (0..world.scene.objects().len())
         .filter(|&object| keep(world.shape(object), world.material(object)))
@@ -380,58 +379,6 @@ fn squared_distances() -> Vec<f32> {
 }
 
 // Surfaces.
-
-/// The thickness of a film's first layer.
-fn first_thickness(material: &Material) -> &Thickness {
-    match material {
-        Material::Film { layers, .. } => &layers[0].thickness,
-        other => panic!("{other:?} is not a film"),
-    }
-}
-
-fn layer_thickness() -> Check {
-    let world = everything();
-    let films = objects_where(|_, material| matches!(material, Material::Film { .. }));
-    let mut inputs = rows(4, |u| {
-        let object = pick(&films, u[0]);
-        let shape = world.shape(object);
-        let on = point_on(shape, u[1], u[2]);
-        // Half of the points lie off the object: a linear thickness ends there.
-        let scale = if u[3] < 0.5 { 1.0 } else { 4.0 * u[3] };
-        let point = rounded(center_of(shape) + scale * (on - center_of(shape)));
-        Some(vec![object as f64, point.x, point.y, point.z])
-    });
-    for object in films {
-        let center = center_of(world.shape(object));
-        let ends = match *first_thickness(world.material(object)) {
-            Thickness::Polar { axis, .. } => [center + axis, center - axis],
-            Thickness::Linear { start, end, .. } => [start, end],
-            Thickness::Constant { .. } => [center, center + 1.0],
-        };
-        for end in ends {
-            inputs.push(object as f32);
-            inputs.extend(end.as_vec3().to_array());
-        }
-    }
-    Check {
-        probe: world.probe(
-            &["surface"],
-            (4, 1),
-            "let i = u32(a(0u)); put(0u, layer_thickness(materials[objects[i].material].first_layer, a3(1u), objects[i].center));",
-        ),
-        proves: &["layer_thickness"],
-        inputs,
-        twin: |a| {
-            let (world, object) = (everything(), a[0] as usize);
-            vec![reference::layer_thickness(
-                first_thickness(world.material(object)),
-                world.shape(object),
-                vector(&a[1..]),
-            )]
-        },
-        tolerance: THICKNESS_NM,
-    }
-}
 
 /// Whether a point lies a ten-thousandth of a square off the edges of its squares.
 fn is_off_the_edges(shape: &Shape, size: f64, point: DVec3) -> bool {
@@ -872,7 +819,6 @@ fn every_case_occurs() {
         firsts(&reflectance_spectrum(), spectrum_of_pattern).len(),
         5
     );
-    assert_eq!(firsts(&layer_thickness(), <[f64]>::to_vec).len(), 7);
     let kinds: BTreeSet<i64> = factors()
         .iter()
         .flat_map(|check| firsts(check, <[f64]>::to_vec))

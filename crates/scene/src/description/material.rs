@@ -1,6 +1,6 @@
 //! Materials as written.
 
-use super::{Emission, Index, Reflectance};
+use super::{Emission, Index, Reflectance, Thickness};
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -131,44 +131,4 @@ pub enum DiffuseReflectance {
         #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
         size: f64,
     },
-}
-
-/// The thickness of a film over its surface, in nm.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged, deny_unknown_fields)]
-pub enum Thickness {
-    /// The same everywhere.
-    Constant(
-        #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))] f64,
-    ),
-    /// Linear in the angle from an axis through a sphere's centre: grows (or shrinks) from the pole over
-    /// the equator and on to the other pole at the same rate.
-    Polar {
-        /// Thickness where the axis leaves the sphere, nm.
-        #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))]
-        pole: f64,
-        /// Thickness at 90° from there, nm.
-        #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))]
-        equator: f64,
-        /// Direction of the pole.
-        #[serde(default = "axis_default")]
-        axis: [f64; 3],
-    },
-    /// Linear along a line in space, constant beyond its ends.
-    Linear {
-        /// Thickness at `from` and before, nm.
-        #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))]
-        start: f64,
-        /// Thickness at `to` and beyond, nm.
-        #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))]
-        end: f64,
-        /// The point where the thickness is `start`.
-        from: [f64; 3],
-        /// The point where the thickness is `end`.
-        to: [f64; 3],
-    },
-}
-
-fn axis_default() -> [f64; 3] {
-    [0.0, 1.0, 0.0]
 }

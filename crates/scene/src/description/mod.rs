@@ -10,13 +10,17 @@ mod material;
 mod object;
 mod render;
 mod spectrum;
+mod thickness;
 
 pub use camera::Camera;
 pub use environment::Environment;
-pub use material::{DiffuseReflectance, FilmModel, Layer, Material, PathDifference, Thickness};
+pub use material::{DiffuseReflectance, FilmModel, Layer, Material, PathDifference};
 pub use object::Object;
 pub use render::{Render, WavelengthSampling};
 pub use spectrum::{Emission, Extrapolate, Index, MixtureRule, Reflectance, SellmeierTerms};
+pub use thickness::{
+    AnodisedMetal, Anodising, Drainage, HeatTint, Quantity, Steel, Steps, Swirls, Thickness,
+};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

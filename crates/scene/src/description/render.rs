@@ -30,6 +30,12 @@ pub struct Render {
     /// Exposure of the developed picture in stops: 0 shows radiance 1 at every wavelength as white.
     #[schemars(range(min = limits::EXPOSURE_EV.low, max = limits::EXPOSURE_EV.high))]
     pub exposure_ev: f64,
+    /// Time of the picture in seconds; thicknesses that change with time read it.
+    #[schemars(range(min = limits::TIME_S.low, max = limits::TIME_S.high))]
+    pub time_s: f64,
+    /// Time from one frame of a sequence to the next, in seconds.
+    #[schemars(range(min = limits::TIME_S.low, max = limits::TIME_S.high))]
+    pub time_step_s: f64,
 }
 
 /// Where in its band a sample's wavelength lies.
@@ -54,6 +60,8 @@ impl Default for Render {
             seed: 0,
             max_path_segments: 12,
             exposure_ev: 0.0,
+            time_s: 0.0,
+            time_step_s: 1.0 / 24.0,
         }
     }
 }

@@ -29,7 +29,7 @@ pub(crate) enum Shape {
     Tagged(BTreeMap<String, Fields>),
     /// Any of several, told apart by their type or by their fields. Never nested.
     AnyOf(Vec<Shape>),
-    /// The shape of this name, within itself: an index is among other things a mixture of indices.
+    /// The shape of this name, within itself: an index may be a mixture of indices, a thickness a sum of thicknesses.
     Again(String),
 }
 

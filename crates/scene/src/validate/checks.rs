@@ -5,14 +5,27 @@ use crate::limits::{self, Range};
 use crate::problem::{Problem, ProblemKind};
 use crate::suggestion::nearest;
 use glam::DVec3;
+use std::path::{Path, PathBuf};
 
-/// Collects problems. A check returns the value when it is sound.
-#[derive(Debug, Default)]
+/// Collects problems, and knows what the whole scene shares. A check returns the value when it is sound.
+#[derive(Debug)]
 pub(crate) struct Checks {
     pub(crate) problems: Vec<Problem>,
+    /// Where files are looked for.
+    pub(crate) directory: PathBuf,
+    /// Time of the picture, s.
+    pub(crate) time_s: f64,
 }
 
 impl Checks {
+    pub(crate) fn new(directory: &Path) -> Self {
+        Self {
+            problems: Vec::new(),
+            directory: directory.to_owned(),
+            time_s: 0.0,
+        }
+    }
+
     pub(crate) fn report(&mut self, problem: Problem) {
         self.problems.push(problem);
     }

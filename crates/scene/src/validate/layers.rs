@@ -1,8 +1,8 @@
 //! The layers of films and coatings: one, written in the material itself, or a list.
 
 use super::checks::Checks;
-use super::material::thickness;
 use super::spectrum_list::SpectrumList;
+use super::thickness;
 use crate::description::{self, FilmModel, PathDifference};
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
@@ -99,7 +99,7 @@ fn check_layer(
     (index, thickness_nm): (&description::Index, &description::Thickness),
 ) -> Option<Layer> {
     let index = spectra.index(checks, &field.key("index"), index);
-    let thickness = thickness(checks, &field.key("thickness_nm"), thickness_nm);
+    let thickness = thickness::check(checks, &field.key("thickness_nm"), thickness_nm);
     let (n, k) = index?;
     Some(Layer {
         n,

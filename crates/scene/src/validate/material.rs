@@ -1,4 +1,4 @@
-//! Materials: spectra by number, thicknesses nowhere negative.
+//! Materials: spectra by number.
 
 use super::checks::Checks;
 use super::layers::{Written, check_interference};
@@ -6,7 +6,7 @@ use super::spectrum_list::SpectrumList;
 use crate::description::{self, DiffuseReflectance};
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
-use crate::{FieldPath, Material, Pattern, Thickness};
+use crate::{FieldPath, Material, Pattern};
 use std::collections::BTreeMap;
 
 /// Checks `[materials]`; they are numbered in the order of their names.
@@ -142,78 +142,5 @@ fn check_roughness(checks: &mut Checks, field: &FieldPath, roughness: f64) -> Op
         limits::ROUGHNESS
     );
     checks.report(Problem::new(ProblemKind::OutOfRange, field, message));
-    None
-}
-
-pub(super) fn thickness(
-    checks: &mut Checks,
-    field: &FieldPath,
-    written: &description::Thickness,
-) -> Option<Thickness> {
-    let range = &limits::THICKNESS_NM;
-    match *written {
-        description::Thickness::Constant(nm) => {
-            let nm = checks.number(field, nm, range)?;
-            Some(Thickness::Constant { nm })
-        }
-        description::Thickness::Polar {
-            pole,
-            equator,
-            axis,
-        } => {
-            let pole_nm = checks.number(&field.key("pole"), pole, range);
-            let equator_nm = checks.number(&field.key("equator"), equator, range);
-            let axis = checks.direction(&field.key("axis"), axis);
-            let (pole_nm, equator_nm) = (pole_nm?, equator_nm?);
-            check_far_pole(checks, field, pole_nm, equator_nm)?;
-            Some(Thickness::Polar {
-                axis: axis?,
-                pole_nm,
-                equator_nm,
-            })
-        }
-        description::Thickness::Linear {
-            start,
-            end,
-            from,
-            to,
-        } => {
-            let start_nm = checks.number(&field.key("start"), start, range);
-            let end_nm = checks.number(&field.key("end"), end, range);
-            let (from_field, to_field) = (field.key("from"), field.key("to"));
-            let from = checks.point(&from_field, from);
-            let to = checks.point(&to_field, to);
-            let (from, to) = (from?, to?);
-            checks.distance((&to_field, to), (&from_field, from))?;
-            Some(Thickness::Linear {
-                start: from,
-                end: to,
-                start_nm: start_nm?,
-                end_nm: end_nm?,
-            })
-        }
-    }
-}
-
-/// Linear from the pole over the equator, the thickness at the far pole is 2 equator − pole.
-fn check_far_pole(
-    checks: &mut Checks,
-    field: &FieldPath,
-    pole_nm: f64,
-    equator_nm: f64,
-) -> Option<()> {
-    let far_nm = 2.0 * equator_nm - pole_nm;
-    let range = &limits::THICKNESS_NM;
-    if range.contains(far_nm) {
-        return Some(());
-    }
-    let message = format!(
-        "from {pole_nm} nm at the pole over {equator_nm} nm at the equator the thickness comes to {far_nm} nm at \
-         the far pole; it must be from {range} everywhere"
-    );
-    let least_nm = pole_nm / 2.0;
-    let most_nm = f64::midpoint(pole_nm, range.high);
-    let help = format!("with this pole, `equator` can be from {least_nm} to {most_nm} nm");
-    checks.report(Problem::new(ProblemKind::OutOfRange, field, message).help(help));
     None
 }

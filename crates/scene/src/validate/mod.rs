@@ -9,10 +9,12 @@ mod index;
 mod layers;
 mod material;
 mod object;
+mod picture_file;
 mod points;
 mod settings;
 mod spectrum_list;
 mod table_file;
+mod thickness;
 
 use crate::description::{Description, Index};
 use crate::limits::{MAX_MATERIALS, MAX_OBJECTS};
@@ -25,7 +27,7 @@ use std::path::Path;
 
 /// The scene that `description` describes; tables are looked for from `directory`.
 pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene, Vec<Problem>> {
-    let mut checks = Checks::default();
+    let mut checks = Checks::new(directory);
     check_counts(&mut checks, description);
     let settings = settings::check(&mut checks, &description.render);
     let camera = camera::check(&mut checks, &description.camera);
@@ -57,7 +59,7 @@ pub(crate) fn optical_constants(
     index: &Index,
     directory: &Path,
 ) -> Result<OpticalConstants, Vec<Problem>> {
-    let mut checks = Checks::default();
+    let mut checks = Checks::new(directory);
     match index::read(&mut checks, directory, &FieldPath::root(), index) {
         Some((constants, _)) if checks.problems.is_empty() => Ok(constants),
         _ => Err(checks.problems),

@@ -34,7 +34,12 @@ pub(crate) fn check(checks: &mut Checks, render: &Render) -> Checked {
     let max_path_segments = whole(checks, &segments, render.max_path_segments, most_segments);
     let exposure = top.key("exposure_ev");
     let exposure_ev = checks.number(&exposure, render.exposure_ev, &limits::EXPOSURE_EV);
+    let time_s = checks.number(&top.key("time_s"), render.time_s, &limits::TIME_S);
+    let step = top.key("time_step_s");
+    let time_step_s = checks.number(&step, render.time_step_s, &limits::TIME_S);
+    checks.time_s = time_s.unwrap_or(0.0);
     let settings = || {
+        time_step_s?;
         let [width, height] = size?;
         Some(RenderSettings {
             width,
@@ -45,6 +50,7 @@ pub(crate) fn check(checks: &mut Checks, render: &Render) -> Checked {
             sampling: sampling(render.sampling),
             max_path_segments: max_path_segments?,
             exposure_ev: exposure_ev?,
+            time_s: time_s?,
         })
     };
     Checked {

@@ -1,0 +1,333 @@
+//! Thicknesses as written.
+
+use crate::limits;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// The thickness of a layer over its surface, in nm.
+///
+/// What sums and products come to is kept from 0 to 100 000 nm: where less comes out the layer is absent. Within a
+/// product a value may be a factor without unit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, deny_unknown_fields)]
+pub enum Thickness {
+    /// The same everywhere.
+    Constant(
+        #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))] f64,
+    ),
+    /// Linear in the angle from an axis through a sphere's centre: grows (or shrinks) from the pole over
+    /// the equator and on to the other pole at the same rate.
+    Polar {
+        /// Thickness where the axis leaves the sphere, nm.
+        #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))]
+        pole: f64,
+        /// Thickness at 90° from there, nm.
+        #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))]
+        equator: f64,
+        /// Direction of the pole.
+        #[serde(default = "axis_default")]
+        axis: [f64; 3],
+    },
+    /// Linear along a line in space, constant beyond its ends.
+    Linear {
+        /// Thickness at `from` and before, nm.
+        #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))]
+        start: f64,
+        /// Thickness at `to` and beyond, nm.
+        #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))]
+        end: f64,
+        /// The point where the thickness is `start`.
+        from: [f64; 3],
+        /// The point where the thickness is `end`.
+        to: [f64; 3],
+    },
+    /// Steps of equal width along a line in space.
+    Steps {
+        /// The steps.
+        steps: Steps,
+    },
+    /// A soap film that drains under gravity as time goes on.
+    Drainage {
+        /// The film.
+        drainage: Drainage,
+    },
+    /// Turbulent streaks: noise carried along by a flow without sources.
+    Swirls {
+        /// The streaks.
+        swirls: Swirls,
+    },
+    /// A picture over the surface.
+    Image {
+        /// A PNG file, relative to the scene file. Its grey values (the luma of a coloured one) are taken as numbers from
+        /// 0 to 1 as they stand, without any transfer function. On a sphere its left edge and its right edge meet behind,
+        /// towards −Z, its middle looks to +Z and its upper edge is the pole +Y.
+        image: PathBuf,
+        /// Thickness where the picture is black, nm.
+        #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))]
+        min: f64,
+        /// Thickness where the picture is white, nm.
+        #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))]
+        max: f64,
+        /// Width and height on planes and rectangles, about the origin of their axes; the edges go on beyond. When absent
+        /// the picture covers a rectangle, and a square of side 1 on a plane.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(inner(range(min = limits::LENGTH.low, max = limits::LENGTH.high)))]
+        size: Option<[f64; 2]>,
+    },
+    /// The sum of several.
+    Sum {
+        /// What is added.
+        sum: Vec<Thickness>,
+    },
+    /// The product of several, of which one has the unit nm and the others are factors.
+    Product {
+        /// What is multiplied.
+        product: Vec<Thickness>,
+    },
+    /// The oxide that anodising leaves.
+    Anodising {
+        /// The process.
+        anodising: Anodising,
+    },
+    /// The oxide that heating steel in air leaves.
+    HeatTint {
+        /// The process.
+        heat_tint: HeatTint,
+    },
+}
+
+/// Steps of equal width along a line.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Steps {
+    /// Thickness on each step, nm.
+    #[schemars(inner(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high)))]
+    pub values: Vec<f64>,
+    /// The point where the first step begins; it goes on before.
+    pub from: [f64; 3],
+    /// The point where the last step ends; it goes on beyond.
+    pub to: [f64; 3],
+}
+
+/// A soap film of water that drains under gravity (downwards is −Y) from the same thickness everywhere at time 0.
+///
+/// The liquid flows between two surfaces that do not move (rigid: Mysels, Shinoda and Frankel, Soap Films, 1959; Reynolds
+/// 1886): a flux of ρ g h³ / (12 η) down a vertical film of thickness h. With nothing flowing in from above, a plane film has
+/// h = √(4 η z / (ρ g t)) at the depth z (Jeffreys 1930), or still its first thickness where that is less, and a bubble of
+/// radius R at its top (h₀⁻² + ρ g t / (3 η R))^(−1/2). Where the film becomes thinner than `black_below` it is a black film, with
+/// a sharp edge as in real films.
+///
+/// Real films of small soap molecules have surfaces that move, and thin many times faster by exchange with their borders
+/// (marginal regeneration). A smaller, effective viscosity then gives the right time with the shape of this model. What
+/// gathers at a bubble's lowest point, a hanging drop, is cut off at 20 µm.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, deny_unknown_fields)]
+pub enum Drainage {
+    /// A bubble.
+    Sphere {
+        /// Thickness everywhere at time 0, nm.
+        #[schemars(range(min = limits::DRAINING_NM.low, max = limits::DRAINING_NM.high))]
+        initial: f64,
+        /// Radius of the real bubble, m, whatever its size in the scene.
+        #[schemars(range(min = limits::FILM_SIZE_M.low, max = limits::FILM_SIZE_M.high))]
+        radius_m: f64,
+        /// Viscosity of the liquid, Pa s.
+        #[serde(default = "viscosity_default")]
+        #[schemars(range(min = limits::VISCOSITY_PA_S.low, max = limits::VISCOSITY_PA_S.high))]
+        viscosity_pa_s: f64,
+        /// Density of the liquid, kg/m³.
+        #[serde(default = "density_default")]
+        #[schemars(range(min = limits::DENSITY_KG_M3.low, max = limits::DENSITY_KG_M3.high))]
+        density_kg_m3: f64,
+        /// A film thinner than this is black, nm.
+        #[serde(default = "black_below_default")]
+        #[schemars(range(min = limits::DRAINING_NM.low, max = limits::DRAINING_NM.high))]
+        black_below: f64,
+        /// Thickness of the black film, nm: 7 or more for common black films (IUPAC Gold Book), about 4 for Newton's.
+        #[serde(default = "black_default")]
+        #[schemars(range(min = limits::DRAINING_NM.low, max = limits::DRAINING_NM.high))]
+        black: f64,
+    },
+    /// A plane film, vertical or leaning.
+    Plane {
+        /// Thickness everywhere at time 0, nm.
+        #[schemars(range(min = limits::DRAINING_NM.low, max = limits::DRAINING_NM.high))]
+        initial: f64,
+        /// A point of the upper edge.
+        from: [f64; 3],
+        /// The point straight below it on the lower edge.
+        to: [f64; 3],
+        /// Length of the real film from `from` to `to`, m.
+        #[schemars(range(min = limits::FILM_SIZE_M.low, max = limits::FILM_SIZE_M.high))]
+        height_m: f64,
+        /// Viscosity of the liquid, Pa s.
+        #[serde(default = "viscosity_default")]
+        #[schemars(range(min = limits::VISCOSITY_PA_S.low, max = limits::VISCOSITY_PA_S.high))]
+        viscosity_pa_s: f64,
+        /// Density of the liquid, kg/m³.
+        #[serde(default = "density_default")]
+        #[schemars(range(min = limits::DENSITY_KG_M3.low, max = limits::DENSITY_KG_M3.high))]
+        density_kg_m3: f64,
+        /// A film thinner than this is black, nm.
+        #[serde(default = "black_below_default")]
+        #[schemars(range(min = limits::DRAINING_NM.low, max = limits::DRAINING_NM.high))]
+        black_below: f64,
+        /// Thickness of the black film, nm: 7 or more for common black films (IUPAC Gold Book), about 4 for Newton's.
+        #[serde(default = "black_default")]
+        #[schemars(range(min = limits::DRAINING_NM.low, max = limits::DRAINING_NM.high))]
+        black: f64,
+    },
+}
+
+/// Turbulent streaks: gradient noise (Perlin 2002) of several octaves, carried along the surface by a flow whose stream
+/// function is noise too, so that it has no sources (curl noise: Bridson, Houriham and Nordenstam 2007).
+///
+/// On spheres it is solid noise at the direction from the centre, on planes it lies in the surface's two axes and time runs
+/// across them. It imitates the look of a stirred film; no equation of motion is solved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Swirls {
+    /// The value that the streaks lie about, nm, or a number such as 1 within a product.
+    #[serde(default)]
+    #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))]
+    pub mean: f64,
+    /// The largest deviation from it; half of all places deviate by more than about half of this.
+    #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))]
+    pub amplitude: f64,
+    /// Size of the largest streaks: in scene units on planes, in radii on spheres.
+    #[schemars(range(min = limits::SWIRL_SCALE.low, max = limits::SWIRL_SCALE.high))]
+    pub scale: f64,
+    /// Chooses the pattern.
+    #[serde(default)]
+    pub seed: u32,
+    /// Octaves: each is half as large and half as strong as the one before.
+    #[serde(default = "octaves_default")]
+    #[schemars(range(min = limits::OCTAVES.low, max = limits::OCTAVES.high))]
+    pub octaves: u32,
+    /// How far the flow has carried the streaks, in their own size: 0 gives clouds, 1 streaks, 3 thin filaments.
+    #[serde(default = "warp_default")]
+    #[schemars(range(min = limits::WARP.low, max = limits::WARP.high))]
+    pub warp: f64,
+    /// How often per second the pattern becomes another one.
+    #[serde(default)]
+    #[schemars(range(min = limits::SWIRL_RATE.low, max = limits::SWIRL_RATE.high))]
+    pub rate: f64,
+}
+
+/// A number, or one that is linear along a line in space.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, deny_unknown_fields)]
+pub enum Quantity {
+    /// The same everywhere.
+    Constant(f64),
+    /// Linear along a line in space, constant beyond its ends.
+    Linear {
+        /// Value at `from` and before.
+        start: f64,
+        /// Value at `to` and beyond.
+        end: f64,
+        /// The point where the value is `start`.
+        from: [f64; 3],
+        /// The point where the value is `end`.
+        to: [f64; 3],
+    },
+}
+
+/// Anodising: an oxide that grows in proportion to the voltage, d = `native` + `nm_per_volt` · V.
+///
+/// On titanium 2.4 to 2.8 nm/V, by electrolyte, were measured by ellipsometry up to 7.5 V (Ohtsuka, Masuda and Sato,
+/// J. Electrochem. Soc. 132, 787, 1985); the sequence of colours up to some 120 V follows the same line, but rougher and
+/// partly crystalline films above about 10 V depart from it by electrolyte and current.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Anodising {
+    /// The metal.
+    pub metal: AnodisedMetal,
+    /// The voltage, V, from 0 to 150; a number or linear along a line.
+    pub volts: Quantity,
+    /// Growth of the oxide, nm/V.
+    #[serde(default = "nm_per_volt_default")]
+    #[schemars(range(min = limits::NM_PER_VOLT.low, max = limits::NM_PER_VOLT.high))]
+    pub nm_per_volt: f64,
+    /// The oxide that the metal has by itself, nm: 0.5 to 7 on titanium (Aladjem, J. Mater. Sci. 8, 688, 1973).
+    #[serde(default = "native_default")]
+    #[schemars(range(min = 0.0, max = limits::THICKNESS_NM.high))]
+    pub native: f64,
+}
+
+/// A metal that can be anodised to colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum AnodisedMetal {
+    /// Titanium.
+    Titanium,
+}
+
+/// Heat tint: polished steel heated in air. The oxide grows by the parabolic law d² = k t (Wagner 1933; found on iron below
+/// 570 °C by del Campo, Pérez-Sáez and Tello, Corros. Sci. 50, 194, 2008) with k = k₀ exp(−E / (R T)).
+///
+/// k₀ = 1.06e6 nm²/s and E = 60 kJ/mol are no material constants: they are fitted here, for ten minutes, so that magnetite
+/// (Querry 1985) on iron (Johnson and Christy 1974) goes through the temper colours of carbon steel at their temperatures
+/// (Machinery's Handbook: straw 230, brown-yellow 260, purple 282, blue 293 to 299, light blue 338 °C). The thinnest oxides grow
+/// more slowly with time than this (McAdam and Geil, J. Res. Natl. Bur. Stand. 23, 63, 1939), so trust it from some minutes to an
+/// hour. Alloyed and stainless steels need other temperatures.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HeatTint {
+    /// Temperature, °C, from 150 to 400; a number or linear along a line.
+    pub temperature_c: Quantity,
+    /// How long it is held, min.
+    #[schemars(range(min = limits::MINUTES.low, max = limits::MINUTES.high))]
+    pub minutes: f64,
+    /// The steel.
+    #[serde(default)]
+    pub steel: Steel,
+}
+
+/// A steel that heat tints.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Steel {
+    /// Plain carbon steel.
+    #[default]
+    Carbon,
+}
+
+fn axis_default() -> [f64; 3] {
+    [0.0, 1.0, 0.0]
+}
+
+/// Water at 20 °C.
+fn viscosity_default() -> f64 {
+    1.002e-3
+}
+
+/// Water at 20 °C.
+fn density_default() -> f64 {
+    998.2
+}
+
+fn black_below_default() -> f64 {
+    30.0
+}
+
+fn black_default() -> f64 {
+    7.0
+}
+
+fn octaves_default() -> u32 {
+    3
+}
+
+fn warp_default() -> f64 {
+    1.0
+}
+
+fn nm_per_volt_default() -> f64 {
+    2.5
+}
+
+fn native_default() -> f64 {
+    2.0
+}

@@ -1,0 +1,253 @@
+//! How thick a layer is over its surface, in a validated scene.
+
+use crate::rounding::RoundToF32;
+use glam::DVec3;
+use std::fmt;
+use std::sync::Arc;
+
+/// The thickness of a layer over its surface, nm, at the scene's time.
+///
+/// What comes out is kept within [`limits::THICKNESS_NM`](crate::limits::THICKNESS_NM).
+#[derive(Clone, Debug, PartialEq)]
+pub enum Thickness {
+    /// The same everywhere.
+    Constant {
+        /// Thickness, nm.
+        nm: f64,
+    },
+    /// Linear in the polar angle θ seen from a sphere's centre: `pole_nm` at θ = 0, `equator_nm` at
+    /// θ = 90°, and on at the same rate (Suzuki, Yokoi and Toriwaki, section 4-4 (2)).
+    Polar {
+        /// Direction of the pole, a unit vector.
+        axis: DVec3,
+        /// Thickness at the pole, nm.
+        pole_nm: f64,
+        /// Thickness at 90° from the pole, nm.
+        equator_nm: f64,
+    },
+    /// Linear along a line in space from `start` to `end`, constant beyond its ends.
+    Linear {
+        /// Where the thickness is `start_nm`.
+        start: DVec3,
+        /// Where the thickness is `end_nm`, different from `start`.
+        end: DVec3,
+        /// Thickness at and before `start`, nm.
+        start_nm: f64,
+        /// Thickness at and beyond `end`, nm.
+        end_nm: f64,
+    },
+    /// Steps of equal width along a line in space; the first and the last go on beyond.
+    Steps {
+        /// Where the first begins.
+        start: DVec3,
+        /// Where the last ends, different from `start`.
+        end: DVec3,
+        /// Thickness on each, nm; at least one.
+        nm: Vec<f64>,
+    },
+    /// A table of what a law of growth or drainage gives.
+    Profile(Profile),
+    /// Noise carried along by a flow.
+    Swirls(Swirls),
+    /// A picture over the surface.
+    Picture(Picture),
+    /// The sum of several, at least one.
+    Sum(Vec<Thickness>),
+    /// The product of several, at least one.
+    Product(Vec<Thickness>),
+}
+
+impl Thickness {
+    /// This and everything that it is made of.
+    pub fn parts(&self) -> impl Iterator<Item = &Self> {
+        let mut open = vec![self];
+        std::iter::from_fn(move || {
+            let part = open.pop()?;
+            if let Self::Sum(inner) | Self::Product(inner) = part {
+                open.extend(inner);
+            }
+            Some(part)
+        })
+    }
+}
+
+/// What a [`Profile`] runs along.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Coordinate {
+    /// The polar angle seen from the surface's centre: 0 at the pole, 1 at the opposite one.
+    Polar {
+        /// Direction of the pole, a unit vector.
+        axis: DVec3,
+    },
+    /// A line in space: 0 at and before `start`, 1 at and beyond `end`.
+    Line {
+        /// Where it starts.
+        start: DVec3,
+        /// Where it ends, different from `start`.
+        end: DVec3,
+    },
+}
+
+/// The root of a table that is linear between its knots, which divide the coordinate evenly: the laws of growth
+/// and of drainage are smooth in the square of the thickness.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    /// What it runs along.
+    pub coordinate: Coordinate,
+    /// Square of the thickness at each knot, nm²; at least two, ≥ 0.
+    pub squares_nm2: Vec<f64>,
+    /// The thickness is never larger, nm.
+    pub most_nm: f64,
+    /// Where it is a black film.
+    pub black: Option<BlackFilm>,
+}
+
+/// A soap film that has thinned out to a black film, with a sharp edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BlackFilm {
+    /// A film thinner than this is black, nm.
+    pub below_nm: f64,
+    /// Thickness of the black film, nm.
+    pub nm: f64,
+}
+
+/// Noise carried along by a flow: see [`description::Swirls`](crate::description::Swirls).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Swirls {
+    /// The value that the streaks lie about.
+    pub mean: f64,
+    /// The largest deviation from it.
+    pub amplitude: f64,
+    /// Cells of the noise per scene unit, or per radius of a sphere.
+    pub cells_per_unit: f64,
+    /// Chooses the pattern.
+    pub seed: u32,
+    /// Octaves, from 1.
+    pub octaves: u32,
+    /// Distance by which the streaks are carried, in cells.
+    pub warp: f64,
+    /// Cells that time has passed through.
+    pub cells: u32,
+    /// Time within its cell, in [0, 1).
+    pub phase: f64,
+}
+
+/// A picture over a surface: see [`description::Thickness::Image`](crate::description::Thickness::Image).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// The picture.
+    pub file: Arc<PictureFile>,
+    /// Thickness where it is 0, nm.
+    pub black_nm: f64,
+    /// Thickness where it is 1, nm.
+    pub white_nm: f64,
+    /// Width and height on planes and rectangles; `None` is the whole rectangle, or a square of side 1 on a plane.
+    pub size: Option<[f64; 2]>,
+}
+
+/// Numbers from 0 to 1 on a grid, between which a [`Picture`] is bilinear.
+#[derive(Clone, PartialEq)]
+pub struct PictureFile {
+    /// Pixels of a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// The rows from top to bottom.
+    pub values: Vec<f32>,
+}
+
+impl fmt::Debug for PictureFile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "PictureFile({} × {})", self.width, self.height)
+    }
+}
+
+impl RoundToF32 for Thickness {
+    fn rounded(&self) -> Self {
+        match self {
+            Self::Constant { nm } => Self::Constant { nm: nm.rounded() },
+            Self::Polar {
+                axis,
+                pole_nm,
+                equator_nm,
+            } => Self::Polar {
+                axis: axis.rounded(),
+                pole_nm: pole_nm.rounded(),
+                equator_nm: equator_nm.rounded(),
+            },
+            Self::Linear {
+                start,
+                end,
+                start_nm,
+                end_nm,
+            } => Self::Linear {
+                start: start.rounded(),
+                end: end.rounded(),
+                start_nm: start_nm.rounded(),
+                end_nm: end_nm.rounded(),
+            },
+            Self::Steps { start, end, nm } => Self::Steps {
+                start: start.rounded(),
+                end: end.rounded(),
+                nm: nm.rounded(),
+            },
+            Self::Profile(profile) => Self::Profile(profile.rounded()),
+            Self::Swirls(swirls) => Self::Swirls(swirls.rounded()),
+            Self::Picture(picture) => Self::Picture(picture.rounded()),
+            Self::Sum(parts) => Self::Sum(parts.rounded()),
+            Self::Product(parts) => Self::Product(parts.rounded()),
+        }
+    }
+}
+
+impl RoundToF32 for Coordinate {
+    fn rounded(&self) -> Self {
+        match self {
+            Self::Polar { axis } => Self::Polar {
+                axis: axis.rounded(),
+            },
+            Self::Line { start, end } => Self::Line {
+                start: start.rounded(),
+                end: end.rounded(),
+            },
+        }
+    }
+}
+
+impl RoundToF32 for Profile {
+    fn rounded(&self) -> Self {
+        Self {
+            coordinate: self.coordinate.rounded(),
+            squares_nm2: self.squares_nm2.rounded(),
+            most_nm: self.most_nm.rounded(),
+            black: self.black.map(|black| BlackFilm {
+                below_nm: black.below_nm.rounded(),
+                nm: black.nm.rounded(),
+            }),
+        }
+    }
+}
+
+impl RoundToF32 for Swirls {
+    fn rounded(&self) -> Self {
+        Self {
+            mean: self.mean.rounded(),
+            amplitude: self.amplitude.rounded(),
+            cells_per_unit: self.cells_per_unit.rounded(),
+            warp: self.warp.rounded(),
+            phase: self.phase.rounded(),
+            ..*self
+        }
+    }
+}
+
+impl RoundToF32 for Picture {
+    fn rounded(&self) -> Self {
+        Self {
+            file: Arc::clone(&self.file),
+            black_nm: self.black_nm.rounded(),
+            white_nm: self.white_nm.rounded(),
+            size: self.size.map(|size| size.map(|side| side.rounded())),
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Pictures as numbers.
+
+use crate::PictureFile;
+use crate::limits::{MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE};
+use crate::text_file::{TextFileError, read_bytes};
+use image::{ImageFormat, ImageReader, Limits};
+use std::io::Cursor;
+use std::path::Path;
+use thiserror::Error;
+
+/// Why a file is not a picture that can be used.
+#[derive(Debug, Error)]
+pub(crate) enum PictureFileError {
+    #[error(transparent)]
+    File(#[from] TextFileError),
+    #[error("is not a PNG picture that can be read: {0}")]
+    NotPng(#[from] image::ImageError),
+    #[error(
+        "has {width} × {height} pixels; at most {MAX_PICTURE_SIDE} on a side and {MAX_PICTURE_PIXELS} in all are possible"
+    )]
+    TooLarge { width: u32, height: u32 },
+}
+
+/// Reads a PNG file of 8 or 16 bits, its values taken as they stand: grey, or luma of a coloured one.
+pub(crate) fn read(path: &Path) -> Result<PictureFile, PictureFileError> {
+    let bytes = read_bytes(path)?;
+    let (width, height) = reader(&bytes).into_dimensions()?;
+    let is_small = width.max(height) <= MAX_PICTURE_SIDE
+        && u64::from(width) * u64::from(height) <= MAX_PICTURE_PIXELS;
+    if !is_small {
+        return Err(PictureFileError::TooLarge { width, height });
+    }
+    let picture = reader(&bytes).decode()?.into_luma16();
+    let values = picture
+        .pixels()
+        .map(|pixel| f32::from(pixel.0[0]) / 65_535.0);
+    Ok(PictureFile {
+        width,
+        height,
+        values: values.collect(),
+    })
+}
+
+fn reader(bytes: &[u8]) -> ImageReader<Cursor<&[u8]>> {
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
+    reader.limits(Limits::default());
+    reader
+}

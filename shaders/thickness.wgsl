@@ -1,0 +1,131 @@
+// How thick a layer is at a point of its surface.
+
+/// Whether a layer's thickness varies over its surface.
+fn layer_varies(layer: u32) -> bool {
+    return layers[layer].field_count > 0u;
+}
+
+/// Thickness of a layer at a point of an object's surface, nm.
+fn layer_thickness(layer: u32, object: u32, position: vec3f) -> f32 {
+    let count = layers[layer].field_count;
+    if (!HAS_FIELDS || count == 0u) {
+        return layers[layer].thickness_nm;
+    }
+    let first = layers[layer].first_field;
+    if (!HAS_COMBINED_FIELDS || count == 1u) {
+        return clamp(field_value(first, object, position), 0.0, f32(MAX_THICKNESS_NM));
+    }
+    return clamp(combined_fields(first, count, object, position), 0.0, f32(MAX_THICKNESS_NM));
+}
+
+/// The value of fields in postfix order: a sum or product takes the two values before it.
+fn combined_fields(first: u32, count: u32, object: u32, position: vec3f) -> f32 {
+    var stack: array<f32, FIELD_STACK>;
+    var height = 0u;
+    for (var field = first; field < first + count; field++) {
+        let kind = fields[field].kind;
+        if (kind == FIELD_SUM || kind == FIELD_PRODUCT) {
+            height -= 1u;
+            let a = stack[height - 1u];
+            let b = stack[height];
+            stack[height - 1u] = select(a * b, a + b, kind == FIELD_SUM);
+        } else {
+            stack[height] = field_value(field, object, position);
+            height += 1u;
+        }
+    }
+    return stack[0];
+}
+
+/// The value of a field that is no sum or product.
+fn field_value(field: u32, object: u32, position: vec3f) -> f32 {
+    let kind = fields[field].kind;
+    if (HAS_SWIRLS && kind == FIELD_SWIRLS) {
+        return swirls(field, object, position);
+    }
+    if (HAS_PICTURES && kind == FIELD_PICTURE) {
+        return picture_value(field, object, position);
+    }
+    if (kind == FIELD_CONSTANT) {
+        return fields[field].base;
+    }
+    let along = field_coordinate(field, object, position);
+    if (HAS_SAMPLED_FIELDS && kind == FIELD_STEPS) {
+        let count = fields[field].sample_count;
+        return sample_at(fields[field].first_sample + min(u32(along * f32(count)), count - 1u));
+    }
+    if (HAS_SAMPLED_FIELDS && kind == FIELD_PROFILE) {
+        return profile_value(field, along);
+    }
+    return fields[field].base + fields[field].swing * along;
+}
+
+/// What a field runs along, from 0 to 1: the polar angle, or a line.
+fn field_coordinate(field: u32, object: u32, position: vec3f) -> f32 {
+    let origin = fields[field].origin;
+    if (HAS_POLAR_FIELDS && fields[field].runs_along == ALONG_POLAR_ANGLE) {
+        let radial = position - objects[object].center;
+        return polar_angle(dot(radial, origin), length(cross(radial, origin))) / PI;
+    }
+    return clamp(dot(position - origin, fields[field].along), 0.0, 1.0);
+}
+
+/// One of the numbers that fields look up.
+fn sample_at(index: u32) -> f32 {
+    return textureLoad(samples, vec2u(index % SAMPLES_WIDTH, index / SAMPLES_WIDTH), 0).x;
+}
+
+/// The root of a table of squares, or a black film where it is thin.
+fn profile_value(field: u32, along: f32) -> f32 {
+    let steps = fields[field].sample_count - 1u;
+    let place = along * f32(steps);
+    let knot = min(u32(place), steps - 1u);
+    let first = fields[field].first_sample + knot;
+    let square = mix(sample_at(first), sample_at(first + 1u), place - f32(knot));
+    let thickness = min(sqrt(square), fields[field].swing);
+    return select(thickness, fields[field].base, thickness < fields[field].threshold);
+}
+
+/// A picture by longitude and latitude on spheres, by the surface's two axes elsewhere.
+fn picture_value(field: u32, object: u32, position: vec3f) -> f32 {
+    let value = bilinear(field, picture_place(field, object, position), objects[object].shape == SHAPE_SPHERE);
+    return fields[field].base + fields[field].swing * value;
+}
+
+/// Place in a picture, from its upper left corner in its width and height.
+fn picture_place(field: u32, object: u32, position: vec3f) -> vec2f {
+    let local = position - objects[object].center;
+    if (HAS_SPHERES && objects[object].shape == SHAPE_SPHERE) {
+        let aside = length(local.xz);
+        // At the poles every longitude is right.
+        let angle = polar_angle(local.z, max(abs(local.x), 1e-30));
+        let longitude = select(angle, -angle, local.x < 0.0) / (2.0 * PI);
+        return vec2f(0.5 + longitude, polar_angle(local.y, aside) / PI);
+    }
+    var size = fields[field].size;
+    if (size.x == 0.0) {
+        let whole = 2.0 * vec2f(objects[object].half_width, objects[object].half_height);
+        size = select(vec2f(1.0), whole, objects[object].shape == SHAPE_RECTANGLE);
+    }
+    let place = vec2f(dot(local, objects[object].tangent), -dot(local, objects[object].bitangent));
+    return 0.5 + place / size;
+}
+
+/// The value of a picture, linear between the centres of its pixels.
+fn bilinear(field: u32, place: vec2f, wraps: bool) -> f32 {
+    let width = i32(fields[field].sample_count);
+    let height = i32(fields[field].rows);
+    let x = clamp(place.x * f32(width) - 0.5, -1.0, f32(width));
+    let y = clamp(place.y * f32(height) - 0.5, 0.0, f32(height - 1));
+    let left = i32(floor(x));
+    let above = i32(y);
+    // From −1 to width + 1: one width more or less comes back inside.
+    let columns = vec2i(left, left + 1);
+    let wrapped = (columns + width) % width;
+    let inside = select(clamp(columns, vec2i(0), vec2i(width - 1)), wrapped, wraps);
+    let rows = fields[field].first_sample + u32(width) * vec2u(vec2i(above, min(above + 1, height - 1)));
+    let part = x - floor(x);
+    let upper = mix(sample_at(rows.x + u32(inside.x)), sample_at(rows.x + u32(inside.y)), part);
+    let lower = mix(sample_at(rows.y + u32(inside.x)), sample_at(rows.y + u32(inside.y)), part);
+    return mix(upper, lower, y - f32(above));
+}

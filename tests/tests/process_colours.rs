@@ -1,0 +1,179 @@
+//! The colours that processes are known to give: heat tints of steel and anodised titanium, from the process's own figures in a
+//! scene to a hue.
+
+use color::xyz::BandObserver;
+use num_complex::Complex64;
+use scene::{Material, Scene, SceneFile, Thickness};
+use std::f64::consts::TAU;
+use std::path::Path;
+
+/// A scene with an oxide whose thickness is `thickness` and a metal under it; the pictures' bands give the colour.
+fn scene(oxide: &str, metal: &str, thickness: &str) -> Scene {
+    let text = format!(
+        "camera = {{ type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }}\n\
+         render = {{ bands = 40 }}\n\
+         [materials]\n\
+         a = {{ type = 'conductor', index = {metal} }}\n\
+         b = {{ type = 'film', index = {oxide}, thickness_nm = {thickness} }}\n"
+    );
+    SceneFile::parse("process.toml", &text, Path::new(""))
+        .and_then(|file| file.validate())
+        .unwrap_or_else(|problems| panic!("{problems:#}"))
+}
+
+/// Lightness, chroma and hue angle in degrees (CIELAB, white equal energy) of the oxide on its metal, seen straight on.
+fn colour(scene: &Scene) -> [f64; 3] {
+    let grid = scene.settings().bands;
+    let (mut light, mut white) = (Vec::new(), Vec::new());
+    for band in 0..grid.count() {
+        let index = |material: &Material| match *material {
+            Material::Conductor { n, k, .. } | Material::Film { n, k, .. } => Complex64::new(
+                scene.spectrum(n).at(band, 0.5),
+                scene.spectrum(k).at(band, 0.5),
+            ),
+            _ => panic!("{material:?}"),
+        };
+        let [metal, oxide] = [&scene.materials()[0], &scene.materials()[1]].map(index);
+        light.push(airy(
+            oxide,
+            metal,
+            thickness_nm(scene),
+            grid.wavelength_nm(band, 0.5),
+        ) as f32);
+        white.push(1.0);
+    }
+    let observer = BandObserver::new(&grid);
+    lightness_chroma_hue(observer.xyz(&light), observer.xyz(&white))
+}
+
+fn thickness_nm(scene: &Scene) -> f64 {
+    match scene.materials()[1].thicknesses().next() {
+        Some(&Thickness::Constant { nm }) => nm,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Reflectance of one layer at normal incidence (Airy 1833).
+fn airy(layer: Complex64, substrate: Complex64, nm: f64, wavelength_nm: f64) -> f64 {
+    let upper = (1.0 - layer) / (1.0 + layer);
+    let lower = (layer - substrate) / (layer + substrate);
+    let there_and_back = (Complex64::I * TAU * 2.0 * layer * nm / wavelength_nm).exp();
+    ((upper + lower * there_and_back) / (1.0 + upper * lower * there_and_back)).norm_sqr()
+}
+
+/// CIE 015:2018, section 8.2.1.
+fn lightness_chroma_hue(xyz: [f64; 3], white: [f64; 3]) -> [f64; 3] {
+    let f = |i: usize| {
+        let t: f64 = xyz[i] / white[i];
+        if t > (6.0_f64 / 29.0).powi(3) {
+            t.cbrt()
+        } else {
+            t * (29.0_f64 / 6.0).powi(2) / 3.0 + 4.0 / 29.0
+        }
+    };
+    let (a, b) = (500.0 * (f(0) - f(1)), 200.0 * (f(1) - f(2)));
+    [
+        116.0 * f(1) - 16.0,
+        a.hypot(b),
+        b.atan2(a).to_degrees().rem_euclid(360.0),
+    ]
+}
+
+/// A name, with the ranges of lightness, least chroma and hue that deserve it.
+type Named = (&'static str, [f64; 2], f64, [f64; 2]);
+
+const STRAW: Named = ("straw", [55.0, 75.0], 10.0, [75.0, 105.0]);
+const BROWN: Named = ("brown", [30.0, 55.0], 25.0, [50.0, 92.0]);
+const PURPLE: Named = ("purple", [0.0, 40.0], 25.0, [300.0, 385.0]);
+const BLUE: Named = ("blue", [0.0, 35.0], 40.0, [275.0, 312.0]);
+const LIGHT_BLUE: Named = ("light blue", [40.0, 80.0], 15.0, [230.0, 275.0]);
+
+fn is_named([lightness, chroma, hue]: [f64; 3], (_, light, least, hues): Named) -> bool {
+    let within = |x: f64, [low, high]: [f64; 2]| low <= x && x <= high;
+    within(lightness, light) && chroma >= least && (within(hue, hues) || within(hue + 360.0, hues))
+}
+
+fn assert_colours(found: &[([f64; 3], Named, String)]) {
+    let mut wrong = String::new();
+    for (colour, named, process) in found {
+        let [l, c, h] = colour;
+        println!("{process}: L {l:.0}, C {c:.0}, h {h:.0}, {}", named.0);
+        if !is_named(*colour, *named) {
+            wrong += &format!(
+                "{process}: L {l:.0}, C {c:.0}, h {h:.0} is no {}\n",
+                named.0
+            );
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+/// Magnetite every 40 nm (Querry, Contractor Report CRDC-CR-85034, 1985; refractiveindex.info, CC0).
+const MAGNETITE: &str = "{ nm = [380, 420, 460, 500, 540, 580, 620, 660, 700, 740, 780], \
+     n = [2.459, 2.440, 2.374, 2.359, 2.344, 2.342, 2.353, 2.363, 2.355, 2.329, 2.294], \
+     k = [0.096, 0.034, 0.042, 0.071, 0.099, 0.125, 0.144, 0.137, 0.124, 0.118, 0.123] }";
+
+fn tinted(celsius: f64) -> [f64; 3] {
+    let process = format!("{{ heat_tint = {{ temperature_c = {celsius}, minutes = 10 }} }}");
+    colour(&scene(MAGNETITE, "'iron'", &process))
+}
+
+/// Temper colours of carbon steel (Machinery's Handbook): pale straw 232, brown-yellow 260, full purple 282, dark blue
+/// 299, light blue 338 °C.
+#[test]
+fn heat_tints_of_steel_are_the_temper_colours() {
+    let expected = [
+        (232.0, STRAW),
+        (260.0, BROWN),
+        (282.0, PURPLE),
+        (299.0, BLUE),
+        (338.0, LIGHT_BLUE),
+    ];
+    let found = expected.map(|(c, named)| (tinted(c), named, format!("{c} °C")));
+    assert_colours(&found);
+}
+
+fn anodised(volts: f64) -> [f64; 3] {
+    let process = format!("{{ anodising = {{ metal = 'titanium', volts = {volts} }} }}");
+    colour(&scene("2.3", "'titanium'", &process))
+}
+
+/// The sequence of colours of titanium anodised up to some 120 V, as Diamanti, Del Curto and Pedeferri (Color Res. Appl. 33, 221,
+/// 2008) and suppliers' charts have it. Each colour's voltage depends on the electrolyte; the order does not.
+#[test]
+fn anodised_titanium_has_its_sequence_of_colours() {
+    let anywhere = [30.0, 90.0];
+    let expected: [(f64, Named); 10] = [
+        (10.0, ("gold", anywhere, 25.0, [65.0, 95.0])),
+        (16.0, ("purple", anywhere, 25.0, [300.0, 350.0])),
+        (21.0, ("blue", anywhere, 25.0, [250.0, 290.0])),
+        (36.0, ("silver", [75.0, 90.0], 0.0, [0.0, 360.0])),
+        (48.0, ("yellow", [75.0, 90.0], 40.0, [85.0, 105.0])),
+        (60.0, ("pink", anywhere, 40.0, [330.0, 370.0])),
+        (64.0, ("violet", anywhere, 40.0, [300.0, 330.0])),
+        (69.0, ("cobalt", anywhere, 40.0, [250.0, 290.0])),
+        (81.0, ("green", anywhere, 25.0, [130.0, 180.0])),
+        (105.0, ("pink again", anywhere, 40.0, [330.0, 370.0])),
+    ];
+    let found = expected.map(|(v, named)| (anodised(v), named, format!("{v} V")));
+    assert_colours(&found);
+    let [_, chroma, _] = anodised(36.0);
+    assert!(chroma < 10.0, "silver has chroma {chroma}");
+}
+
+/// The names can be refused: no temper colour has another's.
+#[test]
+fn a_colour_has_only_its_own_name() {
+    let names = [STRAW, BROWN, PURPLE, BLUE, LIGHT_BLUE];
+    for (index, celsius) in [232.0, 260.0, 282.0, 338.0].into_iter().enumerate() {
+        let index = if index == 3 { 4 } else { index };
+        for (other, named) in names.into_iter().enumerate() {
+            assert_eq!(
+                is_named(tinted(celsius), named),
+                other == index,
+                "{celsius} °C, {}",
+                named.0
+            );
+        }
+    }
+}
