@@ -8,7 +8,7 @@
 //! | how much each layer absorbs | [`absorptance`] |
 //! | how R and T change with each thickness | [`thickness_derivatives`] |
 //! | R and T of many stacks at many angles and wavelengths, fast | [`batch::evaluate`] |
-//! | a film as a paper of the field's early days approximates it | [`two_beam`] |
+//! | a film by the two beams of Suzuki, Yokoi and Toriwaki | [`two_beam`] |
 //! | one boundary | [`fresnel`], [`reflectance_unpolarised`] |
 //! | rough surfaces | [`cook_torrance`], [`sample_beckmann`] |
 //!
