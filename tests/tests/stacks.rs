@@ -3,8 +3,122 @@
 use num_complex::Complex64;
 use optics::batch::{LayerOf, Media, StackBatch, StackOf, evaluate};
 use optics::{Layer, Polarised, absorptance, stack, thickness_derivatives};
-use pellicle_tests::tolerances::{DERIVATIVE, IDENTITY};
+use pellicle_tests::agreement::compare;
+use pellicle_tests::tables::{number, rows};
+use pellicle_tests::tolerances::{DERIVATIVE, IDENTITY, ORACLE_STACKS};
 use proptest::prelude::*;
+
+const STACKS: &str = include_str!("../data/stacks.csv");
+
+/// A row of `stacks.csv`.
+struct Case {
+    name: String,
+    incident: f64,
+    cosine: f64,
+    nm: f64,
+    substrate: Complex64,
+    layers: Vec<Layer>,
+    /// R_s, R_p, T_s, T_p; A_s, A_p of the first layer; the derivatives of the first four by its thickness.
+    expected: Vec<f64>,
+}
+
+fn cases() -> Vec<Case> {
+    let of_row = |row: Vec<&str>| {
+        let layers: Vec<f64> = row[6].split(' ').map(number).collect();
+        let layer = |of: &[f64]| Layer {
+            index: Complex64::new(of[0], of[1]),
+            thickness_nm: of[2],
+        };
+        Case {
+            name: row[0].to_owned(),
+            incident: number(row[1]),
+            cosine: number(row[2]),
+            nm: number(row[3]),
+            substrate: Complex64::new(number(row[4]), number(row[5])),
+            layers: layers.chunks(3).map(layer).collect(),
+            expected: row[7..17].iter().map(|cell| number(cell)).collect(),
+        }
+    };
+    rows(STACKS).map(of_row).collect()
+}
+
+impl Case {
+    /// What this crate makes of it, by single calls.
+    fn found(&self) -> Vec<f64> {
+        let (incident, layers, substrate) = (self.incident, &self.layers, self.substrate);
+        let powers = stack(incident, layers, substrate, self.nm, self.cosine);
+        let absorbed = absorptance(incident, layers, substrate, self.nm, self.cosine)[0];
+        let slope = thickness_derivatives(incident, layers, substrate, self.nm, self.cosine)[0];
+        let all = [
+            powers.reflectance,
+            powers.transmittance,
+            absorbed,
+            slope.reflectance,
+            slope.transmittance,
+        ];
+        all.iter().flat_map(|power| [power.s, power.p]).collect()
+    }
+
+    /// R_s, R_p, T_s and T_p by a batch of so many equal wavelengths.
+    fn by_batch(&self, wavelengths: usize) -> Vec<f64> {
+        let layers = (0..).zip(&self.layers).map(|(medium, layer)| LayerOf {
+            medium,
+            thickness_nm: layer.thickness_nm,
+        });
+        let layers: Vec<LayerOf> = layers.collect();
+        let mut media: Vec<Complex64> = self.layers.iter().map(|layer| layer.index).collect();
+        media.push(self.substrate);
+        let batch = StackBatch {
+            wavelengths_nm: &vec![self.nm; wavelengths],
+            cosines: &[self.cosine],
+            incident: self.incident,
+            media: Media::Constant(&media),
+            stacks: &[StackOf {
+                substrate: layers.len() as u32,
+                first_layer: 0,
+                layer_count: layers.len() as u32,
+            }],
+            layers: &layers,
+        };
+        let powers = evaluate(&batch).unwrap();
+        assert!(powers.iter().all(|power| *power == powers[0]));
+        let (r, t) = (powers[0].reflectance, powers[0].transmittance);
+        vec![r.s, r.p, t.s, t.p]
+    }
+}
+
+#[test]
+fn stacks_agree_with_fifty_digits() {
+    let cases = cases();
+    assert_eq!(cases.len(), 100);
+    for case in cases {
+        for (found, expected) in [
+            (case.found(), &case.expected[..]),
+            (case.by_batch(1), &case.expected[..4]),
+            (case.by_batch(11), &case.expected[..4]),
+        ] {
+            if let Err(report) = compare(&found, expected, ORACLE_STACKS) {
+                panic!("{} {} {}: {report}", case.name, case.cosine, case.nm);
+            }
+        }
+    }
+}
+
+/// A layer a picometre thicker is noticed, by single calls and by batches.
+#[test]
+fn a_picometre_is_noticed() {
+    let mut noticed = 0;
+    for mut case in cases() {
+        // Not where nothing changes: grazing, opaque or too thin a layer.
+        if case.name == "ordinary" && case.expected[6].abs() > 1e-6 {
+            case.layers[0].thickness_nm += 1e-3;
+            assert!(compare(&case.found(), &case.expected, ORACLE_STACKS).is_err());
+            assert!(compare(&case.by_batch(5), &case.expected[..4], ORACLE_STACKS).is_err());
+            noticed += 1;
+        }
+    }
+    assert!(noticed >= 10, "{noticed}");
+}
 
 fn close(a: f64, b: f64, tolerance: f64) -> bool {
     (a - b).abs() <= tolerance

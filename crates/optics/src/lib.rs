@@ -2,12 +2,46 @@
 //!
 //! No scene, no file and no device is known here; someone who designs coatings can use this crate alone.
 //!
+//! | to know | call |
+//! | --- | --- |
+//! | r, t, R and T of a stack of layers | [`stack`], [`film`] |
+//! | how much each layer absorbs | [`absorptance`] |
+//! | how R and T change with each thickness | [`thickness_derivatives`] |
+//! | R and T of many stacks at many angles and wavelengths, fast | [`batch::evaluate`] |
+//! | a film by the two beams of Suzuki, Yokoi and Toriwaki | [`two_beam`] |
+//! | one boundary | [`fresnel`], [`reflectance_unpolarised`] |
+//! | rough surfaces | [`cook_torrance`], [`sample_beckmann`] |
+//!
+//! Where the light of a coating goes, at one angle and wavelength:
+//!
+//! ```
+//! use pellicle_optics::{Complex64, Layer, absorptance, stack, thickness_derivatives};
+//!
+//! // An antireflection coating with a thin metal in it: silica on chromium on glass, 550 nm, seen at 30°.
+//! let layers = [
+//!     Layer { index: 1.46.into(), thickness_nm: 80.0 },
+//!     Layer { index: Complex64::new(3.18, 3.33), thickness_nm: 10.0 },
+//! ];
+//! let (glass, cosine) = (1.52.into(), 30.0_f64.to_radians().cos());
+//! let found = stack(1.0, &layers, glass, 550.0, cosine);
+//! let absorbed = absorptance(1.0, &layers, glass, 550.0, cosine);
+//! let (r, t) = (found.reflectance.s, found.transmittance.s);
+//! assert!((r + t + absorbed[0].s + absorbed[1].s - 1.0).abs() < 1e-14);
+//! assert_eq!(absorbed[0].s, 0.0); // silica takes nothing
+//!
+//! // A nanometre more of silica changes R by the derivative, to first order.
+//! let slope = thickness_derivatives(1.0, &layers, glass, 550.0, cosine)[0];
+//! let thicker = [Layer { thickness_nm: 81.0, ..layers[0] }, layers[1]];
+//! let change = stack(1.0, &thicker, glass, 550.0, cosine).reflectance.s - r;
+//! assert!((change - slope.reflectance.s).abs() < 0.05 * change.abs());
+//! ```
+//!
 //! **Sign convention.** A complex index is n + ik and waves vary as exp(i(k·x − ωt)), so k ≥ 0
 //! absorbs. Wavelengths are vacuum wavelengths. Lengths of a film and wavelengths are both in nanometres. A cosine is
 //! that of the angle between a ray and the normal, measured in the medium that the ray is in.
 //!
 //! s is the polarisation whose electric field is perpendicular to the plane of incidence, p the one
-//! whose field lies in it.
+//! whose field lies in it. r_p is the ratio that equals −r_s at normal incidence.
 
 pub mod batch;
 mod fresnel;

@@ -94,16 +94,30 @@ pub enum BatchError {
     },
 }
 
-/// The first of many things that is wrong; looked for on all cores, since a batch may have millions.
-fn first<T: Sync>(
+/// The first of many things that is not right; looked for on all cores and without error values while all are right, since a
+/// batch may have millions.
+fn first_wrong<T: Sync>(
     things: &[T],
-    wrong: impl Fn(usize, &T) -> Option<BatchError> + Sync,
+    right: impl Fn(&T) -> bool + Sync,
+    error: impl Fn(usize, &T) -> BatchError,
 ) -> Result<(), BatchError> {
-    let things = things.par_iter().enumerate().with_min_len(4096);
-    match things.find_map_first(|(place, thing)| wrong(place, thing)) {
-        Some(error) => Err(error),
-        None => Ok(()),
+    const TOGETHER: usize = 4096;
+    let all_right = |group: &[T]| group.iter().fold(true, |all, thing| all & right(thing));
+    // A few are not worth waking another core.
+    let well = if things.len() <= TOGETHER {
+        all_right(things)
+    } else {
+        things.par_chunks(TOGETHER).all(all_right)
+    };
+    if well {
+        return Ok(());
     }
+    let wrong = |(place, thing)| (!right(thing)).then(|| error(place, thing));
+    things
+        .iter()
+        .enumerate()
+        .find_map(wrong)
+        .map_or(Ok(()), Err)
 }
 
 /// # Errors
@@ -112,27 +126,34 @@ pub(super) fn check(batch: &StackBatch) -> Result<(), BatchError> {
     if !(batch.incident > 0.0 && batch.incident.is_finite()) {
         return Err(BatchError::Incident(batch.incident));
     }
-    first(batch.wavelengths_nm, |place, &found| {
-        let right = found > 0.0 && found.is_finite();
-        (!right).then_some(BatchError::Wavelength { place, found })
-    })?;
-    first(batch.cosines, |place, &found| {
-        let right = found > 0.0 && found <= 1.0;
-        (!right).then_some(BatchError::Cosine { place, found })
-    })?;
+    first_wrong(
+        batch.wavelengths_nm,
+        |&nm| nm > 0.0 && nm.is_finite(),
+        |place, &found| BatchError::Wavelength { place, found },
+    )?;
+    first_wrong(
+        batch.cosines,
+        |&cosine| cosine > 0.0 && cosine <= 1.0,
+        |place, &found| BatchError::Cosine { place, found },
+    )?;
     let media = check_media(batch)?;
-    first(batch.layers, |layer, of| {
-        let (found, medium) = (of.thickness_nm, of.medium);
-        if !(found >= 0.0 && found.is_finite()) {
-            return Some(BatchError::Thickness { layer, found });
-        }
-        let wrong = BatchError::LayerMedium {
+    first_wrong(
+        batch.layers,
+        |layer| layer.thickness_nm >= 0.0 && layer.thickness_nm.is_finite(),
+        |layer, of| BatchError::Thickness {
             layer,
-            medium,
+            found: of.thickness_nm,
+        },
+    )?;
+    first_wrong(
+        batch.layers,
+        |layer| (layer.medium as usize) < media,
+        |layer, of| BatchError::LayerMedium {
+            layer,
+            medium: of.medium,
             media,
-        };
-        (medium as usize >= media).then_some(wrong)
-    })?;
+        },
+    )?;
     check_stacks(batch, media)
 }
 
@@ -149,32 +170,33 @@ fn check_media(batch: &StackBatch) -> Result<usize, BatchError> {
             return Err(BatchError::Media { found, wavelengths });
         }
     };
-    first(indices, |place, &found| {
-        let not_negative = found.re >= 0.0 && found.im >= 0.0;
-        let right = not_negative && found.is_finite() && found != 0.0.into();
-        (!right).then_some(BatchError::Index { place, found })
-    })?;
+    first_wrong(
+        indices,
+        |n| n.re >= 0.0 && n.im >= 0.0 && n.re + n.im > 0.0 && (n.re + n.im).is_finite(),
+        |place, &found| BatchError::Index { place, found },
+    )?;
     Ok(media)
 }
 
 fn check_stacks(batch: &StackBatch, media: usize) -> Result<(), BatchError> {
     let layers = batch.layers.len();
-    first(batch.stacks, |stack, of| {
-        let medium = of.substrate;
-        if medium as usize >= media {
-            return Some(BatchError::Substrate {
-                stack,
-                medium,
-                media,
-            });
-        }
-        let (first, count) = (of.first_layer, of.layer_count);
-        let wrong = BatchError::Layers {
+    first_wrong(
+        batch.stacks,
+        |stack| (stack.substrate as usize) < media,
+        |stack, of| BatchError::Substrate {
             stack,
-            first,
-            count,
+            medium: of.substrate,
+            media,
+        },
+    )?;
+    first_wrong(
+        batch.stacks,
+        |stack| stack.first_layer as usize + stack.layer_count as usize <= layers,
+        |stack, of| BatchError::Layers {
+            stack,
+            first: of.first_layer,
+            count: of.layer_count,
             layers,
-        };
-        (first as usize + count as usize > layers).then_some(wrong)
-    })
+        },
+    )
 }

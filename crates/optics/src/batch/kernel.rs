@@ -22,8 +22,8 @@ pub(super) struct Index<S: Simd> {
     inverse: ComplexLanes<S>,
     /// (n − n₀)(n + n₀).
     above: ComplexLanes<S>,
-    /// k = 0 in every lane.
-    clear: bool,
+    /// k = 0 in every lane, and then the least of (n − n₀)(n + n₀).
+    clear: Option<f64>,
 }
 
 impl<S: Simd> Index<S> {
@@ -31,11 +31,12 @@ impl<S: Simd> Index<S> {
     pub(super) fn new(n: Lanes<S>, k: Lanes<S>, clear: bool, incident: Lanes<S>) -> Self {
         if clear {
             let squared = n * n;
+            let above = (n - incident) * (n + incident);
             return Self {
                 squared: ComplexLanes::real(squared),
                 inverse: ComplexLanes::real(squared.recip()),
-                above: ComplexLanes::real((n - incident) * (n + incident)),
-                clear,
+                above: ComplexLanes::real(above),
+                clear: Some(above.least()),
             };
         }
         let index = ComplexLanes::new(n, k);
@@ -45,35 +46,41 @@ impl<S: Simd> Index<S> {
             squared,
             inverse: squared.recip(),
             above: below * ComplexLanes::new(n + incident, k),
-            clear,
+            clear: None,
         }
     }
 
-    /// The medium in light of a direction, given by q₀² = n₀² cos²θ₀, and 2/λ.
+    /// The medium in light of a direction, given by q₀² = n₀² cos²θ₀ in lanes and as a number, the least of them, and 2/λ.
     #[inline(always)]
-    pub(super) fn wave(&self, q0_squared: Lanes<S>, half_waves_per_nm: Lanes<S>) -> Wave<S> {
+    pub(super) fn wave(
+        &self,
+        q0_squared: Lanes<S>,
+        least_q0_squared: f64,
+        half_waves_per_nm: Lanes<S>,
+    ) -> Wave<S> {
         let q2 = self.above.re + q0_squared;
-        if self.clear && q2.least() >= 0.0 {
+        if self
+            .clear
+            .is_some_and(|least| least + least_q0_squared >= 0.0)
+        {
             let q = q2.at_least(LEAST_Q2).sqrt();
             let over_q = q.recip();
-            return Wave {
-                q: ComplexLanes::real(q),
-                over_q: ComplexLanes::real(over_q),
-                p: ComplexLanes::real(q * self.inverse.re),
-                over_p: ComplexLanes::real(over_q * self.squared.re),
-                half_turns_per_nm: ComplexLanes::real(q * half_waves_per_nm),
-                clear: true,
-            };
+            return Wave::Clear(Normal {
+                q,
+                over_q,
+                p: q * self.inverse.re,
+                over_p: over_q * self.squared.re,
+                half_turns_per_nm: q * half_waves_per_nm,
+            });
         }
         let (q, over_q) = root(ComplexLanes::new(q2, self.above.im));
-        Wave {
+        Wave::Lossy(Normal {
             q,
             over_q,
             p: q * self.inverse,
             over_p: over_q * self.squared,
             half_turns_per_nm: q.scale(half_waves_per_nm),
-            clear: false,
-        }
+        })
     }
 }
 
@@ -92,17 +99,24 @@ fn root<S: Simd>(q2: ComplexLanes<S>) -> (ComplexLanes<S>, ComplexLanes<S>) {
 
 /// A medium in light of one direction.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Wave<S: Simd> {
+pub(super) enum Wave<S: Simd> {
+    /// Light runs without loss in every lane.
+    Clear(Normal<Lanes<S>>),
+    /// Anything: losses, and light that only tunnels.
+    Lossy(Normal<ComplexLanes<S>>),
+}
+
+/// What the normal component of the wave vector makes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Normal<T> {
     /// η for s: q = n cos θ.
-    q: ComplexLanes<S>,
-    over_q: ComplexLanes<S>,
+    q: T,
+    over_q: T,
     /// η for p: q/n².
-    p: ComplexLanes<S>,
-    over_p: ComplexLanes<S>,
+    p: T,
+    over_p: T,
     /// 2q/λ: the phase δ of a nanometre over π.
-    half_turns_per_nm: ComplexLanes<S>,
-    /// q is real in every lane; then only the real parts are meant.
-    clear: bool,
+    half_turns_per_nm: T,
 }
 
 /// The field of one polarisation at a boundary.
@@ -183,39 +197,38 @@ pub(super) struct Sweep<S: Simd> {
 impl<S: Simd> Sweep<S> {
     #[inline(always)]
     pub(super) fn new(substrate: &Wave<S>) -> Self {
-        let one = substrate.q.re.constant(1.0);
+        let (s, p) = match substrate {
+            Wave::Clear(normal) => (ComplexLanes::real(normal.q), ComplexLanes::real(normal.p)),
+            Wave::Lossy(normal) => (normal.q, normal.p),
+        };
+        let one = s.re.constant(1.0);
         Self {
-            s: Field::leaving(substrate.q),
-            p: Field::leaving(substrate.p),
+            s: Field::leaving(s),
+            p: Field::leaving(p),
             passing_s: one,
             passing_p: one,
-            leaving_s: substrate.q.re,
-            leaving_p: substrate.p.re,
+            leaving_s: s.re,
+            leaving_p: p.re,
         }
     }
 
     #[inline(always)]
     pub(super) fn pass(&mut self, wave: &Wave<S>, thickness_nm: Lanes<S>) {
-        if wave.clear {
-            self.pass_clear(wave, thickness_nm);
-        } else {
-            self.pass_lossy(wave, thickness_nm);
+        match wave {
+            Wave::Clear(normal) => self.pass_clear(normal, thickness_nm),
+            Wave::Lossy(normal) => self.pass_lossy(normal, thickness_nm),
         }
     }
 
     #[inline(always)]
-    fn pass_clear(&mut self, wave: &Wave<S>, thickness_nm: Lanes<S>) {
-        let (sin, cos) = sin_cos_half_turns(wave.half_turns_per_nm.re * thickness_nm);
-        self.s = self
-            .s
-            .lift_clear(cos, sin * wave.over_q.re, sin * wave.q.re);
-        self.p = self
-            .p
-            .lift_clear(cos, sin * wave.over_p.re, sin * wave.p.re);
+    fn pass_clear(&mut self, wave: &Normal<Lanes<S>>, thickness_nm: Lanes<S>) {
+        let (sin, cos) = sin_cos_half_turns(wave.half_turns_per_nm * thickness_nm);
+        self.s = self.s.lift_clear(cos, sin * wave.over_q, sin * wave.q);
+        self.p = self.p.lift_clear(cos, sin * wave.over_p, sin * wave.p);
     }
 
     #[inline(always)]
-    fn pass_lossy(&mut self, wave: &Wave<S>, thickness_nm: Lanes<S>) {
+    fn pass_lossy(&mut self, wave: &Normal<ComplexLanes<S>>, thickness_nm: Lanes<S>) {
         let half_turns = wave.half_turns_per_nm.scale(thickness_nm);
         let (sin, cos) = sin_cos_half_turns(half_turns.re);
         let (passing, less) = decay(half_turns.im);

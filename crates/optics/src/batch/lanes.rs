@@ -4,6 +4,9 @@
 use pulp::Simd;
 use std::ops::{Add, Mul, Neg, Sub};
 
+/// The most lanes that any instruction set has.
+pub(super) const MOST: usize = 8;
+
 /// As many f64 as the registers of `S` hold.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lanes<S: Simd> {
@@ -12,7 +15,10 @@ pub(super) struct Lanes<S: Simd> {
 }
 
 impl<S: Simd> Lanes<S> {
-    pub(super) const COUNT: usize = S::F64_LANES;
+    pub(super) const COUNT: usize = {
+        assert!(S::F64_LANES <= MOST);
+        S::F64_LANES
+    };
 
     #[inline(always)]
     pub(super) fn splat(simd: S, value: f64) -> Self {

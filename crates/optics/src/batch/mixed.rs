@@ -1,7 +1,7 @@
 //! Lanes filled with whatever results come next: for batches of few wavelengths.
 
 use super::kernel::{Index, Sweep, Wave};
-use super::lanes::Lanes;
+use super::lanes::{Lanes, MOST};
 use super::spectra::SCALED_AFTER;
 use super::{LayerOf, Powers, StackBatch, write};
 use num_complex::Complex64;
@@ -44,16 +44,21 @@ struct Light<S: Simd> {
     simd: S,
     incident: Lanes<S>,
     q0_squared: Lanes<S>,
+    least_q0_squared: f64,
     half_waves_per_nm: Lanes<S>,
 }
 
 impl<S: Simd> Light<S> {
     #[inline(always)]
-    fn wave(&self, n: &[f64; 8], k: &[f64; 8]) -> Wave<S> {
+    fn wave(&self, n: &[f64; MOST], k: &[f64; MOST]) -> Wave<S> {
         let clear = k[..Lanes::<S>::COUNT].iter().all(|k| *k == 0.0);
         let (n, k) = (Lanes::load(self.simd, n), Lanes::load(self.simd, k));
         let index = Index::new(n, k, clear, self.incident);
-        index.wave(self.q0_squared, self.half_waves_per_nm)
+        index.wave(
+            self.q0_squared,
+            self.least_q0_squared,
+            self.half_waves_per_nm,
+        )
     }
 }
 
@@ -71,7 +76,7 @@ impl WithSimd for Part<'_> {
         for (group, powers) in powers.chunks_mut(Lanes::<S>::COUNT).enumerate() {
             let start = first + group * Lanes::<S>::COUNT;
             // Lanes beyond the last result repeat it.
-            let mut items = [Item::new(batch, start); 8];
+            let mut items = [Item::new(batch, start); MOST];
             for (lane, item) in items.iter_mut().enumerate() {
                 *item = Item::new(batch, (start + lane).min(last));
             }
@@ -81,9 +86,9 @@ impl WithSimd for Part<'_> {
 }
 
 #[inline(always)]
-fn evaluate<S: Simd>(simd: S, batch: &StackBatch, items: &[Item; 8], powers: &mut [Powers]) {
-    let (mut cosines, mut half_waves) = ([0.0; 8], [0.0; 8]);
-    let (mut n, mut k) = ([0.0; 8], [0.0; 8]);
+fn evaluate<S: Simd>(simd: S, batch: &StackBatch, items: &[Item; MOST], powers: &mut [Powers]) {
+    let (mut cosines, mut half_waves) = ([0.0; MOST], [0.0; MOST]);
+    let (mut n, mut k) = ([0.0; MOST], [0.0; MOST]);
     for (lane, item) in items.iter().enumerate() {
         cosines[lane] = item.cosine;
         half_waves[lane] = 2.0 / batch.wavelengths_nm[item.wavelength];
@@ -96,6 +101,7 @@ fn evaluate<S: Simd>(simd: S, batch: &StackBatch, items: &[Item; 8], powers: &mu
         simd,
         incident,
         q0_squared: q0 * q0,
+        least_q0_squared: (q0 * q0).least(),
         half_waves_per_nm: Lanes::load(simd, &half_waves),
     };
     let mut sweep = Sweep::new(&light.wave(&n, &k));
@@ -118,12 +124,12 @@ fn evaluate<S: Simd>(simd: S, batch: &StackBatch, items: &[Item; 8], powers: &mu
 #[inline(always)]
 fn gather(
     batch: &StackBatch,
-    items: &[Item; 8],
+    items: &[Item; MOST],
     step: usize,
-    n: &mut [f64; 8],
-    k: &mut [f64; 8],
-) -> [f64; 8] {
-    let mut thickness_nm = [0.0; 8];
+    n: &mut [f64; MOST],
+    k: &mut [f64; MOST],
+) -> [f64; MOST] {
+    let mut thickness_nm = [0.0; MOST];
     for (lane, item) in items.iter().enumerate() {
         if step < item.layers.len() {
             let layer = item.layers[item.layers.len() - 1 - step];

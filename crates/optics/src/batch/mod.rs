@@ -49,6 +49,7 @@ pub use check::BatchError;
 
 use crate::Polarised;
 use bytemuck::{Pod, Zeroable};
+use lanes::{Lanes, MOST};
 use num_complex::Complex64;
 use pulp::Arch;
 use rayon::prelude::*;
@@ -207,8 +208,8 @@ fn run(arch: Arch, batch: &StackBatch, powers: &mut [Powers]) {
 
 /// The powers of lanes, one after the other, to as many results.
 #[inline(always)]
-fn write<S: pulp::Simd>(lanes: [lanes::Lanes<S>; 4], powers: &mut [Powers]) {
-    let mut rows = [[0.0; 8]; 4];
+fn write<S: pulp::Simd>(lanes: [Lanes<S>; 4], powers: &mut [Powers]) {
+    let mut rows = [[0.0; MOST]; 4];
     for (row, lanes) in rows.iter_mut().zip(lanes) {
         lanes.store(row);
     }

@@ -1,7 +1,7 @@
 //! Lanes along the spectrum: what a medium needs is computed once for all layers of all stacks of a part.
 
 use super::kernel::{Index, Sweep, Wave};
-use super::lanes::Lanes;
+use super::lanes::{Lanes, MOST};
 use super::{Powers, StackBatch, write};
 use pulp::{Simd, WithSimd};
 use std::ops::Range;
@@ -47,7 +47,7 @@ pub(super) fn parts<'a>(
             }
         }));
     }
-    let pieces = (4 * threads).min((angles * wavelengths).div_ceil(WORTHWHILE));
+    let pieces = (2 * threads).min((angles * wavelengths).div_ceil(WORTHWHILE));
     let together = angles.div_ceil(pieces);
     let of_stacks = powers.chunks_mut(angles * wavelengths).enumerate();
     Box::new(of_stacks.flat_map(move |(stack, powers)| {
@@ -123,19 +123,19 @@ impl<S: Simd> Band<S> {
         let count = batch.wavelengths_nm.len();
         let wavelengths = first..(first + Lanes::<S>::COUNT).min(count);
         let place = |lane: usize| (first + lane).min(count - 1);
-        let mut half_waves = [0.0; 8];
+        let mut half_waves = [0.0; MOST];
         for (lane, number) in half_waves.iter_mut().enumerate() {
             *number = 2.0 / batch.wavelengths_nm[place(lane)];
         }
         let incident = Lanes::splat(simd, batch.incident);
         let mut indices = Vec::with_capacity(media.len());
         for &medium in media {
-            let (mut n, mut k) = ([0.0; 8], [0.0; 8]);
-            for lane in 0..8 {
+            let (mut n, mut k) = ([0.0; MOST], [0.0; MOST]);
+            for lane in 0..MOST {
                 let index = batch.index(medium, place(lane));
                 (n[lane], k[lane]) = (index.re, index.im);
             }
-            let clear = k == [0.0; 8];
+            let clear = k == [0.0; MOST];
             let (n, k) = (Lanes::load(simd, &n), Lanes::load(simd, &k));
             indices.push(Index::new(n, k, clear, incident));
         }
@@ -147,10 +147,11 @@ impl<S: Simd> Band<S> {
     }
 
     #[inline(always)]
-    fn waves(&self, q0_squared: Lanes<S>, waves: &mut Vec<Wave<S>>) {
+    fn waves(&self, simd: S, q0: f64, waves: &mut Vec<Wave<S>>) {
+        let q0_squared = Lanes::splat(simd, q0 * q0);
         waves.clear();
         for index in &self.indices {
-            waves.push(index.wave(q0_squared, self.half_waves_per_nm));
+            waves.push(index.wave(q0_squared, q0 * q0, self.half_waves_per_nm));
         }
     }
 }
@@ -174,9 +175,9 @@ impl WithSimd for Part<'_> {
             let band = Band::new(simd, batch, &plan.media, first);
             for (row, angle) in angles.clone().enumerate() {
                 let cosine = batch.cosines[angle];
+                band.waves(simd, batch.incident * cosine, &mut waves);
                 let q0 = Lanes::splat(simd, batch.incident * cosine);
                 let p0 = Lanes::splat(simd, cosine / batch.incident);
-                band.waves(q0 * q0, &mut waves);
                 let mut first_step = 0;
                 for (stack, &end) in plan.ends.iter().enumerate() {
                     let substrate = &waves[plan.substrates[stack]];

@@ -40,8 +40,9 @@ pub struct StackAmplitudes {
 /// nothing is divided by 0 at a critical angle.
 ///
 /// Domain: `incident` real and positive; `cos_incident` in (0, 1] (1.7e-4 is 89.99°); `wavelength_nm` > 0, in vacuum; the
-/// substrate's index as a [`Layer`]'s. Any number of layers, none too, of any thickness: the phase δ keeps an error of about
-/// 1e-16 δ, so that R holds 1e-13 for films of some µm and 1e-11 at 30 µm. Within the domain every result is finite.
+/// substrate's index as a [`Layer`]'s. Any number of layers, none too, of any thickness. Within the domain every result is
+/// finite. Against 50 digits R and T of random stacks are off by 4e-15 at most, also at 89.99° and from denser media, and by 3e-14 for
+/// films of 30 µm and mirrors of 21 layers.
 ///
 /// Light in a denser medium is reflected totally beyond the critical angle (T = 0), or passes a thin gap (frustrated total
 /// reflection). T is the power that enters the substrate, also of an absorbing one.
