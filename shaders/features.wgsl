@@ -15,6 +15,7 @@ override HAS_COATINGS: bool = true;
 override HAS_FIELDS: bool = true;
 override HAS_COMBINED_FIELDS: bool = true;
 override HAS_POLAR_FIELDS: bool = true;
+override HAS_LINE_FIELDS: bool = true;
 override HAS_SAMPLED_FIELDS: bool = true;
 override HAS_SWIRLS: bool = true;
 override HAS_PICTURES: bool = true;

@@ -46,7 +46,7 @@ fn field_value(field: u32, object: u32, position: vec3f) -> f32 {
     if (HAS_PICTURES && kind == FIELD_PICTURE) {
         return picture_value(field, object, position);
     }
-    if (kind == FIELD_CONSTANT) {
+    if (HAS_COMBINED_FIELDS && kind == FIELD_CONSTANT) {
         return fields[field].base;
     }
     let along = field_coordinate(field, object, position);
@@ -63,7 +63,7 @@ fn field_value(field: u32, object: u32, position: vec3f) -> f32 {
 /// What a field runs along, from 0 to 1: the polar angle, or a line.
 fn field_coordinate(field: u32, object: u32, position: vec3f) -> f32 {
     let origin = fields[field].origin;
-    if (HAS_POLAR_FIELDS && fields[field].runs_along == ALONG_POLAR_ANGLE) {
+    if (HAS_POLAR_FIELDS && (!HAS_LINE_FIELDS || fields[field].runs_along == ALONG_POLAR_ANGLE)) {
         let radial = position - objects[object].center;
         return polar_angle(dot(radial, origin), length(cross(radial, origin))) / PI;
     }

@@ -77,7 +77,7 @@ impl Features {
 }
 
 /// What the thicknesses of layers are made of.
-fn of_thicknesses(materials: &[&Material]) -> [(&'static str, bool); 6] {
+fn of_thicknesses(materials: &[&Material]) -> [(&'static str, bool); 7] {
     let parts = || {
         let thicknesses = materials.iter().flat_map(|m| m.thicknesses());
         thicknesses.flat_map(Thickness::parts)
@@ -93,6 +93,7 @@ fn of_thicknesses(materials: &[&Material]) -> [(&'static str, bool); 6] {
             has(|part| matches!(part, Thickness::Sum(_) | Thickness::Product(_))),
         ),
         ("HAS_POLAR_FIELDS", has(is_polar)),
+        ("HAS_LINE_FIELDS", has(runs_along_a_line)),
         (
             "HAS_SAMPLED_FIELDS",
             has(|part| matches!(part, Thickness::Steps { .. } | Thickness::Profile(_))),
@@ -114,6 +115,18 @@ fn is_polar(part: &Thickness) -> bool {
         Thickness::Polar { .. }
             | Thickness::Profile(Profile {
                 coordinate: Coordinate::Polar { .. },
+                ..
+            })
+    )
+}
+
+fn runs_along_a_line(part: &Thickness) -> bool {
+    matches!(
+        part,
+        Thickness::Linear { .. }
+            | Thickness::Steps { .. }
+            | Thickness::Profile(Profile {
+                coordinate: Coordinate::Line { .. },
                 ..
             })
     )

@@ -67,7 +67,7 @@ impl PackedScene {
             objects: objects.collect(),
             materials,
             layers,
-            fields: fields.fields,
+            fields: fields.list,
             samples: fields.samples,
             spectra: spectra.chain(observer).collect(),
             limits: record_limits(scene),

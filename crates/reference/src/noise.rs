@@ -188,7 +188,7 @@ mod tests {
                 cells: 0,
                 phase: 0.25,
             };
-            let mut found: Vec<f64> = (0..40_000)
+            let found: Vec<f64> = (0..40_000)
                 .map(|i| {
                     swirls(
                         &field,
@@ -199,7 +199,7 @@ mod tests {
                 .collect();
             let mean = found.iter().sum::<f64>() / 40_000.0;
             assert!(mean.abs() < 0.03, "{mean}");
-            found.iter_mut().for_each(|x| *x = x.abs());
+            let mut found: Vec<f64> = found.into_iter().map(f64::abs).collect();
             found.sort_by(f64::total_cmp);
             assert!(found[39_999] < 1.0);
             assert!(

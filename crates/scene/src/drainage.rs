@@ -18,6 +18,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Standard gravity, m/s².
 const GRAVITY: f64 = 9.806_65;
+/// Panels of the quadrature.
+const PANELS: u32 = 16;
 
 /// A liquid.
 #[derive(Clone, Copy, Debug)]
@@ -72,7 +74,6 @@ fn sine_integral(theta: f64) -> f64 {
         return 2.0 * sine_integral(FRAC_PI_2) - sine_integral(PI - theta);
     }
     // With u = v³ the integrand 3 v² sin^(1/3) v³ is smooth; Boole's rule.
-    const PANELS: u32 = 16;
     let step = theta.cbrt() / f64::from(4 * PANELS);
     let integrand = |i: u32| {
         let v = f64::from(i) * step;
@@ -152,7 +153,7 @@ mod tests {
     /// The same by another road: finite volumes, upwind, first order, which conserve the liquid to rounding.
     #[test]
     fn finite_volumes_come_to_the_same_thickness() {
-        const CELLS: usize = 3000;
+        const CELLS: usize = 1000;
         const END: f64 = 2.0;
         let width = PI / CELLS as f64;
         let edge = |i: usize| i as f64 * width;
@@ -191,7 +192,7 @@ mod tests {
             let cell = (theta / width) as usize;
             let exact = sphere_profile2((cell as f64 + 0.5) * width, END).sqrt();
             assert!(
-                (h[cell] / exact - 1.0).abs() < 3e-3,
+                (h[cell] / exact - 1.0).abs() < 8e-3,
                 "{theta}: {} {exact}",
                 h[cell]
             );

@@ -208,9 +208,9 @@ fn pure_noise() -> pellicle_tests::probe::Probe<'static> {
 
 fn whole(table: &mut [f32], columns: &[usize]) {
     for row in table.chunks_mut(5) {
-        columns
-            .iter()
-            .for_each(|&column| row[column] = row[column].floor());
+        for &column in columns {
+            row[column] = row[column].floor();
+        }
     }
 }
 

@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// The fields of all layers.
 #[derive(Debug, Default)]
 pub(super) struct Fields {
-    pub(super) fields: Vec<Field>,
+    pub(super) list: Vec<Field>,
     /// Numbers that they look up.
     pub(super) samples: Vec<f32>,
     /// Pictures that are among the samples already, and where.
@@ -19,7 +19,7 @@ pub(super) struct Fields {
 impl Fields {
     /// A layer, with the fields that its thickness is made of.
     pub(super) fn layer(&mut self, spectrum: u32, thickness: &Thickness) -> layout::Layer {
-        let first_field = self.fields.len() as u32;
+        let first_field = self.list.len() as u32;
         let mut thickness_nm = 0.0;
         match *thickness {
             Thickness::Constant { nm } => thickness_nm = nm as f32,
@@ -29,7 +29,7 @@ impl Fields {
             spectrum,
             thickness_nm,
             first_field,
-            field_count: self.fields.len() as u32 - first_field,
+            field_count: self.list.len() as u32 - first_field,
         }
     }
 
@@ -68,7 +68,7 @@ impl Fields {
             Thickness::Sum(ref parts) => return self.combine(parts, layout::FIELD_SUM),
             Thickness::Product(ref parts) => return self.combine(parts, layout::FIELD_PRODUCT),
         };
-        self.fields.push(field);
+        self.list.push(field);
     }
 
     /// Each part but the first is combined with what comes before it, so that few values wait at a time.
@@ -76,7 +76,7 @@ impl Fields {
         for (index, part) in parts.iter().enumerate() {
             self.push(part);
             if index > 0 {
-                self.fields.push(Field {
+                self.list.push(Field {
                     kind,
                     ..Default::default()
                 });
@@ -108,15 +108,11 @@ impl Fields {
     fn picture(&mut self, picture: &Picture) -> Field {
         let file = &picture.file;
         let known = self.pictures.iter().find(|(known, _)| known == file);
-        let first_sample = match known {
-            Some(&(_, first)) => first,
-            None => {
-                let first = self.samples.len() as u32;
-                self.samples.extend_from_slice(&file.values);
-                self.pictures.push((Arc::clone(file), first));
-                first
-            }
-        };
+        let first_sample = known.map_or(self.samples.len() as u32, |&(_, first)| first);
+        if known.is_none() {
+            self.samples.extend_from_slice(&file.values);
+            self.pictures.push((Arc::clone(file), first_sample));
+        }
         Field {
             kind: layout::FIELD_PICTURE,
             first_sample,

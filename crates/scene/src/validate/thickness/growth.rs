@@ -1,0 +1,100 @@
+//! Oxides by the process that grows them.
+
+use super::{KNOTS, linear};
+use crate::description::{self, Quantity};
+use crate::growth::heat_tint_nm2;
+use crate::limits::{self, Range};
+use crate::validate::checks::Checks;
+use crate::{Coordinate, FieldPath, Profile, Thickness};
+
+/// Linear in the voltage, so it is linear where the voltage is.
+pub(super) fn anodised(
+    checks: &mut Checks,
+    field: &FieldPath,
+    written: &description::Anodising,
+) -> Option<Thickness> {
+    let description::AnodisedMetal::Titanium = written.metal;
+    let growth = field.key("nm_per_volt");
+    let nm_per_volt = checks.number(&growth, written.nm_per_volt, &limits::NM_PER_VOLT);
+    let native_nm = checks.number(&field.key("native"), written.native, &limits::THICKNESS_NM);
+    let volts = quantity(checks, &field.key("volts"), &written.volts, &limits::VOLTS);
+    let (nm_per_volt, native_nm) = (nm_per_volt?, native_nm?);
+    let oxide = |volts: f64| native_nm + nm_per_volt * volts;
+    Some(match volts? {
+        Thickness::Linear {
+            start,
+            end,
+            start_nm,
+            end_nm,
+        } => Thickness::Linear {
+            start,
+            end,
+            start_nm: oxide(start_nm),
+            end_nm: oxide(end_nm),
+        },
+        Thickness::Constant { nm } => Thickness::Constant { nm: oxide(nm) },
+        other => other,
+    })
+}
+
+/// Parabolic in time, so its square is what is smooth.
+pub(super) fn tinted(
+    checks: &mut Checks,
+    field: &FieldPath,
+    written: &description::HeatTint,
+) -> Option<Thickness> {
+    let description::Steel::Carbon = written.steel;
+    let minutes = checks.number(&field.key("minutes"), written.minutes, &limits::MINUTES);
+    let temperature = field.key("temperature_c");
+    let temperature = quantity(
+        checks,
+        &temperature,
+        &written.temperature_c,
+        &limits::HEAT_TINT_C,
+    );
+    let minutes = minutes?;
+    Some(match temperature? {
+        Thickness::Linear {
+            start,
+            end,
+            start_nm: cool,
+            end_nm: hot,
+        } => {
+            let square = |knot| {
+                let along = f64::from(knot) / f64::from(KNOTS - 1);
+                heat_tint_nm2(cool + (hot - cool) * along, minutes)
+            };
+            Thickness::Profile(Profile {
+                coordinate: Coordinate::Line { start, end },
+                squares_nm2: (0..KNOTS).map(square).collect(),
+                most_nm: limits::THICKNESS_NM.high,
+                black: None,
+            })
+        }
+        Thickness::Constant { nm: celsius } => Thickness::Constant {
+            nm: heat_tint_nm2(celsius, minutes).sqrt(),
+        },
+        other => other,
+    })
+}
+
+/// A quantity in the form of a thickness: constant or linear, its values in the quantity's own unit.
+fn quantity(
+    checks: &mut Checks,
+    field: &FieldPath,
+    written: &Quantity,
+    range: &Range,
+) -> Option<Thickness> {
+    match *written {
+        Quantity::Constant(value) => {
+            let nm = checks.number(field, value, range)?;
+            Some(Thickness::Constant { nm })
+        }
+        Quantity::Linear {
+            start,
+            end,
+            from,
+            to,
+        } => linear(checks, field, (start, end), (from, to), range),
+    }
+}
