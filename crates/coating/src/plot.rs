@@ -320,3 +320,79 @@ fn colour_of(nm: f64) -> RGBColor {
     let [r, g, b] = rgb.map(|v| srgb::to_u8((v + paleness) / 1.8));
     RGBColor(r, g, b)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Light, Stack, StackColour};
+
+    fn plot(line: &str, angles_deg: &[f64]) -> Plot {
+        let stack = Stack::parse(line).unwrap();
+        let wavelengths_nm: Vec<f64> = (380..=780).map(f64::from).collect();
+        let sampled = stack.sampled(&wavelengths_nm).unwrap();
+        let light = Light::named("D65").unwrap();
+        let colour = StackColour::new(&stack, light, View::default()).unwrap();
+        let curve = |&deg: &f64| {
+            let angle = Angle::from_degrees(deg).unwrap();
+            Curve {
+                angle,
+                powers: sampled.powers(stack.thicknesses_nm(), angle),
+                colour: Some(colour.at(stack.thicknesses_nm(), angle)),
+            }
+        };
+        Plot {
+            title: stack.label(),
+            wavelengths_nm,
+            curves: angles_deg.iter().map(curve).collect(),
+            view: View::default(),
+            illuminant: "D65".to_owned(),
+            exposure_ev: 0.0,
+        }
+    }
+
+    #[test]
+    fn what_is_shown_is_labelled() {
+        let svg = plot("1 | silica 300nm | gold", &[0.0, 60.0]).svg();
+        assert!(svg.starts_with("<svg width=\"900\"") && svg.trim_end().ends_with("</svg>"));
+        for words in [
+            "1 | silica 300 nm | gold",
+            "reflectance R",
+            "transmittance T",
+            "wavelength in vacuum / nm",
+            "60°",
+            "under D65",
+        ] {
+            assert!(svg.contains(words), "{words}");
+        }
+        assert!(!svg.contains("absorptance A"), "nothing is absorbed");
+        assert!(
+            plot("1 | gold 20nm | 1.5", &[0.0])
+                .svg()
+                .contains("absorptance A")
+        );
+    }
+
+    #[test]
+    fn the_picture_is_the_same_each_time_and_has_the_swatch() {
+        let plot = plot("1 | silica 300nm | silicon", &[0.0]);
+        let picture = plot.pixels();
+        assert_eq!(picture, plot.pixels());
+        assert_eq!(plot.svg(), plot.svg());
+        let codes = plot.curves[0].colour.unwrap().srgb8(0.0);
+        let of_swatch = picture.data().chunks(3).filter(|pixel| **pixel == codes);
+        assert!(of_swatch.count() > 2000);
+    }
+
+    #[test]
+    fn any_number_of_angles_is_drawn() {
+        for count in [1, 7, 8, Plot::MAX_CURVES] {
+            let angles: Vec<f64> = (0..count).map(|i| 5.0 * i as f64).collect();
+            let plot = plot("1 | 1.333 300nm | 1", &angles);
+            let picture = plot.pixels();
+            assert_eq!(
+                (picture.width(), picture.height()),
+                (1800, 2 * plot.size().1)
+            );
+        }
+    }
+}
