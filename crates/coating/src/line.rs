@@ -7,6 +7,7 @@ use scene::description::Index;
 use scene::limits::THICKNESS_NM;
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 use thiserror::Error;
 
 /// What is wrong with a one-line stack, and where.
@@ -17,7 +18,7 @@ pub struct LineError {
     #[help]
     help: Option<String>,
     #[source_code]
-    line: NamedSource<String>,
+    line: Arc<NamedSource<String>>,
     #[label]
     at: SourceSpan,
 }
@@ -52,7 +53,7 @@ pub(crate) fn parse(line: &str) -> Result<Stack, LineError> {
         move |Fault { message, help }: Fault| LineError {
             message,
             help,
-            line: NamedSource::new("stack", line.to_owned()),
+            line: Arc::new(NamedSource::new("stack", line.to_owned())),
             at: bytes.into(),
         }
     };
