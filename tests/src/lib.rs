@@ -1,11 +1,13 @@
 //! The harness of the suites in `tests/`.
 
 pub mod agreement;
+pub mod colorimetry;
 pub mod command;
 pub mod device;
 pub mod flip;
 pub mod frames;
 pub mod probe;
 pub mod scenes;
+pub mod tables;
 pub mod tolerances;
 pub mod wgsl;

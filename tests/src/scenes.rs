@@ -74,7 +74,7 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "with_layers",
 ];
 
-/// WGSL functions that the suite `stacks` proves: batches of film stacks.
+/// WGSL functions that the suite `stack_batches` proves: batches of film stacks.
 pub const PROVED_ON_STACKS: &[&str] = &["evaluate_stacks", "run_index", "run_stack"];
 
 /// WGSL functions that the suite `frames` proves: the accumulation of samples.

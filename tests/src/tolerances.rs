@@ -91,6 +91,13 @@ pub const ORACLE: Tolerance = of(1e-10, 0.0);
 /// Identities of stacks in f64 (energy, both directions, layers split or absent): rounding of some ten layers, times the
 /// number of passes that light makes in a layer near grazing.
 pub const IDENTITY: f64 = 1e-12;
+/// The two-beam formula against independent f64 figures of 15 digits: a cosine of some ten turns and four products.
+pub const ORACLE_TWO_BEAM: Tolerance = of(1e-10, 0.0);
+/// Derivatives by thickness, nm⁻¹, of random stacks against central differences over 0.2 and 0.1 nm, extrapolated: those keep
+/// 1e-15/0.1 from rounding and h⁴ ∂⁵R/∂d⁵ / 480, which with 2π n/λ · 2 ≤ 0.1 nm⁻¹ per order and resonances is below 1e-9.
+pub const DERIVATIVE: f64 = 2e-8;
+/// Linear sRGB of independent XYZ of ten digits: the matrix has elements of up to 3.2, and XYZ enters over 100.
+pub const ORACLE_RGB: Tolerance = of(1e-10, 1e-8);
 /// XYZ against independent sums over the same 401 wavelengths: the figures have ten to twelve digits.
 pub const ORACLE_XYZ: Tolerance = of(0.0, 1e-9);
 /// Mean XYZ of two pictures of the same random numbers: the bands' bias, and outliers of a few pixels in ten thousand.

@@ -1,334 +1,233 @@
-//! Batches of stacks on the device, against independent computations and against the crate `optics`.
+//! What holds of every stack: absorptance, incidence from a denser medium, derivatives, batches; no device is needed.
 
-use gpu::{MAX_BATCH_LAYERS, RunStack, StackBatch, StackError, evaluate_stacks};
 use num_complex::Complex64;
-use optics::{Layer, stack};
-use pellicle_tests::agreement::{Tolerance, compare};
-use pellicle_tests::tolerances::{FILM, FILM_GRAZING, FILM_LONG, FILM_THICK};
-use std::collections::BTreeMap;
+use optics::batch::{LayerOf, Media, StackBatch, StackOf, evaluate};
+use optics::{Layer, Polarised, absorptance, stack, thickness_derivatives};
+use pellicle_tests::tolerances::{DERIVATIVE, IDENTITY};
+use proptest::prelude::*;
 
-const FILMS: &str = include_str!("../data/films.csv");
-const FILMS_MEDIA: &str = include_str!("../data/films_media.csv");
-
-fn rows(table: &'static str) -> impl Iterator<Item = Vec<&'static str>> {
-    let lines = table.lines().filter(|line| !line.starts_with('#'));
-    lines.skip(1).map(|line| line.split(',').collect())
+fn close(a: f64, b: f64, tolerance: f64) -> bool {
+    (a - b).abs() <= tolerance
 }
 
-fn number(cell: &str) -> f64 {
-    cell.parse()
-        .unwrap_or_else(|_| panic!("{cell} is no number"))
-}
-
-/// A case of the tables: its media over wavelength, its layers, and R and T as published.
-#[derive(Default)]
-struct Case {
-    wavelengths_nm: Vec<f64>,
-    /// `[medium][wavelength]`, the incident medium first.
-    media: Vec<Vec<[f64; 2]>>,
-    thickness_nm: Vec<f64>,
-    degrees: Vec<f64>,
-    /// `[angle][wavelength]`.
-    expected: Vec<f64>,
-}
-
-fn cases() -> BTreeMap<&'static str, Case> {
-    let mut cases: BTreeMap<&'static str, Case> = BTreeMap::new();
-    for row in rows(FILMS_MEDIA) {
-        let (case, medium) = (cases.entry(row[0]).or_default(), number(row[1]) as usize);
-        if case.media.len() <= medium {
-            case.media.push(Vec::new());
-            case.thickness_nm.push(number(row[2]));
-        }
-        if medium == 0 {
-            case.wavelengths_nm.push(number(row[3]));
-        }
-        case.media[medium].push([number(row[4]), number(row[5])]);
-    }
-    let mut powers: BTreeMap<(&str, i64, usize), [f64; 4]> = BTreeMap::new();
-    for row in rows(FILMS) {
-        let case = cases.get_mut(row[0]).expect("has media");
-        let (nm, degrees) = (number(row[1]), number(row[2]));
-        let place = case
-            .wavelengths_nm
-            .iter()
-            .position(|&w| w == nm)
-            .expect("listed");
-        if !case.degrees.contains(&degrees) {
-            case.degrees.push(degrees);
-        }
-        let four = std::array::from_fn(|i| number(row[3 + i]));
-        powers.insert((row[0], degrees as i64, place), four);
-    }
-    for (name, case) in &mut cases {
-        for &degrees in &case.degrees {
-            for place in 0..case.wavelengths_nm.len() {
-                case.expected
-                    .extend(powers[&(*name, degrees as i64, place)]);
-            }
-        }
-    }
-    cases
-}
-
-impl Case {
-    /// R and T on the device, with every index but the incident one times `index_factor`.
-    fn on_device(&self, gpu: &gpu::Gpu, index_factor: f64) -> Vec<f64> {
-        let cosines: Vec<f64> = self.degrees.iter().map(|d| d.to_radians().cos()).collect();
-        let media: Vec<[f64; 2]> = self.media[1..]
-            .concat()
-            .into_iter()
-            .map(|[n, k]| {
-                let is_air = n == 1.0 && k == 0.0;
-                let factor = if is_air { 1.0 } else { index_factor };
-                [n * factor, k * factor]
-            })
-            .collect();
-        let inner = &self.thickness_nm[1..self.thickness_nm.len() - 1];
-        let layers: Vec<(u32, f64)> = (0..).zip(inner.iter().copied()).collect();
-        let batch = StackBatch {
-            wavelengths_nm: &self.wavelengths_nm,
-            cosines: &cosines,
-            incident: self.media[0][0][0],
-            media: &media,
-            is_dispersive: true,
-            layers: &layers,
-            stacks: &[RunStack {
-                substrate: layers.len() as u32,
-                first_layer: 0,
-                layer_count: layers.len() as u32,
-            }],
-        };
-        let found = evaluate_stacks(gpu, &batch).unwrap_or_else(|error| panic!("{error}"));
-        found.into_iter().flatten().map(f64::from).collect()
-    }
-}
-
-/// Films, coatings and metals against tmm 0.2.0 (S. J. Byrnes, arXiv:1603.02720), 0 to 80°.
-#[test]
-fn published_stacks_come_out_on_the_device() {
-    let gpu = pellicle_tests::device::open();
-    let cases = cases();
-    assert_eq!(cases.len(), 14);
-    for (name, case) in &cases {
-        assert_eq!(case.expected.len(), 11 * 4 * 4, "{name}");
-        let report = compare(&case.on_device(&gpu, 1.0), &case.expected, FILM);
-        println!(
-            "{name}: {}",
-            report.unwrap_or_else(|report| panic!("{name}: {report}"))
-        );
-        let wrong = compare(&case.on_device(&gpu, 1.01), &case.expected, FILM);
-        assert!(
-            wrong.is_err(),
-            "{name}: an index one per cent off is not noticed"
-        );
-    }
-}
-
-/// Uniform numbers in [0, 1), the same at every call.
-fn uniform(row: usize, column: u32) -> f64 {
-    let row = row as u32;
-    reference::random4([row & 0xffff, row >> 16], column, 7, 1)[0]
-}
-
-/// Random stacks, each at one angle and wavelength of its own choice out of a few.
-struct RandomStacks {
-    wavelengths_nm: Vec<f64>,
-    cosines: Vec<f64>,
-    media: Vec<[f64; 2]>,
-    layers: Vec<(u32, f64)>,
-    stacks: Vec<RunStack>,
-}
-
-impl RandomStacks {
-    /// `count` stacks of `depth` layers up to `thickest` nm; every fourth medium absorbs, up to `most_k`.
-    fn new(count: usize, depth: u32, (thickest, most_k): (f64, f64), degrees: &[f64]) -> Self {
-        let media = (0..64)
-            .map(|i| {
-                let k = if i % 4 == 0 {
-                    most_k * uniform(i, 1).powi(2)
-                } else {
-                    0.0
-                };
-                [1.1 + 1.5 * uniform(i, 0), k]
-            })
-            .collect();
-        let layer = |i: usize| {
-            let medium = (64.0 * uniform(i, 2)) as u32;
-            (medium, thickest * uniform(i, 3))
-        };
-        let total = count * depth as usize;
-        Self {
-            wavelengths_nm: vec![410.0, 487.0, 555.0, 620.0, 705.0],
-            cosines: degrees.iter().map(|d| d.to_radians().cos()).collect(),
-            media,
-            layers: (0..total).map(layer).collect(),
-            stacks: (0..count)
-                .map(|i| RunStack {
-                    substrate: (64.0 * uniform(i, 4)) as u32,
-                    first_layer: i as u32 * depth,
-                    layer_count: depth,
-                })
-                .collect(),
-        }
-    }
-
-    fn batch(&self) -> StackBatch<'_> {
-        StackBatch {
-            wavelengths_nm: &self.wavelengths_nm,
-            cosines: &self.cosines,
-            incident: 1.0,
-            media: &self.media,
-            is_dispersive: false,
-            layers: &self.layers,
-            stacks: &self.stacks,
-        }
-    }
-
-    /// R_s, R_p, T_s, T_p of a stack in `f64`.
-    fn expected(&self, of: RunStack) -> Vec<f64> {
-        let index = |medium: u32| {
-            // As the device receives it.
-            let [n, k] = self.media[medium as usize].map(|x| f64::from(x as f32));
-            Complex64::new(n, k)
-        };
-        let range = of.first_layer as usize..(of.first_layer + of.layer_count) as usize;
-        let layers: Vec<Layer> = self.layers[range]
-            .iter()
-            .map(|&(medium, nm)| Layer {
-                index: index(medium),
-                thickness_nm: f64::from(nm as f32),
-            })
-            .collect();
-        let mut all = Vec::new();
-        for &cosine in &self.cosines {
-            for &nm in &self.wavelengths_nm {
-                let found = stack(
-                    1.0,
-                    &layers,
-                    index(of.substrate),
-                    nm,
-                    f64::from(cosine as f32),
-                );
-                let (r, t) = (found.reflectance, found.transmittance);
-                all.extend([r.s, r.p, t.s, t.p]);
-            }
-        }
-        all
-    }
-
-    fn compared(&self, gpu: &gpu::Gpu, tolerance: Tolerance) -> Result<String, String> {
-        let found = evaluate_stacks(gpu, &self.batch()).unwrap_or_else(|error| panic!("{error}"));
-        let actual: Vec<f64> = found.into_iter().flatten().map(f64::from).collect();
-        let expected: Vec<f64> = self
-            .stacks
-            .iter()
-            .flat_map(|&of| self.expected(of))
-            .collect();
-        compare(&actual, &expected, tolerance)
-    }
-}
-
-#[test]
-fn random_stacks_agree_with_f64() {
-    let gpu = pellicle_tests::device::open();
-    for (what, count, depth, sizes, degrees, tolerance) in [
-        (
-            "ordinary",
-            20_000,
-            5,
-            (300.0, 3.0),
-            &[0.0, 25.0, 50.0, 75.0, 88.0][..],
-            FILM,
-        ),
-        (
-            "grazing",
-            20_000,
-            5,
-            (200.0, 3.0),
-            &[88.5, 89.5, 89.9, 89.99][..],
-            FILM_GRAZING,
-        ),
-        (
-            "thick",
-            10_000,
-            2,
-            (15_000.0, 3.0),
-            &[0.0, 40.0, 70.0][..],
-            FILM_THICK,
-        ),
-        (
-            "64 layers",
-            2_000,
-            64,
-            (150.0, 0.0),
-            &[0.0, 30.0, 60.0][..],
-            FILM_LONG,
-        ),
-    ] {
-        let stacks = RandomStacks::new(count, depth, sizes, degrees);
-        let report = stacks.compared(&gpu, tolerance);
-        println!(
-            "{what}: {}",
-            report.unwrap_or_else(|report| panic!("{what}: {report}"))
-        );
-    }
-}
-
-#[test]
-fn layers_in_the_wrong_order_are_noticed() {
-    let gpu = pellicle_tests::device::open();
-    let mut stacks = RandomStacks::new(100, 5, (300.0, 3.0), &[0.0, 50.0]);
-    let right = evaluate_stacks(&gpu, &stacks.batch()).unwrap();
-    stacks.layers.chunks_mut(5).for_each(<[_]>::reverse);
-    let wrong = evaluate_stacks(&gpu, &stacks.batch()).unwrap();
-    let flat =
-        |all: Vec<[f32; 4]>| -> Vec<f64> { all.into_iter().flatten().map(f64::from).collect() };
-    assert!(compare(&flat(wrong), &flat(right), FILM).is_err());
-}
-
-/// A million stacks in one call: all come back, in their order.
-#[test]
-fn a_million_stacks_are_one_call() {
-    const COUNT: usize = 1_000_000;
-    let gpu = pellicle_tests::device::open();
-    let mut stacks = RandomStacks::new(COUNT, 5, (300.0, 3.0), &[30.0]);
-    stacks.wavelengths_nm.truncate(1);
-    let found = evaluate_stacks(&gpu, &stacks.batch()).unwrap();
-    assert_eq!(found.len(), COUNT);
-    let some = (0..COUNT).step_by(997);
-    let actual: Vec<f64> = some.clone().flat_map(|i| found[i].map(f64::from)).collect();
-    let expected: Vec<f64> = some
-        .flat_map(|i| stacks.expected(stacks.stacks[i]))
-        .collect();
-    let report = compare(&actual, &expected, FILM);
-    println!("{}", report.unwrap_or_else(|report| panic!("{report}")));
-}
-
-#[test]
-fn what_a_batch_cannot_be_is_told() {
-    let gpu = pellicle_tests::device::open();
-    let with = |change: fn(&mut RandomStacks)| {
-        let mut stacks = RandomStacks::new(3, 2, (100.0, 3.0), &[0.0]);
-        change(&mut stacks);
-        evaluate_stacks(&gpu, &stacks.batch())
-    };
-    assert_eq!(with(|_| ()).unwrap().len(), 15);
-    assert_eq!(with(|all| all.stacks.clear()).unwrap().len(), 0);
-    assert_eq!(with(|all| all.cosines.clear()).unwrap().len(), 0);
-    let missing = |result| matches!(result, Err(StackError::Missing { .. }));
-    assert!(missing(with(|all| all.stacks[1].substrate = 64)));
-    assert!(missing(with(|all| all.layers[3].0 = u32::MAX)));
-    assert!(missing(with(|all| all.stacks[2].first_layer = 5)));
-    let many = with(|all| {
-        all.layers = vec![(0, 1.0); 2000];
-        all.stacks[0].layer_count = MAX_BATCH_LAYERS + 1;
+/// One to six layers of up to 1.5 µm and an extinction of up to `k`.
+fn layers(k: f64) -> impl Strategy<Value = Vec<Layer>> {
+    let layer = (1.25..2.6_f64, 0.0..=k, 0.0..1500.0_f64).prop_map(|(n, k, thickness_nm)| Layer {
+        index: Complex64::new(n, k),
+        thickness_nm,
     });
-    assert!(matches!(
-        many,
-        Err(StackError::TooManyLayers {
-            stack: 0,
-            layers: 1025
-        })
-    ));
+    prop::collection::vec(layer, 1..=6)
+}
+
+/// A substrate without losses or with.
+fn substrates() -> impl Strategy<Value = Complex64> {
+    (0.1..4.0_f64, prop_oneof![Just(0.0), 0.0..6.0_f64]).prop_map(|(n, k)| Complex64::new(n, k))
+}
+
+/// R + T + ΣA for s and p.
+fn sum(incident: f64, layers: &[Layer], substrate: Complex64, nm: f64, cosine: f64) -> [f64; 2] {
+    let found = stack(incident, layers, substrate, nm, cosine);
+    let absorbed = absorptance(incident, layers, substrate, nm, cosine);
+    let whole = |of: fn(&Polarised) -> f64| {
+        let (r, t) = (of(&found.reflectance), of(&found.transmittance));
+        r + t + absorbed.iter().map(of).sum::<f64>()
+    };
+    [whole(|power| power.s), whole(|power| power.p)]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Light is reflected, transmitted or absorbed, whatever it comes from and meets.
+    #[test]
+    fn all_of_the_light_is_accounted_for(
+        layers in layers(4.0), incident in 1.0..2.6_f64, substrate in substrates(),
+        nm in 380.0..780.0_f64, cosine in 0.01..=1.0_f64,
+    ) {
+        for whole in sum(incident, &layers, substrate, nm, cosine) {
+            prop_assert!(close(whole, 1.0, IDENTITY), "{:e}", whole - 1.0);
+        }
+        for power in absorptance(incident, &layers, substrate, nm, cosine) {
+            prop_assert!(power.s >= 0.0 && power.p >= 0.0 && power.s <= 1.0 && power.p <= 1.0, "{power:?}");
+        }
+    }
+
+    /// The absorptance of a layer is that of its parts together.
+    #[test]
+    fn a_split_layer_absorbs_as_the_whole(
+        layers in layers(2.0), place in 0..60_usize, share in 0.0..=1.0_f64,
+        nm in 380.0..780.0_f64, cosine in 0.02..=1.0_f64,
+    ) {
+        let place = place % layers.len();
+        let mut split = layers.clone();
+        split[place].thickness_nm *= share;
+        let rest = Layer { thickness_nm: layers[place].thickness_nm * (1.0 - share), ..layers[place] };
+        split.insert(place + 1, rest);
+        let whole = absorptance(1.0, &layers, Complex64::new(4.1, 0.04), nm, cosine);
+        let parts = absorptance(1.0, &split, Complex64::new(4.1, 0.04), nm, cosine);
+        prop_assert!(close(whole[place].s, parts[place].s + parts[place + 1].s, IDENTITY));
+        prop_assert!(close(whole[place].p, parts[place].p + parts[place + 1].p, IDENTITY));
+    }
+
+    /// Stokes 1849, of any stack without losses between media in which light runs: |r| is the same from both sides, and
+    /// t t′ − r r′ = −r / r*′, that is r′ = −r* t / t*.
+    #[test]
+    fn stacks_without_losses_can_be_reversed(
+        mut layers in layers(0.0), incident in 1.0..1.25_f64, substrate in 1.25..3.0_f64,
+        nm in 380.0..780.0_f64, cosine in 0.05..=1.0_f64,
+    ) {
+        let there = stack(incident, &layers, substrate.into(), nm, cosine).amplitudes;
+        layers.reverse();
+        let sine = incident * (1.0 - cosine * cosine).sqrt() / substrate;
+        let within = (1.0 - sine * sine).sqrt();
+        let back = stack(substrate, &layers, incident.into(), nm, within).amplitudes;
+        for (r, t, r_back) in [(there.r_s, there.t_s, back.r_s), (there.r_p, there.t_p, back.r_p)] {
+            let expected = -r.conj() * t / t.conj();
+            prop_assert!((expected - r_back).norm() < IDENTITY, "{expected} {r_back}");
+        }
+    }
+
+    /// Beyond the critical angle of the substrate all returns, however the layers are, and nothing is lost on the way.
+    #[test]
+    fn total_reflection_is_total_through_any_layers(
+        layers in layers(0.0), incident in 1.5..2.6_f64, beyond in 0.01..0.99_f64, nm in 380.0..780.0_f64,
+    ) {
+        let critical = (1.0 - 1.0 / (incident * incident)).sqrt();
+        let found = stack(incident, &layers, Complex64::ONE, nm, critical * beyond);
+        prop_assert!(close(found.reflectance.s, 1.0, IDENTITY) && close(found.reflectance.p, 1.0, IDENTITY));
+        prop_assert!(close(found.transmittance.s, 0.0, IDENTITY) && close(found.transmittance.p, 0.0, IDENTITY));
+    }
+
+    /// Every number is finite on the whole domain, exactly at critical angles too.
+    #[test]
+    fn nothing_is_ever_not_a_number(
+        mut layers in layers(4.0), incident in 1.0..4.0_f64, substrate in substrates(), thickness_nm in 0.0..30_000.0_f64,
+        nm in 200.0..2000.0_f64, cosine in 1.7e-4..=1.0_f64, critical in any::<bool>(),
+    ) {
+        let sine = (1.0 - cosine * cosine).sqrt();
+        if critical {
+            layers.push(Layer { index: (incident * sine).into(), thickness_nm });
+        }
+        layers.push(Layer { index: incident.into(), thickness_nm });
+        let found = stack(incident, &layers, substrate, nm, cosine);
+        for (r, t) in [(found.reflectance.s, found.transmittance.s), (found.reflectance.p, found.transmittance.p)] {
+            prop_assert!((0.0..=1.0 + IDENTITY).contains(&r) && (0.0..=1.0 + IDENTITY).contains(&t), "{r} {t}");
+        }
+        let a = found.amplitudes;
+        prop_assert!(a.r_s.is_finite() && a.r_p.is_finite() && a.t_s.is_finite() && a.t_p.is_finite());
+        for change in thickness_derivatives(incident, &layers, substrate, nm, cosine) {
+            let (r, t) = (change.reflectance, change.transmittance);
+            prop_assert!(r.s.is_finite() && r.p.is_finite() && t.s.is_finite() && t.p.is_finite());
+        }
+    }
+}
+
+/// Central differences of R_s, R_p, T_s and T_p over `h` nm of one layer.
+fn central(layers: &[Layer], place: usize, h: f64, at: (f64, Complex64, f64, f64)) -> [f64; 4] {
+    let (incident, substrate, nm, cosine) = at;
+    let powers = |change: f64| {
+        let mut layers = layers.to_vec();
+        layers[place].thickness_nm += change;
+        let found = stack(incident, &layers, substrate, nm, cosine);
+        let (r, t) = (found.reflectance, found.transmittance);
+        [r.s, r.p, t.s, t.p]
+    };
+    let (above, below) = (powers(h), powers(-h));
+    std::array::from_fn(|i| (above[i] - below[i]) / (2.0 * h))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn derivatives_follow_differences(
+        mut layers in layers(1.0), incident in 1.0..1.8_f64, substrate in substrates(),
+        nm in 380.0..780.0_f64, cosine in 0.2..=1.0_f64,
+    ) {
+        for layer in &mut layers {
+            layer.thickness_nm = 1.0 + 0.2 * layer.thickness_nm;
+        }
+        let found = thickness_derivatives(incident, &layers, substrate, nm, cosine);
+        for (place, found) in found.iter().enumerate() {
+            let at = (incident, substrate, nm, cosine);
+            let (coarse, fine) = (central(&layers, place, 0.2, at), central(&layers, place, 0.1, at));
+            let (r, t) = (found.reflectance, found.transmittance);
+            for (i, found) in [r.s, r.p, t.s, t.p].into_iter().enumerate() {
+                let expected = (4.0 * fine[i] - coarse[i]) / 3.0;
+                prop_assert!(close(found, expected, DERIVATIVE), "{found:e} {expected:e}");
+            }
+        }
+    }
+}
+
+/// The comparisons above see a layer that takes a millionth too little, and a derivative taken at another place.
+#[test]
+fn what_the_properties_compare_can_differ() {
+    let layer = |n: f64, k: f64, thickness_nm: f64| Layer {
+        index: Complex64::new(n, k),
+        thickness_nm,
+    };
+    let layers = [layer(2.3, 0.02, 120.0), layer(1.46, 0.0, 90.0)];
+    let other = [layer(2.3, 0.020_001, 120.0), layers[1]];
+    let absorbed = absorptance(1.0, &layers, 1.52.into(), 550.0, 0.7)[0];
+    let more = absorptance(1.0, &other, 1.52.into(), 550.0, 0.7)[0];
+    assert!(!close(absorbed.s, more.s, IDENTITY) && !close(absorbed.p, more.p, IDENTITY));
+    let here = thickness_derivatives(1.0, &layers, 1.52.into(), 550.0, 0.7)[1];
+    let there = central(&layers, 0, 0.1, (1.0, 1.52.into(), 550.0, 0.7));
+    assert!(!close(here.reflectance.s, there[0], DERIVATIVE));
+}
+
+/// A million random stacks of five layers, each of a medium of its own, in one call; every thousandth is checked.
+#[test]
+fn a_million_stacks_are_evaluated_in_one_call() {
+    let count = 1_000_000_u32;
+    let random = |i: u32| f64::from(i.wrapping_mul(2_654_435_761) >> 8) / f64::from(1 << 24);
+    let media: Vec<Complex64> = (0..6 * count).map(|i| (1.3 + random(i)).into()).collect();
+    let layer = |medium: u32| LayerOf {
+        medium,
+        thickness_nm: 300.0 * random(medium + 1),
+    };
+    let layers: Vec<LayerOf> = (0..5 * count).map(layer).collect();
+    let stack_of = |i: u32| StackOf {
+        substrate: 5 * count + i,
+        first_layer: 5 * i,
+        layer_count: 5,
+    };
+    let stacks: Vec<StackOf> = (0..count).map(stack_of).collect();
+    let batch = StackBatch {
+        wavelengths_nm: &[550.0],
+        cosines: &[0.8],
+        incident: 1.0,
+        media: Media::Constant(&media),
+        layers: &layers,
+        stacks: &stacks,
+    };
+    let powers = evaluate(&batch).unwrap();
+    assert_eq!(powers.len(), 1_000_000);
+    for place in (0..1_000_000).step_by(1000) {
+        let own = layers[5 * place..5 * place + 5].iter().map(|layer| Layer {
+            index: media[layer.medium as usize],
+            thickness_nm: layer.thickness_nm,
+        });
+        let own: Vec<Layer> = own.collect();
+        let substrate = media[5_000_000 + place];
+        let expected = stack(1.0, &own, substrate, 550.0, 0.8);
+        let found = powers[place];
+        assert!(
+            close(found.reflectance.s, expected.reflectance.s, IDENTITY),
+            "{place}"
+        );
+        assert!(
+            close(found.reflectance.p, expected.reflectance.p, IDENTITY),
+            "{place}"
+        );
+        assert!(
+            close(found.transmittance.s, expected.transmittance.s, IDENTITY),
+            "{place}"
+        );
+        assert!(
+            close(found.transmittance.p, expected.transmittance.p, IDENTITY),
+            "{place}"
+        );
+    }
 }
