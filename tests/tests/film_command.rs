@@ -1,9 +1,11 @@
 //! `pellicle film` from end to end, as a user runs it.
 
 use pellicle::coating::{Angle, Stack};
-use pellicle_tests::command::{Place, Ran};
+use pellicle_tests::command::{Place, Ran, program};
+use pellicle_tests::wgsl::root;
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::process::Command;
 
 /// Silica on silicon.
 const STEP: &str = "1 | silica 300nm | silicon";
@@ -462,4 +464,31 @@ fn without_data_for_visible_light_there_is_no_colour() {
     told(&ran.stdout, &["no colour", "0.039946"], "");
     let said = film_in(&place, "stack.toml", "").failed();
     told(&said, &["380 nm", "the substrate", "400 to 700 nm"], "");
+}
+
+/// What the README shows runs, as a shell runs it, on the file that it shows.
+#[test]
+fn the_commands_of_the_readme_run() {
+    let readme = std::fs::read_to_string(root().join("README.md")).unwrap();
+    let (_, section) = readme.split_once("`mirror.toml`").unwrap();
+    let (_, file) = section.split_once("```toml\n").unwrap();
+    let place = Place::default();
+    let (file, _) = file.split_once("```").unwrap();
+    std::fs::write(place.path("mirror.toml"), file).unwrap();
+    let commands = readme
+        .lines()
+        .filter_map(|line| line.strip_prefix("cargo run --release -- film "));
+    let mut count = 0;
+    for command in commands {
+        let line = format!("\"$PELLICLE\" film {command}");
+        let mut shell = Command::new("sh");
+        shell
+            .args(["-c", &line])
+            .env("PELLICLE", program("pellicle"))
+            .current_dir(place.path(""));
+        let _ = Ran::of(&shell.output().unwrap()).succeeded();
+        count += 1;
+    }
+    assert_eq!(count, 6);
+    assert_eq!(place.names(), ["mirror.svg", "mirror.toml", "newton.png"]);
 }
