@@ -1,8 +1,8 @@
 //! The colour of a stack over the thickness of one layer and the angle: Newton's chart of any stack.
 
 use crate::colour::{Side, StackColour};
-use crate::picture::{self, Drawing, Drawn, INK, Scale, exposure};
-use crate::plot::{draw_title, polarisation};
+use crate::picture::{self, Drawing, Drawn, INK, Scale, draw_title, exposure};
+use crate::plot::polarisation;
 use crate::response::Angle;
 use color::{RgbImage8, srgb};
 use plotters::coord::Shift;

@@ -1,7 +1,7 @@
 //! R, T and A of a stack over wavelength, with the colour of each angle.
 
 use crate::colour::{Colour, Polarisation, Side, View};
-use crate::picture::{self, Drawing, Drawn, FAINT, INK, Scale, exposure, round_range};
+use crate::picture::{self, Drawing, Drawn, FAINT, INK, Scale, draw_title, exposure, round_range};
 use crate::response::{Angle, absorptance};
 use color::{RgbImage8, srgb};
 use optics::batch::Powers;
@@ -127,7 +127,7 @@ impl Plot {
             })
             .y_desc(panel.name)
             .x_labels(9)
-            .y_labels(5)
+            .y_labels(6)
             .x_label_formatter(&|nm| {
                 if is_last {
                     format!("{nm:.0}")
@@ -269,22 +269,6 @@ impl Drawing for Plot {
         }
         self.draw_legend(&legend, scale)
     }
-}
-
-/// A line of text above a picture, shortened where it is too long.
-pub(crate) fn draw_title<B: DrawingBackend>(
-    area: &DrawingArea<B, Shift>,
-    scale: Scale,
-    title: &str,
-) -> Drawn<B> {
-    const MOST: usize = 96;
-    let shown = if title.chars().count() > MOST {
-        format!("{} …", title.chars().take(MOST).collect::<String>())
-    } else {
-        title.to_owned()
-    };
-    let style = scale.text(16.0).pos(Pos::new(HPos::Left, VPos::Center));
-    area.draw(&Text::new(shown, (scale.px(16.0), scale.px(22.0)), style))
 }
 
 /// The colours of the wavelengths, as far as a display has them, in a strip along the lower edge.

@@ -19,8 +19,8 @@ use std::path::PathBuf;
 /// What a stack of thin films does to light: spectra, colours, plots, tolerances.
 ///
 /// STACK is a stack file (TOML), or a stack in one line such as "air | silica 300nm | silicon": the medium that light comes from,
-/// layers with thicknesses in nm or um, the substrate. A medium is a material's name, a number 1.5, or 1.5+0.1i (n + ik, k > 0
-/// absorbs). "air" has n = 1.0003 as measured; "vacuum" and 1 are 1 exactly.
+/// layers with thicknesses in nm or um, the substrate. A medium is a material's name, a number 1.5, 1.5+0.1i (n + ik, k > 0
+/// absorbs), or a file .csv or .yml. "air" has n = 1.0003 as measured; "vacuum" and 1 are 1 exactly.
 ///
 /// A stack file has `incident` ("air" when absent), `substrate`, and per layer `[[layer]]` with `index` and `thickness_nm`. An index
 /// is whatever a scene's materials accept, a table in place { nm = [...], n = [...], k = [...] } included.
