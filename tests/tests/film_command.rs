@@ -414,6 +414,11 @@ fn bad_arguments_are_told_and_leave_no_file() {
         ),
         ("--plot a.png --angles 0:80:1", vec!["81 angles"]),
         ("--chart a.svg", vec!["a.svg", ".png"]),
+        ("--plot a.png --chart a.png", vec!["same file"]),
+        (
+            "--angles 0:89:0.001 --wavelengths 380:780:0.1",
+            vec!["rows", "at most 4000000"],
+        ),
         ("--illuminant d65", vec!["did you mean \"D65\""]),
         ("--exposure 99", vec!["-32 to 32"]),
         ("--tolerance 2", vec!["2%"]),

@@ -153,6 +153,9 @@ impl Look {
     }
 }
 
+/// The most wavelengths times angles.
+const MOST_ROWS: usize = 4_000_000;
+
 /// What every part of the command needs.
 struct Film<'a> {
     arguments: &'a Arguments,
@@ -209,6 +212,14 @@ impl<'a> Film<'a> {
         let Some(List(nm)) = &self.arguments.wavelengths else {
             return Ok((380..=780).step_by(step_nm).map(f64::from).collect());
         };
+        let rows = nm.len() * self.angles.len();
+        if rows > MOST_ROWS {
+            return Err(miette!(
+                "{} wavelengths at {} angles are {rows} rows; at most {MOST_ROWS} are possible",
+                nm.len(),
+                self.angles.len()
+            ));
+        }
         let possible = pellicle::scene::limits::TABLE_NM;
         match nm.iter().find(|&&nm| !possible.contains(nm)) {
             Some(nm) => Err(miette!(
