@@ -1,8 +1,8 @@
 //! The colour of a stack over the thickness of one layer and the angle: Newton's chart of any stack.
 
 use crate::colour::{Side, StackColour};
-use crate::picture::{self, Drawing, Drawn, INK, Scale, exposure};
-use crate::plot::{draw_title, polarisation};
+use crate::picture::{self, Drawing, Drawn, INK, Scale, draw_title, exposure};
+use crate::plot::polarisation;
 use crate::response::Angle;
 use color::{RgbImage8, srgb};
 use plotters::coord::Shift;
@@ -40,8 +40,8 @@ pub struct ChartOf {
 }
 
 /// Thicknesses and angles at which the colour is computed; between them linear RGB is linear.
-const COLUMNS: usize = 401;
-const ROWS: usize = 35;
+const COLUMNS: usize = 601;
+const ROWS: usize = 86;
 
 impl Chart {
     /// Computes the colours.
@@ -195,4 +195,62 @@ fn mark<B: DrawingBackend>(
     let (half, high) = (scale.px(5.0), scale.px(8.0));
     let corners = vec![(x, y), (x - half, y - high), (x + half, y - high)];
     area.draw(&Polygon::new(corners, INK.filled()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Light, Stack, View};
+
+    fn soap() -> (StackColour, ChartOf) {
+        let stack = Stack::parse("1 | 1.333 300nm | 1").unwrap();
+        let light = Light::named("D65").unwrap();
+        let colour = StackColour::new(&stack, light, View::default()).unwrap();
+        let of = ChartOf {
+            title: stack.label_with_varied(0),
+            layer: 0,
+            layer_label: "1.333".to_owned(),
+            range_nm: (0.0, 1200.0),
+            angles: (Angle::NORMAL, Angle::from_degrees(85.0).unwrap()),
+            exposure_ev: 3.0,
+        };
+        (colour, of)
+    }
+
+    /// Also between the points at which it was computed.
+    #[test]
+    fn every_place_has_the_colour_of_its_thickness_and_angle() {
+        let (colour, of) = soap();
+        let chart = Chart::new(&colour, &[300.0], &of);
+        for (nm, deg) in [
+            (0.0, 0.0),
+            (300.0, 0.0),
+            (731.3, 42.7),
+            (1200.0, 85.0),
+            (401.0, 84.5),
+        ] {
+            let angle = Angle::from_degrees(deg).unwrap();
+            let expected = colour.at(&[nm], angle).srgb8(3.0);
+            let RGBColor(r, g, b) = chart.codes(nm / 1200.0, deg / 85.0);
+            for (found, expected) in [r, g, b].into_iter().zip(expected) {
+                assert!(
+                    found.abs_diff(expected) <= 1,
+                    "{nm} nm, {deg}°: {found} {expected}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_picture_is_the_same_each_time_and_has_the_colours() {
+        let (colour, of) = soap();
+        let chart = Chart::new(&colour, &[300.0], &of);
+        let picture = chart.pixels();
+        assert_eq!((picture.width(), picture.height()), (1800, 1040));
+        assert_eq!(picture, chart.pixels());
+        let RGBColor(r, g, b) = chart.codes(0.5, 0.5);
+        let near = |pixel: &[u8]| pixel.iter().zip([r, g, b]).all(|(a, b)| a.abs_diff(b) <= 2);
+        assert!(picture.data().chunks(3).any(near));
+        assert_eq!(picture.pixel(0, 0), Some([255; 3]));
+    }
 }

@@ -3,10 +3,11 @@
 use crate::file::constants;
 use crate::stack::{Layer, Medium, Stack};
 use miette::{Diagnostic, NamedSource, SourceSpan};
-use scene::description::Index;
+use scene::description::{Extrapolate, Index};
 use scene::limits::THICKNESS_NM;
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 use thiserror::Error;
 
 /// What is wrong with a one-line stack, and where.
@@ -17,7 +18,7 @@ pub struct LineError {
     #[help]
     help: Option<String>,
     #[source_code]
-    line: NamedSource<String>,
+    line: Arc<NamedSource<String>>,
     #[label]
     at: SourceSpan,
 }
@@ -52,7 +53,7 @@ pub(crate) fn parse(line: &str) -> Result<Stack, LineError> {
         move |Fault { message, help }: Fault| LineError {
             message,
             help,
-            line: NamedSource::new("stack", line.to_owned()),
+            line: Arc::new(NamedSource::new("stack", line.to_owned())),
             at: bytes.into(),
         }
     };
@@ -178,7 +179,7 @@ fn medium(text: &str) -> Result<Medium, Fault> {
     }
 }
 
-/// A number, a complex number, or else a name.
+/// A number, a complex number, a file of one of the two kinds that there are, or else a name.
 fn index(text: &str) -> Result<Index, Fault> {
     if text.is_empty() {
         return Err(Fault::new("there is no medium here", example()));
@@ -196,7 +197,21 @@ fn index(text: &str) -> Result<Index, Fault> {
              has its unit behind it",
         ));
     }
-    Ok(Index::Name(text.to_owned()))
+    let ending = Path::new(text)
+        .extension()
+        .and_then(|ending| ending.to_str());
+    let (path, extrapolate) = (text.into(), Extrapolate::Error);
+    Ok(match ending {
+        Some("csv") => Index::File {
+            csv: path,
+            extrapolate,
+        },
+        Some("yml" | "yaml") => Index::Database {
+            yaml: path,
+            extrapolate,
+        },
+        _ => Index::Name(text.to_owned()),
+    })
 }
 
 /// `1.5+0.1i`, with or without blanks; the last sign that is not an exponent's parts n from k.
@@ -260,6 +275,18 @@ mod tests {
         assert_eq!(index("1 | 1.5"), 1.0);
         // Ciddor (1996): 1.000278 at 550 nm.
         assert!((index("air | 1.5") - 1.000_278).abs() < 1e-6);
+    }
+
+    #[test]
+    fn files_have_their_endings() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("mine.csv");
+        std::fs::write(&path, "nm,n,k\n300,1.5,0\n800,1.6,0.1\n").unwrap();
+        let stack = parse(&format!("1 | {} 3nm | 1.5", path.display())).unwrap();
+        let index = stack.sampled(&[550.0]).unwrap().layers()[0][0];
+        assert!((index.re - 1.55).abs() < 1e-14 && (index.im - 0.05).abs() < 1e-14);
+        assert!(said("1 | none.csv 3nm | 1").0.contains("none.csv"));
+        assert!(said("1 | none.yml 3nm | 1").0.contains("none.yml"));
     }
 
     #[test]

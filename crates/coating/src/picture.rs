@@ -3,6 +3,7 @@
 use color::RgbImage8;
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, register_font};
 use std::sync::Once;
 
@@ -120,6 +121,37 @@ fn know_font() {
     });
 }
 
+/// The stack above a picture.
+pub(crate) fn draw_title<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    scale: Scale,
+    title: &str,
+) -> Drawn<B> {
+    let style = scale.text(16.0).pos(Pos::new(HPos::Left, VPos::Center));
+    let place = (scale.px(16.0), scale.px(22.0));
+    area.draw(&Text::new(shortened(title), place, style))
+}
+
+/// A stack that fits into a line: of a long one the first layers, their number, and the substrate.
+fn shortened(title: &str) -> String {
+    const MOST: usize = 90;
+    let parts: Vec<&str> = title.split(" | ").collect();
+    if title.chars().count() <= MOST || parts.len() < 3 {
+        return title.chars().take(2 * MOST).collect();
+    }
+    let (start, layers, end) = (parts[0], parts.len() - 2, parts[parts.len() - 1]);
+    let end = format!("… ({layers} layers) | {end}");
+    let mut shown = start.to_owned();
+    for part in &parts[1..=layers] {
+        let length = shown.chars().count() + part.chars().count() + end.chars().count() + 6;
+        if length > MOST {
+            break;
+        }
+        shown += &format!(" | {part}");
+    }
+    format!("{shown} | {end}")
+}
+
 /// An exposure in words.
 pub(crate) fn exposure(ev: f64) -> String {
     if ev == 0.0 {
@@ -147,6 +179,19 @@ pub(crate) fn round_range(low: f64, high: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_long_stack_is_shortened() {
+        let many = "1 | ".to_owned() + &"titania 57 nm | silica 94 nm | ".repeat(7) + "bk7";
+        let found = shortened(&many);
+        assert!(
+            found.starts_with("1 | titania 57 nm | silica 94 nm | "),
+            "{found}"
+        );
+        assert!(found.ends_with("… (14 layers) | bk7"), "{found}");
+        assert!(found.chars().count() <= 90, "{found}");
+        assert_eq!(shortened("1 | 1.5 3 nm | 1"), "1 | 1.5 3 nm | 1");
+    }
 
     #[test]
     fn ranges_are_round_and_hold_their_values() {

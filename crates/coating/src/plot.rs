@@ -1,7 +1,7 @@
 //! R, T and A of a stack over wavelength, with the colour of each angle.
 
 use crate::colour::{Colour, Polarisation, Side, View};
-use crate::picture::{self, Drawing, Drawn, FAINT, INK, Scale, exposure, round_range};
+use crate::picture::{self, Drawing, Drawn, FAINT, INK, Scale, draw_title, exposure, round_range};
 use crate::response::{Angle, absorptance};
 use color::{RgbImage8, srgb};
 use optics::batch::Powers;
@@ -127,7 +127,7 @@ impl Plot {
             })
             .y_desc(panel.name)
             .x_labels(9)
-            .y_labels(5)
+            .y_labels(6)
             .x_label_formatter(&|nm| {
                 if is_last {
                     format!("{nm:.0}")
@@ -271,22 +271,6 @@ impl Drawing for Plot {
     }
 }
 
-/// A line of text above a picture, shortened where it is too long.
-pub(crate) fn draw_title<B: DrawingBackend>(
-    area: &DrawingArea<B, Shift>,
-    scale: Scale,
-    title: &str,
-) -> Drawn<B> {
-    const MOST: usize = 96;
-    let shown = if title.chars().count() > MOST {
-        format!("{} …", title.chars().take(MOST).collect::<String>())
-    } else {
-        title.to_owned()
-    };
-    let style = scale.text(16.0).pos(Pos::new(HPos::Left, VPos::Center));
-    area.draw(&Text::new(shown, (scale.px(16.0), scale.px(22.0)), style))
-}
-
 /// The colours of the wavelengths, as far as a display has them, in a strip along the lower edge.
 fn draw_spectrum<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
@@ -319,4 +303,80 @@ fn colour_of(nm: f64) -> RGBColor {
         .fold(0.0, |paleness: f64, v| paleness.max(-v));
     let [r, g, b] = rgb.map(|v| srgb::to_u8((v + paleness) / 1.8));
     RGBColor(r, g, b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Light, Stack, StackColour};
+
+    fn plot(line: &str, angles_deg: &[f64]) -> Plot {
+        let stack = Stack::parse(line).unwrap();
+        let wavelengths_nm: Vec<f64> = (380..=780).map(f64::from).collect();
+        let sampled = stack.sampled(&wavelengths_nm).unwrap();
+        let light = Light::named("D65").unwrap();
+        let colour = StackColour::new(&stack, light, View::default()).unwrap();
+        let curve = |&deg: &f64| {
+            let angle = Angle::from_degrees(deg).unwrap();
+            Curve {
+                angle,
+                powers: sampled.powers(stack.thicknesses_nm(), angle),
+                colour: Some(colour.at(stack.thicknesses_nm(), angle)),
+            }
+        };
+        Plot {
+            title: stack.label(),
+            wavelengths_nm,
+            curves: angles_deg.iter().map(curve).collect(),
+            view: View::default(),
+            illuminant: "D65".to_owned(),
+            exposure_ev: 0.0,
+        }
+    }
+
+    #[test]
+    fn what_is_shown_is_labelled() {
+        let svg = plot("1 | silica 300nm | gold", &[0.0, 60.0]).svg();
+        assert!(svg.starts_with("<svg width=\"900\"") && svg.trim_end().ends_with("</svg>"));
+        for words in [
+            "1 | silica 300 nm | gold",
+            "reflectance R",
+            "transmittance T",
+            "wavelength in vacuum / nm",
+            "60°",
+            "under D65",
+        ] {
+            assert!(svg.contains(words), "{words}");
+        }
+        assert!(!svg.contains("absorptance A"), "nothing is absorbed");
+        assert!(
+            plot("1 | gold 20nm | 1.5", &[0.0])
+                .svg()
+                .contains("absorptance A")
+        );
+    }
+
+    #[test]
+    fn the_picture_is_the_same_each_time_and_has_the_swatch() {
+        let plot = plot("1 | silica 300nm | silicon", &[0.0]);
+        let picture = plot.pixels();
+        assert_eq!(picture, plot.pixels());
+        assert_eq!(plot.svg(), plot.svg());
+        let codes = plot.curves[0].colour.unwrap().srgb8(0.0);
+        let of_swatch = picture.data().chunks(3).filter(|pixel| **pixel == codes);
+        assert!(of_swatch.count() > 2000);
+    }
+
+    #[test]
+    fn any_number_of_angles_is_drawn() {
+        for count in [1, 7, 8, Plot::MAX_CURVES] {
+            let angles: Vec<f64> = (0..count).map(|i| 5.0 * i as f64).collect();
+            let plot = plot("1 | 1.333 300nm | 1", &angles);
+            let picture = plot.pixels();
+            assert_eq!(
+                (picture.width(), picture.height()),
+                (1800, 2 * plot.size().1)
+            );
+        }
+    }
 }

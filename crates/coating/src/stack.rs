@@ -154,7 +154,7 @@ impl Stack {
     /// A stack written in one line: `air | silica 300nm | silicon`.
     ///
     /// The first medium is the one that the light comes from, the last the substrate, and what is between are layers with their
-    /// thickness in nm or µm (um). A medium is a material's name, a number `1.5`, or `1.5+0.1i`. `air` is that of the library, n = 1.0003;
+    /// thickness in nm or µm (um). A medium is a material's name, a number `1.5`, `1.5+0.1i`, or a file `.csv` or `.yml`. `air` is that of the library, n = 1.0003;
     /// `vacuum` is n = 1.
     ///
     /// # Errors

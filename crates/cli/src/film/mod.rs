@@ -19,8 +19,8 @@ use std::path::PathBuf;
 /// What a stack of thin films does to light: spectra, colours, plots, tolerances.
 ///
 /// STACK is a stack file (TOML), or a stack in one line such as "air | silica 300nm | silicon": the medium that light comes from,
-/// layers with thicknesses in nm or um, the substrate. A medium is a material's name, a number 1.5, or 1.5+0.1i (n + ik, k > 0
-/// absorbs). "air" has n = 1.0003 as measured; "vacuum" and 1 are 1 exactly.
+/// layers with thicknesses in nm or um, the substrate. A medium is a material's name, a number 1.5, 1.5+0.1i (n + ik, k > 0
+/// absorbs), or a file .csv or .yml. "air" has n = 1.0003 as measured; "vacuum" and 1 are 1 exactly.
 ///
 /// A stack file has `incident` ("air" when absent), `substrate`, and per layer `[[layer]]` with `index` and `thickness_nm`. An index
 /// is whatever a scene's materials accept, a table in place { nm = [...], n = [...], k = [...] } included.
@@ -153,6 +153,9 @@ impl Look {
     }
 }
 
+/// The most wavelengths times angles.
+const MOST_ROWS: usize = 4_000_000;
+
 /// What every part of the command needs.
 struct Film<'a> {
     arguments: &'a Arguments,
@@ -209,6 +212,14 @@ impl<'a> Film<'a> {
         let Some(List(nm)) = &self.arguments.wavelengths else {
             return Ok((380..=780).step_by(step_nm).map(f64::from).collect());
         };
+        let rows = nm.len() * self.angles.len();
+        if rows > MOST_ROWS {
+            return Err(miette!(
+                "{} wavelengths at {} angles are {rows} rows; at most {MOST_ROWS} are possible",
+                nm.len(),
+                self.angles.len()
+            ));
+        }
         let possible = pellicle::scene::limits::TABLE_NM;
         match nm.iter().find(|&&nm| !possible.contains(nm)) {
             Some(nm) => Err(miette!(

@@ -37,6 +37,9 @@ pub(crate) fn check(film: &Film) -> miette::Result<()> {
     if let Some(path) = &arguments.chart {
         place("--chart", path, &[Kind::Png], film)?;
     }
+    if arguments.plot.is_some() && arguments.plot == arguments.chart {
+        return Err(miette!("--plot and --chart are the same file"));
+    }
     if let Some(vary) = &arguments.vary {
         film.layer_of(vary)?;
     }

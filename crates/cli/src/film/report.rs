@@ -139,6 +139,9 @@ fn tolerance(
         "ΔE2000 from nominal", "50 %", "90 %", "95 %", "99 %", "max"
     );
     let _ = writeln!(text, "{:<28} {}", "all layers", figures(&spread.all));
+    if errors.trials > Tolerance::ALONE && !spread.alone.is_empty() {
+        let _ = writeln!(text, "of the first {} trials:", Tolerance::ALONE);
+    }
     for (layer, alone) in spread.alone.iter().enumerate() {
         let matters_most = match spread.worst_layer() {
             Some(worst) if worst == layer && spread.alone.len() > 1 => "  matters most",

@@ -43,17 +43,18 @@ impl<'a> Spectra<'a> {
         let at_angle = |(&angle, powers): (&Angle, Vec<Powers>)| AtAngle {
             angle,
             powers,
-            absorptances: match film.arguments.absorptance {
-                true => sampled.absorptances(thicknesses, angle),
-                false => Vec::new(),
+            absorptances: if film.arguments.absorptance {
+                sampled.absorptances(thicknesses, angle)
+            } else {
+                Vec::new()
             },
             colour: colour.as_ref().map(|colour| colour.at(thicknesses, angle)),
         };
         let angles = film.angles.iter().zip(powers).map(at_angle).collect();
         Ok(Self {
             film,
-            angles,
             sampled,
+            angles,
         })
     }
 
@@ -71,10 +72,12 @@ impl<'a> Spectra<'a> {
 
     /// The layers whose absorptance is told, counted from 1.
     fn layers(&self) -> std::ops::RangeInclusive<usize> {
-        1..=match self.film.arguments.absorptance {
-            true => self.film.stack.layers().len(),
-            false => 0,
-        }
+        let told = if self.film.arguments.absorptance {
+            self.film.stack.layers().len()
+        } else {
+            0
+        };
+        1..=told
     }
 
     fn table(&self) -> String {
