@@ -72,7 +72,7 @@ fn arrives(ray_in: Ray, from_object: u32, light: u32, allowed: u32) -> bool {
             return false;
         }
         let point = surface_point(hit.object, ray, hit.distance);
-        push_crossing(film_factor(hit.object, point, false));
+        push_crossing(layered_factor(hit.object, point, false));
         ray.origin = point.position;
         from_now = hit.object;
     }

@@ -1,44 +1,59 @@
 // The wavelength-dependent factors of films and conductors, as a path records them.
 
-/// The factor of a film at a point: its reflectance or its transmittance.
-fn film_factor(object: u32, point: SurfacePoint, reflects: bool) -> Factor {
+/// The factor of a film or of a conductor at a point: its reflectance, or the transmittance of a film.
+///
+/// The thicknesses of several layers go on record where they vary over the surface; that of a film's only layer has its place
+/// in the factor.
+fn layered_factor(object: u32, point: SurfacePoint, reflects: bool) -> Factor {
     let material = objects[object].material;
-    let film = materials[material].film;
-    if (HAS_STACKS && film == FILM_STACK) {
-        let reflected = select(FACTOR_STACK_REFLECTS_BACK, FACTOR_STACK_REFLECTS, point.is_front);
-        return layers_factor(select(FACTOR_STACK_TRANSMITS, reflected, reflects), object, point);
-    }
-    let layer = materials[material].first_layer;
-    let thickness_nm = layer_thickness(layer, object, point.position);
-    if (HAS_TWO_BEAM_FILMS && film >= FILM_TWO_BEAM) {
-        let kind = select(FACTOR_TWO_BEAM_TRANSMITS, FACTOR_TWO_BEAM_REFLECTS, reflects);
-        return Factor(kind, material, point.cosine, thickness_nm, 0u);
-    }
-    var kind = select(FACTOR_FILM_TRANSMITS, FACTOR_FILM_REFLECTS, reflects);
-    if (HAS_LOSSY_FILMS && film == FILM_LOSSY) {
-        kind = select(FACTOR_LOSSY_FILM_TRANSMITS, FACTOR_LOSSY_FILM_REFLECTS, reflects);
-    }
-    return Factor(kind, layers[layer].spectrum, point.cosine, thickness_nm, 0u);
-}
-
-/// The factor of a conductor at a point, with the surface's own cosine.
-fn conductor_factor(object: u32, point: SurfacePoint) -> Factor {
-    let material = objects[object].material;
-    if (HAS_COATINGS && materials[material].layer_count > 0u) {
-        return layers_factor(FACTOR_COATED, object, point);
-    }
-    return Factor(FACTOR_CONDUCTOR, materials[material].spectrum, point.cosine, 0.0, 0u);
-}
-
-/// A factor of layers, with the thicknesses that vary over the surface put on record.
-fn layers_factor(kind: u32, object: u32, point: SurfacePoint) -> Factor {
-    let material = objects[object].material;
-    let factor = Factor(kind, material, point.cosine, 0.0, thickness_count);
+    let kind = layered_kind(material, point.is_front, reflects);
+    let on_record = is_recorded(kind);
+    let first_thickness = thickness_count;
     let first = materials[material].first_layer;
+    var thickness_nm = 0.0;
     for (var layer = first; layer < first + materials[material].layer_count; layer++) {
-        if (layer_varies(layer)) {
-            push_thickness(layer_thickness(layer, object, point.position));
+        if (!on_record || layer_varies(layer)) {
+            thickness_nm = layer_thickness(layer, object, point.position);
+            if (on_record) {
+                push_thickness(thickness_nm);
+            }
         }
     }
-    return factor;
+    return Factor(kind, factor_source(kind, material), point.cosine, thickness_nm, first_thickness);
+}
+
+/// The FACTOR_ tag of a film or conductor.
+fn layered_kind(material: u32, is_front: bool, reflects: bool) -> u32 {
+    if (!HAS_FILMS || materials[material].surface != SURFACE_FILM) {
+        return select(FACTOR_CONDUCTOR, FACTOR_COATED, HAS_COATINGS && materials[material].layer_count > 0u);
+    }
+    let film = materials[material].film;
+    if (HAS_STACKS && film == FILM_STACK) {
+        let reflected = select(FACTOR_STACK_REFLECTS_BACK, FACTOR_STACK_REFLECTS, is_front);
+        return select(FACTOR_STACK_TRANSMITS, reflected, reflects);
+    }
+    if (HAS_TWO_BEAM_FILMS && film >= FILM_TWO_BEAM) {
+        return select(FACTOR_TWO_BEAM_TRANSMITS, FACTOR_TWO_BEAM_REFLECTS, reflects);
+    }
+    if (HAS_LOSSY_FILMS && film == FILM_LOSSY) {
+        return select(FACTOR_LOSSY_FILM_TRANSMITS, FACTOR_LOSSY_FILM_REFLECTS, reflects);
+    }
+    return select(FACTOR_FILM_TRANSMITS, FACTOR_FILM_REFLECTS, reflects);
+}
+
+/// Whether a factor's thicknesses stand on record.
+fn is_recorded(kind: u32) -> bool {
+    return (HAS_COATINGS && kind == FACTOR_COATED)
+        || (HAS_STACKS && kind >= FACTOR_STACK_REFLECTS && kind <= FACTOR_STACK_TRANSMITS);
+}
+
+/// What a factor's `spectrum` is: the spectrum, or the material that has the layers.
+fn factor_source(kind: u32, material: u32) -> u32 {
+    if (is_recorded(kind) || (HAS_TWO_BEAM_FILMS && kind >= FACTOR_TWO_BEAM_REFLECTS)) {
+        return material;
+    }
+    if (HAS_FILMS && kind >= FACTOR_FILM_REFLECTS) {
+        return layers[materials[material].first_layer].spectrum;
+    }
+    return materials[material].spectrum;
 }

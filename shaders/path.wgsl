@@ -51,19 +51,17 @@ fn meet_surface(walk: Walk, sample: Sample, hit: Hit) -> Walk {
         return ended;
     }
     let surface = materials[material].surface;
-    if (HAS_FILMS && surface == SURFACE_FILM) {
-        return meet_film(walk, sample, hit.object, point, vertex);
+    if (HAS_DIFFUSE && surface == SURFACE_DIFFUSE) {
+        let spectrum = reflectance_spectrum(material, hit.object, point.position);
+        vertex.scatter = Factor(FACTOR_REFLECTANCE, spectrum, 1.0, 0.0, 0u);
+        return meet_scattering(walk, sample, hit.object, point, vertex);
     }
-    if (HAS_MIRRORS && surface == SURFACE_MIRROR) {
-        return meet_mirror(walk, hit.object, point, vertex);
-    }
+    let reflects = !HAS_FILMS || surface != SURFACE_FILM || random_at(sample, walk, 1u).x < REFLECTED_SHARE;
+    vertex.scatter = layered_factor(hit.object, point, reflects);
     if (HAS_ROUGH_CONDUCTORS && surface == SURFACE_ROUGH_CONDUCTOR) {
-        return meet_rough_conductor(walk, sample, hit.object, point, vertex);
+        return meet_scattering(walk, sample, hit.object, point, vertex);
     }
-    if (HAS_DIFFUSE) {
-        return meet_diffuse(walk, sample, hit.object, point, vertex);
-    }
-    return walk;
+    return meet_smooth(walk, hit.object, point, vertex, reflects);
 }
 
 /// Weight of an emitter that a scattered path happens to hit, by the balance heuristic (Veach 1997, equation 9.8):
@@ -81,11 +79,13 @@ fn emission_share(walk: Walk, object: u32) -> f32 {
 /// dimmed little, what is bright before it much; halves serve both. It steers noise only: the weight undoes it.
 const REFLECTED_SHARE: f32 = 0.5;
 
-fn meet_film(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
+/// A film or a smooth conductor: the path is mirrored or goes straight on.
+fn meet_smooth(walk: Walk, object: u32, point: SurfacePoint, vertex_in: Vertex, reflects: bool) -> Walk {
     var vertex = vertex_in;
-    let reflects = random_at(sample, walk, 1u).x < REFLECTED_SHARE;
-    vertex.scatter = film_factor(object, point, reflects);
-    vertex.weight = 1.0 / select(1.0 - REFLECTED_SHARE, REFLECTED_SHARE, reflects);
+    vertex.weight = 1.0;
+    if (HAS_FILMS && vertex.scatter.kind >= FACTOR_FILM_REFLECTS) {
+        vertex.weight = 1.0 / select(1.0 - REFLECTED_SHARE, REFLECTED_SHARE, reflects);
+    }
     push_vertex(vertex);
     if (reflects) {
         return walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0);
@@ -96,58 +96,53 @@ fn meet_film(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, verte
     return through;
 }
 
-fn meet_mirror(walk: Walk, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
-    var vertex = vertex_in;
-    vertex.scatter = conductor_factor(object, point);
-    vertex.weight = 1.0;
-    push_vertex(vertex);
-    return walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0);
+/// How a diffuse or rough surface scatters between two directions of its local frame.
+struct Scattering {
+    /// The surface's function times the cosine, without its spectral factor.
+    reflection: f32,
+    /// Density with which scattering finds the direction.
+    pdf: f32,
+    /// Cosine at the facet.
+    cosine: f32,
 }
 
-fn meet_rough_conductor(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
+fn scattering(is_rough: bool, eye: vec3f, light: vec3f, slope: f32) -> Scattering {
+    if (HAS_ROUGH_CONDUCTORS && is_rough) {
+        let facet = cook_torrance(eye, light, slope);
+        return Scattering(facet.reflection * light.z, facet.pdf, facet.cosine);
+    }
+    let lambert = max(light.z, 0.0) / PI;
+    return Scattering(lambert, lambert, 1.0);
+}
+
+/// A diffuse surface or a rough conductor: light is sent to it, and the path is scattered.
+fn meet_scattering(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
     var vertex = vertex_in;
     let slope = materials[objects[object].material].roughness;
+    let is_rough = HAS_ROUGH_CONDUCTORS && vertex.scatter.kind != FACTOR_REFLECTANCE;
     let world_from_local = frame_of(point.normal);
     let eye = -walk.ray.direction * world_from_local;
 
     let sent = send_to_light(walk, sample, point);
     if (sent.pdf > 0.0) {
-        let facet = cook_torrance(eye, sent.direction * world_from_local, slope);
-        let cosine = dot(sent.direction, point.normal);
-        vertex = connect(vertex, walk, object, point, sent, facet.reflection * cosine, facet.pdf);
-        vertex.connection_cosine = facet.cosine;
+        let towards = scattering(is_rough, eye, sent.direction * world_from_local, slope);
+        vertex = connect(vertex, walk, object, point, sent, towards.reflection, towards.pdf);
+        vertex.connection_cosine = towards.cosine;
     }
 
     let random = random_at(sample, walk, 1u);
-    let normal = sample_beckmann(random.x, random.y, slope);
-    let light = reflect(-eye, normal);
-    let facet = cook_torrance(eye, normalize(light), slope);
-    vertex.scatter = conductor_factor(object, point);
-    vertex.scatter.cosine = facet.cosine;
-    var next = walk_on(walk, object, point, normalize(world_from_local * light), facet.pdf);
-    if (facet.pdf > 0.0) {
-        vertex.weight = facet.reflection * light.z / facet.pdf;
+    var light = sample_cosine_hemisphere(random.x, random.y);
+    if (is_rough) {
+        light = reflect(-eye, sample_beckmann(random.x, random.y, slope));
+    }
+    let onward = scattering(is_rough, eye, select(light, normalize(light), is_rough), slope);
+    var next = walk_on(walk, object, point, normalize(world_from_local * light), onward.pdf);
+    if (onward.pdf > 0.0) {
+        vertex.weight = onward.reflection / onward.pdf;
     } else {
         next.alive = false;
     }
+    vertex.scatter.cosine = onward.cosine;
     push_vertex(vertex);
     return next;
-}
-
-fn meet_diffuse(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
-    var vertex = vertex_in;
-    let spectrum = reflectance_spectrum(objects[object].material, object, point.position);
-    vertex.scatter = Factor(FACTOR_REFLECTANCE, spectrum, 1.0, 0.0, 0u);
-    vertex.weight = 1.0;
-
-    let sent = send_to_light(walk, sample, point);
-    if (sent.pdf > 0.0) {
-        let lambert = max(dot(sent.direction, point.normal), 0.0) / PI;
-        vertex = connect(vertex, walk, object, point, sent, lambert, lambert);
-    }
-
-    let random = random_at(sample, walk, 1u);
-    let local = sample_cosine_hemisphere(random.x, random.y);
-    push_vertex(vertex);
-    return walk_on(walk, object, point, normalize(frame_of(point.normal) * local), local.z / PI);
 }

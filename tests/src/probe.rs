@@ -51,6 +51,16 @@ impl Probe<'_> {
         Shader::assemble(self.roots, limits, &extra)
     }
 
+    /// What the scene has, as far as the shader asks: the pipeline is then the one that renders it.
+    fn constants(&self, shader: &Shader) -> Vec<(&'static str, f64)> {
+        let all = self
+            .scene
+            .map_or(&[][..], |scene| scene.features.constants());
+        let is_asked =
+            |(name, _): &&(&str, f64)| shader.text().contains(&format!("override {name}:"));
+        all.iter().filter(is_asked).copied().collect()
+    }
+
     /// The functions that the probe really calls, directly or through others, and the scene's bindings that it reads.
     ///
     /// # Panics
@@ -98,7 +108,8 @@ impl Probe<'_> {
             "the table has no whole rows"
         );
         let rows = table.len() / arity;
-        let pipeline = gpu::compile(gpu, &self.shader(), "probe", &[])
+        let shader = self.shader();
+        let pipeline = gpu::compile(gpu, &shader, "probe", &self.constants(&shader))
             .unwrap_or_else(|error| panic!("{error}"));
         let (device, queue) = gpu.device();
         let storage = |contents: &[f32], usage| {
