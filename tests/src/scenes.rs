@@ -7,10 +7,17 @@ use scene::{Scene, SceneFile};
 pub const SHIPPED: &[&str] = &[
     "soap_bubble",
     "floating_bubble",
+    "draining_bubble",
     "film_wedge",
+    "paper_wedge",
+    "oil_on_water",
+    "silicon_steps",
+    "anodised_titanium",
+    "tempered_steel",
+    "dichroic_ball",
+    "gold_visor",
     "metal_spheres",
     "furnace",
-    "draining_bubble",
 ];
 
 /// A scene with every kind of surface, pattern, thickness, light and environment that there is.
