@@ -4,15 +4,16 @@ use pellicle_scene::{Scene, SceneFile, Shape};
 use proptest::prelude::*;
 use std::path::Path;
 
-const SCENES: [&str; 4] = [
+const SCENES: [&str; 5] = [
     include_str!("../../../scenes/soap_bubble.toml"),
     include_str!("../../../scenes/film_wedge.toml"),
     include_str!("../../../scenes/metal_spheres.toml"),
     include_str!("../../../scenes/furnace.toml"),
+    include_str!("../../../scenes/draining_bubble.toml"),
 ];
 
 /// Words that mean something in a scene or to TOML, or that have broken parsers.
-const WORDS: [&str; 34] = [
+const WORDS: [&str; 38] = [
     "0",
     "-1",
     "1",
@@ -47,6 +48,10 @@ const WORDS: [&str; 34] = [
     "#",
     "{ constant = 1 }",
     "{ pole = 1, equator = 2 }",
+    "{ sum = [1, { product = [] }] }",
+    "{ swirls = { amplitude = 1, scale = 1 } }",
+    "{ drainage = { initial = 1, radius_m = 1 } }",
+    "{ image = \"\", min = 0, max = 1 }",
 ];
 
 /// Every number of the scene is finite, before and after rounding, and no length is 0.
@@ -169,7 +174,7 @@ proptest! {
 fn the_mutations_reach_both_verdicts() {
     let counts = (0..400).fold((0, 0), |(accepted, refused), position| {
         let text = mutated(
-            &quickened(SCENES[position % 4]),
+            &quickened(SCENES[position % SCENES.len()]),
             position * 7919,
             1,
             WORDS[position % 9],
