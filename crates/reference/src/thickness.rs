@@ -195,7 +195,7 @@ mod tests {
         let eighth = 2.0 * 0.5_f64.sqrt();
         assert_near(globe([eighth, 0.0, eighth]), 400.0);
         assert_near(globe([-eighth, 0.0, -eighth]), 200.0);
-        assert_near(globe([1e-6, 2.0, 1e-6]), globe([1.0, 3.0_f64.sqrt(), 1.0]));
+        assert_near(globe([1e-3, 2.0, 1e-3]), globe([1.0, 3.0_f64.sqrt(), 1.0]));
         let (left, right) = (globe([-1e-7, 0.0, -2.0]), globe([1e-7, 0.0, -2.0]));
         assert!((left - right).abs() < 1e-3, "{left} {right}");
     }
