@@ -50,12 +50,17 @@ fn field_value(thickness: &Thickness, shape: &Shape, position: DVec3) -> f64 {
 /// What a field runs along, from 0 to 1.
 fn coordinate(coordinate: &Coordinate, shape: &Shape, position: DVec3) -> f64 {
     match *coordinate {
-        Coordinate::Polar { axis } => (position - center_of(shape)).angle_between(axis) / PI,
+        Coordinate::Polar { axis } => half_turns(position - center_of(shape), axis),
         Coordinate::Line { start, end } => {
             let along = (position - start).dot(end - start) / (end - start).length_squared();
             along.clamp(0.0, 1.0)
         }
     }
+}
+
+/// The angle between two directions over π. The arc cosine of their product would lose half the digits near 0.
+fn half_turns(a: DVec3, b: DVec3) -> f64 {
+    a.cross(b).length().atan2(a.dot(b)) / PI
 }
 
 fn profile_value(profile: &Profile, along: f64) -> f64 {
@@ -84,7 +89,7 @@ fn picture_place(picture: &Picture, shape: &Shape, position: DVec3) -> ([f64; 2]
     match *shape {
         Shape::Sphere { .. } => {
             let longitude = local.x.atan2(local.z) / TAU;
-            let from_pole = local.angle_between(DVec3::Y) / PI;
+            let from_pole = half_turns(local, DVec3::Y);
             ([0.5 + longitude, from_pole], true)
         }
         Shape::Plane {
@@ -131,4 +136,114 @@ fn bilinear(picture: &Picture, [across, down]: [f64; 2], wraps: bool) -> f64 {
         mix(pixel(left, below), pixel(right, below), x - left),
         y - above,
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::{BlackFilm, PictureFile};
+    use std::sync::Arc;
+
+    const GLOBE: Shape = Shape::Sphere {
+        center: DVec3::new(1.0, 2.0, 3.0),
+        radius: 2.0,
+    };
+    const SLIDE: Shape = Shape::Rectangle {
+        center: DVec3::new(1.0, 2.0, 3.0),
+        normal: DVec3::Z,
+        tangent: DVec3::X,
+        bitangent: DVec3::Y,
+        half_width: 2.0,
+        half_height: 1.0,
+    };
+
+    /// Four columns by two rows: 0, 100, 200, 300 above 400, 500, 600, 700.
+    fn picture(size: Option<[f64; 2]>) -> Thickness {
+        Thickness::Picture(Picture {
+            file: Arc::new(PictureFile {
+                width: 4,
+                height: 2,
+                values: (0..8_u8).map(|i| f32::from(i) / 8.0).collect(),
+            }),
+            black_nm: 0.0,
+            white_nm: 800.0,
+            size,
+        })
+    }
+
+    fn at(thickness: &Thickness, shape: &Shape, place: [f64; 3]) -> f64 {
+        layer_thickness(
+            thickness,
+            shape,
+            center_of(shape) + DVec3::from_array(place),
+        )
+    }
+
+    fn assert_near(found: f64, expected: f64) {
+        assert!((found - expected).abs() < 1e-9, "{found} for {expected}");
+    }
+
+    /// The middle of the picture looks to +Z, its right half lies towards +X, its top at +Y, and it closes behind.
+    #[test]
+    fn a_picture_lies_on_a_sphere_as_a_map_on_a_globe() {
+        let globe = |place| at(&picture(None), &GLOBE, place);
+        // On the equator both rows count half: the columns are 200, 300, 400, 500.
+        assert_near(globe([0.0, 0.0, 2.0]), 350.0);
+        assert_near(globe([2.0, 0.0, 0.0]), 450.0);
+        assert_near(globe([-2.0, 0.0, 0.0]), 250.0);
+        assert_near(globe([0.0, 0.0, -2.0]), 350.0);
+        let eighth = 2.0 * 0.5_f64.sqrt();
+        assert_near(globe([eighth, 0.0, eighth]), 400.0);
+        assert_near(globe([-eighth, 0.0, -eighth]), 200.0);
+        assert_near(globe([1e-3, 2.0, 1e-3]), globe([1.0, 3.0_f64.sqrt(), 1.0]));
+        let (left, right) = (globe([-1e-7, 0.0, -2.0]), globe([1e-7, 0.0, -2.0]));
+        assert!((left - right).abs() < 1e-3, "{left} {right}");
+    }
+
+    #[test]
+    fn a_picture_lies_upright_on_a_rectangle() {
+        let slide = |place| at(&picture(None), &SLIDE, place);
+        assert_near(slide([-1.5, 0.5, 0.0]), 0.0);
+        assert_near(slide([1.5, 0.5, 0.0]), 300.0);
+        assert_near(slide([-1.5, -0.5, 0.0]), 400.0);
+        assert_near(slide([2.0, -1.0, 0.0]), 700.0);
+        let half = |place| at(&picture(Some([2.0, 1.0])), &SLIDE, place);
+        assert_near(half([0.75, 0.25, 0.0]), 300.0);
+        assert_near(half([1.9, 0.9, 0.0]), 300.0);
+    }
+
+    #[test]
+    fn steps_profiles_and_combinations_have_their_values() {
+        let (start, end) = (DVec3::new(1.0, 2.0, 3.0), DVec3::new(4.0, 2.0, 3.0));
+        let steps = Thickness::Steps {
+            start,
+            end,
+            nm: vec![10.0, 20.0, 30.0],
+        };
+        let found = [-5.0, 0.5, 1.5, 2.5, 9.0].map(|x| at(&steps, &SLIDE, [x, 0.0, 0.0]));
+        assert_eq!(found, [10.0, 10.0, 20.0, 30.0, 30.0]);
+        let profile = Thickness::Profile(Profile {
+            coordinate: Coordinate::Line { start, end },
+            squares_nm2: vec![0.0, 1e4, 4e4],
+            most_nm: 150.0,
+            black: Some(BlackFilm {
+                below_nm: 60.0,
+                nm: 7.0,
+            }),
+        });
+        let found = [0.3, 1.5, 2.25, 3.0].map(|x| at(&profile, &SLIDE, [x, 0.0, 0.0]));
+        assert_eq!(found[0], 7.0);
+        assert_near(found[1], 100.0);
+        assert_near(found[2], 150.0);
+        assert_eq!(found[3], 150.0);
+        let sum = Thickness::Sum(vec![steps.clone(), Thickness::Constant { nm: 5.0 }]);
+        let product = Thickness::Product(vec![sum, Thickness::Constant { nm: 4.0 }]);
+        assert_eq!(at(&product, &SLIDE, [1.5, 0.0, 0.0]), 100.0);
+        let thick = Thickness::Product(vec![Thickness::Constant { nm: 1e4 }, product]);
+        assert_eq!(
+            at(&thick, &SLIDE, [1.5, 0.0, 0.0]),
+            1e5,
+            "the thickest there is"
+        );
+    }
 }

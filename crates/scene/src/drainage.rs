@@ -53,19 +53,32 @@ pub(crate) fn sphere_profile2(theta: f64, tau: f64) -> f64 {
     (sine / theta.sin()).powf(4.0 / 3.0)
 }
 
-/// Where the characteristic began that is at `theta` at the time τ. Its arrival grows with its start up to the one wanted.
+/// Where the characteristic began that is at `theta` at the time τ: Newton's method, by halves where that leaves the bracket.
+/// The arrival grows with the start up to the one wanted.
 fn sphere_start(theta: f64, tau: f64) -> f64 {
     let wanted = sine_integral(theta);
     let (mut low, mut high) = (0.0, theta);
+    // Near the top, where I = 3/4 θ^(4/3), this is the answer.
+    let mut start = theta * (0.75 / (0.75 + tau)).powf(0.75);
     for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if sine_integral(middle) + tau * middle.sin().powf(4.0 / 3.0) < wanted {
-            low = middle;
-        } else {
-            high = middle;
+        let root = start.sin().cbrt();
+        let excess = sine_integral(start) + tau * root.powi(4) - wanted;
+        if excess.abs() <= 1e-14 * wanted {
+            break;
         }
+        if excess < 0.0 {
+            low = start;
+        } else {
+            high = start;
+        }
+        let next = start - excess / (root * (1.0 + 4.0 / 3.0 * tau * start.cos()));
+        start = if low < next && next < high {
+            next
+        } else {
+            f64::midpoint(low, high)
+        };
     }
-    0.5 * (low + high)
+    start
 }
 
 /// I(θ) = ∫₀^θ sin^(1/3) u du for θ in \[0, π\], to 1e-9.

@@ -5,11 +5,12 @@ use pellicle_scene::{Scene, SceneFile, Shape, optical_constants};
 use proptest::prelude::*;
 use std::path::Path;
 
-const SCENES: [&str; 4] = [
+const SCENES: [&str; 5] = [
     include_str!("../../../scenes/soap_bubble.toml"),
     include_str!("../../../scenes/film_wedge.toml"),
     include_str!("../../../scenes/metal_spheres.toml"),
     include_str!("../../../scenes/furnace.toml"),
+    include_str!("../../../scenes/draining_bubble.toml"),
 ];
 
 /// Words that mean something in a scene or to TOML, or that have broken parsers.
@@ -253,7 +254,7 @@ fn the_database_file_is_accepted_as_it_stands() {
 fn the_mutations_reach_both_verdicts() {
     let counts = (0..400).fold((0, 0), |(accepted, refused), position| {
         let text = mutated(
-            &quickened(SCENES[position % 4]),
+            &quickened(SCENES[position % SCENES.len()]),
             position * 7919,
             1,
             WORDS[position % 9],

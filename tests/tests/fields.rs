@@ -1,0 +1,77 @@
+//! Each kind of thickness alone: a scene's pipeline is made for what the scene has, so every kind must render without the others.
+
+use pellicle_tests::frames::{Values, same_numbers};
+use pellicle_tests::tolerances::FRAMES;
+use pellicle_tests::wgsl::root;
+use scene::{Scene, SceneFile};
+use std::ops::ControlFlow;
+
+const ALONG: &str = "from = [-0.5, 0.4, 0], to = [0.6, -0.5, 0.2]";
+
+/// A bubble and a film beside it, both of this thickness.
+fn scene(thickness: &str) -> Scene {
+    let text = format!(
+        "camera = {{ type = 'perspective', position = [0, 0, 4], look_at = [0, 0, 0], fov_deg = 40 }}\n\
+         render = {{ size = [64, 40], samples = 4, bands = 8, max_path_segments = 4, time_s = 12.3 }}\n\
+         environment = {{ type = 'gradient', zenith = {{ constant = 2 }}, horizon = {{ constant = 1 }} }}\n\
+         [materials]\nfilm = {{ type = 'film', index = 1.45, thickness_nm = {thickness} }}\n\
+         [[objects]]\ntype = 'sphere'\nmaterial = 'film'\ncenter = [-0.9, 0, 0]\nradius = 0.8\n\
+         [[objects]]\ntype = 'rectangle'\nmaterial = 'film'\ncenter = [0.9, 0, 0]\nnormal = [-0.2, 0, 1]\nsize = [1.4, 1.6]\n"
+    );
+    SceneFile::parse("field.toml", &text, &root())
+        .and_then(|file| file.validate())
+        .unwrap_or_else(|problems| panic!("{problems:#}"))
+        .rounded_to_f32()
+}
+
+fn compared(actual: &Scene, expected: &Scene) -> Result<String, String> {
+    let gpu = pellicle_tests::device::open();
+    let mut go_on = |_| ControlFlow::Continue(());
+    let actual = gpu::render(&gpu, actual, &mut go_on).unwrap_or_else(|error| panic!("{error}"));
+    let expected = reference::render(expected, &mut go_on).expect("nobody stops it");
+    same_numbers(Values::of(&actual), Values::of(&expected), &FRAMES)
+}
+
+#[test]
+fn each_kind_of_thickness_renders_alone() {
+    let kinds = [
+        "420".to_owned(),
+        "{ pole = 200, equator = 500 }".to_owned(),
+        format!("{{ start = 100, end = 700, {ALONG} }}"),
+        format!("{{ steps = {{ values = [100, 300, 500], {ALONG} }} }}"),
+        "{ drainage = { initial = 900, radius_m = 0.01, viscosity_pa_s = 1e-7 } }".to_owned(),
+        format!(
+            "{{ drainage = {{ initial = 900, height_m = 0.01, viscosity_pa_s = 1e-7, {ALONG} }} }}"
+        ),
+        "{ swirls = { mean = 400, amplitude = 150, scale = 0.6, rate = 1 } }".to_owned(),
+        "{ image = 'tests/data/thickness.png', min = 100, max = 500 }".to_owned(),
+        "{ sum = [100, { product = [2, 130] }] }".to_owned(),
+        format!(
+            "{{ anodising = {{ metal = 'titanium', volts = {{ start = 5, end = 120, {ALONG} }} }} }}"
+        ),
+        format!(
+            "{{ heat_tint = {{ temperature_c = {{ start = 200, end = 350, {ALONG} }}, minutes = 9 }} }}"
+        ),
+    ];
+    let mut wrong = Vec::new();
+    for kind in kinds {
+        let scene = scene(&kind);
+        match compared(&scene, &scene) {
+            Ok(report) => println!("{kind}: {report}"),
+            Err(report) => wrong.push(format!("{kind}: {report}")),
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// The comparison can fail: swirls a tenth of their life later are another picture.
+#[test]
+fn another_time_is_noticed() {
+    let at = |rate: f64| {
+        scene(&format!(
+            "{{ swirls = {{ mean = 400, amplitude = 150, scale = 0.6, rate = {rate} }} }}"
+        ))
+    };
+    assert!(compared(&at(1.0), &at(1.0)).is_ok());
+    assert!(compared(&at(1.0), &at(1.008)).is_err());
+}
