@@ -1,20 +1,19 @@
 //! The colours that processes are known to give: heat tints of steel and anodised titanium, from the process's own figures in a
 //! scene to a hue.
 
+use color::lab::Lab;
 use color::xyz::BandObserver;
-use num_complex::Complex64;
-use scene::{Material, Scene, SceneFile, Thickness};
-use std::f64::consts::TAU;
+use optics::{Complex64, Layer, stack};
+use scene::{Material, Scene, SceneFile, SpectrumId, Thickness};
 use std::path::Path;
 
-/// A scene with an oxide whose thickness is `thickness` and a metal under it; the pictures' bands give the colour.
-fn scene(oxide: &str, metal: &str, thickness: &str) -> Scene {
+/// A scene with an oxide that a process leaves on a metal.
+fn scene(oxide: &str, metal: &str, process: &str) -> Scene {
     let text = format!(
         "camera = {{ type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }}\n\
          render = {{ bands = 40 }}\n\
          [materials]\n\
-         a = {{ type = 'conductor', index = {metal} }}\n\
-         b = {{ type = 'film', index = {oxide}, thickness_nm = {thickness} }}\n"
+         a = {{ type = 'coated', substrate = {metal}, index = {oxide}, thickness_nm = {process} }}\n"
     );
     SceneFile::parse("process.toml", &text, Path::new(""))
         .and_then(|file| file.validate())
@@ -23,60 +22,35 @@ fn scene(oxide: &str, metal: &str, thickness: &str) -> Scene {
 
 /// Lightness, chroma and hue angle in degrees (CIELAB, white equal energy) of the oxide on its metal, seen straight on.
 fn colour(scene: &Scene) -> [f64; 3] {
+    let Material::Conductor {
+        n, k, ref layers, ..
+    } = scene.materials()[0]
+    else {
+        panic!("{:?}", scene.materials());
+    };
+    let Thickness::Constant { nm: thickness_nm } = layers[0].thickness else {
+        panic!("{layers:?}");
+    };
     let grid = scene.settings().bands;
     let (mut light, mut white) = (Vec::new(), Vec::new());
     for band in 0..grid.count() {
-        let index = |material: &Material| match *material {
-            Material::Conductor { n, k, .. } | Material::Film { n, k, .. } => Complex64::new(
-                scene.spectrum(n).at(band, 0.5),
-                scene.spectrum(k).at(band, 0.5),
-            ),
-            _ => panic!("{material:?}"),
+        let value = |id: SpectrumId| scene.spectrum(id).at(band, 0.5);
+        let oxide = Layer {
+            index: Complex64::new(value(layers[0].n), value(layers[0].k)),
+            thickness_nm,
         };
-        let [metal, oxide] = [&scene.materials()[0], &scene.materials()[1]].map(index);
-        light.push(airy(
-            oxide,
-            metal,
-            thickness_nm(scene),
-            grid.wavelength_nm(band, 0.5),
-        ) as f32);
+        let metal = Complex64::new(value(n), value(k));
+        let nm = grid.wavelength_nm(band, 0.5);
+        light.push(
+            stack(1.0, &[oxide], metal, nm, 1.0)
+                .reflectance
+                .unpolarised() as f32,
+        );
         white.push(1.0);
     }
     let observer = BandObserver::new(&grid);
-    lightness_chroma_hue(observer.xyz(&light), observer.xyz(&white))
-}
-
-fn thickness_nm(scene: &Scene) -> f64 {
-    match scene.materials()[1].thicknesses().next() {
-        Some(&Thickness::Constant { nm }) => nm,
-        other => panic!("{other:?}"),
-    }
-}
-
-/// Reflectance of one layer at normal incidence (Airy 1833).
-fn airy(layer: Complex64, substrate: Complex64, nm: f64, wavelength_nm: f64) -> f64 {
-    let upper = (1.0 - layer) / (1.0 + layer);
-    let lower = (layer - substrate) / (layer + substrate);
-    let there_and_back = (Complex64::I * TAU * 2.0 * layer * nm / wavelength_nm).exp();
-    ((upper + lower * there_and_back) / (1.0 + upper * lower * there_and_back)).norm_sqr()
-}
-
-/// CIE 015:2018, section 8.2.1.
-fn lightness_chroma_hue(xyz: [f64; 3], white: [f64; 3]) -> [f64; 3] {
-    let f = |i: usize| {
-        let t: f64 = xyz[i] / white[i];
-        if t > (6.0_f64 / 29.0).powi(3) {
-            t.cbrt()
-        } else {
-            t * (29.0_f64 / 6.0).powi(2) / 3.0 + 4.0 / 29.0
-        }
-    };
-    let (a, b) = (500.0 * (f(0) - f(1)), 200.0 * (f(1) - f(2)));
-    [
-        116.0 * f(1) - 16.0,
-        a.hypot(b),
-        b.atan2(a).to_degrees().rem_euclid(360.0),
-    ]
+    let lab = Lab::from_xyz(observer.xyz(&light), observer.xyz(&white));
+    [lab.l, lab.chroma(), lab.hue_deg()]
 }
 
 /// A name, with the ranges of lightness, least chroma and hue that deserve it.
@@ -108,14 +82,9 @@ fn assert_colours(found: &[([f64; 3], Named, String)]) {
     assert!(wrong.is_empty(), "{wrong}");
 }
 
-/// Magnetite every 40 nm (Querry, Contractor Report CRDC-CR-85034, 1985; refractiveindex.info, CC0).
-const MAGNETITE: &str = "{ nm = [380, 420, 460, 500, 540, 580, 620, 660, 700, 740, 780], \
-     n = [2.459, 2.440, 2.374, 2.359, 2.344, 2.342, 2.353, 2.363, 2.355, 2.329, 2.294], \
-     k = [0.096, 0.034, 0.042, 0.071, 0.099, 0.125, 0.144, 0.137, 0.124, 0.118, 0.123] }";
-
 fn tinted(celsius: f64) -> [f64; 3] {
     let process = format!("{{ heat_tint = {{ temperature_c = {celsius}, minutes = 10 }} }}");
-    colour(&scene(MAGNETITE, "'iron'", &process))
+    colour(&scene("'magnetite'", "'iron'", &process))
 }
 
 /// Temper colours of carbon steel (Machinery's Handbook): pale straw 232, brown-yellow 260, full purple 282, dark blue
