@@ -1,5 +1,4 @@
 //! Films and coatings of several layers in scene files: what is accepted, and what is told of the rest.
-#![expect(clippy::float_cmp, reason = "the figures are exact in binary")]
 
 use pellicle_scene::{
     Interference, Material, PathDifference, Problem, Scene, SceneFile, Thickness, limits,

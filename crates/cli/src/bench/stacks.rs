@@ -42,7 +42,7 @@ pub(super) fn run(renderers: &[Renderer], seconds: f64) -> miette::Result<()> {
 }
 
 /// Two media in turn on a third, transparent and dispersive (Cauchy), thicknesses of 40 to 120 nm.
-struct Stacks {
+struct Designs {
     wavelengths_nm: Vec<f64>,
     cosines: Vec<f64>,
     media: Vec<Complex64>,
@@ -50,7 +50,7 @@ struct Stacks {
     stacks: Vec<StackOf>,
 }
 
-impl Stacks {
+impl Designs {
     fn new(layers: u32, count: u32) -> Self {
         let wavelengths_nm: Vec<f64> = (0..WAVELENGTHS)
             .map(|i| 380.0 + 5.0 * f64::from(i))
@@ -94,12 +94,12 @@ impl Stacks {
 
 /// Calls with as many stacks as take a tenth of a second, until the time is over; one before them does not count.
 fn rate(renderer: &Renderer, layers: u32, seconds: f64) -> miette::Result<f64> {
-    let probe = Stacks::new(layers, 8);
+    let probe = Designs::new(layers, 8);
     stacks::evaluate(renderer, &probe.batch()).into_diagnostic()?;
     let started = Instant::now();
     stacks::evaluate(renderer, &probe.batch()).into_diagnostic()?;
     let count = (8.0 * 0.1 / started.elapsed().as_secs_f64()).clamp(8.0, 1000.0) as u32;
-    let all = Stacks::new(layers, count);
+    let all = Designs::new(layers, count);
     let started = Instant::now();
     let mut calls = 0.0;
     while calls == 0.0 || started.elapsed().as_secs_f64() < seconds {
