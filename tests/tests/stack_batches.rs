@@ -111,7 +111,7 @@ fn published_stacks_come_out_on_the_device() {
     let cases = cases();
     assert_eq!(cases.len(), 14);
     for (name, case) in &cases {
-        assert_eq!(case.expected.len(), 11 * 4 * 4, "{name}");
+        assert_eq!(case.expected.len(), 41 * 4 * 4, "{name}");
         let report = compare(&case.on_device(&gpu, 1.0), &case.expected, FILM);
         println!(
             "{name}: {}",
