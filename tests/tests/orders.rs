@@ -3,10 +3,7 @@
 use num_complex::Complex64;
 use optics::{Layer, film, stack};
 use pellicle_tests::colorimetry::{chroma_hue, lab, xyz};
-use pellicle_tests::tables::{number, rows};
-use spectra::{OpticalConstants, Spectrum, Tabulated};
-
-const TITANIA: &str = include_str!("../data/titania.csv");
+use spectra::OpticalConstants;
 
 /// What a colour's name means: hue from .. to (degrees in CIELAB, against the clock, through 0 where from > to) and chroma.
 ///
@@ -60,17 +57,6 @@ fn is_called(called: &str, (chroma, hue): (f64, f64)) -> bool {
         from <= hue || hue <= to
     };
     within && name.chroma.0 <= chroma && chroma <= name.chroma.1
-}
-
-fn titania() -> OpticalConstants {
-    let column = |place: usize| {
-        let points = rows(TITANIA).map(|row| (number(row[0]), number(row[place])));
-        Spectrum::Table(Tabulated::new(points.collect()).unwrap())
-    };
-    OpticalConstants {
-        n: column(1),
-        k: column(2),
-    }
 }
 
 fn named(material: &str) -> OpticalConstants {
@@ -165,7 +151,7 @@ const ANODISED: [(f64, &str); 10] = [
 ];
 
 fn anodised_titanium(scale: f64) -> Vec<&'static str> {
-    let (titania, titanium) = (titania(), named("titanium"));
+    let (titania, titanium) = (named("titania"), named("titanium"));
     missed(&ANODISED, scale, |d| colour("D65", &titania, d, &titanium))
 }
 
