@@ -13,10 +13,18 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 const BLESS: &str = "PELLICLE_BLESS=1 cargo test -p pellicle-tests --test pictures";
-const SCENES: [(&str, [u32; 2]); 3] = [
+const SCENES: [(&str, [u32; 2]); 11] = [
     ("soap_bubble", [160, 120]),
     ("film_wedge", [160, 40]),
     ("metal_spheres", [160, 120]),
+    ("draining_bubble", [90, 90]),
+    ("paper_wedge", [140, 54]),
+    ("oil_on_water", [120, 90]),
+    ("silicon_steps", [140, 28]),
+    ("anodised_titanium", [120, 90]),
+    ("tempered_steel", [120, 75]),
+    ("dichroic_ball", [80, 60]),
+    ("gold_visor", [100, 75]),
 ];
 
 /// A scene rendered small on the device and developed at its own exposure.
