@@ -77,17 +77,20 @@ fn with_layers(below: Stack, factor: Factor, last_first: bool, group: u32, at: W
 fn coating_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
     let spectrum = materials[factor.spectrum].spectrum;
     let incident = air_above(factor);
-    let substrate = stack_on(spectrum_at(spectrum, group, at), spectrum_at(spectrum + 1u, group, at), incident);
-    let powers = stack_powers(with_layers(substrate, factor, true, group, at), substrate, incident);
+    let n = spectrum_at(spectrum, group, at);
+    let substrate = substrate_admittances(n, spectrum_at(spectrum + 1u, group, at), incident);
+    let stack = with_layers(stack_on(substrate), factor, true, group, at);
+    let powers = stack_powers(stack, substrate, incident);
     return 0.5 * (powers.reflectance_s + powers.reflectance_p);
 }
 
 /// Reflectance or transmittance of a free film of several layers.
 fn free_stack_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
     let incident = air_above(factor);
-    let substrate = stack_on(vec4f(1.0), vec4f(0.0), incident);
+    let substrate = substrate_admittances(vec4f(1.0), vec4f(0.0), incident);
     let from_front = factor.kind != FACTOR_STACK_REFLECTS_BACK;
-    let powers = stack_powers(with_layers(substrate, factor, from_front, group, at), substrate, incident);
+    let stack = with_layers(stack_on(substrate), factor, from_front, group, at);
+    let powers = stack_powers(stack, substrate, incident);
     if (factor.kind == FACTOR_STACK_TRANSMITS) {
         return 0.5 * (powers.transmittance_s + powers.transmittance_p);
     }

@@ -1,20 +1,20 @@
 // Stacks of any number of layers between two half spaces: exact interference, built from the substrate upwards.
 //
 // Sign convention: n + ik with exp(−iωt); k ≥ 0 absorbs. All lengths over the vacuum wavelength. A medium enters by its
-// index n + ik and by q = n cos θ, which Snell's law gives from n² − (n₀ sin θ₀)² without any angle.
+// index squared and by q = n cos θ, which Snell's law gives from n² − (n₀ sin θ₀)² without any angle.
 
-/// What lies below a boundary: the medium just below it and the amplitudes of everything further down.
+/// The fields at the upper end of what has been built: of s the electric and the magnetic one, of p the magnetic and the
+/// electric one, both along the boundary. Only their quotient and what `passed` says of their size matter.
 struct Stack {
-    index: Complex4,
-    /// The index squared.
-    index2: Complex4,
-    /// n cos θ.
-    q: Complex4,
-    /// Reflection and transmission of what lies below, for s and p.
-    r_s: Complex4,
-    r_p: Complex4,
-    t_s: Complex4,
-    t_p: Complex4,
+    s: TangentialFields,
+    p: TangentialFields,
+}
+
+struct TangentialFields {
+    first: Complex4,
+    second: Complex4,
+    /// Square of the first field at the substrate, over that of the first field here without all scaling.
+    passed: vec4f,
 }
 
 /// The medium that light comes from. It does not absorb.
@@ -25,65 +25,104 @@ struct Incident {
     q2: f32,
 }
 
-/// A substrate with nothing below it.
-fn stack_on(n: vec4f, k: vec4f, incident: Incident) -> Stack {
+/// The admittances of a half space: q for s, q / n² for p, so that second = η · first in a wave that runs downwards.
+struct Admittances {
+    s: Complex4,
+    p: Complex4,
+}
+
+/// (n cos θ)² = n² − (n₀ sin θ₀)².
+fn medium_q2(index2: Complex4, incident: Incident) -> Complex4 {
+    return Complex4((index2.re - incident.index2) + incident.q2, index2.im);
+}
+
+/// The substrate's admittances. The root in the first quadrant runs forward and decays.
+fn substrate_admittances(n: vec4f, k: vec4f, incident: Incident) -> Admittances {
     let index = Complex4(n, k);
     let index2 = complex_mul(index, index);
-    let zero = Complex4(vec4f(0.0), vec4f(0.0));
+    let q = complex_sqrt(medium_q2(index2, incident));
+    return Admittances(q, complex_mul(q, complex_inverse(index2)));
+}
+
+/// A substrate with nothing on it.
+fn stack_on(substrate: Admittances) -> Stack {
     let one = Complex4(vec4f(1.0), vec4f(0.0));
-    return Stack(index, index2, medium_q(index2, incident), zero, zero, one, one);
+    return Stack(TangentialFields(one, substrate.s, vec4f(1.0)), TangentialFields(one, substrate.p, vec4f(1.0)));
 }
 
-/// n cos θ = √(n² − (n₀ sin θ₀)²): the root in the first quadrant runs forward and decays.
-fn medium_q(index2: Complex4, incident: Incident) -> Complex4 {
-    return complex_sqrt(Complex4((index2.re - incident.index2) + incident.q2, index2.im));
-}
-
-/// The stack with a layer of index n + ik on top, as seen from inside that layer's upper end.
+/// The stack with a layer of index n + ik on top; `thickness` is in wavelengths.
 ///
-/// `thickness` is in wavelengths. Each layer adds its lower boundary to what lies below,
-/// r ← (r_j + r) / (1 + r_j r), t ← t_j t / (1 + r_j r), and then its own length, r ← r β², t ← t β with
-/// β = exp(2πi q d / λ), |β| ≤ 1 (Rouard 1937; Heavens, Optical Properties of Thin Solid Films, 1955, section 4.2).
+/// Abelès' matrix (1950; Born and Wolf, 7th ed., section 1.6.2, equations 38 to 41) times exp(iδ), δ = 2π q d / λ, whose modulus is at most 1:
+/// first ← C first − i A second, second ← C second − i B first, with C = cos δ exp(iδ), A = sin δ exp(iδ) / η and
+/// B = η sin δ exp(iδ). Nothing is divided by q, so that a layer at its critical angle is like any other, and an
+/// opaque layer only makes the fields shrink.
 fn stack_layer(below: Stack, n: vec4f, k: vec4f, thickness: vec4f, incident: Incident) -> Stack {
     let index = Complex4(n, k);
     let index2 = complex_mul(index, index);
-    var above = stack_boundary(below, index, index2, medium_q(index2, incident));
-    // In half turns: 2 q d / λ.
-    let beta = phase_factor(2.0 * thickness * above.q.re, 2.0 * thickness * above.q.im);
-    let beta2 = complex_mul(beta, beta);
-    above.r_s = complex_mul(above.r_s, beta2);
-    above.r_p = complex_mul(above.r_p, beta2);
-    above.t_s = complex_mul(above.t_s, beta);
-    above.t_p = complex_mul(above.t_p, beta);
-    return above;
+    let q2 = medium_q2(index2, incident);
+    let phase = layer_phase(complex_sqrt(q2), thickness);
+    let b = complex_mul(phase.sine_over_q, q2);
+    let s = fields_above(below.s, phase, phase.sine_over_q, b);
+    let p = fields_above(
+        below.p,
+        phase,
+        complex_mul(phase.sine_over_q, index2),
+        complex_mul(b, complex_inverse(index2)),
+    );
+    return Stack(s, p);
 }
 
-/// The stack as seen from just above the boundary to a medium that lies on it.
-///
-/// Fresnel's r_j = u / v with u = q − q′, v = q + q′ for s and u = n′² q − n² q′, v = n′² q + n² q′ for p, so that
-/// r = (u + v r) / (v + u r) takes a single division.
-fn stack_boundary(below: Stack, index: Complex4, index2: Complex4, q: Complex4) -> Stack {
-    let near = complex_mul(below.index2, q);
-    let far = complex_mul(index2, below.q);
-    let s = stack_join(complex_sub(q, below.q), complex_add(q, below.q), below.r_s, below.t_s);
-    let p = stack_join(complex_sub(near, far), complex_add(near, far), below.r_p, below.t_p);
-    let step_s = complex_scale(2.0, q);
-    let step_p = complex_mul(step_s, complex_mul(index, below.index));
-    return Stack(index, index2, q, s.r, p.r, complex_mul(step_s, s.t), complex_mul(step_p, p.t));
+struct LayerPhase {
+    /// cos δ exp(iδ).
+    cosine: Complex4,
+    /// sin δ exp(iδ) / q.
+    sine_over_q: Complex4,
+    /// |exp(iδ)|².
+    modulus2: vec4f,
 }
 
-/// Reflection and transmission of one polarisation.
-struct Joined {
-    r: Complex4,
-    t: Complex4,
+fn layer_phase(q: Complex4, thickness: vec4f) -> LayerPhase {
+    let half_turns = 4.0 * thickness;
+    let beta2 = phase_factor(half_turns * q.re, half_turns * q.im); // exp(2iδ)
+    let cosine = Complex4(0.5 * (1.0 + beta2.re), 0.5 * beta2.im);
+    // (exp(2x) − 1) / (2x) · 2π d / λ with x = iδ.
+    let along = 2.0 * PI * thickness;
+    let two_x = Complex4(-2.0 * along * q.im, 2.0 * along * q.re);
+    var shape = complex_mul(Complex4(beta2.re - 1.0, beta2.im), complex_inverse(two_x));
+    let is_small = complex_norm2(two_x) < vec4f(0.25);
+    if (any(is_small)) {
+        let series = exponential_quotient(two_x);
+        shape = Complex4(select(shape.re, series.re, is_small), select(shape.im, series.im, is_small));
+    }
+    return LayerPhase(cosine, Complex4(along * shape.re, along * shape.im), sqrt(complex_norm2(beta2)));
 }
 
-/// (u + v r) / (v + u r) and t / (v + u r).
-fn stack_join(u: Complex4, v: Complex4, r: Complex4, t: Complex4) -> Joined {
-    let inverse = complex_inverse(complex_add(v, complex_mul(u, r)));
-    return Joined(
-        complex_mul(complex_add(u, complex_mul(v, r)), inverse),
-        complex_mul(t, inverse),
+/// (exp(z) − 1) / z = Σ zⁿ / (n + 1)! for |z| < 1/2; the remainder after z⁷ is below 2e-8.
+fn exponential_quotient(z: Complex4) -> Complex4 {
+    var sum = Complex4(vec4f(1.0 / 40320.0), vec4f(0.0));
+    for (var divisor = 7.0; divisor > 0.0; divisor -= 1.0) {
+        sum = complex_mul(sum, z);
+        sum.re += INVERSE_FACTORIALS[u32(divisor) - 1u];
+    }
+    return sum;
+}
+
+/// 1/n! from n = 1 on.
+const INVERSE_FACTORIALS = array<f32, 7>(1.0, 0.5, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0, 1.0 / 5040.0);
+
+/// The fields of one polarisation at the upper end of a layer, brought to a size near 1.
+fn fields_above(below: TangentialFields, phase: LayerPhase, a: Complex4, b: Complex4) -> TangentialFields {
+    let from_second = complex_mul(a, below.second);
+    let from_first = complex_mul(b, below.first);
+    let own_first = complex_mul(phase.cosine, below.first);
+    let own_second = complex_mul(phase.cosine, below.second);
+    let first = Complex4(own_first.re + from_second.im, own_first.im - from_second.re);
+    let second = Complex4(own_second.re + from_first.im, own_second.im - from_first.re);
+    let scale = inverseSqrt(max(complex_norm2(first) + complex_norm2(second), vec4f(1e-30)));
+    return TangentialFields(
+        Complex4(scale * first.re, scale * first.im),
+        Complex4(scale * second.re, scale * second.im),
+        below.passed * phase.modulus2 * scale * scale,
     );
 }
 
@@ -95,23 +134,23 @@ struct StackPowers {
     transmittance_p: vec4f,
 }
 
-/// The powers of a whole stack seen from the incident medium, on the substrate that the stack began with:
-/// R = |r|², T_s = |t|² Re q / q₀ and T_p = |t|² Re(n cos* θ) / q₀
-/// (Byrnes, arXiv:1603.02720, equations 19 to 22).
-fn stack_powers(below: Stack, substrate: Stack, incident: Incident) -> StackPowers {
-    let zero = vec4f(0.0);
-    let index = Complex4(vec4f(sqrt(incident.index2)), zero);
-    let index2 = Complex4(vec4f(incident.index2), zero);
-    let q0 = vec4f(sqrt(incident.q2));
-    let whole = stack_boundary(below, index, index2, Complex4(q0, zero));
-    let n2 = substrate.index2;
-    // Re(n cos* θ) = Re(n² q*) / |n|².
-    let leaves_s = substrate.q.re;
-    let leaves_p = (n2.re * substrate.q.re + n2.im * substrate.q.im) / sqrt(complex_norm2(n2));
-    return StackPowers(
-        complex_norm2(whole.r_s),
-        complex_norm2(whole.r_p),
-        complex_norm2(whole.t_s) * leaves_s / q0,
-        complex_norm2(whole.t_p) * leaves_p / q0,
-    );
+/// The powers of a whole stack seen from the incident medium.
+fn stack_powers(stack: Stack, substrate: Admittances, incident: Incident) -> StackPowers {
+    let q0 = sqrt(incident.q2);
+    let s = powers_of(stack.s, substrate.s, q0);
+    let p = powers_of(stack.p, substrate.p, q0 / incident.index2);
+    return StackPowers(s.reflectance, p.reflectance, s.transmittance, p.transmittance);
+}
+
+struct Powers {
+    reflectance: vec4f,
+    transmittance: vec4f,
+}
+
+/// R = |η₀ F − G|² / |η₀ F + G|² and T = 4 η₀ Re η_substrate |F_substrate|² / |η₀ F + G|² of the fields F and G at the top.
+fn powers_of(at_top: TangentialFields, substrate: Complex4, incident: f32) -> Powers {
+    let first = complex_scale(incident, at_top.first);
+    let sum = max(complex_norm2(complex_add(first, at_top.second)), vec4f(1e-30));
+    let reflected = complex_norm2(complex_sub(first, at_top.second));
+    return Powers(reflected / sum, 4.0 * incident * substrate.re * at_top.passed / sum);
 }

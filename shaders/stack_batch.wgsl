@@ -25,8 +25,8 @@ fn run_stack(stack: RunStack, cosine: f32, group: u32) -> StackPowers {
     let incident = Incident(index2, index2 * cosine * cosine);
     let inverse = 1.0 / run_wavelengths[group];
     let below = run_index(stack.substrate, group);
-    let substrate = stack_on(below.re, below.im, incident);
-    var built = substrate;
+    let substrate = substrate_admittances(below.re, below.im, incident);
+    var built = stack_on(substrate);
     for (var i = stack.layer_count; i > 0u; i--) {
         let layer = run_layers[stack.first_layer + i - 1u];
         let index = run_index(layer.medium, group);

@@ -133,6 +133,7 @@ fn uniform(row: usize, column: u32) -> f64 {
 
 /// Random stacks, each at one angle and wavelength of its own choice out of a few.
 struct RandomStacks {
+    incident: f64,
     wavelengths_nm: Vec<f64>,
     cosines: Vec<f64>,
     media: Vec<[f64; 2]>,
@@ -159,6 +160,7 @@ impl RandomStacks {
         };
         let total = count * depth as usize;
         Self {
+            incident: 1.0,
             wavelengths_nm: vec![410.0, 487.0, 555.0, 620.0, 705.0],
             cosines: degrees.iter().map(|d| d.to_radians().cos()).collect(),
             media,
@@ -177,7 +179,7 @@ impl RandomStacks {
         StackBatch {
             wavelengths_nm: &self.wavelengths_nm,
             cosines: &self.cosines,
-            incident: 1.0,
+            incident: self.incident,
             media: &self.media,
             is_dispersive: false,
             layers: &self.layers,
@@ -204,7 +206,7 @@ impl RandomStacks {
         for &cosine in &self.cosines {
             for &nm in &self.wavelengths_nm {
                 let found = stack(
-                    1.0,
+                    f64::from(self.incident as f32),
                     &layers,
                     index(of.substrate),
                     nm,
@@ -271,6 +273,32 @@ fn random_stacks_agree_with_f64() {
         println!(
             "{what}: {}",
             report.unwrap_or_else(|report| panic!("{what}: {report}"))
+        );
+    }
+}
+
+/// A layer between two prisms at and about its own critical angle: R and T are as smooth there as elsewhere.
+#[test]
+fn a_layer_at_its_critical_angle_is_like_any_other() {
+    let gpu = pellicle_tests::device::open();
+    for (prism, layer) in [
+        (2.0, 1.0),
+        (1.5, 1.0),
+        (2.0_f64.sqrt(), 1.2),
+        (2.0, 1.33),
+        (1.52, 1.38),
+    ] {
+        let critical = (layer / prism).asin().to_degrees();
+        let degrees = [-0.5, -1e-3, 0.0, 1e-3, 0.5].map(|off| critical + off);
+        let mut stacks = RandomStacks::new(1, 1, (0.0, 0.0), &degrees);
+        stacks.incident = prism;
+        stacks.media = vec![[layer, 0.0], [prism, 0.0]];
+        stacks.layers = vec![(0, 300.0)];
+        stacks.stacks[0].substrate = 1;
+        let report = stacks.compared(&gpu, FILM_GRAZING);
+        println!(
+            "{layer} in {prism}: {}",
+            report.unwrap_or_else(|report| panic!("{layer} in {prism}: {report}"))
         );
     }
 }

@@ -39,7 +39,7 @@ pub const MODULES: &[Module] = modules! {
     "phase": ["complex", "trig"];
     "film": ["complex", "phase", "trig"];
     "two_beam": ["film", "trig"];
-    "stack": ["complex", "phase"];
+    "stack": ["complex", "phase", "trig"];
     "microfacet": ["trig"];
     "bindings": ["layout"];
     "features": [];
