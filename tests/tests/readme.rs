@@ -42,3 +42,38 @@ fn the_files_that_it_names_exist() {
         assert!(root().join(name).exists(), "{name}");
     }
 }
+
+/// Every picture of the gallery is there, none is left over, and every scene that its commands name is one that the suites render.
+#[test]
+fn the_gallery_shows_what_there_is() {
+    let gallery =
+        std::fs::read_to_string(root().join("docs/gallery.md")).expect("there is a gallery");
+    let mut shown: Vec<&str> = gallery
+        .split("](gallery/")
+        .skip(1)
+        .filter_map(|rest| rest.split(')').next())
+        .collect();
+    shown.sort_unstable();
+    let files = std::fs::read_dir(root().join("docs/gallery")).expect("the gallery has pictures");
+    let mut there: Vec<String> = files
+        .map(|entry| {
+            entry
+                .expect("readable")
+                .file_name()
+                .into_string()
+                .expect("UTF-8")
+        })
+        .collect();
+    there.sort_unstable();
+    assert_eq!(shown, there);
+
+    let rendered: Vec<&str> = gallery
+        .split("pellicle render scenes/")
+        .skip(1)
+        .filter_map(|rest| rest.split(".toml").next())
+        .collect();
+    assert_eq!(rendered.len(), 8, "{rendered:?}");
+    for name in rendered {
+        assert!(pellicle_tests::scenes::SHIPPED.contains(&name), "{name}");
+    }
+}
