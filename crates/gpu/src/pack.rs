@@ -282,8 +282,7 @@ fn varying(layers: &[Layer]) -> u32 {
 fn record_limits(scene: &Scene) -> RecordLimits {
     let segments = scene.settings().max_path_segments;
     let films = scene.objects().iter().filter_map(|object| {
-        let is_film = matches!(scene.material(object.material), Material::Film { .. });
-        is_film.then_some(match object.shape {
+        is_film(scene.material(object.material)).then_some(match object.shape {
             Shape::Sphere { .. } => 2,
             _ => 1,
         })
@@ -300,16 +299,28 @@ fn record_limits(scene: &Scene) -> RecordLimits {
     RecordLimits {
         vertices: segments + 1,
         crossings: u32::max(crossings, 1),
-        thicknesses: u32::max(most_varying(scene) * (segments + crossings), 1),
+        thicknesses: u32::max(
+            most_varying(scene, |_| true) * segments + most_varying(scene, is_film) * crossings,
+            1,
+        ),
     }
 }
 
-/// The most thicknesses that one meeting with layers puts on record. A film's only layer has its place in the factor.
-fn most_varying(scene: &Scene) -> u32 {
-    let of_material = |object: &Object| match scene.material(object.material) {
-        Material::Conductor { layers, .. } => varying(layers),
-        Material::Film { layers, .. } if layers.len() > 1 => varying(layers),
-        _ => 0,
+fn is_film(material: &Material) -> bool {
+    matches!(material, Material::Film { .. })
+}
+
+/// The most thicknesses that one meeting with a material that is `wanted` puts on record. A film's only layer has its place
+/// in the factor.
+fn most_varying(scene: &Scene, wanted: fn(&Material) -> bool) -> u32 {
+    let of_object = |object: &Object| {
+        let material = scene.material(object.material);
+        let is_recorded = wanted(material) && !(is_film(material) && material.layers().len() == 1);
+        if is_recorded {
+            varying(material.layers())
+        } else {
+            0
+        }
     };
-    scene.objects().iter().map(of_material).max().unwrap_or(0)
+    scene.objects().iter().map(of_object).max().unwrap_or(0)
 }

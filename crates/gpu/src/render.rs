@@ -11,6 +11,9 @@ use std::time::Instant;
 use thiserror::Error;
 use wgpu::util::DeviceExt;
 
+/// The most thicknesses that a path remembers: 16 KiB of an invocation's own memory.
+const MAX_THICKNESSES: u32 = 4096;
+
 /// Why a render did not come to its end.
 #[derive(Clone, Debug, Error)]
 #[non_exhaustive]
@@ -31,6 +34,15 @@ pub enum RenderError {
         limit: u64,
         /// What to do.
         advice: &'static str,
+    },
+    /// The record of a path would be longer than an invocation can hold.
+    #[error(
+        "a path would have to remember {thicknesses} thicknesses of layers, but at most {MAX_THICKNESSES} are possible; \
+         let fewer layers of a stack vary over its surface, use fewer films, or set a smaller render.max_path_segments"
+    )]
+    RecordTooLong {
+        /// How many.
+        thicknesses: u32,
     },
     /// The caller asked to stop.
     #[error("stopped before the picture was finished")]
@@ -66,6 +78,10 @@ pub fn render_divided(
 ) -> Result<SpectralImage, RenderError> {
     let settings = scene.settings();
     let packed = PackedScene::new(scene);
+    let thicknesses = packed.limits.thicknesses;
+    if thicknesses > MAX_THICKNESSES {
+        return Err(RenderError::RecordTooLong { thicknesses });
+    }
     let bindings = bind_scene(gpu, &packed)?;
     let shader = Shader::assemble(&["render"], packed.limits, "");
     let pipeline = compile(gpu, &shader, "render", packed.features.constants())?;
