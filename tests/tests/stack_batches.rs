@@ -367,10 +367,10 @@ fn a_record_that_is_too_long_is_told() {
     let gpu = pellicle_tests::device::open();
     let layer =
         "{ index = 1.5, thickness_nm = { start = 1, end = 9, from = [0, 0, 0], to = [1, 0, 0] } }";
-    let scene = |layers: usize| {
+    let scene = |layers: usize, segments: u32| {
         let text = format!(
             "camera = {{ type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }}\n\
-             render = {{ size = [8, 8], samples = 1, max_path_segments = 32 }}\n\
+             render = {{ size = [8, 8], samples = 1, max_path_segments = {segments} }}\n\
              materials.x = {{ type = 'film', layers = [{}] }}\n\
              [[objects]]\ntype = 'sphere'\nmaterial = 'x'\ncenter = [0, 0, 0]\nradius = 1\n",
             vec![layer; layers].join(", ")
@@ -379,13 +379,13 @@ fn a_record_that_is_too_long_is_told() {
         file.and_then(|file| file.validate())
             .unwrap_or_else(|problems| panic!("{problems:#}"))
     };
-    let rendered = |layers| {
-        gpu::render(&gpu, &scene(layers), &mut |_| {
+    let rendered = |layers, segments| {
+        gpu::render(&gpu, &scene(layers, segments), &mut |_| {
             std::ops::ControlFlow::Continue(())
         })
     };
-    assert!(rendered(2).is_ok());
-    let error = rendered(64).expect_err("64 layers at every vertex and crossing");
+    assert!(rendered(2, 4).is_ok());
+    let error = rendered(64, 32).expect_err("64 layers at every vertex and crossing");
     let gpu::RenderError::RecordTooLong { thicknesses } = error else {
         panic!("{error}");
     };
