@@ -438,6 +438,16 @@ fn bad_arguments_are_told_and_leave_no_file() {
         );
         assert!(place.names().is_empty(), "{arguments}: {:?}", place.names());
     }
+    let many = format!("1 | {}1.5", "1.5 10nm | ".repeat(65));
+    told(
+        &film(&many, "--wavelengths 380:780:0.005 --absorptance").failed(),
+        &[
+            "--absorptance",
+            "80001 rows of 65 layers",
+            "at most 4000000",
+        ],
+        "",
+    );
     for report in ["--tolerance 1%", "--sensitivity", "--chart a.png"] {
         told(&film("1 | 1.5", report).failed(), &["no layer"], report);
     }

@@ -209,24 +209,37 @@ impl<'a> Film<'a> {
 
     /// The wavelengths asked for, or 380 to 780 nm in these steps.
     fn wavelengths_nm(&self, step_nm: usize) -> miette::Result<Vec<f64>> {
-        let Some(List(nm)) = &self.arguments.wavelengths else {
-            return Ok((380..=780).step_by(step_nm).map(f64::from).collect());
+        let nm = match &self.arguments.wavelengths {
+            Some(List(nm)) => nm.clone(),
+            None => (380..=780).step_by(step_nm).map(f64::from).collect(),
         };
-        let rows = nm.len() * self.angles.len();
-        if rows > MOST_ROWS {
-            return Err(miette!(
-                "{} wavelengths at {} angles are {rows} rows; at most {MOST_ROWS} are possible",
-                nm.len(),
-                self.angles.len()
-            ));
-        }
+        self.check_rows(nm.len())?;
         let possible = pellicle::scene::limits::TABLE_NM;
         match nm.iter().find(|&&nm| !possible.contains(nm)) {
             Some(nm) => Err(miette!(
                 "--wavelengths: {nm} nm; it must be from {possible}"
             )),
-            None => Ok(nm.clone()),
+            None => Ok(nm),
         }
+    }
+
+    /// With the absorptance of layers a row has a figure for each of them.
+    fn check_rows(&self, wavelengths: usize) -> miette::Result<()> {
+        let angles = self.angles.len();
+        let rows = wavelengths * angles;
+        let layers = self.stack.layers().len();
+        if rows > MOST_ROWS {
+            return Err(miette!(
+                "{wavelengths} wavelengths at {angles} angles are {rows} rows; at most {MOST_ROWS} are possible"
+            ));
+        }
+        if self.arguments.absorptance && rows.saturating_mul(layers) > MOST_ROWS {
+            return Err(miette!(
+                help = "take fewer wavelengths or angles",
+                "--absorptance: {rows} rows of {layers} layers; rows times layers may be at most {MOST_ROWS}"
+            ));
+        }
+        Ok(())
     }
 
     /// R and T for each angle at each wavelength.
