@@ -297,6 +297,17 @@ fn a_wanted_colour_is_found_again() {
     assert!(told_exposure.succeeded().stdout.contains("EV"));
 }
 
+/// Nothing is seen of a layer below opaque gold.
+#[test]
+fn a_layer_that_is_not_seen_is_told() {
+    let stack = "air | gold 500nm | silica 100nm | 1.5";
+    let said = film(stack, "--match #2e6fd0 --vary 2:0:400").succeeded();
+    told(&said.stdout, &["does not depend on this layer"], "");
+    assert!(!said.stdout.contains(" EV"), "{}", said.stdout);
+    let ends = film(STEP, "--match #000000 --vary 1:20:30").succeeded();
+    told(&ends.stdout, &["(end of the range)"], "");
+}
+
 #[test]
 fn tolerance_and_sensitivity_are_reported_per_layer() {
     let stack = "air | titania 60nm | silica 90nm | bk7";
@@ -401,6 +412,10 @@ fn bad_arguments_are_told_and_leave_no_file() {
             vec!["\"blue\" is not a colour", "#2e6fd0"],
         ),
         ("--match #123456", vec!["--vary"]),
+        (
+            "--match #000000 --vary 1:0:100 --match-by chromaticity",
+            vec!["black has no chromaticity"],
+        ),
         (
             "--match #123456 --vary 1:0:100 --angles 0,1",
             vec!["one angle"],
