@@ -150,6 +150,7 @@ fn json_says_what_it_is() {
         serde_json::json!([1.5, 0.1])
     );
     assert_eq!(json["stack"]["substrate"], "silicon");
+    assert!(json["backend"].as_str().unwrap().starts_with("CPU"));
     assert_eq!(json["wavelengths_nm"], serde_json::json!([400.0, 500.0]));
     let figure = |value: &Value| value.as_f64().unwrap();
     assert_eq!(figure(&json["indices"]["substrate"]["n"][0]), 5.613);
@@ -195,6 +196,8 @@ fn without_a_file_there_is_a_table_with_the_colours() {
     )
     .succeeded();
     told(&short.stdout, &["transmitted under A, shown at +1 EV"], "");
+    told(&short.stderr, &["not adapted to A"], "");
+    assert!(!ran.stderr.contains("adapted"), "{}", ran.stderr);
     assert_eq!(
         film(STEP, "--format table --angles 0,60")
             .succeeded()
@@ -430,6 +433,23 @@ fn bad_arguments_are_told_and_leave_no_file() {
         ("--plot a.png --angles 0:80:1", vec!["81 angles"]),
         ("--chart a.svg", vec!["a.svg", ".png"]),
         ("--plot a.png --chart a.png", vec!["same file"]),
+        ("--plot ./a.png --chart a.png", vec!["same file"]),
+        (
+            "--sensitivity --backend gpu",
+            vec!["--backend gpu has no effect", "R and T"],
+        ),
+        (
+            "--match #123456 --vary 1:0:100 --wavelengths 500",
+            vec!["--wavelengths has no effect", "R and T"],
+        ),
+        (
+            "--plot a.png --absorptance",
+            vec!["--absorptance has no effect", "--format table"],
+        ),
+        (
+            "--vary 1:0:100",
+            vec!["--vary has no effect", "--match and --chart"],
+        ),
         (
             "--angles 0:89:0.001 --wavelengths 380:780:0.1",
             vec!["rows", "at most 4000000"],
