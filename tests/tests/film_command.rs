@@ -150,6 +150,7 @@ fn json_says_what_it_is() {
         serde_json::json!([1.5, 0.1])
     );
     assert_eq!(json["stack"]["substrate"], "silicon");
+    assert!(json["backend"].as_str().unwrap().starts_with("CPU"));
     assert_eq!(json["wavelengths_nm"], serde_json::json!([400.0, 500.0]));
     let figure = |value: &Value| value.as_f64().unwrap();
     assert_eq!(figure(&json["indices"]["substrate"]["n"][0]), 5.613);
@@ -195,6 +196,8 @@ fn without_a_file_there_is_a_table_with_the_colours() {
     )
     .succeeded();
     told(&short.stdout, &["transmitted under A, shown at +1 EV"], "");
+    told(&short.stderr, &["not adapted to A"], "");
+    assert!(!ran.stderr.contains("adapted"), "{}", ran.stderr);
     assert_eq!(
         film(STEP, "--format table --angles 0,60")
             .succeeded()
@@ -295,6 +298,17 @@ fn a_wanted_colour_is_found_again() {
         "--match #99ccff --vary 1:20:700 --match-by chromaticity",
     );
     assert!(told_exposure.succeeded().stdout.contains("EV"));
+}
+
+/// Nothing is seen of a layer below opaque gold.
+#[test]
+fn a_layer_that_is_not_seen_is_told() {
+    let stack = "air | gold 500nm | silica 100nm | 1.5";
+    let said = film(stack, "--match #2e6fd0 --vary 2:0:400").succeeded();
+    told(&said.stdout, &["does not depend on this layer"], "");
+    assert!(!said.stdout.contains(" EV"), "{}", said.stdout);
+    let ends = film(STEP, "--match #000000 --vary 1:20:30").succeeded();
+    told(&ends.stdout, &["(end of the range)"], "");
 }
 
 #[test]
@@ -402,6 +416,10 @@ fn bad_arguments_are_told_and_leave_no_file() {
         ),
         ("--match #123456", vec!["--vary"]),
         (
+            "--match #000000 --vary 1:0:100 --match-by chromaticity",
+            vec!["black has no chromaticity"],
+        ),
+        (
             "--match #123456 --vary 1:0:100 --angles 0,1",
             vec!["one angle"],
         ),
@@ -415,6 +433,23 @@ fn bad_arguments_are_told_and_leave_no_file() {
         ("--plot a.png --angles 0:80:1", vec!["81 angles"]),
         ("--chart a.svg", vec!["a.svg", ".png"]),
         ("--plot a.png --chart a.png", vec!["same file"]),
+        ("--plot ./a.png --chart a.png", vec!["same file"]),
+        (
+            "--sensitivity --backend gpu",
+            vec!["--backend gpu has no effect", "R and T"],
+        ),
+        (
+            "--match #123456 --vary 1:0:100 --wavelengths 500",
+            vec!["--wavelengths has no effect", "R and T"],
+        ),
+        (
+            "--plot a.png --absorptance",
+            vec!["--absorptance has no effect", "--format table"],
+        ),
+        (
+            "--vary 1:0:100",
+            vec!["--vary has no effect", "--match and --chart"],
+        ),
         (
             "--angles 0:89:0.001 --wavelengths 380:780:0.1",
             vec!["rows", "at most 4000000"],
@@ -438,6 +473,16 @@ fn bad_arguments_are_told_and_leave_no_file() {
         );
         assert!(place.names().is_empty(), "{arguments}: {:?}", place.names());
     }
+    let many = format!("1 | {}1.5", "1.5 10nm | ".repeat(65));
+    told(
+        &film(&many, "--wavelengths 380:780:0.005 --absorptance").failed(),
+        &[
+            "--absorptance",
+            "80001 rows of 65 layers",
+            "at most 4000000",
+        ],
+        "",
+    );
     for report in ["--tolerance 1%", "--sensitivity", "--chart a.png"] {
         told(&film("1 | 1.5", report).failed(), &["no layer"], report);
     }

@@ -1,7 +1,7 @@
 //! The colour of a stack over the thickness of one layer and the angle: Newton's chart of any stack.
 
 use crate::colour::{Side, StackColour};
-use crate::picture::{self, Drawing, Drawn, INK, Scale, draw_title, exposure};
+use crate::picture::{self, Drawing, Drawn, INK, Scale, decimals, draw_title, exposure};
 use crate::plot::polarisation;
 use crate::response::Angle;
 use color::{RgbImage8, srgb};
@@ -123,6 +123,10 @@ fn place(t: f64, points: usize) -> (usize, f64) {
     (cell, at - cell as f64)
 }
 
+/// The most labels of the axes.
+const X_LABELS: usize = 11;
+const Y_LABELS: usize = 10;
+
 impl Drawing for Chart {
     fn size(&self) -> (u32, u32) {
         (900, 520)
@@ -143,6 +147,9 @@ impl Drawing for Chart {
                 self.range_nm.0..self.range_nm.1,
                 self.range_deg.0..self.range_deg.1,
             )?;
+        let (nm, deg) = (self.range_nm, self.range_deg);
+        let x_decimals = decimals(nm.0, nm.1, X_LABELS, 0);
+        let y_decimals = decimals(deg.0, deg.1, Y_LABELS, 0);
         self.paint(&chart.plotting_area().strip_coord_spec(), scale)?;
         chart
             .configure_mesh()
@@ -153,10 +160,10 @@ impl Drawing for Chart {
             .axis_desc_style(scale.text(14.0))
             .x_desc(self.axis.as_str())
             .y_desc("angle of incidence / °")
-            .x_labels(11)
-            .y_labels(10)
-            .x_label_formatter(&|nm| format!("{nm:.0}"))
-            .y_label_formatter(&|deg| format!("{deg:.0}"))
+            .x_labels(X_LABELS)
+            .y_labels(Y_LABELS)
+            .x_label_formatter(&|nm| format!("{nm:.x_decimals$}"))
+            .y_label_formatter(&|deg| format!("{deg:.y_decimals$}"))
             .draw()?;
         if (self.range_nm.0..=self.range_nm.1).contains(&self.nominal_nm) {
             let (x, y) = chart.backend_coord(&(self.nominal_nm, self.range_deg.1));

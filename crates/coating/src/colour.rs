@@ -98,9 +98,13 @@ impl Colour {
         format!("#{r:02x}{g:02x}{b:02x}")
     }
 
-    /// Whether a display of sRGB can show it, 2^EV times as bright.
+    /// Whether a display of sRGB can show it, 2^EV times as bright, to half a code of 8 bits: what is closer than that to its gamut
+    /// is not clipped, but rounded.
     pub fn is_in_srgb(&self, exposure_ev: f64) -> bool {
-        let fits = |v: f64| (-1e-9..=1.0 + 1e-9).contains(&v);
+        const HALF: f64 = 0.5 / 255.0;
+        // The curve of sRGB (IEC 61966-2-1) half a code below 0 and above 1.
+        let (low, high) = (-HALF / 12.92, ((1.0 + HALF + 0.055) / 1.055).powf(2.4));
+        let fits = |v: f64| (low..=high).contains(&v);
         self.linear_srgb(exposure_ev).into_iter().all(fits)
     }
 }
@@ -226,6 +230,24 @@ mod tests {
         };
         assert_eq!(colour.hex(0.0), "#2e6fd0");
         assert!(colour.is_in_srgb(0.0) && !colour.is_in_srgb(1.0));
+    }
+
+    /// A mirror is white: the sums at 1 nm leave it a rounding beside the display's white.
+    #[test]
+    fn a_perfect_mirror_is_not_clipped() {
+        let white = Light::named("D65").unwrap().white();
+        let times = |by: f64| Colour {
+            xyz: white.map(|v| by * v),
+            white,
+        };
+        assert!(times(1.0).is_in_srgb(0.0) && times(1.002).is_in_srgb(0.0));
+        assert!(!times(1.01).is_in_srgb(0.0));
+        let lamp = Light::named("A").unwrap().white();
+        let orange = Colour {
+            xyz: lamp,
+            white: lamp,
+        };
+        assert!(!orange.is_in_srgb(0.0));
     }
 
     #[test]

@@ -43,7 +43,7 @@ pub use colour::{Colour, ParseColourError, Polarisation, Side, StackColour, View
 pub use file::{LayerDescription, StackDescription};
 pub use light::{Light, UnknownIlluminant};
 pub use line::LineError;
-pub use matching::{Match, MatchBy, Matching, matches};
+pub use matching::{Match, MatchBy, MatchPlace, Matching, matches};
 pub use optics::batch::Powers;
 pub use plot::{Curve, Plot};
 pub use response::{Angle, AngleError, Batch, Sampled, absorptance};

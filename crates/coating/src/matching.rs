@@ -44,7 +44,26 @@ pub struct Match {
     pub xyz: [f64; 3],
     /// By how many stops it was brightened.
     pub exposure_ev: f64,
+    /// Where in the range it lies.
+    pub place: MatchPlace,
 }
+
+/// Where in the range of thicknesses a match lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MatchPlace {
+    /// Within it: thinner and thicker films are further off.
+    Within,
+    /// At its thin end: thinner films than the range has may be nearer.
+    ThinEnd,
+    /// At its thick end: thicker films may be nearer, or make no difference.
+    ThickEnd,
+    /// Anywhere: the colour difference does not depend on the thickness.
+    Anywhere,
+}
+
+/// Colour differences that are told apart. What is less deep than this is no minimum: a rounding makes many in the colour of a film
+/// below which light does not come.
+const DEPTH: f64 = 1e-3;
 
 /// The step of the search before it is refined, nm. Colours turn over in half a wavelength of path, 20 nm and more of thickness in
 /// any medium of index below 10.
@@ -53,7 +72,7 @@ const STEP_NM: f64 = 1.0;
 const STEPS: (f64, f64) = (100.0, 100_000.0);
 
 /// The local minima of the colour difference over the thickness, the best first: the nearest thickness and its runners-up, one in
-/// each order of interference.
+/// each order of interference. Where the colour does not depend on the thickness there is one, [`MatchPlace::Anywhere`].
 ///
 /// Both colours are taken as a display of sRGB shows them, without adaptation, so that CIELAB is under the display's white.
 ///
@@ -82,19 +101,22 @@ pub fn matches(
     let grid: Vec<f64> = colours
         .map(|(step, xyz)| matching.judge(nm(step), xyz).delta_e)
         .collect();
-    let is_lowest = |&step: &usize| {
-        let before = step == 0 || grid[step] < grid[step - 1];
-        let after = step == steps || grid[step] <= grid[step + 1];
-        before && after
-    };
-    let mut found: Vec<Match> = (0..=steps)
-        .filter(is_lowest)
-        .map(|step| {
+    let mut found: Vec<Match> = minima(&grid)
+        .into_iter()
+        .map(|(step, place)| {
+            let on_grid = Match {
+                place,
+                ..at(nm(step))
+            };
             let between = (nm(step.saturating_sub(1)), nm((step + 1).min(steps)));
-            let on_grid = at(nm(step));
             let refined = at(lowest_between(between, |nm| at(nm).delta_e));
-            // An end of the range is its own minimum.
-            if refined.delta_e < on_grid.delta_e {
+            // An end is its own minimum, unless there is a deeper one beside it.
+            let deeper = match place {
+                MatchPlace::Within => 0.0,
+                MatchPlace::ThinEnd | MatchPlace::ThickEnd => DEPTH,
+                MatchPlace::Anywhere => f64::INFINITY,
+            };
+            if refined.delta_e < on_grid.delta_e - deeper {
                 refined
             } else {
                 on_grid
@@ -102,6 +124,40 @@ pub fn matches(
         })
         .collect();
     found.sort_by(|a, b| a.delta_e.total_cmp(&b.delta_e));
+    found
+}
+
+/// The minima from which values rise by more than [`DEPTH`] on both sides, or on one of them as far as an end: that end then.
+fn minima(values: &[f64]) -> Vec<(usize, MatchPlace)> {
+    let last = values.len() - 1;
+    let mut found = Vec::new();
+    // The lowest value since the last fall by more than the depth, or the highest since the last such rise.
+    let (mut lowest, mut highest) = (Some(0), 0);
+    for (step, &value) in values.iter().enumerate() {
+        match lowest {
+            Some(low) if value > values[low] + DEPTH => {
+                let is_end = found.is_empty() && values[0] <= values[low] + DEPTH;
+                found.push(if is_end {
+                    (0, MatchPlace::ThinEnd)
+                } else {
+                    (low, MatchPlace::Within)
+                });
+                (lowest, highest) = (None, step);
+            }
+            Some(low) if value < values[low] => lowest = Some(step),
+            None if value < values[highest] - DEPTH => lowest = Some(step),
+            None if value > values[highest] => highest = step,
+            _ => {}
+        }
+    }
+    match lowest {
+        Some(low) if found.is_empty() && values[0] <= values[low] + DEPTH => {
+            found.push((0, MatchPlace::Anywhere));
+        }
+        // The last value is not above the lowest by more than the depth.
+        Some(_) => found.push((last, MatchPlace::ThickEnd)),
+        None => {}
+    }
     found
 }
 
@@ -123,6 +179,7 @@ impl Matching {
             delta_e: delta_e_2000(lab(self.wanted), lab(xyz)),
             xyz,
             exposure_ev,
+            place: MatchPlace::Within,
         }
     }
 }
@@ -173,7 +230,7 @@ mod tests {
     #[test]
     fn the_thickness_of_a_known_colour_is_found() {
         let stack = silica_on_silicon();
-        for nm in [87.3, 312.456, 333.3] {
+        for nm in [20.4, 87.3, 312.456, 333.3, 699.6] {
             let wanted = stack.at(&[nm], Angle::NORMAL).xyz;
             let found = matches(
                 &stack,
@@ -220,6 +277,39 @@ mod tests {
         assert!(by_colour[0].delta_e > 10.0);
     }
 
+    /// Under opaque gold a layer makes no difference but roundings.
+    #[test]
+    fn roundings_are_no_orders() {
+        let stack = Stack::parse("1 | gold 500nm | silica 100nm | 1.5").unwrap();
+        let colour =
+            StackColour::new(&stack, Light::named("D65").unwrap(), View::default()).unwrap();
+        let of_layer = |layer| Matching {
+            layer,
+            from_nm: 0.0,
+            to_nm: 400.0,
+            ..matching(parse_srgb("#2e6fd0").unwrap(), MatchBy::Colour)
+        };
+        let thicknesses = stack.thicknesses_nm();
+        let below = matches(&colour, thicknesses, Angle::NORMAL, &of_layer(1));
+        assert_eq!(below.len(), 1, "{below:?}");
+        assert_eq!(below[0].place, MatchPlace::Anywhere);
+        let gold = matches(&colour, thicknesses, Angle::NORMAL, &of_layer(0));
+        assert!(gold.len() <= 3, "a thick film is all one: {gold:?}");
+    }
+
+    #[test]
+    fn minima_are_deep_or_at_an_end() {
+        use MatchPlace::{Anywhere, ThickEnd, ThinEnd, Within};
+        assert_eq!(minima(&[1.0, 1.0 + 1e-9, 1.0]), [(0, Anywhere)]);
+        assert_eq!(minima(&[3.0, 1.0, 2.0]), [(1, Within)]);
+        assert_eq!(
+            minima(&[1.0, 3.0, 2.0, 2.0 + 1e-9, 2.0, 4.0, 3.0]),
+            [(0, ThinEnd), (2, Within), (6, ThickEnd)]
+        );
+        assert_eq!(minima(&[3.0, 2.0, 1.0, 1.0 + 1e-9]), [(3, ThickEnd)]);
+        assert_eq!(minima(&[1.0, 2.0, 3.0]), [(0, ThinEnd)]);
+    }
+
     #[test]
     fn an_end_of_the_range_can_be_the_best() {
         let stack = silica_on_silicon();
@@ -231,6 +321,7 @@ mod tests {
             &matching(wanted, MatchBy::Colour),
         );
         assert_eq!(found[0].thickness_nm, 20.0);
+        assert_eq!(found[0].place, MatchPlace::ThinEnd);
         let _ = parse_srgb("#000").map(|black| {
             let found = matches(
                 &stack,

@@ -2,6 +2,8 @@
 
 use color::RgbImage8;
 use plotters::coord::Shift;
+use plotters::coord::ranged1d::{BoldPoints, Ranged};
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, register_font};
@@ -176,6 +178,21 @@ pub(crate) fn round_range(low: f64, high: f64) -> (f64, f64) {
     (first, last.max(first + step))
 }
 
+/// How many decimals, `least` or more, tell an axis's labels: as many as their steps have. `most` is the number of labels.
+pub(crate) fn decimals(from: f64, to: f64, most: usize, least: usize) -> usize {
+    let ticks = RangedCoordf64::from(from..to).key_points(BoldPoints(most));
+    let step = ticks
+        .windows(2)
+        .map(|pair| pair[1] - pair[0])
+        .fold(to - from, f64::min);
+    let is_told = |decimals: &usize| {
+        let unit = 10.0_f64.powi(*decimals as i32);
+        let is_exact = |tick: &f64| ((tick * unit).round() / unit - tick).abs() < 1e-3 * step;
+        ticks.iter().all(is_exact)
+    };
+    (least..12).find(is_told).unwrap_or(12)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -191,6 +208,21 @@ mod tests {
         assert!(found.ends_with("… (14 layers) | bk7"), "{found}");
         assert!(found.chars().count() <= 90, "{found}");
         assert_eq!(shortened("1 | 1.5 3 nm | 1"), "1 | 1.5 3 nm | 1");
+    }
+
+    #[test]
+    fn labels_differ() {
+        assert_eq!(decimals(380.0, 780.0, 9, 0), 0);
+        assert_eq!(decimals(0.0, 1.0, 6, 2), 2);
+        for (from, to) in [(500.0, 502.0), (0.0, 1e-3), (0.92, 0.93), (380.0, 380.001)] {
+            let decimals = decimals(from, to, 6, 0);
+            let ticks = RangedCoordf64::from(from..to).key_points(BoldPoints(6));
+            let labels: std::collections::BTreeSet<String> = ticks
+                .iter()
+                .map(|tick| format!("{tick:.decimals$}"))
+                .collect();
+            assert!(labels.len() == ticks.len() && ticks.len() > 2, "{labels:?}");
+        }
     }
 
     #[test]

@@ -1,13 +1,19 @@
 //! R, T and A of a stack over wavelength, with the colour of each angle.
 
 use crate::colour::{Colour, Polarisation, Side, View};
-use crate::picture::{self, Drawing, Drawn, FAINT, INK, Scale, draw_title, exposure, round_range};
+use crate::picture::{
+    self, Drawing, Drawn, FAINT, INK, Scale, decimals, draw_title, exposure, round_range,
+};
 use crate::response::{Angle, absorptance};
 use color::{RgbImage8, srgb};
 use optics::batch::Powers;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+/// The most labels of the axes.
+const X_LABELS: usize = 9;
+const Y_LABELS: usize = 6;
 
 /// A plot of R, T and A over wavelength, a curve per angle, with a swatch of each angle's colour.
 #[derive(Clone, Debug)]
@@ -24,6 +30,8 @@ pub struct Plot {
     pub illuminant: String,
     /// The swatches are 2^EV times as bright.
     pub exposure_ev: f64,
+    /// An absorptance that stays below is a rounding of R + T, and not shown.
+    pub rounding: f64,
 }
 
 /// What is shown of an angle.
@@ -57,17 +65,20 @@ impl Plot {
             Panel {
                 name: "reflectance R",
                 of: |p| p.reflectance,
+                least: 1e-9,
             },
             Panel {
                 name: "transmittance T",
                 of: |p| p.transmittance,
+                least: 1e-9,
             },
             Panel {
                 name: "absorptance A",
                 of: absorptance,
+                least: self.rounding,
             },
         ];
-        let is_seen = |panel: &Panel| self.extent(panel).1 > 1e-9;
+        let is_seen = |panel: &Panel| self.extent(panel).1 > panel.least;
         all.into_iter().filter(is_seen).collect()
     }
 
@@ -111,7 +122,8 @@ impl Plot {
                 scale.px(if is_last { 40.0 } else { 12.0 }),
             )
             .build_cartesian_2d(first..last, bottom..top)?;
-        let decimals = if top - bottom < 0.04 { 3 } else { 2 };
+        let x_decimals = decimals(first, last, X_LABELS, 0);
+        let y_decimals = decimals(bottom, top, Y_LABELS, 2);
         chart
             .configure_mesh()
             .axis_style(scale.line(INK, 1.0))
@@ -126,16 +138,16 @@ impl Plot {
                 ""
             })
             .y_desc(panel.name)
-            .x_labels(9)
-            .y_labels(6)
+            .x_labels(X_LABELS)
+            .y_labels(Y_LABELS)
             .x_label_formatter(&|nm| {
                 if is_last {
-                    format!("{nm:.0}")
+                    format!("{nm:.x_decimals$}")
                 } else {
                     String::new()
                 }
             })
-            .y_label_formatter(&|value| format!("{value:.decimals$}"))
+            .y_label_formatter(&|value| format!("{value:.y_decimals$}"))
             .draw()?;
         if is_last {
             draw_spectrum(
@@ -245,6 +257,8 @@ pub(crate) fn polarisation(polarisation: Polarisation) -> &'static str {
 struct Panel {
     name: &'static str,
     of: fn(Powers) -> optics::Polarised,
+    /// It is shown where it is more than this somewhere.
+    least: f64,
 }
 
 impl Drawing for Plot {
@@ -331,6 +345,7 @@ mod tests {
             view: View::default(),
             illuminant: "D65".to_owned(),
             exposure_ev: 0.0,
+            rounding: 1e-9,
         }
     }
 
@@ -365,6 +380,18 @@ mod tests {
         let codes = plot.curves[0].colour.unwrap().srgb8(0.0);
         let of_swatch = picture.data().chunks(3).filter(|pixel| **pixel == codes);
         assert!(of_swatch.count() > 2000);
+    }
+
+    /// In `f32` R + T of what absorbs nothing is 1 but for a rounding.
+    #[test]
+    fn a_rounding_is_no_absorptance() {
+        let mut plot = plot("1 | silica 300nm | 1.5", &[0.0]);
+        for powers in &mut plot.curves[0].powers {
+            powers.reflectance.s -= 3e-5;
+        }
+        assert!(plot.svg().contains("absorptance A"));
+        plot.rounding = 2e-4;
+        assert!(!plot.svg().contains("absorptance A"));
     }
 
     #[test]

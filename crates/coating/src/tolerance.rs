@@ -109,6 +109,9 @@ impl Tolerance {
     }
 }
 
+/// The most thicknesses that are in memory at a time.
+const MOST_THICKNESSES: usize = 1 << 16;
+
 /// Draws stacks with wrong thicknesses and looks at their colours.
 ///
 /// # Errors
@@ -124,42 +127,68 @@ pub fn tolerance(
 ) -> Result<Spread, ToleranceError> {
     tolerance.check(thicknesses_nm.len())?;
     let nominal = stack.at(thicknesses_nm, angle);
-    let drawn: Vec<Vec<f64>> = (0..tolerance.trials)
-        .map(|trial| tolerance.drawn(trial, thicknesses_nm))
-        .collect();
-    let colours = stack.xyz_of_all(&drawn, &[angle]);
-    let count = f64::from(tolerance.trials);
-    let mut mean = [0.0; 3];
-    for xyz in &colours {
-        mean = std::array::from_fn(|i| mean[i] + xyz[i] / count);
-    }
-    let mean = stack.colour(mean);
+    let drawn = |trial: u32| tolerance.drawn(trial, thicknesses_nm);
+    let all = scatter(stack, &nominal, angle, tolerance.trials, drawn);
+    let mean = stack.colour(all.mean);
     let alone = (0..thicknesses_nm.len()).map(|layer| {
-        let one_wrong = |wrong: &Vec<f64>| {
+        let one_wrong = |trial: u32| {
             let mut thicknesses = thicknesses_nm.to_vec();
-            thicknesses[layer] = wrong[layer];
+            thicknesses[layer] = drawn(trial)[layer];
             thicknesses
         };
-        let trials = drawn.iter().take(Tolerance::ALONE as usize);
-        let sets: Vec<Vec<f64>> = trials.map(one_wrong).collect();
-        quantiles(&nominal, &stack.xyz_of_all(&sets, &[angle]))
+        let trials = tolerance.trials.min(Tolerance::ALONE);
+        scatter(stack, &nominal, angle, trials, one_wrong).quantiles
     });
     Ok(Spread {
         nominal,
         mean,
         mean_delta_e: delta_e_2000(nominal.lab(), mean.lab()),
-        all: quantiles(&nominal, &colours),
+        all: all.quantiles,
         alone: alone.collect(),
     })
 }
 
-/// Quantiles by the nearest rank: the smallest difference that at least the share of the trials does not exceed.
-fn quantiles(nominal: &Colour, colours: &[[f64; 3]]) -> Quantiles {
+/// What trials come to.
+struct Scatter {
+    /// The mean of their XYZ.
+    mean: [f64; 3],
+    quantiles: Quantiles,
+}
+
+/// Looks at trials part by part: of most only the colour difference is kept.
+fn scatter(
+    stack: &StackColour,
+    nominal: &Colour,
+    angle: Angle,
+    trials: u32,
+    drawn: impl Fn(u32) -> Vec<f64>,
+) -> Scatter {
     let lab = nominal.lab();
-    let mut differences: Vec<f64> = colours
-        .iter()
-        .map(|&xyz| delta_e_2000(lab, Lab::from_xyz(xyz, nominal.white)))
-        .collect();
+    let mut mean = [0.0; 3];
+    let mut differences = Vec::with_capacity(trials as usize);
+    for part in parts(trials, stack.sampled().layers().len()) {
+        let sets: Vec<Vec<f64>> = part.map(&drawn).collect();
+        for xyz in stack.xyz_of_all(&sets, &[angle]) {
+            mean = std::array::from_fn(|i| mean[i] + xyz[i] / f64::from(trials));
+            differences.push(delta_e_2000(lab, Lab::from_xyz(xyz, nominal.white)));
+        }
+    }
+    Scatter {
+        mean,
+        quantiles: quantiles(differences),
+    }
+}
+
+/// The trials in parts whose thicknesses are in memory at a time.
+fn parts(trials: u32, layers: usize) -> impl Iterator<Item = std::ops::Range<u32>> {
+    let step = (MOST_THICKNESSES / layers.max(1)).clamp(1, 1024);
+    (0..trials)
+        .step_by(step)
+        .map(move |first| first..trials.min(first.saturating_add(step as u32)))
+}
+
+/// Quantiles by the nearest rank: the smallest difference that at least the share of the trials does not exceed.
+fn quantiles(mut differences: Vec<f64>) -> Quantiles {
     differences.sort_by(f64::total_cmp);
     let at = |percent: usize| {
         let rank = (percent * differences.len()).div_ceil(100);
@@ -236,6 +265,33 @@ mod tests {
             Some(2),
             "half a nanometre matters least: {spread:?}"
         );
+    }
+
+    /// Every trial is looked at once, however many there are, and never more of them at a time than there is room for.
+    #[test]
+    fn memory_does_not_grow_with_trials_and_layers() {
+        for (trials, layers) in [(1, 1), (1024, 1), (1025, 3), (100_001, 65), (9, 1 << 20)] {
+            let mut next = 0;
+            for part in parts(trials, layers) {
+                assert!(part.start == next && part.end > next, "{part:?}");
+                assert!(part.len() == 1 || part.len() * layers <= MOST_THICKNESSES);
+                next = part.end;
+            }
+            assert_eq!(next, trials);
+        }
+    }
+
+    /// A mean over several parts is that over all trials.
+    #[test]
+    fn parts_make_up_the_whole() {
+        let (colour, thicknesses) = colour("1 | 1.9 120nm | silicon");
+        let found = tolerance(&colour, &thicknesses, Angle::NORMAL, SMALL).unwrap();
+        let drawn = (0..SMALL.trials).map(|trial| SMALL.drawn(trial, &thicknesses));
+        let all = colour.xyz_of_all(&drawn.collect::<Vec<_>>(), &[Angle::NORMAL]);
+        for i in 0..3 {
+            let mean = all.iter().map(|xyz| xyz[i]).sum::<f64>() / f64::from(SMALL.trials);
+            assert!((found.mean.xyz[i] - mean).abs() < 1e-12);
+        }
     }
 
     #[test]

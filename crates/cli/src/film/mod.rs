@@ -6,6 +6,7 @@ mod report;
 mod spectra;
 mod swatch;
 
+use crate::print;
 use clap::ValueEnum;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use numbers::{List, Vary};
@@ -37,10 +38,11 @@ pub(crate) struct Arguments {
     /// How R and T are printed: rows go by angle, then by wavelength [default: table, unless something else is asked for]
     #[arg(long, value_enum, conflicts_with_all = ["wanted", "tolerance", "sensitivity"])]
     format: Option<Format>,
-    /// Print the absorptance of each layer too
+    /// Print the absorptance of each layer too (always from the CPU)
     #[arg(long)]
     absorptance: bool,
-    /// What computes R and T: the CPU in f64, or a GPU in f32 (to 5e-5 up to 88°)
+    /// What computes R and T: the CPU in f64, or a GPU in f32. To 5e-5 up to 88° for ordinary stacks seen from air; incidence from a
+    /// denser medium near a critical angle, films beyond 10 µm and hundreds of layers lose more
     #[arg(long, value_enum, default_value_t = BackendName::Cpu)]
     backend: BackendName,
     #[command(flatten)]
@@ -82,7 +84,7 @@ pub(crate) struct Arguments {
 /// How colours are looked at.
 #[derive(clap::Args)]
 struct Look {
-    /// The light that colours are seen in
+    /// The light that colours are seen in; swatches and codes of sRGB are not adapted to it: under A white looks orange
     #[arg(long, value_name = "NAME", default_value = "D65")]
     illuminant: String,
     /// Stops by which colours are shown brighter: a soap film reflects 8 % at most
@@ -167,17 +169,60 @@ struct Film<'a> {
 
 /// Computes, prints and writes what is asked for.
 pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
+    arguments.check_uses()?;
     let film = Film::new(arguments)?;
     // What cannot be written is told before anything is computed.
     pictures::check(&film)?;
-    let reports =
-        arguments.wanted.is_some() || arguments.tolerance.is_some() || arguments.sensitivity;
-    let pictures = arguments.plot.is_some() || arguments.chart.is_some();
-    if arguments.format.is_some() || !(reports || pictures) {
+    if arguments.prints_spectra() {
         spectra::print(&film, arguments.format.unwrap_or(Format::Table))?;
     }
     report::print(&film)?;
-    pictures::write(&film)
+    pictures::write(&film)?;
+    film.note_adaptation();
+    Ok(())
+}
+
+impl Arguments {
+    /// Whether R and T are printed: where they are asked for, or nothing is.
+    fn prints_spectra(&self) -> bool {
+        let reports = self.wanted.is_some() || self.tolerance.is_some() || self.sensitivity;
+        let pictures = self.plot.is_some() || self.chart.is_some();
+        self.format.is_some() || !(reports || pictures)
+    }
+
+    /// An option that nothing would heed is a mistake.
+    fn check_uses(&self) -> miette::Result<()> {
+        let spectra = self.prints_spectra();
+        let spectra_or_plot = spectra || self.plot.is_some();
+        let uses = [
+            (
+                "--backend gpu",
+                self.backend == BackendName::Gpu && !spectra_or_plot,
+                "R and T, printed or with --plot; the rest is computed on the CPU",
+            ),
+            (
+                "--wavelengths",
+                self.wavelengths.is_some() && !spectra_or_plot,
+                "R and T, printed or with --plot; colours are sums from 380 to 780 nm",
+            ),
+            (
+                "--absorptance",
+                self.absorptance && !spectra,
+                "printed R and T; add --format table",
+            ),
+            (
+                "--vary",
+                self.vary.is_some() && self.wanted.is_none() && self.chart.is_none(),
+                "--match and --chart",
+            ),
+        ];
+        match uses.into_iter().find(|(_, is_unused, _)| *is_unused) {
+            Some((option, _, purpose)) => {
+                Err(miette!("{option} has no effect here: it is for {purpose}"))
+            }
+            None => Ok(()),
+        }
+    }
 }
 
 impl<'a> Film<'a> {
@@ -209,36 +254,78 @@ impl<'a> Film<'a> {
 
     /// The wavelengths asked for, or 380 to 780 nm in these steps.
     fn wavelengths_nm(&self, step_nm: usize) -> miette::Result<Vec<f64>> {
-        let Some(List(nm)) = &self.arguments.wavelengths else {
-            return Ok((380..=780).step_by(step_nm).map(f64::from).collect());
+        let nm = match &self.arguments.wavelengths {
+            Some(List(nm)) => nm.clone(),
+            None => (380..=780).step_by(step_nm).map(f64::from).collect(),
         };
-        let rows = nm.len() * self.angles.len();
-        if rows > MOST_ROWS {
-            return Err(miette!(
-                "{} wavelengths at {} angles are {rows} rows; at most {MOST_ROWS} are possible",
-                nm.len(),
-                self.angles.len()
-            ));
-        }
+        self.check_rows(nm.len())?;
         let possible = pellicle::scene::limits::TABLE_NM;
         match nm.iter().find(|&&nm| !possible.contains(nm)) {
             Some(nm) => Err(miette!(
                 "--wavelengths: {nm} nm; it must be from {possible}"
             )),
-            None => Ok(nm.clone()),
+            None => Ok(nm),
         }
     }
 
-    /// R and T for each angle at each wavelength.
-    fn powers(&self, sampled: &coating::Sampled) -> miette::Result<Vec<Vec<coating::Powers>>> {
+    /// With the absorptance of layers a row has a figure for each of them.
+    fn check_rows(&self, wavelengths: usize) -> miette::Result<()> {
+        let angles = self.angles.len();
+        let rows = wavelengths * angles;
+        let layers = self.stack.layers().len();
+        if rows > MOST_ROWS {
+            return Err(miette!(
+                "{wavelengths} wavelengths at {angles} angles are {rows} rows; at most {MOST_ROWS} are possible"
+            ));
+        }
+        if self.arguments.absorptance && rows.saturating_mul(layers) > MOST_ROWS {
+            return Err(miette!(
+                help = "take fewer wavelengths or angles",
+                "--absorptance: {rows} rows of {layers} layers; rows times layers may be at most {MOST_ROWS}"
+            ));
+        }
+        Ok(())
+    }
+
+    /// What computes R and T.
+    fn renderer(&self) -> miette::Result<Renderer> {
         let backend = match self.arguments.backend {
             BackendName::Cpu => Backend::Cpu,
             BackendName::Gpu => Backend::Gpu(AdapterChoice::Best),
         };
-        let renderer = Renderer::open(&backend).into_diagnostic()?;
+        Renderer::open(&backend).into_diagnostic()
+    }
+
+    /// Below this an absorptance is the rounding of R + T.
+    fn rounding(&self) -> f64 {
+        match self.arguments.backend {
+            BackendName::Cpu => 1e-9,
+            BackendName::Gpu => 2e-4,
+        }
+    }
+
+    /// Says that colours are shown as the light makes them. D65 is the display's own white, and CSV has no colours.
+    fn note_adaptation(&self) {
+        let only_csv = self.arguments.format == Some(Format::Csv)
+            && self.arguments.plot.is_none()
+            && self.arguments.chart.is_none();
+        if self.light.name() != "D65" && !only_csv {
+            print::note(format_args!(
+                "swatches and codes of sRGB are not adapted to {}: white under it does not look white",
+                self.light.name()
+            ));
+        }
+    }
+
+    /// R and T for each angle at each wavelength.
+    fn powers(
+        &self,
+        renderer: &Renderer,
+        sampled: &coating::Sampled,
+    ) -> miette::Result<Vec<Vec<coating::Powers>>> {
         let thicknesses = [self.stack.thicknesses_nm().to_vec()];
         let batch = sampled.batch(&thicknesses, &self.angles);
-        let powers = stacks::evaluate(&renderer, &batch.as_batch()).into_diagnostic()?;
+        let powers = stacks::evaluate(renderer, &batch.as_batch()).into_diagnostic()?;
         let per_angle = powers.chunks(sampled.wavelengths_nm().len());
         Ok(per_angle.map(<[_]>::to_vec).collect())
     }

@@ -25,7 +25,10 @@ fn item_of_list(item: &str) -> Result<Vec<f64>, String> {
     let parts: Vec<&str> = item.split(':').collect();
     match parts.as_slice() {
         [only] => Ok(vec![number(only)?]),
-        [from, to, step] => range(number(from)?, number(to)?, number(step)?),
+        [from, to, step] => {
+            let decimals = decimals(from).zip(decimals(step)).map(|(a, b)| a.max(b));
+            range(number(from)?, number(to)?, number(step)?, decimals)
+        }
         _ => Err(format!(
             "{item:?} is neither a number nor a range FROM:TO:STEP like 380:780:10"
         )),
@@ -33,7 +36,7 @@ fn item_of_list(item: &str) -> Result<Vec<f64>, String> {
 }
 
 /// From, from + step … as far as to, which is reached where a step falls on it but for a rounding.
-fn range(from: f64, to: f64, step: f64) -> Result<Vec<f64>, String> {
+fn range(from: f64, to: f64, step: f64, decimals: Option<usize>) -> Result<Vec<f64>, String> {
     if to < from {
         return Err(format!(
             "the range runs backwards; write {to}:{from}:{}",
@@ -48,8 +51,21 @@ fn range(from: f64, to: f64, step: f64) -> Result<Vec<f64>, String> {
         return Err(format!("more than {MOST} numbers; take a larger step"));
     }
     Ok((0..=steps as usize)
-        .map(|i| from + i as f64 * step)
+        .map(|i| rounded(from + i as f64 * step, decimals))
         .collect())
+}
+
+/// The number that is written with so many decimals: 508.2, not 508.20000000000005.
+fn rounded(value: f64, decimals: Option<usize>) -> f64 {
+    let written = decimals.and_then(|decimals| format!("{value:.decimals$}").parse().ok());
+    written.unwrap_or(value)
+}
+
+/// How many decimals a number was written with; `None` where it has an exponent, or too many to round to.
+fn decimals(text: &str) -> Option<usize> {
+    let text = text.trim();
+    let count = text.split_once('.').map_or(0, |(_, digits)| digits.len());
+    (!text.contains(['e', 'E']) && count <= 12).then_some(count)
 }
 
 /// A finite number.
@@ -117,6 +133,10 @@ mod tests {
         assert_eq!(list("380:400:10,550"), Ok(vec![380.0, 390.0, 400.0, 550.0]));
         assert_eq!(list("380:399:10"), Ok(vec![380.0, 390.0]));
         assert_eq!(list("0:0.3:0.1").unwrap().len(), 4);
+        assert_eq!(list("508:508.5:0.1").unwrap()[2], 508.2);
+        assert_eq!(list("380:780:0.1").unwrap()[1282], 508.2);
+        assert_eq!(list("0.25:1:.25").unwrap()[1..], [0.5, 0.75, 1.0]);
+        assert_eq!(list("0:4e-1:1e-1").unwrap()[2], 0.2);
         assert_eq!(list("5:5:1"), Ok(vec![5.0]));
         for bad in [
             "", "a", "1,", "1:2", "1:2:3:4", "1:2:0", "1:2:-1", "nan", "inf", "0:1e9:1",

@@ -7,7 +7,7 @@ use pellicle::coating::{Angle, Chart, ChartOf, Curve, Plot};
 use pellicle::color::{PendingFile, RgbImage8, png};
 use std::ffi::OsStr;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// What a picture is written as.
 #[derive(Clone, Copy, PartialEq)]
@@ -37,7 +37,9 @@ pub(crate) fn check(film: &Film) -> miette::Result<()> {
     if let Some(path) = &arguments.chart {
         place("--chart", path, &[Kind::Png], film)?;
     }
-    if arguments.plot.is_some() && arguments.plot == arguments.chart {
+    if let (Some(plot), Some(chart)) = (&arguments.plot, &arguments.chart)
+        && resolved(plot) == resolved(chart)
+    {
         return Err(miette!("--plot and --chart are the same file"));
     }
     if let Some(vary) = &arguments.vary {
@@ -66,7 +68,7 @@ pub(crate) fn write(film: &Film) -> miette::Result<()> {
 
 fn plot(film: &Film) -> miette::Result<Plot> {
     let wavelengths_nm = film.wavelengths_nm(1)?;
-    let powers = film.powers(&film.stack.sampled(&wavelengths_nm)?)?;
+    let powers = film.powers(&film.renderer()?, &film.stack.sampled(&wavelengths_nm)?)?;
     // A stack that is known outside visible light alone has curves, but no colours.
     let colour = film.colour().ok();
     let thicknesses = film.stack.thicknesses_nm();
@@ -82,6 +84,7 @@ fn plot(film: &Film) -> miette::Result<Plot> {
         view: film.arguments.look.view(),
         illuminant: film.light.name().to_owned(),
         exposure_ev: film.exposure_ev,
+        rounding: film.rounding(),
     })
 }
 
@@ -130,6 +133,15 @@ fn range_of_angles(angles: &[Angle]) -> miette::Result<(Angle, Angle)> {
         Angle::from_degrees(low).into_diagnostic()?,
         Angle::from_degrees(high).into_diagnostic()?,
     ))
+}
+
+/// The file's own name in the folder that it really is in.
+fn resolved(path: &Path) -> PathBuf {
+    let name = path.file_name().unwrap_or_default();
+    let folder = path.parent().filter(|folder| *folder != Path::new(""));
+    let folder = folder.unwrap_or(Path::new("."));
+    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    folder.join(name)
 }
 
 fn kind(path: &Path) -> Option<Kind> {

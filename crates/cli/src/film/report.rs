@@ -5,7 +5,9 @@ use super::swatch::swatch;
 use super::{Film, Vary, Wanted};
 use crate::print;
 use miette::miette;
-use pellicle::coating::{self, Angle, Match, Matching, Quantiles, StackColour, Tolerance};
+use pellicle::coating::{
+    self, Angle, Match, MatchBy, MatchPlace, Matching, Quantiles, StackColour, Tolerance,
+};
 use pellicle::color::srgb;
 use std::fmt::Write;
 
@@ -53,6 +55,12 @@ fn matches(film: &Film, wanted: &Wanted, vary: &Vary) -> miette::Result<String> 
             film.angles.len()
         ));
     };
+    if film.match_by() == MatchBy::Chromaticity && wanted.xyz[1] <= 0.0 {
+        return Err(miette!(
+            help = "leave --match-by out, or ask for a colour",
+            "--match-by chromaticity: black has no chromaticity"
+        ));
+    }
     let matching = Matching {
         wanted: wanted.xyz,
         layer,
@@ -80,6 +88,21 @@ fn matches(film: &Film, wanted: &Wanted, vary: &Vary) -> miette::Result<String> 
         seen(film),
         film.light.name(),
     );
+    if let [
+        only @ Match {
+            place: MatchPlace::Anywhere,
+            ..
+        },
+    ] = found.as_slice()
+    {
+        let _ = writeln!(
+            text,
+            "the colour does not depend on this layer: ΔE2000 {:.3} at any of these thicknesses, {}",
+            only.delta_e,
+            code(only)
+        );
+        return Ok(text);
+    }
     let _ = writeln!(
         text,
         "{:>4} {:>14} {:>10} {:>9}  colour",
@@ -89,21 +112,29 @@ fn matches(film: &Film, wanted: &Wanted, vary: &Vary) -> miette::Result<String> 
         text.push_str(&line_of_match(index + 1, found));
     }
     if found.len() > MOST_MATCHES {
-        let _ = writeln!(text, "and {} more orders", found.len() - MOST_MATCHES);
+        let _ = writeln!(text, "and {} more", found.len() - MOST_MATCHES);
     }
     Ok(text)
 }
 
 fn line_of_match(number: usize, found: &Match) -> String {
-    let codes = srgb::linear_from_xyz(found.xyz).map(srgb::to_u8);
+    let place = match found.place {
+        MatchPlace::ThinEnd | MatchPlace::ThickEnd => "  (end of the range)",
+        MatchPlace::Within | MatchPlace::Anywhere => "",
+    };
     format!(
-        "{number:>4} {:>14.3} {:>10.3} {:>9}  {}{}\n",
+        "{number:>4} {:>14.3} {:>10.3} {:>9}  {}{place}\n",
         found.thickness_nm,
         found.delta_e,
         format!("{:+.2} EV", found.exposure_ev + 0.0),
-        swatch(codes),
-        hex(codes)
+        code(found)
     )
+}
+
+/// The colour of a match: swatch and code.
+fn code(found: &Match) -> String {
+    let codes = srgb::linear_from_xyz(found.xyz).map(srgb::to_u8);
+    format!("{}{}", swatch(codes), hex(codes))
 }
 
 fn hex([r, g, b]: [u8; 3]) -> String {

@@ -11,6 +11,8 @@ use std::fmt::Write;
 /// What is known at each angle.
 struct Spectra<'a> {
     film: &'a Film<'a>,
+    /// What computed R and T.
+    backend: String,
     sampled: Sampled,
     angles: Vec<AtAngle>,
 }
@@ -37,7 +39,8 @@ pub(crate) fn print(film: &Film, format: Format) -> miette::Result<()> {
 impl<'a> Spectra<'a> {
     fn new(film: &'a Film<'a>) -> miette::Result<Self> {
         let sampled = film.stack.sampled(&film.wavelengths_nm(10)?)?;
-        let powers = film.powers(&sampled)?;
+        let renderer = film.renderer()?;
+        let powers = film.powers(&renderer, &sampled)?;
         let colour = film.colour().ok();
         let thicknesses = film.stack.thicknesses_nm();
         let at_angle = |(&angle, powers): (&Angle, Vec<Powers>)| AtAngle {
@@ -53,6 +56,7 @@ impl<'a> Spectra<'a> {
         let angles = film.angles.iter().zip(powers).map(at_angle).collect();
         Ok(Self {
             film,
+            backend: renderer.description(),
             sampled,
             angles,
         })
@@ -152,6 +156,7 @@ impl<'a> Spectra<'a> {
             "about": "power reflectance R and transmittance T (into the substrate) of a stack of thin films for s and p polarised light; \
                       index n + ik, k >= 0 absorbs; wavelengths in vacuum",
             "program": concat!("pellicle ", env!("CARGO_PKG_VERSION")),
+            "backend": self.backend,
             "stack": stack.description(),
             "indices": {
                 "incident": { "n": self.sampled.incident() },
