@@ -224,15 +224,24 @@ fn combined(
         .steps()
         .last()
         .is_some_and(|step| *step == Step::Key("product".to_owned()));
-    let bounds = parts.iter().map(largest);
-    let most: f64 = if is_product {
-        bounds.product()
-    } else {
-        bounds.sum()
+    let step = |so_far: f64, bound: f64| {
+        if is_product {
+            so_far * bound
+        } else {
+            so_far + bound
+        }
     };
-    if most > limits::MAX_FIELD_VALUE {
+    // Part after part, as it is evaluated: a later factor of 0 does not make up for what has left `f32` before it.
+    let mut so_far = f64::from(u8::from(is_product));
+    for (index, bound) in parts.iter().map(largest).enumerate() {
+        so_far = step(so_far, bound);
+        // A bound that is no number is not within it either.
+        if so_far <= limits::MAX_FIELD_VALUE {
+            continue;
+        }
         let message = format!(
-            "the values here may come to {most:.1e}; at most {:e} can be computed with",
+            "the values here may come to {so_far:.1e} in the first {} parts; at most {:e} can be computed with",
+            index + 1,
             limits::MAX_FIELD_VALUE
         );
         checks.report(Problem::new(ProblemKind::TooLarge, field, message));
