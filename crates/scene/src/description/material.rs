@@ -83,6 +83,26 @@ impl Material {
             path_difference: None,
         }
     }
+
+    /// The thicknesses of its layers.
+    pub(crate) fn thicknesses(&self) -> impl Iterator<Item = &Thickness> {
+        let (only, layers) = match self {
+            Self::Film {
+                thickness_nm,
+                layers,
+                ..
+            }
+            | Self::Coated {
+                thickness_nm,
+                layers,
+                ..
+            } => (thickness_nm.as_ref(), layers.as_deref()),
+            _ => (None, None),
+        };
+        let layers = layers.unwrap_or_default().iter();
+        only.into_iter()
+            .chain(layers.map(|layer| &layer.thickness_nm))
+    }
 }
 
 /// A layer of a stack.
