@@ -34,6 +34,7 @@ pub enum Material {
         thickness_nm: Option<Thickness>,
         /// The layers, the first on the outside of a sphere or on the side that a plane's normal points to.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(length(min = 1, max = limits::MAX_LAYERS))]
         layers: Option<Vec<Layer>>,
         /// How interference is computed.
         #[serde(default)]
@@ -55,6 +56,7 @@ pub enum Material {
         thickness_nm: Option<Thickness>,
         /// The layers, the outermost first.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(length(min = 1, max = limits::MAX_LAYERS))]
         layers: Option<Vec<Layer>>,
         /// Root mean square slope of the surface: 0 is a smooth mirror, otherwise from 0.02 to 1. Each microfacet reflects
         /// as the stack does at the facet's own angle.
