@@ -5,7 +5,8 @@ use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What a surface is made of. Every surface has two sides that behave alike.
+/// What a surface is made of. Every surface has two sides. They behave alike, but for a film of several layers that absorbs: from
+/// behind, light meets its layers in the reverse order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Material {
