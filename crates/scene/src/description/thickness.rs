@@ -212,7 +212,8 @@ pub struct Swirls {
     /// Size of the largest streaks: in scene units on planes, in radii on spheres.
     #[schemars(range(min = limits::SWIRL_SCALE.low, max = limits::SWIRL_SCALE.high))]
     pub scale: f64,
-    /// Chooses the pattern.
+    /// Chooses the pattern. The octaves take the seeds from this one on, so patterns of neighbouring seeds have lattices in
+    /// common: leave `octaves` between the seeds of patterns that should have nothing to do with each other.
     #[serde(default)]
     pub seed: u32,
     /// Octaves: each is half as large and half as strong as the one before.
