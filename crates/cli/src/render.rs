@@ -27,8 +27,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
     /// Render a sequence: frames FIRST up to but without END, each `time_step_s` after the one before, frame 0 at the scene's
-    /// time. They are numbered name_0000.png and so on
-    #[arg(long, value_name = "FIRST:END", value_parser = frames)]
+    /// time. They are numbered name_0000.png and so on, with more digits where the last one has more
+    #[arg(long, value_name = "FIRST:END", value_parser = frames, allow_hyphen_values = true)]
     frames: Option<Range<u32>>,
     #[command(flatten)]
     overrides: Overrides,
@@ -57,7 +57,7 @@ struct Overrides {
     #[arg(long)]
     seed: Option<u32>,
     /// Time in seconds, instead of the scene's; of frame 0 with --frames
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     time: Option<f64>,
 }
 
