@@ -146,7 +146,7 @@ fn render_frames(
     for frame in frames {
         let scene = scene_of(frame)?;
         let heading = format!("frame {frame} to {last} at {} s, ", scene.settings().time_s);
-        render_one(renderer, &scene, &outputs.of_frame(frame), &heading)
+        render_one(renderer, &scene, &outputs.of_frame(frame, last), &heading)
             .wrap_err_with(|| format!("frame {frame} failed"))?;
     }
     Ok(())
