@@ -425,7 +425,7 @@ fn a_sequence_has_a_numbered_file_for_each_frame_at_its_time() {
     assert_eq!(place.names(), ["a_0002.exr", "a_0003.exr", "film.toml"]);
     told(
         &ran.stderr,
-        &["frame 2 to 3 at 20 s", "wrote a_0003.exr"],
+        &["frame 2 of 2 to 3 at 20 s", "wrote a_0003.exr"],
         "",
     );
     let _ = place

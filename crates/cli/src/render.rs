@@ -135,7 +135,7 @@ fn render_frames(
         let render = &file.description.render;
         (render.time_s, render.time_step_s)
     };
-    let last = frames.end - 1;
+    let (first, last) = (frames.start, frames.end - 1);
     let mut scene_of = |frame: u32| {
         file.description.render.time_s = start_s + f64::from(frame) * step_s;
         let of_frame = file.validate().map_err(miette::Report::from);
@@ -145,11 +145,25 @@ fn render_frames(
     scene_of(last)?;
     for frame in frames {
         let scene = scene_of(frame)?;
-        let heading = format!("frame {frame} to {last} at {} s, ", scene.settings().time_s);
+        let time = shown_time(scene.settings().time_s, step_s);
+        let heading = format!("frame {frame} of {first} to {last} at {time} s, ");
         render_one(renderer, &scene, &outputs.of_frame(frame, last), &heading)
             .wrap_err_with(|| format!("frame {frame} failed"))?;
     }
     Ok(())
+}
+
+/// A time with the digits that tell it from those a step before and after.
+fn shown_time(time_s: f64, step_s: f64) -> String {
+    let decimals = 2.0 - step_s.log10().floor();
+    if !(0.0..=12.0).contains(&decimals) {
+        return time_s.to_string();
+    }
+    let text = format!("{time_s:.*}", decimals as usize);
+    match text.split_once('.') {
+        Some(_) => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        None => text,
+    }
 }
 
 /// Renders a picture and writes it; `heading` stands before what is said about it.
@@ -207,5 +221,27 @@ fn metadata(scene: &Scene, renderer: &Renderer) -> Metadata {
             .map(|(key, value)| (key.to_owned(), value))
             .collect(),
         ..Metadata::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_shown_as_finely_as_they_step() {
+        for (time_s, step_s, shown) in [
+            (1.0 / 24.0, 1.0 / 24.0, "0.0417"),
+            (1000.0 + 5.0 / 24.0, 1.0 / 24.0, "1000.2083"),
+            (2.0 / 24.0 + 1.0 / 6.0, 1.0 / 24.0, "0.25"),
+            (20.0, 5.0, "20"),
+            (300.0, 100.0, "300"),
+            (0.0, 1e-6, "0"),
+            (3e-6, 1e-6, "0.000003"),
+            (12.5, 0.0, "12.5"),
+            (1e6, 1e5, "1000000"),
+        ] {
+            assert_eq!(shown_time(time_s, step_s), shown, "{time_s} {step_s}");
+        }
     }
 }
