@@ -438,6 +438,23 @@ fn a_sequence_has_a_numbered_file_for_each_frame_at_its_time() {
 }
 
 #[test]
+fn a_sequence_of_a_scene_that_stands_still_is_told() {
+    let place = Place::default();
+    let drainage = "{ drainage = { initial = 900, radius_m = 0.01, viscosity_pa_s = 1e-7 } }";
+    assert!(GROWING.contains(drainage));
+    std::fs::write(place.path("film.toml"), GROWING).unwrap();
+    std::fs::write(place.path("still.toml"), GROWING.replace(drainage, "400")).unwrap();
+    let said = |arguments: &str| {
+        let arguments = format!("render {arguments} --backend cpu -o a.exr");
+        place.run(&arguments).succeeded().stderr
+    };
+    let note = "are the same picture";
+    assert!(said("still.toml --frames 0:2").contains(note));
+    assert!(!said("film.toml --frames 0:2").contains(note));
+    assert!(!said("still.toml --frames 0:1").contains(note));
+}
+
+#[test]
 fn sequences_that_cannot_be_are_refused_before_they_begin() {
     for (frames, said) in [
         ("--frames 4", "written like 0:48"),

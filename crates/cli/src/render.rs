@@ -142,7 +142,12 @@ fn render_frames(
         of_frame.wrap_err_with(|| format!("frame {frame} cannot be rendered"))
     };
     // The last frame has the latest time: an impossible one is told before the first is rendered.
-    scene_of(last)?;
+    let end = scene_of(last)?;
+    if first < last && scene_of(first)?.materials() == end.materials() {
+        print::note(format_args!(
+            "frames {first} to {last} are the same picture: nothing in the scene changes from one time to the other"
+        ));
+    }
     for frame in frames {
         let scene = scene_of(frame)?;
         let time = shown_time(scene.settings().time_s, step_s);
