@@ -425,7 +425,7 @@ fn a_sequence_has_a_numbered_file_for_each_frame_at_its_time() {
     assert_eq!(place.names(), ["a_0002.exr", "a_0003.exr", "film.toml"]);
     told(
         &ran.stderr,
-        &["frame 2 to 3 at 20 s", "wrote a_0003.exr"],
+        &["frame 2 of 2 to 3 at 20 s", "wrote a_0003.exr"],
         "",
     );
     let _ = place
@@ -438,16 +438,33 @@ fn a_sequence_has_a_numbered_file_for_each_frame_at_its_time() {
 }
 
 #[test]
+fn a_sequence_of_a_scene_that_stands_still_is_told() {
+    let place = Place::default();
+    let drainage = "{ drainage = { initial = 900, radius_m = 0.01, viscosity_pa_s = 1e-7 } }";
+    assert!(GROWING.contains(drainage));
+    std::fs::write(place.path("film.toml"), GROWING).unwrap();
+    std::fs::write(place.path("still.toml"), GROWING.replace(drainage, "400")).unwrap();
+    let said = |arguments: &str| {
+        let arguments = format!("render {arguments} --backend cpu -o a.exr");
+        place.run(&arguments).succeeded().stderr
+    };
+    let note = "are the same picture";
+    assert!(said("still.toml --frames 0:2").contains(note));
+    assert!(!said("film.toml --frames 0:2").contains(note));
+    assert!(!said("still.toml --frames 0:1").contains(note));
+}
+
+#[test]
 fn sequences_that_cannot_be_are_refused_before_they_begin() {
     for (frames, said) in [
         ("--frames 4", "written like 0:48"),
         ("--frames 4:4", "must be larger than the first"),
-        ("--frames=-1:4", "written like 0:48"),
+        ("--frames -1:4", "written like 0:48"),
     ] {
         refused(frames, &[said]);
     }
     refused(
-        "--time=-3",
+        "--time -3",
         &["render.time_s", "found -3", "set outside the file"],
     );
     let place = Place::default();

@@ -8,15 +8,21 @@ use std::ops::ControlFlow;
 
 const ALONG: &str = "from = [-0.5, 0.4, 0], to = [0.6, -0.5, 0.2]";
 
-/// A bubble and a film beside it, both of this thickness.
+/// A bubble and a film beside it, both of this thickness; two bubbles where it is for bubbles alone.
 fn scene(thickness: &str) -> Scene {
+    let is_for_spheres = thickness.contains("pole") || thickness.contains("radius_m");
+    let beside = if is_for_spheres {
+        "type = 'sphere'\nradius = 0.7"
+    } else {
+        "type = 'rectangle'\nnormal = [-0.2, 0, 1]\nsize = [1.4, 1.6]"
+    };
     let text = format!(
         "camera = {{ type = 'perspective', position = [0, 0, 4], look_at = [0, 0, 0], fov_deg = 40 }}\n\
          render = {{ size = [64, 40], samples = 4, bands = 8, max_path_segments = 4, time_s = 12.3 }}\n\
          environment = {{ type = 'gradient', zenith = {{ constant = 2 }}, horizon = {{ constant = 1 }} }}\n\
          [materials]\nfilm = {{ type = 'film', index = 1.45, thickness_nm = {thickness} }}\n\
          [[objects]]\ntype = 'sphere'\nmaterial = 'film'\ncenter = [-0.9, 0, 0]\nradius = 0.8\n\
-         [[objects]]\ntype = 'rectangle'\nmaterial = 'film'\ncenter = [0.9, 0, 0]\nnormal = [-0.2, 0, 1]\nsize = [1.4, 1.6]\n"
+         [[objects]]\n{beside}\nmaterial = 'film'\ncenter = [0.9, 0, 0]\n"
     );
     SceneFile::parse("field.toml", &text, &root())
         .and_then(|file| file.validate())

@@ -60,9 +60,13 @@ impl Outputs {
         self.spectral.push(named(".exr"));
     }
 
-    /// The same with the number of a frame in each name: `name_0000.png`.
-    pub(crate) fn of_frame(&self, frame: u32) -> Self {
-        let numbered = |paths: &[PathBuf]| paths.iter().map(|path| numbered(path, frame)).collect();
+    /// The same with the number of a frame in each name, `name_0000.png`: with four digits, or as many as the last frame
+    /// has, so that names sort by frame.
+    pub(crate) fn of_frame(&self, frame: u32, last: u32) -> Self {
+        let digits = last.to_string().len().max(4);
+        let number = format!("_{frame:0digits$}.");
+        let numbered =
+            |paths: &[PathBuf]| paths.iter().map(|path| numbered(path, &number)).collect();
         Self {
             pictures: numbered(&self.pictures),
             spectral: numbered(&self.spectral),
@@ -91,9 +95,9 @@ impl Outputs {
 }
 
 /// The number goes before the ending, which every output has.
-fn numbered(path: &Path, frame: u32) -> PathBuf {
+fn numbered(path: &Path, number: &str) -> PathBuf {
     let mut name = path.file_stem().unwrap_or_default().to_owned();
-    name.push(format!("_{frame:04}."));
+    name.push(number);
     name.push(path.extension().unwrap_or_default());
     path.with_file_name(name)
 }
@@ -182,9 +186,11 @@ mod tests {
     #[test]
     fn frames_are_numbered_before_the_ending() {
         let found = outputs(&["a.PNG", "./c.d.exr"]).unwrap();
-        assert_eq!(found.of_frame(7).pictures, [PathBuf::from("a_0007.PNG")]);
-        let late = found.of_frame(12_345);
+        assert_eq!(found.of_frame(7, 9).pictures, [PathBuf::from("a_0007.PNG")]);
+        let late = found.of_frame(12_345, 12_345);
         assert_eq!(late.spectral, [PathBuf::from("./c.d_12345.exr")]);
+        let early = found.of_frame(7, 12_345);
+        assert_eq!(early.spectral, [PathBuf::from("./c.d_00007.exr")]);
     }
 
     #[test]

@@ -27,8 +27,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
     /// Render a sequence: frames FIRST up to but without END, each `time_step_s` after the one before, frame 0 at the scene's
-    /// time. They are numbered name_0000.png and so on
-    #[arg(long, value_name = "FIRST:END", value_parser = frames)]
+    /// time. They are numbered name_0000.png and so on, with more digits where the last one has more
+    #[arg(long, value_name = "FIRST:END", value_parser = frames, allow_hyphen_values = true)]
     frames: Option<Range<u32>>,
     #[command(flatten)]
     overrides: Overrides,
@@ -57,7 +57,7 @@ struct Overrides {
     #[arg(long)]
     seed: Option<u32>,
     /// Time in seconds, instead of the scene's; of frame 0 with --frames
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     time: Option<f64>,
 }
 
@@ -135,21 +135,40 @@ fn render_frames(
         let render = &file.description.render;
         (render.time_s, render.time_step_s)
     };
-    let last = frames.end - 1;
+    let (first, last) = (frames.start, frames.end - 1);
     let mut scene_of = |frame: u32| {
         file.description.render.time_s = start_s + f64::from(frame) * step_s;
         let of_frame = file.validate().map_err(miette::Report::from);
         of_frame.wrap_err_with(|| format!("frame {frame} cannot be rendered"))
     };
     // The last frame has the latest time: an impossible one is told before the first is rendered.
-    scene_of(last)?;
+    let end = scene_of(last)?;
+    if first < last && scene_of(first)?.materials() == end.materials() {
+        print::note(format_args!(
+            "frames {first} to {last} are the same picture: nothing in the scene changes from one time to the other"
+        ));
+    }
     for frame in frames {
         let scene = scene_of(frame)?;
-        let heading = format!("frame {frame} to {last} at {} s, ", scene.settings().time_s);
-        render_one(renderer, &scene, &outputs.of_frame(frame), &heading)
+        let time = shown_time(scene.settings().time_s, step_s);
+        let heading = format!("frame {frame} of {first} to {last} at {time} s, ");
+        render_one(renderer, &scene, &outputs.of_frame(frame, last), &heading)
             .wrap_err_with(|| format!("frame {frame} failed"))?;
     }
     Ok(())
+}
+
+/// A time with the digits that tell it from those a step before and after.
+fn shown_time(time_s: f64, step_s: f64) -> String {
+    let decimals = 2.0 - step_s.log10().floor();
+    if !(0.0..=12.0).contains(&decimals) {
+        return time_s.to_string();
+    }
+    let text = format!("{time_s:.*}", decimals as usize);
+    match text.split_once('.') {
+        Some(_) => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        None => text,
+    }
 }
 
 /// Renders a picture and writes it; `heading` stands before what is said about it.
@@ -207,5 +226,27 @@ fn metadata(scene: &Scene, renderer: &Renderer) -> Metadata {
             .map(|(key, value)| (key.to_owned(), value))
             .collect(),
         ..Metadata::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_shown_as_finely_as_they_step() {
+        for (time_s, step_s, shown) in [
+            (1.0 / 24.0, 1.0 / 24.0, "0.0417"),
+            (1000.0 + 5.0 / 24.0, 1.0 / 24.0, "1000.2083"),
+            (2.0 / 24.0 + 1.0 / 6.0, 1.0 / 24.0, "0.25"),
+            (20.0, 5.0, "20"),
+            (300.0, 100.0, "300"),
+            (0.0, 1e-6, "0"),
+            (3e-6, 1e-6, "0.000003"),
+            (12.5, 0.0, "12.5"),
+            (1e6, 1e5, "1000000"),
+        ] {
+            assert_eq!(shown_time(time_s, step_s), shown, "{time_s} {step_s}");
+        }
     }
 }

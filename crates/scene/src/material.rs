@@ -3,7 +3,8 @@
 use crate::description::PathDifference;
 use crate::{SpectrumId, Thickness};
 
-/// What a surface is made of. Every surface has two sides that behave alike.
+/// What a surface is made of. Every surface has two sides. They behave alike, but for a film of several layers that absorbs: from
+/// behind, light meets its layers in the reverse order.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Material {
     /// Lambertian reflection.

@@ -29,7 +29,8 @@ fn tables_of_a_database_file_are_read_in_any_of_their_forms() {
                  data: |\n        0.4 0.25\n        0.8 0.75\n";
     let other_order = "SPECS: {a: [1, {b: 2}], ? [c] : d}\nDATA:\n- data: >\n\n    0.4 1.5 0.25\n\n    0.8 2.5 0.75\n  type: \"tabulated nk\"\n";
     let twice = "DATA:\n  - type: tabulated nk\n    data: |\n        1e-5 1 0\n        0.4 1.5 0.25\n        0.4 9 9\n        0.8 2.5 0.75\n";
-    for text in [together, apart, other_order, twice] {
+    let steps_back = "DATA:\n  - type: tabulated nk\n    data: |\n        0.4 1.5 0.25\n        0.8 2.5 0.75\n        0.7 2.25 0.625\n";
+    for text in [together, apart, other_order, twice, steps_back] {
         let constants = database(text).unwrap_or_else(|problems| panic!("{text}\n{problems:#}"));
         assert!(close(&constants, 600.0, (2.0, 0.5)), "{text}");
         assert_eq!(constants.range_nm(), Some((400.0, 800.0)), "{text}");
@@ -115,8 +116,8 @@ fn tables_of_a_database_file_are_checked_line_by_line() {
             "line 5: \"x\" is not a number",
         ),
         (
-            "        0.5 1.5 0\n        0.4 1.5 0\n",
-            "line 5: found 400 nm after 500 nm; wavelengths must rise",
+            "        0.4 1.5 0\n        0.5 1.5 0\n        0.4 1.6 0\n",
+            "line 6: found 400 nm after 400 nm; wavelengths must rise",
         ),
         (
             "        0.4 1.5 0\n        0.5 -1 0\n",
@@ -125,6 +126,10 @@ fn tables_of_a_database_file_are_checked_line_by_line() {
         (
             "        0.4 1.5 0\n        0.5 1 -1\n",
             "line 5: found k -1; it must be from 0 to 1000",
+        ),
+        (
+            "        0.8 1.5 0\n        0.5 1 0\n        0.7 1 -0.1\n",
+            "line 6: found k -0.1; it must be from 0 to 1000",
         ),
         ("        nan 1.5 0\n", "line 4: found NaN"),
         ("        0 1.5 0\n", "line 4: found 0"),

@@ -53,6 +53,53 @@ fn with_material(body: &str) -> String {
     with_camera(&format!("[materials.x]\n{body}\n"))
 }
 
+/// A material may be on several objects: the one that does not suit it is told.
+#[test]
+fn thicknesses_for_spheres_are_refused_on_planes() {
+    let scene = |thickness: &str, shape: &str| {
+        with_camera(&format!(
+            "[materials.x]\ntype = 'film'\nlayers = [{{ index = 1.5, thickness_nm = 9 }}, {{ index = 1.3, thickness_nm = {thickness} }}]\n\
+             [[objects]]\ntype = 'sphere'\nmaterial = 'x'\ncenter = [0, 0, 0]\nradius = 1\n\
+             [[objects]]\nmaterial = 'x'\n{shape}\n"
+        ))
+    };
+    let plane = "type = 'plane'\npoint = [0, 0, 0]\nnormal = [0, 0, 1]";
+    let rectangle = "type = 'rectangle'\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nsize = [1, 1]";
+    let polar = "{ product = [2, { pole = 3, equator = 4 }] }";
+    let bubble = "{ drainage = { initial = 500, radius_m = 0.01 } }";
+    for (thickness, shape, said) in [
+        (
+            polar,
+            plane,
+            [
+                "\"x\"",
+                "`pole` and `equator`",
+                "this is a plane",
+                "`start`, `end`",
+            ],
+        ),
+        (
+            bubble,
+            rectangle,
+            ["\"x\"", "`radius_m`", "this is a rectangle", "`height_m`"],
+        ),
+    ] {
+        assert_problems(
+            &scene(thickness, shape),
+            &[("15:12", "objects[1].material", &said)],
+        );
+    }
+    let sphere = "type = 'sphere'\ncenter = [0, 3, 0]\nradius = 1";
+    let film =
+        "{ drainage = { initial = 500, height_m = 0.01, from = [0, 1, 0], to = [0, 0, 0] } }";
+    for (thickness, shape) in [(polar, sphere), (bubble, sphere), (film, rectangle)] {
+        let file = SceneFile::parse("good.toml", &scene(thickness, shape), Path::new(""));
+        if let Err(problems) = file.and_then(|file| file.validate()) {
+            panic!("{problems:#}");
+        }
+    }
+}
+
 #[test]
 fn all_mistakes_of_a_file_are_told_at_once_in_its_order() {
     let text = "\

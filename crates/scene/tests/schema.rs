@@ -95,3 +95,22 @@ fn every_shipped_scene_is_valid() {
     }
     assert!(count >= 4, "only {count} scenes found");
 }
+
+#[test]
+fn lists_of_layers_have_bounds() {
+    let schema = pellicle_scene::schema();
+    let mut found = Vec::new();
+    tables(&schema, "", &mut found);
+    let lists: Vec<_> = found
+        .iter()
+        .map(|(_, table)| &table["properties"]["layers"])
+        .filter(|layers| !layers.is_null())
+        .collect();
+    assert_eq!(lists.len(), 2, "of films and coatings");
+    for layers in lists {
+        assert_eq!(
+            (&layers["minItems"], &layers["maxItems"]),
+            (&1.into(), &64.into())
+        );
+    }
+}

@@ -243,7 +243,7 @@ fn values_out_of_range_are_told_where_they_stand() {
             "{ product = [1e5, 1e5] }",
             28,
             ".product",
-            &["1.0e10", "at most 1e9"],
+            &["1.0e10", "first 2 parts", "at most 1e9"],
         ),
         (
             "{ steps = { values = [], from = [0, 0, 0], to = [1, 0, 0] } }",
@@ -285,6 +285,21 @@ fn values_out_of_range_are_told_where_they_stand() {
     for (written, column, field, said) in cases {
         assert_refused(written, *column, field, said);
     }
+}
+
+/// Infinity times 0 is no number, and a product that leaves `f32` on its way is another one on the GPU.
+#[test]
+fn a_factor_of_nought_hides_no_overflow() {
+    let product = |count: usize| format!("{{ product = [{}0] }}", "1e5, ".repeat(count));
+    assert_refused(&product(62), 28, ".product", &["1.0e10", "first 2 parts"]);
+    assert_refused(
+        &format!("{{ sum = [300, {}] }}", product(10)),
+        42,
+        ".sum[1].product",
+        &["1.0e10"],
+    );
+    assert!(read("{ product = [0, 1e5, 1e5] }", Path::new("")).is_ok());
+    assert!(read("{ product = [1e5, 1e4, 0] }", Path::new("")).is_ok());
 }
 
 #[test]

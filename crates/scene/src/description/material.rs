@@ -5,7 +5,8 @@ use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What a surface is made of. Every surface has two sides that behave alike.
+/// What a surface is made of. Every surface has two sides. They behave alike, but for a film of several layers that absorbs: from
+/// behind, light meets its layers in the reverse order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Material {
@@ -34,6 +35,7 @@ pub enum Material {
         thickness_nm: Option<Thickness>,
         /// The layers, the first on the outside of a sphere or on the side that a plane's normal points to.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(length(min = 1, max = limits::MAX_LAYERS))]
         layers: Option<Vec<Layer>>,
         /// How interference is computed.
         #[serde(default)]
@@ -55,6 +57,7 @@ pub enum Material {
         thickness_nm: Option<Thickness>,
         /// The layers, the outermost first.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(length(min = 1, max = limits::MAX_LAYERS))]
         layers: Option<Vec<Layer>>,
         /// Root mean square slope of the surface: 0 is a smooth mirror, otherwise from 0.02 to 1. Each microfacet reflects
         /// as the stack does at the facet's own angle.
@@ -82,6 +85,26 @@ impl Material {
             model: FilmModel::Exact,
             path_difference: None,
         }
+    }
+
+    /// The thicknesses of its layers.
+    pub(crate) fn thicknesses(&self) -> impl Iterator<Item = &Thickness> {
+        let (only, layers) = match self {
+            Self::Film {
+                thickness_nm,
+                layers,
+                ..
+            }
+            | Self::Coated {
+                thickness_nm,
+                layers,
+                ..
+            } => (thickness_nm.as_ref(), layers.as_deref()),
+            _ => (None, None),
+        };
+        let layers = layers.unwrap_or_default().iter();
+        only.into_iter()
+            .chain(layers.map(|layer| &layer.thickness_nm))
     }
 }
 

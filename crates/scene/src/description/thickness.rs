@@ -16,7 +16,7 @@ pub enum Thickness {
     Constant(
         #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))] f64,
     ),
-    /// Linear in the angle from an axis through a sphere's centre: grows (or shrinks) from the pole over
+    /// On spheres only, linear in the angle from an axis through the centre: grows (or shrinks) from the pole over
     /// the equator and on to the other pole at the same rate.
     Polar {
         /// Thickness where the axis leaves the sphere, nm.
@@ -97,6 +97,20 @@ pub enum Thickness {
     },
 }
 
+impl Thickness {
+    /// This and everything that it is made of.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = &Self> {
+        let mut open = vec![self];
+        std::iter::from_fn(move || {
+            let part = open.pop()?;
+            if let Self::Sum { sum: inner } | Self::Product { product: inner } = part {
+                open.extend(inner);
+            }
+            Some(part)
+        })
+    }
+}
+
 /// Steps of equal width along a line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -124,7 +138,7 @@ pub struct Steps {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, deny_unknown_fields)]
 pub enum Drainage {
-    /// A bubble.
+    /// A bubble; on spheres only.
     Sphere {
         /// Thickness everywhere at time 0, nm.
         #[schemars(range(min = limits::DRAINING_NM.low, max = limits::DRAINING_NM.high))]
@@ -198,7 +212,8 @@ pub struct Swirls {
     /// Size of the largest streaks: in scene units on planes, in radii on spheres.
     #[schemars(range(min = limits::SWIRL_SCALE.low, max = limits::SWIRL_SCALE.high))]
     pub scale: f64,
-    /// Chooses the pattern.
+    /// Chooses the pattern. The octaves take the seeds from this one on, so patterns of neighbouring seeds have lattices in
+    /// common: leave `octaves` between the seeds of patterns that should have nothing to do with each other.
     #[serde(default)]
     pub seed: u32,
     /// Octaves: each is half as large and half as strong as the one before.

@@ -200,7 +200,7 @@ impl<'a> Compiler<'a> {
             },
             Some("array") => Shape::List {
                 item: Box::new(self.shape(&schema["items"])),
-                length: schema["minItems"].as_u64().map(|length| length as usize),
+                length: exact_length(schema),
             },
             Some("object") => match &schema["additionalProperties"] {
                 item @ Json::Object(_) => Shape::Map(Box::new(self.shape(item))),
@@ -266,6 +266,14 @@ impl<'a> Compiler<'a> {
             self.shape(schema)
         }
     }
+}
+
+/// The length of arrays that can have one alone. Where it may vary the checks tell what is wrong with it.
+fn exact_length(schema: &Json) -> Option<usize> {
+    let [least, most] = ["minItems", "maxItems"].map(|bound| schema[bound].as_u64());
+    least
+        .filter(|_| least == most)
+        .map(|length| length as usize)
 }
 
 fn word(schema: &Json) -> String {

@@ -245,7 +245,7 @@ fn formula(
         .map_err(|source| DatabaseFileError::Formula { line, source })
 }
 
-/// The rows of a table.
+/// The rows of a table, by wavelength: the database has tables that step back for a row.
 ///
 /// Wavelengths beyond those of any scene are left out, and so is a row at the wavelength of the one before: the database has
 /// tables from X-rays to radio waves, and some that say a thing twice.
@@ -279,6 +279,8 @@ fn rows<const N: usize>(data: &Text) -> Result<Vec<Row<N>>, DatabaseFileError> {
             rows.push(row);
         }
     }
+    // Rows of the same wavelength stay in the order of the file, and the later one is told of.
+    rows.sort_by(|a, b| a.nm.total_cmp(&b.nm));
     Ok(rows)
 }
 

@@ -1,8 +1,9 @@
 //! Objects: materials by number, axes orthonormal.
 
 use super::checks::Checks;
-use crate::description::{self, Material};
+use crate::description::{self, Drainage, Material, Thickness};
 use crate::limits;
+use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, MaterialId, Object, Shape};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -14,6 +15,7 @@ pub(crate) fn check_all(
     objects: &[description::Object],
 ) -> Option<Vec<Object>> {
     let names: Vec<&str> = materials.keys().map(String::as_str).collect();
+    let for_spheres: Vec<_> = materials.values().map(only_on_spheres).collect();
     let top = FieldPath::root().key("objects");
     let checked: Vec<_> = objects
         .iter()
@@ -22,6 +24,11 @@ pub(crate) fn check_all(
             let field = top.index(index);
             let material = material(checks, &field, &names, object.material());
             let shape = shape(checks, &field, object);
+            if let Some(MaterialId(position)) = material
+                && let Some(thickness) = for_spheres[position as usize]
+            {
+                check_is_sphere(checks, &field, object, thickness);
+            }
             Some(Object {
                 shape: shape?,
                 material: material?,
@@ -42,6 +49,53 @@ fn material(
     }
     checks.unknown_name(&field.key("material"), ("material", name), names);
     None
+}
+
+/// A thickness that only spheres can have, and what to write for a plane instead.
+#[derive(Clone, Copy)]
+struct OnlyOnSpheres {
+    thickness: &'static str,
+    instead: &'static str,
+}
+
+/// The first such thickness of a material.
+fn only_on_spheres(material: &Material) -> Option<OnlyOnSpheres> {
+    let mut parts = material.thicknesses().flat_map(Thickness::parts);
+    parts.find_map(|part| match part {
+        Thickness::Polar { .. } => Some(OnlyOnSpheres {
+            thickness: "`pole` and `equator`",
+            instead: "`start`, `end`, `from` and `to`",
+        }),
+        Thickness::Drainage {
+            drainage: Drainage::Sphere { .. },
+        } => Some(OnlyOnSpheres {
+            thickness: "`drainage` with `radius_m`",
+            instead: "`drainage` with `height_m`, `from` and `to`",
+        }),
+        _ => None,
+    })
+}
+
+/// Told of the object: other objects may have the same material.
+fn check_is_sphere(
+    checks: &mut Checks,
+    field: &FieldPath,
+    object: &description::Object,
+    OnlyOnSpheres { thickness, instead }: OnlyOnSpheres,
+) {
+    let shape = match object {
+        description::Object::Sphere { .. } => return,
+        description::Object::Plane { .. } => "plane",
+        description::Object::Rectangle { .. } => "rectangle",
+    };
+    let name = object.material();
+    let message = format!(
+        "the material {name:?} has a thickness by {thickness}, which is for spheres; this is a {shape}"
+    );
+    let help = format!("give the {shape} a material whose thickness runs along a line: {instead}");
+    let problem = Problem::new(ProblemKind::Inconsistent, &field.key("material"), message);
+    let material = FieldPath::root().key("materials").key(name);
+    checks.report(problem.help(help).involving(material));
 }
 
 fn shape(checks: &mut Checks, field: &FieldPath, object: &description::Object) -> Option<Shape> {

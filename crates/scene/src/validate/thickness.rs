@@ -80,7 +80,10 @@ fn part(
             end,
             from,
             to,
-        } => linear(checks, field, (*start, *end), (*from, *to), range),
+        } => {
+            let ramp = ramp(checks, field, (*start, *end), (*from, *to), range)?;
+            Some(linear(&ramp))
+        }
         Written::Steps { steps } => stepped(checks, &field.key("steps"), steps),
         Written::Drainage { drainage } => {
             drainage::check(checks, &field.key("drainage"), drainage).map(Thickness::Profile)
@@ -147,22 +150,36 @@ fn check_far_pole(
     None
 }
 
-fn linear(
+/// Values along a line in space.
+struct Ramp {
+    /// Where it starts and where it ends.
+    line: (DVec3, DVec3),
+    /// The values there.
+    ends: (f64, f64),
+}
+
+fn ramp(
     checks: &mut Checks,
     field: &FieldPath,
     (start, end): (f64, f64),
     points: ([f64; 3], [f64; 3]),
     range: &Range,
-) -> Option<Thickness> {
-    let start_nm = checks.number(&field.key("start"), start, range);
-    let end_nm = checks.number(&field.key("end"), end, range);
-    let (start, end) = line(checks, field, points)?;
-    Some(Thickness::Linear {
-        start,
-        end,
-        start_nm: start_nm?,
-        end_nm: end_nm?,
-    })
+) -> Option<Ramp> {
+    let start = checks.number(&field.key("start"), start, range);
+    let end = checks.number(&field.key("end"), end, range);
+    let line = line(checks, field, points)?;
+    let ends = (start?, end?);
+    Some(Ramp { line, ends })
+}
+
+/// A ramp of thicknesses.
+fn linear(ramp: &Ramp) -> Thickness {
+    Thickness::Linear {
+        start: ramp.line.0,
+        end: ramp.line.1,
+        start_nm: ramp.ends.0,
+        end_nm: ramp.ends.1,
+    }
 }
 
 /// The points `from` and `to`, which must not coincide.
@@ -224,15 +241,24 @@ fn combined(
         .steps()
         .last()
         .is_some_and(|step| *step == Step::Key("product".to_owned()));
-    let bounds = parts.iter().map(largest);
-    let most: f64 = if is_product {
-        bounds.product()
-    } else {
-        bounds.sum()
+    let step = |so_far: f64, bound: f64| {
+        if is_product {
+            so_far * bound
+        } else {
+            so_far + bound
+        }
     };
-    if most > limits::MAX_FIELD_VALUE {
+    // Part after part, as it is evaluated: a later factor of 0 does not make up for what has left `f32` before it.
+    let mut so_far = f64::from(u8::from(is_product));
+    for (index, bound) in parts.iter().map(largest).enumerate() {
+        so_far = step(so_far, bound);
+        // A bound that is no number is not within it either.
+        if so_far <= limits::MAX_FIELD_VALUE {
+            continue;
+        }
         let message = format!(
-            "the values here may come to {most:.1e}; at most {:e} can be computed with",
+            "the values here may come to {so_far:.1e} in the first {} parts; at most {:e} can be computed with",
+            index + 1,
             limits::MAX_FIELD_VALUE
         );
         checks.report(Problem::new(ProblemKind::TooLarge, field, message));

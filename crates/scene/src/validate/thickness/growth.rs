@@ -1,7 +1,7 @@
 //! Oxides by the process that grows them.
 
-use super::{KNOTS, linear};
-use crate::description::{self, Quantity};
+use super::{KNOTS, Ramp, linear, ramp};
+use crate::description;
 use crate::growth::heat_tint_nm2;
 use crate::limits::{self, Range};
 use crate::validate::checks::Checks;
@@ -21,19 +21,11 @@ pub(super) fn anodised(
     let (nm_per_volt, native_nm) = (nm_per_volt?, native_nm?);
     let oxide = |volts: f64| native_nm + nm_per_volt * volts;
     Some(match volts? {
-        Thickness::Linear {
-            start,
-            end,
-            start_nm,
-            end_nm,
-        } => Thickness::Linear {
-            start,
-            end,
-            start_nm: oxide(start_nm),
-            end_nm: oxide(end_nm),
-        },
-        Thickness::Constant { nm } => Thickness::Constant { nm: oxide(nm) },
-        other => other,
+        Quantity::Constant(volts) => Thickness::Constant { nm: oxide(volts) },
+        Quantity::Linear(Ramp { line, ends }) => linear(&Ramp {
+            line,
+            ends: (oxide(ends.0), oxide(ends.1)),
+        }),
     })
 }
 
@@ -54,12 +46,13 @@ pub(super) fn tinted(
     );
     let minutes = minutes?;
     Some(match temperature? {
-        Thickness::Linear {
-            start,
-            end,
-            start_nm: cool,
-            end_nm: hot,
-        } => {
+        Quantity::Constant(celsius) => Thickness::Constant {
+            nm: heat_tint_nm2(celsius, minutes).sqrt(),
+        },
+        Quantity::Linear(Ramp {
+            line: (start, end),
+            ends: (cool, hot),
+        }) => {
             let square = |knot| {
                 let along = f64::from(knot) / f64::from(KNOTS - 1);
                 heat_tint_nm2(cool + (hot - cool) * along, minutes)
@@ -71,30 +64,30 @@ pub(super) fn tinted(
                 black: None,
             })
         }
-        Thickness::Constant { nm: celsius } => Thickness::Constant {
-            nm: heat_tint_nm2(celsius, minutes).sqrt(),
-        },
-        other => other,
     })
 }
 
-/// A quantity in the form of a thickness: constant or linear, its values in the quantity's own unit.
+/// What a process is set to, in its own unit.
+enum Quantity {
+    Constant(f64),
+    Linear(Ramp),
+}
+
 fn quantity(
     checks: &mut Checks,
     field: &FieldPath,
-    written: &Quantity,
+    written: &description::Quantity,
     range: &Range,
-) -> Option<Thickness> {
+) -> Option<Quantity> {
     match *written {
-        Quantity::Constant(value) => {
-            let nm = checks.number(field, value, range)?;
-            Some(Thickness::Constant { nm })
+        description::Quantity::Constant(value) => {
+            checks.number(field, value, range).map(Quantity::Constant)
         }
-        Quantity::Linear {
+        description::Quantity::Linear {
             start,
             end,
             from,
             to,
-        } => linear(checks, field, (start, end), (from, to), range),
+        } => ramp(checks, field, (start, end), (from, to), range).map(Quantity::Linear),
     }
 }
