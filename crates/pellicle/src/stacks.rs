@@ -19,8 +19,8 @@ pub enum StacksError {
 
 /// R and T of every stack at every angle and wavelength, as `[stack][angle][wavelength]`.
 ///
-/// On the CPU in `f64` on all cores ([`optics::batch::evaluate`]); on a GPU in `f32`, where R and T of ordinary stacks are within
-/// 5e-5 to 88° and 3e-4 beyond ([`gpu::evaluate_stacks`]).
+/// On the CPU in `f64` on all cores ([`optics::batch::evaluate`]); on a GPU in `f32`, where R and T of ordinary stacks seen
+/// from air are within 5e-5 to 88° and 3e-4 beyond ([`gpu::evaluate_stacks`] says where less is kept).
 ///
 /// # Errors
 /// When a number of the batch is outside its domain, or the GPU fails.
