@@ -32,17 +32,20 @@ impl<'a> LayersAt<'a> {
         }
     }
 
-    fn optical<F: Fn(SpectrumId, SpectrumId) -> Complex64>(
+    /// Hands the layers to `f` with their indices at a wavelength. Most films have one layer, which needs no list on the heap.
+    fn at<F: Fn(SpectrumId, SpectrumId) -> Complex64, R>(
         &self,
         light: &Light<F>,
-    ) -> Vec<optics::Layer> {
-        let layers = self.layers.iter().zip(&self.thickness_nm);
-        layers
-            .map(|(layer, &thickness_nm)| optics::Layer {
-                index: (light.index)(layer.n, layer.k),
-                thickness_nm,
-            })
-            .collect()
+        f: impl FnOnce(&mut [optics::Layer]) -> R,
+    ) -> R {
+        let optical = |(layer, &thickness_nm): (&Layer, &f64)| optics::Layer {
+            index: (light.index)(layer.n, layer.k),
+            thickness_nm,
+        };
+        match (self.layers, self.thickness_nm.as_slice()) {
+            ([layer], [thickness_nm]) => f(&mut [optical((layer, thickness_nm))]),
+            (layers, nm) => f(&mut layers.iter().zip(nm).map(optical).collect::<Vec<_>>()),
+        }
     }
 
     /// Reflectance on a conductor of index `substrate`, at the cosine of the surface or of one of its facets.
@@ -52,10 +55,11 @@ impl<'a> LayersAt<'a> {
         cosine: f64,
         light: &Light<F>,
     ) -> f64 {
-        let layers = self.optical(light);
         let cosine = cosine.max(GRAZING);
-        let stack = optics::stack(1.0, &layers, substrate, light.wavelength_nm, cosine);
-        stack.reflectance.unpolarised()
+        self.at(light, |layers| {
+            let stack = optics::stack(1.0, layers, substrate, light.wavelength_nm, cosine);
+            stack.reflectance.unpolarised()
+        })
     }
 
     /// Reflectance and transmittance between air and air.
@@ -64,22 +68,24 @@ impl<'a> LayersAt<'a> {
         interference: Interference,
         light: &Light<F>,
     ) -> (f64, f64) {
-        let mut layers = self.optical(light);
-        let both = |r: Polarised, t: Polarised| (r.unpolarised(), t.unpolarised());
-        if let Interference::TwoBeam(path_difference) = interference {
-            let (n, nm) = (layers[0].index.re, layers[0].thickness_nm);
-            let path_difference = match path_difference {
-                PathDifference::Optical => optics::PathDifference::Optical,
-                PathDifference::AsPrinted => optics::PathDifference::AsPrinted,
-            };
-            let beams = optics::two_beam(n, nm, light.wavelength_nm, self.cosine, path_difference);
-            return both(beams.reflectance, beams.transmittance);
-        }
-        if !self.is_front {
-            layers.reverse();
-        }
-        let air = Complex64::ONE;
-        let stack = optics::stack(1.0, &layers, air, light.wavelength_nm, self.cosine);
-        both(stack.reflectance, stack.transmittance)
+        self.at(light, |layers| {
+            let both = |r: Polarised, t: Polarised| (r.unpolarised(), t.unpolarised());
+            if let Interference::TwoBeam(path_difference) = interference {
+                let (n, nm) = (layers[0].index.re, layers[0].thickness_nm);
+                let path_difference = match path_difference {
+                    PathDifference::Optical => optics::PathDifference::Optical,
+                    PathDifference::AsPrinted => optics::PathDifference::AsPrinted,
+                };
+                let beams =
+                    optics::two_beam(n, nm, light.wavelength_nm, self.cosine, path_difference);
+                return both(beams.reflectance, beams.transmittance);
+            }
+            if !self.is_front {
+                layers.reverse();
+            }
+            let air = Complex64::ONE;
+            let stack = optics::stack(1.0, layers, air, light.wavelength_nm, self.cosine);
+            both(stack.reflectance, stack.transmittance)
+        })
     }
 }
