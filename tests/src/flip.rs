@@ -4,7 +4,7 @@
 //! Alternating Images, Proc. ACM Comput. Graph. Interact. Tech. 3(2), 2020; the constants are those of the paper. In `f64`.
 
 use color::RgbImage8;
-use color::srgb::{from_u8, linear_from_xyz, rgb_from_xyz};
+use colorimetry::srgb::{from_u8, linear_from_xyz, rgb_from_xyz};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 use std::path::Path;
@@ -85,7 +85,7 @@ pub fn flip(reference: &Picture, test: &Picture) -> Result<Vec<f64>, String> {
     Ok((0..reference.codes.len()).map(at).collect())
 }
 
-/// XYZ of linear sRGB: the inverse of the matrix in `color::srgb`, whose white differs from the authors' by 3e-5.
+/// XYZ of linear sRGB: the inverse of the matrix in `colorimetry::srgb`, whose white differs from the authors' by 3e-5.
 fn xyz_from_linear(linear: [f64; 3]) -> [f64; 3] {
     static INVERSE: OnceLock<DMat3> = OnceLock::new();
     let inverse = INVERSE.get_or_init(|| {

@@ -1,8 +1,8 @@
 //! The colours that processes are known to give: heat tints of steel and anodised titanium, from the process's own figures in a
 //! scene to a hue.
 
-use color::lab::Lab;
 use color::xyz::BandObserver;
+use colorimetry::lab::Lab;
 use optics::{Complex64, Layer, stack};
 use scene::{Material, Scene, SceneFile, SpectrumId, Thickness};
 use std::path::Path;

@@ -13,11 +13,16 @@ const ARROWS: &[(&str, &[&str])] = &[
         &["pellicle-scene", "pellicle-optics", "pellicle-spectra"],
     ),
     ("pellicle-gpu", &["pellicle-scene", "pellicle-spectra"]),
-    ("pellicle-color", &["pellicle-spectra"]),
+    ("pellicle-colorimetry", &["pellicle-spectra"]),
+    (
+        "pellicle-color",
+        &["pellicle-colorimetry", "pellicle-spectra"],
+    ),
     (
         "pellicle-coating",
         &[
             "pellicle-color",
+            "pellicle-colorimetry",
             "pellicle-optics",
             "pellicle-scene",
             "pellicle-spectra",
@@ -28,6 +33,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         &[
             "pellicle-coating",
             "pellicle-color",
+            "pellicle-colorimetry",
             "pellicle-gpu",
             "pellicle-optics",
             "pellicle-reference",

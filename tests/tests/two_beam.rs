@@ -68,7 +68,7 @@ fn newton(index: f64) -> Vec<(String, [f64; 6], Vec<f64>)> {
                 .unpolarised(),
         };
         let [x, y, z] = xyz(row[1], reflectance);
-        let [r, g, b] = color::srgb::linear_from_xyz([x, y, z].map(|v| v / 100.0));
+        let [r, g, b] = colorimetry::srgb::linear_from_xyz([x, y, z].map(|v| v / 100.0));
         let expected = row[3..9].iter().map(|cell| number(cell)).collect();
         (row[..3].join(" "), [x, y, z, r, g, b], expected)
     };

@@ -3,7 +3,8 @@
 use crate::{plot, print};
 use clap::ValueEnum;
 use miette::miette;
-use pellicle::color::{srgb, xyz};
+use pellicle::color::xyz;
+use pellicle::colorimetry::srgb;
 use pellicle::optics::reflectance_unpolarised;
 use pellicle::scene::description::Index;
 use pellicle::spectra::{self, BandGrid, MaterialInfo, OpticalConstants};

@@ -2,7 +2,7 @@
 
 use crate::response::{Angle, Sampled};
 use crate::{Light, SampleError, Stack};
-use color::{Lab, srgb};
+use colorimetry::{Lab, srgb};
 use optics::Polarised;
 use optics::batch::Powers;
 use rayon::prelude::*;

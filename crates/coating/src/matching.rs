@@ -2,8 +2,8 @@
 
 use crate::colour::StackColour;
 use crate::response::Angle;
-use color::lab::delta_e_2000;
-use color::{Lab, srgb};
+use colorimetry::lab::delta_e_2000;
+use colorimetry::{Lab, srgb};
 
 /// What is looked for, and where.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,8 @@ use crate::picture::{
     self, Drawing, Drawn, FAINT, INK, Scale, decimals, draw_title, exposure, round_range,
 };
 use crate::response::{Angle, absorptance};
-use color::{RgbImage8, srgb};
+use color::RgbImage8;
+use colorimetry::srgb;
 use optics::batch::Powers;
 use plotters::coord::Shift;
 use plotters::prelude::*;

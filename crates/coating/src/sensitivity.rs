@@ -2,8 +2,8 @@
 
 use crate::colour::{Colour, StackColour};
 use crate::response::Angle;
-use color::Lab;
-use color::lab::delta_e_2000_rate;
+use colorimetry::Lab;
+use colorimetry::lab::delta_e_2000_rate;
 use optics::ThicknessDerivative;
 
 /// How the colour of a stack hangs on its thicknesses, to first order.
@@ -56,7 +56,7 @@ pub fn sensitivity(stack: &StackColour, thicknesses_nm: &[f64], angle: Angle) ->
 mod tests {
     use super::*;
     use crate::{Light, Side, Stack, View};
-    use color::lab::delta_e_2000;
+    use colorimetry::lab::delta_e_2000;
 
     /// The derivative stands against plain differences of colours.
     #[test]

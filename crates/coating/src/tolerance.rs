@@ -2,8 +2,8 @@
 
 use crate::colour::{Colour, StackColour};
 use crate::response::Angle;
-use color::Lab;
-use color::lab::delta_e_2000;
+use colorimetry::Lab;
+use colorimetry::lab::delta_e_2000;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};

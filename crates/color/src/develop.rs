@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use spectra::SpectralImage;
 
-use crate::srgb;
 use crate::xyz::exposure_scale;
+use colorimetry::srgb;
 
 /// An 8-bit sRGB picture, row 0 on top.
 #[derive(Clone, Debug, Eq, PartialEq)]

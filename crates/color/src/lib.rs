@@ -3,8 +3,7 @@
 //! ```text
 //! spectra::SpectralImage
 //!   -> xyz            CIE 1931 XYZ of a pixel, relative to an equal-energy radiance of 1, times 2^EV
-//!   -> srgb           linear sRGB, then the transfer curve
-//!   -> lab            CIELAB and CIEDE2000, for those who compare
+//!   -> colorimetry    linear sRGB, then the transfer curve
 //!   -> develop        the whole image: 8-bit RGB
 //!   -> png            a PNG file that says which colour space it is in
 //!   -> spectral_exr   a spectral OpenEXR file, from which all of the above can be done again
@@ -14,13 +13,10 @@
 //! name beside the one asked for and renamed when complete, so a failure leaves no half file.
 
 mod develop;
-pub mod lab;
 mod pending_file;
 pub mod png;
 pub mod spectral_exr;
-pub mod srgb;
 pub mod xyz;
 
 pub use develop::{RgbImage8, develop};
-pub use lab::Lab;
 pub use pending_file::PendingFile;

@@ -8,7 +8,7 @@ use miette::miette;
 use pellicle::coating::{
     self, Angle, Match, MatchBy, MatchPlace, Matching, Quantiles, StackColour, Tolerance,
 };
-use pellicle::color::srgb;
+use pellicle::colorimetry::srgb;
 use std::fmt::Write;
 
 /// The most matches that are told.

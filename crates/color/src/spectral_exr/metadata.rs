@@ -6,7 +6,7 @@ use exr::meta::attribute::{AttributeValue, Chromaticities, Text};
 use exr::meta::header::{Header, ImageAttributes, LayerAttributes};
 use spectra::BandGrid;
 
-use crate::srgb;
+use colorimetry::srgb;
 
 const LAYOUT_VERSION: (&str, &str) = ("spectralLayoutVersion", "1.0");
 const UNITS_KEY: &str = "emissiveUnits";

@@ -2,10 +2,10 @@
 
 use std::fs;
 
+use colorimetry::srgb;
 use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, SampleType, Text};
 use pellicle_color::spectral_exr::{self, Metadata, WriteExrError, WriteOptions};
-use pellicle_color::srgb;
 use pellicle_color::xyz::exposure_scale;
 use spectra::{BandGrid, SpectralImage};
 

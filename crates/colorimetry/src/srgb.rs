@@ -6,34 +6,13 @@
 
 use std::sync::OnceLock;
 
-/// A 3×3 matrix, row by row.
-pub type Matrix3 = [[f64; 3]; 3];
+use crate::chromaticity::xyz_of_xy;
+use crate::matrix::{Matrix3, inverse, times};
 
 /// Chromaticities x, y of the red, green and blue primary.
 pub const PRIMARIES: [[f64; 2]; 3] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]];
 /// Chromaticity x, y of the white, D65 as the standard rounds it.
 pub const WHITE: [f64; 2] = [0.3127, 0.3290];
-
-/// XYZ with Y = 1 of a chromaticity: (x/y, 1, (1 − x − y)/y).
-fn xyz_of_chromaticity([x, y]: [f64; 2]) -> [f64; 3] {
-    [x / y, 1.0, (1.0 - x - y) / y]
-}
-
-fn times(m: &Matrix3, v: [f64; 3]) -> [f64; 3] {
-    m.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
-}
-
-/// The inverse by cofactors.
-fn inverse(m: &Matrix3) -> Matrix3 {
-    // The rows and columns that follow `i` in turn, so that the cofactor needs no sign.
-    let cofactor = |row: usize, column: usize| {
-        let (r1, r2) = ((row + 1) % 3, (row + 2) % 3);
-        let (c1, c2) = ((column + 1) % 3, (column + 2) % 3);
-        m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1]
-    };
-    let determinant: f64 = (0..3).map(|c| m[0][c] * cofactor(0, c)).sum();
-    std::array::from_fn(|row| std::array::from_fn(|column| cofactor(column, row) / determinant))
-}
 
 /// The matrix that takes XYZ to linear RGB.
 ///
@@ -42,9 +21,9 @@ fn inverse(m: &Matrix3) -> Matrix3 {
 pub fn rgb_from_xyz() -> &'static Matrix3 {
     static MATRIX: OnceLock<Matrix3> = OnceLock::new();
     MATRIX.get_or_init(|| {
-        let columns = PRIMARIES.map(xyz_of_chromaticity);
+        let columns = PRIMARIES.map(xyz_of_xy);
         let p: Matrix3 = std::array::from_fn(|row| columns.map(|column| column[row]));
-        let s = times(&inverse(&p), xyz_of_chromaticity(WHITE));
+        let s = times(&inverse(&p), xyz_of_xy(WHITE));
         inverse(&p.map(|row| std::array::from_fn(|i| row[i] * s[i])))
     })
 }
@@ -62,7 +41,7 @@ pub fn xyz_from_linear(rgb: [f64; 3]) -> [f64; 3] {
 
 /// XYZ of the display's white, Y = 1.
 pub fn white_xyz() -> [f64; 3] {
-    xyz_of_chromaticity(WHITE)
+    xyz_of_xy(WHITE)
 }
 
 /// The transfer curve, linear to code: 12.92 v up to 0.0031308, else 1.055 v^(1/2.4) − 0.055. For v in \[0, 1\].
@@ -100,11 +79,11 @@ mod tests {
 
     #[test]
     fn white_is_one_and_primaries_are_pure() {
-        for value in linear_from_xyz(xyz_of_chromaticity(WHITE)) {
+        for value in linear_from_xyz(xyz_of_xy(WHITE)) {
             assert!((value - 1.0).abs() < 1e-14, "{value}");
         }
         for (index, primary) in PRIMARIES.into_iter().enumerate() {
-            let rgb = linear_from_xyz(xyz_of_chromaticity(primary));
+            let rgb = linear_from_xyz(xyz_of_xy(primary));
             for (channel, value) in rgb.into_iter().enumerate() {
                 assert_eq!(value.abs() > 1e-14, channel == index, "{rgb:?}");
             }

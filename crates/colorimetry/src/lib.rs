@@ -1,0 +1,13 @@
+//! Colorimetry in `f64`: functions of numbers, which know no image and no file of one.
+//!
+//! Tristimulus values enter and leave as `[X, Y, Z]`; where a white matters it is given in the same unit.
+
+pub mod chromaticity;
+pub mod display;
+pub mod lab;
+pub mod matrix;
+pub mod srgb;
+
+pub use display::Display;
+pub use lab::Lab;
+pub use matrix::Matrix3;
