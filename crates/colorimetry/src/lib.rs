@@ -9,6 +9,7 @@ pub mod lab;
 pub mod matrix;
 pub mod oklab;
 pub mod srgb;
+pub mod tristimulus;
 
 pub use adaptation::Adaptation;
 pub use display::Display;
