@@ -17,6 +17,8 @@ mod pending_file;
 pub mod png;
 pub mod spectral_exr;
 pub mod xyz;
+mod xyz_image;
 
 pub use develop::{RgbImage8, develop};
 pub use pending_file::PendingFile;
+pub use xyz_image::XyzImage;
