@@ -196,7 +196,7 @@ fn used(edges: &[f64]) -> Result<std::ops::Range<usize>, BandLayoutError> {
             last_nm: edges[edges.len() - 1],
         });
     };
-    Ok(first..used.last().unwrap_or(first) + 1)
+    Ok(first..used.next_back().unwrap_or(first) + 1)
 }
 
 /// Each band of the grid is the mean over its width of what is constant between the edges.

@@ -111,7 +111,7 @@ impl Metadata {
             Some(scale) => {
                 let note = format!("radiances in {unit} are converted to {UNITS}");
                 self.notes.push(note);
-                self.emissive_units = UNITS.to_owned();
+                UNITS.clone_into(&mut self.emissive_units);
                 scale
             }
             None => {
