@@ -2,12 +2,16 @@
 //!
 //! Tristimulus values enter and leave as `[X, Y, Z]`; where a white matters it is given in the same unit.
 
+pub mod adaptation;
 pub mod chromaticity;
 pub mod display;
 pub mod lab;
 pub mod matrix;
+pub mod oklab;
 pub mod srgb;
 
+pub use adaptation::Adaptation;
 pub use display::Display;
 pub use lab::Lab;
 pub use matrix::Matrix3;
+pub use oklab::Oklab;
