@@ -4,7 +4,6 @@ pub mod agreement;
 pub mod colorimetry;
 pub mod command;
 pub mod device;
-pub mod flip;
 pub mod frames;
 pub mod probe;
 pub mod scenes;

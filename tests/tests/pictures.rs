@@ -2,8 +2,8 @@
 //! `PELLICLE_BLESS=1 cargo test -p pellicle-tests --test pictures`.
 
 use color::RgbImage8;
+use color::compare::{Picture, flip};
 use pellicle_tests::device;
-use pellicle_tests::flip::{Picture, mean_flip};
 use pellicle_tests::scenes::file;
 use pellicle_tests::tolerances::PICTURES;
 use pellicle_tests::wgsl::root;
@@ -56,9 +56,10 @@ fn golden_path(name: &str) -> PathBuf {
 
 /// Compares a picture with the golden at `path`.
 fn compare(actual: &Picture, path: &Path) -> Result<f64, String> {
-    let golden = Picture::read(path)
+    let golden = Picture::read_png(path)
         .map_err(|error| format!("{}: {error}; to make it: {BLESS}", path.display()))?;
-    let mean = mean_flip(&golden, actual)?;
+    let differences = flip(&golden, actual).map_err(|error| error.to_string())?;
+    let mean = differences.iter().sum::<f64>() / differences.len() as f64;
     if mean <= PICTURES {
         Ok(mean)
     } else {
@@ -78,7 +79,7 @@ fn pictures_look_like_their_goldens() {
             std::fs::create_dir_all(path.parent().unwrap()).unwrap();
             color::png::write(&path, &picture).unwrap();
         }
-        match compare(&Picture::of(&picture), &path) {
+        match compare(&Picture::of_codes(&picture), &path) {
             Ok(mean) => println!("{name}: mean FLIP {mean:.5}"),
             Err(report) => {
                 let folder = root().join("target/pictures");
@@ -97,7 +98,7 @@ fn pictures_look_like_their_goldens() {
 fn the_reference_paints_the_same_pictures() {
     for (name, size) in SCENES {
         let picture = rendered_by_reference(file(name), size);
-        let found = compare(&Picture::of(&picture), &golden_path(name));
+        let found = compare(&Picture::of_codes(&picture), &golden_path(name));
         println!("{name}: reference against golden: {found:?}");
         assert!(found.is_ok(), "{name}: {found:?}");
     }
@@ -133,7 +134,7 @@ fn a_film_of_a_wrong_index_is_noticed() {
                 }
             }
             assert_eq!(films, 1, "{name}");
-            Picture::of(&rendered(&gpu, file, *size))
+            Picture::of_codes(&rendered(&gpu, file, *size))
         };
         // The table replaces the name faithfully, so what differs below is the index.
         let right = compare(&with(1.0), &golden_path(name));
@@ -147,10 +148,7 @@ fn a_film_of_a_wrong_index_is_noticed() {
 #[test]
 fn a_missing_golden_fails_and_says_how_to_bless() {
     let folder = tempfile::tempdir().unwrap();
-    let picture = Picture {
-        size: [1, 1],
-        codes: vec![[0; 3]],
-    };
+    let picture = Picture::of_codes(&RgbImage8::new(1, 1, vec![0; 3]).unwrap());
     let report = compare(&picture, &folder.path().join("none.png")).unwrap_err();
     assert!(report.contains(BLESS), "{report}");
 }

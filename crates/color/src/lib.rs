@@ -7,11 +7,13 @@
 //!   -> develop        the whole image: 8-bit RGB
 //!   -> png            a PNG file that says which colour space it is in
 //!   -> spectral_exr   a spectral OpenEXR file, from which all of the above can be done again
+//!   -> compare        how far two images are from each other
 //! ```
 //!
 //! Arithmetic is `f64`. Nothing here knows how the image was rendered. Files are written under another
 //! name beside the one asked for and renamed when complete, so a failure leaves no half file.
 
+pub mod compare;
 mod develop;
 mod pending_file;
 pub mod png;

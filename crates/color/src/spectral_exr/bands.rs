@@ -1,36 +1,60 @@
-//! Names of spectral channels, and the band grid that they describe.
+//! The bands that a file's channels make, and the band grid that they are read onto.
 
 use spectra::{BandGrid, BandGridError};
 use thiserror::Error;
+
+use super::wavelength::Place;
 
 /// Why the spectral channels of a file do not make a band grid.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum BandLayoutError {
-    /// A channel's name starts like a spectral one but does not end in a wavelength in nm.
-    #[error("channel {0:?} does not name a wavelength in nm, such as `S0.550,000000nm`")]
-    NotNanometres(String),
+    /// A channel's name starts like a spectral one but does not end in a wavelength or a frequency.
+    #[error(
+        "channel {0:?} does not name a wavelength or a frequency, such as `S0.550,000000nm`, `S0.0,55um` or `S0.545THz`"
+    )]
+    NotAWavelength(String),
     /// Two channels of the same wavelength.
     #[error("two channels have the wavelength {0} nm")]
     Duplicate(f64),
     /// A single band, whose width nothing tells.
     #[error("a single band at {0} nm, and no attribute that gives its width")]
     SingleBand(f64),
-    /// The wavelengths are not evenly spaced.
-    #[error("bands must be evenly spaced, but {nm} nm lies {off_nm} nm off its place")]
+    /// The file gives the ends of a uniform grid, and a channel is not on it.
+    #[error("the file's bands should be evenly spaced, but {nm} nm lies {off_nm} nm off its place")]
     NotUniform {
         /// The channel's wavelength.
         nm: f64,
         /// How far it lies from where an even spacing puts it.
         off_nm: f64,
     },
+    /// Two bands overlap, or nothing tells what is between them.
+    #[error("the band that ends at {end_nm} nm is followed by one that starts at {start_nm} nm")]
+    NotConnected {
+        /// Where one band ends.
+        end_nm: f64,
+        /// Where the next one starts.
+        start_nm: f64,
+    },
+    /// No band is visible.
+    #[error("the bands lie from {first_nm} to {last_nm} nm, none of them within {low} to {high} nm",
+        low = BandGrid::LIMITS_NM.0, high = BandGrid::LIMITS_NM.1)]
+    OutOfRange {
+        /// The shortest wavelength.
+        first_nm: f64,
+        /// The longest wavelength.
+        last_nm: f64,
+    },
     /// The bands make no grid that this program works with.
     #[error("the bands of the file cannot be used")]
     Grid(#[from] BandGridError),
 }
 
-/// How far a band centre may lie from its place, as a share of the band width: names have few decimals.
+/// How far a band may lie from its place, as a share of the band width: names have few decimals.
 const UNIFORM_WITHIN: f64 = 1e-3;
+
+/// A band that reaches beyond [`BandGrid::LIMITS_NM`] is left out unless some of it is in this range, where people see.
+const SEEN_NM: (f64, f64) = (380.0, 780.0);
 
 /// The layer of the emissive, unpolarised radiance: the first Stokes component.
 const PREFIX: &str = "S0.";
@@ -45,105 +69,261 @@ pub(super) fn radiance_name(nm: f64) -> String {
     format!("{PREFIX}{}", wavelength_text(nm))
 }
 
-/// The wavelength in nm that a channel's name gives, `None` when the channel is not a radiance.
-pub(super) fn wavelength_of(name: &str) -> Option<Result<f64, BandLayoutError>> {
-    let text = name.strip_prefix(PREFIX)?;
-    let number = text
-        .strip_suffix("nm")
-        .map(|number| number.replace(',', "."));
-    let nm = number.and_then(|number| number.parse::<f64>().ok());
-    Some(match nm {
-        Some(nm) if nm.is_finite() && nm > 0.0 => Ok(nm),
-        _ => Err(BandLayoutError::NotNanometres(name.to_owned())),
-    })
+/// The grid that a file's bands are read onto.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Bands {
+    /// The grid.
+    pub(super) grid: BandGrid,
+    /// Which of the file's bands, counted from the shortest wavelength, are used.
+    pub(super) used: std::ops::Range<usize>,
+    /// How those make the grid's bands; `None` where they are the grid's bands.
+    pub(super) shares: Option<Shares>,
 }
 
-/// The grid with these band centres, rising. `range_nm` gives the ends where the file tells them.
-pub(super) fn grid_of(
-    centres_nm: &[f64],
-    range_nm: Option<(f64, f64)>,
-) -> Result<BandGrid, BandLayoutError> {
-    if let Some(pair) = centres_nm.windows(2).find(|pair| pair[0] >= pair[1]) {
-        return Err(BandLayoutError::Duplicate(pair[1]));
+/// For each band of the grid the bands that it is made of, counted from the first one used, and their shares. The integral
+/// over wavelength is kept.
+pub(super) type Shares = Vec<Vec<(usize, f32)>>;
+
+impl Bands {
+    /// Of bands in order of their wavelengths. `range_nm` gives the ends of a uniform grid where the file tells them.
+    pub(super) fn new(
+        places: &[Place],
+        range_nm: Option<(f64, f64)>,
+    ) -> Result<Self, BandLayoutError> {
+        let centres: Vec<f64> = places.iter().map(|place| place.centre_nm()).collect();
+        if let Some(pair) = centres.windows(2).find(|p| p[1] - p[0] <= 1e-9 * p[1]) {
+            return Err(BandLayoutError::Duplicate(pair[1]));
+        }
+        if let Some((min_nm, max_nm)) = range_nm {
+            let grid = BandGrid::new(min_nm, max_nm, centres.len() as u32)?;
+            return match furthest_off(&grid, &centres) {
+                Some((nm, off_nm)) => Err(BandLayoutError::NotUniform { nm, off_nm }),
+                None => Ok(Self {
+                    grid,
+                    used: 0..centres.len(),
+                    shares: None,
+                }),
+            };
+        }
+        let edges = edges(places, &centres)?;
+        let used = used(&edges)?;
+        Self::of_edges(&edges[used.start..=used.end], used)
     }
-    let count = centres_nm.len() as u32;
-    let (min_nm, max_nm) = match (range_nm, centres_nm) {
-        (Some(range), _) => range,
-        (None, &[first, .., last]) => {
-            let half_width = (last - first) / f64::from(count - 1) / 2.0;
-            (first - half_width, last + half_width)
+
+    fn of_edges(edges: &[f64], used: std::ops::Range<usize>) -> Result<Self, BandLayoutError> {
+        let (low, high) = BandGrid::LIMITS_NM;
+        let cut: Vec<f64> = edges.iter().map(|nm| nm.clamp(low, high)).collect();
+        let (first, last) = (cut[0], cut[cut.len() - 1]);
+        let grid = BandGrid::new(first, last, used.len() as u32)?;
+        let centres: Vec<f64> = cut.windows(2).map(|e| f64::midpoint(e[0], e[1])).collect();
+        if furthest_off(&grid, &centres).is_none() {
+            return Ok(Self {
+                grid,
+                used,
+                shares: None,
+            });
         }
-        (None, rest) => {
-            let nm = rest.first().copied().unwrap_or_default();
-            return Err(BandLayoutError::SingleBand(nm));
+        let narrowest = cut
+            .windows(2)
+            .map(|e| e[1] - e[0])
+            .fold(f64::INFINITY, f64::min);
+        // A hair less, so that a whole number of bands stays one.
+        let count = ((last - first) / narrowest - 1e-6).ceil();
+        let grid = BandGrid::new(first, last, (count as u32).clamp(1, BandGrid::MAX_COUNT))?;
+        Ok(Self {
+            shares: Some(shares(&cut, &grid)),
+            grid,
+            used,
+        })
+    }
+}
+
+/// A centre that is not on the grid, and how far off it is.
+fn furthest_off(grid: &BandGrid, centres: &[f64]) -> Option<(f64, f64)> {
+    let off = (0..)
+        .zip(centres)
+        .map(|(band, &nm)| (nm, (nm - grid.centre_nm(band)).abs()));
+    let off = off.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (off.1 > UNIFORM_WITHIN * grid.width_nm()).then_some(off)
+}
+
+/// Where bands end. Between two centres that is half way, as the layout has it for channels without a response curve; the first
+/// and the last band are symmetrical.
+fn edges(places: &[Place], centres: &[f64]) -> Result<Vec<f64>, BandLayoutError> {
+    if let [Place::Range(first, _), ..] = places {
+        let mut edges = vec![*first];
+        for place in places {
+            let (low, high) = match *place {
+                Place::Range(low, high) => (low, high),
+                Place::Centre(nm) => (nm, nm),
+            };
+            let end_nm = edges[edges.len() - 1];
+            // Names have two decimals.
+            if (low - end_nm).abs() > 0.02 {
+                let start_nm = low;
+                return Err(BandLayoutError::NotConnected { end_nm, start_nm });
+            }
+            edges.push(high);
         }
+        return Ok(edges);
+    }
+    let &[first, second, ..] = centres else {
+        let nm = centres.first().copied().unwrap_or_default();
+        return Err(BandLayoutError::SingleBand(nm));
     };
-    let grid = BandGrid::new(min_nm, max_nm, count)?;
-    for (band, &nm) in (0..).zip(centres_nm) {
-        let off_nm = (nm - grid.centre_nm(band)).abs();
-        if off_nm > UNIFORM_WITHIN * grid.width_nm() {
-            return Err(BandLayoutError::NotUniform { nm, off_nm });
-        }
-    }
-    Ok(grid)
+    let (before, last) = (centres[centres.len() - 2], centres[centres.len() - 1]);
+    let mut edges = vec![first - 0.5 * (second - first)];
+    edges.extend(
+        centres
+            .windows(2)
+            .map(|pair| f64::midpoint(pair[0], pair[1])),
+    );
+    edges.push(last + 0.5 * (last - before));
+    Ok(edges)
+}
+
+/// The bands that are within the limits, or reach over them from where people see.
+fn used(edges: &[f64]) -> Result<std::ops::Range<usize>, BandLayoutError> {
+    let (low, high) = BandGrid::LIMITS_NM;
+    let is_used = |band: &usize| {
+        let (from, to) = (edges[*band], edges[*band + 1]);
+        (from >= low && to <= high) || (from < SEEN_NM.1 && to > SEEN_NM.0)
+    };
+    let mut used = (0..edges.len() - 1).filter(is_used);
+    let Some(first) = used.next() else {
+        return Err(BandLayoutError::OutOfRange {
+            first_nm: edges[0],
+            last_nm: edges[edges.len() - 1],
+        });
+    };
+    Ok(first..used.next_back().unwrap_or(first) + 1)
+}
+
+/// Each band of the grid is the mean over its width of what is constant between the edges.
+fn shares(edges: &[f64], grid: &BandGrid) -> Shares {
+    let share = |band: u32| {
+        let (low, high) = (grid.wavelength_nm(band, 0.0), grid.wavelength_nm(band, 1.0));
+        let of_source = |(source, pair): (usize, &[f64])| {
+            let common = pair[1].min(high) - pair[0].max(low);
+            (common > 0.0).then_some((source, (common / grid.width_nm()) as f32))
+        };
+        edges.windows(2).enumerate().filter_map(of_source).collect()
+    };
+    (0..grid.count()).map(share).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::spectral_exr::wavelength::spectral_channel;
+
+    fn centres(nm: &[f64]) -> Vec<Place> {
+        nm.iter().copied().map(Place::Centre).collect()
+    }
+
+    fn uniform(min_nm: f64, max_nm: f64, used: std::ops::Range<usize>) -> Bands {
+        Bands {
+            grid: BandGrid::new(min_nm, max_nm, used.len() as u32).unwrap(),
+            used,
+            shares: None,
+        }
+    }
 
     #[test]
     fn names_are_those_of_the_layout() {
         assert_eq!(radiance_name(550.0), "S0.550,000000nm");
         assert_eq!(radiance_name(380.0 + 400.0 / 48.0), "S0.388,333333nm");
-        assert_eq!(wavelength_of("S0.550,000000nm"), Some(Ok(550.0)));
-        assert_eq!(wavelength_of("S0.5,5e2nm"), Some(Ok(550.0)));
-        for other in ["R", "S1.550,0nm", "T.550,0nm", "pellicle.variance.550,0nm"] {
-            assert_eq!(wavelength_of(other), None);
-        }
-        for bad in [
-            "S0.550,0um",
-            "S0.nm",
-            "S0.x",
-            "S0.NaNnm",
-            "S0.-5nm",
-            "S0.1,2,3nm",
-        ] {
-            assert!(wavelength_of(bad).unwrap().is_err(), "{bad}");
-        }
     }
 
     #[test]
     fn even_centres_give_their_grid_back() {
         for count in [2, 31, 40, 48, 61] {
             let grid = BandGrid::visible(count).unwrap();
-            let name = |band| radiance_name(grid.centre_nm(band));
-            let centres: Vec<f64> = (0..count)
-                .map(|band| wavelength_of(&name(band)).unwrap().unwrap())
-                .collect();
+            let place = |band| {
+                let name = radiance_name(grid.centre_nm(band));
+                spectral_channel(&name).unwrap().unwrap().1
+            };
+            let places: Vec<Place> = (0..count).map(place).collect();
             let range = (grid.min_nm(), grid.max_nm());
-            assert_eq!(grid_of(&centres, Some(range)), Ok(grid));
+            let found = Bands::new(&places, Some(range)).unwrap();
+            assert_eq!(found, uniform(380.0, 780.0, 0..count as usize));
             // Six decimals of the name are all that is left without the range.
-            let found = grid_of(&centres, None).unwrap();
-            assert!((found.min_nm() - 380.0).abs() < 2e-6 && (found.max_nm() - 780.0).abs() < 2e-6);
+            let found = Bands::new(&places, None).unwrap();
+            assert!(found.shares.is_none());
+            assert!((found.grid.min_nm() - 380.0).abs() < 2e-6);
+            assert!((found.grid.max_nm() - 780.0).abs() < 2e-6);
         }
     }
 
     #[test]
-    fn uneven_bands_are_refused() {
+    fn bands_beyond_vision_are_left_out() {
+        // 300 to 900 nm by 5: half of 357.5 to 362.5 nm is beyond the limit, and people do not see it.
+        let nm: Vec<f64> = (60..=180).map(|i| 5.0 * f64::from(i)).collect();
+        let found = Bands::new(&centres(&nm), None).unwrap();
+        assert_eq!(found, uniform(362.5, 827.5, 13..106));
+        let beyond = Bands::new(&centres(&[900.0, 910.0]), None);
+        assert!(matches!(beyond, Err(BandLayoutError::OutOfRange { .. })));
+    }
+
+    /// A wide band that reaches into the violet is cut at the limit, and keeps its radiance there.
+    #[test]
+    fn a_wide_band_is_cut_at_the_limit() {
+        let found = Bands::new(&centres(&[350.0, 450.0, 550.0]), None).unwrap();
+        assert_eq!((found.grid.min_nm(), found.grid.max_nm()), (360.0, 600.0));
+        assert_eq!(found.grid.count(), 6);
+        let shares = found.shares.unwrap();
+        assert_eq!(shares[0], [(0, 1.0)]);
+        assert_eq!(shares[1], [(1, 1.0)]);
+        assert_eq!(shares[3].len(), 2);
+    }
+
+    #[test]
+    fn uneven_bands_keep_their_integral() {
+        let nm = [400.0, 410.0, 430.0, 435.0, 500.0];
+        let found = Bands::new(&centres(&nm), None).unwrap();
+        let edges = [395.0, 405.0, 420.0, 432.5, 467.5, 532.5];
+        let values = [1.0, 3.0, 0.5, 7.0, 2.0];
+        let integral: f64 = (0..5).map(|i| values[i] * (edges[i + 1] - edges[i])).sum();
+        let shares = found.shares.unwrap();
+        assert_eq!(shares.len(), 14);
+        let band = |shares: &Vec<(usize, f32)>| -> f64 {
+            shares
+                .iter()
+                .map(|&(i, share)| values[i] * f64::from(share))
+                .sum()
+        };
+        let sum: f64 = shares.iter().map(band).sum::<f64>() * found.grid.width_nm();
+        assert!((sum / integral - 1.0).abs() < 1e-6, "{sum} {integral}");
+        for shares in &shares {
+            let total: f32 = shares.iter().map(|(_, share)| share).sum();
+            assert!((total - 1.0).abs() < 1e-5, "light is neither lost nor made");
+        }
+    }
+
+    #[test]
+    fn ranges_are_taken_as_they_are() {
+        let range = |low, high| Place::Range(low, high);
+        let found = Bands::new(&[range(400.0, 410.0), range(410.0, 420.0)], None).unwrap();
+        assert_eq!(found, uniform(400.0, 420.0, 0..2));
+        assert!(Bands::new(&[range(400.0, 500.0)], None).is_ok());
+        for second in [range(412.0, 420.0), range(405.0, 420.0)] {
+            let found = Bands::new(&[range(400.0, 410.0), second], None);
+            assert!(matches!(found, Err(BandLayoutError::NotConnected { .. })));
+        }
+    }
+
+    #[test]
+    fn bands_that_make_no_grid_are_refused() {
         use BandLayoutError as E;
+        let of = |nm: &[f64], range| Bands::new(&centres(nm), range);
+        assert_eq!(of(&[400.0, 400.0, 410.0], None), Err(E::Duplicate(400.0)));
+        assert_eq!(of(&[400.0], None), Err(E::SingleBand(400.0)));
+        assert!(of(&[400.0], Some((395.0, 405.0))).is_ok());
+        // A range that the channels contradict.
         assert!(matches!(
-            grid_of(&[400.0, 410.0, 421.0], None),
+            of(&[400.0, 410.0], Some((400.0, 420.0))),
             Err(E::NotUniform { .. })
         ));
-        assert_eq!(
-            grid_of(&[400.0, 400.0, 410.0], None),
-            Err(E::Duplicate(400.0))
-        );
-        assert_eq!(grid_of(&[400.0], None), Err(E::SingleBand(400.0)));
-        assert!(grid_of(&[400.0], Some((395.0, 405.0))).is_ok());
-        assert!(matches!(grid_of(&[900.0, 910.0], None), Err(E::Grid(_))));
-        // A range that the channels contradict.
-        assert!(grid_of(&[400.0, 410.0], Some((400.0, 420.0))).is_err());
+        assert!(matches!(of(&[1.0, 2.0], Some((0.5, 2.5))), Err(E::Grid(_))));
     }
 }

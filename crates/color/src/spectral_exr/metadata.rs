@@ -6,6 +6,7 @@ use exr::meta::attribute::{AttributeValue, Chromaticities, Text};
 use exr::meta::header::{Header, ImageAttributes, LayerAttributes};
 use spectra::BandGrid;
 
+use super::wavelength::radiance_scale;
 use colorimetry::srgb;
 
 const LAYOUT_VERSION: (&str, &str) = ("spectralLayoutVersion", "1.0");
@@ -31,11 +32,15 @@ pub struct Metadata {
     pub software: String,
     /// The exposure, in stops, that the file's R, G and B were developed with.
     pub exposure_ev: f64,
-    /// The unit of radiance, by the layout's spelling. Always `W.m^-2.sr^-1.nm^-1` in files written
-    /// here; values read are never converted.
+    /// The unit of radiance, by the layout's spelling. Always `W.m^-2.sr^-1.nm^-1` in files written here; a unit that is
+    /// a scale away is converted on reading, any other is told as the file has it. `W.m^-2.sr^-1`, the layout's own
+    /// example, means per nm. Empty when the file does not say.
     pub emissive_units: String,
     /// How the image came about: seed, samples, adapter. Names of 1 to 238 bytes.
     pub settings: BTreeMap<String, String>,
+    /// What reading the file had to assume or change, each as what is said after the file's name; nothing for files written
+    /// here. It is not written.
+    pub notes: Vec<String>,
 }
 
 impl Default for Metadata {
@@ -45,6 +50,7 @@ impl Default for Metadata {
             exposure_ev: 0.0,
             emissive_units: UNITS.to_owned(),
             settings: BTreeMap::new(),
+            notes: Vec::new(),
         }
     }
 }
@@ -92,6 +98,27 @@ impl Metadata {
             exposure_ev: number(header, EXPOSURE).unwrap_or(0.0),
             emissive_units: emissive_units(&header.shared_attributes, own).unwrap_or_default(),
             settings,
+            notes: Vec::new(),
+        }
+    }
+
+    /// What the file's radiances are multiplied by; the unit is then ours, where it is a scale away from it.
+    pub(super) fn take_units(&mut self) -> f64 {
+        let unit = self.emissive_units.as_str();
+        match radiance_scale(unit) {
+            _ if unit.is_empty() => 1.0,
+            Some(1.0) => 1.0,
+            Some(scale) => {
+                let note = format!("radiances in {unit} are converted to {UNITS}");
+                self.notes.push(note);
+                UNITS.clone_into(&mut self.emissive_units);
+                scale
+            }
+            None => {
+                let note = format!("its unit {unit:?} is no spectral radiance: values are kept");
+                self.notes.push(note);
+                1.0
+            }
         }
     }
 }

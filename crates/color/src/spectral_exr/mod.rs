@@ -24,6 +24,10 @@
 //! Our own channels stand in a layer of their own, so that neither an ordinary viewer nor a reader
 //! of the layout takes them for colour, depth or spectrum.
 //!
+//! Files of other origin are read too: wavelengths with any prefix of the SI or as frequencies, in any order, with a comma or a
+//! dot; bands of different widths; half floats; several parts; units that are a scale away; reflectances (`T.550nm`) and bands
+//! named by their ends (`400.00-410.00nm`). What reading had to change or assume stands in [`Metadata::notes`].
+//!
 //! The file is in scan lines, compressed without loss; see [`write`](write()) for what that costs.
 
 mod attribute_order;
@@ -31,6 +35,7 @@ mod bands;
 mod channels;
 mod metadata;
 mod read;
+mod wavelength;
 mod write;
 
 pub use bands::BandLayoutError;

@@ -63,8 +63,8 @@ pub enum ReadExrError {
         /// Which form.
         reason: String,
     },
-    /// No channel is a radiance (`S0.…`).
-    #[error("{path} is an OpenEXR file without emissive spectral channels (`S0.550,000000nm`)")]
+    /// No channel is spectral.
+    #[error("{path} is an OpenEXR file without spectral channels (`S0.550,000000nm`)")]
     NoSpectrum {
         /// The file.
         path: PathBuf,
@@ -93,12 +93,17 @@ pub enum ReadExrError {
     },
 }
 
-/// Reads a spectral file: one written by [`write`](super::write()), or another emissive one in the same
-/// layout with evenly spaced bands in nm.
+/// Reads a spectral file: one written by [`write`](super::write()), or one of other origin in the same layout.
+///
+/// The bands of others may have any widths. Each is taken as constant from half way to its neighbour on one side to half way
+/// on the other, as the layout has it; where the widths differ, the bands are read onto even ones as narrow as the narrowest
+/// (1024 at most), which keeps the integral over wavelength. Bands beyond 360 to 830 nm are left out, and one that reaches over
+/// an end from where people see (380 to 780 nm) is cut there.
 ///
 /// What a file of other origin lacks is filled in: XYZ by summing the bands
-/// ([`BandObserver`](crate::xyz::BandObserver)), variance and sample count as 0. Polarised components,
-/// reflectances and other channels are passed over.
+/// ([`BandObserver`](crate::xyz::BandObserver)), variance and sample count as 0. Reflectances are taken as lit by a radiance of
+/// 1, where there is no radiance in the file. Polarised components, light emitted at another wavelength than it was absorbed at,
+/// and other channels are passed over. What was assumed or changed is in the metadata's notes.
 ///
 /// # Errors
 /// When the file cannot be read, is damaged, has no such spectrum, or is larger than its length or
@@ -143,9 +148,8 @@ fn open(path: &Path) -> Result<(Reader<BufReader<File>>, Plan, Metadata), ReadEx
     }
     let context = Context { path };
     let reader = context.run(|| exr::block::read(BufReader::new(file), false))?;
-    let plan = Plan::new(&context, reader.headers())?;
+    let (plan, metadata) = Plan::new(&context, reader.headers())?;
     guard::check(&context, reader.headers(), &plan, length)?;
-    let metadata = Metadata::of_header(&reader.headers()[plan.layer]);
     Ok((reader, plan, metadata))
 }
 

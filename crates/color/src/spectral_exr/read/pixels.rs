@@ -26,6 +26,9 @@ struct Row {
     variance: Vec<f32>,
     xyz: Vec<[f32; 3]>,
     samples: Vec<u32>,
+    /// How many radiances and how many variances each pixel has.
+    channels: usize,
+    bands: usize,
 }
 
 impl Pixels {
@@ -62,12 +65,17 @@ impl Pixels {
             return None;
         }
         let bands = self.plan.grid.count() as usize;
-        let mut row = Row::new(size.width(), bands);
+        let mut row = Row::new(size.width(), self.plan.spectral_channels, bands);
         let last = channels.list.len() - 1;
         for line in block.lines(channels) {
             let (channel, y) = (line.location.channel, line.location.position.y());
             if let Some(content) = self.plan.contents[channel] {
-                row.take(line, channels.list[channel].sample_type, content, bands);
+                row.take(
+                    line,
+                    channels.list[channel].sample_type,
+                    content,
+                    self.plan.scale,
+                );
             }
             if channel == last {
                 self.put(&row, position.x(), y);
@@ -78,9 +86,19 @@ impl Pixels {
 
     fn put(&mut self, row: &Row, x0: usize, y: usize) {
         let bands = self.plan.grid.count() as usize;
+        let mut even = vec![0.0; bands];
         for (x, &xyz) in row.xyz.iter().enumerate() {
             let values = x * bands..(x + 1) * bands;
-            let radiance = &row.radiance[values.clone()];
+            let radiance = &row.radiance[x * row.channels..(x + 1) * row.channels];
+            let radiance = match &self.plan.shares {
+                None => radiance,
+                Some(shares) => {
+                    for (even, shares) in even.iter_mut().zip(shares) {
+                        *even = shares.iter().map(|&(i, share)| share * radiance[i]).sum();
+                    }
+                    &even
+                }
+            };
             let xyz = match &self.observer {
                 Some(observer) => observer.xyz(radiance).map(|v| v as f32),
                 None => xyz,
@@ -104,9 +122,11 @@ impl Pixels {
 }
 
 impl Row {
-    fn new(width: usize, bands: usize) -> Self {
+    fn new(width: usize, channels: usize, bands: usize) -> Self {
         Self {
-            radiance: vec![0.0; width * bands],
+            channels,
+            bands,
+            radiance: vec![0.0; width * channels],
             variance: vec![0.0; width * bands],
             xyz: vec![[0.0; 3]; width],
             samples: vec![0; width],
@@ -114,9 +134,12 @@ impl Row {
     }
 
     /// Takes over the samples of one channel.
-    fn take(&mut self, line: LineRef<'_>, kind: SampleType, content: Content, bands: usize) {
+    fn take(&mut self, line: LineRef<'_>, kind: SampleType, content: Content, scale: f32) {
+        let (channels, bands) = (self.channels, self.bands);
         match content {
-            Content::Radiance(band) => each(line, kind, |x, v| self.radiance[x * bands + band] = v),
+            Content::Radiance(band) => each(line, kind, |x, v| {
+                self.radiance[x * channels + band] = scale * v;
+            }),
             Content::Variance(band) => each(line, kind, |x, v| self.variance[x * bands + band] = v),
             Content::Xyz(axis) => each(line, kind, |x, v| self.xyz[x][axis] = v),
             Content::Samples if kind == SampleType::U32 => {

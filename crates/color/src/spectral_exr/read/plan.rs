@@ -5,9 +5,11 @@ use exr::meta::header::Header;
 use spectra::BandGrid;
 
 use super::{Context, ReadExrError};
-use crate::spectral_exr::bands::{grid_of, wavelength_of};
+use crate::spectral_exr::BandLayoutError;
+use crate::spectral_exr::bands::{Bands, Shares};
 use crate::spectral_exr::channels::{Content, plain_content, variance_band};
-use crate::spectral_exr::metadata::range_nm;
+use crate::spectral_exr::metadata::{Metadata, range_nm};
+use crate::spectral_exr::wavelength::{Place, Quantity, spectral_channel};
 
 /// The layer with the spectrum and what its channels hold.
 #[derive(Debug)]
@@ -20,48 +22,95 @@ pub(super) struct Plan {
     pub(super) grid: BandGrid,
     /// What each channel of the layer holds, `None` where it is passed over.
     pub(super) contents: Vec<Option<Content>>,
+    /// How many channels [`Content::Radiance`] counts.
+    pub(super) spectral_channels: usize,
+    /// How the spectral channels make the grid's bands; `None` where they are the grid's bands.
+    pub(super) shares: Option<Shares>,
+    /// What radiances are multiplied by.
+    pub(super) scale: f32,
+}
+
+/// The spectral channels of a layer, in order of their wavelengths.
+struct Spectrum {
+    quantity: Quantity,
+    channels: Vec<(Place, usize)>,
 }
 
 impl Plan {
-    /// The first flat layer that has radiances.
-    pub(super) fn new(context: &Context<'_>, headers: &[Header]) -> Result<Self, ReadExrError> {
-        let is_spectral = |header: &Header| {
-            !header.deep
-                && names(header)
-                    .iter()
-                    .any(|name| wavelength_of(name).is_some())
+    /// The first flat layer that has a spectrum: radiances rather than reflectances. What it takes to read it goes into
+    /// the notes of `metadata`, with its other entries.
+    pub(super) fn new(
+        context: &Context<'_>,
+        headers: &[Header],
+    ) -> Result<(Self, Metadata), ReadExrError> {
+        let bands_error = |source| ReadExrError::Bands {
+            path: context.path.to_owned(),
+            source,
         };
-        let layer =
-            headers
-                .iter()
-                .position(is_spectral)
+        let (layer, spectrum) =
+            find(headers)
+                .map_err(bands_error)?
                 .ok_or_else(|| ReadExrError::NoSpectrum {
                     path: context.path.to_owned(),
                 })?;
         let header = &headers[layer];
-        if header
-            .channels
-            .list
-            .iter()
-            .any(|c| c.sampling != Vec2(1, 1))
-        {
+        let mut channels = header.channels.list.iter();
+        if channels.any(|c| c.sampling != Vec2(1, 1)) {
             return Err(context.unsupported("channels with fewer samples than pixels"));
         }
-        let (grid, contents) = contents(header).map_err(|source| ReadExrError::Bands {
-            path: context.path.to_owned(),
-            source,
-        })?;
-        Ok(Self {
+        let places: Vec<Place> = spectrum.channels.iter().map(|&(place, _)| place).collect();
+        let bands = Bands::new(&places, range_nm(header)).map_err(bands_error)?;
+        let mut metadata = Metadata::of_header(header);
+        let scale = match spectrum.quantity {
+            Quantity::Reflectance => 1.0,
+            Quantity::Radiance | Quantity::Range => metadata.take_units(),
+        };
+        note(&mut metadata, headers, &spectrum, &bands);
+        let plan = Self {
             layer,
             size: (header.layer_size.width(), header.layer_size.height()),
-            grid,
-            contents,
-        })
+            grid: bands.grid,
+            contents: contents(header, &spectrum, &bands),
+            spectral_channels: bands.used.len(),
+            shares: bands.shares,
+            scale: scale as f32,
+        };
+        Ok((plan, metadata))
     }
 
     /// Whether the file has X, Y and Z.
     pub(super) fn has_xyz(&self) -> bool {
         (0..3).all(|axis| self.contents.contains(&Some(Content::Xyz(axis))))
+    }
+}
+
+/// The layer to read, with its spectrum.
+fn find(headers: &[Header]) -> Result<Option<(usize, Spectrum)>, BandLayoutError> {
+    for quantity in [Quantity::Radiance, Quantity::Range, Quantity::Reflectance] {
+        for (layer, header) in headers.iter().enumerate().filter(|(_, h)| !h.deep) {
+            let spectrum = Spectrum::of(header, quantity)?;
+            if !spectrum.channels.is_empty() {
+                return Ok(Some((layer, spectrum)));
+            }
+        }
+    }
+    Ok(None)
+}
+
+impl Spectrum {
+    fn of(header: &Header, quantity: Quantity) -> Result<Self, BandLayoutError> {
+        let mut channels = Vec::new();
+        for (channel, name) in names(header).iter().enumerate() {
+            if let Some(found) = spectral_channel(name) {
+                let (of_channel, place) = found?;
+                if of_channel == quantity {
+                    channels.push((place, channel));
+                }
+            }
+        }
+        // Other writers need not pad their numbers, so that the order of names is not that of wavelengths.
+        channels.sort_by(|a, b| a.0.centre_nm().total_cmp(&b.0.centre_nm()));
+        Ok(Self { quantity, channels })
     }
 }
 
@@ -72,33 +121,51 @@ fn names(header: &Header) -> Vec<String> {
         .collect()
 }
 
-/// The grid that the channels' names give, and what each channel holds.
-fn contents(
-    header: &Header,
-) -> Result<(BandGrid, Vec<Option<Content>>), crate::spectral_exr::BandLayoutError> {
-    let names = names(header);
-    let mut radiances = Vec::new();
-    for (channel, name) in names.iter().enumerate() {
-        if let Some(nm) = wavelength_of(name) {
-            radiances.push((nm?, channel));
-        }
-    }
-    // Other writers need not pad their numbers, so that the order of names is not that of wavelengths.
-    radiances.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let centres: Vec<f64> = radiances.iter().map(|&(nm, _)| nm).collect();
-    let grid = grid_of(&centres, range_nm(header))?;
-
-    let mut contents: Vec<Option<Content>> = names
-        .iter()
-        .map(|name| match plain_content(name) {
-            // Developed again from XYZ when needed.
-            Some(Content::Rgb(_)) => None,
-            Some(content) => Some(content),
-            None => variance_band(name, &grid).map(Content::Variance),
-        })
-        .collect();
-    for (band, &(_, channel)) in radiances.iter().enumerate() {
+/// What each channel holds.
+fn contents(header: &Header, spectrum: &Spectrum, bands: &Bands) -> Vec<Option<Content>> {
+    let content = |name: &String| match plain_content(name) {
+        // Developed again from XYZ when needed.
+        Some(Content::Rgb(_)) => None,
+        Some(content) => Some(content),
+        None => variance_band(name, &bands.grid).map(Content::Variance),
+    };
+    let mut contents: Vec<Option<Content>> = names(header).iter().map(content).collect();
+    for (band, &(_, channel)) in spectrum.channels[bands.used.clone()].iter().enumerate() {
         contents[channel] = Some(Content::Radiance(band));
     }
-    Ok((grid, contents))
+    contents
+}
+
+/// Says what was chosen and changed.
+fn note(metadata: &mut Metadata, headers: &[Header], spectrum: &Spectrum, bands: &Bands) {
+    let mut say = |note: String| metadata.notes.push(note);
+    if spectrum.quantity == Quantity::Reflectance {
+        say(
+            "holds reflectances: they are taken as lit by a radiance of 1 at every wavelength"
+                .into(),
+        );
+    }
+    let spectral_layers = headers.iter().filter(|header| {
+        let found = Spectrum::of(header, spectrum.quantity);
+        !header.deep && found.is_ok_and(|found| !found.channels.is_empty())
+    });
+    if spectral_layers.count() > 1 {
+        say("has several parts with spectra: the first is read".into());
+    }
+    let left_out = spectrum.channels.len() - bands.used.len();
+    let (low, high) = BandGrid::LIMITS_NM;
+    if left_out > 0 {
+        let all = spectrum.channels.len();
+        say(format!(
+            "{left_out} of its {all} bands are left out: they reach beyond {low} to {high} nm"
+        ));
+    }
+    if bands.shares.is_some() {
+        say(format!(
+            "its {} bands are of different widths: read onto {} even ones of {:.3} nm, which keeps the integral",
+            bands.used.len(),
+            bands.grid.count(),
+            bands.grid.width_nm()
+        ));
+    }
 }

@@ -1,0 +1,204 @@
+//! How far two spectral images are apart in each band.
+
+use rayon::prelude::*;
+use spectra::SpectralImage;
+
+use super::CompareError;
+
+/// The difference of two images in one band, the second less the first, over all pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BandDifference {
+    /// The wavelength in the middle of the band, nm.
+    pub centre_nm: f64,
+    /// Mean radiance of the first image.
+    pub reference_mean: f64,
+    /// Root mean square difference.
+    pub rmse: f64,
+    /// Mean difference: above 0 where the second image has more light.
+    pub bias: f64,
+    /// How much of that is noise, where both images know their variance.
+    pub noise: Option<Noise>,
+    /// How many values were left out, because one of a pair was not finite.
+    pub left_out: usize,
+}
+
+/// What the variances of two images say of their difference, if their noise is independent (other seeds).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// The root mean square difference that noise alone makes, √(mean of both variances).
+    pub rmse: f64,
+    /// The bias over its standard error: within ±3 it may be noise.
+    pub bias_sigmas: f64,
+}
+
+/// Sums over the pixels of a band.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    count: usize,
+    reference: f64,
+    difference: f64,
+    squared: f64,
+    variance: f64,
+}
+
+/// Compares the images band by band.
+///
+/// # Errors
+/// When they differ in size or bands, or have no pixels.
+pub fn bands(
+    reference: &SpectralImage,
+    test: &SpectralImage,
+) -> Result<Vec<BandDifference>, CompareError> {
+    let size = |image: &SpectralImage| [image.width() as usize, image.height() as usize];
+    if size(reference) != size(test) {
+        return Err(CompareError::Sizes {
+            first: size(reference),
+            second: size(test),
+        });
+    }
+    if reference.bands() != test.bands() {
+        return Err(CompareError::Bands {
+            first: *reference.bands(),
+            second: *test.bands(),
+        });
+    }
+    let pixels = reference.xyz().len();
+    if pixels == 0 {
+        return Err(CompareError::Empty);
+    }
+    let has_noise = [reference, test].map(|image| image.variance().iter().any(|&v| v > 0.0));
+    let knows_noise = has_noise == [true; 2];
+    let grid = reference.bands();
+    let sums = sums(reference, test);
+    let of_band =
+        |(band, sums): (u32, &Sums)| sums.difference(grid.centre_nm(band), pixels, knows_noise);
+    Ok((0..).zip(&sums).map(of_band).collect())
+}
+
+/// Rows of pixels at a time on all cores, added up in order: the same figures on any machine.
+fn sums(reference: &SpectralImage, test: &SpectralImage) -> Vec<Sums> {
+    let bands = reference.bands().count() as usize;
+    let row = bands * reference.width() as usize;
+    let of_row = |row: &[f32], other: &[f32], variance: &[f32], other_variance: &[f32]| {
+        let mut sums = vec![Sums::default(); bands];
+        for (i, (&a, &b)) in row.iter().zip(other).enumerate() {
+            let (a, b) = (f64::from(a), f64::from(b));
+            if a.is_finite() && b.is_finite() {
+                let noise = f64::from(variance[i]) + f64::from(other_variance[i]);
+                sums[i % bands].add(a, b - a, noise);
+            }
+        }
+        sums
+    };
+    let rows: Vec<Vec<Sums>> = (0..reference.height() as usize)
+        .into_par_iter()
+        .map(|y| {
+            let values = y * row..(y + 1) * row;
+            of_row(
+                &reference.radiance()[values.clone()],
+                &test.radiance()[values.clone()],
+                &reference.variance()[values.clone()],
+                &test.variance()[values],
+            )
+        })
+        .collect();
+    let mut total = vec![Sums::default(); bands];
+    for row in rows {
+        for (total, sums) in total.iter_mut().zip(row) {
+            total.count += sums.count;
+            total.reference += sums.reference;
+            total.difference += sums.difference;
+            total.squared += sums.squared;
+            total.variance += sums.variance;
+        }
+    }
+    total
+}
+
+impl Sums {
+    fn add(&mut self, reference: f64, difference: f64, variance: f64) {
+        self.count += 1;
+        self.reference += reference;
+        self.difference += difference;
+        self.squared += difference * difference;
+        self.variance += variance;
+    }
+
+    fn difference(&self, centre_nm: f64, pixels: usize, knows_noise: bool) -> BandDifference {
+        let count = self.count as f64;
+        let noise = Noise {
+            rmse: (self.variance / count).sqrt(),
+            bias_sigmas: self.difference / self.variance.sqrt(),
+        };
+        BandDifference {
+            centre_nm,
+            reference_mean: self.reference / count,
+            rmse: (self.squared / count).sqrt(),
+            bias: self.difference / count,
+            noise: (knows_noise && self.variance > 0.0).then_some(noise),
+            left_out: pixels - self.count,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spectra::BandGrid;
+
+    /// Two pixels of two bands.
+    fn image(values: [[f32; 2]; 2], variance: f32) -> SpectralImage {
+        let mut image = SpectralImage::new(2, 1, BandGrid::visible(2).unwrap());
+        for (x, values) in (0..).zip(&values) {
+            image.set_pixel((x, 0), values, &[variance; 2], [0.0; 3], 8);
+        }
+        image
+    }
+
+    #[test]
+    fn differences_are_those_of_a_computation_by_hand() {
+        let reference = image([[1.0, 2.0], [3.0, 4.0]], 0.02);
+        let test = image([[1.1, 2.0], [3.3, 4.0]], 0.03);
+        let found = bands(&reference, &test).unwrap();
+        let first = found[0];
+        assert_eq!((first.centre_nm, first.reference_mean), (480.0, 2.0));
+        assert!((first.bias - 0.2).abs() < 1e-6);
+        assert!((first.rmse - 0.05_f64.sqrt()).abs() < 1e-6);
+        let noise = first.noise.unwrap();
+        assert!((noise.rmse - 0.05_f64.sqrt()).abs() < 1e-6);
+        assert!((noise.bias_sigmas - 0.4 / 0.1_f64.sqrt()).abs() < 1e-5);
+        assert_eq!((found[1].bias, found[1].rmse), (0.0, 0.0));
+        // The other way round the sign changes.
+        assert!((bands(&test, &reference).unwrap()[0].bias + 0.2).abs() < 1e-6);
+    }
+
+    #[test]
+    fn without_variance_nothing_is_said_of_noise() {
+        let (known, unknown) = (image([[1.0; 2]; 2], 0.1), image([[1.0; 2]; 2], 0.0));
+        assert!(bands(&known, &unknown).unwrap()[0].noise.is_none());
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_left_out() {
+        let (reference, broken) = (
+            image([[1.0; 2]; 2], 0.1),
+            image([[f32::NAN, 2.0], [1.5, 2.0]], 0.1),
+        );
+        let found = bands(&reference, &broken).unwrap();
+        assert_eq!((found[0].left_out, found[1].left_out), (1, 0));
+        assert_eq!((found[0].bias, found[1].bias), (0.5, 1.0));
+    }
+
+    #[test]
+    fn images_that_are_not_alike_do_not_compare() {
+        let image = |width, bands| SpectralImage::new(width, 1, BandGrid::visible(bands).unwrap());
+        let sizes = bands(&image(2, 3), &image(3, 3)).unwrap_err();
+        assert!(matches!(sizes, CompareError::Sizes { .. }), "{sizes}");
+        let other = bands(&image(2, 3), &image(2, 4)).unwrap_err();
+        assert_eq!(
+            other.to_string(),
+            "the first image has 3 bands from 380 to 780 nm, the second 4 bands from 380 to 780 nm"
+        );
+        assert_eq!(bands(&image(0, 3), &image(0, 3)), Err(CompareError::Empty));
+    }
+}

@@ -1,0 +1,299 @@
+//! Pictures to compare, and how far their colours are apart.
+
+use std::fs::File;
+use std::io::{self, BufReader};
+use std::path::{Path, PathBuf};
+
+use colorimetry::lab::delta_e_2000;
+use colorimetry::{Lab, srgb};
+use rayon::prelude::*;
+use spectra::SpectralImage;
+use thiserror::Error;
+
+use super::CompareError;
+use crate::RgbImage8;
+use crate::develop::linear_rgb;
+use crate::xyz::exposure_scale;
+
+/// A picture in linear sRGB, not clipped, row 0 on top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    size: [usize; 2],
+    linear: Vec<[f64; 3]>,
+    tag: Option<String>,
+}
+
+/// Why a picture was not read.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ReadPictureError {
+    /// The file cannot be opened or read.
+    #[error("cannot read {path}")]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The file is no PNG file, or a damaged one.
+    #[error("{path} is not a PNG file that can be read")]
+    Decode {
+        /// The file.
+        path: PathBuf,
+        /// What the decoder said.
+        source: ::png::DecodingError,
+    },
+}
+
+impl Picture {
+    /// Of codes of sRGB.
+    pub fn of_codes(image: &RgbImage8) -> Self {
+        let pixels = image.data().chunks_exact(3);
+        Self {
+            size: [image.width() as usize, image.height() as usize],
+            linear: pixels
+                .map(|p| [p[0], p[1], p[2]].map(srgb::from_u8))
+                .collect(),
+            tag: None,
+        }
+    }
+
+    /// Of an image's XYZ, at an exposure in stops; neither adapted nor clipped.
+    pub fn of_spectral(image: &SpectralImage, exposure_ev: f64) -> Self {
+        let scale = exposure_scale(exposure_ev);
+        let linear = image.xyz().par_iter().map(|&xyz| linear_rgb(xyz, scale));
+        Self {
+            size: [image.width() as usize, image.height() as usize],
+            linear: linear.collect(),
+            tag: None,
+        }
+    }
+
+    /// Of a PNG file of 1 to 16 bits. Its codes are taken as those of sRGB, whatever it is tagged as; transparency is
+    /// passed over.
+    ///
+    /// # Errors
+    /// When it cannot be read or is no PNG file.
+    pub fn read_png(path: &Path) -> Result<Self, ReadPictureError> {
+        let file = File::open(path).map_err(|source| ReadPictureError::File {
+            path: path.to_owned(),
+            source,
+        })?;
+        decode(BufReader::new(file)).map_err(|source| ReadPictureError::Decode {
+            path: path.to_owned(),
+            source,
+        })
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
+    /// Linear sRGB of each pixel, row by row.
+    pub fn linear(&self) -> &[[f64; 3]] {
+        &self.linear
+    }
+
+    /// What the file says its colours are, where that is not sRGB.
+    pub fn tag(&self) -> Option<&str> {
+        self.tag.as_deref()
+    }
+
+    /// As a display of sRGB shows it: clipped, and black where it is not a number.
+    pub(super) fn shown(&self) -> impl Iterator<Item = [f64; 3]> {
+        let shown = |v: f64| if v.is_nan() { 0.0 } else { v.clamp(0.0, 1.0) };
+        self.linear.iter().map(move |rgb| rgb.map(shown))
+    }
+
+    pub(super) fn check_alike(&self, other: &Self) -> Result<(), CompareError> {
+        if self.size != other.size {
+            return Err(CompareError::Sizes {
+                first: self.size,
+                second: other.size,
+            });
+        }
+        if self.linear.is_empty() {
+            return Err(CompareError::Empty);
+        }
+        Ok(())
+    }
+}
+
+fn decode(file: BufReader<File>) -> Result<Picture, ::png::DecodingError> {
+    let mut decoder = ::png::Decoder::new(file);
+    decoder.set_transformations(::png::Transformations::EXPAND);
+    let mut reader = decoder.read_info()?;
+    let bytes = reader.output_buffer_size().ok_or_else(too_large)?;
+    let mut data = Vec::new();
+    data.try_reserve_exact(bytes).map_err(|_| too_large())?;
+    data.resize(bytes, 0);
+    let frame = reader.next_frame(&mut data)?;
+    let tag = tag(reader.info());
+    let values: Vec<f64> = match frame.bit_depth {
+        ::png::BitDepth::Sixteen => {
+            let pairs = data.chunks_exact(2);
+            pairs
+                .map(|b| f64::from(u16::from_be_bytes([b[0], b[1]])) / 65535.0)
+                .collect()
+        }
+        _ => data.iter().map(|&code| f64::from(code) / 255.0).collect(),
+    };
+    let samples = frame.color_type.samples();
+    let rgb = |pixel: &[f64]| match samples {
+        1 | 2 => [pixel[0]; 3],
+        _ => [pixel[0], pixel[1], pixel[2]],
+    };
+    let pixels = frame.width as usize * frame.height as usize;
+    Ok(Picture {
+        size: [frame.width as usize, frame.height as usize],
+        linear: values
+            .chunks_exact(samples)
+            .take(pixels)
+            .map(|pixel| rgb(pixel).map(srgb::decode))
+            .collect(),
+        tag,
+    })
+}
+
+fn too_large() -> ::png::DecodingError {
+    ::png::DecodingError::LimitsExceeded
+}
+
+/// What a file says its colours are, where that is not sRGB. Of several chunks the one that a reader must heed first
+/// (PNG specification, third edition, section 4.3).
+fn tag(info: &::png::Info<'_>) -> Option<String> {
+    if let Some(points) = &info.coding_independent_code_points {
+        let (primaries, curve) = (points.color_primaries, points.transfer_function);
+        let is_srgb = (primaries, curve) == (1, 13);
+        return (!is_srgb)
+            .then(|| format!("cICP primaries {primaries}, transfer function {curve}"));
+    }
+    match (&info.icc_profile, info.srgb) {
+        (Some(profile), None) => Some(format!("an ICC profile of {} bytes", profile.len())),
+        _ => None,
+    }
+}
+
+/// The colour difference ΔE₀₀ at each pixel, CIELAB under the white of sRGB, colours beyond the display included; not a number
+/// where a colour is none.
+///
+/// # Errors
+/// When the pictures differ in size or are empty.
+pub fn delta_e(reference: &Picture, test: &Picture) -> Result<Vec<f64>, CompareError> {
+    reference.check_alike(test)?;
+    let white = srgb::white_xyz();
+    let lab = |&linear: &[f64; 3]| Lab::from_xyz(srgb::xyz_from_linear(linear), white);
+    let pairs = reference.linear.par_iter().zip(&test.linear);
+    let of_pair = |(a, b): (&[f64; 3], &[f64; 3])| {
+        let is_finite = a.iter().chain(b).all(|v| v.is_finite());
+        if is_finite {
+            delta_e_2000(lab(a), lab(b))
+        } else {
+            f64::NAN
+        }
+    };
+    Ok(pairs.map(of_pair).collect())
+}
+
+/// Peak signal-to-noise ratio of the pictures as sRGB codes them, −10 log₁₀ of the mean squared difference of codes from 0 to
+/// 1, in dB; infinite for pictures that are the same.
+///
+/// # Errors
+/// When the pictures differ in size or are empty.
+pub fn psnr(reference: &Picture, test: &Picture) -> Result<f64, CompareError> {
+    reference.check_alike(test)?;
+    let squared = |(a, b): ([f64; 3], [f64; 3])| -> f64 {
+        let pairs = a.map(srgb::encode).into_iter().zip(b.map(srgb::encode));
+        pairs.map(|(a, b)| (a - b).powi(2)).sum()
+    };
+    let sum: f64 = reference.shown().zip(test.shown()).map(squared).sum();
+    let values = 3 * reference.linear.len();
+    Ok(-10.0 * (sum / values as f64).log10())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grey(code: u8) -> Picture {
+        Picture::of_codes(&RgbImage8::new(4, 3, vec![code; 36]).unwrap())
+    }
+
+    #[test]
+    fn equal_pictures_do_not_differ() {
+        let grey = grey(90);
+        assert_eq!(delta_e(&grey, &grey).unwrap(), [0.0; 12]);
+        assert_eq!(psnr(&grey, &grey).unwrap(), f64::INFINITY);
+    }
+
+    /// Black and white differ by 1 in every code, and by L* = 100 with S_L = 1 + 0.015·0/√20 = 1.
+    #[test]
+    fn black_and_white_differ_as_computed_by_hand() {
+        let (black, white) = (grey(0), grey(255));
+        assert!(psnr(&black, &white).unwrap().abs() < 1e-9);
+        for found in delta_e(&black, &white).unwrap() {
+            assert!((found - 100.0).abs() < 1e-6, "{found}");
+        }
+        // A step of one code: 20 log10(255).
+        let step = psnr(&grey(100), &grey(101)).unwrap();
+        assert!((step - 48.130_803_6).abs() < 1e-6, "{step}");
+    }
+
+    #[test]
+    fn one_pixel_that_differs_is_found() {
+        let mut codes = vec![100; 36];
+        codes[3 * 7] = 140;
+        let other = Picture::of_codes(&RgbImage8::new(4, 3, codes).unwrap());
+        let found = delta_e(&grey(100), &other).unwrap();
+        for (index, value) in found.into_iter().enumerate() {
+            assert_eq!(value > 5.0, index == 7, "{index}: {value}");
+        }
+        assert!(psnr(&grey(100), &other).unwrap() < 40.0);
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_told() {
+        let mut other = grey(100);
+        other.linear[2] = [f64::NAN, 0.1, f64::INFINITY];
+        let found = delta_e(&grey(100), &other).unwrap();
+        assert!(found[2].is_nan() && found[3] == 0.0);
+        assert!(psnr(&grey(100), &other).unwrap().is_finite());
+        assert!(super::super::flip(&grey(100), &other).unwrap()[0].is_finite());
+    }
+
+    #[test]
+    fn pictures_of_different_sizes_do_not_compare() {
+        let wide = Picture::of_codes(&RgbImage8::new(6, 2, vec![0; 36]).unwrap());
+        assert!(delta_e(&grey(0), &wide).is_err() && psnr(&grey(0), &wide).is_err());
+    }
+
+    #[test]
+    fn png_files_of_any_depth_are_read() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("picture.png");
+        crate::png::write(&path, &RgbImage8::new(4, 3, (0..36).collect()).unwrap()).unwrap();
+        let found = Picture::read_png(&path).unwrap();
+        assert_eq!(found.linear()[1], [3, 4, 5].map(srgb::from_u8));
+        assert_eq!((found.size(), found.tag()), ([4, 3], None));
+
+        let mut encoder = ::png::Encoder::new(File::create(&path).unwrap(), 2, 1);
+        encoder.set_color(::png::ColorType::GrayscaleAlpha);
+        encoder.set_depth(::png::BitDepth::Sixteen);
+        let mut writer = encoder.write_header().unwrap();
+        writer
+            .write_chunk(::png::chunk::ChunkType(*b"cICP"), &[12, 13, 0, 1])
+            .unwrap();
+        writer
+            .write_image_data(&[0xff, 0xff, 0, 0, 0x80, 0x00, 0, 0])
+            .unwrap();
+        writer.finish().unwrap();
+        let found = Picture::read_png(&path).unwrap();
+        assert_eq!(found.linear()[0], [1.0; 3]);
+        assert!((found.linear()[1][0] - srgb::decode(32768.0 / 65535.0)).abs() < 1e-15);
+        assert!(found.tag().unwrap().contains("primaries 12"));
+
+        std::fs::write(&path, "no picture").unwrap();
+        assert!(Picture::read_png(&path).is_err());
+    }
+}
