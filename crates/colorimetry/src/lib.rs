@@ -4,6 +4,7 @@
 
 pub mod adaptation;
 pub mod chromaticity;
+pub mod ciecam16;
 pub mod display;
 pub mod lab;
 pub mod matrix;
