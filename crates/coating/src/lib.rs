@@ -41,7 +41,7 @@ mod tolerance;
 pub use chart::{Chart, ChartOf};
 pub use colour::{Colour, ParseColourError, Polarisation, Side, StackColour, View, parse_srgb};
 pub use file::{LayerDescription, StackDescription};
-pub use light::{Light, UnknownIlluminant};
+pub use light::Light;
 pub use line::LineError;
 pub use matching::{Match, MatchBy, MatchPlace, Matching, matches};
 pub use optics::batch::Powers;

@@ -9,8 +9,9 @@
 //!   two media in one.
 //! * [`BandGrid`] divides the rendered range into N uniform bands.
 //! * [`BandTable`] is a spectrum resampled onto a grid, fine enough for any wavelength drawn within a band.
+//! * [`table_file`] reads tables that users wrote.
 //! * [`SpectralImage`] is what a renderer produces: radiance per pixel and band, by [`LightGroup`].
-//! * [`illuminant`], [`observer_1931`], [`optical_constants()`] and [`reflectance`] are the data that the project carries;
+//! * [`find_illuminant`], [`Observer`], [`optical_constants()`] and [`reflectance`] are the data that the project carries;
 //!   [`material_info`] says where a material's come from.
 
 mod band_grid;
@@ -22,12 +23,15 @@ mod light_group;
 mod optical_constants;
 mod spectral_image;
 mod spectrum;
+pub mod table_file;
+pub mod text_file;
 
 pub use band_grid::{BandGrid, BandGridError};
 pub use band_table::BandTable;
 pub use data::{
-    DataSet, KM_LUMENS_PER_WATT, MaterialInfo, illuminant, illuminant_names, material_info,
-    material_names, observer_1931, optical_constants, reflectance, reflectance_names,
+    DataSet, IlluminantError, KM_LUMENS_PER_WATT, MaterialInfo, Observer, UnknownObserver,
+    find_illuminant, illuminant, illuminant_names, is_line_lamp, material_info, material_names,
+    observer_1931, optical_constants, reflectance, reflectance_names,
 };
 pub use effective_medium::{MixtureError, MixtureRule, bruggeman, maxwell_garnett};
 pub use formula::{DispersionFormula, FormulaError, FormulaKind};

@@ -14,7 +14,6 @@ mod picture_file;
 mod points;
 mod settings;
 mod spectrum_list;
-mod table_file;
 mod thickness;
 
 use crate::description::{Description, Index};

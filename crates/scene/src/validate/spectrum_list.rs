@@ -298,11 +298,14 @@ fn named_illuminant(
     name: &str,
     extrapolate: Extrapolate,
 ) -> Option<Spectrum> {
-    let Some(set) = spectra::illuminant(name) else {
-        checks.unknown_name(field, ("illuminant", name), &spectra::illuminant_names());
-        return None;
-    };
-    Some(extrapolated(set.data, extrapolate))
+    match spectra::find_illuminant(name) {
+        Ok(set) => Some(extrapolated(set.data, extrapolate)),
+        Err(error) => {
+            let message = error.to_string();
+            checks.report(Problem::new(ProblemKind::UnknownName, field, message));
+            None
+        }
+    }
 }
 
 pub(super) fn extrapolated(spectrum: Spectrum, extrapolate: Extrapolate) -> Spectrum {

@@ -1,11 +1,14 @@
-//! CIE illuminants.
+//! Illuminants: the CIE's tables by name, daylight and black bodies by temperature.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-use super::DataSet;
+use thiserror::Error;
+
 use super::observer::observer_1931;
 use super::table::{Table, TableError, embedded};
+use super::{DataSet, radiators};
 use crate::{OutOfRange, Spectrum, Tabulated};
 
 /// Wavelengths of the 1 nm rule: 380, 381 … 780 nm.
@@ -28,12 +31,25 @@ fn normalised(table: &Tabulated) -> Result<Spectrum, OutOfRange> {
     Ok(Spectrum::Table(table.scaled(factor)))
 }
 
+/// The same set, normalised.
+///
+/// # Panics
+/// When the table does not cover 380 to 780 nm, which the project's own do: the test that loads every set stands before that.
+fn normalised_set(set: DataSet<Tabulated>) -> DataSet<Spectrum> {
+    let data = normalised(&set.data).unwrap_or_else(|gap| panic!("illuminant {}: {gap}", set.name));
+    DataSet {
+        name: set.name,
+        citation: set.citation,
+        data,
+    }
+}
+
 /// The illuminants of one data file.
 fn read(table: &Table) -> Result<Vec<DataSet<Tabulated>>, TableError> {
     let citation = table.citation()?;
     let set = |name| {
         Ok(DataSet {
-            name,
+            name: Cow::Borrowed(name),
             citation: citation.clone(),
             data: table.series(name)?,
         })
@@ -41,45 +57,123 @@ fn read(table: &Table) -> Result<Vec<DataSet<Tabulated>>, TableError> {
     table.series_names().into_iter().map(set).collect()
 }
 
-fn all() -> &'static BTreeMap<&'static str, DataSet<Spectrum>> {
-    static ALL: OnceLock<BTreeMap<&'static str, DataSet<Spectrum>>> = OnceLock::new();
-    ALL.get_or_init(|| {
-        let standard = include_str!("../../data/illuminants/standard.csv");
-        let fluorescent = include_str!("../../data/illuminants/fluorescent.csv");
-        let mut sets = embedded("illuminants/standard.csv", standard, read);
-        sets.extend(embedded("illuminants/fluorescent.csv", fluorescent, read));
-        let normalised = |set: DataSet<Tabulated>| DataSet {
-            name: set.name,
-            citation: set.citation,
-            data: normalised(&set.data)
-                .unwrap_or_else(|gap| panic!("illuminant {}: {gap}", set.name)),
+fn all() -> &'static BTreeMap<Cow<'static, str>, DataSet<Spectrum>> {
+    static ALL: OnceLock<BTreeMap<Cow<'static, str>, DataSet<Spectrum>>> = OnceLock::new();
+    macro_rules! table {
+        ($file:literal) => {
+            embedded($file, include_str!(concat!("../../data/", $file)), read)
         };
-        let mut sets: Vec<_> = sets.into_iter().map(normalised).collect();
+    }
+    ALL.get_or_init(|| {
+        let mut sets = table!("illuminants/standard.csv");
+        sets.extend(table!("illuminants/fluorescent.csv"));
+        sets.extend(table!("illuminants/led.csv"));
+        sets.extend(table!("illuminants/discharge.csv"));
+        let mut sets: Vec<_> = sets.into_iter().map(normalised_set).collect();
         sets.push(DataSet {
-            name: "E",
+            name: Cow::Borrowed("E"),
             citation: "Equal-energy spectrum: CIE 015:2018, Colorimetry, 4th edition, DOI 10.25039/TR.015.2018."
                 .to_owned(),
             data: Spectrum::Constant(1.0),
         });
-        sets.into_iter().map(|set| (set.name, set)).collect()
+        sets.into_iter().map(|set| (set.name.clone(), set)).collect()
     })
 }
 
-/// A CIE illuminant by name (`"D65"`), relative, scaled so that its luminance equals that of the
-/// equal-energy spectrum of value 1: ∫S ȳ dλ = ∫ȳ dλ over 380 to 780 nm (1 nm rule).
-///
-/// A, B, C, D50, D55, D65 and D75 are linear between the points of their 5 nm tables, which for the
-/// D series is the definition. FL1 to FL12 are line lamps that are *defined* by sums over their 5 nm
-/// tables: read as linear between the points, as here, their chromaticity y moves by about 2e-4 from
-/// the published one, and a mercury line is as wide as the table's step. E is the constant 1.
-/// Ranges: 300 to 780 nm (B from 320 nm), FL1 to FL12 380 to 780 nm.
-pub fn illuminant(name: &str) -> Option<DataSet<Spectrum>> {
-    all().get(name).cloned()
+/// What [`find_illuminant`] understands.
+const KNOWN: &str = "A, B, C, D50, D55, D65, D75, E, FL1 to FL12 (or F1 to F12), HP1 to HP5, LED-B1 to LED-B5, LED-BH1, LED-RGB1, \
+    LED-V1, LED-V2, daylight D4000K to D25000K, and black bodies blackbody_1000K to blackbody_100000K";
+
+/// Why there is no illuminant of a name.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum IlluminantError {
+    /// Nothing is known by the name.
+    #[error("there is no illuminant {name:?}{}; known are {KNOWN}", suggestion(.nearest.as_deref()))]
+    Unknown {
+        /// What was asked for.
+        name: String,
+        /// The one that was probably meant.
+        nearest: Option<String>,
+    },
+    /// A temperature at which the formula gives no light.
+    #[error("illuminant {name:?}: {what} is defined from {} to {} K", range_k.0, range_k.1)]
+    Temperature {
+        /// What was asked for.
+        name: String,
+        /// What it is a temperature of.
+        what: &'static str,
+        /// The first and the last one possible, K.
+        range_k: (f64, f64),
+    },
 }
 
-/// Names that [`illuminant`] knows, sorted.
+fn suggestion(nearest: Option<&str>) -> String {
+    nearest.map_or_else(String::new, |name| format!("; did you mean {name:?}?"))
+}
+
+/// An illuminant by name, relative, scaled so that its luminance equals that of the equal-energy spectrum of value 1:
+/// ∫S ȳ dλ = ∫ȳ dλ over 380 to 780 nm (CIE 1931, 1 nm rule).
+///
+/// * `A`, `B`, `C`, `D50`, `D55`, `D65`, `D75`: linear between the points of their 5 nm tables, which for the D series is the
+///   definition; 300 to 780 nm, B from 320 nm. `E` is the constant 1.
+/// * `FL1` to `FL12` (also `F1` to `F12`), `HP1` to `HP5`: lamps with lines, which are *defined* by sums over their 5 nm tables
+///   ([`is_line_lamp`]): read as linear between the points, as here, their chromaticity y moves by about 2e-4 from the published
+///   one, and a mercury line is as wide as the table's step. 380 to 780 nm.
+/// * `LED-B1` to `LED-B5`, `LED-BH1`, `LED-RGB1`, `LED-V1`, `LED-V2`: 5 nm tables too, of smooth lamps; 380 to 780 nm.
+/// * `D5700K`: the CIE's daylight of that correlated colour temperature, 4000 to 25000 K; 300 to 830 nm. D65 itself lies near 6504 K.
+/// * `blackbody_3000K`: Planck's law with c₂ = 1.4388e-2 m K, 1000 to 100000 K; 300 to 830 nm.
+///
+/// # Errors
+/// When nothing has the name, or the temperature is outside its range.
+pub fn find_illuminant(name: &str) -> Result<DataSet<Spectrum>, IlluminantError> {
+    if let Some(set) = all()
+        .get(name)
+        .or_else(|| all().get(full_name(name)?.as_str()))
+    {
+        return Ok(set.clone());
+    }
+    match radiators::by_temperature(name)? {
+        Some(set) => Ok(normalised_set(set)),
+        None => Err(IlluminantError::Unknown {
+            name: name.chars().take(64).collect(),
+            nearest: nearest(name),
+        }),
+    }
+}
+
+/// The name in the tables of a lamp that is called `F11` for short.
+fn full_name(short: &str) -> Option<String> {
+    let number = short.strip_prefix('F')?;
+    let is_number = number.starts_with(|c: char| c.is_ascii_digit());
+    is_number.then(|| format!("FL{number}"))
+}
+
+/// [`find_illuminant`] for those who can say themselves what is wrong.
+pub fn illuminant(name: &str) -> Option<DataSet<Spectrum>> {
+    find_illuminant(name).ok()
+}
+
+/// The names of the tables that [`find_illuminant`] knows, sorted.
 pub fn illuminant_names() -> Vec<&'static str> {
-    all().keys().copied().collect()
+    all().keys().map(AsRef::as_ref).collect()
+}
+
+/// Whether this is one of the CIE's lamps with lines, FL1 to FL12 and HP1 to HP5: their tables are defined by sums over 5 nm.
+pub fn is_line_lamp(name: &str) -> bool {
+    let name = full_name(name).unwrap_or_else(|| name.to_owned());
+    (name.starts_with("FL") || name.starts_with("HP")) && all().contains_key(name.as_str())
+}
+
+/// The known name that a slip of the keys is nearest to; upper and lower case are no difference.
+fn nearest(name: &str) -> Option<String> {
+    let word: String = name.to_uppercase().chars().take(16).collect();
+    illuminant_names()
+        .into_iter()
+        .map(|known| (strsim::osa_distance(&word, known), known))
+        .min()
+        .filter(|&(distance, known)| distance < known.len())
+        .map(|(_, known)| known.to_owned())
 }
 
 #[cfg(test)]
@@ -99,7 +193,7 @@ mod tests {
 
     /// X and Z at Y = 100, from plain double-precision sums over the same published tables,
     /// computed apart from this code (numpy).
-    const WHITE_POINTS: [(&str, u32, f64, f64); 16] = [
+    const WHITE_POINTS: [(&str, u32, f64, f64); 17] = [
         ("A", 5, 109.848_993_121, 35.582_473_632_4),
         ("A", 1, 109.847_886_503, 35.587_346_062_6),
         ("C", 5, 98.071_714_216, 118.224_892_313),
@@ -116,6 +210,7 @@ mod tests {
         ("E", 1, 99.998_745_068_8, 99.990_319_865_3),
         ("FL2", 5, 99.185_758_445_2, 67.393_784_195_5),
         ("FL11", 5, 100.961_005_324, 64.350_584_665_1),
+        ("LED-B3", 5, 100.893_451_334, 67.715_259_229_9),
     ];
 
     #[test]
@@ -177,5 +272,38 @@ mod tests {
             // The table has six digits.
             assert!((ratio - 1.0).abs() < 6e-6, "{nm} nm: {ratio}");
         }
+    }
+
+    #[test]
+    fn a_name_that_nothing_has_brings_a_suggestion() {
+        let said = |name| find_illuminant(name).unwrap_err().to_string();
+        assert!(
+            said("d65").contains("did you mean \"D65\""),
+            "{}",
+            said("d65")
+        );
+        let strange = said("tungsten bulb");
+        assert!(
+            !strange.contains("did you mean") && strange.contains("FL1 to FL12"),
+            "{strange}"
+        );
+        assert!(
+            said("D3999K").contains("4000 to 25000 K"),
+            "{}",
+            said("D3999K")
+        );
+        assert!(
+            said("blackbody_1e9K").contains("no illuminant"),
+            "{}",
+            said("blackbody_1e9K")
+        );
+    }
+
+    #[test]
+    fn lamps_with_lines_are_told_by_either_name() {
+        assert_eq!(illuminant("F11"), illuminant("FL11"));
+        assert!(is_line_lamp("F11") && is_line_lamp("FL1") && is_line_lamp("HP5"));
+        assert!(!is_line_lamp("F13") && !is_line_lamp("LED-B3") && !is_line_lamp("D65"));
+        assert_eq!(illuminant("F"), None);
     }
 }

@@ -168,7 +168,7 @@ fn entry(name: &'static str, table: &Table) -> Result<Entry, TableError> {
     };
     let citation = table.citation()?;
     let set = DataSet {
-        name,
+        name: name.into(),
         citation,
         data,
     };

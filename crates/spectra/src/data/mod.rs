@@ -3,15 +3,20 @@
 //! The figures stand in `data/` beside this crate's `src/`, each file with its source and licence
 //! in the head; see [`table`] for the form. They are part of the program: nothing is read at run time.
 
+use std::borrow::Cow;
+
 mod illuminants;
 mod materials;
 mod observer;
+mod radiators;
 mod reflectances;
 mod table;
 
-pub use illuminants::{illuminant, illuminant_names};
+pub use illuminants::{
+    IlluminantError, find_illuminant, illuminant, illuminant_names, is_line_lamp,
+};
 pub use materials::{MaterialInfo, material_info, material_names, optical_constants};
-pub use observer::observer_1931;
+pub use observer::{Observer, UnknownObserver, observer_1931};
 pub use reflectances::{reflectance, reflectance_names};
 
 /// Maximum luminous efficacy of radiation, lm/W (CIE 018:2019; 683 as the CIE rounds 683.002).
@@ -21,7 +26,7 @@ pub const KM_LUMENS_PER_WATT: f64 = 683.0;
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataSet<T> {
     /// The name by which scenes ask for it.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// The publication that the figures come from, and the licence where one applies.
     pub citation: String,
     /// The figures.
@@ -49,7 +54,7 @@ mod tests {
         check_kind(&illuminant_names(), illuminant);
         check_kind(&material_names(), optical_constants);
         check_kind(&reflectance_names(), reflectance);
-        assert_eq!(illuminant_names().len(), 8 + 12);
+        assert_eq!(illuminant_names().len(), 8 + 12 + 9 + 5);
         assert_eq!(material_names().len(), 69);
         assert_eq!(reflectance_names().len(), 24);
     }

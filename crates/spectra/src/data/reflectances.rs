@@ -15,7 +15,7 @@ fn read(table: &Table) -> Result<BTreeMap<&'static str, DataSet<Spectrum>>, Tabl
         Ok((
             name,
             DataSet {
-                name,
+                name: name.into(),
                 citation,
                 data,
             },
