@@ -196,7 +196,7 @@ impl List {
         // Room for a number.
         let mut stem: String = letters.take(MAX_LIGHT_GROUP_NAME - 4).collect();
         if stem.is_empty() || RESERVED.contains(&stem.as_str()) {
-            stem = "light".to_owned();
+            "light".clone_into(&mut stem);
         }
         let is_free = |name: &String| self.groups.iter().all(|group| group.name != *name);
         let numbered = (2..).map(|number| format!("{stem}_{number}"));
