@@ -3,6 +3,7 @@
 mod bench;
 mod devices;
 mod film;
+mod lamp;
 mod materials;
 mod output;
 mod plot;

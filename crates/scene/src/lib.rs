@@ -34,7 +34,6 @@ mod rounding;
 mod schema;
 mod settings;
 mod suggestion;
-mod text_file;
 mod thickness;
 mod validate;
 mod validated;

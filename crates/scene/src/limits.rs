@@ -125,4 +125,4 @@ pub const MAX_MATERIALS: usize = 4096;
 /// The largest spectral image, in bytes.
 pub const MAX_IMAGE_BYTES: u128 = 32 << 30;
 /// The largest file that is read, of a scene or of figures that it names, in bytes.
-pub const MAX_FILE_BYTES: u64 = 16 << 20;
+pub const MAX_FILE_BYTES: u64 = spectra::text_file::MAX_BYTES;

@@ -9,6 +9,7 @@
 //!   two media in one.
 //! * [`BandGrid`] divides the rendered range into N uniform bands.
 //! * [`BandTable`] is a spectrum resampled onto a grid, fine enough for any wavelength drawn within a band.
+//! * [`table_file`] reads tables that users wrote.
 //! * [`SpectralImage`] is what a renderer produces: radiance per pixel and band.
 //! * [`find_illuminant`], [`Observer`], [`optical_constants()`] and [`reflectance`] are the data that the project carries;
 //!   [`material_info`] says where a material's come from.
@@ -21,6 +22,8 @@ mod formula;
 mod optical_constants;
 mod spectral_image;
 mod spectrum;
+pub mod table_file;
+pub mod text_file;
 
 pub use band_grid::{BandGrid, BandGridError};
 pub use band_table::BandTable;

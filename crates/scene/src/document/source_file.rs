@@ -3,9 +3,9 @@
 use super::{Findings, Tree, TreeError, read};
 use crate::FieldPath;
 use crate::problem::{Location, Problem, ProblemKind, Problems};
-use crate::text_file::read_text;
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
+use spectra::text_file::read_text;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 

@@ -13,10 +13,10 @@
 //!
 //! Wavelengths are in µm. What else a file says (references, conditions, properties) is passed over.
 
-use super::table_file::Row;
 use crate::limits::TABLE_NM;
-use crate::text_file::{TextFileError, read_text};
 use saphyr_parser::{Event, Parser, ScalarStyle, ScanError, Span};
+use spectra::table_file::Row;
+use spectra::text_file::{TextFileError, read_text};
 use spectra::{DispersionFormula, FormulaError, FormulaKind};
 use std::path::Path;
 use thiserror::Error;

@@ -13,7 +13,6 @@ mod picture_file;
 mod points;
 mod settings;
 mod spectrum_list;
-mod table_file;
 mod thickness;
 
 use crate::description::{Description, Index};

@@ -2,8 +2,8 @@
 
 use crate::PictureFile;
 use crate::limits::{MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE};
-use crate::text_file::{TextFileError, read_bytes};
 use image::{ImageFormat, ImageReader, Limits};
+use spectra::text_file::{TextFileError, read_bytes};
 use std::io::Cursor;
 use std::path::Path;
 use thiserror::Error;

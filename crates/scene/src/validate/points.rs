@@ -1,11 +1,11 @@
 //! Tables over wavelength, written in the scene or in a file of their own.
 
 use super::checks::Checks;
-use super::table_file::{self, Row};
 use crate::FieldPath;
 use crate::description::Extrapolate;
 use crate::limits::{MAX_TABLE_POINTS, Range, TABLE_NM};
 use crate::problem::{Problem, ProblemKind};
+use spectra::table_file::{self, Row};
 use spectra::{Spectrum, Tabulated};
 use std::path::Path;
 
@@ -88,7 +88,7 @@ pub(crate) fn file<const N: usize>(
     extrapolate: Extrapolate,
 ) -> Option<[Spectrum; N]> {
     let own = field.key("csv");
-    match table_file::read::<N>(path) {
+    match table_file::rows::<N>(path) {
         Ok(found) => rows(checks, &own, path, &found, columns, extrapolate),
         Err(complaint) => {
             let message = format!("{}: {complaint}", path.display());

@@ -1,28 +1,42 @@
 //! Reading a whole file that someone else wrote.
 
-use crate::limits::MAX_FILE_BYTES;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 use thiserror::Error;
 
+/// The largest file that is read, in bytes.
+pub const MAX_BYTES: u64 = 16 << 20;
+
 /// Why a file cannot be read.
 #[derive(Debug, Error)]
-pub(crate) enum TextFileError {
+#[non_exhaustive]
+pub enum TextFileError {
+    /// The system refuses.
     #[error("cannot be opened: {0}")]
     Io(#[from] io::Error),
+    /// It is a folder.
     #[error("is a directory, not a file")]
     Directory,
+    /// It is a pipe, a device or the like.
     #[error("is not a regular file")]
     NotRegular,
-    #[error("is larger than {} MiB", MAX_FILE_BYTES >> 20)]
+    /// It has more than [`MAX_BYTES`].
+    #[error("is larger than {} MiB", MAX_BYTES >> 20)]
     TooLarge,
+    /// It is not UTF-8.
     #[error("is not text: line {line} is not UTF-8")]
-    NotText { line: usize },
+    NotText {
+        /// The first line that is not, from 1.
+        line: usize,
+    },
 }
 
-/// The text of a regular file of at most [`MAX_FILE_BYTES`].
-pub(crate) fn read_text(path: &Path) -> Result<String, TextFileError> {
+/// The text of a regular file of at most [`MAX_BYTES`].
+///
+/// # Errors
+/// When it cannot be read, or is not UTF-8.
+pub fn read_text(path: &Path) -> Result<String, TextFileError> {
     String::from_utf8(read_bytes(path)?).map_err(|error| {
         let sound = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         TextFileError::NotText {
@@ -31,10 +45,13 @@ pub(crate) fn read_text(path: &Path) -> Result<String, TextFileError> {
     })
 }
 
-/// The bytes of a regular file of at most [`MAX_FILE_BYTES`].
+/// The bytes of a regular file of at most [`MAX_BYTES`].
 ///
 /// What the path leads to is looked at before it is opened: to open a pipe would wait for its writer.
-pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, TextFileError> {
+///
+/// # Errors
+/// When it cannot be read.
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, TextFileError> {
     let metadata = fs::metadata(path)?;
     if metadata.is_dir() {
         return Err(TextFileError::Directory);
@@ -44,9 +61,9 @@ pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, TextFileError> {
     }
     let mut bytes = Vec::new();
     File::open(path)?
-        .take(MAX_FILE_BYTES + 1)
+        .take(MAX_BYTES + 1)
         .read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > MAX_FILE_BYTES {
+    if bytes.len() as u64 > MAX_BYTES {
         return Err(TextFileError::TooLarge);
     }
     Ok(bytes)
