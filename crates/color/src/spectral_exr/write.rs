@@ -18,9 +18,9 @@ use thiserror::Error;
 use super::attribute_order::sort_attributes;
 use super::channels::{Channels, Content};
 use super::metadata::Metadata;
-use crate::develop::linear_rgb;
 use crate::pending_file::PendingFile;
 use crate::xyz::exposure_scale;
+use colorimetry::srgb;
 
 /// What to leave out of a file.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -186,6 +186,11 @@ impl Source<'_> {
         Ok(())
     }
 
+    /// Linear sRGB, not clipped.
+    fn linear_rgb(&self, xyz: [f32; 3]) -> [f64; 3] {
+        srgb::linear_from_xyz(xyz.map(|value| f64::from(value) * self.scale))
+    }
+
     fn block(&self, meta: &MetaData, index: BlockIndex) -> UncompressedBlock {
         let channels = &meta.headers[index.layer].channels;
         UncompressedBlock::from_lines(channels, index, |line| self.fill(line.location, line.value))
@@ -212,9 +217,7 @@ impl Source<'_> {
             Content::Variance(band) => every_band(self.image.variance(), band, out),
             Content::Xyz(axis) => fill_with(out, xyz.iter().map(|v| v[axis].to_ne_bytes())),
             Content::Rgb(channel) => {
-                let values = xyz
-                    .iter()
-                    .map(|&v| linear_rgb(v, self.scale)[channel] as f32);
+                let values = xyz.iter().map(|&v| self.linear_rgb(v)[channel] as f32);
                 fill_with(out, values.map(f32::to_ne_bytes));
             }
             Content::Samples => {
