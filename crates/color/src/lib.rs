@@ -7,6 +7,7 @@
 //!   -> develop        the whole image: 8-bit RGB
 //!   -> png            a PNG file that says which colour space it is in
 //!   -> spectral_exr   a spectral OpenEXR file, from which all of the above can be done again
+//!   -> probe          the means of a region
 //!   -> compare        how far two images are from each other
 //! ```
 //!
@@ -17,8 +18,10 @@ pub mod compare;
 mod develop;
 mod pending_file;
 pub mod png;
+mod probe;
 pub mod spectral_exr;
 pub mod xyz;
 
 pub use develop::{RgbImage8, develop};
 pub use pending_file::PendingFile;
+pub use probe::{Probe, Region, RegionError, probe};
