@@ -5,6 +5,7 @@ mod compare;
 mod devices;
 mod film;
 mod image_file;
+mod inspect;
 mod lamp;
 mod materials;
 mod output;
@@ -36,6 +37,7 @@ enum Command {
     },
     Film(film::Arguments),
     Compare(compare::Arguments),
+    Inspect(inspect::Arguments),
     /// List the adapters that can render
     Devices,
     /// List the materials whose optical constants Pellicle carries, or show one
@@ -53,6 +55,7 @@ fn main() -> ExitCode {
         Command::Check { scene } => check(&scene),
         Command::Film(arguments) => film::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Devices => devices::print(),
         Command::Materials(arguments) => materials::run(&arguments),
         Command::Schema => print::result(format_args!("{:#}", pellicle::scene::schema())),
