@@ -265,7 +265,7 @@ impl Fitted {
     fn verdict(&self, fits: &FilmFits) -> String {
         let best = fits.by_shape[0];
         let noise = fits.of_noise.map_or_else(String::new, |noise| {
-            format!(", of which noise makes {:.2} %", 100.0 * noise)
+            format!(" (noise of the bands: {:.2} %)", 100.0 * noise)
         });
         let (from, to) = self.range_nm;
         match fits.verdict() {
