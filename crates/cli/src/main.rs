@@ -1,8 +1,11 @@
 //! The `pellicle` command: arguments, progress and errors; the work is done by the library.
 
 mod bench;
+mod compare;
 mod devices;
 mod film;
+mod image_file;
+mod inspect;
 mod lamp;
 mod materials;
 mod output;
@@ -33,6 +36,8 @@ enum Command {
         scene: PathBuf,
     },
     Film(film::Arguments),
+    Compare(compare::Arguments),
+    Inspect(inspect::Arguments),
     /// List the adapters that can render
     Devices,
     /// List the materials whose optical constants Pellicle carries, or show one
@@ -49,6 +54,8 @@ fn main() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments),
         Command::Check { scene } => check(&scene),
         Command::Film(arguments) => film::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Devices => devices::print(),
         Command::Materials(arguments) => materials::run(&arguments),
         Command::Schema => print::result(format_args!("{:#}", pellicle::scene::schema())),

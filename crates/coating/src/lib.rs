@@ -7,6 +7,7 @@
 //!   -> powers               R, T and A for s and p over wavelength at an angle
 //!   -> Light::xyz           colour under an illuminant, CIE 1931, sums at 1 nm
 //!   -> sensitivity, tolerance, matching: how the colour depends on the thicknesses
+//!   -> film_fit             which thickness makes a spectrum that was measured or rendered
 //!   -> plot, chart          pictures of all that
 //! ```
 //!
@@ -28,6 +29,7 @@
 mod chart;
 mod colour;
 mod file;
+mod film_fit;
 mod light;
 mod line;
 mod matching;
@@ -35,12 +37,14 @@ mod picture;
 mod plot;
 mod response;
 mod sensitivity;
+mod spectrum_plot;
 mod stack;
 mod tolerance;
 
 pub use chart::{Chart, ChartOf};
 pub use colour::{Colour, ParseColourError, Polarisation, Side, StackColour, View, parse_srgb};
 pub use file::{LayerDescription, StackDescription};
+pub use film_fit::{FilmFit, FilmFits, FilmFitting, Measured, Verdict};
 pub use light::Light;
 pub use line::LineError;
 pub use matching::{Match, MatchBy, MatchPlace, Matching, matches};
@@ -48,5 +52,6 @@ pub use optics::batch::Powers;
 pub use plot::{Curve, Plot};
 pub use response::{Angle, AngleError, Batch, Sampled, absorptance};
 pub use sensitivity::{LayerSensitivity, Sensitivity, sensitivity};
+pub use spectrum_plot::{Series, SpectrumPlot};
 pub use stack::{Layer, Medium, SampleError, Stack, StackError};
 pub use tolerance::{Quantiles, Spread, Tolerance, ToleranceError, tolerance};

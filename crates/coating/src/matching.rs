@@ -67,9 +67,9 @@ const DEPTH: f64 = 1e-3;
 
 /// The step of the search before it is refined, nm. Colours turn over in half a wavelength of path, 20 nm and more of thickness in
 /// any medium of index below 10.
-const STEP_NM: f64 = 1.0;
+pub(crate) const STEP_NM: f64 = 1.0;
 /// The fewest and the most steps.
-const STEPS: (f64, f64) = (100.0, 100_000.0);
+pub(crate) const STEPS: (f64, f64) = (100.0, 100_000.0);
 
 /// The local minima of the colour difference over the thickness, the best first: the nearest thickness and its runners-up, one in
 /// each order of interference. Where the colour does not depend on the thickness there is one, [`MatchPlace::Anywhere`].
@@ -128,7 +128,7 @@ pub fn matches(
 }
 
 /// The minima from which values rise by more than [`DEPTH`] on both sides, or on one of them as far as an end: that end then.
-fn minima(values: &[f64]) -> Vec<(usize, MatchPlace)> {
+pub(crate) fn minima(values: &[f64]) -> Vec<(usize, MatchPlace)> {
     let last = values.len() - 1;
     let mut found = Vec::new();
     // The lowest value since the last fall by more than the depth, or the highest since the last such rise.
@@ -186,7 +186,7 @@ impl Matching {
 
 /// Where a function of one minimum is lowest, by golden sections (Kiefer, Proc. Amer. Math. Soc. 4, 502 (1953)), to 1e-6 of the range:
 /// nearer than about the root of the rounding no minimum can be told.
-fn lowest_between((mut low, mut high): (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn lowest_between((mut low, mut high): (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
     let section = 0.5 * (5.0_f64.sqrt() - 1.0);
     let enough = 1e-7 * (high - low);
     let (mut a, mut b) = (high - section * (high - low), low + section * (high - low));

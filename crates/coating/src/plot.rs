@@ -160,30 +160,10 @@ impl Plot {
         for (index, curve) in self.curves.iter().enumerate() {
             let values = self.values(panel, curve);
             let points = self.wavelengths_nm.iter().copied().zip(values);
-            let style = scale.line(self.ink(index), 1.8);
+            let style = scale.line(ink(index, self.curves.len()), 1.8);
             chart.draw_series(LineSeries::new(points, style))?;
         }
         Ok(())
-    }
-
-    /// The colour of an angle's curve: those of Okabe and Ito (2008), which the colour-blind tell apart, or from violet to yellow.
-    fn ink(&self, index: usize) -> RGBColor {
-        const FEW: [RGBColor; 7] = [
-            RGBColor(0, 114, 178),
-            RGBColor(213, 94, 0),
-            RGBColor(0, 158, 115),
-            RGBColor(204, 121, 167),
-            RGBColor(230, 159, 0),
-            RGBColor(86, 180, 233),
-            RGBColor(0, 0, 0),
-        ];
-        if self.curves.len() <= FEW.len() {
-            return FEW[index];
-        }
-        let along = index as f64 / (self.curves.len() - 1) as f64;
-        let HSLColor(h, s, l) = HSLColor(0.78 - 0.66 * along, 0.75, 0.42);
-        let (r, g, b) = HSLColor(h, s, l).rgb();
-        RGBColor(r, g, b)
     }
 
     fn draw_legend<B: DrawingBackend>(
@@ -202,7 +182,7 @@ impl Plot {
         }
         for (index, curve) in self.curves.iter().enumerate() {
             let y = 88.0 + 32.0 * index as f64;
-            let stroke = scale.line(self.ink(index), 2.5);
+            let stroke = scale.line(ink(index, self.curves.len()), 2.5);
             area.draw(&PathElement::new(vec![at(0.0, y), at(22.0, y)], stroke))?;
             let angle = format!("{}°", curve.angle.degrees());
             area.draw(&Text::new(angle, at(30.0, y), middle(14.0)))?;
@@ -243,6 +223,26 @@ impl Plot {
             format!("shown at exposure {}", exposure(self.exposure_ev)),
         ]
     }
+}
+
+/// The colour of a curve among `count`: those of Okabe and Ito (2008), which the colour-blind tell apart, or from violet to yellow.
+pub(crate) fn ink(index: usize, count: usize) -> RGBColor {
+    const FEW: [RGBColor; 7] = [
+        RGBColor(0, 114, 178),
+        RGBColor(213, 94, 0),
+        RGBColor(0, 158, 115),
+        RGBColor(204, 121, 167),
+        RGBColor(230, 159, 0),
+        RGBColor(86, 180, 233),
+        RGBColor(0, 0, 0),
+    ];
+    if count <= FEW.len() {
+        return FEW[index];
+    }
+    let along = index as f64 / (count - 1) as f64;
+    let HSLColor(h, s, l) = HSLColor(0.78 - 0.66 * along, 0.75, 0.42);
+    let (r, g, b) = HSLColor(h, s, l).rgb();
+    RGBColor(r, g, b)
 }
 
 /// The polarisation in words.
@@ -287,7 +287,7 @@ impl Drawing for Plot {
 }
 
 /// The colours of the wavelengths, as far as a display has them, in a strip along the lower edge.
-fn draw_spectrum<B: DrawingBackend>(
+pub(crate) fn draw_spectrum<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     scale: Scale,
     (first, last): (f64, f64),

@@ -7,6 +7,7 @@
 //!   -> develop        the whole image: 8-bit RGB
 //!   -> png            a PNG file that says which colour space it is in
 //!   -> spectral_exr   a spectral OpenEXR file, from which all of the above can be done again
+//!   -> probe          the means of a region
 //!   -> compare        how far two images are from each other
 //! ```
 //!
@@ -17,6 +18,7 @@ pub mod compare;
 pub mod develop;
 mod pending_file;
 pub mod png;
+mod probe;
 mod rgb_image;
 pub mod spectral_exr;
 pub mod xyz;
@@ -24,5 +26,6 @@ mod xyz_image;
 
 pub use develop::{DevelopSettings, develop};
 pub use pending_file::PendingFile;
+pub use probe::{Probe, Region, RegionError, probe};
 pub use rgb_image::{RgbImage, RgbImage8, RgbImage16};
 pub use xyz_image::XyzImage;

@@ -34,6 +34,7 @@
 //! wavelength, [`gpu`] and [`mod@reference`] for the two renderers themselves.
 
 mod renderer;
+pub mod seen;
 pub mod stacks;
 
 pub use coating;

@@ -1,10 +1,10 @@
 //! `pellicle film`.
 
-mod numbers;
+pub(crate) mod numbers;
 mod pictures;
 mod report;
 mod spectra;
-mod swatch;
+pub(crate) mod swatch;
 
 use crate::print;
 use clap::ValueEnum;

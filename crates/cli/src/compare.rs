@@ -1,0 +1,334 @@
+//! `pellicle compare`.
+
+use crate::image_file::{self, Opened};
+use crate::{output, print};
+use clap::ValueEnum;
+use miette::{IntoDiagnostic, WrapErr, miette};
+use pellicle::color::compare::{self, BandDifference, Noise, Picture, Summary};
+use pellicle::color::png;
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// How far an image is from another: per band, in colour, and to the eye.
+///
+/// The first image is the reference: a bias above 0 means that the second has more light. Both are spectral images (.exr), or
+/// pictures (.png), which have no bands. Colours are compared as a display of sRGB shows them, both at the exposure of the first;
+/// differences of colour (CIEDE2000) count what the display would clip, FLIP and PSNR do not.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The reference, .exr or .png
+    first: PathBuf,
+    /// The image that is compared with it, .exr or .png
+    second: PathBuf,
+    /// Write a picture of the differences: 0 is black, pale yellow is FLIP 1 or ΔE2000 10 and more (.png)
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
+    /// What --map shows
+    #[arg(long, value_enum, default_value_t = MapOf::Flip, requires = "map")]
+    map_of: MapOf,
+    /// Stops by which spectral images are shown brighter [default: those of the first]
+    #[arg(long, value_name = "EV", allow_hyphen_values = true)]
+    exposure: Option<f64>,
+    /// How the figures are printed
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum MapOf {
+    Flip,
+    DeltaE,
+}
+
+impl MapOf {
+    /// What is pale yellow.
+    fn full(self) -> f64 {
+        match self {
+            Self::Flip => 1.0,
+            Self::DeltaE => 10.0,
+        }
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Format {
+    /// For people
+    Table,
+    /// Everything, for programs
+    Json,
+}
+
+/// What was found.
+struct Comparison {
+    size: [usize; 2],
+    /// None of pictures, which have no exposure of their own.
+    exposure_ev: Option<f64>,
+    delta_e: Vec<f64>,
+    flip: Vec<f64>,
+    psnr_db: f64,
+    /// Empty where one of the images has none.
+    bands: Vec<BandDifference>,
+}
+
+/// Compares and prints.
+pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
+    if let Some(map) = &arguments.map {
+        check_map(map, arguments)?;
+    }
+    let first = Opened::read(&arguments.first)?;
+    let second = Opened::read(&arguments.second)?;
+    let comparison = Comparison::new(&first, &second, arguments)?;
+    match arguments.format {
+        Format::Table => print::result(comparison.table(arguments).trim_end())?,
+        Format::Json => print::result(format_args!("{:#}", comparison.json(arguments)))?,
+    }
+    match &arguments.map {
+        Some(path) => comparison.write_map(path, arguments.map_of),
+        None => Ok(()),
+    }
+}
+
+fn check_map(map: &Path, arguments: &Arguments) -> miette::Result<()> {
+    let is_png = map
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("png"));
+    if !is_png {
+        return Err(miette!(
+            help = "end it in .png",
+            "--map {}: a map with this ending cannot be written",
+            map.display()
+        ));
+    }
+    output::check_place("--map", map, &arguments.first)?;
+    output::check_place("--map", map, &arguments.second)
+}
+
+impl Comparison {
+    fn new(first: &Opened, second: &Opened, arguments: &Arguments) -> miette::Result<Self> {
+        let own = first.exposure_ev().or(second.exposure_ev());
+        let exposure_ev = match arguments.exposure {
+            Some(_) if own.is_none() => {
+                return Err(miette!(
+                    "--exposure has no effect here: pictures have their own"
+                ));
+            }
+            Some(ev) => Some(image_file::checked_exposure(ev)?),
+            None => own,
+        };
+        let ev = exposure_ev.unwrap_or_default();
+        check_tags(first, second)?;
+        // Bands that do not compare are told before pictures are made.
+        let bands = match (first, second) {
+            (Opened::Spectral(a, _), Opened::Spectral(b, _)) => {
+                compare::bands(a, b).map_err(|error| unlike(&error, arguments))?
+            }
+            _ => Vec::new(),
+        };
+        let (a, b) = (first.picture(ev), second.picture(ev));
+        let of = |error| unlike(&error, arguments);
+        Ok(Self {
+            size: a.size(),
+            exposure_ev,
+            delta_e: compare::delta_e(&a, &b).map_err(of)?,
+            flip: compare::flip(&a, &b).map_err(of)?,
+            psnr_db: compare::psnr(&a, &b).map_err(of)?,
+            bands,
+        })
+    }
+
+    fn summaries(&self) -> [(&'static str, Option<Summary>); 2] {
+        [
+            ("ΔE2000", Summary::new(&self.delta_e)),
+            ("FLIP", Summary::new(&self.flip)),
+        ]
+    }
+
+    fn place(&self, index: usize) -> [usize; 2] {
+        [index % self.size[0], index / self.size[0]]
+    }
+
+    fn table(&self, arguments: &Arguments) -> String {
+        let [width, height] = self.size;
+        let mut text = format!(
+            "{} against {}: {width}×{height} pixels",
+            arguments.second.display(),
+            arguments.first.display()
+        );
+        if let Some(ev) = self.exposure_ev {
+            let _ = write!(text, ", shown at {ev:+} EV");
+        }
+        let _ = writeln!(
+            text,
+            "\n\n{:<8} {:>9} {:>9} {:>9} {:>9} {:>9}  at",
+            "", "mean", "50 %", "95 %", "99 %", "max"
+        );
+        for (name, summary) in self.summaries() {
+            let Some(s) = summary else {
+                let _ = writeln!(text, "{name:<8} no pixel is a number");
+                continue;
+            };
+            let figures = [s.mean, s.p50, s.p95, s.p99, s.max].map(|v| format!("{v:>9.4}"));
+            let [x, y] = self.place(s.max_at);
+            let _ = write!(text, "{name:<8} {}  {x},{y}", figures.join(" "));
+            if s.left_out > 0 {
+                let _ = write!(text, "  ({} pixels are no number)", s.left_out);
+            }
+            text.push('\n');
+        }
+        let _ = writeln!(text, "{:<8} {:>9}", "PSNR", decibels(self.psnr_db));
+        if !self.bands.is_empty() {
+            text.push('\n');
+            self.table_of_bands(&mut text);
+        }
+        text
+    }
+
+    fn table_of_bands(&self, text: &mut String) {
+        let knows_noise = self.bands.iter().any(|band| band.noise.is_some());
+        let _ = write!(
+            text,
+            "{:>9} {:>12} {:>12} {:>12}",
+            "nm", "mean", "bias", "RMSE"
+        );
+        if knows_noise {
+            let _ = write!(text, " {:>12} {:>8}", "noise", "bias/σ");
+        }
+        text.push('\n');
+        for band in &self.bands {
+            let _ = write!(
+                text,
+                "{:>9.2} {:>12.5e} {:>12.4e} {:>12.5e}",
+                band.centre_nm, band.reference_mean, band.bias, band.rmse
+            );
+            if let Some(noise) = band.noise {
+                let _ = write!(text, " {:>12.5e} {:>8.2}", noise.rmse, noise.bias_sigmas);
+            }
+            if band.left_out > 0 {
+                let _ = write!(text, "  ({} values are no number)", band.left_out);
+            }
+            text.push('\n');
+        }
+        if let Some(ratio) = self.over_noise() {
+            let _ = writeln!(
+                text,
+                "\nover all bands the RMSE is {ratio:.3} times what the noise of both makes; \
+                 with other seeds 1 means that they differ by noise alone"
+            );
+        }
+    }
+
+    /// The root mean square difference over that of noise alone, in all bands where it is known.
+    fn over_noise(&self) -> Option<f64> {
+        let known = || {
+            let with_noise =
+                |band: &BandDifference| band.noise.map(|noise| (band.rmse, noise.rmse));
+            self.bands.iter().filter_map(with_noise)
+        };
+        let difference: f64 = known().map(|(rmse, _)| rmse * rmse).sum();
+        let noise: f64 = known().map(|(_, noise)| noise * noise).sum();
+        (noise > 0.0).then(|| (difference / noise).sqrt())
+    }
+
+    fn json(&self, arguments: &Arguments) -> Value {
+        let summary = |summary: Option<Summary>| {
+            summary.map(|s| {
+                json!({
+                    "mean": s.mean, "p50": s.p50, "p95": s.p95, "p99": s.p99, "max": s.max,
+                    "max_at": self.place(s.max_at), "left_out": s.left_out,
+                })
+            })
+        };
+        let noise = |noise: Noise| json!({ "rmse": noise.rmse, "bias_sigmas": noise.bias_sigmas });
+        let band = |band: &BandDifference| {
+            json!({
+                "centre_nm": band.centre_nm, "mean": band.reference_mean, "bias": band.bias,
+                "rmse": band.rmse, "noise": band.noise.map(noise), "left_out": band.left_out,
+            })
+        };
+        let [(_, delta_e), (_, flip)] = self.summaries();
+        json!({
+            "about": "differences are the second image less the first; FLIP and PSNR of sRGB codes",
+            "program": concat!("pellicle ", env!("CARGO_PKG_VERSION")),
+            "first": arguments.first.display().to_string(),
+            "second": arguments.second.display().to_string(),
+            "size": self.size,
+            "exposure_ev": self.exposure_ev,
+            "delta_e_2000": summary(delta_e),
+            "flip": summary(flip),
+            "psnr_db": self.psnr_db.is_finite().then_some(self.psnr_db),
+            "bands": self.bands.iter().map(band).collect::<Vec<_>>(),
+            "rmse_over_noise": self.over_noise(),
+        })
+    }
+
+    fn write_map(&self, path: &Path, of: MapOf) -> miette::Result<()> {
+        let values = match of {
+            MapOf::Flip => &self.flip,
+            MapOf::DeltaE => &self.delta_e,
+        };
+        let map = compare::heat_map(self.size, values, of.full())
+            .ok_or_else(|| miette!("{}: the images have no pixels", path.display()))?;
+        png::write(path, &map)
+            .into_diagnostic()
+            .wrap_err_with(|| format!("{} was not written", path.display()))?;
+        print::note(format_args!("wrote {}", path.display()));
+        Ok(())
+    }
+}
+
+fn decibels(psnr_db: f64) -> String {
+    if psnr_db.is_finite() {
+        format!("{psnr_db:.2} dB")
+    } else {
+        "none: the codes are the same".to_owned()
+    }
+}
+
+fn unlike(error: &compare::CompareError, arguments: &Arguments) -> miette::Report {
+    let (first, second) = (arguments.first.display(), arguments.second.display());
+    miette!(
+        help = "render both with the same --size and --bands",
+        "{first} and {second} do not compare: {error}"
+    )
+}
+
+/// Codes that do not mean the same colours cannot be compared.
+fn check_tags(first: &Opened, second: &Opened) -> miette::Result<()> {
+    let tag = |opened: &Opened| match opened {
+        Opened::Picture(picture) => picture.tag().map(str::to_owned),
+        Opened::Spectral(..) => None,
+    };
+    let (a, b) = (tag(first), tag(second));
+    let named = |tag: &Option<String>| tag.clone().unwrap_or_else(|| "sRGB".to_owned());
+    if a != b {
+        return Err(miette!(
+            help = "develop both for the same display, or compare their spectral images",
+            "the first image is in {}, the second in {}",
+            named(&a),
+            named(&b)
+        ));
+    }
+    if let Some(tag) = a {
+        print::note(format_args!(
+            "both pictures are tagged with {tag}; their codes are taken as those of sRGB"
+        ));
+    }
+    Ok(())
+}
+
+impl Opened {
+    fn exposure_ev(&self) -> Option<f64> {
+        match self {
+            Self::Spectral(_, metadata) => Some(metadata.exposure_ev),
+            Self::Picture(_) => None,
+        }
+    }
+
+    fn picture(&self, exposure_ev: f64) -> Picture {
+        match self {
+            Self::Spectral(image, _) => Picture::of_spectral(image, exposure_ev),
+            Self::Picture(picture) => picture.clone(),
+        }
+    }
+}

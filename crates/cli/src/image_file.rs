@@ -1,0 +1,56 @@
+//! Images that commands read.
+
+use crate::print;
+use miette::{IntoDiagnostic, WrapErr, miette};
+use pellicle::color::compare::Picture;
+use pellicle::color::spectral_exr::{self, Metadata};
+use pellicle::scene::limits;
+use pellicle::spectra::SpectralImage;
+use std::ffi::OsStr;
+use std::path::Path;
+
+/// A spectral image or a picture.
+pub(crate) enum Opened {
+    Spectral(Box<SpectralImage>, Metadata),
+    Picture(Picture),
+}
+
+impl Opened {
+    /// Reads a file that ends in `.exr` or `.png`.
+    pub(crate) fn read(path: &Path) -> miette::Result<Self> {
+        let ending = path.extension().map(OsStr::to_ascii_lowercase);
+        match ending.as_deref().and_then(OsStr::to_str) {
+            Some("png") => Ok(Self::Picture(Picture::read_png(path).into_diagnostic()?)),
+            Some("exr") => {
+                let (image, metadata) = spectral(path)?;
+                Ok(Self::Spectral(Box::new(image), metadata))
+            }
+            _ => Err(miette!(
+                help = "give a spectral image (.exr) or a picture (.png)",
+                "{}: a file with this ending cannot be read",
+                path.display()
+            )),
+        }
+    }
+}
+
+/// Reads a spectral image, and says what that had to assume or change.
+pub(crate) fn spectral(path: &Path) -> miette::Result<(SpectralImage, Metadata)> {
+    let (image, metadata) = spectral_exr::read(path)
+        .into_diagnostic()
+        .wrap_err_with(|| format!("{} was not read", path.display()))?;
+    for note in &metadata.notes {
+        print::note(format_args!("{} {note}", path.display()));
+    }
+    Ok((image, metadata))
+}
+
+/// An exposure that a picture may have.
+pub(crate) fn checked_exposure(ev: f64) -> miette::Result<f64> {
+    let possible = limits::EXPOSURE_EV;
+    if possible.contains(ev) {
+        Ok(ev)
+    } else {
+        Err(miette!("--exposure {ev}: it must be from {possible}"))
+    }
+}

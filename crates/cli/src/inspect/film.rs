@@ -1,0 +1,245 @@
+//! The film that a place shows.
+
+use super::{FilmArguments, Inspection};
+use crate::film::numbers::Vary;
+use crate::lamp;
+use miette::{IntoDiagnostic, WrapErr, miette};
+use pellicle::coating::{Angle, FilmFits, FilmFitting, Measured, Stack, View};
+use pellicle::color::Probe;
+use pellicle::color::xyz::exposure_scale;
+use pellicle::scene::{Scene, SceneFile};
+use pellicle::seen::{self, SceneLamp, Seen};
+use pellicle::spectra::BandGrid;
+use std::path::{Path, PathBuf};
+
+/// Where films are known from.
+pub(super) enum Films {
+    /// Nothing was said of films.
+    None,
+    /// From the scene.
+    Scene(Box<KnownScene>),
+    /// One stack at one angle.
+    Stack(Box<Stack>, Angle, SceneLamp),
+}
+
+pub(super) struct KnownScene {
+    file: SceneFile,
+    scene: Scene,
+    directory: PathBuf,
+    lamps: Vec<SceneLamp>,
+}
+
+/// What was found at a place.
+pub(super) enum FilmSeen {
+    /// The scene has no film there, but this.
+    Other(String),
+    /// A film.
+    Film(Box<Fitted>),
+}
+
+/// A film and the thicknesses that come near what is seen.
+pub(super) struct Fitted {
+    /// The scene's name of its material.
+    pub(super) material: Option<String>,
+    pub(super) stack: Stack,
+    pub(super) layer: usize,
+    pub(super) range_nm: (f64, f64),
+    pub(super) angle: Angle,
+    /// The name of the lamp.
+    pub(super) lamp: String,
+    /// What was found; `None` where the place is black.
+    pub(super) fits: Option<FilmFits>,
+    /// The light of the best film by shape, as bright as what is seen.
+    pub(super) model: Option<Vec<f64>>,
+}
+
+/// The thickest film that is looked for where nothing else is said, nm.
+const USUAL_TO_NM: f64 = 2000.0;
+
+impl Films {
+    pub(super) fn new(inspection: &Inspection) -> miette::Result<Self> {
+        let asked = &inspection.arguments.film;
+        if let Some(path) = &asked.scene {
+            return Ok(Self::Scene(Box::new(KnownScene::read(path, inspection)?)));
+        }
+        let Some(text) = &asked.film else {
+            return match asked.vary {
+                Some(_) => Err(miette!(
+                    "--vary has no effect here: it is for the film of --film or --scene"
+                )),
+                None => Ok(Self::None),
+            };
+        };
+        let angle = Angle::from_degrees(asked.angle.unwrap_or(0.0))
+            .map_err(|error| miette!("--angle: {error}"))?;
+        let lamp = lamp(asked, inspection.image.bands())?;
+        Ok(Self::Stack(Box::new(Stack::open(text)?), angle, lamp))
+    }
+
+    /// The film at a place; `None` where nothing was said of films.
+    pub(super) fn seen(
+        &self,
+        inspection: &Inspection,
+        probe: &Probe,
+    ) -> miette::Result<Option<FilmSeen>> {
+        match self {
+            Self::None => Ok(None),
+            Self::Stack(stack, angle, lamp) => {
+                let fitted = fitted(inspection, probe, stack, *angle, std::slice::from_ref(lamp))?;
+                Ok(Some(FilmSeen::Film(Box::new(fitted))))
+            }
+            Self::Scene(known) => known.seen(inspection, probe).map(Some),
+        }
+    }
+}
+
+impl KnownScene {
+    fn read(path: &Path, inspection: &Inspection) -> miette::Result<Self> {
+        let mut file = SceneFile::read(path)?;
+        let image = &inspection.image;
+        let render = &mut file.description.render;
+        render.size = [image.width(), image.height()];
+        render.bands = image.bands().count();
+        if let Some(time) = inspection.metadata.settings.get("time_s") {
+            render.time_s = time.parse().unwrap_or(render.time_s);
+        }
+        let scene = file.validate()?;
+        let (found, own) = (image.bands(), &scene.settings().bands);
+        if found != own {
+            return Err(miette!(
+                help = "give the scene that the image was rendered from",
+                "--scene {}: its bands go from {} to {} nm, those of the image from {} to {} nm",
+                path.display(),
+                own.min_nm(),
+                own.max_nm(),
+                found.min_nm(),
+                found.max_nm()
+            ));
+        }
+        let lamps = seen::lamps(&file.description, &scene);
+        if lamps.is_empty() {
+            return Err(miette!("--scene {}: nothing shines in it", path.display()));
+        }
+        Ok(Self {
+            directory: path.parent().unwrap_or(Path::new("")).to_owned(),
+            file,
+            scene,
+            lamps,
+        })
+    }
+
+    fn seen(&self, inspection: &Inspection, probe: &Probe) -> miette::Result<FilmSeen> {
+        let place = probe.region.centre();
+        let seen = seen::seen(&self.file.description, &self.scene, &self.directory, place);
+        let seen = seen.map_err(|problems| {
+            let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
+            miette!("the film there cannot be computed: {}", said.join("; "))
+        })?;
+        let film = match seen {
+            Seen::Surroundings => return Ok(FilmSeen::Other("the surroundings".to_owned())),
+            Seen::Bare(material) => {
+                return Ok(FilmSeen::Other(format!("{material:?}, which has no film")));
+            }
+            Seen::Film(film) => film,
+        };
+        let fitted = fitted(inspection, probe, &film.stack, film.angle, &self.lamps)?;
+        Ok(FilmSeen::Film(Box::new(Fitted {
+            material: Some(film.material),
+            ..fitted
+        })))
+    }
+}
+
+/// --lamp, or D65.
+fn lamp(asked: &FilmArguments, bands: &BandGrid) -> miette::Result<SceneLamp> {
+    let text = asked.lamp.as_deref().unwrap_or("D65");
+    let (name, spectrum) = lamp::spectrum(text).map_err(|error| miette!("--lamp: {error}"))?;
+    let wavelengths = FilmFitting::wavelengths_nm(bands);
+    let power = wavelengths.into_iter().map(|nm| spectrum.at(nm));
+    let power = power.collect::<Result<_, _>>().into_diagnostic();
+    Ok(SceneLamp {
+        power: power.wrap_err_with(|| format!("--lamp {text} does not cover the image's bands"))?,
+        name,
+    })
+}
+
+/// The thicknesses that come nearest, in the lamp in which they come nearest.
+fn fitted(
+    inspection: &Inspection,
+    probe: &Probe,
+    stack: &Stack,
+    angle: Angle,
+    lamps: &[SceneLamp],
+) -> miette::Result<Fitted> {
+    let vary = vary(inspection.arguments.film.vary, stack)?;
+    let bands = inspection.image.bands();
+    let scale = exposure_scale(inspection.exposure_ev);
+    let measured = Measured {
+        bands,
+        radiance: &probe.radiance,
+        deviation: probe.deviation.as_deref(),
+        xyz: probe.xyz.map(|v| v * scale),
+    };
+    let fitting = |lamp| FilmFitting {
+        stack,
+        layer: vary.layer - 1,
+        from_nm: vary.from_nm,
+        to_nm: vary.to_nm,
+        angle,
+        view: View::default(),
+        lamp,
+    };
+    let mut best: Option<(&SceneLamp, FilmFits)> = None;
+    for lamp in lamps {
+        let Some(fits) = fitting(&lamp.power).fit(&measured)? else {
+            continue;
+        };
+        let is_nearer = |(_, known): &(&SceneLamp, FilmFits)| {
+            fits.by_shape[0].residual < known.by_shape[0].residual
+        };
+        if best.as_ref().is_none_or(is_nearer) {
+            best = Some((lamp, fits));
+        }
+    }
+    let lamp = best.as_ref().map_or(&lamps[0], |(lamp, _)| lamp);
+    let fits = best.map(|(_, fits)| fits);
+    let model = fits.as_ref().map(|fits| {
+        let nearest = fits.by_shape[0];
+        let spectrum = fitting(&lamp.power).spectrum(bands, nearest.thickness_nm)?;
+        Ok::<_, pellicle::coating::SampleError>(
+            spectrum.iter().map(|v| v * nearest.scale).collect(),
+        )
+    });
+    Ok(Fitted {
+        material: None,
+        stack: stack.clone(),
+        layer: vary.layer - 1,
+        range_nm: (vary.from_nm, vary.to_nm),
+        angle,
+        lamp: lamp.name.clone(),
+        model: model.transpose()?,
+        fits,
+    })
+}
+
+/// The layer whose thickness is looked for.
+fn vary(asked: Option<Vary>, stack: &Stack) -> miette::Result<Vary> {
+    let layers = stack.layers().len();
+    if layers == 0 {
+        return Err(miette!("{}: the stack has no layer", stack.label()));
+    }
+    let vary = asked.unwrap_or(Vary {
+        layer: 1,
+        from_nm: 0.0,
+        to_nm: (1.5 * stack.thicknesses_nm()[0]).max(USUAL_TO_NM),
+    });
+    if (1..=layers).contains(&vary.layer) {
+        Ok(vary)
+    } else {
+        Err(miette!(
+            "--vary: there is no layer {}; {} has layers 1 to {layers}",
+            vary.layer,
+            stack.label()
+        ))
+    }
+}

@@ -1,0 +1,170 @@
+//! `pellicle inspect`.
+
+mod film;
+mod plot;
+mod report;
+
+use crate::film::numbers::{self, Vary};
+use crate::image_file;
+use clap::ValueEnum;
+use film::FilmSeen;
+use miette::IntoDiagnostic;
+use pellicle::color::spectral_exr::Metadata;
+use pellicle::color::{Probe, Region, probe};
+use pellicle::spectra::SpectralImage;
+use std::path::PathBuf;
+
+/// What a spectral image holds: spectrum, noise and colour of pixels and regions, and the film that they show.
+///
+/// Without --at and --region it is the mean of the whole image. A film is looked for where --scene tells the scene that was
+/// rendered, which knows the film and the angle at each pixel, or where --film tells a stack. The nearest thicknesses are those
+/// whose spectrum has the same shape, and those of the same colour, up to a scale; what is left is told with them.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The spectral image (.exr)
+    image: PathBuf,
+    /// A pixel, from the left and the top, counted from 0; can be repeated
+    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    at: Vec<Region>,
+    /// A rectangle of pixels, whose mean is taken; can be repeated
+    #[arg(long, value_name = "X,Y,WIDTH,HEIGHT", value_parser = region)]
+    region: Vec<Region>,
+    /// Stops by which colours are shown brighter [default: those of the file]
+    #[arg(long, value_name = "EV", allow_hyphen_values = true)]
+    exposure: Option<f64>,
+    /// How the figures are printed
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+    /// Write a plot of the spectra (.svg or .png)
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    #[command(flatten)]
+    film: FilmArguments,
+}
+
+/// What film may be seen.
+#[derive(clap::Args)]
+struct FilmArguments {
+    /// The scene that the image was rendered from: which film each pixel shows, at which angle, in which lamps
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["film", "angle", "lamp"])]
+    scene: Option<PathBuf>,
+    /// The film that the pixels show: a stack file, or a stack in one line such as "1 | water 300nm | 1"
+    #[arg(long, value_name = "STACK")]
+    film: Option<String>,
+    /// The angle at which --film is seen, in degrees
+    #[arg(long, value_name = "DEGREES", requires = "film", value_parser = numbers::number, allow_hyphen_values = true)]
+    angle: Option<f64>,
+    /// The lamp that --film mirrors: an illuminant's name or a file .csv [default: D65]
+    #[arg(long, value_name = "LAMP", requires = "film")]
+    lamp: Option<String>,
+    /// The layer whose thickness is looked for, from 1, and its range in nm [default: layer 1 from 0 to 2000 nm]
+    #[arg(long, value_name = "LAYER:FROM:TO", value_parser = Vary::parse, allow_hyphen_values = true)]
+    vary: Option<Vary>,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Format {
+    /// For people
+    Table,
+    /// wavelength_nm, then radiance and its deviation at each place
+    Csv,
+    /// Everything
+    Json,
+}
+
+/// What is known of an image.
+struct Inspection<'a> {
+    arguments: &'a Arguments,
+    image: SpectralImage,
+    metadata: Metadata,
+    exposure_ev: f64,
+    places: Vec<Place>,
+}
+
+/// What is known of a place in it.
+struct Place {
+    /// `320,200`, `10,10,40,40` or `the whole image`.
+    label: String,
+    probe: Probe,
+    film: Option<FilmSeen>,
+}
+
+/// Looks, prints and draws.
+pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
+    plot::check(arguments)?;
+    let inspection = Inspection::new(arguments)?;
+    match arguments.format {
+        Format::Table => inspection.print_table()?,
+        Format::Csv => inspection.print_csv()?,
+        Format::Json => inspection.print_json()?,
+    }
+    plot::write(&inspection)
+}
+
+impl<'a> Inspection<'a> {
+    fn new(arguments: &'a Arguments) -> miette::Result<Self> {
+        let exposure = arguments.exposure.map(image_file::checked_exposure);
+        let exposure = exposure.transpose()?;
+        let (image, metadata) = image_file::spectral(&arguments.image)?;
+        let exposure_ev = exposure.unwrap_or(metadata.exposure_ev);
+        let mut inspection = Self {
+            arguments,
+            image,
+            metadata,
+            exposure_ev,
+            places: Vec::new(),
+        };
+        let asked = arguments.at.iter().chain(&arguments.region);
+        let mut regions: Vec<(String, Region)> =
+            asked.map(|region| (label(region), *region)).collect();
+        if regions.is_empty() {
+            let whole = Region::all_of(&inspection.image);
+            regions.push(("the whole image".to_owned(), whole));
+        }
+        let films = film::Films::new(&inspection)?;
+        for (label, region) in regions {
+            let probe = probe(&inspection.image, region).into_diagnostic()?;
+            let film = films.seen(&inspection, &probe)?;
+            inspection.places.push(Place { label, probe, film });
+        }
+        Ok(inspection)
+    }
+}
+
+fn label(region: &Region) -> String {
+    let Region {
+        x,
+        y,
+        width,
+        height,
+    } = region;
+    match (width, height) {
+        (1, 1) => format!("{x},{y}"),
+        _ => format!("{x},{y},{width},{height}"),
+    }
+}
+
+fn pixel(text: &str) -> Result<Region, String> {
+    match whole_numbers(text).as_deref() {
+        Some(&[x, y]) => Ok(Region::pixel(x, y)),
+        _ => Err("a pixel is written like 320,200".to_owned()),
+    }
+}
+
+fn region(text: &str) -> Result<Region, String> {
+    match whole_numbers(text).as_deref() {
+        Some(&[x, y, width, height]) => Ok(Region {
+            x,
+            y,
+            width,
+            height,
+        }),
+        _ => Err("a region is written like 10,20,40,30: left, top, width, height".to_owned()),
+    }
+}
+
+fn whole_numbers(text: &str) -> Option<Vec<u32>> {
+    text.split(',')
+        .map(|number| number.trim().parse().ok())
+        .collect()
+}

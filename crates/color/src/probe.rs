@@ -1,0 +1,245 @@
+//! What a pixel or a region of a spectral image shows.
+
+use spectra::SpectralImage;
+use thiserror::Error;
+
+/// A rectangle of pixels.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct Region {
+    /// Pixels to the left of it.
+    pub x: u32,
+    /// Rows above it.
+    pub y: u32,
+    /// Width in pixels, at least 1.
+    pub width: u32,
+    /// Height in pixels, at least 1.
+    pub height: u32,
+}
+
+impl Region {
+    /// A single pixel.
+    pub fn pixel(x: u32, y: u32) -> Self {
+        let (width, height) = (1, 1);
+        Self {
+            x,
+            y,
+            width,
+            height,
+        }
+    }
+
+    /// A whole image.
+    pub fn all_of(image: &SpectralImage) -> Self {
+        let (width, height) = (image.width(), image.height());
+        Self {
+            x: 0,
+            y: 0,
+            width,
+            height,
+        }
+    }
+
+    /// The place of its middle, in pixels from the left and the top.
+    pub fn centre(&self) -> [f64; 2] {
+        let middle = |start: u32, size: u32| f64::from(start) + 0.5 * f64::from(size);
+        [middle(self.x, self.width), middle(self.y, self.height)]
+    }
+}
+
+/// A region that an image does not have.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+pub enum RegionError {
+    /// It has no pixels.
+    #[error("a region of {}×{} has no pixels", .0.width, .0.height)]
+    Empty(Region),
+    /// It reaches beyond the image.
+    #[error("{} lies outside the image of {width}×{height} pixels, which go from 0,0 to {},{}",
+        described(.region), width.saturating_sub(1), height.saturating_sub(1))]
+    Outside {
+        /// The region.
+        region: Region,
+        /// Width of the image.
+        width: u32,
+        /// Height of the image.
+        height: u32,
+    },
+}
+
+fn described(region: &Region) -> String {
+    let Region {
+        x,
+        y,
+        width,
+        height,
+    } = region;
+    match (width, height) {
+        (1, 1) => format!("pixel {x},{y}"),
+        _ => format!("the region {x},{y},{width},{height}"),
+    }
+}
+
+/// The means of a region.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    /// Where.
+    pub region: Region,
+    /// Mean radiance of each band.
+    pub radiance: Vec<f64>,
+    /// Standard deviation of that mean by the noise of the pixels; `None` where no pixel knows it.
+    pub deviation: Option<Vec<f64>>,
+    /// Mean XYZ, cd/m² up to the scene's scale.
+    pub xyz: [f64; 3],
+    /// Samples of all its pixels.
+    pub samples: u64,
+    /// Pixels that were left out because something in them is not a number.
+    pub left_out: u64,
+}
+
+/// The means of a region; of nothing but pixels that are not a number they are not numbers either.
+///
+/// # Errors
+/// When the region is empty or reaches beyond the image.
+pub fn probe(image: &SpectralImage, region: Region) -> Result<Probe, RegionError> {
+    let (width, height) = (image.width(), image.height());
+    if region.width == 0 || region.height == 0 {
+        return Err(RegionError::Empty(region));
+    }
+    let reaches = |start: u32, size: u32, end: u32| start.checked_add(size).is_none_or(|e| e > end);
+    if reaches(region.x, region.width, width) || reaches(region.y, region.height, height) {
+        return Err(RegionError::Outside {
+            region,
+            width,
+            height,
+        });
+    }
+    let bands = image.bands().count() as usize;
+    let mut sums = Sums {
+        radiance: vec![0.0; bands],
+        variance: vec![0.0; bands],
+        ..Sums::default()
+    };
+    for y in region.y..region.y + region.height {
+        for x in region.x..region.x + region.width {
+            sums.add(image, y as usize * width as usize + x as usize);
+        }
+    }
+    Ok(sums.means(region))
+}
+
+#[derive(Default)]
+struct Sums {
+    radiance: Vec<f64>,
+    variance: Vec<f64>,
+    xyz: [f64; 3],
+    samples: u64,
+    count: u64,
+    left_out: u64,
+}
+
+impl Sums {
+    fn add(&mut self, image: &SpectralImage, pixel: usize) {
+        let bands = self.radiance.len();
+        let values = pixel * bands..(pixel + 1) * bands;
+        let radiance = &image.radiance()[values.clone()];
+        let xyz = image.xyz()[pixel];
+        if !radiance.iter().chain(&xyz).all(|v| v.is_finite()) {
+            self.left_out += 1;
+            return;
+        }
+        self.count += 1;
+        self.samples += u64::from(image.samples()[pixel]);
+        let variance = &image.variance()[values];
+        for (band, (&value, &variance)) in radiance.iter().zip(variance).enumerate() {
+            self.radiance[band] += f64::from(value);
+            self.variance[band] += f64::from(variance);
+        }
+        for (sum, value) in self.xyz.iter_mut().zip(xyz) {
+            *sum += f64::from(value);
+        }
+    }
+
+    fn means(self, region: Region) -> Probe {
+        let count = self.count as f64;
+        let knows_noise = self.variance.iter().any(|&v| v > 0.0);
+        let deviation = |variance: &f64| variance.sqrt() / count;
+        Probe {
+            region,
+            deviation: knows_noise.then(|| self.variance.iter().map(deviation).collect()),
+            radiance: self.radiance.iter().map(|sum| sum / count).collect(),
+            xyz: self.xyz.map(|sum| sum / count),
+            samples: self.samples,
+            left_out: self.left_out,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spectra::BandGrid;
+
+    fn image() -> SpectralImage {
+        let mut image = SpectralImage::new(3, 2, BandGrid::visible(2).unwrap());
+        for y in 0..2 {
+            for x in 0..3 {
+                let value = (10 * y + x) as f32;
+                let xyz = [value, 2.0 * value, 0.0];
+                image.set_pixel((x, y), &[value, 1.0], &[0.04, 0.01], xyz, 8);
+            }
+        }
+        image
+    }
+
+    #[test]
+    fn a_pixel_is_itself() {
+        let found = probe(&image(), Region::pixel(2, 1)).unwrap();
+        assert_eq!(found.radiance, [12.0, 1.0]);
+        assert_eq!((found.xyz, found.samples), ([12.0, 24.0, 0.0], 8));
+        let deviation = found.deviation.unwrap();
+        assert!((deviation[0] - 0.2).abs() < 1e-6 && (deviation[1] - 0.1).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_region_is_its_mean_with_less_noise() {
+        let region = Region {
+            x: 1,
+            y: 0,
+            width: 2,
+            height: 2,
+        };
+        let found = probe(&image(), region).unwrap();
+        assert_eq!(found.radiance, [6.5, 1.0]);
+        assert_eq!((found.samples, found.left_out), (32, 0));
+        assert!((found.deviation.unwrap()[0] - 0.1).abs() < 1e-6);
+        assert_eq!(region.centre(), [2.0, 1.0]);
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_left_out() {
+        let mut image = image();
+        image.set_pixel((0, 0), &[f32::NAN, 1.0], &[0.0; 2], [1.0; 3], 8);
+        let found = probe(&image, Region::all_of(&image)).unwrap();
+        assert_eq!((found.left_out, found.radiance[0]), (1, 36.0 / 5.0));
+    }
+
+    #[test]
+    fn regions_end_where_the_image_does() {
+        let of = |x, y, width, height| {
+            let region = Region {
+                x,
+                y,
+                width,
+                height,
+            };
+            probe(&image(), region).map_err(|error| error.to_string())
+        };
+        assert!(of(0, 0, 3, 2).is_ok());
+        assert_eq!(
+            of(3, 0, 1, 1).unwrap_err(),
+            "pixel 3,0 lies outside the image of 3×2 pixels, which go from 0,0 to 2,1"
+        );
+        assert!(of(0, 0, 3, 3).unwrap_err().contains("the region 0,0,3,3"));
+        assert!(of(0, 0, 0, 1).unwrap_err().contains("no pixels"));
+        assert!(of(1, 0, u32::MAX, 1).is_err());
+    }
+}

@@ -1,0 +1,217 @@
+//! What a place in a picture shows of its scene.
+
+use coating::{Angle, FilmFitting, LayerDescription, Stack, StackDescription};
+use reference::{camera_ray, layer_thickness, nearest_hit, surface_point};
+use scene::description::{Description, Index, Layer, Material};
+use scene::{Emission, Environment, Problem, Scene};
+use spectra::BandGrid;
+use std::path::Path;
+
+/// What is seen at a place of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Seen {
+    /// The surroundings.
+    Surroundings,
+    /// An object without layers, of this material.
+    Bare(String),
+    /// A film or a coated surface.
+    Film(Box<SeenFilm>),
+}
+
+/// A film or a coated surface at a place of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeenFilm {
+    /// The name of its material in the scene.
+    pub material: String,
+    /// Its layers, as thick as they are there, in the order in which the light meets them.
+    pub stack: Stack,
+    /// The angle at which it is seen.
+    pub angle: Angle,
+}
+
+/// A spectrum that the scene's lights burn with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneLamp {
+    /// What shines so: the name of a material, or `the surroundings`.
+    pub name: String,
+    /// Its radiance, scale 1, at each of [`FilmFitting::wavelengths_nm`] of the scene's bands.
+    pub power: Vec<f64>,
+}
+
+/// What is nearest at a place, in pixels from the left and the top of the picture. `description` is what `scene` was made of, in
+/// a file of `directory`.
+///
+/// # Errors
+/// What is wrong with the layers as a stack.
+pub fn seen(
+    description: &Description,
+    scene: &Scene,
+    directory: &Path,
+    [x, y]: [f64; 2],
+) -> Result<Seen, Vec<Problem>> {
+    let ray = camera_ray(scene, [x as u32, y as u32], [x.fract(), y.fract()]);
+    let Some(hit) = nearest_hit(scene, &ray, None) else {
+        return Ok(Seen::Surroundings);
+    };
+    let object = &scene.objects()[hit.object];
+    let name = description.objects[hit.object].material();
+    let (substrate, media) = match description.materials.get(name) {
+        Some(Material::Film { index, layers, .. }) => (Index::Real(1.0), media(index, layers)),
+        Some(Material::Coated {
+            substrate,
+            index,
+            layers,
+            ..
+        }) => (substrate.clone(), media(index, layers)),
+        _ => return Ok(Seen::Bare(name.to_owned())),
+    };
+    let point = surface_point(&object.shape, &ray, hit.distance);
+    let thicknesses = scene.material(object.material).thicknesses();
+    let thicknesses = thicknesses.map(|t| layer_thickness(t, &object.shape, point.position));
+    let layer = |(index, thickness_nm)| LayerDescription {
+        index,
+        thickness_nm,
+    };
+    let mut layer: Vec<LayerDescription> = media.into_iter().zip(thicknesses).map(layer).collect();
+    if !point.is_front {
+        layer.reverse();
+    }
+    let stack = StackDescription {
+        incident: Index::Real(1.0),
+        substrate,
+        layer,
+    };
+    let deg = point.cosine.min(1.0).acos().to_degrees();
+    Ok(Seen::Film(Box::new(SeenFilm {
+        material: name.to_owned(),
+        stack: stack.check(directory)?,
+        // A ray that grazes exactly meets nothing.
+        angle: Angle::from_degrees(deg).unwrap_or(Angle::NORMAL),
+    })))
+}
+
+/// What each layer is made of.
+fn media(index: &Option<Index>, layers: &Option<Vec<Layer>>) -> Vec<Index> {
+    let layers = layers.iter().flatten().map(|layer| layer.index.clone());
+    index.iter().cloned().chain(layers).collect()
+}
+
+/// The different spectra that the scene's lights burn with.
+pub fn lamps(description: &Description, scene: &Scene) -> Vec<SceneLamp> {
+    let bands = &scene.settings().bands;
+    let mut found: Vec<SceneLamp> = Vec::new();
+    let mut add = |name: &str, emission: &Emission| {
+        let power = power(scene, bands, emission);
+        let shines = emission.scale > 0.0 && power.iter().any(|&v| v > 0.0);
+        if shines && found.iter().all(|lamp| lamp.power != power) {
+            let name = name.to_owned();
+            found.push(SceneLamp { name, power });
+        }
+    };
+    let surroundings = "the surroundings";
+    match scene.environment() {
+        Environment::Constant(emission) => add(surroundings, emission),
+        Environment::Gradient {
+            zenith,
+            horizon,
+            ground,
+        } => {
+            for emission in [zenith, horizon, ground] {
+                add(surroundings, emission);
+            }
+        }
+    }
+    for (object, described) in scene.objects().iter().zip(&description.objects) {
+        if let scene::Material::Emitter { emission, .. } = scene.material(object.material) {
+            add(described.material(), emission);
+        }
+    }
+    found
+}
+
+fn power(scene: &Scene, bands: &BandGrid, emission: &Emission) -> Vec<f64> {
+    let table = scene.spectrum(emission.spectrum);
+    let value = |nm: f64| {
+        let at = (nm - bands.min_nm()) / bands.width_nm();
+        let band = (at as u32).min(bands.count() - 1);
+        table.at(band, at - f64::from(band))
+    };
+    let wavelengths = FilmFitting::wavelengths_nm(bands);
+    wavelengths.into_iter().map(value).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::SceneFile;
+
+    const BUBBLE: &str = r#"
+        [camera]
+        type = "perspective"
+        position = [0, 0, 5]
+        look_at = [0, 0, 0]
+        fov_deg = 40
+        [render]
+        size = [101, 101]
+        bands = 20
+        [materials.soap]
+        type = "film"
+        index = "water"
+        thickness_nm = { pole = 300, equator = 1200 }
+        [materials.lamp]
+        type = "emitter"
+        emission = { illuminant = "A", scale = 2 }
+        [[objects]]
+        type = "sphere"
+        material = "soap"
+        center = [0, 0, 0]
+        radius = 1
+        [[objects]]
+        type = "rectangle"
+        material = "lamp"
+        center = [1.5, 1.5, 0]
+        normal = [0, 0, 1]
+        size = [0.5, 0.5]
+        [environment]
+        type = "constant"
+        emission = { illuminant = "D65" }
+    "#;
+
+    fn at(place: [f64; 2]) -> Seen {
+        let file = SceneFile::parse("bubble.toml", BUBBLE, Path::new(".")).unwrap();
+        let scene = file.validate().unwrap();
+        seen(&file.description, &scene, Path::new("."), place).unwrap()
+    }
+
+    #[test]
+    fn the_film_is_as_thick_and_as_oblique_as_geometry_says() {
+        // The middle of the bubble: the equator, met at a right angle.
+        let Seen::Film(film) = at([50.5, 50.5]) else {
+            panic!("a film");
+        };
+        assert_eq!(film.material, "soap");
+        assert!((film.stack.thicknesses_nm()[0] - 1200.0).abs() < 1e-9);
+        assert!(film.angle.degrees() < 1e-5);
+        // Half a pixel further up the film is thinner, and seen obliquely.
+        let Seen::Film(up) = at([50.5, 40.5]) else {
+            panic!("a film");
+        };
+        assert!(up.stack.thicknesses_nm()[0] < 1150.0 && up.angle.degrees() > 5.0);
+        assert_eq!(at([0.5, 100.5]), Seen::Surroundings);
+        assert_eq!(at([91.5, 9.5]), Seen::Bare("lamp".to_owned()));
+    }
+
+    #[test]
+    fn each_spectrum_is_one_lamp() {
+        let file = SceneFile::parse("bubble.toml", BUBBLE, Path::new(".")).unwrap();
+        let scene = file.validate().unwrap();
+        let found = lamps(&file.description, &scene);
+        let names: Vec<&str> = found.iter().map(|lamp| lamp.name.as_str()).collect();
+        assert_eq!(names, ["the surroundings", "lamp"]);
+        let nm = FilmFitting::wavelengths_nm(&scene.settings().bands);
+        let d65 = spectra::illuminant("D65").unwrap().data;
+        for (found, nm) in found[0].power.iter().zip(nm) {
+            assert!((found / d65.at(nm).unwrap() - 1.0).abs() < 1e-3, "{nm}");
+        }
+    }
+}
