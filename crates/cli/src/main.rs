@@ -1,7 +1,9 @@
 //! The `pellicle` command: arguments, progress and errors; the work is done by the library.
 
 mod bench;
+mod color;
 mod devices;
+mod display;
 mod film;
 mod lamp;
 mod materials;
@@ -33,6 +35,8 @@ enum Command {
         scene: PathBuf,
     },
     Film(film::Arguments),
+    Color(color::Arguments),
+    Display(display::Arguments),
     /// List the adapters that can render
     Devices,
     /// List the materials whose optical constants Pellicle carries, or show one
@@ -49,6 +53,8 @@ fn main() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments),
         Command::Check { scene } => check(&scene),
         Command::Film(arguments) => film::run(&arguments),
+        Command::Color(arguments) => color::run(&arguments),
+        Command::Display(arguments) => display::run(&arguments),
         Command::Devices => devices::print(),
         Command::Materials(arguments) => materials::run(&arguments),
         Command::Schema => print::result(format_args!("{:#}", pellicle::scene::schema())),
