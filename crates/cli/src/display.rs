@@ -89,7 +89,7 @@ fn listed(displays: &[Display]) -> String {
 }
 
 fn described(display: &Display) -> String {
-    let mut text = format!("{}", display.name());
+    let mut text = display.name().to_owned();
     if !display.title().is_empty() {
         let _ = write!(text, ": {}", display.title());
     }

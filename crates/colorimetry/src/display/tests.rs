@@ -435,5 +435,7 @@ fn mistakes_say_where_and_what_would_be_right() {
             .to_string()
             .contains("no/such.toml: cannot be opened")
     );
+    let error = Display::open("CRT").unwrap_err().to_string();
+    assert!(error.contains("did you mean \"crt_1997\"?"), "{error}");
     assert_eq!(Display::open("srgb").unwrap(), named("srgb"));
 }
