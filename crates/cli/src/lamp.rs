@@ -1,5 +1,6 @@
 //! Lamps as options name them: `D65`, `D5700K`, `lamp.csv`, `F11*0.3`.
 
+use pellicle::colorimetry::tristimulus::Rule;
 use pellicle::spectra::table_file::{Quantity, columns};
 use pellicle::spectra::{Spectrum, find_illuminant};
 use std::ffi::OsStr;
@@ -12,30 +13,48 @@ pub(crate) struct Lamp {
     pub(crate) name: String,
     /// Relative power. An illuminant by name is as bright as the constant 1; the values of a file are as they stand there.
     pub(crate) spectrum: Spectrum,
+    /// How sums over it are taken: at 5 nm for the CIE's lamps with lines, which that defines, else at 1 nm.
+    pub(crate) rule: Rule,
     /// What the power is multiplied by.
+    #[allow(dead_code, reason = "for lights that are changed in an image")]
     pub(crate) factor: f64,
 }
 
 /// Factors that a lamp may have.
+#[allow(dead_code, reason = "for lights that are changed in an image")]
 const FACTORS: std::ops::RangeInclusive<f64> = 0.0..=1e9;
 
 impl Lamp {
     /// Reads `NAME` or `FILE.csv`, either with `*FACTOR` behind it.
+    #[allow(dead_code, reason = "for lights that are changed in an image")]
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
-        let (lamp, factor) = match text.rsplit_once('*') {
-            Some((lamp, factor)) if !is_file(text) => (lamp.trim_end(), parse_factor(factor)?),
-            _ => (text, 1.0),
+        match text.rsplit_once('*') {
+            Some((lamp, factor)) if !is_file(text) => Ok(Self {
+                factor: parse_factor(factor)?,
+                ..Self::unscaled(lamp.trim_end())?
+            }),
+            _ => Self::unscaled(text),
+        }
+    }
+
+    /// Reads `NAME` or `FILE.csv`: a light whose strength does not matter.
+    pub(crate) fn unscaled(text: &str) -> Result<Self, String> {
+        let (name, spectrum) = spectrum(text)?;
+        let rule = if is_file(text) {
+            Rule::OneNm
+        } else {
+            Rule::for_illuminant(&name)
         };
-        let (name, spectrum) = spectrum(lamp)?;
         Ok(Self {
             name,
             spectrum,
-            factor,
+            rule,
+            factor: 1.0,
         })
     }
 }
 
-/// An illuminant's spectrum with its name: `NAME` or `FILE.csv`.
+/// A light's spectrum with its name: `NAME` or `FILE.csv`.
 pub(crate) fn spectrum(text: &str) -> Result<(String, Spectrum), String> {
     if !is_file(text) {
         let set = find_illuminant(text).map_err(|error| format!("{error}; or a file .csv"))?;
@@ -58,6 +77,7 @@ fn is_file(text: &str) -> bool {
     extension.is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
 }
 
+#[allow(dead_code, reason = "for lights that are changed in an image")]
 fn parse_factor(text: &str) -> Result<f64, String> {
     let factor: Result<f64, _> = text.trim().parse();
     factor
@@ -78,7 +98,8 @@ mod tests {
     fn names_and_factors() {
         let lamp = Lamp::parse("D65*0.3").unwrap();
         assert_eq!((lamp.name.as_str(), lamp.factor), ("D65", 0.3));
-        assert_eq!(Lamp::parse("F11").unwrap().name, "FL11");
+        let lamp = Lamp::parse("F11").unwrap();
+        assert_eq!((lamp.name.as_str(), lamp.rule), ("FL11", Rule::FiveNm));
         assert_eq!(Lamp::parse("D5700K * 2e-1").unwrap().factor, 0.2);
         assert_eq!(Lamp::parse("E").unwrap().spectrum, Spectrum::Constant(1.0));
     }

@@ -1,8 +1,10 @@
 //! The `pellicle` command: arguments, progress and errors; the work is done by the library.
 
 mod bench;
+mod color;
 mod compare;
 mod devices;
+mod display;
 mod film;
 mod image_file;
 mod inspect;
@@ -36,6 +38,8 @@ enum Command {
         scene: PathBuf,
     },
     Film(film::Arguments),
+    Color(color::Arguments),
+    Display(display::Arguments),
     Compare(compare::Arguments),
     Inspect(inspect::Arguments),
     /// List the adapters that can render
@@ -54,6 +58,8 @@ fn main() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments),
         Command::Check { scene } => check(&scene),
         Command::Film(arguments) => film::run(&arguments),
+        Command::Color(arguments) => color::run(&arguments),
+        Command::Display(arguments) => display::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Devices => devices::print(),

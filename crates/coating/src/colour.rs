@@ -148,7 +148,7 @@ impl StackColour {
     /// When one of them has no data somewhere from 380 to 780 nm.
     pub fn new(stack: &Stack, light: Light, view: View) -> Result<Self, SampleError> {
         Ok(Self {
-            sampled: stack.sampled(&Light::wavelengths_nm())?,
+            sampled: stack.sampled(&light.wavelengths_nm())?,
             light,
             view,
         })

@@ -5,7 +5,7 @@
 //!   -> Stack                media (n + ik over wavelength) and layers with their thickness
 //!   -> Sampled              the stack at chosen wavelengths: numbers alone
 //!   -> powers               R, T and A for s and p over wavelength at an angle
-//!   -> Light::xyz           colour under an illuminant, CIE 1931, sums at 1 nm
+//!   -> Light::xyz           colour under an illuminant for an observer, sums at 1 nm
 //!   -> sensitivity, tolerance, matching: how the colour depends on the thicknesses
 //!   -> film_fit             which thickness makes a spectrum that was measured or rendered
 //!   -> plot, chart          pictures of all that

@@ -1,38 +1,44 @@
 //! The light that a stack is looked at in, and the observer who looks.
 
-use spectra::IlluminantError;
+use colorimetry::tristimulus::{Rule, Weights, WeightsError};
+use spectra::{IlluminantError, Observer, Spectrum};
 
-/// An illuminant with the CIE 1931 2° observer, as weights for sums at 380, 381 … 780 nm.
+/// An illuminant with an observer, as weights for sums over wavelength.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
     name: String,
-    weights: Vec<[f64; 3]>,
-    white: [f64; 3],
+    weights: Weights,
 }
 
 impl Light {
-    /// A CIE illuminant by its name: `D65`, `A`, `C`, `FL11`.
+    /// An illuminant by its name (`D65`, `A`, `FL11`, `D5700K`) with the CIE 1931 2° observer; sums are taken at 1 nm, but at 5 nm for
+    /// the CIE's lamps with lines, which that defines.
     ///
     /// # Errors
     /// When there is none of that name.
+    ///
+    /// # Panics
+    /// Never: every illuminant by name covers 380 to 780 nm and shines, which a test proves.
     pub fn named(name: &str) -> Result<Self, IlluminantError> {
         let set = spectra::find_illuminant(name)?;
-        let observer = spectra::observer_1931();
-        let at = |nm| {
-            let power = set.data.at(nm).unwrap_or(0.0);
-            observer
-                .each_ref()
-                .map(|curve| power * curve.clamped_at(nm))
-        };
-        let mut weights: Vec<[f64; 3]> = Self::wavelengths_nm().into_iter().map(at).collect();
-        let luminance: f64 = weights.iter().map(|w| w[1]).sum();
-        for weight in &mut weights {
-            *weight = weight.map(|w| w / luminance);
-        }
+        let rule = Rule::for_illuminant(&set.name);
+        let light = Self::new(&set.name, &set.data, Observer::Cie1931Deg2, rule);
+        Ok(light.unwrap_or_else(|error| panic!("illuminant {name}: {error}")))
+    }
+
+    /// Any light.
+    ///
+    /// # Errors
+    /// When it has no value somewhere from 380 to 780 nm, or no luminance.
+    pub fn new(
+        name: &str,
+        spectrum: &Spectrum,
+        observer: Observer,
+        rule: Rule,
+    ) -> Result<Self, WeightsError> {
         Ok(Self {
-            name: set.name.into_owned(),
-            white: sum(weights.iter().copied()),
-            weights,
+            name: name.to_owned(),
+            weights: Weights::new(spectrum, observer, rule)?,
         })
     }
 
@@ -41,30 +47,20 @@ impl Light {
         &self.name
     }
 
-    /// Where the sums are taken: 380, 381 … 780 nm.
-    pub fn wavelengths_nm() -> Vec<f64> {
-        (380..=780).map(f64::from).collect()
+    /// Where the sums are taken, nm.
+    pub fn wavelengths_nm(&self) -> Vec<f64> {
+        self.weights.rule().wavelengths_nm().collect()
     }
 
     /// XYZ of the light itself, Y = 1.
     pub fn white(&self) -> [f64; 3] {
-        self.white
+        self.weights.white()
     }
 
-    /// XYZ = Σ R S (x̄, ȳ, z̄) / Σ S ȳ of a share R of the light at each of [`Self::wavelengths_nm`]: Y = 1 for a perfect mirror
-    /// (CIE 015:2018, section 7.1, at 1 nm from 380 to 780 nm).
+    /// XYZ of a share of the light at each of [`Self::wavelengths_nm`]: Y = 1 for a perfect mirror.
     pub fn xyz(&self, shares: impl IntoIterator<Item = f64>) -> [f64; 3] {
-        sum(shares
-            .into_iter()
-            .zip(&self.weights)
-            .map(|(share, weight)| weight.map(|w| share * w)))
+        self.weights.xyz(shares)
     }
-}
-
-fn sum(terms: impl Iterator<Item = [f64; 3]>) -> [f64; 3] {
-    terms.fold([0.0; 3], |sum, term| {
-        std::array::from_fn(|i| sum[i] + term[i])
-    })
 }
 
 #[cfg(test)]
@@ -75,7 +71,7 @@ mod tests {
     fn a_perfect_mirror_is_the_white() {
         for name in spectra::illuminant_names() {
             let light = Light::named(name).unwrap();
-            let mirror = light.xyz(vec![1.0; 401]);
+            let mirror = light.xyz(vec![1.0; light.wavelengths_nm().len()]);
             assert_eq!(mirror, light.white());
             assert!((mirror[1] - 1.0).abs() < 1e-14);
         }

@@ -1,5 +1,34 @@
 //! Colorimetry in `f64`: functions of numbers, which know no image and no file of one.
 //!
+//! ```text
+//! spectrum
+//!   -> tristimulus    XYZ under a light for an observer, by sums at 5 or 1 nm
+//!   -> chromaticity   x, y and u', v'
+//!   -> lab, oklab, ciecam16   what it looks like, and how different two colours look
+//!   -> adaptation     the same under another white
+//!   -> Display        amounts of a display's primaries -> its codes
+//! ```
+//!
+//! ```
+//! use pellicle_colorimetry::tristimulus::{Rule, Weights};
+//! use pellicle_colorimetry::{Adaptation, Display, Lab, matrix::times};
+//! use spectra::{Observer, Spectrum, find_illuminant};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let lamp = find_illuminant("A")?.data;
+//! let light = Weights::new(&lamp, Observer::Cie1931Deg2, Rule::OneNm)?;
+//! let grey = light.xyz_of(&Spectrum::Constant(0.184))?;
+//! assert!((Lab::from_xyz(grey, light.white()).l - 50.0).abs() < 0.1);
+//!
+//! let crt = Display::open("crt_1997")?;
+//! let adapted = times(&Adaptation::Bradford.matrix(light.white(), crt.white_xyz()), grey);
+//! let amounts = times(crt.rgb_from_xyz(), adapted);
+//! let codes: [f64; 3] = std::array::from_fn(|i| crt.responses()[i].code(amounts[i]));
+//! assert!(codes.iter().all(|code| (code - codes[0]).abs() < 1e-12));
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! Tristimulus values enter and leave as `[X, Y, Z]`; where a white matters it is given in the same unit.
 
 pub mod adaptation;

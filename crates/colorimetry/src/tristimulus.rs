@@ -80,7 +80,7 @@ impl FromStr for Rule {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weights {
     rule: Rule,
-    weights: Vec<[f64; 3]>,
+    per_wavelength: Vec<[f64; 3]>,
     white: [f64; 3],
 }
 
@@ -119,7 +119,7 @@ impl Weights {
         Ok(Self {
             rule,
             white: sum(weights.iter().copied()),
-            weights,
+            per_wavelength: weights,
         })
     }
 
@@ -129,8 +129,8 @@ impl Weights {
     }
 
     /// The weight of each wavelength of the rule.
-    pub fn weights(&self) -> &[[f64; 3]] {
-        &self.weights
+    pub fn per_wavelength(&self) -> &[[f64; 3]] {
+        &self.per_wavelength
     }
 
     /// XYZ of the light itself and of the perfect reflector, Y = 1.
@@ -140,7 +140,7 @@ impl Weights {
 
     /// XYZ of a share of the light at each of the rule's wavelengths: Y = 1 where all of them are 1.
     pub fn xyz(&self, shares: impl IntoIterator<Item = f64>) -> [f64; 3] {
-        let terms = shares.into_iter().zip(&self.weights);
+        let terms = shares.into_iter().zip(&self.per_wavelength);
         sum(terms.map(|(share, weight)| weight.map(|w| share * w)))
     }
 

@@ -6,6 +6,7 @@ mod report;
 mod spectra;
 pub(crate) mod swatch;
 
+use crate::lamp::Lamp;
 use crate::print;
 use clap::ValueEnum;
 use miette::{IntoDiagnostic, WrapErr, miette};
@@ -14,6 +15,7 @@ use pellicle::coating::{
     Angle, Light, MatchBy, Polarisation, Side, Stack, StackColour, View, parse_srgb,
 };
 use pellicle::gpu::AdapterChoice;
+use pellicle::spectra::Observer;
 use pellicle::{Backend, Renderer, coating, stacks};
 use std::path::PathBuf;
 
@@ -84,9 +86,13 @@ pub(crate) struct Arguments {
 /// How colours are looked at.
 #[derive(clap::Args)]
 struct Look {
-    /// The light that colours are seen in; swatches and codes of sRGB are not adapted to it: under A white looks orange
-    #[arg(long, value_name = "NAME", default_value = "D65")]
-    illuminant: String,
+    /// The light that colours are seen in: D65, A, FL11, LED-B3, D5700K, blackbody_3000K ..., or a file .csv of wavelength_nm,power;
+    /// swatches and codes of sRGB are not adapted to it: under A white looks orange
+    #[arg(long, value_name = "NAME|FILE", default_value = "D65", value_parser = Lamp::unscaled)]
+    illuminant: Lamp,
+    /// The observer of colours: 1931_2, 1964_10, 2015_2 or 2015_10
+    #[arg(long, value_name = "NAME", default_value_t = Observer::Cie1931Deg2)]
+    observer: Observer,
     /// Stops by which colours are shown brighter: a soap film reflects 8 % at most
     #[arg(long, value_name = "EV", default_value = "0", value_parser = numbers::number, allow_hyphen_values = true)]
     exposure: f64,
@@ -139,6 +145,17 @@ fn wanted(text: &str) -> Result<Wanted, String> {
 }
 
 impl Look {
+    fn light(&self) -> miette::Result<Light> {
+        let Lamp {
+            name,
+            spectrum,
+            rule,
+            ..
+        } = &self.illuminant;
+        Light::new(name, spectrum, self.observer, *rule)
+            .map_err(|error| miette!("--illuminant {name}: {error}"))
+    }
+
     fn view(&self) -> View {
         View {
             side: if self.transmitted {
@@ -247,7 +264,7 @@ impl<'a> Film<'a> {
             arguments,
             stack: Stack::open(&arguments.stack)?,
             angles,
-            light: Light::named(&look.illuminant).into_diagnostic()?,
+            light: look.light()?,
             exposure_ev: look.exposure,
         })
     }

@@ -195,6 +195,7 @@ impl<'a> Spectra<'a> {
             value["colour"] = json!({
                 "seen": seen(self.film),
                 "illuminant": self.film.light.name(),
+                "observer": self.film.arguments.look.observer.name(),
                 "XYZ": colour.xyz,
                 "Lab": [lab.l, lab.a, lab.b],
                 "exposure_ev": self.film.exposure_ev,

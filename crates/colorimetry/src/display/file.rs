@@ -122,13 +122,19 @@ impl Display {
     }
 }
 
+/// The known name that a slip of the keys is nearest to, or else one that has the word in it.
 fn nearest(name: &str) -> Option<&'static str> {
     let word: String = name.to_lowercase().chars().take(24).collect();
-    let distances = Display::names()
-        .into_iter()
-        .map(|known| (strsim::osa_distance(&word, known), known));
-    let (distance, known) = distances.min()?;
-    (3 * distance <= known.len()).then_some(known)
+    let names = Display::names().into_iter();
+    let distances = names.map(|known| (strsim::osa_distance(&word, known), known));
+    let slip = distances
+        .min()
+        .filter(|(distance, known)| 3 * distance <= known.len());
+    let part = || {
+        let mut names = Display::names().into_iter();
+        names.find(|known| word.len() >= 2 && known.contains(&word))
+    };
+    slip.map(|(_, known)| known).or_else(part)
 }
 
 /// A display as it is written in a file.

@@ -1,0 +1,262 @@
+//! `pellicle color`.
+
+use crate::film::swatch::swatch;
+use crate::lamp::Lamp;
+use crate::{display, print};
+use clap::ValueEnum;
+use miette::miette;
+use pellicle::colorimetry::chromaticity::{uv_of_xyz, xy_of_xyz};
+use pellicle::colorimetry::matrix::times;
+use pellicle::colorimetry::tristimulus::{Rule, Weights, xyz_of_emission};
+use pellicle::colorimetry::{Adaptation, Display, Lab, srgb};
+use pellicle::spectra::table_file::{Quantity, columns};
+use pellicle::spectra::{Observer, OutOfRange, Spectrum};
+use serde_json::json;
+use std::path::PathBuf;
+
+/// The colour of a spectrum: XYZ, CIELAB, and RGB of a display.
+///
+/// FILE is a table with the columns wavelength_nm and value, linear between its points: a reflectance (or transmittance) from 0 to 1, or
+/// with --emission the power of a light in any unit. Sums run from 380 to 780 nm. XYZ have Y = 100 for the perfect reflector, and for an
+/// emission as a whole; CIELAB is beside the illuminant's white. Linear RGB is XYZ/100 through the display's M⁻¹, beyond 0 and 1 where
+/// the display cannot show the colour; RGB are its codes of 8 bits, clipped.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// A file .csv of wavelength_nm,value
+    file: PathBuf,
+    /// The values are the power of a light, not a reflectance; --illuminant then says what white it is compared with
+    #[arg(long)]
+    emission: bool,
+    /// The light: D65, A, FL11, LED-B3, D5700K, blackbody_3000K ..., or a file .csv of wavelength_nm,power
+    #[arg(long, value_name = "NAME|FILE", default_value = "D65", value_parser = Lamp::unscaled)]
+    illuminant: Lamp,
+    /// The observer: 1931_2, 1964_10, 2015_2 or 2015_10
+    #[arg(long, value_name = "NAME", default_value_t = Observer::Cie1931Deg2)]
+    observer: Observer,
+    /// Where sums are taken: 5nm or 1nm [default: 5nm under FL and HP lamps, whose tables are defined so, else 1nm]
+    #[arg(long, value_name = "RULE")]
+    rule: Option<Rule>,
+    /// How RGB is adapted from the illuminant's white to the display's: none, bradford or cat16
+    #[arg(long, value_name = "NAME", default_value_t = Adaptation::None)]
+    adapt: Adaptation,
+    /// The display of RGB: a name that `pellicle display` lists, or a file .toml
+    #[arg(long, value_name = "NAME|FILE", default_value = "srgb")]
+    display: String,
+    /// Go on with the first and last value where the table does not cover 380 to 780 nm
+    #[arg(long)]
+    clamp: bool,
+    /// How to write it
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Format {
+    Table,
+    Json,
+}
+
+/// A colour and all that is told of it.
+struct Found<'a> {
+    arguments: &'a Arguments,
+    display: Display,
+    rule: Rule,
+    /// Y = 1 for the perfect reflector.
+    xyz: [f64; 3],
+    /// XYZ of the illuminant, Y = 1.
+    white: [f64; 3],
+    /// Of an emission, cd/m² if its unit is W m⁻² sr⁻¹ nm⁻¹.
+    luminance: Option<f64>,
+}
+
+/// Computes and prints.
+pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
+    let found = Found::new(arguments)?;
+    match arguments.format {
+        Format::Table => print::result(found.table()),
+        Format::Json => print::result(format_args!("{:#}", found.json())),
+    }
+}
+
+impl<'a> Found<'a> {
+    fn new(arguments: &'a Arguments) -> miette::Result<Self> {
+        let Arguments {
+            illuminant,
+            observer,
+            ..
+        } = arguments;
+        let display = display::open(&arguments.display)?;
+        let spectrum = read(arguments)?;
+        let rule = arguments.rule.unwrap_or(illuminant.rule);
+        if rule == Rule::OneNm && illuminant.rule == Rule::FiveNm {
+            print::note(format_args!(
+                "{} has lines and is defined by sums at 5 nm: at 1 nm its y is off by about 2e-4",
+                illuminant.name
+            ));
+        }
+        let weights = Weights::new(&illuminant.spectrum, *observer, rule)
+            .map_err(|error| miette!("--illuminant {}: {error}", illuminant.name))?;
+        let too_short = |gap: OutOfRange| {
+            miette!(
+                help = "--clamp goes on with its first and last value",
+                "{}: {gap}; colours are sums from 380 to 780 nm",
+                arguments.file.display()
+            )
+        };
+        let (xyz, luminance) = if arguments.emission {
+            let xyz = xyz_of_emission(&spectrum, *observer, rule).map_err(too_short)?;
+            if xyz[1] <= 0.0 {
+                return Err(miette!(
+                    "{}: an emission must shine between 380 and 780 nm, but nothing is seen of it",
+                    arguments.file.display()
+                ));
+            }
+            (xyz.map(|v| v / xyz[1]), Some(xyz[1]))
+        } else {
+            (weights.xyz_of(&spectrum).map_err(too_short)?, None)
+        };
+        Ok(Self {
+            arguments,
+            display,
+            rule,
+            xyz,
+            white: weights.white(),
+            luminance,
+        })
+    }
+
+    fn lab(&self) -> Lab {
+        Lab::from_xyz(self.xyz, self.white)
+    }
+
+    /// XYZ as the display is to show them.
+    fn adapted(&self) -> [f64; 3] {
+        let adaptation = self.arguments.adapt;
+        times(
+            &adaptation.matrix(self.white, self.display.white_xyz()),
+            self.xyz,
+        )
+    }
+
+    fn linear_rgb(&self) -> [f64; 3] {
+        times(self.display.rgb_from_xyz(), self.adapted())
+    }
+
+    /// Codes from 0 to 1 of what the display can show.
+    fn encoded(&self) -> [f64; 3] {
+        let (linear, responses) = (self.linear_rgb(), self.display.responses());
+        std::array::from_fn(|i| {
+            let shown = linear[i].clamp(0.0, responses[i].peak());
+            responses[i].code(shown).clamp(0.0, 1.0)
+        })
+    }
+
+    fn rgb(&self) -> [u8; 3] {
+        self.encoded().map(|code| (255.0 * code).round() as u8)
+    }
+
+    /// Whether the display shows the colour, to the rounding of sums over wavelength beside its white.
+    fn is_in_gamut(&self) -> bool {
+        const ROUNDING: f64 = 1e-3;
+        let fits = |v: &f64| (-ROUNDING..=self.display.peak() + ROUNDING).contains(v);
+        self.linear_rgb().iter().all(fits)
+    }
+
+    fn table(&self) -> String {
+        let Arguments {
+            illuminant,
+            observer,
+            adapt,
+            ..
+        } = self.arguments;
+        let lab = self.lab();
+        let hundred = self.xyz.map(|v| 100.0 * v);
+        let [x, y] = xy_of_xyz(self.xyz);
+        let [u, v] = uv_of_xyz(self.xyz);
+        let [r, g, b] = self.rgb();
+        let about = match self.luminance {
+            Some(luminance) => format!(
+                "an emission beside {}, {observer}, sums at {}; {luminance:.6} cd/m² if its unit is W/(m² sr nm)",
+                illuminant.name, self.rule
+            ),
+            None => format!(
+                "under {}, {observer}, sums at {}",
+                illuminant.name, self.rule
+            ),
+        };
+        let adapted = match adapt {
+            Adaptation::None => String::new(),
+            _ => format!(", adapted from {} by {adapt}", illuminant.name),
+        };
+        let clipped = if self.is_in_gamut() {
+            ""
+        } else {
+            "  (beyond the display, clipped)"
+        };
+        format!(
+            "{}: {about}\nXYZ       {}\nxy        {x:.6}  {y:.6}\nu'v'      {u:.6}  {v:.6}\n\
+             L*a*b*    {}   C* {:.4}  h {:.3}°\nlinear    {}   of {}{adapted}\nRGB       {r} {g} {b}   {}#{r:02x}{g:02x}{b:02x}{clipped}",
+            self.arguments.file.display(),
+            spaced(hundred),
+            spaced([lab.l, lab.a, lab.b]),
+            lab.chroma(),
+            lab.hue_deg(),
+            spaced(self.linear_rgb()),
+            self.display.name(),
+            swatch(srgb::linear_from_xyz(self.adapted()).map(srgb::to_u8)),
+        )
+    }
+
+    fn json(&self) -> serde_json::Value {
+        let arguments = self.arguments;
+        let lab = self.lab();
+        // Black has no chromaticity: null.
+        let finite = |xy: [f64; 2]| xy.iter().all(|v| v.is_finite()).then_some(xy);
+        let mut value = json!({
+            "xyz": self.xyz.map(|v| 100.0 * v),
+            "xy": finite(xy_of_xyz(self.xyz)),
+            "uv": finite(uv_of_xyz(self.xyz)),
+            "lab": [lab.l, lab.a, lab.b],
+            "lch": [lab.l, lab.chroma(), lab.hue_deg()],
+            "linear_rgb": self.linear_rgb(),
+            "rgb": self.rgb(),
+            "encoded_rgb": self.encoded(),
+            "in_gamut": self.is_in_gamut(),
+            "illuminant": arguments.illuminant.name,
+            "observer": arguments.observer.name(),
+            "rule": self.rule.name(),
+            "adapt": arguments.adapt.name(),
+            "display": self.display.name(),
+            "white_xyz": self.white.map(|v| 100.0 * v),
+        });
+        if let Some(luminance) = self.luminance {
+            value["luminance_cd_m2"] = json!(luminance);
+        }
+        value
+    }
+}
+
+fn spaced(values: [f64; 3]) -> String {
+    let [a, b, c] = values.map(|value| format!("{value:.6}"));
+    format!("{a}  {b}  {c}")
+}
+
+fn read(arguments: &Arguments) -> miette::Result<Spectrum> {
+    let quantity = if arguments.emission {
+        // In whatever unit.
+        Quantity {
+            noun: "power",
+            range: (0.0, 1e30),
+        }
+    } else {
+        Quantity::REFLECTANCE
+    };
+    let [table] = columns(&arguments.file, [quantity])
+        .map_err(|error| miette!("{}: {error}", arguments.file.display()))?;
+    let spectrum = Spectrum::Table(table);
+    Ok(if arguments.clamp {
+        spectrum.clamped()
+    } else {
+        spectrum
+    })
+}
