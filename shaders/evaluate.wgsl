@@ -100,7 +100,7 @@ fn free_stack_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
 /// Radiance that a vertex receives straight from a light and scatters, before the path's throughput. `scatter` is
 /// the vertex's own factor, which is also that of a diffuse surface towards the light.
 fn connection_value(vertex: Vertex, scatter: vec4f, group: u32, at: Wavelengths) -> vec4f {
-    var light = vertex.connection_weight * spectrum_at(vertex.connection, group, at);
+    var light = vertex.connection_weight * spectrum_at(light_spectrum(vertex.connection), group, at);
     if (HAS_FILMS) {
         for (var i = vertex.first_crossing; i < vertex.end_crossing; i++) {
             light *= film_value(crossings[i], group, at);
@@ -114,21 +114,22 @@ fn connection_value(vertex: Vertex, scatter: vec4f, group: u32, at: Wavelengths)
     return light * scatter;
 }
 
-/// Radiance of the recorded path in the four bands of a group.
-fn path_radiance(group: u32, at: Wavelengths) -> vec4f {
+/// Radiance of the recorded path in the four bands of a group, by light group.
+fn path_radiance(group: u32, at: Wavelengths) -> array<vec4f, LIGHT_GROUPS> {
     var throughput = vec4f(1.0);
-    var radiance = vec4f(0.0);
+    var radiance: array<vec4f, LIGHT_GROUPS>;
     for (var i = 0u; i < vertex_count; i++) {
         let vertex = vertices[i];
         if (vertex.emission_weight > 0.0) {
-            radiance += throughput * vertex.emission_weight * spectrum_at(vertex.emission, group, at);
+            let emission = spectrum_at(light_spectrum(vertex.emission), group, at);
+            radiance[light_group_of(vertex.emission)] += throughput * vertex.emission_weight * emission;
         }
         if (vertex.scatter.kind == FACTOR_ONE) {
             continue;
         }
         let scatter = factor_value(vertex.scatter, group, at);
         if (vertex.connection_weight > 0.0) {
-            radiance += throughput * connection_value(vertex, scatter, group, at);
+            radiance[light_group_of(vertex.connection)] += throughput * connection_value(vertex, scatter, group, at);
         }
         throughput *= vertex.weight * scatter;
     }

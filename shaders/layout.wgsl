@@ -7,6 +7,9 @@ const WORKGROUP_SIDE: u32 = 8u;
 /// No object, no light.
 const NONE: u32 = 4294967295u;
 
+/// A light is the number of its spectrum, with its light group from this bit on.
+const LIGHT_GROUP_SHIFT: u32 = 24u;
+
 /// Projection: all rays start at the camera's origin.
 const PROJECTION_PERSPECTIVE: u32 = 0u;
 
@@ -161,7 +164,7 @@ struct Frame {
     object_count: u32,
     /// Number of lights.
     light_count: u32,
-    /// Spectrum of the radiance from above, from the horizon and from below.
+    /// Light from above, from the horizon and from below.
     zenith: u32,
     /// See `zenith`.
     horizon: u32,
@@ -233,7 +236,7 @@ struct Material {
     roughness: f32,
     /// A `FILM_` tag, of a film.
     film: u32,
-    /// Spectrum that it emits.
+    /// Light that it emits.
     emission: u32,
     /// Factor of what it emits; 0 where it emits nothing.
     emission_scale: f32,

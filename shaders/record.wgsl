@@ -19,15 +19,28 @@ struct Vertex {
     /// What the path is multiplied by here, with its scalar weight.
     scatter: Factor,
     weight: f32,
-    /// Radiance that joins the path here, before the factor.
+    /// Radiance that joins the path here, before the factor: a light.
     emission: u32,
     emission_weight: f32,
-    /// Radiance sent from a light, through the surface's factor at its own cosine and the films in between.
+    /// Radiance sent from a light (`connection`), through the surface's factor at its own cosine and the films in between.
     connection: u32,
     connection_weight: f32,
     connection_cosine: f32,
     first_crossing: u32,
     end_crossing: u32,
+}
+
+/// The spectrum of a light. A light has its light group in the bits above it.
+fn light_spectrum(light: u32) -> u32 {
+    return light & ((1u << LIGHT_GROUP_SHIFT) - 1u);
+}
+
+/// The light group of a light.
+fn light_group_of(light: u32) -> u32 {
+    if (LIGHT_GROUPS == 1u) {
+        return 0u;
+    }
+    return light >> LIGHT_GROUP_SHIFT;
 }
 
 /// The path of this invocation. MAX_VERTICES and MAX_CROSSINGS follow from the scene, so that neither can overflow.
@@ -72,14 +85,14 @@ fn push_thickness(thickness_nm: f32) {
     }
 }
 
-/// Radiance `weight` × `spectrum` that joins at the path's end.
-fn push_emission(spectrum: u32, weight: f32) {
+/// Radiance `weight` × the spectrum of `light` that joins at the path's end.
+fn push_emission(light: u32, weight: f32) {
     if (weight <= 0.0) {
         return;
     }
     var vertex = plain_vertex();
     vertex.weight = 1.0;
-    vertex.emission = spectrum;
+    vertex.emission = light;
     vertex.emission_weight = weight;
     push_vertex(vertex);
 }

@@ -2,29 +2,36 @@
 // a pixel's bits do not depend on how the samples were divided among dispatches.
 
 @group(1) @binding(0) var<uniform> batch: Batch;
-/// Mean radiance so far: [group of four bands][pixel of the tile].
+/// Mean radiance so far: [light group][group of four bands][pixel of the tile].
 @group(1) @binding(1) var<storage, read_write> means: array<vec4f>;
-/// Sum of squared differences from the mean so far, likewise.
+/// Sum of squared differences of the light of all groups from its mean so far: [group of four bands][pixel of the tile].
 @group(1) @binding(2) var<storage, read_write> deviations: array<vec4f>;
-/// Mean X, Y, Z so far; w is unused: [pixel of the tile].
+/// Mean X, Y, Z so far; w is unused: [light group][pixel of the tile].
 @group(1) @binding(3) var<storage, read_write> colors: array<vec4f>;
 
-/// Adds a path's spectrum to the running means (Welford 1962) and returns its X, Y, Z per nm of band width.
-fn accumulate(pixel: u32, count: f32, at: Wavelengths) -> vec3f {
+/// Adds a path's spectrum to the running means (Welford 1962) and returns its X, Y, Z per nm of band width, by light group.
+fn accumulate(pixel: u32, count: f32, at: Wavelengths) -> array<vec3f, LIGHT_GROUPS> {
     let pixels = batch.tile_size.x * batch.tile_size.y;
-    var color = vec3f(0.0);
+    var color: array<vec3f, LIGHT_GROUPS>;
     for (var group = 0u; group < frame.groups; group++) {
         let radiance = path_radiance(group, at);
-        let place = group * pixels + pixel;
-        let before = radiance - means[place];
-        let mean = means[place] + before / count;
-        means[place] = mean;
-        deviations[place] += before * (radiance - mean);
-        color += vec3f(
-            dot(radiance, spectrum_at(frame.observer, group, at)),
-            dot(radiance, spectrum_at(frame.observer + 1u, group, at)),
-            dot(radiance, spectrum_at(frame.observer + 2u, group, at)),
-        );
+        let x = spectrum_at(frame.observer, group, at);
+        let y = spectrum_at(frame.observer + 1u, group, at);
+        let z = spectrum_at(frame.observer + 2u, group, at);
+        // The total's differences from its mean, before and after: the sums of those of the light groups.
+        var before = vec4f(0.0);
+        var after = vec4f(0.0);
+        for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
+            let value = radiance[light_group];
+            let place = (light_group * frame.groups + group) * pixels + pixel;
+            let difference = value - means[place];
+            let mean = means[place] + difference / count;
+            means[place] = mean;
+            before += difference;
+            after += value - mean;
+            color[light_group] += vec3f(dot(value, x), dot(value, y), dot(value, z));
+        }
+        deviations[group * pixels + pixel] += before * after;
     }
     return color;
 }
@@ -35,13 +42,21 @@ fn render(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let pixel = id.y * batch.tile_size.x + id.x;
-    var color = colors[pixel];
+    let pixels = batch.tile_size.x * batch.tile_size.y;
+    var color: array<vec4f, LIGHT_GROUPS>;
+    for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
+        color[light_group] = colors[light_group * pixels + pixel];
+    }
     for (var i = 0u; i < batch.sample_count; i++) {
         let index = batch.first_sample + i;
         let count = f32(index + 1u);
         let at = trace_path(Sample(batch.tile_origin + id.xy, index));
         let xyz = accumulate(pixel, count, at);
-        color += (vec4f(xyz, 0.0) - color) / count;
+        for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
+            color[light_group] += (vec4f(xyz[light_group], 0.0) - color[light_group]) / count;
+        }
     }
-    colors[pixel] = color;
+    for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
+        colors[light_group * pixels + pixel] = color[light_group];
+    }
 }

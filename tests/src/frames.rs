@@ -29,6 +29,22 @@ impl<'a> Values<'a> {
         }
     }
 
+    /// Of the light of one of a picture's light groups.
+    pub fn of_light(image: &'a SpectralImage, light_group: usize) -> Self {
+        Self {
+            values: image.group_radiance(light_group),
+            ..Self::of(image)
+        }
+    }
+
+    /// Of that light's XYZ.
+    pub fn of_light_xyz(image: &'a SpectralImage, light_group: usize) -> Self {
+        Self {
+            bands: 3,
+            values: bytemuck::cast_slice(image.group_xyz(light_group)),
+        }
+    }
+
     /// Of a picture's variance.
     fn of_variance(image: &'a SpectralImage) -> Self {
         Self {

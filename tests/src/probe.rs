@@ -25,6 +25,7 @@ const SMALL: RecordLimits = RecordLimits {
     vertices: 2,
     crossings: 1,
     thicknesses: 1,
+    light_groups: 2,
 };
 
 impl Probe<'_> {

@@ -64,6 +64,8 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "layer_varies",
     "layered_factor",
     "layered_kind",
+    "light_group_of",
+    "light_spectrum",
     "meet_scattering",
     "meet_smooth",
     "meet_surface",

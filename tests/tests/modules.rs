@@ -8,6 +8,7 @@ const SIZES: RecordLimits = RecordLimits {
     vertices: 13,
     crossings: 20,
     thicknesses: 20,
+    light_groups: 2,
 };
 
 #[test]
@@ -67,7 +68,12 @@ fn a_broken_module_does_not_validate() {
 /// Who declares each name of module scope.
 fn owners() -> BTreeMap<String, &'static str> {
     let mut owners = BTreeMap::new();
-    for name in ["MAX_VERTICES", "MAX_CROSSINGS"] {
+    for name in [
+        "MAX_VERTICES",
+        "MAX_CROSSINGS",
+        "MAX_THICKNESSES",
+        "LIGHT_GROUPS",
+    ] {
         owners.insert(name.to_owned(), LIMITS);
     }
     for module in MODULES {

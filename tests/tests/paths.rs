@@ -11,9 +11,12 @@ const SIDE: u32 = 96;
 /// Eight bands: two groups, the second one half empty when there are six.
 const BANDS: u32 = 6;
 
-/// One sample of every pixel: offset of its wavelengths and the radiance of two groups of bands.
+/// One sample of every pixel: offset of its wavelengths and the radiance of two groups of bands of each light group.
 const BODY: &str = "let at = trace_path(Sample(vec2u(u32(a(0u)), u32(a(1u))), u32(a(2u))));
-    put(0u, at.offset); put4(1u, path_radiance(0u, at)); put4(5u, path_radiance(1u, at));";
+    put(0u, at.offset);
+    let low = path_radiance(0u, at);
+    let high = path_radiance(1u, at);
+    for (var i = 0u; i < LIGHT_GROUPS; i++) { put4(8u * i + 1u, low[i]); put4(8u * i + 5u, high[i]); }";
 
 fn rows() -> Vec<[u32; 3]> {
     (0..SIDE * SIDE)
@@ -25,7 +28,7 @@ fn probe(packed: &PackedScene) -> Probe<'_> {
     Probe {
         roots: &["path", "evaluate"],
         body: BODY,
-        shape: (3, 9),
+        shape: (3, 1 + 8 * packed.limits.light_groups as usize),
         scene: Some(packed),
     }
 }
@@ -38,17 +41,23 @@ fn every_path_agrees_with_the_reference() {
         let scene = small(name, [SIDE, SIDE], 1, BANDS, 3);
         let packed = PackedScene::new(&scene);
         let table: Vec<f32> = rows().iter().flatten().map(|&x| x as f32).collect();
-        let found = probe(&packed).run(&gpu, &table);
+        let probe = probe(&packed);
+        let (found, results) = (probe.run(&gpu, &table), probe.shape.1);
         let actual: Vec<f32> = found
-            .chunks(9)
-            .flat_map(|row| row[1..=BANDS as usize].to_vec())
+            .chunks(results)
+            .flat_map(|row| {
+                row[1..]
+                    .chunks(8)
+                    .flat_map(|group| &group[..BANDS as usize])
+            })
+            .copied()
             .collect();
         let lights = scene.lights();
         let expected: Vec<_> = rows()
             .par_iter()
             .map(|&[x, y, sample]| reference::radiance(&scene, &lights, [x, y], sample))
             .collect();
-        for (row, path) in found.chunks(9).zip(&expected) {
+        for (row, path) in found.chunks(results).zip(&expected) {
             assert_eq!(
                 f64::from(row[0]),
                 path.offset,
@@ -57,10 +66,10 @@ fn every_path_agrees_with_the_reference() {
         }
         let expected: Vec<f32> = expected
             .iter()
-            .flat_map(|path| path.radiance.iter().map(|&x| x as f32))
+            .flat_map(|path| path.radiance.iter().flatten().map(|&x| x as f32))
             .collect();
         let of = |values| Values {
-            bands: BANDS as usize,
+            bands: scene.light_groups().len() * BANDS as usize,
             values,
         };
         match same_numbers(of(&actual), of(&expected), &PATHS) {

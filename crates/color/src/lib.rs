@@ -15,13 +15,17 @@
 //! name beside the one asked for and renamed when complete, so a failure leaves no half file.
 
 pub mod compare;
-mod develop;
+pub mod develop;
 mod pending_file;
 pub mod png;
 mod probe;
+mod rgb_image;
 pub mod spectral_exr;
 pub mod xyz;
+mod xyz_image;
 
-pub use develop::{RgbImage8, develop};
+pub use develop::{DevelopSettings, develop};
 pub use pending_file::PendingFile;
 pub use probe::{Probe, Region, RegionError, probe};
+pub use rgb_image::{RgbImage, RgbImage8, RgbImage16};
+pub use xyz_image::XyzImage;

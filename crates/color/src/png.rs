@@ -75,20 +75,15 @@ fn encode(file: File, image: &RgbImage8) -> Result<(), ::png::EncodingError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::develop;
     use crate::xyz::equal_energy_luminance;
-    use spectra::{BandGrid, SpectralImage};
+    use crate::{DevelopSettings, XyzImage, develop};
 
     fn picture(width: u32, height: u32) -> RgbImage8 {
-        let mut image = SpectralImage::new(width, height, BandGrid::visible(1).unwrap());
         let luminance = equal_energy_luminance() as f32;
-        for y in 0..height {
-            for x in 0..width {
-                let xyz = [x as f32 / 20.0, y as f32 / 10.0, 0.2].map(|v| v * luminance);
-                image.set_pixel((x, y), &[0.0], &[0.0], xyz, 1);
-            }
-        }
-        develop(&image, 0.0)
+        let colour = |i: u32| [(i % width) as f32 / 20.0, (i / width) as f32 / 10.0, 0.2];
+        let xyz = (0..width * height).map(|i| colour(i).map(|v| v * luminance));
+        let image = XyzImage::new(width, height, xyz.collect()).unwrap();
+        develop(&image, &DevelopSettings::srgb(0.0)).unwrap()
     }
 
     /// The types of a PNG file's chunks, in order.

@@ -45,6 +45,11 @@ impl BandObserver {
         }
     }
 
+    /// XYZ in cd/m² of a radiance of 1 in each band alone.
+    pub fn weights(&self) -> &[[f64; 3]] {
+        &self.weights
+    }
+
     /// XYZ in cd/m² of one value of radiance per band, W m⁻² sr⁻¹ nm⁻¹.
     ///
     /// # Panics

@@ -1,43 +1,35 @@
 //! Displays: how codes become light.
 //!
 //! A display mixes three primaries: XYZ = M C with C the amounts of red, green and blue, 1 each for its white, and each amount
-//! is what the channel's [`Response`] makes of the code V in \[0, 1\] (Suzuki, Yokoi and Toriwaki, sections 2-2 and 2-3).
+//! is what the channel's [`Response`] makes of the code V in \[0, 1\] (Suzuki, Yokoi and Toriwaki, sections 2-2 and 2-3). What the
+//! screen shows at code 0 adds to that.
+//!
+//! M comes from the primaries' spectra, M = ∫ (x̄, ȳ, z̄) (r, g, b) dλ, or from their chromaticities and that of the white, each
+//! column scaled so that C = (1, 1, 1) is the white (SMPTE RP 177:1993). See [`Display::open`] for the names and the files.
 
-use crate::chromaticity::{xy_of_xyz, xyz_of_xy};
-use crate::matrix::{Matrix3, inverse, of_columns, times};
-use crate::srgb;
+mod file;
+mod response;
+mod shipped;
+mod validate;
 
-/// What a channel makes of a code.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Response {
-    /// C = V.
-    Linear,
-    /// The piecewise curve of IEC 61966-2-1:1999.
-    Srgb,
-}
+pub use file::DisplayError;
+pub use response::Response;
 
-impl Response {
-    /// The amount C of light for a code V in \[0, 1\].
-    pub fn light(&self, code: f64) -> f64 {
-        match self {
-            Self::Linear => code,
-            Self::Srgb => srgb::decode(code),
-        }
-    }
+use spectra::{Observer, Spectrum, Tabulated};
 
-    /// The code V for an amount C of light in \[0, [`Display::peak`]\]: [`Self::light`] backwards.
-    pub fn code(&self, light: f64) -> f64 {
-        match self {
-            Self::Linear => light,
-            Self::Srgb => srgb::encode(light),
-        }
-    }
-}
+use crate::chromaticity::{uv_of_xy, xy_of_xyz, xyz_of_xy};
+use crate::matrix::{Matrix3, determinant, inverse, of_columns, times};
+use crate::tristimulus::{Rule, xyz_of_emission};
 
 /// A display.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Display {
     name: String,
+    title: String,
+    source: String,
+    notes: String,
+    primaries: Primaries,
+    amounts: [f64; 3],
     xyz_from_rgb: Matrix3,
     rgb_from_xyz: Matrix3,
     responses: [Response; 3],
@@ -45,28 +37,104 @@ pub struct Display {
     black: [f64; 3],
 }
 
+/// The light of full red, green and blue.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Primaries {
+    /// Chromaticities x, y for the CIE 1931 2° observer.
+    Chromaticities([[f64; 2]; 3]),
+    /// Relative spectral power, 380 to 780 nm.
+    Spectra(Box<[Tabulated; 3]>),
+}
+
+/// Why primaries and a white make no display.
+#[derive(Clone, Copy, Debug, thiserror::Error, PartialEq, Eq)]
+pub enum MixtureError {
+    /// A spectrum ends within 380 to 780 nm or has no light there.
+    #[error("each primary's spectrum must shine and cover 380 to 780 nm")]
+    Spectrum,
+    /// They mix no white.
+    #[error(
+        "the white must lie within the triangle of red, green and blue, but no positive amounts of the three mix it"
+    )]
+    White,
+}
+
+impl Primaries {
+    /// The matrix whose columns are XYZ of the primaries: with Y = 1 of chromaticities, else of the spectra as they are.
+    fn columns(&self, observer: Observer) -> Result<Matrix3, MixtureError> {
+        let spectra = match self {
+            Self::Chromaticities(xy) => return Ok(of_columns(xy.map(xyz_of_xy))),
+            Self::Spectra(spectra) => spectra,
+        };
+        let mut columns = [[0.0; 3]; 3];
+        for (column, table) in columns.iter_mut().zip(spectra.iter()) {
+            *column = xyz_of_emission(&Spectrum::Table(table.clone()), observer, Rule::FiveNm)
+                .map_err(|_| MixtureError::Spectrum)?;
+            if column[1] <= 0.0 {
+                return Err(MixtureError::Spectrum);
+            }
+        }
+        Ok(of_columns(columns))
+    }
+
+    /// The amounts of the three that mix the white; equal ones where there is none.
+    fn amounts(&self, white: Option<[f64; 2]>) -> Result<[f64; 3], MixtureError> {
+        let columns = self.columns(Observer::Cie1931Deg2)?;
+        let inverse = inverse(&columns);
+        let amounts = white.map_or([1.0; 3], |white| times(&inverse, xyz_of_xy(white)));
+        let is_mixed = amounts
+            .iter()
+            .all(|&amount| amount > 0.0 && amount.is_finite());
+        // Of three colours on a line.
+        let is_flat = determinant(&columns).abs() < 1e-9 * columns[1].iter().product::<f64>();
+        if is_mixed && !is_flat {
+            Ok(amounts)
+        } else {
+            Err(MixtureError::White)
+        }
+    }
+}
+
+/// M: the columns times the amounts, scaled to the white's Y = 1.
+fn mixed(columns: &Matrix3, amounts: [f64; 3]) -> Matrix3 {
+    let luminance: f64 = (0..3).map(|i| columns[1][i] * amounts[i]).sum();
+    columns.map(|row| std::array::from_fn(|i| row[i] * amounts[i] / luminance))
+}
+
 impl Display {
     /// A display that Pellicle carries, by its name.
     pub fn named(name: &str) -> Option<Self> {
-        (name == "srgb").then(|| {
-            let columns = srgb::PRIMARIES.map(xyz_of_xy);
-            let p = of_columns(columns);
-            let scales = times(&inverse(&p), xyz_of_xy(srgb::WHITE));
-            let xyz_from_rgb = p.map(|row| std::array::from_fn(|i| row[i] * scales[i]));
-            Self {
-                name: name.to_owned(),
-                xyz_from_rgb,
-                rgb_from_xyz: inverse(&xyz_from_rgb),
-                responses: [const { Response::Srgb }; 3],
-                white_luminance: 80.0,
-                black: [0.0; 3],
-            }
-        })
+        shipped::named(name)
+    }
+
+    /// The names that [`Self::named`] knows, sorted.
+    pub fn names() -> Vec<&'static str> {
+        shipped::names()
     }
 
     /// Its name.
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// Its name in full.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// The standard or the measurement that its figures come from; empty where the file says none.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// What else there is to know about the figures.
+    pub fn notes(&self) -> &str {
+        &self.notes
+    }
+
+    /// The primaries as they were given.
+    pub fn primaries(&self) -> &Primaries {
+        &self.primaries
     }
 
     /// M: the columns are XYZ of full red, green and blue, relative to the white's Y = 1.
@@ -77,6 +145,18 @@ impl Display {
     /// M⁻¹.
     pub fn rgb_from_xyz(&self) -> &Matrix3 {
         &self.rgb_from_xyz
+    }
+
+    /// M for another observer, the white's Y = 1, where the primaries are spectra; `None` where they are chromaticities, which hold
+    /// for one observer.
+    pub fn xyz_from_rgb_seen_by(&self, observer: Observer) -> Option<Matrix3> {
+        match &self.primaries {
+            Primaries::Spectra(_) => {
+                let columns = self.primaries.columns(observer).ok()?;
+                Some(mixed(&columns, self.amounts))
+            }
+            Primaries::Chromaticities(_) => None,
+        }
     }
 
     /// XYZ of the white (1, 1, 1), Y = 1.
@@ -96,10 +176,13 @@ impl Display {
 
     /// The largest amount that a channel gives: 1, or more where codes above the white exist (PQ).
     pub fn peak(&self) -> f64 {
-        1.0
+        self.responses
+            .iter()
+            .map(Response::peak)
+            .fold(1.0, f64::max)
     }
 
-    /// Luminance of the white, cd/m².
+    /// Luminance of the white, cd/m², without that of black.
     pub fn white_luminance(&self) -> f64 {
         self.white_luminance
     }
@@ -109,4 +192,22 @@ impl Display {
     pub fn black_xyz(&self) -> [f64; 3] {
         self.black
     }
+
+    /// Area of the gamut, the triangle of the primaries, in the diagram of x and y.
+    pub fn gamut_area_xy(&self) -> f64 {
+        area(self.primaries_xy())
+    }
+
+    /// Area of the gamut in the diagram of u′ and v′.
+    pub fn gamut_area_uv(&self) -> f64 {
+        area(self.primaries_xy().map(uv_of_xy))
+    }
 }
+
+/// The area of a triangle.
+fn area([[x0, y0], [x1, y1], [x2, y2]]: [[f64; 2]; 3]) -> f64 {
+    0.5 * ((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)).abs()
+}
+
+#[cfg(test)]
+mod tests;

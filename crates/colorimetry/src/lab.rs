@@ -1,4 +1,4 @@
-//! CIELAB and the colour difference CIEDE2000.
+//! CIELAB and the colour differences ΔE of 1976, 1994 and 2000.
 //!
 //! Lightness L*, and a*, b* from green to red and from blue to yellow (CIE 015:2018, section 8.2.1). All in `f64`.
 
@@ -29,6 +29,16 @@ fn f(t: f64) -> f64 {
     }
 }
 
+/// t of f(t).
+fn f_inverse(f: f64) -> f64 {
+    // f(216/24389) = 6/29.
+    if f > 6.0 / 29.0 {
+        f.powi(3)
+    } else {
+        (f - 4.0 / 29.0) / SLOPE
+    }
+}
+
 /// df/dt.
 fn f_derivative(t: f64) -> f64 {
     if t > LINEAR_BELOW {
@@ -43,6 +53,23 @@ impl Lab {
     pub fn from_xyz(xyz: [f64; 3], white: [f64; 3]) -> Self {
         let [x, y, z] = std::array::from_fn(|i| f(xyz[i] / white[i]));
         Self::of_roots(x, y, z, -16.0)
+    }
+
+    /// XYZ under a `white` of the same unit: [`Self::from_xyz`] backwards.
+    pub fn to_xyz(self, white: [f64; 3]) -> [f64; 3] {
+        let y = (self.l + 16.0) / 116.0;
+        let roots = [y + self.a / 500.0, y, y - self.b / 200.0];
+        std::array::from_fn(|i| white[i] * f_inverse(roots[i]))
+    }
+
+    /// The colour of a lightness L*, chroma C* and hue angle in degrees: [`Self::chroma`] and [`Self::hue_deg`] backwards.
+    pub fn from_lch(l: f64, chroma: f64, hue_deg: f64) -> Self {
+        let (sin, cos) = hue_deg.to_radians().sin_cos();
+        Self {
+            l,
+            a: chroma * cos,
+            b: chroma * sin,
+        }
     }
 
     /// What a small change of XYZ changes of CIELAB: the derivative of [`Self::from_xyz`] at `xyz` along `d_xyz`.
@@ -75,6 +102,24 @@ impl Lab {
 fn hue(a: f64, b: f64) -> f64 {
     let angle = b.atan2(a);
     if angle < 0.0 { angle + 2.0 * PI } else { angle }
+}
+
+/// The colour difference ΔE*₇₆, the distance in CIELAB (CIE 015:2018, equation 8.17).
+pub fn delta_e_76(first: Lab, second: Lab) -> f64 {
+    let [l, a, b] = [first.l - second.l, first.a - second.a, first.b - second.b];
+    (l * l + a * a + b * b).sqrt()
+}
+
+/// The colour difference ΔE*₉₄ with k_L = k_C = k_H = 1, for graphic arts (CIE 116-1995). `first` is the standard, whose chroma
+/// says how much differences of chroma and hue weigh: the other way round it is another number.
+pub fn delta_e_94(first: Lab, second: Lab) -> f64 {
+    let standard = first.chroma();
+    let (dl, dc) = (first.l - second.l, standard - second.chroma());
+    let (da, db) = (first.a - second.a, first.b - second.b);
+    // A rounding may leave it below 0.
+    let dh2 = (da * da + db * db - dc * dc).max(0.0);
+    let (s_c, s_h) = (1.0 + 0.045 * standard, 1.0 + 0.015 * standard);
+    (dl * dl + (dc / s_c).powi(2) + dh2 / (s_h * s_h)).sqrt()
 }
 
 /// The colour difference ΔE₀₀ with k_L = k_C = k_H = 1 (CIE 142-2001; as written out, branches of the hue included, in
@@ -220,6 +265,57 @@ mod tests {
         // Near black: L* = (29/3)³ Y.
         let black = Lab::from_xyz([0.0, 0.001, 0.0], white);
         assert!((black.l - 0.001 * (29.0_f64 / 3.0).powi(3)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn colours_come_back() {
+        let white = [0.95, 1.0, 1.09];
+        for xyz in [
+            [0.05, 0.07, 0.2],
+            [0.5, 0.4, 0.1],
+            [0.003, 0.004, 0.005],
+            [-0.01, 0.2, 1.5],
+        ] {
+            let found = Lab::from_xyz(xyz, white);
+            let polar = Lab::from_lch(found.l, found.chroma(), found.hue_deg());
+            for back in [found.to_xyz(white), polar.to_xyz(white)] {
+                for (back, xyz) in back.into_iter().zip(xyz) {
+                    assert!((back - xyz).abs() < 1e-14, "{back} {xyz}");
+                }
+            }
+        }
+    }
+
+    /// ΔE*₇₆ and ΔE*₉₄ (graphic arts) of three of those pairs, by colour-science 0.4.7.
+    const OLDER: [([f64; 3], [f64; 3], f64, f64); 3] = [
+        (
+            [50.0, 2.6772, -79.7751],
+            [50.0, 0.0, -82.7485],
+            4.001_063_283_68,
+            1.395_038_867_86,
+        ),
+        (
+            [50.0, 2.5, 0.0],
+            [73.0, 25.0, -18.0],
+            36.868_007_811_7,
+            34.689_163_198,
+        ),
+        (
+            [60.2574, -34.0099, 36.2677],
+            [60.4626, -34.1751, 39.4387],
+            3.181_923_801_73,
+            1.390_994_709_47,
+        ),
+    ];
+
+    #[test]
+    fn older_differences_equal_an_independent_computation() {
+        for (first, second, e76, e94) in OLDER {
+            let (first, second) = (lab(first), lab(second));
+            assert!((delta_e_76(first, second) / e76 - 1.0).abs() < 1e-11);
+            let found = delta_e_94(first, second);
+            assert!((found / e94 - 1.0).abs() < 1e-11, "{found} {e94}");
+        }
     }
 
     #[test]

@@ -4,11 +4,13 @@
 
 pub mod adaptation;
 pub mod chromaticity;
+pub mod ciecam16;
 pub mod display;
 pub mod lab;
 pub mod matrix;
 pub mod oklab;
 pub mod srgb;
+pub mod tristimulus;
 
 pub use adaptation::Adaptation;
 pub use display::Display;

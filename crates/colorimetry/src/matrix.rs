@@ -18,16 +18,22 @@ pub fn product(a: &Matrix3, b: &Matrix3) -> Matrix3 {
     })
 }
 
+/// The cofactor of an element, by the rows and columns that follow its own in turn, so that it needs no sign.
+fn cofactor(m: &Matrix3, row: usize, column: usize) -> f64 {
+    let (r1, r2) = ((row + 1) % 3, (row + 2) % 3);
+    let (c1, c2) = ((column + 1) % 3, (column + 2) % 3);
+    m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1]
+}
+
+/// The determinant.
+pub fn determinant(m: &Matrix3) -> f64 {
+    (0..3).map(|c| m[0][c] * cofactor(m, 0, c)).sum()
+}
+
 /// The inverse by cofactors; of a singular matrix, numbers that are not finite.
 pub fn inverse(m: &Matrix3) -> Matrix3 {
-    // The rows and columns that follow `i` in turn, so that the cofactor needs no sign.
-    let cofactor = |row: usize, column: usize| {
-        let (r1, r2) = ((row + 1) % 3, (row + 2) % 3);
-        let (c1, c2) = ((column + 1) % 3, (column + 2) % 3);
-        m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1]
-    };
-    let determinant: f64 = (0..3).map(|c| m[0][c] * cofactor(0, c)).sum();
-    std::array::from_fn(|row| std::array::from_fn(|column| cofactor(column, row) / determinant))
+    let determinant = determinant(m);
+    std::array::from_fn(|row| std::array::from_fn(|column| cofactor(m, column, row) / determinant))
 }
 
 /// The matrix with these columns.

@@ -116,6 +116,9 @@ constants! { CONSTANTS;
     /// No object, no light.
     pub const NONE = 0xffff_ffff;
 
+    /// A light is the number of its spectrum, with its light group from this bit on.
+    pub const LIGHT_GROUP_SHIFT = 24;
+
     /// Projection: all rays start at the camera's origin.
     pub const PROJECTION_PERSPECTIVE = 0;
     /// Projection: all rays run in parallel.
@@ -238,7 +241,7 @@ structs! { STRUCTS;
         pub object_count: u32,
         /// Number of lights.
         pub light_count: u32,
-        /// Spectrum of the radiance from above, from the horizon and from below.
+        /// Light from above, from the horizon and from below.
         pub zenith: u32,
         /// See `zenith`.
         pub horizon: u32,
@@ -310,7 +313,7 @@ structs! { STRUCTS;
         pub roughness: f32,
         /// A `FILM_` tag, of a film.
         pub film: u32,
-        /// Spectrum that it emits.
+        /// Light that it emits.
         pub emission: u32,
         /// Factor of what it emits; 0 where it emits nothing.
         pub emission_scale: f32,

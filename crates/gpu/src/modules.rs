@@ -24,7 +24,7 @@ macro_rules! modules {
     };
 }
 
-/// Name of the module that is made for each scene: sizes of the arrays that hold a path.
+/// Name of the module that is made for each scene: sizes of the arrays that hold a path and its light.
 pub const LIMITS: &str = "limits";
 
 /// All modules, from those that need nothing to the renderer.
@@ -59,13 +59,13 @@ pub const MODULES: &[Module] = modules! {
         "sampling", "spectrum", "surface", "trig", "walk"
     ];
     "evaluate": [
-        "bindings", "features", "film", "fresnel", "layout", "record", "spectrum", "stack", "thickness", "two_beam"
+        "bindings", "features", "film", "fresnel", "layout", "limits", "record", "spectrum", "stack", "thickness", "two_beam"
     ];
     "stack_batch": ["complex", "layout", "stack"];
-    "render": ["bindings", "evaluate", "layout", "path", "spectrum", "walk"];
+    "render": ["bindings", "evaluate", "layout", "limits", "path", "spectrum", "walk"];
 };
 
-/// How long a path's record may become.
+/// How long a path's record may become, and how many kinds of light it brings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RecordLimits {
     /// Vertices of a path.
@@ -74,13 +74,16 @@ pub struct RecordLimits {
     pub crossings: u32,
     /// Thicknesses of layers that vary over a surface, of all vertices and crossings together.
     pub thicknesses: u32,
+    /// Light groups.
+    pub light_groups: u32,
 }
 
 impl RecordLimits {
     fn wgsl(self) -> String {
         format!(
-            "const MAX_VERTICES: u32 = {}u;\nconst MAX_CROSSINGS: u32 = {}u;\nconst MAX_THICKNESSES: u32 = {}u;\n",
-            self.vertices, self.crossings, self.thicknesses
+            "const MAX_VERTICES: u32 = {}u;\nconst MAX_CROSSINGS: u32 = {}u;\nconst MAX_THICKNESSES: u32 = {}u;\n\
+             const LIGHT_GROUPS: u32 = {}u;\n",
+            self.vertices, self.crossings, self.thicknesses, self.light_groups
         )
     }
 }
@@ -172,6 +175,7 @@ mod tests {
             vertices: 1,
             crossings: 1,
             thicknesses: 1,
+            light_groups: 1,
         };
         let shader = Shader::assemble(&["fresnel"], limits, "fn extra() {}");
         let text: Vec<_> = shader.text().lines().collect();

@@ -84,6 +84,11 @@ fn id(spectrum: SpectrumId) -> u32 {
     spectrum.index() as u32
 }
 
+/// A light as records name it.
+fn light(emission: Emission) -> u32 {
+    id(emission.spectrum) | (emission.light_group.index() as u32) << layout::LIGHT_GROUP_SHIFT
+}
+
 fn pack_frame(scene: &Scene, light_count: u32) -> Frame {
     let (camera, settings) = (scene.camera(), scene.settings());
     let (projection, half_height) = match camera.projection {
@@ -115,9 +120,9 @@ fn pack_frame(scene: &Scene, light_count: u32) -> Frame {
         draws_wavelengths: u32::from(settings.sampling == WavelengthSampling::Random),
         object_count: scene.objects().len() as u32,
         light_count,
-        zenith: id(zenith.spectrum),
-        horizon: id(horizon.spectrum),
-        ground: id(ground.spectrum),
+        zenith: light(zenith),
+        horizon: light(horizon),
+        ground: light(ground),
         zenith_scale: zenith.scale as f32,
         horizon_scale: horizon.scale as f32,
         ground_scale: ground.scale as f32,
@@ -219,11 +224,11 @@ fn pack_material(
             pack_layers(&mut packed, (fields, layers), own);
         }
         Material::Emitter {
-            emission: Emission { spectrum, scale },
+            emission,
             reflectance,
         } => {
-            packed.emission = id(spectrum);
-            packed.emission_scale = scale as f32;
+            packed.emission = light(emission);
+            packed.emission_scale = emission.scale as f32;
             match reflectance {
                 Some(reflectance) => pack_pattern(&mut packed, &Pattern::Uniform(reflectance)),
                 None => packed.is_black = 1,
@@ -303,6 +308,7 @@ fn record_limits(scene: &Scene) -> RecordLimits {
             most_varying(scene, |_| true) * segments + most_varying(scene, is_film) * crossings,
             1,
         ),
+        light_groups: scene.light_groups().len() as u32,
     }
 }
 

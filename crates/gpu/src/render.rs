@@ -86,16 +86,25 @@ pub fn render_divided(
     let shader = Shader::assemble(&["render"], packed.limits, "");
     let pipeline = compile(gpu, &shader, "render", packed.features.constants())?;
 
-    let groups = u64::from(packed.frame.groups);
+    let shape = PixelShape {
+        groups: u64::from(packed.frame.groups),
+        light_groups: u64::from(packed.limits.light_groups),
+    };
     let limits = gpu.limits();
     let largest = limits
         .max_storage_buffer_binding_size
         .min(limits.max_buffer_size);
     let size = [settings.width, settings.height];
-    let mut planner = Planner::new(size, groups * 16, largest, division);
-    let tile_buffers = TileBuffers::new(gpu, &pipeline, u64::from(planner.max_pixels()), groups)?;
+    let mut planner = Planner::new(size, shape.bytes()[0], largest, division);
+    let tile_buffers = TileBuffers::new(gpu, &pipeline, u64::from(planner.max_pixels()), shape)?;
 
-    let mut image = SpectralImage::new(settings.width, settings.height, settings.bands);
+    let light_groups = scene.light_groups().to_vec();
+    let mut image = SpectralImage::with_light_groups(
+        settings.width,
+        settings.height,
+        settings.bands,
+        light_groups,
+    );
     let mut done = 0;
     while let Some(tile) = planner.next_tile() {
         tile_buffers.clear(gpu, tile);
@@ -303,6 +312,26 @@ fn upload_samples(gpu: &Gpu, samples: &[f32]) -> Result<wgpu::TextureView, Rende
     Ok(texture.create_view(&wgpu::TextureViewDescriptor::default()))
 }
 
+/// What a pixel has of running means.
+#[derive(Clone, Copy)]
+struct PixelShape {
+    /// Groups of four bands.
+    groups: u64,
+    light_groups: u64,
+}
+
+impl PixelShape {
+    /// Bytes of means, deviations and colours. The means are the most.
+    fn bytes(self) -> [u64; 3] {
+        [
+            self.groups * self.light_groups,
+            self.groups,
+            self.light_groups,
+        ]
+        .map(|count| 16 * count)
+    }
+}
+
 /// The running means of one tile.
 struct TileBuffers {
     batch: wgpu::Buffer,
@@ -310,7 +339,7 @@ struct TileBuffers {
     sums: [wgpu::Buffer; 3],
     staging: [wgpu::Buffer; 3],
     bind_group: wgpu::BindGroup,
-    groups: u64,
+    shape: PixelShape,
 }
 
 impl TileBuffers {
@@ -318,7 +347,7 @@ impl TileBuffers {
         gpu: &Gpu,
         pipeline: &wgpu::ComputePipeline,
         pixels: u64,
-        groups: u64,
+        shape: PixelShape,
     ) -> Result<Self, DeviceError> {
         let buffer = |label, size, usage| {
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -333,7 +362,7 @@ impl TileBuffers {
             size_of::<Batch>() as u64,
             wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         );
-        let sizes = [pixels * groups * 16, pixels * groups * 16, pixels * 16];
+        let sizes = shape.bytes().map(|bytes| bytes * pixels);
         let on_device = wgpu::BufferUsages::STORAGE
             | wgpu::BufferUsages::COPY_SRC
             | wgpu::BufferUsages::COPY_DST;
@@ -359,18 +388,15 @@ impl TileBuffers {
             sums,
             staging,
             bind_group,
-            groups,
+            shape,
         })
     }
 
     /// Bytes of means, deviations and colours of a tile.
     fn bytes(&self, tile: Tile) -> [u64; 3] {
-        let pixels = u64::from(tile.pixels());
-        [
-            pixels * self.groups * 16,
-            pixels * self.groups * 16,
-            pixels * 16,
-        ]
+        self.shape
+            .bytes()
+            .map(|bytes| bytes * u64::from(tile.pixels()))
     }
 
     fn clear(&self, gpu: &Gpu, tile: Tile) {
@@ -453,7 +479,7 @@ impl TileBuffers {
     }
 }
 
-/// Reorders a tile from `[group][pixel]` to the picture's `[pixel][band]`.
+/// Reorders a tile from `[light group][group][pixel]` to the picture's `[light group][pixel][band]`.
 fn store(
     tile: Tile,
     (means, deviations): (&[[f32; 4]], &[[f32; 4]]),
@@ -462,6 +488,7 @@ fn store(
     image: &mut SpectralImage,
 ) {
     let bands = image.bands().count() as usize;
+    let light_groups = image.light_groups().len();
     let pixels = tile.pixels() as usize;
     let n = samples as f32;
     let to_variance = if samples > 1 {
@@ -470,24 +497,26 @@ fn store(
         0.0
     };
     let to_xyz = (KM_LUMENS_PER_WATT * image.bands().width_nm()) as f32;
-    let (mut radiance, mut variance) = (vec![0.0; bands], vec![0.0; bands]);
+    let mut radiance = vec![0.0; light_groups * bands];
+    let (mut variance, mut xyz) = (vec![0.0; bands], vec![[0.0; 3]; light_groups]);
+    let value = |values: &[[f32; 4]], first: usize, band: usize, pixel: usize| {
+        values[(first + band / 4) * pixels + pixel][band % 4]
+    };
     for y in 0..tile.size[1] {
         for x in 0..tile.size[0] {
             let pixel = (y * tile.size[0] + x) as usize;
-            for band in 0..bands {
-                let place = (band / 4) * pixels + pixel;
-                radiance[band] = means[place][band % 4];
-                variance[band] = deviations[place][band % 4] * to_variance;
+            for (light_group, radiance) in radiance.chunks_exact_mut(bands).enumerate() {
+                for (band, radiance) in radiance.iter_mut().enumerate() {
+                    *radiance = value(means, light_group * bands.div_ceil(4), band, pixel);
+                }
+                let [cx, cy, cz, _] = colors[light_group * pixels + pixel];
+                xyz[light_group] = [cx * to_xyz, cy * to_xyz, cz * to_xyz];
             }
-            let [cx, cy, cz, _] = colors[pixel];
+            for (band, variance) in variance.iter_mut().enumerate() {
+                *variance = value(deviations, 0, band, pixel) * to_variance;
+            }
             let at = (tile.origin[0] + x, tile.origin[1] + y);
-            image.set_pixel(
-                at,
-                &radiance,
-                &variance,
-                [cx * to_xyz, cy * to_xyz, cz * to_xyz],
-                samples,
-            );
+            image.set_pixel_by_light(at, &radiance, &variance, &xyz, samples);
         }
     }
 }

@@ -192,6 +192,7 @@ impl Evaluator {
             vertices: 1,
             crossings: 1,
             thicknesses: 1,
+            light_groups: 1,
         };
         let shader = Shader::assemble(&["stack_batch"], NONE, "");
         let pipeline = compile(gpu, &shader, "evaluate_stacks", &[])?;

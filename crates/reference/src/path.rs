@@ -20,8 +20,8 @@ const REFLECTED_SHARE: f64 = 0.5;
 pub struct PathSample {
     /// Place of the wavelengths in their bands, in [0, 1).
     pub offset: f64,
-    /// Radiance at each band's wavelength.
-    pub radiance: Vec<f64>,
+    /// Radiance of each light group at each band's wavelength: `[light group][band]`.
+    pub radiance: Vec<Vec<f64>>,
 }
 
 /// Follows one sample of a pixel. `lights` are the scene's lights ([`Scene::lights`]).
@@ -43,7 +43,7 @@ pub fn radiance(scene: &Scene, lights: &[usize], pixel: [u32; 2], sample: u32) -
         scattered: None,
         segment: 1,
         throughput: vec![1.0; bands],
-        radiance: vec![0.0; bands],
+        radiance: vec![vec![0.0; bands]; scene.light_groups().len()],
     };
     while path.segment <= settings.max_path_segments {
         let Some(hit) = nearest_hit(scene, &path.ray, path.from_object) else {
@@ -75,7 +75,8 @@ struct Path<'a> {
     scattered: Option<(DVec3, f64)>,
     segment: u32,
     throughput: Vec<f64>,
-    radiance: Vec<f64>,
+    /// Of each light group.
+    radiance: Vec<Vec<f64>>,
 }
 
 impl<'a> Path<'a> {
@@ -98,14 +99,15 @@ impl<'a> Path<'a> {
     }
 
     fn bands(&self) -> std::ops::Range<usize> {
-        0..self.radiance.len()
+        0..self.throughput.len()
     }
 
     /// Light that joins the path here.
     fn add(&mut self, emission: Emission, weight: f64) {
         for band in self.bands() {
             let light = emission.scale * self.spectrum(emission.spectrum, band);
-            self.radiance[band] += self.throughput[band] * weight * light;
+            let light_group = emission.light_group.index();
+            self.radiance[light_group][band] += self.throughput[band] * weight * light;
         }
     }
 
@@ -379,7 +381,9 @@ impl<'a> Path<'a> {
             for film in &sent.films {
                 arriving *= self.film(film, band).1;
             }
-            self.radiance[band] += self.throughput[band] * factor(self, band) * arriving;
+            let light_group = emission.light_group.index();
+            self.radiance[light_group][band] +=
+                self.throughput[band] * factor(self, band) * arriving;
         }
     }
 }

@@ -24,7 +24,9 @@ pub fn render(
 ) -> Result<SpectralImage, Stopped> {
     let settings = scene.settings();
     let lights = scene.lights();
-    let mut image = SpectralImage::new(settings.width, settings.height, settings.bands);
+    let (width, height) = (settings.width, settings.height);
+    let light_groups = scene.light_groups().to_vec();
+    let mut image = SpectralImage::with_light_groups(width, height, settings.bands, light_groups);
     let pixels = |y| (0..settings.width).map(move |x| [x, y]);
     let rows_at_once = 4 * rayon::current_num_threads() as u32;
     let mut done = 0;
@@ -46,10 +48,18 @@ pub fn render(
     Ok(image)
 }
 
-/// The running mean and the sum of squared differences of a pixel's samples.
+/// The running means of a pixel's samples, and the sum of squared differences of the light of all groups together.
 struct Pixel {
-    mean: Vec<f64>,
+    /// Of each light group.
+    means: Vec<Mean>,
+    total: Vec<f64>,
     deviation: Vec<f64>,
+}
+
+/// The mean of a light group.
+#[derive(Clone)]
+struct Mean {
+    radiance: Vec<f64>,
     xyz: [f64; 3],
 }
 
@@ -57,26 +67,37 @@ impl Pixel {
     fn rendered(scene: &Scene, lights: &[usize], pixel: [u32; 2]) -> Self {
         let grid = &scene.settings().bands;
         let bands = grid.count() as usize;
-        let mut sum = Self {
-            mean: vec![0.0; bands],
-            deviation: vec![0.0; bands],
-            xyz: [0.0; 3],
-        };
+        let mut sum = Self::dark(bands, scene.light_groups().len());
         let samples = scene.settings().samples;
         for sample in 0..samples {
             let path = radiance(scene, lights, pixel, sample);
-            for (band, &value) in path.radiance.iter().enumerate() {
-                let before = value - sum.mean[band];
-                sum.mean[band] += before / f64::from(sample + 1);
-                sum.deviation[band] += before * (value - sum.mean[band]);
-                for (total, observer) in sum.xyz.iter_mut().zip(scene.observer()) {
-                    *total += value * observer.at(band as u32, path.offset);
-                }
+            for band in 0..bands {
+                let value: f64 = path.radiance.iter().map(|group| group[band]).sum();
+                let before = value - sum.total[band];
+                sum.total[band] += before / f64::from(sample + 1);
+                sum.deviation[band] += before * (value - sum.total[band]);
+            }
+            for (mean, values) in sum.means.iter_mut().zip(&path.radiance) {
+                mean.add(scene, values, sample + 1, path.offset);
             }
         }
         let to_xyz = KM_LUMENS_PER_WATT * grid.width_nm() / f64::from(samples);
-        sum.xyz = sum.xyz.map(|total| total * to_xyz);
+        for mean in &mut sum.means {
+            mean.xyz = mean.xyz.map(|total| total * to_xyz);
+        }
         sum
+    }
+
+    fn dark(bands: usize, light_groups: usize) -> Self {
+        let mean = Mean {
+            radiance: vec![0.0; bands],
+            xyz: [0.0; 3],
+        };
+        Self {
+            means: vec![mean; light_groups],
+            total: vec![0.0; bands],
+            deviation: vec![0.0; bands],
+        }
     }
 
     fn store(&self, image: &mut SpectralImage, at: (u32, u32), samples: u32) {
@@ -86,18 +107,32 @@ impl Pixel {
         } else {
             0.0
         };
-        let radiance: Vec<f32> = self.mean.iter().map(|&v| v as f32).collect();
+        let means = self.means.iter();
+        let radiance: Vec<f32> = means
+            .flat_map(|mean| mean.radiance.iter().map(|&v| v as f32))
+            .collect();
         let variance: Vec<f32> = self
             .deviation
             .iter()
             .map(|&v| (v * to_variance) as f32)
             .collect();
-        image.set_pixel(
-            at,
-            &radiance,
-            &variance,
-            self.xyz.map(|v| v as f32),
-            samples,
-        );
+        let xyz: Vec<[f32; 3]> = self
+            .means
+            .iter()
+            .map(|mean| mean.xyz.map(|v| v as f32))
+            .collect();
+        image.set_pixel_by_light(at, &radiance, &variance, &xyz, samples);
+    }
+}
+
+impl Mean {
+    /// Adds the light of the sample that makes them `count`; XYZ is summed.
+    fn add(&mut self, scene: &Scene, values: &[f64], count: u32, offset: f64) {
+        for (band, (mean, &value)) in self.radiance.iter_mut().zip(values).enumerate() {
+            *mean += (value - *mean) / f64::from(count);
+            for (total, observer) in self.xyz.iter_mut().zip(scene.observer()) {
+                *total += value * observer.at(band as u32, offset);
+            }
+        }
     }
 }

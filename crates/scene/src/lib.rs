@@ -50,4 +50,4 @@ pub use problem::{Location, Problem, ProblemKind, Problems};
 pub use schema::schema;
 pub use settings::{RenderSettings, WavelengthSampling};
 pub use thickness::{BlackFilm, Coordinate, Picture, PictureFile, Profile, Swirls, Thickness};
-pub use validated::{Environment, MaterialId, Scene, SpectrumId};
+pub use validated::{Environment, LightGroupId, MaterialId, Scene, SpectrumId};

@@ -1,7 +1,7 @@
 //! What a surface is made of, in a validated scene.
 
 use crate::description::PathDifference;
-use crate::{SpectrumId, Thickness};
+use crate::{LightGroupId, SpectrumId, Thickness};
 
 /// What a surface is made of. Every surface has two sides. They behave alike, but for a film of several layers that absorbs: from
 /// behind, light meets its layers in the reverse order.
@@ -84,6 +84,8 @@ pub struct Emission {
     pub spectrum: SpectrumId,
     /// Factor, ≥ 0.
     pub scale: f64,
+    /// The light group that its light is counted to.
+    pub light_group: LightGroupId,
 }
 
 /// A reflectance over a surface.

@@ -42,6 +42,7 @@ impl RoundToF32 for Scene {
             camera: self.camera.rounded(),
             spectra: self.spectra.rounded(),
             observer: self.observer.each_ref().map(RoundToF32::rounded),
+            light_groups: self.light_groups.clone(),
             materials: self.materials.rounded(),
             objects: self.objects.rounded(),
             environment: self.environment.rounded(),
@@ -133,8 +134,8 @@ impl RoundToF32 for Layer {
 impl RoundToF32 for Emission {
     fn rounded(&self) -> Self {
         Self {
-            spectrum: self.spectrum,
             scale: self.scale.rounded(),
+            ..*self
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::description::Description;
 use crate::rounding::RoundToF32;
 use crate::{Camera, Emission, Material, Object, Problems, RenderSettings, Shape, validate};
-use spectra::BandTable;
+use spectra::{BandTable, LightGroup, SpectralImage};
 use std::path::Path;
 
 /// Index of a spectrum in [`Scene::spectra`].
@@ -11,6 +11,17 @@ use std::path::Path;
 pub struct SpectrumId(pub(crate) u32);
 
 impl SpectrumId {
+    /// The position in the list.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// Index of a light group in [`Scene::light_groups`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct LightGroupId(pub(crate) u32);
+
+impl LightGroupId {
     /// The position in the list.
     pub fn index(self) -> usize {
         self.0 as usize
@@ -54,6 +65,7 @@ pub struct Scene {
     pub(crate) camera: Camera,
     pub(crate) spectra: Vec<BandTable>,
     pub(crate) observer: [BandTable; 3],
+    pub(crate) light_groups: Vec<LightGroup>,
     pub(crate) materials: Vec<Material>,
     pub(crate) objects: Vec<Object>,
     pub(crate) environment: Environment,
@@ -92,6 +104,23 @@ impl Scene {
     /// The CIE 1931 2° colour-matching functions x̄, ȳ, z̄.
     pub fn observer(&self) -> &[BandTable; 3] {
         &self.observer
+    }
+
+    /// The light groups of what shines, at least one; a scene that is all dark has one too.
+    pub fn light_groups(&self) -> &[LightGroup] {
+        &self.light_groups
+    }
+
+    /// Bytes that the picture takes in memory.
+    pub fn image_bytes(&self) -> u128 {
+        let settings = self.settings();
+        let bands = settings.bands.count();
+        SpectralImage::bytes(
+            settings.width,
+            settings.height,
+            bands,
+            self.light_groups.len(),
+        )
     }
 
     /// All materials.

@@ -58,7 +58,10 @@ fn defaults_are_the_documented_ones() {
     assert!(
         scene.objects().is_empty() && scene.materials().is_empty() && scene.lights().is_empty()
     );
-    let Environment::Constant(Emission { spectrum, scale }) = *scene.environment() else {
+    let Environment::Constant(Emission {
+        spectrum, scale, ..
+    }) = *scene.environment()
+    else {
         panic!("{:?}", scene.environment());
     };
     assert_eq!((value(&scene, spectrum), scale), (0.0, 0.0));

@@ -10,7 +10,7 @@
 //! * [`BandGrid`] divides the rendered range into N uniform bands.
 //! * [`BandTable`] is a spectrum resampled onto a grid, fine enough for any wavelength drawn within a band.
 //! * [`table_file`] reads tables that users wrote.
-//! * [`SpectralImage`] is what a renderer produces: radiance per pixel and band.
+//! * [`SpectralImage`] is what a renderer produces: radiance per pixel and band, by [`LightGroup`].
 //! * [`find_illuminant`], [`Observer`], [`optical_constants()`] and [`reflectance`] are the data that the project carries;
 //!   [`material_info`] says where a material's come from.
 
@@ -19,6 +19,7 @@ mod band_table;
 mod data;
 mod effective_medium;
 mod formula;
+mod light_group;
 mod optical_constants;
 mod spectral_image;
 mod spectrum;
@@ -34,6 +35,7 @@ pub use data::{
 };
 pub use effective_medium::{MixtureError, MixtureRule, bruggeman, maxwell_garnett};
 pub use formula::{DispersionFormula, FormulaError, FormulaKind};
+pub use light_group::LightGroup;
 pub use optical_constants::OpticalConstants;
-pub use spectral_image::SpectralImage;
+pub use spectral_image::{RowMut, SpectralImage};
 pub use spectrum::{OutOfRange, Spectrum, Tabulated, TabulatedError};

@@ -12,7 +12,7 @@ use crate::{Tabulated, TabulatedError};
 pub struct Row<const N: usize> {
     /// Line of the file, counted from 1.
     pub line: usize,
-    /// The first column: a wavelength, nm.
+    /// The first column: a wavelength, nm; in a table over something else, that.
     pub nm: f64,
     /// The others.
     pub values: [f64; N],
@@ -96,16 +96,23 @@ const POSSIBLE_NM: Quantity = Quantity {
     range: (1.0, 1e6),
 };
 
-/// The rows of a file.
-///
-/// Empty lines and lines that start with `#` are passed over, and so is a first line without any number, which is
-/// taken for a heading. Where two values are asked for (n and k), files with the first alone have 0 for the other.
+/// The rows of a file: [`parse_rows`] of its text.
 ///
 /// # Errors
 /// When the file is not text, or a row is not of numbers.
 pub fn rows<const N: usize>(path: &Path) -> Result<Vec<Row<N>>, TableFileError> {
-    let text = read_text(path)?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    parse_rows(&read_text(path)?)
+}
+
+/// The rows of a text.
+///
+/// Empty lines and lines that start with `#` are passed over, and so is a first line without any number, which is
+/// taken for a heading. Where two values are asked for (n and k), texts with the first alone have 0 for the other.
+///
+/// # Errors
+/// When a row is not of numbers.
+pub fn parse_rows<const N: usize>(text: &str) -> Result<Vec<Row<N>>, TableFileError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut lines = text
         .lines()
         .zip(1..)
@@ -116,15 +123,26 @@ pub fn rows<const N: usize>(path: &Path) -> Result<Vec<Row<N>>, TableFileError> 
     lines.map(|(line, content)| row(line, content)).collect()
 }
 
-/// The tables over wavelength that a file's columns are, each value in the range of its quantity.
+/// The columns of a file: [`parse_columns`] of its text.
 ///
 /// # Errors
-/// When [`rows`] fails, or the rows are not such tables; the first fault is told with its line.
+/// When the file is not text, or not of such tables; the first fault is told with its line.
 pub fn columns<const N: usize>(
     path: &Path,
     quantities: [Quantity; N],
 ) -> Result<[Tabulated; N], TableFileError> {
-    let rows = rows::<N>(path)?;
+    parse_columns(&read_text(path)?, quantities)
+}
+
+/// The tables over wavelength that a text's columns are, each value in the range of its quantity.
+///
+/// # Errors
+/// When [`parse_rows`] fails, or the rows are not such tables; the first fault is told with its line.
+pub fn parse_columns<const N: usize>(
+    text: &str,
+    quantities: [Quantity; N],
+) -> Result<[Tabulated; N], TableFileError> {
+    let rows = parse_rows::<N>(text)?;
     for row in &rows {
         check(row.line, row.nm, POSSIBLE_NM)?;
         for (&value, quantity) in row.values.iter().zip(quantities) {
@@ -134,16 +152,15 @@ pub fn columns<const N: usize>(
     let mut tables = Vec::with_capacity(N);
     for column in 0..N {
         let points = rows.iter().map(|row| (row.nm, row.values[column]));
-        tables.push(
-            Tabulated::new(points.collect()).map_err(|error| match error {
-                TabulatedError::NotRising { index, nm } => TableFileError::NotRising {
-                    line: rows[index].line,
-                    nm,
-                },
-                // What is not finite is in no range.
-                TabulatedError::Empty | TabulatedError::NotFinite { .. } => TableFileError::Empty,
-            })?,
-        );
+        let table = Tabulated::new(points.collect()).map_err(|error| match error {
+            TabulatedError::NotRising { index, nm } => TableFileError::NotRising {
+                line: rows[index].line,
+                nm,
+            },
+            // What is not finite is in no range.
+            TabulatedError::Empty | TabulatedError::NotFinite { .. } => TableFileError::Empty,
+        })?;
+        tables.push(table);
     }
     tables.try_into().map_err(|_| TableFileError::Empty)
 }

@@ -12,7 +12,6 @@ use thiserror::Error;
 
 use super::CompareError;
 use crate::RgbImage8;
-use crate::develop::linear_rgb;
 use crate::xyz::exposure_scale;
 
 /// A picture in linear sRGB, not clipped, row 0 on top.
@@ -61,7 +60,8 @@ impl Picture {
     /// Of an image's XYZ, at an exposure in stops; neither adapted nor clipped.
     pub fn of_spectral(image: &SpectralImage, exposure_ev: f64) -> Self {
         let scale = exposure_scale(exposure_ev);
-        let linear = image.xyz().par_iter().map(|&xyz| linear_rgb(xyz, scale));
+        let rgb = |xyz: &[f32; 3]| srgb::linear_from_xyz(xyz.map(|value| f64::from(value) * scale));
+        let linear = image.xyz().par_iter().map(rgb);
         Self {
             size: [image.width() as usize, image.height() as usize],
             linear: linear.collect(),

@@ -40,5 +40,5 @@ mod write;
 
 pub use bands::BandLayoutError;
 pub use metadata::{Metadata, software};
-pub use read::{MAX_BYTES, ReadExrError, read};
+pub use read::{MAX_BYTES, ReadExrError, read, read_xyz};
 pub use write::{BATCH_BYTES, WriteExrError, WriteOptions, write};

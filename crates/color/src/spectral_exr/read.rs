@@ -8,20 +8,24 @@ use std::path::{Path, PathBuf};
 use exr::block::UncompressedBlock;
 use exr::block::chunk::Chunk;
 use exr::block::reader::Reader;
+use exr::meta::attribute::ChannelList;
 use rayon::prelude::*;
 use spectra::SpectralImage;
 use thiserror::Error;
 
 use super::bands::BandLayoutError;
 use super::metadata::Metadata;
-use super::write::BATCH_BYTES;
+use super::write::blocks_at_a_time;
+use crate::XyzImage;
 
+mod colours;
 mod guard;
 mod pixels;
 mod plan;
 
 pub use guard::MAX_BYTES;
 
+use colours::Colours;
 use pixels::Pixels;
 use plan::Plan;
 
@@ -105,6 +109,32 @@ pub enum ReadExrError {
 /// When the file cannot be read, is damaged, has no such spectrum, or is larger than its length or
 /// this machine's memory can account for.
 pub fn read(path: &Path) -> Result<(SpectralImage, Metadata), ReadExrError> {
+    let (reader, plan, metadata) = open(path)?;
+    Ok((pixels(&Context { path }, reader, plan)?, metadata))
+}
+
+/// Reads the colours of a spectral file, without its spectra: the same XYZ as [`read`] gives, sooner.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_xyz(path: &Path) -> Result<(XyzImage, Metadata), ReadExrError> {
+    let (reader, plan, metadata) = open(path)?;
+    let context = Context { path };
+    let image = if plan.has_xyz() {
+        let mut colours = Colours::new(&plan);
+        each_block(&context, reader, plan.layer, |block, channels| {
+            colours.insert(&plan, block, channels)
+        })?;
+        colours.finish()
+    } else {
+        Some(XyzImage::from(&pixels(&context, reader, plan)?))
+    };
+    let missing = || context.damaged("some pixels are missing");
+    Ok((image.ok_or_else(missing)?, metadata))
+}
+
+/// Opens a file and reads what its header says, which is checked.
+fn open(path: &Path) -> Result<(Reader<BufReader<File>>, Plan, Metadata), ReadExrError> {
     let file_error = |source| ReadExrError::File {
         path: path.to_owned(),
         source,
@@ -120,8 +150,7 @@ pub fn read(path: &Path) -> Result<(SpectralImage, Metadata), ReadExrError> {
     let reader = context.run(|| exr::block::read(BufReader::new(file), false))?;
     let (plan, metadata) = Plan::new(&context, reader.headers())?;
     guard::check(&context, reader.headers(), &plan, length)?;
-    let image = pixels(&context, reader, plan)?;
-    Ok((image, metadata))
+    Ok((reader, plan, metadata))
 }
 
 /// Whether the file begins with the four bytes of an `OpenEXR` file; leaves it at its start.
@@ -132,35 +161,46 @@ fn is_exr(file: &mut File) -> io::Result<bool> {
     Ok(magic == [0x76, 0x2f, 0x31, 0x01])
 }
 
-/// Decompresses the blocks, some at a time on all cores, and gathers their pixels.
+/// The whole image.
 fn pixels(
     context: &Context<'_>,
     reader: Reader<BufReader<File>>,
     plan: Plan,
 ) -> Result<SpectralImage, ReadExrError> {
-    let meta = reader.meta_data().clone();
-    let block_bytes = meta.headers[plan.layer].max_block_byte_size().max(1);
-    let at_a_time = (BATCH_BYTES / block_bytes).clamp(1, 2 * rayon::current_num_threads());
-    let mut chunks = context.run(|| reader.all_chunks(false))?;
     let mut pixels = Pixels::new(plan);
+    each_block(context, reader, pixels.layer(), |block, channels| {
+        pixels.insert(block, channels)
+    })?;
+    pixels
+        .finish()
+        .ok_or_else(|| context.damaged("some pixels are missing"))
+}
+
+/// Decompresses the blocks of a layer, some at a time on all cores, and hands them on in order.
+fn each_block(
+    context: &Context<'_>,
+    reader: Reader<BufReader<File>>,
+    layer: usize,
+    mut insert: impl FnMut(&UncompressedBlock, &ChannelList) -> Option<()>,
+) -> Result<(), ReadExrError> {
+    let meta = reader.meta_data().clone();
+    let at_a_time = blocks_at_a_time(meta.headers[layer].max_block_byte_size());
+    let channels = &meta.headers[layer].channels;
+    let mut chunks = context.run(|| reader.all_chunks(false))?;
     loop {
         let batch: Vec<Chunk> = context.run(|| chunks.by_ref().take(at_a_time).collect())?;
         if batch.is_empty() {
-            return pixels
-                .finish()
-                .ok_or_else(|| context.damaged("some pixels are missing"));
+            return Ok(());
         }
         let blocks: Vec<UncompressedBlock> = context.run(|| {
             batch
                 .into_par_iter()
-                .filter(|chunk| chunk.layer_index == pixels.layer())
+                .filter(|chunk| chunk.layer_index == layer)
                 .map(|chunk| UncompressedBlock::decompress_chunk(chunk, &meta, false))
                 .collect()
         })?;
         for block in &blocks {
-            let channels = &meta.headers[block.index.layer].channels;
-            pixels
-                .insert(block, channels)
+            insert(block, channels)
                 .ok_or_else(|| context.damaged("a block lies outside the image"))?;
         }
     }

@@ -162,3 +162,21 @@ fn a_failure_to_write_leaves_no_file() {
     assert!(matches!(error, Err(WriteExrError::File { .. })));
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 0);
 }
+
+#[test]
+fn colours_alone_are_those_of_the_whole_image() {
+    let directory = tempfile::tempdir().unwrap();
+    let (path, image) = write_noisy(directory.path(), true);
+    let (found, found_metadata) = spectral_exr::read_xyz(&path).unwrap();
+    assert_eq!(found.xyz(), image.xyz());
+    assert_eq!(
+        (found.width(), found.height()),
+        (image.width(), image.height())
+    );
+    assert_eq!(found_metadata, metadata());
+
+    // Cut short, it is an error here too.
+    let bytes = fs::read(&path).unwrap();
+    fs::write(&path, &bytes[..bytes.len() - bytes.len() / 4]).unwrap();
+    assert!(spectral_exr::read_xyz(&path).is_err());
+}

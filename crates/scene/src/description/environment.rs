@@ -12,6 +12,10 @@ pub enum Environment {
     Constant {
         /// The radiance.
         emission: Emission,
+        /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, that of all such lights
+        /// with this spectrum.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        light_group: Option<String>,
     },
     /// A mixture by the height of the direction over the horizon.
     Gradient {
@@ -22,5 +26,9 @@ pub enum Environment {
         /// Radiance from straight below; that of the horizon when absent.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         ground: Option<Emission>,
+        /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, each of
+        /// the three belongs to that of all such lights with its spectrum.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        light_group: Option<String>,
     },
 }

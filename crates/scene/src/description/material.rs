@@ -72,6 +72,10 @@ pub enum Material {
         /// The part of the light falling on it that it reflects evenly besides; black when absent.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         reflectance: Option<Reflectance>,
+        /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, that of all such lights
+        /// with this spectrum.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        light_group: Option<String>,
     },
 }
 

@@ -22,6 +22,8 @@ pub struct Render {
     pub wavelengths_nm: [f64; 2],
     /// Where in its band a sample's wavelength lies.
     pub sampling: WavelengthSampling,
+    /// Which lights are kept apart in the spectral image, so that their lamps can be changed without rendering again.
+    pub light_groups: LightGroups,
     /// Chooses the sequence of random numbers.
     pub seed: u32,
     /// The most segments of a path. The camera ray is the first; the one that reaches a light counts.
@@ -49,6 +51,17 @@ pub enum WavelengthSampling {
     Centre,
 }
 
+/// Which lights are kept apart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LightGroups {
+    /// Those of each `light_group`, and of the lights without one those of each different spectrum.
+    #[default]
+    BySpectrum,
+    /// None: all lights are one group, which takes the least memory and time.
+    Single,
+}
+
 impl Default for Render {
     fn default() -> Self {
         Self {
@@ -57,6 +70,7 @@ impl Default for Render {
             bands: 40,
             wavelengths_nm: [380.0, 780.0],
             sampling: WavelengthSampling::Random,
+            light_groups: LightGroups::BySpectrum,
             seed: 0,
             max_path_segments: 12,
             exposure_ev: 0.0,

@@ -20,13 +20,14 @@ pub(crate) fn check(
             };
             emission("emission", &black).map(Environment::Constant)
         }
-        Some(description::Environment::Constant { emission: written }) => {
-            emission("emission", written).map(Environment::Constant)
-        }
+        Some(description::Environment::Constant {
+            emission: written, ..
+        }) => emission("emission", written).map(Environment::Constant),
         Some(description::Environment::Gradient {
             zenith,
             horizon,
             ground,
+            ..
         }) => {
             let zenith = emission("zenith", zenith);
             let horizon = emission("horizon", horizon);

@@ -91,6 +91,7 @@ fn check(
         description::Material::Emitter {
             emission,
             reflectance,
+            ..
         } => {
             let emission = spectra.emission(checks, &field.key("emission"), emission);
             let reflectance = reflectance.as_ref().map(|reflectance| {

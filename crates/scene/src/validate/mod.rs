@@ -7,6 +7,7 @@ mod environment;
 mod formula;
 mod index;
 mod layers;
+mod light_groups;
 mod material;
 mod object;
 mod picture_file;
@@ -36,15 +37,30 @@ pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene
     let environment =
         environment::check(&mut checks, &mut spectra, description.environment.as_ref());
     let observer = spectra.observer(&mut checks);
+    light_groups::check_names(&mut checks, description);
+    let lit = (|| {
+        let parts = light_groups::Unlit {
+            materials: materials?,
+            objects: objects?,
+            environment: environment?,
+        };
+        light_groups::assign(&mut checks, spectra.lamps(), description, parts)
+    })();
+    if settings.settings.is_some() {
+        let light_groups = lit.as_ref().map_or(1, |lit| lit.light_groups.len());
+        settings::check_memory(&mut checks, &description.render, light_groups);
+    }
     let assemble = || {
+        let lit = lit?;
         Some(Scene {
             settings: settings.settings?,
             camera: camera?,
             spectra: spectra.into_tables(),
             observer: observer?,
-            materials: materials?,
-            objects: objects?,
-            environment: environment?,
+            light_groups: lit.light_groups,
+            materials: lit.parts.materials,
+            objects: lit.parts.objects,
+            environment: lit.parts.environment,
         })
     };
     match assemble() {

@@ -20,9 +20,6 @@ pub(crate) fn check(checks: &mut Checks, render: &Render) -> Checked {
     let top = FieldPath::root().key("render");
     let grid = grid(checks, &top, render);
     let size = size(checks, &top, render.size);
-    if let (Some(_), Some(grid)) = (size, grid) {
-        check_memory(checks, &top, render.size, grid.count());
-    }
     let samples = whole(
         checks,
         &top.key("samples"),
@@ -106,31 +103,50 @@ fn grid(checks: &mut Checks, top: &FieldPath, render: &Render) -> Option<BandGri
     grid.map_err(|error| checks.report(refuse(error))).ok()
 }
 
-fn check_memory(checks: &mut Checks, top: &FieldPath, size: [u32; 2], bands: u32) {
-    let [width, height] = size;
-    let bytes = SpectralImage::bytes(width, height, bands);
+/// Checks that the picture of so many light groups fits into memory.
+pub(crate) fn check_memory(checks: &mut Checks, render: &Render, light_groups: usize) {
+    let top = FieldPath::root().key("render");
+    let ([width, height], bands) = (render.size, render.bands);
+    let bytes = SpectralImage::bytes(width, height, bands, light_groups);
     if bytes <= limits::MAX_IMAGE_BYTES {
         return;
     }
     let gib = |bytes: u128| bytes as f64 / f64::from(1 << 30);
     let message = format!(
-        "an image of {width} × {height} pixels with {bands} bands takes {:.1} GiB; at most {:.0} GiB are possible",
+        "an image of {width} × {height} pixels with {bands} bands{} takes {:.1} GiB; at most {:.0} GiB are possible",
+        of_light_groups(light_groups),
         gib(bytes),
         gib(limits::MAX_IMAGE_BYTES),
     );
-    let bands_that_fit = (1..bands)
+    let fits = |bands, groups| {
+        SpectralImage::bytes(width, height, bands, groups) <= limits::MAX_IMAGE_BYTES
+    };
+    let bands_that_fit = (1..bands.min(BandGrid::MAX_COUNT))
         .rev()
-        .find(|&fewer| SpectralImage::bytes(width, height, fewer) <= limits::MAX_IMAGE_BYTES);
+        .find(|&fewer| fits(fewer, light_groups));
     let shrink = (limits::MAX_IMAGE_BYTES as f64 / bytes as f64).sqrt();
     let smaller = |side: u32| (f64::from(side) * shrink).max(1.0) as u32;
     let fewer_bands = bands_that_fit
         .map(|fewer| format!(", or {fewer} bands at this size"))
         .unwrap_or_default();
+    let single_group = if light_groups > 1 && fits(bands, 1) {
+        ", or this with `render.light_groups = \"single\"`"
+    } else {
+        ""
+    };
     let help = format!(
-        "{} × {} pixels would fit with {bands} bands{fewer_bands}",
+        "{} × {} pixels would fit with {bands} bands{fewer_bands}{single_group}",
         smaller(width),
         smaller(height)
     );
     let problem = Problem::new(ProblemKind::TooLarge, &top.key("size"), message).help(help);
     checks.report(problem.involving(top.key("bands")));
+}
+
+fn of_light_groups(count: usize) -> String {
+    if count > 1 {
+        format!(" and {count} light groups")
+    } else {
+        String::new()
+    }
 }

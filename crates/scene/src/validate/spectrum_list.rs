@@ -6,8 +6,8 @@ use super::points::{self, Column};
 use crate::description::{self, Extrapolate, Index, Reflectance};
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
-use crate::{Emission, FieldPath, SpectrumId};
-use spectra::{BandGrid, BandTable, OpticalConstants, Spectrum};
+use crate::{Emission, FieldPath, LightGroupId, SpectrumId};
+use spectra::{BandGrid, BandTable, OpticalConstants, Spectrum, Tabulated};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -18,6 +18,18 @@ pub(crate) struct SpectrumList<'a> {
     tables: Vec<BandTable>,
     singles: HashMap<Vec<u64>, SpectrumId>,
     pairs: HashMap<Vec<u64>, SpectrumId>,
+    lamps: Vec<Lamp>,
+}
+
+/// What an emission burns with.
+#[derive(Clone, Debug)]
+pub(crate) struct Lamp {
+    /// The name of an illuminant, the stem of a file, or the kind of spectrum.
+    pub(crate) name: String,
+    /// Its spectrum at scale 1.
+    pub(crate) spectrum: Tabulated,
+    /// Whether it gives light at all.
+    pub(crate) shines: bool,
 }
 
 /// What a spectrum is, for messages: the noun, and the range of its values.
@@ -33,12 +45,18 @@ impl<'a> SpectrumList<'a> {
             tables: Vec::new(),
             singles: HashMap::new(),
             pairs: HashMap::new(),
+            lamps: Vec::new(),
         }
     }
 
     /// All spectra, at the positions that their numbers say.
     pub(crate) fn into_tables(self) -> Vec<BandTable> {
         self.tables
+    }
+
+    /// The lamps of all emissions, at the positions that [`Self::emission`] gives as their light groups.
+    pub(crate) fn lamps(&self) -> &[Lamp] {
+        &self.lamps
     }
 
     /// Whether a spectrum is 0 everywhere.
@@ -114,7 +132,8 @@ impl<'a> SpectrumList<'a> {
         Some(self.pair(&n, &k))
     }
 
-    /// An emission with the number of its spectrum.
+    /// An emission with the number of its spectrum. In place of its light group, which depends on all others, stands the number
+    /// of its lamp.
     pub(crate) fn emission(
         &mut self,
         checks: &mut Checks,
@@ -158,12 +177,21 @@ impl<'a> SpectrumList<'a> {
             }
         };
         let scale = checks.number(&field.key("scale"), scale, &limits::EMISSION);
-        let table = self.resampled(checks, field, &spectrum?, Advice::Add)?;
+        let spectrum = spectrum?;
+        let table = self.resampled(checks, field, &spectrum, Advice::Add)?;
         let scale = scale?;
-        check_brightness(checks, field, table.extent().1, scale)?;
+        let peak = table.extent().1;
+        check_brightness(checks, field, peak, scale)?;
+        let light_group = LightGroupId(self.lamps.len() as u32);
+        self.lamps.push(Lamp {
+            name: lamp_name(written),
+            spectrum: self.grid?.lamp(&spectrum)?,
+            shines: scale > 0.0 && peak > 0.0,
+        });
         Some(Emission {
             spectrum: self.single(&table, limits::EMISSION),
             scale,
+            light_group,
         })
     }
 
@@ -284,6 +312,18 @@ pub(super) fn extrapolated(spectrum: Spectrum, extrapolate: Extrapolate) -> Spec
     match extrapolate {
         Extrapolate::Clamp => spectrum.clamped(),
         Extrapolate::Error => spectrum,
+    }
+}
+
+fn lamp_name(written: &description::Emission) -> String {
+    match written {
+        description::Emission::Constant { .. } => "constant".to_owned(),
+        description::Emission::Illuminant { illuminant, .. } => illuminant.clone(),
+        description::Emission::Table { .. } => "table".to_owned(),
+        description::Emission::File { csv, .. } => {
+            let stem = csv.file_stem().unwrap_or_default();
+            stem.to_string_lossy().into_owned()
+        }
     }
 }
 

@@ -154,7 +154,7 @@ impl Row {
 }
 
 /// Calls `put` with the index and value of every sample of a line.
-fn each(line: LineRef<'_>, kind: SampleType, put: impl FnMut(usize, f32)) {
+pub(super) fn each(line: LineRef<'_>, kind: SampleType, put: impl FnMut(usize, f32)) {
     let mut put = put;
     match kind {
         SampleType::F32 => words(line.value)

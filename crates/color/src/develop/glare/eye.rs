@@ -1,0 +1,292 @@
+//! Light scattered in a human eye.
+//!
+//! G. Spencer, P. Shirley, K. Zimmerman and D. P. Greenberg, Physically-based glare effects for digital images, SIGGRAPH 95, 325.
+
+use colorimetry::Matrix3;
+use colorimetry::matrix::times;
+use rayon::prelude::*;
+use spectra::BandGrid;
+
+use super::mirror::{Mirror, Spectrum};
+use super::{DevelopError, Latent, LinearImage};
+use crate::xyz::BandObserver;
+
+/// The state of the eye, which its pupil follows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Vision {
+    /// Adapted to light: a small pupil, and no halo.
+    Photopic,
+    /// Between light and dark, as in front of a display in the evening.
+    #[default]
+    Mesopic,
+    /// Adapted to the dark: a wide pupil, whose rim gives the lenticular halo.
+    Scotopic,
+}
+
+impl Vision {
+    /// The shares of f₀, f₁, f₂ and f₃; their sum is 1.
+    fn shares(self) -> [f64; 4] {
+        match self {
+            Self::Photopic => [0.384, 0.478, 0.138, 0.0],
+            Self::Mesopic => [0.368, 0.478, 0.138, 0.016],
+            Self::Scotopic => [0.282, 0.478, 0.207, 0.033],
+        }
+    }
+}
+
+/// Light scattered in a human eye that looks at the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EyeGlare {
+    /// The angle that a pixel in the middle of the picture takes of the view. The same angle is taken everywhere, which a
+    /// picture of a wide view stretches towards its corners.
+    pub degrees_per_pixel: f64,
+    /// The state of the eye.
+    pub vision: Vision,
+}
+
+impl EyeGlare {
+    /// For a picture of a perspective camera whose view is `fov_deg` high.
+    pub fn of_view(fov_deg: f64, height: u32, vision: Vision) -> Self {
+        let half = (0.5 * fov_deg.to_radians()).tan();
+        Self {
+            degrees_per_pixel: (2.0 * half / f64::from(height.max(1))).atan().to_degrees(),
+            vision,
+        }
+    }
+}
+
+/// Spencer's four functions at θ degrees from the light, per steradian:
+///
+/// f₀ = 2.61·10⁶ exp(−(θ/0.02)²), f₁ = 20.91/(θ + 0.02)³, f₂ = 72.37/(θ + 0.02)² and the lenticular halo, a ring about 3° wide,
+/// f₃ = 436.9 (568/λ) exp(−19.75 (θ − 3λ/568)²) with λ in nm. Each holds all light once, over the half space in front of the eye.
+pub fn point_spread(theta_deg: f64, nm: f64) -> [f64; 4] {
+    let near = theta_deg + 0.02;
+    [
+        2.61e6 * (-(theta_deg / 0.02).powi(2)).exp(),
+        20.91 / near.powi(3),
+        72.37 / near.powi(2),
+        436.9 * (568.0 / nm) * (-19.75 * (theta_deg - 3.0 * nm / 568.0).powi(2)).exp(),
+    ]
+}
+
+/// The wavelength of light whose wavelength is not known: the one that f₃ is written for.
+const MEAN_NM: f64 = 568.0;
+
+/// Scatters a picture that `rgb_from_xyz` made of `latent`.
+///
+/// The spread is cut at the picture's size and scaled to the sum 1, so that no light is lost; beyond the picture the scene is
+/// taken to go on as in mirrors. Only the halo depends on wavelength: it is spread band by band, the rest once. Where the bands
+/// do not sum up to the picture's colour, the remainder is spread as light of 568 nm. What is not a number does not scatter.
+pub(super) fn add(
+    image: &mut LinearImage,
+    latent: &Latent<'_>,
+    rgb_from_xyz: &Matrix3,
+    eye: EyeGlare,
+) -> Result<(), DevelopError> {
+    let kernels = Kernels::new(image, eye);
+    let has_halo = eye.vision.shares()[3] > 0.0;
+    let spectra = if has_halo {
+        kernels.of_spectrum(image, latent, rgb_from_xyz)?
+    } else {
+        kernels.of_colours(image)
+    };
+    let planes = spectra.map(|spectrum| kernels.mirror.picture(spectrum));
+    image.rgb.par_iter_mut().enumerate().for_each(|(i, rgb)| {
+        if rgb.iter().all(|v| v.is_finite()) {
+            *rgb = planes.each_ref().map(|plane| plane[i] as f32);
+        }
+    });
+    Ok(())
+}
+
+/// The spread on the pixels of a picture.
+struct Kernels {
+    mirror: Mirror,
+    shares: [f64; 4],
+    degrees_per_pixel: f64,
+    /// Transform and sum of f₀, f₁ and f₂ with their shares.
+    common: (Spectrum, f64),
+}
+
+impl Kernels {
+    fn new(image: &LinearImage, eye: EyeGlare) -> Self {
+        let mirror = Mirror::new(image.width as usize, image.height as usize);
+        let (shares, pixel) = (eye.vision.shares(), eye.degrees_per_pixel);
+        let common = mirror.of_kernel(|x, y| {
+            over_pixel([x, y], pixel, |theta| {
+                let f = point_spread(theta, MEAN_NM);
+                (0..3).map(|i| shares[i] * f[i]).sum()
+            })
+        });
+        Self {
+            // The first value of a transform is the sum.
+            common: (common.clone(), common[0]),
+            mirror,
+            shares,
+            degrees_per_pixel: pixel,
+        }
+    }
+
+    /// The transform of the halo with its share.
+    fn halo(&self, nm: f64) -> Spectrum {
+        let pixel = self.degrees_per_pixel;
+        // Beyond eight widths of the ring there is nothing.
+        let (radius, reach) = (3.0 * nm / 568.0, 8.0 / (2.0 * 19.75_f64).sqrt() + pixel);
+        self.mirror.of_kernel(|x, y| {
+            let theta = pixel * (x as f64).hypot(y as f64);
+            if (theta - radius).abs() > reach {
+                return 0.0;
+            }
+            over_pixel([x, y], pixel, |theta| {
+                self.shares[3] * point_spread(theta, nm)[3]
+            })
+        })
+    }
+
+    /// The transforms of red, green and blue, scattered without a halo.
+    fn of_colours(&self, image: &LinearImage) -> [Spectrum; 3] {
+        let (kernel, sum) = &self.common;
+        std::array::from_fn(|channel| {
+            let plane = image.rgb.iter().map(|&rgb| finite(rgb)[channel] / sum);
+            let mut spectrum = self.mirror.of_picture(plane.collect());
+            add_product(None, &mut spectrum, kernel);
+            spectrum
+        })
+    }
+
+    /// The transforms of red, green and blue, the halo of each band scattered apart.
+    fn of_spectrum(
+        &self,
+        image: &LinearImage,
+        latent: &Latent<'_>,
+        rgb_from_xyz: &Matrix3,
+    ) -> Result<[Spectrum; 3], DevelopError> {
+        let (grid, radiance) = latent.spectrum.ok_or(DevelopError::NoSpectrum)?;
+        let bands = Bands::new(grid, radiance, rgb_from_xyz);
+        let (common, common_sum) = &self.common;
+
+        // Light of a band is scaled by the sum of its own kernel; the remainder by that of the middle.
+        let middle = self.halo(MEAN_NM);
+        let middle_scale = 1.0 / (common_sum + middle[0]);
+        let halos: Vec<Spectrum> = bands.centres_nm.iter().map(|&nm| self.halo(nm)).collect();
+        let scales: Vec<f64> = halos.iter().map(|h| 1.0 / (common_sum + h[0])).collect();
+
+        let mut sums: [Spectrum; 3] = std::array::from_fn(|channel| {
+            let rest = |i: usize| finite(image.rgb[i])[channel] - bands.colour(i, channel, None);
+            let pixels = 0..image.rgb.len();
+            let rest: Vec<f64> = pixels
+                .clone()
+                .into_par_iter()
+                .map(|i| rest(i) * middle_scale)
+                .collect();
+            let all = pixels
+                .into_par_iter()
+                .map(|i| rest[i] + bands.colour(i, channel, Some(&scales)));
+            let mut sum = self.mirror.of_picture(all.collect());
+            add_product(None, &mut sum, common);
+            let rest = self.mirror.of_picture(rest);
+            add_product(Some(&rest), &mut sum, &middle);
+            sum
+        });
+        for (band, (halo, scale)) in halos.iter().zip(&scales).enumerate() {
+            let spectrum = self.mirror.of_picture(bands.plane(band));
+            let weights = bands.weights[band].map(|w| w * scale);
+            for (sum, weight) in sums.iter_mut().zip(weights) {
+                sum.par_iter_mut()
+                    .zip(&spectrum)
+                    .zip(halo)
+                    .with_min_len(4096)
+                    .for_each(|((sum, v), k)| *sum += weight * v * k);
+            }
+        }
+        Ok(sums)
+    }
+}
+
+/// `sum` times `kernel`; or, of another spectrum, that times `kernel` added to it.
+fn add_product(other: Option<&Spectrum>, sum: &mut Spectrum, kernel: &Spectrum) {
+    match other {
+        None => sum.iter_mut().zip(kernel).for_each(|(v, k)| *v *= k),
+        Some(other) => {
+            let products = other.iter().zip(kernel).map(|(v, k)| v * k);
+            sum.iter_mut().zip(products).for_each(|(v, p)| *v += p);
+        }
+    }
+}
+
+/// A colour, or black where it is no number.
+fn finite(rgb: [f32; 3]) -> [f64; 3] {
+    if rgb.iter().all(|v| v.is_finite()) {
+        rgb.map(f64::from)
+    } else {
+        [0.0; 3]
+    }
+}
+
+/// The mean of a function of the angle over the square of a pixel, which far from the light is its middle.
+fn over_pixel([x, y]: [usize; 2], degrees_per_pixel: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let [x, y] = [x, y].map(|v| v as f64);
+    let nearest = degrees_per_pixel * (x - 0.5).max(0.0).hypot((y - 0.5).max(0.0));
+    // Parts of a quarter of what the functions change over, which near the light is 0.02°.
+    let parts = (4.0 * degrees_per_pixel / (nearest + 0.02)).ceil();
+    let parts = if parts <= 1.0 {
+        1
+    } else {
+        2 * (parts as usize).min(64)
+    };
+    let place = |v: f64, i: usize| degrees_per_pixel * (v - 0.5 + (i as f64 + 0.5) / parts as f64);
+    let mut sum = 0.0;
+    for i in 0..parts {
+        for j in 0..parts {
+            sum += f(place(x, i).hypot(place(y, j)));
+        }
+    }
+    sum / (parts * parts) as f64
+}
+
+/// The bands of an image and what each gives of red, green and blue.
+struct Bands<'a> {
+    radiance: &'a [f32],
+    centres_nm: Vec<f64>,
+    weights: Vec<[f64; 3]>,
+}
+
+impl<'a> Bands<'a> {
+    fn new(grid: &BandGrid, radiance: &'a [f32], rgb_from_xyz: &Matrix3) -> Self {
+        let observer = BandObserver::new(grid);
+        let rgb = |&xyz: &[f64; 3]| times(rgb_from_xyz, xyz);
+        Self {
+            radiance,
+            centres_nm: (0..grid.count()).map(|band| grid.centre_nm(band)).collect(),
+            weights: observer.weights().iter().map(rgb).collect(),
+        }
+    }
+
+    /// The bands' sum of a channel at a pixel, each band times its scale.
+    fn colour(&self, pixel: usize, channel: usize, scales: Option<&[f64]>) -> f64 {
+        let bands = self.weights.len();
+        let values = &self.radiance[pixel * bands..(pixel + 1) * bands];
+        let scale = |band: usize| scales.map_or(1.0, |scales| scales[band]);
+        (0..bands)
+            .map(|b| self.value(values[b]) * self.weights[b][channel] * scale(b))
+            .sum()
+    }
+
+    /// A band of every pixel.
+    fn plane(&self, band: usize) -> Vec<f64> {
+        let pixels = self.radiance.par_chunks_exact(self.weights.len());
+        pixels.map(|values| self.value(values[band])).collect()
+    }
+
+    #[allow(clippy::unused_self)]
+    fn value(&self, radiance: f32) -> f64 {
+        if radiance.is_finite() {
+            f64::from(radiance)
+        } else {
+            0.0
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,83 @@
+use super::*;
+use crate::xyz::equal_energy_luminance;
+use colorimetry::srgb;
+
+/// An image of one row with these colours, XYZ relative to the white's Y = 1.
+pub(crate) fn row(colours: &[[f64; 3]]) -> XyzImage {
+    let xyz = colours
+        .iter()
+        .map(|colour| colour.map(|v| (v * equal_energy_luminance()) as f32));
+    XyzImage::new(colours.len() as u32, 1, xyz.collect()).unwrap()
+}
+
+const D65: [f64; 3] = [0.3127 / 0.3290, 1.0, (1.0 - 0.3127 - 0.3290) / 0.3290];
+
+fn developed(colours: &[[f64; 3]], stops: f64) -> RgbImage8 {
+    develop(&row(colours), &DevelopSettings::srgb(stops)).unwrap()
+}
+
+#[test]
+fn white_black_and_grey_get_their_codes() {
+    let grey = D65.map(|v| v * srgb::from_u8(119));
+    let picture = developed(&[D65, [0.0; 3], grey], 0.0);
+    assert_eq!((picture.width(), picture.height()), (3, 1));
+    assert_eq!(picture.data(), [255, 255, 255, 0, 0, 0, 119, 119, 119]);
+    assert_eq!(picture.pixel(2, 0), Some([119; 3]));
+    assert_eq!(picture.pixel(3, 0), None);
+}
+
+#[test]
+fn a_stop_doubles_the_light() {
+    let half = D65.map(|v| v * 0.25);
+    assert_eq!(developed(&[half], 2.0), developed(&[D65], 0.0));
+    assert_ne!(developed(&[half], 1.0), developed(&[D65], 0.0));
+}
+
+#[test]
+fn what_is_not_a_number_is_black_and_stays_alone() {
+    let picture = developed(&[[f64::NAN; 3], D65, [f64::INFINITY; 3]], 0.0);
+    assert_eq!(picture.pixel(0, 0), Some([0; 3]));
+    assert_eq!(picture.pixel(1, 0), Some([255; 3]));
+}
+
+/// Every code of each channel alone, of greys, and mixed ones.
+fn all_codes() -> Vec<[u8; 3]> {
+    let alone = (0..=255).flat_map(|v| [[v, 0, 0], [0, v, 0], [0, 0, v], [v; 3]]);
+    let mixed = (0..4096_u32).map(|i| i.wrapping_mul(2_654_435_761).to_le_bytes());
+    alone.chain(mixed.map(|[a, b, c, _]| [a, b, c])).collect()
+}
+
+#[test]
+fn every_code_comes_back() {
+    let codes = all_codes();
+    for name in ["srgb"] {
+        let display = Display::named(name).unwrap();
+        let colours: Vec<[f64; 3]> = codes
+            .iter()
+            .map(|codes| {
+                let light = std::array::from_fn(|i| {
+                    display.responses()[i].light(f64::from(codes[i]) / 255.0)
+                });
+                let shown = times(display.xyz_from_rgb(), light);
+                std::array::from_fn(|i| shown[i] + display.black_xyz()[i])
+            })
+            .collect();
+        for dither in [false, true] {
+            for gamut in [
+                GamutMapping::Keep,
+                GamutMapping::Clip,
+                GamutMapping::TowardWhite,
+                GamutMapping::Perceptual,
+            ] {
+                let settings = DevelopSettings {
+                    gamut,
+                    dither,
+                    ..DevelopSettings::new(display.clone())
+                };
+                let picture = develop(&row(&colours), &settings).unwrap();
+                let expected: Vec<u8> = codes.iter().flatten().copied().collect();
+                assert_eq!(picture.data(), expected, "{name} {dither} {gamut:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! Pictures of display codes.
+
+/// A picture of display codes, row 0 on top.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub struct RgbImage<Code> {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) data: Vec<Code>,
+}
+
+/// A picture of 8-bit codes.
+pub type RgbImage8 = RgbImage<u8>;
+/// A picture of 16-bit codes.
+pub type RgbImage16 = RgbImage<u16>;
+
+impl<Code: Copy> RgbImage<Code> {
+    /// A picture of these codes, red, green and blue of each pixel in turn, row by row; `None` unless there are
+    /// 3 × `width` × `height` of them.
+    pub fn new(width: u32, height: u32, data: Vec<Code>) -> Option<Self> {
+        let expected = 3 * width as usize * height as usize;
+        (data.len() == expected).then_some(Self {
+            width,
+            height,
+            data,
+        })
+    }
+
+    /// Width in pixels.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Height in pixels.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// The codes, red, green and blue of each pixel in turn, row by row.
+    pub fn data(&self) -> &[Code] {
+        &self.data
+    }
+
+    /// Red, green and blue of pixel (x, y); `None` outside the picture.
+    pub fn pixel(&self, x: u32, y: u32) -> Option<[Code; 3]> {
+        if x >= self.width || y >= self.height {
+            return None;
+        }
+        let start = 3 * (y as usize * self.width as usize + x as usize);
+        self.data[start..start + 3].try_into().ok()
+    }
+}

@@ -1,0 +1,234 @@
+//! Display files.
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use spectra::table_file::TableFileError;
+use spectra::text_file::{TextFileError, read_text};
+use thiserror::Error;
+
+use super::Display;
+use super::validate::Checks;
+
+/// Why there is no display of a name, or a file is none.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum DisplayError {
+    /// Nothing is known by the name.
+    #[error("there is no display {name:?}{}; known are {}, or a file .toml", .nearest.map_or_else(String::new, |near| format!("; did you mean {near:?}?")), Display::names().join(", "))]
+    Unknown {
+        /// What was asked for.
+        name: String,
+        /// The one that was probably meant.
+        nearest: Option<&'static str>,
+    },
+    /// A file cannot be read.
+    #[error("{path}: {source}")]
+    File {
+        /// The file.
+        path: String,
+        /// Why.
+        source: TextFileError,
+    },
+    /// A file is not TOML, or not of a display's fields.
+    #[error("{path} is not a display: {}", .source.to_string().trim_end())]
+    Toml {
+        /// The file.
+        path: String,
+        /// What and where.
+        source: Box<toml::de::Error>,
+    },
+    /// A table of spectra or of a response cannot be used.
+    #[error("{path}: {source}")]
+    Table {
+        /// The file.
+        path: String,
+        /// What and where.
+        source: TableFileError,
+    },
+    /// A field has a value that cannot be.
+    #[error("{path}: {field}: {message}")]
+    Field {
+        /// The file.
+        path: String,
+        /// The field, `primaries.red`.
+        field: &'static str,
+        /// What is wrong and what would be right.
+        message: String,
+    },
+}
+
+impl Display {
+    /// A display by its name, or from a file whose name ends in `.toml`.
+    ///
+    /// # Errors
+    /// When there is no display of the name, or [`Self::read`] fails.
+    pub fn open(name_or_file: &str) -> Result<Self, DisplayError> {
+        let path = Path::new(name_or_file);
+        let is_toml = |extension: &OsStr| extension.eq_ignore_ascii_case("toml");
+        if path.extension().is_some_and(is_toml) {
+            return Self::read(path);
+        }
+        Self::named(name_or_file).ok_or_else(|| DisplayError::Unknown {
+            name: name_or_file.chars().take(64).collect(),
+            nearest: nearest(name_or_file),
+        })
+    }
+
+    /// Reads a display file (TOML); the tables that it names are relative to it.
+    ///
+    /// ```toml
+    /// title = "my screen"              # optional, as are source and notes
+    /// white = [0.3127, 0.3290]         # chromaticity, or the name of an illuminant; without it, spectra are driven equally
+    /// white_luminance = 120            # cd/m², without that of black; 100 when absent
+    /// black_luminance = 0.1            # cd/m² at code 0, of the white's chromaticity; 0 when absent
+    ///
+    /// [primaries]                      # chromaticities for CIE 1931 …
+    /// red = [0.64, 0.33]
+    /// green = [0.30, 0.60]
+    /// blue = [0.15, 0.06]
+    /// # spectra = "primaries.csv"      # … or a table with the columns nm, red, green, blue
+    ///
+    /// [response]
+    /// curve = "gamma"                  # or linear, srgb, bt1886, pq, table
+    /// gamma = [2.21, 2.17, 2.25]       # for gamma: ((V − α)/(1 − α))^γ, one for all or one each
+    /// alpha = 0.02                     # 0 when absent
+    /// # csv = "response.csv"           # for table: columns code, red, green, blue, 0 to any highest code and amount
+    ///
+    /// [ambient]                        # light that the screen reflects; none when absent
+    /// illuminance_lux = 64
+    /// reflectance = 0.01               # diffuse
+    /// illuminant = "D50"
+    /// ```
+    ///
+    /// # Errors
+    /// When the file or a table that it names cannot be read, has a field that is unknown or missing, or a value that cannot be.
+    pub fn read(path: &Path) -> Result<Self, DisplayError> {
+        let file = |path: &Path| {
+            read_text(path).map_err(|source| DisplayError::File {
+                path: path.display().to_string(),
+                source,
+            })
+        };
+        let text = file(path)?;
+        let directory = path.parent().unwrap_or(Path::new(""));
+        let mut display = parse(&path.display().to_string(), &text, &|name| {
+            file(&directory.join(name))
+        })?;
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        stem.as_ref().clone_into(&mut display.name);
+        Ok(display)
+    }
+}
+
+fn nearest(name: &str) -> Option<&'static str> {
+    let word: String = name.to_lowercase().chars().take(24).collect();
+    let distances = Display::names()
+        .into_iter()
+        .map(|known| (strsim::osa_distance(&word, known), known));
+    let (distance, known) = distances.min()?;
+    (3 * distance <= known.len()).then_some(known)
+}
+
+/// A display as it is written in a file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Description {
+    #[serde(default)]
+    pub(super) title: String,
+    #[serde(default)]
+    pub(super) source: String,
+    #[serde(default)]
+    pub(super) notes: String,
+    pub(super) white: Option<WhiteDescription>,
+    #[serde(default = "hundred")]
+    pub(super) white_luminance: f64,
+    #[serde(default)]
+    pub(super) black_luminance: f64,
+    pub(super) primaries: PrimariesDescription,
+    pub(super) response: ResponseDescription,
+    pub(super) ambient: Option<AmbientDescription>,
+}
+
+fn hundred() -> f64 {
+    100.0
+}
+
+#[derive(Deserialize)]
+#[serde(
+    untagged,
+    expecting = "expected a chromaticity [x, y] or the name of an illuminant"
+)]
+pub(super) enum WhiteDescription {
+    Chromaticity([f64; 2]),
+    Illuminant(String),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PrimariesDescription {
+    pub(super) red: Option<[f64; 2]>,
+    pub(super) green: Option<[f64; 2]>,
+    pub(super) blue: Option<[f64; 2]>,
+    pub(super) spectra: Option<PathBuf>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ResponseDescription {
+    pub(super) curve: Curve,
+    pub(super) gamma: Option<PerChannel>,
+    pub(super) alpha: Option<PerChannel>,
+    pub(super) csv: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Deserialize, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Curve {
+    Linear,
+    Srgb,
+    Gamma,
+    Bt1886,
+    Pq,
+    Table,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "expected a number, or three for red, green and blue"
+)]
+pub(super) enum PerChannel {
+    Same(f64),
+    Each([f64; 3]),
+}
+
+impl PerChannel {
+    pub(super) fn each(self) -> [f64; 3] {
+        match self {
+            Self::Same(value) => [value; 3],
+            Self::Each(values) => values,
+        }
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct AmbientDescription {
+    pub(super) illuminance_lux: f64,
+    pub(super) reflectance: f64,
+    pub(super) illuminant: String,
+}
+
+/// The text of a table that a display file names.
+pub(super) type ReadTable<'a> = &'a dyn Fn(&Path) -> Result<String, DisplayError>;
+
+/// A display from the text of a file, called `path` in errors.
+pub(super) fn parse(path: &str, text: &str, read: ReadTable) -> Result<Display, DisplayError> {
+    let written: Description = toml::from_str(text).map_err(|source| DisplayError::Toml {
+        path: path.to_owned(),
+        source: Box::new(source),
+    })?;
+    Checks { path, read }.display(written)
+}

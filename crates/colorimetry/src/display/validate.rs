@@ -1,0 +1,260 @@
+//! From a description to a display.
+
+use std::path::Path;
+
+use spectra::table_file::{Quantity, TableFileError, parse_columns, parse_rows};
+use spectra::{Observer, Tabulated};
+
+use super::file::{
+    AmbientDescription, Curve, Description, DisplayError, PerChannel, PrimariesDescription,
+    ReadTable, ResponseDescription, WhiteDescription,
+};
+use super::{Display, MixtureError, Primaries, Response, mixed};
+use crate::chromaticity::xy_of_xyz;
+use crate::matrix::inverse;
+use crate::tristimulus::{Rule, Weights};
+
+/// Turns what is written into a display.
+pub(super) struct Checks<'a> {
+    pub(super) path: &'a str,
+    pub(super) read: ReadTable<'a>,
+}
+
+impl Checks<'_> {
+    fn fault(&self, field: &'static str, message: impl Into<String>) -> DisplayError {
+        DisplayError::Field {
+            path: self.path.to_owned(),
+            field,
+            message: message.into(),
+        }
+    }
+
+    fn number(
+        &self,
+        field: &'static str,
+        value: f64,
+        low: f64,
+        high: f64,
+    ) -> Result<f64, DisplayError> {
+        if (low..=high).contains(&value) {
+            return Ok(value);
+        }
+        Err(self.fault(
+            field,
+            format!("found {value}; it must be from {low} to {high}"),
+        ))
+    }
+
+    pub(super) fn display(&self, written: Description) -> Result<Display, DisplayError> {
+        let primaries = self.primaries(&written.primaries)?;
+        let white = self.white(written.white, &primaries)?;
+        let fault = |error: MixtureError| {
+            let field = match error {
+                MixtureError::Spectrum => "primaries.spectra",
+                MixtureError::White => "white",
+            };
+            self.fault(field, error.to_string())
+        };
+        let amounts = primaries.amounts(white).map_err(fault)?;
+        let columns = primaries.columns(Observer::Cie1931Deg2).map_err(fault)?;
+        let xyz_from_rgb = mixed(&columns, amounts);
+        let white_luminance = self.number("white_luminance", written.white_luminance, 1e-3, 1e6)?;
+        let black = self.number(
+            "black_luminance",
+            written.black_luminance,
+            0.0,
+            0.5 * white_luminance,
+        )?;
+        let ambient = written
+            .ambient
+            .map_or(Ok([0.0; 3]), |ambient| self.ambient(&ambient))?;
+        let mut display = Display {
+            name: self.path.to_owned(),
+            title: written.title,
+            source: written.source,
+            notes: written.notes,
+            primaries,
+            amounts,
+            xyz_from_rgb,
+            rgb_from_xyz: inverse(&xyz_from_rgb),
+            responses: self.responses(&written.response, white_luminance, black)?,
+            white_luminance,
+            black: [0.0; 3],
+        };
+        let own = display.white_xyz();
+        display.black = std::array::from_fn(|i| (black * own[i] + ambient[i]) / white_luminance);
+        Ok(display)
+    }
+
+    fn primaries(&self, written: &PrimariesDescription) -> Result<Primaries, DisplayError> {
+        match (written.red, written.green, written.blue, &written.spectra) {
+            (Some(red), Some(green), Some(blue), None) => Ok(Primaries::Chromaticities([
+                self.chromaticity("primaries.red", red)?,
+                self.chromaticity("primaries.green", green)?,
+                self.chromaticity("primaries.blue", blue)?,
+            ])),
+            (None, None, None, Some(csv)) => {
+                let text = (self.read)(csv)?;
+                let spectra = parse_columns(&text, [Quantity::POWER; 3]);
+                let spectra = spectra.map_err(|source| self.table_fault(csv, source))?;
+                Ok(Primaries::Spectra(Box::new(spectra)))
+            }
+            _ => Err(self.fault(
+                "primaries",
+                "it needs either red, green and blue, each a chromaticity [x, y], or spectra, a file with the columns nm, red, green, blue",
+            )),
+        }
+    }
+
+    fn table_fault(&self, csv: &Path, source: TableFileError) -> DisplayError {
+        DisplayError::Table {
+            path: Path::new(self.path)
+                .with_file_name(csv)
+                .display()
+                .to_string(),
+            source,
+        }
+    }
+
+    /// Primaries and whites may be imaginary, but lie on one side of the line of no luminance.
+    fn chromaticity(&self, field: &'static str, xy: [f64; 2]) -> Result<[f64; 2], DisplayError> {
+        let [x, y] = xy;
+        if (-0.5..=1.5).contains(&x) && (1e-4..=1.5).contains(&y) {
+            return Ok(xy);
+        }
+        Err(self.fault(
+            field,
+            format!(
+                "found [{x}, {y}]; a chromaticity has x from -0.5 to 1.5 and y from 0.0001 to 1.5"
+            ),
+        ))
+    }
+
+    fn white(
+        &self,
+        written: Option<WhiteDescription>,
+        primaries: &Primaries,
+    ) -> Result<Option<[f64; 2]>, DisplayError> {
+        match (written, primaries) {
+            (Some(WhiteDescription::Chromaticity(xy)), _) => self.chromaticity("white", xy).map(Some),
+            (Some(WhiteDescription::Illuminant(name)), _) => {
+                self.illuminant("white", &name).map(|xyz| Some(xy_of_xyz(xyz)))
+            }
+            (None, Primaries::Spectra(_)) => Ok(None),
+            (None, Primaries::Chromaticities(_)) => Err(self.fault(
+                "white",
+                "it is missing; primaries that are chromaticities need it, as a chromaticity [x, y] or the name of an illuminant",
+            )),
+        }
+    }
+
+    /// XYZ of an illuminant, Y = 1.
+    fn illuminant(&self, field: &'static str, name: &str) -> Result<[f64; 3], DisplayError> {
+        let set =
+            spectra::find_illuminant(name).map_err(|error| self.fault(field, error.to_string()))?;
+        let weights = Weights::new(&set.data, Observer::Cie1931Deg2, Rule::FiveNm)
+            .map_err(|error| self.fault(field, error.to_string()))?;
+        Ok(weights.white())
+    }
+
+    /// XYZ of the reflected ambient light, Y in cd/m²: E ρ / π.
+    fn ambient(&self, written: &AmbientDescription) -> Result<[f64; 3], DisplayError> {
+        let illuminance =
+            self.number("ambient.illuminance_lux", written.illuminance_lux, 0.0, 1e6)?;
+        let reflectance = self.number("ambient.reflectance", written.reflectance, 0.0, 1.0)?;
+        let white = self.illuminant("ambient.illuminant", &written.illuminant)?;
+        Ok(white.map(|v| v * illuminance * reflectance / std::f64::consts::PI))
+    }
+
+    fn responses(
+        &self,
+        written: &ResponseDescription,
+        white_luminance: f64,
+        black_luminance: f64,
+    ) -> Result<[Response; 3], DisplayError> {
+        let curve = written.curve;
+        for (field, is_given, of) in [
+            ("response.gamma", written.gamma.is_some(), Curve::Gamma),
+            ("response.alpha", written.alpha.is_some(), Curve::Gamma),
+            ("response.csv", written.csv.is_some(), Curve::Table),
+        ] {
+            if is_given && curve != of {
+                let name = if of == Curve::Gamma { "gamma" } else { "table" };
+                return Err(self.fault(
+                    field,
+                    format!("it has no effect here: it is for curve = {name:?}"),
+                ));
+            }
+        }
+        Ok(match curve {
+            Curve::Linear => [const { Response::Linear }; 3],
+            Curve::Srgb => [const { Response::Srgb }; 3],
+            Curve::Gamma => self.gamma(written)?,
+            Curve::Bt1886 => {
+                let black = black_luminance / (white_luminance + black_luminance);
+                std::array::from_fn(|_| Response::Bt1886 { black })
+            }
+            Curve::Pq => std::array::from_fn(|_| Response::Pq { white_luminance }),
+            Curve::Table => self.measured(written)?,
+        })
+    }
+
+    fn gamma(&self, written: &ResponseDescription) -> Result<[Response; 3], DisplayError> {
+        let Some(gamma) = written.gamma else {
+            return Err(self.fault(
+                "response.gamma",
+                "it is missing; curve = \"gamma\" needs it, such as 2.2",
+            ));
+        };
+        let alpha = written.alpha.unwrap_or(PerChannel::Same(0.0)).each();
+        let mut responses = [const { Response::Linear }; 3];
+        for ((response, gamma), alpha) in responses.iter_mut().zip(gamma.each()).zip(alpha) {
+            *response = Response::Gamma {
+                gamma: self.number("response.gamma", gamma, 0.1, 10.0)?,
+                alpha: self.number("response.alpha", alpha, -0.9, 0.9)?,
+            };
+        }
+        Ok(responses)
+    }
+
+    /// Codes and amounts relative to the last of the table.
+    fn measured(&self, written: &ResponseDescription) -> Result<[Response; 3], DisplayError> {
+        let field = "response.csv";
+        let Some(csv) = &written.csv else {
+            return Err(self.fault(field, "it is missing; curve = \"table\" needs a file with the columns code, red, green, blue"));
+        };
+        let text = (self.read)(csv)?;
+        let rows = parse_rows::<3>(&text).map_err(|source| self.table_fault(csv, source))?;
+        let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
+            return Err(self.table_fault(csv, TableFileError::Empty));
+        };
+        if first.nm != 0.0 || last.nm <= 0.0 {
+            return Err(self.fault(
+                field,
+                format!(
+                    "codes must rise from 0, but the first is {} and the last {}",
+                    first.nm, last.nm
+                ),
+            ));
+        }
+        let mut responses = [const { Response::Linear }; 3];
+        for (channel, response) in responses.iter_mut().enumerate() {
+            let points = rows
+                .iter()
+                .map(|row| (row.nm / last.nm, row.values[channel] / last.values[channel]));
+            *response = Response::Table(self.rising(points.collect())?);
+        }
+        Ok(responses)
+    }
+
+    fn rising(&self, points: Vec<(f64, f64)>) -> Result<Tabulated, DisplayError> {
+        let rises = points.windows(2).all(|pair| pair[0].1 <= pair[1].1);
+        match Tabulated::new(points) {
+            Ok(table) if rises && table.clamped_at(0.0) >= 0.0 => Ok(table),
+            _ => Err(self.fault(
+                "response.csv",
+                "codes must rise, and amounts of light must not be negative nor fall from one code to the next; the last must be above 0",
+            )),
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! Light groups: which lights are kept apart.
+
+use super::checks::Checks;
+use super::spectrum_list::Lamp;
+use crate::description::{self, Description, LightGroups};
+use crate::limits::{MAX_LIGHT_GROUP_NAME, MAX_LIGHT_GROUPS};
+use crate::problem::{Problem, ProblemKind};
+use crate::{Emission, Environment, FieldPath, LightGroupId, Material, Object};
+use spectra::LightGroup;
+
+/// Words that name other things in files of spectral images: components of polarised light, transmission, our own layer.
+const RESERVED: [&str; 6] = ["S0", "S1", "S2", "S3", "T", "pellicle"];
+
+/// The parts of a scene that know of light. Each emission has its lamp's number for a light group.
+pub(crate) struct Unlit {
+    pub(crate) materials: Vec<Material>,
+    pub(crate) objects: Vec<Object>,
+    pub(crate) environment: Environment,
+}
+
+/// The same with light groups.
+pub(crate) struct Lit {
+    pub(crate) parts: Unlit,
+    pub(crate) light_groups: Vec<LightGroup>,
+}
+
+/// Checks the names that are written.
+pub(crate) fn check_names(checks: &mut Checks, description: &Description) {
+    let root = FieldPath::root();
+    let of_materials = description.materials.iter().map(|(name, material)| {
+        let field = root.key("materials").key(name);
+        (field, name_of_material(material))
+    });
+    let of_environment = (
+        root.key("environment"),
+        name_of_environment(description.environment.as_ref()),
+    );
+    for (field, name) in of_materials.chain([of_environment]) {
+        if let Some(name) = name {
+            check_name(checks, &field.key("light_group"), name);
+        }
+    }
+}
+
+fn name_of_material(material: &description::Material) -> Option<&str> {
+    match material {
+        description::Material::Emitter { light_group, .. } => light_group.as_deref(),
+        _ => None,
+    }
+}
+
+fn name_of_environment(environment: Option<&description::Environment>) -> Option<&str> {
+    match environment? {
+        description::Environment::Constant { light_group, .. }
+        | description::Environment::Gradient { light_group, .. } => light_group.as_deref(),
+    }
+}
+
+fn check_name(checks: &mut Checks, field: &FieldPath, name: &str) {
+    let short: String = name.chars().take(64).collect();
+    let message = if RESERVED.contains(&name) {
+        format!("{short:?} has another meaning in files of spectral images")
+    } else if name.is_empty() || name.len() > MAX_LIGHT_GROUP_NAME || !name.bytes().all(is_in_names)
+    {
+        format!("{short:?} cannot be the name of a light group")
+    } else {
+        return;
+    };
+    let help = format!(
+        "a name has 1 to {MAX_LIGHT_GROUP_NAME} ASCII letters, digits, `_` or `-`, such as \"key\""
+    );
+    checks.report(Problem::new(ProblemKind::OutOfRange, field, message).help(help));
+}
+
+fn is_in_names(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-'
+}
+
+/// Gives every emission its light group. Only what shines on objects that are there makes a group.
+pub(crate) fn assign(
+    checks: &mut Checks,
+    lamps: &[Lamp],
+    description: &Description,
+    mut parts: Unlit,
+) -> Option<Lit> {
+    let mut list = List::default();
+    let is_single = description.render.light_groups == LightGroups::Single;
+    let mut lights = lights(description, &mut parts);
+    // The names that are written come first, and the others keep clear of them.
+    let named: Vec<Option<LightGroupId>> = lights
+        .iter()
+        .map(|(light, name)| {
+            let name = if is_single { Some("all") } else { *name };
+            let lamp = &lamps[light.light_group.index()];
+            lamp.shines
+                .then(|| name.map(|name| list.named(name, lamp)))?
+        })
+        .collect();
+    for ((light, _), named) in lights.iter_mut().zip(named) {
+        let lamp = &lamps[light.light_group.index()];
+        light.light_group = match named {
+            Some(id) => id,
+            None if lamp.shines => list.by_spectrum(lamp),
+            None => LightGroupId(0),
+        };
+    }
+    let light_groups = list.finished(checks)?;
+    Some(Lit {
+        parts,
+        light_groups,
+    })
+}
+
+/// The emissions of objects and surroundings, each with the name of a light group where one is written.
+fn lights<'a>(
+    description: &'a Description,
+    parts: &'a mut Unlit,
+) -> Vec<(&'a mut Emission, Option<&'a str>)> {
+    let mut is_used = vec![false; parts.materials.len()];
+    for object in &parts.objects {
+        is_used[object.material.index()] = true;
+    }
+    // Materials are numbered in the order of their names.
+    let written = description.materials.values().map(name_of_material);
+    let materials = parts.materials.iter_mut().zip(written).zip(is_used);
+    let mut lights: Vec<_> = materials
+        .filter_map(|((material, name), is_used)| {
+            let Material::Emitter { emission, .. } = material else {
+                return None;
+            };
+            if is_used {
+                return Some((emission, name));
+            }
+            emission.light_group = LightGroupId(0);
+            None
+        })
+        .collect();
+    let name = name_of_environment(description.environment.as_ref());
+    match &mut parts.environment {
+        Environment::Constant(everywhere) => lights.push((everywhere, name)),
+        Environment::Gradient {
+            zenith,
+            horizon,
+            ground,
+        } => lights.extend([zenith, horizon, ground].map(|part| (part, name))),
+    }
+    lights
+}
+
+/// The light groups so far.
+#[derive(Default)]
+struct List {
+    groups: Vec<LightGroup>,
+    /// How many of them have a name that is written.
+    written: usize,
+}
+
+impl List {
+    /// The group of this name, which loses its lamp where lights differ.
+    fn named(&mut self, name: &str, lamp: &Lamp) -> LightGroupId {
+        let position = self.groups.iter().position(|group| group.name == name);
+        if let Some(position) = position {
+            let group = &mut self.groups[position];
+            group.lamp = group.lamp.take().filter(|known| *known == lamp.spectrum);
+            return LightGroupId(position as u32);
+        }
+        self.written += 1;
+        self.add(name.to_owned(), lamp)
+    }
+
+    /// The group of all lights without a name that burn with this lamp.
+    fn by_spectrum(&mut self, lamp: &Lamp) -> LightGroupId {
+        let others = &self.groups[self.written..];
+        let position = others
+            .iter()
+            .position(|group| group.lamp.as_ref() == Some(&lamp.spectrum));
+        match position {
+            Some(position) => LightGroupId((self.written + position) as u32),
+            None => self.add(self.free_name(&lamp.name), lamp),
+        }
+    }
+
+    fn add(&mut self, name: String, lamp: &Lamp) -> LightGroupId {
+        let id = LightGroupId(self.groups.len() as u32);
+        let lamp = Some(lamp.spectrum.clone());
+        self.groups.push(LightGroup { name, lamp });
+        id
+    }
+
+    /// A name like that of a lamp that no group has: `D65`, then `D65_2`.
+    fn free_name(&self, like: &str) -> String {
+        let letters = like.bytes().map(|byte| match byte {
+            byte if is_in_names(byte) => char::from(byte),
+            _ => '_',
+        });
+        // Room for a number.
+        let mut stem: String = letters.take(MAX_LIGHT_GROUP_NAME - 4).collect();
+        if stem.is_empty() || RESERVED.contains(&stem.as_str()) {
+            "light".clone_into(&mut stem);
+        }
+        let is_free = |name: &String| self.groups.iter().all(|group| group.name != *name);
+        let numbered = (2..).map(|number| format!("{stem}_{number}"));
+        let mut names = std::iter::once(stem.clone()).chain(numbered);
+        names.find(is_free).unwrap_or(stem)
+    }
+
+    fn finished(mut self, checks: &mut Checks) -> Option<Vec<LightGroup>> {
+        let count = self.groups.len();
+        if count > MAX_LIGHT_GROUPS {
+            let message = format!(
+                "the lights make {count} light groups; at most {MAX_LIGHT_GROUPS} are possible"
+            );
+            let field = FieldPath::root().key("render").key("light_groups");
+            let help =
+                "give lights a common `light_group`, or write `render.light_groups = \"single\"`";
+            checks.report(Problem::new(ProblemKind::TooLarge, &field, message).help(help));
+            return None;
+        }
+        if self.groups.is_empty() {
+            self.groups.push(LightGroup::unknown());
+        }
+        Some(self.groups)
+    }
+}
