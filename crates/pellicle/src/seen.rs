@@ -56,13 +56,15 @@ pub fn seen(
     let object = &scene.objects()[hit.object];
     let name = description.objects[hit.object].material();
     let (substrate, media) = match description.materials.get(name) {
-        Some(Material::Film { index, layers, .. }) => (Index::Real(1.0), media(index, layers)),
+        Some(Material::Film { index, layers, .. }) => {
+            (Index::Real(1.0), media(index.as_ref(), layers.as_deref()))
+        }
         Some(Material::Coated {
             substrate,
             index,
             layers,
             ..
-        }) => (substrate.clone(), media(index, layers)),
+        }) => (substrate.clone(), media(index.as_ref(), layers.as_deref())),
         _ => return Ok(Seen::Bare(name.to_owned())),
     };
     let point = surface_point(&object.shape, &ray, hit.distance);
@@ -91,9 +93,12 @@ pub fn seen(
 }
 
 /// What each layer is made of.
-fn media(index: &Option<Index>, layers: &Option<Vec<Layer>>) -> Vec<Index> {
-    let layers = layers.iter().flatten().map(|layer| layer.index.clone());
-    index.iter().cloned().chain(layers).collect()
+fn media(index: Option<&Index>, layers: Option<&[Layer]>) -> Vec<Index> {
+    let layers = layers
+        .into_iter()
+        .flatten()
+        .map(|layer| layer.index.clone());
+    index.into_iter().cloned().chain(layers).collect()
 }
 
 /// The different spectra that the scene's lights burn with.

@@ -46,7 +46,7 @@ pub enum BandLayoutError {
         last_nm: f64,
     },
     /// The bands make no grid that this program works with.
-    #[error("the bands of the file cannot be used")]
+    #[error(transparent)]
     Grid(#[from] BandGridError),
 }
 

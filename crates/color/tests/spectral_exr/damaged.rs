@@ -109,3 +109,26 @@ fn claims_of_a_huge_image_are_refused_before_memory_is_taken() {
         );
     }
 }
+
+/// An attribute, a channel list or a table that claims to be of any length.
+#[test]
+fn a_huge_header_is_refused_before_memory_is_taken() {
+    let directory = tempfile::tempdir().unwrap();
+    let (path, _) = write_noisy(directory.path(), true);
+    let bytes = fs::read(&path).unwrap();
+    for key in [
+        &b"software\0string\0"[..],
+        b"channels\0chlist\0",
+        b"pellicle.setting.note\0string\0",
+        b"chromaticities\0chromaticities\0",
+    ] {
+        for size in [i32::MAX, -1, 1 << 28, 1 << 20] {
+            fs::write(&path, patched(&bytes, key, 0, size)).unwrap();
+            let error = spectral_exr::read(&path).unwrap_err();
+            assert!(
+                matches!(error, ReadExrError::Damaged { .. }),
+                "{size}: {error}"
+            );
+        }
+    }
+}

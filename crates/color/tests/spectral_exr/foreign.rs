@@ -218,3 +218,17 @@ fn spectra_that_cannot_be_used_are_told_apart() {
         assert!(!reason.is_empty() && !reason.contains('\n'), "{reason}");
     }
 }
+
+/// More channels than a band grid may have bands.
+#[test]
+fn too_many_bands_are_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("many.exr");
+    let names: Vec<String> = (0..2000)
+        .map(|i| format!("S0.{}pm", 400_000 + 100 * i))
+        .collect();
+    write_foreign(&path, &names.iter().map(String::as_str).collect::<Vec<_>>());
+    let error = spectral_exr::read(&path).unwrap_err();
+    let reason = std::error::Error::source(&error).unwrap().to_string();
+    assert_eq!(reason, "2000 bands; between 1 and 1024 are possible");
+}
