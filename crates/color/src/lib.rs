@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! spectra::SpectralImage
-//!   -> xyz            CIE 1931 XYZ of a pixel, relative to an equal-energy radiance of 1, times 2^EV
+//!   -> relight        its light groups under other lamps, seen by another observer
+//!   -> xyz            XYZ of a pixel, relative to an equal-energy radiance of 1, times 2^EV
 //!   -> colorimetry    linear sRGB, then the transfer curve
 //!   -> develop        the whole image: 8-bit RGB
 //!   -> png            a PNG file that says which colour space it is in
@@ -15,8 +16,10 @@
 mod develop;
 mod pending_file;
 pub mod png;
+mod relight;
 pub mod spectral_exr;
 pub mod xyz;
 
 pub use develop::{RgbImage8, develop};
 pub use pending_file::PendingFile;
+pub use relight::{BandWeights, DarkBand, Relight, RelightError, relight};

@@ -93,7 +93,7 @@ pub enum ReadExrError {
 /// layout with evenly spaced bands in nm.
 ///
 /// What a file of other origin lacks is filled in: XYZ by summing the bands
-/// ([`BandObserver`](crate::xyz::BandObserver)), variance and sample count as 0. Polarised components,
+/// ([`BandWeights::observed`](crate::BandWeights::observed)), variance and sample count as 0. Polarised components,
 /// reflectances and other channels are passed over.
 ///
 /// # Errors
