@@ -114,6 +114,20 @@ fn connection_value(vertex: Vertex, scatter: vec4f, group: u32, at: Wavelengths)
     return light * scatter;
 }
 
+/// Radiance by light group with more of one of them. The loop has a fixed length, so that it is unrolled and the array stays in
+/// registers: an index that differs between invocations would put it into memory.
+fn with_light(
+    before: array<vec4f, LIGHT_GROUPS>,
+    light_group: u32,
+    more: vec4f,
+) -> array<vec4f, LIGHT_GROUPS> {
+    var radiance = before;
+    for (var i = 0u; i < LIGHT_GROUPS; i++) {
+        radiance[i] += select(vec4f(0.0), more, i == light_group);
+    }
+    return radiance;
+}
+
 /// Radiance of the recorded path in the four bands of a group, by light group.
 fn path_radiance(group: u32, at: Wavelengths) -> array<vec4f, LIGHT_GROUPS> {
     var throughput = vec4f(1.0);
@@ -122,14 +136,16 @@ fn path_radiance(group: u32, at: Wavelengths) -> array<vec4f, LIGHT_GROUPS> {
         let vertex = vertices[i];
         if (vertex.emission_weight > 0.0) {
             let emission = spectrum_at(light_spectrum(vertex.emission), group, at);
-            radiance[light_group_of(vertex.emission)] += throughput * vertex.emission_weight * emission;
+            let arrived = throughput * vertex.emission_weight * emission;
+            radiance = with_light(radiance, light_group_of(vertex.emission), arrived);
         }
         if (vertex.scatter.kind == FACTOR_ONE) {
             continue;
         }
         let scatter = factor_value(vertex.scatter, group, at);
         if (vertex.connection_weight > 0.0) {
-            radiance[light_group_of(vertex.connection)] += throughput * connection_value(vertex, scatter, group, at);
+            let arrived = throughput * connection_value(vertex, scatter, group, at);
+            radiance = with_light(radiance, light_group_of(vertex.connection), arrived);
         }
         throughput *= vertex.weight * scatter;
     }

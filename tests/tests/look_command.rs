@@ -1,19 +1,19 @@
 //! `pellicle compare` and `pellicle inspect` from end to end, as a user runs them.
 
+use color::BandWeights;
 use color::RgbImage8;
 use color::spectral_exr::{self, Metadata, WriteOptions};
-use color::xyz::BandObserver;
 use pellicle::coating::{Angle, FilmFitting, Stack, View};
 use pellicle_tests::command::{Place, Ran};
 use pellicle_tests::wgsl::root;
 use serde_json::Value;
-use spectra::{BandGrid, SpectralImage};
+use spectra::{BandGrid, Observer, SpectralImage};
 use std::path::Path;
 
 /// An image of the spectra that `radiance` gives at each pixel, of a deviation of 1 %.
 fn image(size: [u32; 2], bands: u32, radiance: impl Fn(u32, u32) -> Vec<f32>) -> SpectralImage {
     let grid = BandGrid::visible(bands).unwrap();
-    let observer = BandObserver::new(&grid);
+    let observer = BandWeights::observed(&grid, Observer::Cie1931Deg2);
     let mut image = SpectralImage::new(size[0], size[1], grid);
     for y in 0..size[1] {
         for x in 0..size[0] {

@@ -1,7 +1,7 @@
 //! The colours that processes are known to give: heat tints of steel and anodised titanium, from the process's own figures in a
 //! scene to a hue.
 
-use color::xyz::BandObserver;
+use color::BandWeights;
 use colorimetry::lab::Lab;
 use optics::{Complex64, Layer, stack};
 use scene::{Material, Scene, SceneFile, SpectrumId, Thickness};
@@ -48,7 +48,7 @@ fn colour(scene: &Scene) -> [f64; 3] {
         );
         white.push(1.0);
     }
-    let observer = BandObserver::new(&grid);
+    let observer = BandWeights::observed(&grid, spectra::Observer::Cie1931Deg2);
     let lab = Lab::from_xyz(observer.xyz(&light), observer.xyz(&white));
     [lab.l, lab.chroma(), lab.hue_deg()]
 }

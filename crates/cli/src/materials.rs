@@ -3,11 +3,11 @@
 use crate::{plot, print};
 use clap::ValueEnum;
 use miette::miette;
-use pellicle::color::xyz;
+use pellicle::color::{BandWeights, xyz};
 use pellicle::colorimetry::srgb;
 use pellicle::optics::reflectance_unpolarised;
 use pellicle::scene::description::Index;
-use pellicle::spectra::{self, BandGrid, MaterialInfo, OpticalConstants};
+use pellicle::spectra::{self, BandGrid, MaterialInfo, Observer, OpticalConstants};
 use serde_json::{Value, json};
 use std::io::IsTerminal;
 
@@ -196,7 +196,7 @@ fn bulk_colour(constants: &OpticalConstants) -> Option<[u8; 3]> {
         Some((d65.at(nm).ok()? * reflectance) as f32)
     };
     let radiance: Option<Vec<f32>> = (0..grid.count()).map(reflected).collect();
-    let in_air = xyz::BandObserver::new(&grid).xyz(&radiance?);
+    let in_air = BandWeights::observed(&grid, Observer::Cie1931Deg2).xyz(&radiance?);
     let relative = in_air.map(|value| value * xyz::exposure_scale(0.0));
     Some(srgb::linear_from_xyz(relative).map(srgb::to_u8))
 }

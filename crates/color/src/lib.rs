@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! spectra::SpectralImage
-//!   -> xyz            CIE 1931 XYZ of a pixel, relative to an equal-energy radiance of 1, times 2^EV
+//!   -> relight        its light groups under other lamps, seen by another observer
+//!   -> xyz            XYZ of a pixel, relative to an equal-energy radiance of 1, times 2^EV
 //!   -> colorimetry    linear sRGB, then the transfer curve
 //!   -> develop        the whole image: 8-bit RGB
 //!   -> png            a PNG file that says which colour space it is in
@@ -19,6 +20,7 @@ pub mod develop;
 mod pending_file;
 pub mod png;
 mod probe;
+mod relight;
 mod rgb_image;
 pub mod spectral_exr;
 pub mod xyz;
@@ -27,5 +29,6 @@ mod xyz_image;
 pub use develop::{DevelopSettings, develop};
 pub use pending_file::PendingFile;
 pub use probe::{Probe, Region, RegionError, probe};
+pub use relight::{BandWeights, DarkBand, Relight, RelightError, relight};
 pub use rgb_image::{RgbImage, RgbImage8, RgbImage16};
 pub use xyz_image::XyzImage;

@@ -101,7 +101,7 @@ pub enum ReadExrError {
 /// an end from where people see (380 to 780 nm) is cut there.
 ///
 /// What a file of other origin lacks is filled in: XYZ by summing the bands
-/// ([`BandObserver`](crate::xyz::BandObserver)), variance and sample count as 0. Reflectances are taken as lit by a radiance of
+/// ([`BandWeights::observed`](crate::BandWeights::observed)), variance and sample count as 0. Reflectances are taken as lit by a radiance of
 /// 1, where there is no radiance in the file. Polarised components, light emitted at another wavelength than it was absorbed at,
 /// and other channels are passed over. What was assumed or changed is in the metadata's notes.
 ///

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use pellicle_color::BandWeights;
 use pellicle_color::spectral_exr::{self, Metadata, ReadExrError};
-use pellicle_color::xyz::BandObserver;
 use spectra::{BandGrid, SpectralImage};
 
 /// Writes a file with these channels, as another program might.
@@ -37,7 +37,9 @@ fn files_of_other_programs_are_read() {
     assert_eq!(image.bands(), &grid);
     assert_eq!(image.pixel(2, 1), [5.0; 3]);
     assert_eq!((image.samples()[0], metadata.software.as_str()), (0, ""));
-    let xyz = BandObserver::new(&grid).xyz(&[5.0; 3]).map(|v| v as f32);
+    let xyz = BandWeights::observed(&grid, spectra::Observer::Cie1931Deg2)
+        .xyz(&[5.0; 3])
+        .map(|v| v as f32);
     assert_eq!(image.xyz()[5].map(f32::to_bits), xyz.map(f32::to_bits));
 }
 

@@ -5,11 +5,11 @@
 use colorimetry::Matrix3;
 use colorimetry::matrix::times;
 use rayon::prelude::*;
-use spectra::BandGrid;
+use spectra::{BandGrid, Observer};
 
 use super::mirror::{Mirror, Spectrum};
 use super::{DevelopError, Latent, LinearImage};
-use crate::xyz::BandObserver;
+use crate::BandWeights;
 
 /// The state of the eye, which its pupil follows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -253,7 +253,7 @@ struct Bands<'a> {
 
 impl<'a> Bands<'a> {
     fn new(grid: &BandGrid, radiance: &'a [f32], rgb_from_xyz: &Matrix3) -> Self {
-        let observer = BandObserver::new(grid);
+        let observer = BandWeights::observed(grid, Observer::Cie1931Deg2);
         let rgb = |&xyz: &[f64; 3]| times(rgb_from_xyz, xyz);
         Self {
             radiance,

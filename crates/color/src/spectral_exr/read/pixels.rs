@@ -4,11 +4,11 @@ use exr::block::UncompressedBlock;
 use exr::block::lines::LineRef;
 use exr::meta::attribute::{ChannelList, SampleType};
 use exr::prelude::f16;
-use spectra::SpectralImage;
+use spectra::{Observer, SpectralImage};
 
 use super::Plan;
+use crate::BandWeights;
 use crate::spectral_exr::channels::Content;
-use crate::xyz::BandObserver;
 
 /// An image that is being read.
 pub(super) struct Pixels {
@@ -17,7 +17,7 @@ pub(super) struct Pixels {
     /// How many pixels of each row have been written.
     filled: Vec<usize>,
     /// Makes XYZ where the file has none.
-    observer: Option<BandObserver>,
+    observer: Option<BandWeights>,
 }
 
 /// The pixels of one row of a block.
@@ -37,7 +37,8 @@ impl Pixels {
         Self {
             image: SpectralImage::new(width as u32, height as u32, plan.grid),
             filled: vec![0; height],
-            observer: (!plan.has_xyz()).then(|| BandObserver::new(&plan.grid)),
+            observer: (!plan.has_xyz())
+                .then(|| BandWeights::observed(&plan.grid, Observer::Cie1931Deg2)),
             plan,
         }
     }

@@ -1,7 +1,7 @@
 use super::*;
 use crate::develop::{DevelopSettings, Exposure, Glare, expose};
 use colorimetry::Display;
-use spectra::SpectralImage;
+use spectra::{Observer, SpectralImage};
 
 /// ∫ f dω over the half space in front of the eye, f in steradians⁻¹.
 fn integral(index: usize, nm: f64) -> f64 {
@@ -46,7 +46,7 @@ const BANDS: u32 = 5;
 /// An image with a lamp of one band and some light elsewhere; its XYZ is a little more than its bands give.
 fn image(lamp: f32, lamp_band: usize) -> SpectralImage {
     let grid = BandGrid::visible(BANDS).unwrap();
-    let observer = BandObserver::new(&grid);
+    let observer = BandWeights::observed(&grid, Observer::Cie1931Deg2);
     let mut image = SpectralImage::new(SIZE[0] as u32, SIZE[1] as u32, grid);
     for y in 0..SIZE[1] as u32 {
         for x in 0..SIZE[0] as u32 {
@@ -88,7 +88,7 @@ fn direct(image: &SpectralImage, eye: EyeGlare) -> Vec<[f64; 3]> {
     let plain = exposed(image, Glare::Off);
     let scale = crate::xyz::exposure_scale(0.0);
     let display = Display::named("srgb").unwrap();
-    let observer = BandObserver::new(image.bands());
+    let observer = BandWeights::observed(image.bands(), Observer::Cie1931Deg2);
     let shares = eye.vision.shares();
     let kernel = |nm: f64, dx: usize, dy: usize| {
         over_pixel([dx, dy], eye.degrees_per_pixel, |theta| {

@@ -1,0 +1,251 @@
+//! An image seen under other lamps, without rendering again.
+
+mod weights;
+
+pub use weights::{BandWeights, DarkBand};
+
+use rayon::prelude::*;
+use spectra::{BandGrid, Observer, OutOfRange, RowMut, SpectralImage, Spectrum, Tabulated};
+use thiserror::Error;
+
+/// What is changed about a light group.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Relight {
+    /// The lamp that its lights burn with from now on, at the scales that they have; `None` keeps theirs.
+    pub lamp: Option<Spectrum>,
+    /// What their light is multiplied by, from 0.
+    pub factor: f64,
+}
+
+/// Why an image cannot be relit. It is then left as it was.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum RelightError {
+    /// No light group has the name.
+    #[error("the image has no light group {name:?}; it has {}", .known.join(", "))]
+    UnknownLightGroup {
+        /// The name asked for.
+        name: String,
+        /// The names that there are.
+        known: Vec<String>,
+    },
+    /// A light group is changed twice.
+    #[error("the light group {0:?} is given twice")]
+    Repeated(String),
+    /// A factor is negative or no number.
+    #[error(
+        "the light group {name:?} cannot be made {factor} times as bright: a factor is a number from 0"
+    )]
+    Factor {
+        /// The light group.
+        name: String,
+        /// The factor.
+        factor: f64,
+    },
+    /// The lights of a group differ, or the image does not tell what they burn with.
+    #[error(
+        "the lamp of the light group {0:?} cannot be changed, only its factor: its lights differ, or the image does not tell what they burn with"
+    )]
+    UnknownLamp(String),
+    /// The new lamp has no value at a wavelength of the image.
+    #[error("the lamp for the light group {name:?} does not cover the image's bands")]
+    OutOfRange {
+        /// The light group.
+        name: String,
+        /// Where.
+        source: OutOfRange,
+    },
+    /// The new lamp gives light where the old one gives none.
+    #[error(
+        "the light group {name:?} cannot burn with this lamp: from {} to {} nm it gives light where the lamp that the image was \
+         rendered with gives none, so that nothing is known there",
+        .band.from_nm, .band.to_nm
+    )]
+    Dark {
+        /// The light group.
+        name: String,
+        /// The first such band.
+        band: DarkBand,
+    },
+}
+
+/// Changes the lamps of light groups, and the observer.
+///
+/// Bands and XYZ of an image become those that a render with the new lamps would have, as far as the bands tell
+/// ([`BandWeights`]). A light group that keeps its lamp keeps its bands, and with the observer of 1931 its XYZ, which were summed
+/// at the very wavelengths drawn: to the last bit, times its factor. XYZ of another observer are scaled so that an equal-energy
+/// radiance of 1 keeps its Y.
+///
+/// The variance of a band keeps its relative size: what of it comes from which light group is not known.
+///
+/// The image must hold XYZ of the observer of 1931, as one that was rendered or read does.
+///
+/// # Errors
+/// When a light group is not there, or its lamp cannot be changed to the one given.
+pub fn relight(
+    image: &mut SpectralImage,
+    changes: &[(String, Relight)],
+    observer: Observer,
+) -> Result<(), RelightError> {
+    check_names(image, changes)?;
+    let planned: Result<Vec<Change>, RelightError> = (0..image.light_groups().len())
+        .map(|group| Change::plan(image, group, changes, observer))
+        .collect();
+    let planned = planned?;
+    for (group, change) in planned.iter().enumerate() {
+        if let Some(lamp) = &change.lamp {
+            image.light_group_mut(group).lamp = Some(lamp.clone());
+        }
+    }
+    let bands = image.bands().count() as usize;
+    let rows = image.rows_mut();
+    rows.into_par_iter()
+        .for_each(|row| relight_row(row, &planned, bands));
+    Ok(())
+}
+
+fn check_names(image: &SpectralImage, changes: &[(String, Relight)]) -> Result<(), RelightError> {
+    for (position, (name, change)) in changes.iter().enumerate() {
+        let mut groups = image.light_groups().iter();
+        if !groups.any(|group| group.name == *name) {
+            let known = image.light_groups().iter();
+            return Err(RelightError::UnknownLightGroup {
+                name: name.clone(),
+                known: known.map(|group| format!("{:?}", group.name)).collect(),
+            });
+        }
+        if changes[..position].iter().any(|(other, _)| other == name) {
+            return Err(RelightError::Repeated(name.clone()));
+        }
+        if !(change.factor >= 0.0 && change.factor.is_finite()) {
+            return Err(RelightError::Factor {
+                name: name.clone(),
+                factor: change.factor,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// What happens to a light group.
+struct Change {
+    /// The new lamp.
+    lamp: Option<Tabulated>,
+    /// What makes XYZ, and bands where there is a new lamp; none where both only get a factor.
+    weights: Option<BandWeights>,
+    factor: f64,
+}
+
+impl Change {
+    fn plan(
+        image: &SpectralImage,
+        group: usize,
+        changes: &[(String, Relight)],
+        observer: Observer,
+    ) -> Result<Self, RelightError> {
+        let (grid, group) = (image.bands(), &image.light_groups()[group]);
+        let name = || group.name.clone();
+        let found = changes.iter().find(|(name, _)| *name == group.name);
+        let factor = found.map_or(1.0, |(_, change)| change.factor);
+        let known = group.lamp.as_ref();
+        let kept = |weights| Self {
+            lamp: None,
+            weights,
+            factor,
+        };
+        let Some(wanted) = found.and_then(|(_, change)| change.lamp.as_ref()) else {
+            if observer == Observer::Cie1931Deg2 {
+                return Ok(kept(None));
+            }
+            let own = known.map(|lamp| BandWeights::new(grid, lamp, lamp, observer));
+            let observed = || BandWeights::observed(grid, observer);
+            return Ok(kept(Some(
+                own.and_then(Result::ok).unwrap_or_else(observed),
+            )));
+        };
+        let before = known.ok_or_else(|| RelightError::UnknownLamp(name()))?;
+        let after = over(grid, wanted).map_err(|source| RelightError::OutOfRange {
+            name: name(),
+            source,
+        })?;
+        if after == *before && observer == Observer::Cie1931Deg2 {
+            return Ok(kept(None));
+        }
+        let weights = BandWeights::new(grid, before, &after, observer);
+        Ok(Self {
+            weights: Some(weights.map_err(|band| RelightError::Dark { name: name(), band })?),
+            lamp: Some(after),
+            factor,
+        })
+    }
+
+    /// Changes the radiance and XYZ of pixels.
+    fn apply(&self, radiance: &mut [f32], xyz: &mut [[f32; 3]], bands: usize) {
+        let scaled = |value: f64| (value * self.factor) as f32;
+        let mut relit = vec![0.0; bands];
+        for (radiance, xyz) in radiance.chunks_exact_mut(bands).zip(xyz) {
+            *xyz = match &self.weights {
+                None => xyz.map(|value| scaled(f64::from(value))),
+                Some(weights) => weights.xyz(radiance).map(scaled),
+            };
+            match &self.weights {
+                Some(weights) if self.lamp.is_some() => {
+                    for (relit, value) in relit.iter_mut().zip(weights.relit(radiance)) {
+                        *relit = scaled(value);
+                    }
+                    radiance.copy_from_slice(&relit);
+                }
+                _ => radiance
+                    .iter_mut()
+                    .for_each(|value| *value = scaled(f64::from(*value))),
+            }
+        }
+    }
+}
+
+/// A lamp over the bands.
+fn over(grid: &BandGrid, lamp: &Spectrum) -> Result<Tabulated, OutOfRange> {
+    let ends = [grid.min_nm(), grid.max_nm()];
+    for nm in ends {
+        lamp.at(nm)?;
+    }
+    let table = match lamp {
+        Spectrum::Constant(value) => Tabulated::new(ends.map(|nm| (nm, *value)).to_vec()).ok(),
+        other => grid.lamp(other),
+    };
+    // It has values at both ends, so that a table is made; formulas are no lamps.
+    table.ok_or(OutOfRange {
+        nm: ends[0],
+        min_nm: ends[0],
+        max_nm: ends[1],
+    })
+}
+
+fn relight_row(row: RowMut<'_>, changes: &[Change], bands: usize) {
+    let before = row.radiance.to_vec();
+    if row.shares.is_empty() {
+        changes[0].apply(row.radiance, row.xyz, bands);
+    } else {
+        row.radiance.fill(0.0);
+        row.xyz.fill([0.0; 3]);
+        for ((radiance, xyz), change) in row.shares.into_iter().zip(changes) {
+            change.apply(radiance, xyz, bands);
+            for (sum, value) in row.radiance.iter_mut().zip(radiance) {
+                *sum += *value;
+            }
+            for (sum, value) in row.xyz.iter_mut().zip(xyz) {
+                *sum = std::array::from_fn(|axis| sum[axis] + value[axis]);
+            }
+        }
+    }
+    let changed = before.iter().zip(row.radiance.iter());
+    for (variance, (&before, &after)) in row.variance.iter_mut().zip(changed) {
+        if before != after {
+            let ratio = if before > 0.0 { after / before } else { 0.0 };
+            *variance *= ratio * ratio;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,171 @@
+use super::*;
+use spectra::{KM_LUMENS_PER_WATT, LightGroup};
+
+fn illuminant(name: &str) -> Spectrum {
+    spectra::illuminant(name).unwrap().data
+}
+
+fn group(grid: &BandGrid, name: &str, lamp: Option<&str>) -> LightGroup {
+    LightGroup {
+        name: name.to_owned(),
+        lamp: lamp.and_then(|lamp| grid.lamp(&illuminant(lamp))),
+    }
+}
+
+/// A white surface under each light group; XYZ marks the groups.
+fn image(groups: &[(&str, Option<&str>)]) -> SpectralImage {
+    let grid = BandGrid::visible(16).unwrap();
+    let groups: Vec<_> = groups
+        .iter()
+        .map(|(name, lamp)| group(&grid, name, *lamp))
+        .collect();
+    let count = groups.len();
+    let mut image = SpectralImage::with_light_groups(3, 2, grid, groups);
+    for (x, y) in (0..6).map(|i| (i % 3, i / 3)) {
+        let level = |i: usize| 0.5 + (i % 7) as f32 * 0.1 + y as f32;
+        let radiance: Vec<f32> = (0..16 * count).map(level).collect();
+        let xyz: Vec<_> = (0..count).map(|g| [g as f32 + 1.0; 3]).collect();
+        image.set_pixel_by_light((x, y), &radiance, &[0.01; 16], &xyz, 4);
+    }
+    image
+}
+
+fn change(name: &str, lamp: Option<&str>, factor: f64) -> (String, Relight) {
+    let lamp = lamp.map(illuminant);
+    (name.to_owned(), Relight { lamp, factor })
+}
+
+const DEG2: Observer = Observer::Cie1931Deg2;
+
+#[test]
+fn what_is_left_as_it_is_keeps_its_bits() {
+    let before = image(&[("key", Some("D65")), ("sky", None)]);
+    let mut after = before.clone();
+    relight(&mut after, &[], DEG2).unwrap();
+    assert_eq!(after, before);
+    let same = [change("key", Some("D65"), 1.0), change("sky", None, 1.0)];
+    relight(&mut after, &same, DEG2).unwrap();
+    assert_eq!(after, before);
+    // A new lamp for one leaves the other alone.
+    relight(&mut after, &[change("key", Some("A"), 1.0)], DEG2).unwrap();
+    assert_eq!(after.group_radiance(1), before.group_radiance(1));
+    assert_eq!(after.group_xyz(1), before.group_xyz(1));
+    assert_ne!(after.group_xyz(0), before.group_xyz(0));
+    assert_ne!(after.light_groups()[0].lamp, before.light_groups()[0].lamp);
+}
+
+#[test]
+fn a_factor_multiplies_a_light_group_and_the_total_is_the_sum() {
+    let before = image(&[("key", Some("D65")), ("sky", None)]);
+    let mut after = before.clone();
+    relight(&mut after, &[change("sky", None, 0.25)], DEG2).unwrap();
+    for (i, &total) in after.radiance().iter().enumerate() {
+        let [key, sky] = [0, 1].map(|group| before.group_radiance(group)[i]);
+        assert_eq!(after.group_radiance(1)[i], 0.25 * sky);
+        assert_eq!(total, key + 0.25 * sky);
+        // The relative noise stays.
+        let ratio = total / before.radiance()[i];
+        assert!((after.variance()[i] - 0.01 * ratio * ratio).abs() < 1e-8);
+    }
+    assert_eq!(after.xyz()[0], [1.5; 3]);
+    let mut off = before.clone();
+    relight(
+        &mut off,
+        &[change("key", None, 0.0), change("sky", None, 0.0)],
+        DEG2,
+    )
+    .unwrap();
+    assert!(
+        off.radiance()
+            .iter()
+            .chain(off.variance())
+            .all(|&value| value == 0.0)
+    );
+}
+
+#[test]
+fn a_new_lamp_on_white_is_the_new_lamp() {
+    let grid = BandGrid::visible(16).unwrap();
+    for groups in [
+        &[("all", Some("D65"))][..],
+        &[("all", Some("D65")), ("dark", None)],
+    ] {
+        let mut image = image(groups);
+        let d65 = Spectrum::Table(group(&grid, "", Some("D65")).lamp.unwrap());
+        let mean = |lamp: &Spectrum, band: u32| {
+            let place = |i: u32| grid.wavelength_nm(band, (f64::from(i) + 0.5) / 500.0);
+            let sum: f64 = (0..500).map(|i| lamp.at(place(i)).unwrap()).sum();
+            (sum / 500.0) as f32
+        };
+        let mut white: Vec<f32> = (0..16).map(|band| mean(&d65, band)).collect();
+        white.resize(16 * groups.len(), 0.0);
+        let xyz = vec![[0.0; 3]; groups.len()];
+        image.set_pixel_by_light((1, 1), &white, &[0.0; 16], &xyz, 1);
+        let doubled = [change("all", Some("FL11"), 2.0)];
+        relight(&mut image, &doubled, DEG2).unwrap();
+        let fl11 = illuminant("FL11");
+        for (band, &found) in (0..).zip(image.pixel(1, 1)) {
+            let expected = 2.0 * mean(&fl11, band);
+            assert!(
+                (found / expected - 1.0).abs() < 2e-3,
+                "{band}: {found} {expected}"
+            );
+        }
+        let mut y = 0.0;
+        for nm in 380..=780 {
+            let light = fl11.at(f64::from(nm)).unwrap() * DEG2.at(f64::from(nm))[1];
+            y += 2.0 * KM_LUMENS_PER_WATT * light;
+        }
+        let found = f64::from(image.xyz()[4][1]);
+        assert!((found / y - 1.0).abs() < 1e-3, "{found} {y}");
+        // And back again.
+        relight(&mut image, &[change("all", Some("D65"), 0.5)], DEG2).unwrap();
+        for (found, expected) in image.pixel(1, 1).iter().zip(&white) {
+            assert!((found / expected - 1.0).abs() < 2e-2, "{found} {expected}");
+        }
+    }
+}
+
+#[test]
+fn another_observer_sees_the_same_bands() {
+    let before = image(&[("key", Some("D65")), ("sky", None)]);
+    let mut after = before.clone();
+    relight(&mut after, &[], Observer::Cie1964Deg10).unwrap();
+    assert_eq!(after.radiance(), before.radiance());
+    assert_ne!(after.xyz(), before.xyz());
+    let sum = BandWeights::observed(before.bands(), Observer::Cie1964Deg10);
+    let expected = sum.xyz(&before.group_radiance(1)[..16]);
+    let found = after.group_xyz(1)[0];
+    assert!((f64::from(found[0]) / expected[0] - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn what_cannot_be_relit_is_told_and_left() {
+    let before = image(&[("key", Some("D65")), ("sky", None)]);
+    let narrow = Tabulated::new(vec![(400.0, 1.0), (700.0, 1.0)]).unwrap();
+    let narrow = Relight {
+        lamp: Some(Spectrum::Table(narrow)),
+        factor: 1.0,
+    };
+    let dark = Tabulated::new(vec![(380.0, 0.0), (600.0, 0.0), (780.0, 1.0)]).unwrap();
+    for (changes, said) in [
+        (vec![change("moon", None, 1.0)], "it has \"key\", \"sky\""),
+        (
+            vec![change("key", None, 1.0), change("key", None, 2.0)],
+            "given twice",
+        ),
+        (vec![change("key", None, -1.0)], "a number from 0"),
+        (vec![change("key", None, f64::NAN)], "a number from 0"),
+        (vec![change("sky", Some("A"), 1.0)], "only its factor"),
+        (vec![("key".to_owned(), narrow)], "does not cover"),
+    ] {
+        let mut image = before.clone();
+        let error = relight(&mut image, &changes, DEG2).unwrap_err();
+        assert!(error.to_string().contains(said), "{error}");
+        assert_eq!(image, before);
+    }
+    let mut image = before;
+    image.light_group_mut(0).lamp = Some(dark);
+    let error = relight(&mut image, &[change("key", Some("A"), 1.0)], DEG2).unwrap_err();
+    assert!(error.to_string().contains("from 380 to 405 nm"), "{error}");
+}

@@ -1,0 +1,293 @@
+//! What bands that were seen under one lamp weigh under another.
+
+use spectra::{BandGrid, KM_LUMENS_PER_WATT, Observer, Tabulated};
+
+use crate::xyz::equal_energy_luminance;
+
+/// Turns the bands of a light group into its XYZ, and into its bands, under a lamp.
+///
+/// Light of a lamp S(λ) reaches a pixel as L(λ) = T(λ) S(λ), with T the transfer of the scene (all reflections and
+/// transmissions along all paths), which no lamp changes. A band holds the mean of T S over its width. T is reconstructed
+/// from these means: within a band as the parabola whose means, weighted by S, over the band itself and its two neighbours are
+/// those of the image (at the ends of the grid, over the last three bands), so that the band's own value is kept exactly.
+/// Then X′ = Kₘ ∫ T S′ x̄ dλ and L′ᵦ = ∫ᵦ T S′ dλ / Δλ. All of this is linear in the bands: one weight per band for
+/// each of X, Y, Z and for each band.
+///
+/// It is exact where T is a parabola over three bands. Where S is no guide (its lines lie too close to a common edge of two
+/// bands, or a neighbour is dark) the parabola is a line, or a constant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BandWeights {
+    /// X, Y, Z per band.
+    xyz: Vec<[f64; 3]>,
+    /// Band by band: the first band that it is made of, and the weights of this and the next ones.
+    bands: Vec<(usize, [f64; 3])>,
+}
+
+/// A lamp gives light where the lamp that an image was rendered with gives none, so that nothing is known there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DarkBand {
+    /// Lower end of the band, nm.
+    pub from_nm: f64,
+    /// Upper end of the band, nm.
+    pub to_nm: f64,
+}
+
+impl BandWeights {
+    /// For light whose lamp is not known: its own spectrum takes the transfer's place.
+    pub fn observed(grid: &BandGrid, observer: Observer) -> Self {
+        let (weights, _) = Self::of_powers(grid, &|_| 1.0, &|_| 1.0, observer);
+        weights
+    }
+
+    /// For light of the lamp `before` that is to be light of the lamp `after`; both cover the grid.
+    ///
+    /// # Errors
+    /// The first band in which only `after` gives light.
+    pub fn new(
+        grid: &BandGrid,
+        before: &Tabulated,
+        after: &Tabulated,
+        observer: Observer,
+    ) -> Result<Self, DarkBand> {
+        let (before, after) = (|nm| before.clamped_at(nm), |nm| after.clamped_at(nm));
+        let (weights, dark) = Self::of_powers(grid, &before, &after, observer);
+        dark.map_or(Ok(weights), Err)
+    }
+
+    /// The weights, and the first band in which only the lamp `after` gives light, where they are infinite.
+    fn of_powers(
+        grid: &BandGrid,
+        before: &dyn Fn(f64) -> f64,
+        after: &dyn Fn(f64) -> f64,
+        observer: Observer,
+    ) -> (Self, Option<DarkBand>) {
+        let lamp = Lamp::new(grid, before);
+        let scale = luminous_scale(observer);
+        let mut xyz = vec![[0.0; 3]; lamp.means.len()];
+        let (mut bands, mut dark) = (Vec::new(), None);
+        for band in 0..lamp.means.len() {
+            let (from_nm, to_nm) = ends_of(grid, band);
+            let stencil = lamp.stencil(band);
+            let mut own = [0.0; 3];
+            integrate(from_nm, to_nm, |nm, d_nm| {
+                let light = after(nm) * d_nm;
+                let shares = stencil.shares((nm - grid.centre_nm(band as u32)) / grid.width_nm());
+                let seen = observer.at(nm);
+                for (i, share) in shares.into_iter().enumerate() {
+                    if light != 0.0 && share != 0.0 {
+                        let transfer = light * share / lamp.means[stencil.first + i];
+                        own[i] += transfer / grid.width_nm();
+                        let sums = &mut xyz[stencil.first + i];
+                        *sums =
+                            std::array::from_fn(|axis| sums[axis] + scale * transfer * seen[axis]);
+                    }
+                }
+            });
+            if dark.is_none() && !own.iter().all(|weight| weight.is_finite()) {
+                dark = Some(DarkBand { from_nm, to_nm });
+            }
+            bands.push((stencil.first, own));
+        }
+        (Self { xyz, bands }, dark)
+    }
+
+    /// XYZ, Y in cd/m² up to the scene's scale, that a value of 1 in each band adds.
+    pub fn weights(&self) -> &[[f64; 3]] {
+        &self.xyz
+    }
+
+    /// XYZ, Y in cd/m² up to the scene's scale, of one value of radiance per band.
+    ///
+    /// # Panics
+    /// When there is not one value per band.
+    pub fn xyz(&self, radiance: &[f32]) -> [f64; 3] {
+        assert_eq!(radiance.len(), self.xyz.len(), "one value per band");
+        let mut xyz = [0.0; 3];
+        for (&value, weight) in radiance.iter().zip(&self.xyz) {
+            for (sum, w) in xyz.iter_mut().zip(weight) {
+                *sum += f64::from(value) * w;
+            }
+        }
+        xyz
+    }
+
+    /// The mean radiance over each band under the new lamp; nowhere below 0.
+    ///
+    /// # Panics
+    /// When there is not one value per band.
+    pub fn relit<'a>(&'a self, radiance: &'a [f32]) -> impl Iterator<Item = f64> + 'a {
+        assert_eq!(radiance.len(), self.bands.len(), "one value per band");
+        self.bands.iter().map(|(first, weights)| {
+            let values = radiance[*first..].iter().zip(weights);
+            let sum: f64 = values.map(|(&value, w)| f64::from(value) * w).sum();
+            sum.max(0.0)
+        })
+    }
+}
+
+/// Kₘ, and for observers other than that of 1931 what makes an equal-energy radiance of 1 as bright as to that one: an
+/// exposure then means the same for all of them.
+fn luminous_scale(observer: Observer) -> f64 {
+    if observer == Observer::Cie1931Deg2 {
+        return KM_LUMENS_PER_WATT;
+    }
+    let sum: f64 = (380..=780).map(|nm| observer.at(f64::from(nm))[1]).sum();
+    equal_energy_luminance() / sum
+}
+
+fn ends_of(grid: &BandGrid, band: usize) -> (f64, f64) {
+    let at = |offset| grid.wavelength_nm(band as u32, offset);
+    (at(0.0), at(1.0))
+}
+
+/// Calls `add` with wavelengths and what they stand for, by Simpson's rule between the whole nanometres.
+fn integrate(from_nm: f64, to_nm: f64, mut add: impl FnMut(f64, f64)) {
+    let mut low = from_nm;
+    while low < to_nm {
+        let high = (low.floor() + 1.0).min(to_nm);
+        let sixth = (high - low) / 6.0;
+        add(low, sixth);
+        add(f64::midpoint(low, high), 4.0 * sixth);
+        add(high, sixth);
+        low = high;
+    }
+}
+
+/// A lamp as the bands see it.
+struct Lamp {
+    /// Its mean over each band.
+    means: Vec<f64>,
+    /// Its centroid in each band, in band widths from the first band's centre.
+    centroids: Vec<f64>,
+    /// The mean square of the place about the centroid, likewise.
+    spreads: Vec<f64>,
+}
+
+impl Lamp {
+    fn new(grid: &BandGrid, power: &dyn Fn(f64) -> f64) -> Self {
+        let moments = (0..grid.count()).map(|band| {
+            let (from_nm, to_nm) = ends_of(grid, band as usize);
+            let mut moments = [0.0; 3];
+            integrate(from_nm, to_nm, |nm, d_nm| {
+                let place = (nm - grid.centre_nm(band)) / grid.width_nm();
+                let power = power(nm) * d_nm / grid.width_nm();
+                let powers = [power, power * place, power * place * place];
+                moments = std::array::from_fn(|i| moments[i] + powers[i]);
+            });
+            moments
+        });
+        let moments: Vec<[f64; 3]> = moments.collect();
+        let mean = |m: &[f64; 3], i: usize| if m[0] > 0.0 { m[i] / m[0] } else { 0.0 };
+        let places = moments.iter().zip(0..);
+        Self {
+            means: moments.iter().map(|m| m[0]).collect(),
+            centroids: places
+                .map(|(m, band)| mean(m, 1) + f64::from(band))
+                .collect(),
+            spreads: moments
+                .iter()
+                .map(|m| mean(m, 2) - mean(m, 1).powi(2))
+                .collect(),
+        }
+    }
+
+    /// How the transfer in a band follows from bands.
+    fn stencil(&self, band: usize) -> Stencil {
+        let count = self.means.len();
+        if count >= 3 && self.means[band] > 0.0 {
+            let first = band.saturating_sub(1).min(count - 3);
+            if let Some(stencil) = self
+                .parabola(band, first)
+                .or_else(|| self.line(band, first))
+            {
+                return stencil;
+            }
+        }
+        Stencil::constant(band, count)
+    }
+
+    /// The parabola whose weighted means over three bands are theirs.
+    fn parabola(&self, band: usize, first: usize) -> Option<Stencil> {
+        let is_lit = |i: &usize| self.means[*i] > 0.0;
+        let apart = |i: usize| self.centroids[i + 1] - self.centroids[i] >= MIN_APART;
+        if !(first..first + 3).all(|i| is_lit(&i)) || !apart(first) || !apart(first + 1) {
+            return None;
+        }
+        // Means of 1, u and u², with u from the band's centre.
+        let rows: [[f64; 3]; 3] = std::array::from_fn(|i| {
+            let u = self.centroids[first + i] - band as f64;
+            [1.0, u, u * u + self.spreads[first + i]]
+        });
+        inverse(&rows).map(|coefficients| Stencil {
+            first,
+            coefficients,
+        })
+    }
+
+    /// The line through the band's weighted mean with the slope of its neighbours, or towards the one that is lit.
+    fn line(&self, band: usize, first: usize) -> Option<Stencil> {
+        let pairs = [
+            (first, first + 2),
+            (first, first + 1),
+            (first + 1, first + 2),
+        ];
+        let usable = |&(low, high): &(usize, usize)| {
+            let is_lit = self.means[low] > 0.0 && self.means[high] > 0.0;
+            is_lit && self.centroids[high] - self.centroids[low] >= MIN_APART
+        };
+        let (low, high) = pairs.into_iter().find(usable)?;
+        let apart = self.centroids[high] - self.centroids[low];
+        let u = self.centroids[band] - band as f64;
+        let mut stencil = Stencil::constant(band, first + 3);
+        for (place, slope) in [(low - first, -1.0 / apart), (high - first, 1.0 / apart)] {
+            stencil.coefficients[1][place] += slope;
+            stencil.coefficients[0][place] -= slope * u;
+        }
+        Some(stencil)
+    }
+}
+
+/// Centroids of bands that are nearer than this, in band widths, give no slope between them: noise would grow more than twofold.
+const MIN_APART: f64 = 0.5;
+
+/// The transfer in a band as a polynomial of the place in the band, its coefficients linear in the transfers of three bands.
+struct Stencil {
+    /// The first of the bands.
+    first: usize,
+    /// Of 1, u and u², for each of the bands.
+    coefficients: [[f64; 3]; 3],
+}
+
+impl Stencil {
+    /// The band's own transfer.
+    fn constant(band: usize, count: usize) -> Self {
+        let first = band.saturating_sub(1).min(count.saturating_sub(3));
+        let mut coefficients = [[0.0; 3]; 3];
+        coefficients[0][band - first] = 1.0;
+        Self {
+            first,
+            coefficients,
+        }
+    }
+
+    /// The share of each of the bands in the transfer at `u`, in band widths from the band's centre.
+    fn shares(&self, u: f64) -> [f64; 3] {
+        let [one, slope, bend] = &self.coefficients;
+        std::array::from_fn(|i| one[i] + u * (slope[i] + u * bend[i]))
+    }
+}
+
+/// The inverse of a matrix, by cofactors; `None` where it has none.
+fn inverse(m: &[[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
+    let cofactor = |i: usize, j: usize| {
+        let (a, b) = ((i + 1) % 3, (i + 2) % 3);
+        let (c, d) = ((j + 1) % 3, (j + 2) % 3);
+        m[a][c] * m[b][d] - m[a][d] * m[b][c]
+    };
+    let determinant: f64 = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum();
+    let inverse = std::array::from_fn(|i| std::array::from_fn(|j| cofactor(j, i) / determinant));
+    (determinant.abs() > 1e-6).then_some(inverse)
+}
+
+#[cfg(test)]
+mod tests;
