@@ -1,6 +1,7 @@
 //! The `pellicle` command: arguments, progress and errors; the work is done by the library.
 
 mod bench;
+mod develop;
 mod devices;
 mod film;
 mod lamp;
@@ -27,6 +28,8 @@ struct Arguments {
 enum Command {
     /// Render a scene to a picture (PNG) and a spectral image (EXR)
     Render(render::Arguments),
+    /// Develop a spectral image into a picture for a display
+    Develop(develop::Arguments),
     /// Validate a scene without rendering it
     Check {
         /// The scene file
@@ -47,6 +50,7 @@ fn main() -> ExitCode {
     print::keep_lines_whole();
     let result = match Arguments::parse().command {
         Command::Render(arguments) => render::run(&arguments),
+        Command::Develop(arguments) => develop::run(&arguments),
         Command::Check { scene } => check(&scene),
         Command::Film(arguments) => film::run(&arguments),
         Command::Devices => devices::print(),
