@@ -1,8 +1,8 @@
 //! `pellicle compare` and `pellicle inspect` from end to end, as a user runs them.
 
 use color::BandWeights;
-use color::RgbImage8;
 use color::spectral_exr::{self, Metadata, WriteOptions};
+use color::{DevelopSettings, RgbImage8};
 use pellicle::coating::{Angle, FilmFitting, Stack, View};
 use pellicle_tests::command::{Place, Ran};
 use pellicle_tests::wgsl::root;
@@ -132,11 +132,9 @@ fn pictures_compare_with_each_other_and_with_spectral_images() {
     assert!((found["psnr_db"].as_f64().unwrap() - psnr).abs() < 1e-9);
 
     write(&place.path("c.exr"), &grey([6, 4], 8, None));
-    color::png::write(
-        &place.path("c.png"),
-        &color::develop(&grey([6, 4], 8, None), 1.0),
-    )
-    .unwrap();
+    let settings = DevelopSettings::srgb(1.0);
+    let developed = color::develop(&grey([6, 4], 8, None), &settings).unwrap();
+    color::png::write(&place.path("c.png"), &developed).unwrap();
     // sRGB clips what equal energy has of red: the rest is a rounding of the codes.
     let alike = json(place.run("compare c.exr c.png --exposure 1 --format json"));
     assert!(alike["delta_e_2000"]["max"].as_f64().unwrap() < 1.0);

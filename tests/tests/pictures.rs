@@ -1,14 +1,15 @@
 //! Developed pictures against goldens, by FLIP. A missing golden fails; bless anew, after looking at the pictures, with
 //! `PELLICLE_BLESS=1 cargo test -p pellicle-tests --test pictures`.
 
-use color::RgbImage8;
 use color::compare::{Picture, flip};
+use color::{DevelopSettings, RgbImage8};
 use pellicle_tests::device;
 use pellicle_tests::scenes::file;
 use pellicle_tests::tolerances::PICTURES;
 use pellicle_tests::wgsl::root;
 use scene::SceneFile;
 use scene::description::{Index, Material};
+use spectra::SpectralImage;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -35,7 +36,12 @@ fn rendered(gpu: &gpu::Gpu, mut file: SceneFile, size: [u32; 2]) -> RgbImage8 {
         .validate()
         .unwrap_or_else(|problems| panic!("{problems}"));
     let image = gpu::render(gpu, &scene, &mut |_| ControlFlow::Continue(())).unwrap();
-    color::develop(&image, scene.settings().exposure_ev)
+    developed(&image, &scene)
+}
+
+fn developed(image: &SpectralImage, scene: &scene::Scene) -> RgbImage8 {
+    let settings = DevelopSettings::srgb(scene.settings().exposure_ev);
+    color::develop(image, &settings).unwrap()
 }
 
 /// The same by the reference, with the same random numbers.
@@ -47,7 +53,7 @@ fn rendered_by_reference(mut file: SceneFile, size: [u32; 2]) -> RgbImage8 {
         .unwrap_or_else(|problems| panic!("{problems}"))
         .rounded_to_f32();
     let image = reference::render(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
-    color::develop(&image, scene.settings().exposure_ev)
+    developed(&image, &scene)
 }
 
 fn golden_path(name: &str) -> PathBuf {

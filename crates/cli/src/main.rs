@@ -3,6 +3,7 @@
 mod bench;
 mod color;
 mod compare;
+mod develop;
 mod devices;
 mod display;
 mod film;
@@ -32,6 +33,8 @@ struct Arguments {
 enum Command {
     /// Render a scene to a picture (PNG) and a spectral image (EXR)
     Render(render::Arguments),
+    /// Develop a spectral image into a picture for a display
+    Develop(develop::Arguments),
     /// Validate a scene without rendering it
     Check {
         /// The scene file
@@ -56,6 +59,7 @@ fn main() -> ExitCode {
     print::keep_lines_whole();
     let result = match Arguments::parse().command {
         Command::Render(arguments) => render::run(&arguments),
+        Command::Develop(arguments) => develop::run(&arguments),
         Command::Check { scene } => check(&scene),
         Command::Film(arguments) => film::run(&arguments),
         Command::Color(arguments) => color::run(&arguments),

@@ -73,17 +73,17 @@ impl Outputs {
         }
     }
 
-    /// Develops and writes.
-    pub(crate) fn write(&self, image: &SpectralImage, metadata: &Metadata) -> miette::Result<()> {
-        if !self.pictures.is_empty() {
-            let picture = color::develop(image, metadata.exposure_ev);
-            for path in &self.pictures {
-                color::png::write(path, &picture)
-                    .into_diagnostic()
-                    .wrap_err_with(|| format!("{} was not written", path.display()))?;
-                print::note(format_args!("wrote {}", path.display()));
-            }
-        }
+    /// The pictures among them.
+    pub(crate) fn pictures(&self) -> &[PathBuf] {
+        &self.pictures
+    }
+
+    /// Writes the spectral images.
+    pub(crate) fn write_spectral(
+        &self,
+        image: &SpectralImage,
+        metadata: &Metadata,
+    ) -> miette::Result<()> {
         for path in &self.spectral {
             color::spectral_exr::write(path, image, metadata, WriteOptions::default())
                 .into_diagnostic()

@@ -1,5 +1,6 @@
 //! `pellicle render`.
 
+use crate::develop::{self, FOV_SETTING, OfImage};
 use crate::output::Outputs;
 use crate::{print, progress};
 use clap::ValueEnum;
@@ -32,6 +33,8 @@ pub(crate) struct Arguments {
     frames: Option<Range<u32>>,
     #[command(flatten)]
     overrides: Overrides,
+    #[command(flatten)]
+    developing: develop::Options,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
@@ -110,6 +113,8 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     // What is wrong with the scene is told before anything is opened.
     let scene = file.validate()?;
     let outputs = Outputs::new(&arguments.scene, &arguments.output)?;
+    let developing = &arguments.developing;
+    developing.check(outputs.pictures(), of_image(&scene))?;
     let renderer = Renderer::open(&arguments.backend()?).into_diagnostic()?;
     if let Renderer::Cpu {
         instead_of_gpu: Some(reason),
@@ -119,8 +124,8 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     }
     print::note(format_args!("{}", renderer.description()));
     match &arguments.frames {
-        None => render_one(&renderer, &scene, &outputs, ""),
-        Some(frames) => render_frames(&renderer, file, &outputs, frames.clone()),
+        None => render_one(&renderer, &scene, &outputs, developing, ""),
+        Some(frames) => render_frames(&renderer, file, &outputs, developing, frames.clone()),
     }
 }
 
@@ -129,6 +134,7 @@ fn render_frames(
     renderer: &Renderer,
     mut file: SceneFile,
     outputs: &Outputs,
+    developing: &develop::Options,
     frames: Range<u32>,
 ) -> miette::Result<()> {
     let (start_s, step_s) = {
@@ -152,7 +158,8 @@ fn render_frames(
         let scene = scene_of(frame)?;
         let time = shown_time(scene.settings().time_s, step_s);
         let heading = format!("frame {frame} of {first} to {last} at {time} s, ");
-        render_one(renderer, &scene, &outputs.of_frame(frame, last), &heading)
+        let outputs = outputs.of_frame(frame, last);
+        render_one(renderer, &scene, &outputs, developing, &heading)
             .wrap_err_with(|| format!("frame {frame} failed"))?;
     }
     Ok(())
@@ -176,6 +183,7 @@ fn render_one(
     renderer: &Renderer,
     scene: &Scene,
     outputs: &Outputs,
+    developing: &develop::Options,
     heading: &str,
 ) -> miette::Result<()> {
     let settings = scene.settings();
@@ -198,7 +206,16 @@ fn render_one(
         settings.samples,
         total as f64 / seconds * 1e-6,
     ));
-    outputs.write(&image, &metadata(scene, renderer))
+    developing.write(&image, of_image(scene), image.height(), outputs.pictures())?;
+    outputs.write_spectral(&image, &metadata(scene, renderer))
+}
+
+/// What developing asks of an image.
+fn of_image(scene: &Scene) -> OfImage {
+    OfImage {
+        exposure_ev: scene.settings().exposure_ev,
+        fov_deg: scene.camera().fov_deg(),
+    }
 }
 
 fn samples_of(settings: &RenderSettings) -> u64 {
@@ -219,10 +236,13 @@ fn metadata(scene: &Scene, renderer: &Renderer) -> Metadata {
             format!("{:?}", settings.sampling).to_lowercase(),
         ),
     ];
+    let fov = scene.camera().fov_deg();
+    let fov = fov.map(|fov| (FOV_SETTING, format!("{fov:.6}")));
     Metadata {
         exposure_ev: settings.exposure_ev,
         settings: said
             .into_iter()
+            .chain(fov)
             .map(|(key, value)| (key.to_owned(), value))
             .collect(),
         ..Metadata::default()

@@ -3,10 +3,9 @@
 //! ```text
 //! spectra::SpectralImage
 //!   -> relight        its light groups under other lamps, seen by another observer
-//!   -> xyz            XYZ of a pixel, relative to an equal-energy radiance of 1, times 2^EV
-//!   -> colorimetry    linear sRGB, then the transfer curve
-//!   -> develop        the whole image: 8-bit RGB
-//!   -> png            a PNG file that says which colour space it is in
+//!   -> develop        exposure, white adaptation, glare, gamut mapping, the display's response, codes
+//!   -> png            a PNG file of 8 or 16 bits that says which display it is for (cICP, ICC)
+//!   -> rgb_exr        an OpenEXR file of linear red, green and blue
 //!   -> spectral_exr   a spectral OpenEXR file, from which all of the above can be done again
 //!   -> probe          the means of a region
 //!   -> compare        how far two images are from each other
@@ -15,12 +14,15 @@
 //! Arithmetic is `f64`. Nothing here knows how the image was rendered. Files are written under another
 //! name beside the one asked for and renamed when complete, so a failure leaves no half file.
 
+mod cicp;
 pub mod compare;
 pub mod develop;
+pub mod icc;
 mod pending_file;
 pub mod png;
 mod probe;
 mod relight;
+pub mod rgb_exr;
 mod rgb_image;
 pub mod spectral_exr;
 pub mod xyz;

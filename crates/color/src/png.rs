@@ -1,13 +1,17 @@
 //! PNG files that say which colour space they are in.
 
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use colorimetry::Display;
 use thiserror::Error;
 
-use crate::RgbImage8;
+use crate::develop::Code;
+use crate::icc::{self, IccError};
 use crate::pending_file::PendingFile;
+use crate::{RgbImage, RgbImage8, cicp};
 
 /// Why a PNG file was not written. No file is left behind.
 #[derive(Debug, Error)]
@@ -29,11 +33,15 @@ pub enum WritePngError {
         /// What the encoder said.
         source: ::png::EncodingError,
     },
+    /// No profile can be made of the display.
+    #[error("cannot say in {path} which display it is for")]
+    Profile {
+        /// The file asked for.
+        path: PathBuf,
+        /// Why not.
+        source: IccError,
+    },
 }
-
-/// Coding-independent code points of sRGB: BT.709 primaries (1), the sRGB curve (13), RGB (0), full
-/// range (1); ITU-T H.273 and the PNG specification, third edition, 11.3.2.6.
-const CICP_SRGB: [u8; 4] = [1, 13, 0, 1];
 
 /// Writes an 8-bit RGB PNG with an sRGB chunk, for readers of the third edition a cICP chunk that
 /// says the same, and the software's name.
@@ -41,13 +49,95 @@ const CICP_SRGB: [u8; 4] = [1, 13, 0, 1];
 /// # Errors
 /// When the file cannot be written or the picture has no pixels.
 pub fn write(path: &Path, image: &RgbImage8) -> Result<(), WritePngError> {
+    write_tagged(path, image, &Tags::srgb())
+}
+
+/// Writes an RGB PNG of 8 or 16 bits per channel whose codes are those of `display`.
+///
+/// The file says so with the code points of ITU-R H.273 (cICP) where the display has them, which the third edition of PNG puts
+/// first; with an ICC profile ([`icc`](crate::icc)), which all software knows; and for sRGB with the sRGB chunk in its place.
+///
+/// # Errors
+/// As [`write()`]; and when the display's figures do not fit a profile.
+pub fn write_for_display<C: PngCode>(
+    path: &Path,
+    image: &RgbImage<C>,
+    display: &Display,
+) -> Result<(), WritePngError> {
+    let tags = Tags::of(display).map_err(|source| WritePngError::Profile {
+        path: path.to_owned(),
+        source,
+    })?;
+    write_tagged(path, image, &tags)
+}
+
+/// What a file says about its colour space.
+struct Tags {
+    is_srgb: bool,
+    cicp: Option<[u8; 4]>,
+    icc: Option<Vec<u8>>,
+}
+
+impl Tags {
+    fn srgb() -> Self {
+        Self {
+            is_srgb: true,
+            cicp: Some(cicp::SRGB),
+            icc: None,
+        }
+    }
+
+    fn of(display: &Display) -> Result<Self, IccError> {
+        let cicp = cicp::code_points(display);
+        if cicp == Some(cicp::SRGB) {
+            return Ok(Self::srgb());
+        }
+        Ok(Self {
+            is_srgb: false,
+            cicp,
+            icc: Some(icc::profile(display)?),
+        })
+    }
+}
+
+/// A code that a PNG file can hold.
+pub trait PngCode: Code {
+    /// Bits of a code.
+    const DEPTH: ::png::BitDepth;
+
+    /// The codes as the file has them.
+    fn bytes(codes: &[Self]) -> Cow<'_, [u8]>;
+}
+
+impl PngCode for u8 {
+    const DEPTH: ::png::BitDepth = ::png::BitDepth::Eight;
+
+    fn bytes(codes: &[Self]) -> Cow<'_, [u8]> {
+        codes.into()
+    }
+}
+
+impl PngCode for u16 {
+    const DEPTH: ::png::BitDepth = ::png::BitDepth::Sixteen;
+
+    fn bytes(codes: &[Self]) -> Cow<'_, [u8]> {
+        let bytes = codes.iter().flat_map(|code| code.to_be_bytes());
+        bytes.collect::<Vec<u8>>().into()
+    }
+}
+
+fn write_tagged<C: PngCode>(
+    path: &Path,
+    image: &RgbImage<C>,
+    tags: &Tags,
+) -> Result<(), WritePngError> {
     let file_error = |source| WritePngError::File {
         path: path.to_owned(),
         source,
     };
     let pending = PendingFile::create(path).map_err(file_error)?;
     let file = pending.handle().map_err(file_error)?;
-    encode(file, image).map_err(|error| match error {
+    encode(file, image, tags).map_err(|error| match error {
         ::png::EncodingError::IoError(source) => file_error(source),
         source => WritePngError::Encode {
             path: path.to_owned(),
@@ -57,16 +147,26 @@ pub fn write(path: &Path, image: &RgbImage8) -> Result<(), WritePngError> {
     pending.commit().map_err(file_error)
 }
 
-fn encode(file: File, image: &RgbImage8) -> Result<(), ::png::EncodingError> {
+fn encode<C: PngCode>(
+    file: File,
+    image: &RgbImage<C>,
+    tags: &Tags,
+) -> Result<(), ::png::EncodingError> {
+    let mut info = ::png::Info::with_size(image.width(), image.height());
+    info.color_type = ::png::ColorType::Rgb;
+    info.bit_depth = C::DEPTH;
+    info.icc_profile = tags.icc.as_ref().map(Into::into);
     let mut buffered = BufWriter::new(file);
-    let mut encoder = ::png::Encoder::new(&mut buffered, image.width(), image.height());
-    encoder.set_color(::png::ColorType::Rgb);
-    encoder.set_depth(::png::BitDepth::Eight);
-    encoder.set_source_srgb(::png::SrgbRenderingIntent::RelativeColorimetric);
+    let mut encoder = ::png::Encoder::with_info(&mut buffered, info)?;
+    if tags.is_srgb {
+        encoder.set_source_srgb(::png::SrgbRenderingIntent::RelativeColorimetric);
+    }
     encoder.add_text_chunk("Software".to_owned(), crate::spectral_exr::software())?;
     let mut writer = encoder.write_header()?;
-    writer.write_chunk(::png::chunk::ChunkType(*b"cICP"), &CICP_SRGB)?;
-    writer.write_image_data(image.data())?;
+    if let Some(cicp) = tags.cicp {
+        writer.write_chunk(::png::chunk::ChunkType(*b"cICP"), &cicp)?;
+    }
+    writer.write_image_data(&C::bytes(image.data()))?;
     writer.finish()?;
     buffered.flush()?;
     Ok(())
@@ -123,6 +223,35 @@ mod tests {
         let types = chunks(&std::fs::read(&path).unwrap());
         let place = |name: &str| types.iter().position(|t| t == name).unwrap();
         assert!(place("sRGB") < place("IDAT") && place("cICP") < place("IDAT"));
+    }
+
+    /// Codes, and what the file says of their space, for every display that comes with this software.
+    #[test]
+    fn every_display_has_its_tags() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("picture.png");
+        let codes: Vec<u16> = (0..3 * 11 * 7).map(|i: u16| i.wrapping_mul(7919)).collect();
+        let picture = RgbImage::new(11, 7, codes.clone()).unwrap();
+        for name in Display::names() {
+            let display = Display::named(name).unwrap();
+            write_for_display(&path, &picture, &display).unwrap();
+            let decoder = ::png::Decoder::new(io::BufReader::new(File::open(&path).unwrap()));
+            let mut reader = decoder.read_info().unwrap();
+            let mut data = vec![0; reader.output_buffer_size().unwrap()];
+            reader.next_frame(&mut data).unwrap();
+            let found = data
+                .chunks_exact(2)
+                .map(|b| u16::from_be_bytes([b[0], b[1]]));
+            assert!(found.eq(codes.iter().copied()), "{name}");
+
+            let info = reader.info();
+            let points = info.coding_independent_code_points;
+            let expected = cicp::code_points(&display);
+            assert_eq!(points.map(|p| p.color_primaries), expected.map(|p| p[0]));
+            assert_eq!(points.map(|p| p.transfer_function), expected.map(|p| p[1]));
+            assert_eq!(info.srgb.is_some(), name == "srgb", "{name}");
+            assert_eq!(info.icc_profile.is_some(), name != "srgb", "{name}");
+        }
     }
 
     #[test]

@@ -2,11 +2,12 @@
 //!
 //! `cargo run --release --example build_a_scene [FOLDER]`
 
+use pellicle::color::{self, DevelopSettings};
 use pellicle::scene::Scene;
 use pellicle::scene::description::{
     Camera, Description, Emission, Environment, Index, Material, Object, Render, Thickness,
 };
-use pellicle::{Backend, Renderer, color};
+use pellicle::{Backend, Renderer};
 use std::error::Error;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -41,6 +42,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 extrapolate: Default::default(),
                 scale: 1.0,
             },
+            light_group: None,
         }),
     };
     for i in 0..COUNT {
@@ -68,7 +70,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let image = renderer.render(&scene, &mut |_samples| ControlFlow::Continue(()))?;
 
     let path = folder.join("build_a_scene.png");
-    let picture = color::develop(&image, scene.settings().exposure_ev);
+    let picture = color::develop(&image, &DevelopSettings::srgb(scene.settings().exposure_ev))?;
     color::png::write(&path, &picture)?;
     for i in 0..COUNT {
         let thickness = 120 + 60 * i;

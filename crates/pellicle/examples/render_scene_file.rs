@@ -3,8 +3,9 @@
 //! `cargo run --release --example render_scene_file [SCENE [FOLDER]]`
 
 use pellicle::color::spectral_exr::{self, Metadata, WriteOptions};
+use pellicle::color::{self, DevelopSettings};
 use pellicle::scene::SceneFile;
-use pellicle::{Backend, Renderer, color};
+use pellicle::{Backend, Renderer};
 use std::error::Error;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -36,7 +37,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let exr = folder.join("render_scene_file.exr");
     spectral_exr::write(&exr, &image, &metadata, WriteOptions::default())?;
     let png = folder.join("render_scene_file.png");
-    color::png::write(&png, &color::develop(&image, exposure_ev))?;
+    let picture = color::develop(&image, &DevelopSettings::srgb(exposure_ev))?;
+    color::png::write(&png, &picture)?;
     println!("wrote {} and {}", exr.display(), png.display());
     Ok(())
 }

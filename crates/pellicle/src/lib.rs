@@ -8,7 +8,7 @@
 //!   -> scene::Scene           validated: spectra as tables over the bands, nothing left to look up
 //!   -> Renderer::render       paths traced on a GPU (or on the CPU in f64), spectra evaluated along them
 //!   -> spectra::SpectralImage radiance per pixel and band, its variance, its XYZ
-//!   -> color::develop         display RGB -> color::png   |   color::spectral_exr
+//!   -> color::develop         codes of a display -> color::png   |   color::spectral_exr
 //! ```
 //!
 //! A [`scene::Scene`] comes from a file ([`scene::SceneFile`]) or from a [`scene::description::Description`] that a
@@ -25,7 +25,8 @@
 //! let image = renderer.render(&scene, &mut |_samples_done| std::ops::ControlFlow::Continue(()))?;
 //! let spectrum: &[f32] = image.pixel(320, 240); // one value per band
 //! # let _ = spectrum;
-//! color::png::write("soap_bubble.png".as_ref(), &color::develop(&image, 0.0))?;
+//! let picture = color::develop(&image, &color::DevelopSettings::srgb(scene.settings().exposure_ev))?;
+//! color::png::write("soap_bubble.png".as_ref(), &picture)?;
 //! # Ok(())
 //! # }
 //! ```

@@ -34,3 +34,13 @@ pub enum Projection {
         half_height: f64,
     },
 }
+
+impl Camera {
+    /// Height of the view in degrees; `None` where rays are parallel.
+    pub fn fov_deg(&self) -> Option<f64> {
+        match self.projection {
+            Projection::Perspective { half_height } => Some(2.0 * half_height.atan().to_degrees()),
+            Projection::Orthographic { .. } => None,
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! ICC profiles of displays.
+
+use colorimetry::matrix::product;
+use colorimetry::{Adaptation, Display};
+use moxcms::{
+    ColorDateTime, ColorProfile, DataColorSpace, LocalizableString, Matrix3d, ProfileClass,
+    ProfileText, RenderingIntent, ToneReprCurve, Xyzd,
+};
+use thiserror::Error;
+
+/// Why a display has no profile.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum IccError {
+    /// The encoder refused it.
+    #[error("no ICC profile can be made of the display {0}")]
+    Encode(String, #[source] moxcms::CmsError),
+}
+
+/// XYZ of the profile connection space's white, D50 (ICC.1:2022, 6.3.4.3).
+const D50: [f64; 3] = [0.9642, 1.0, 0.8249];
+/// Points of a response curve; between them readers interpolate.
+const CURVE_POINTS: u16 = 4096;
+
+/// A display's profile: a matrix and a curve per channel (ICC.1:2022, 8.3.3).
+///
+/// The primaries are adapted from the display's white to D50 by Bradford's matrix, which the profile holds too. Curves are tables
+/// of what the channels make of their codes; a display that goes beyond its white (PQ) has 1 at its peak. What the screen
+/// shows at code 0 is left out, as relative colorimetry has it.
+///
+/// # Errors
+/// When a figure does not fit the format.
+pub fn profile(display: &Display) -> Result<Vec<u8>, IccError> {
+    let white = display.white_xyz();
+    let to_d50 = Adaptation::Bradford.matrix(white, D50);
+    let colorants = product(&to_d50, display.xyz_from_rgb());
+    let colorant = |i: usize| Xyzd::new(colorants[0][i], colorants[1][i], colorants[2][i]);
+    let curve = |channel: usize| {
+        let response = &display.responses()[channel];
+        let light = |i: u16| response.light(f64::from(i) / f64::from(CURVE_POINTS - 1));
+        let value = |i| (light(i) / display.peak()).clamp(0.0, 1.0) * f64::from(u16::MAX);
+        Some(ToneReprCurve::Lut(
+            (0..CURVE_POINTS).map(|i| value(i).round() as u16).collect(),
+        ))
+    };
+    let mut profile = ColorProfile::new_srgb();
+    profile.pcs = DataColorSpace::Xyz;
+    profile.color_space = DataColorSpace::Rgb;
+    profile.profile_class = ProfileClass::DisplayDevice;
+    profile.rendering_intent = RenderingIntent::RelativeColorimetric;
+    profile.cicp = None;
+    [
+        profile.red_colorant,
+        profile.green_colorant,
+        profile.blue_colorant,
+    ] = [0, 1, 2].map(colorant);
+    [profile.red_trc, profile.green_trc, profile.blue_trc] = [0, 1, 2].map(curve);
+    profile.white_point = xyzd(D50);
+    profile.media_white_point = Some(xyzd(D50));
+    profile.chromatic_adaptation = Some(Matrix3d { v: to_d50 });
+    profile.description = text(display.name());
+    profile.copyright = text("no copyright, use freely");
+    // The same display has the same profile, whenever it is written.
+    profile.creation_date_time = ColorDateTime {
+        year: 2026,
+        month: 1,
+        day_of_the_month: 1,
+        hours: 0,
+        minutes: 0,
+        seconds: 0,
+    };
+    let encoded = profile.encode();
+    encoded.map_err(|source| IccError::Encode(display.name().to_owned(), source))
+}
+
+fn xyzd([x, y, z]: [f64; 3]) -> Xyzd {
+    Xyzd::new(x, y, z)
+}
+
+fn text(value: &str) -> Option<ProfileText> {
+    let (language, country) = ("en".to_owned(), "US".to_owned());
+    let string = LocalizableString::new(language, country, value.to_owned());
+    Some(ProfileText::Localizable(vec![string]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use colorimetry::matrix::times;
+
+    /// What a reader makes of a profile: the display's own light, adapted to D50.
+    #[test]
+    fn a_profile_says_what_the_display_does() {
+        for name in Display::names() {
+            let display = Display::named(name).unwrap();
+            let bytes = profile(&display).unwrap();
+            assert_eq!(bytes, profile(&display).unwrap());
+            let read = ColorProfile::new_from_slice(&bytes).unwrap();
+
+            let colorants = read.colorant_matrix();
+            let back = read.chromatic_adaptation.unwrap().inverse();
+            let white: f64 = colorants.v[1].iter().sum();
+            assert!((white - 1.0).abs() < 1e-4, "{name} {white}");
+            for channel in 0..3 {
+                let column = colorants.v.map(|row| row[channel]);
+                let found = times(&back.v, column);
+                for row in 0..3 {
+                    // Sixteen bits behind the point, and the inverse of nine such numbers.
+                    let expected = display.xyz_from_rgb()[row][channel];
+                    assert!((found[row] - expected).abs() < 2e-4, "{name} {found:?}");
+                }
+            }
+            let Some(ToneReprCurve::Lut(curve)) = &read.green_trc else {
+                panic!("{name}");
+            };
+            let middle = f64::from(curve[2048]) / 65535.0;
+            let expected = display.responses()[1].light(2048.0 / 4095.0) / display.peak();
+            assert!(
+                (middle - expected).abs() < 1e-5,
+                "{name} {middle} {expected}"
+            );
+        }
+    }
+}
