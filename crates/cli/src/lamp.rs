@@ -58,7 +58,8 @@ fn is_file(text: &str) -> bool {
     extension.is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
 }
 
-fn parse_factor(text: &str) -> Result<f64, String> {
+/// What stands behind `*`.
+pub(crate) fn parse_factor(text: &str) -> Result<f64, String> {
     let factor: Result<f64, _> = text.trim().parse();
     factor
         .ok()

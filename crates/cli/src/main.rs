@@ -3,12 +3,22 @@
 mod bench;
 mod devices;
 mod film;
+#[cfg_attr(
+    not(test),
+    expect(dead_code, reason = "for developing images that were rendered before")
+)]
 mod lamp;
 mod materials;
+mod memory;
 mod output;
 mod plot;
 mod print;
 mod progress;
+#[cfg_attr(
+    not(test),
+    expect(dead_code, reason = "for developing images that were rendered before")
+)]
+mod relight;
 mod render;
 
 use clap::{Parser, Subcommand};
@@ -67,7 +77,7 @@ fn check(scene: &std::path::Path) -> miette::Result<()> {
     let validated = pellicle::scene::SceneFile::read(scene)?.validate()?;
     let settings = validated.settings();
     print::result(format_args!(
-        "{}: valid; {}×{} pixels, {} bands, {} samples, {} objects, {} lights",
+        "{}: valid; {}×{} pixels, {} bands, {} samples, {} objects, {} lights; {}",
         scene.display(),
         settings.width,
         settings.height,
@@ -75,5 +85,6 @@ fn check(scene: &std::path::Path) -> miette::Result<()> {
         settings.samples,
         validated.objects().len(),
         validated.lights().len(),
+        memory::of_picture(&validated),
     ))
 }

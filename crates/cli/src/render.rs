@@ -1,7 +1,7 @@
 //! `pellicle render`.
 
 use crate::output::Outputs;
-use crate::{print, progress};
+use crate::{memory, print, progress};
 use clap::ValueEnum;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::color::spectral_exr::Metadata;
@@ -118,6 +118,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
         print::note(format_args!("rendering on the CPU: {reason}"));
     }
     print::note(format_args!("{}", renderer.description()));
+    print::note(format_args!("{}", memory::of_picture(&scene)));
     match &arguments.frames {
         None => render_one(&renderer, &scene, &outputs, ""),
         Some(frames) => render_frames(&renderer, file, &outputs, frames.clone()),

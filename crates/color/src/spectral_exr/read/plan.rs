@@ -2,11 +2,12 @@
 
 use exr::math::Vec2;
 use exr::meta::header::Header;
-use spectra::BandGrid;
+use spectra::{BandGrid, LightGroup};
 
 use super::{Context, ReadExrError};
 use crate::spectral_exr::bands::{grid_of, wavelength_of};
 use crate::spectral_exr::channels::{Content, plain_content, variance_band};
+use crate::spectral_exr::lights;
 use crate::spectral_exr::metadata::range_nm;
 
 /// The layer with the spectrum and what its channels hold.
@@ -20,6 +21,8 @@ pub(super) struct Plan {
     pub(super) grid: BandGrid,
     /// What each channel of the layer holds, `None` where it is passed over.
     pub(super) contents: Vec<Option<Content>>,
+    /// The light groups, at least one.
+    pub(super) light_groups: Vec<LightGroup>,
 }
 
 impl Plan {
@@ -47,15 +50,21 @@ impl Plan {
         {
             return Err(context.unsupported("channels with fewer samples than pixels"));
         }
-        let (grid, contents) = contents(header).map_err(|source| ReadExrError::Bands {
-            path: context.path.to_owned(),
-            source,
-        })?;
+        let light_groups = lights::of_header(header);
+        let (grid, contents) =
+            contents(header, &light_groups).map_err(|source| ReadExrError::Bands {
+                path: context.path.to_owned(),
+                source,
+            })?;
+        if let Some(name) = lights::incomplete(&light_groups, &contents, &grid) {
+            return Err(context.damaged(&format!("the light group {name:?} lacks channels")));
+        }
         Ok(Self {
             layer,
             size: (header.layer_size.width(), header.layer_size.height()),
             grid,
             contents,
+            light_groups,
         })
     }
 
@@ -75,6 +84,7 @@ fn names(header: &Header) -> Vec<String> {
 /// The grid that the channels' names give, and what each channel holds.
 fn contents(
     header: &Header,
+    light_groups: &[LightGroup],
 ) -> Result<(BandGrid, Vec<Option<Content>>), crate::spectral_exr::BandLayoutError> {
     let names = names(header);
     let mut radiances = Vec::new();
@@ -94,7 +104,9 @@ fn contents(
             // Developed again from XYZ when needed.
             Some(Content::Rgb(_)) => None,
             Some(content) => Some(content),
-            None => variance_band(name, &grid).map(Content::Variance),
+            None => variance_band(name, &grid)
+                .map(Content::Variance)
+                .or_else(|| lights::content(name, light_groups, &grid)),
         })
         .collect();
     for (band, &(_, channel)) in radiances.iter().enumerate() {
