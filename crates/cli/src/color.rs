@@ -85,7 +85,7 @@ impl<'a> Found<'a> {
             observer,
             ..
         } = arguments;
-        let display = display::open(&arguments.display)?;
+        let display = display_seen_by(&arguments.display, *observer)?;
         let spectrum = read(arguments)?;
         let rule = arguments.rule.unwrap_or(illuminant.rule);
         if rule == Rule::OneNm && illuminant.rule == Rule::FiveNm {
@@ -234,6 +234,19 @@ impl<'a> Found<'a> {
         }
         value
     }
+}
+
+/// The display as the observer sees it, where that is known.
+fn display_seen_by(name_or_file: &str, observer: Observer) -> miette::Result<Display> {
+    let display = display::open(name_or_file)?;
+    if let Some(seen) = display.seen_by(observer) {
+        return Ok(seen);
+    }
+    print::note(format_args!(
+        "{}: its primaries are known for CIE 1931 alone, RGB take XYZ of {observer} as if they were that observer's",
+        display.name()
+    ));
+    Ok(display)
 }
 
 fn spaced(values: [f64; 3]) -> String {
