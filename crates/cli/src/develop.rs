@@ -1,5 +1,6 @@
 //! `pellicle develop`: a spectral image becomes a picture for a display; and the options by which `render` does the same.
 
+use crate::image_file;
 use crate::lamp;
 use crate::output::check_place;
 use crate::print;
@@ -380,9 +381,11 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     }
     if options.needs_spectra() {
         let (image, metadata) = spectral_exr::read(path).into_diagnostic()?;
+        image_file::tell(path, &metadata);
         write(arguments, &image, image.height(), &metadata)
     } else {
         let (image, metadata) = spectral_exr::read_xyz(path).into_diagnostic()?;
+        image_file::tell(path, &metadata);
         write(arguments, &image, image.height(), &metadata)
     }
 }

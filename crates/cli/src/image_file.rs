@@ -39,10 +39,15 @@ pub(crate) fn spectral(path: &Path) -> miette::Result<(SpectralImage, Metadata)>
     let (image, metadata) = spectral_exr::read(path)
         .into_diagnostic()
         .wrap_err_with(|| format!("{} was not read", path.display()))?;
+    tell(path, &metadata);
+    Ok((image, metadata))
+}
+
+/// Says what reading a file had to assume or change.
+pub(crate) fn tell(path: &Path, metadata: &Metadata) {
     for note in &metadata.notes {
         print::note(format_args!("{} {note}", path.display()));
     }
-    Ok((image, metadata))
 }
 
 /// An exposure that a picture may have.

@@ -89,10 +89,21 @@ pub struct Probe {
     pub deviation: Option<Vec<f64>>,
     /// Mean XYZ, cd/m² up to the scene's scale.
     pub xyz: [f64; 3],
+    /// The share of each of the image's light groups in radiance and XYZ, in their order.
+    pub light_groups: Vec<LightShare>,
     /// Samples of all its pixels.
     pub samples: u64,
     /// Pixels that were left out because something in them is not a number.
     pub left_out: u64,
+}
+
+/// The light of one light group.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LightShare {
+    /// Mean radiance of each band.
+    pub radiance: Vec<f64>,
+    /// Mean XYZ.
+    pub xyz: [f64; 3],
 }
 
 /// The means of a region; of nothing but pixels that are not a number they are not numbers either.
@@ -113,9 +124,14 @@ pub fn probe(image: &SpectralImage, region: Region) -> Result<Probe, RegionError
         });
     }
     let bands = image.bands().count() as usize;
+    let share = LightShare {
+        radiance: vec![0.0; bands],
+        xyz: [0.0; 3],
+    };
     let mut sums = Sums {
         radiance: vec![0.0; bands],
         variance: vec![0.0; bands],
+        light_groups: vec![share; image.light_groups().len()],
         ..Sums::default()
     };
     for y in region.y..region.y + region.height {
@@ -131,6 +147,7 @@ struct Sums {
     radiance: Vec<f64>,
     variance: Vec<f64>,
     xyz: [f64; 3],
+    light_groups: Vec<LightShare>,
     samples: u64,
     count: u64,
     left_out: u64,
@@ -148,13 +165,18 @@ impl Sums {
         }
         self.count += 1;
         self.samples += u64::from(image.samples()[pixel]);
+        for (group, share) in self.light_groups.iter_mut().enumerate() {
+            add(
+                &mut share.radiance,
+                &image.group_radiance(group)[values.clone()],
+            );
+            add(&mut share.xyz, &image.group_xyz(group)[pixel]);
+        }
+        add(&mut self.xyz, &xyz);
         let variance = &image.variance()[values];
         for (band, (&value, &variance)) in radiance.iter().zip(variance).enumerate() {
             self.radiance[band] += f64::from(value);
             self.variance[band] += f64::from(variance);
-        }
-        for (sum, value) in self.xyz.iter_mut().zip(xyz) {
-            *sum += f64::from(value);
         }
     }
 
@@ -167,16 +189,30 @@ impl Sums {
             deviation: knows_noise.then(|| self.variance.iter().map(deviation).collect()),
             radiance: self.radiance.iter().map(|sum| sum / count).collect(),
             xyz: self.xyz.map(|sum| sum / count),
+            light_groups: self
+                .light_groups
+                .iter()
+                .map(|share| LightShare {
+                    radiance: share.radiance.iter().map(|sum| sum / count).collect(),
+                    xyz: share.xyz.map(|sum| sum / count),
+                })
+                .collect(),
             samples: self.samples,
             left_out: self.left_out,
         }
     }
 }
 
+fn add(sums: &mut [f64], values: &[f32]) {
+    for (sum, value) in sums.iter_mut().zip(values) {
+        *sum += f64::from(*value);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spectra::BandGrid;
+    use spectra::{BandGrid, LightGroup};
 
     fn image() -> SpectralImage {
         let mut image = SpectralImage::new(3, 2, BandGrid::visible(2).unwrap());
@@ -212,6 +248,26 @@ mod tests {
         assert_eq!((found.samples, found.left_out), (32, 0));
         assert!((found.deviation.unwrap()[0] - 0.1).abs() < 1e-6);
         assert_eq!(region.centre(), [2.0, 1.0]);
+    }
+
+    #[test]
+    fn light_groups_are_told_apart() {
+        let group = |name: &str| LightGroup {
+            name: name.to_owned(),
+            lamp: None,
+        };
+        let grid = BandGrid::visible(2).unwrap();
+        let groups = vec![group("key"), group("sky")];
+        let mut image = SpectralImage::with_light_groups(2, 1, grid, groups);
+        for x in 0..2 {
+            let both = [x as f32, 1.0, 4.0, 5.0];
+            image.set_pixel_by_light((x, 0), &both, &[0.1; 2], &[[1.0; 3], [3.0; 3]], 4);
+        }
+        let found = probe(&image, Region::all_of(&image)).unwrap();
+        assert_eq!(found.light_groups[0].radiance, [0.5, 1.0]);
+        assert_eq!(found.light_groups[1].radiance, [4.0, 5.0]);
+        assert_eq!((found.light_groups[1].xyz, found.xyz), ([3.0; 3], [4.0; 3]));
+        assert_eq!(found.radiance, [4.5, 6.0]);
     }
 
     #[test]

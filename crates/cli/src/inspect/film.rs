@@ -9,7 +9,7 @@ use pellicle::color::Probe;
 use pellicle::color::xyz::exposure_scale;
 use pellicle::scene::{Scene, SceneFile};
 use pellicle::seen::{self, SceneLamp, Seen};
-use pellicle::spectra::BandGrid;
+use pellicle::spectra::{LightGroup, SpectralImage};
 use std::path::{Path, PathBuf};
 
 /// Where films are known from.
@@ -19,7 +19,7 @@ pub(super) enum Films {
     /// From the scene.
     Scene(Box<KnownScene>),
     /// One stack at one angle.
-    Stack(Box<Stack>, Angle, SceneLamp),
+    Stack(Box<Stack>, Angle, Vec<SceneLamp>),
 }
 
 pub(super) struct KnownScene {
@@ -72,8 +72,8 @@ impl Films {
         };
         let angle = Angle::from_degrees(asked.angle.unwrap_or(0.0))
             .map_err(|error| miette!("--angle: {error}"))?;
-        let lamp = lamp(asked, inspection.image.bands())?;
-        Ok(Self::Stack(Box::new(Stack::open(text)?), angle, lamp))
+        let lamps = lamps(asked, &inspection.image)?;
+        Ok(Self::Stack(Box::new(Stack::open(text)?), angle, lamps))
     }
 
     /// The film at a place; `None` where nothing was said of films.
@@ -84,8 +84,8 @@ impl Films {
     ) -> miette::Result<Option<FilmSeen>> {
         match self {
             Self::None => Ok(None),
-            Self::Stack(stack, angle, lamp) => {
-                let fitted = fitted(inspection, probe, stack, *angle, std::slice::from_ref(lamp))?;
+            Self::Stack(stack, angle, lamps) => {
+                let fitted = fitted(inspection, probe, stack, *angle, lamps)?;
                 Ok(Some(FilmSeen::Film(Box::new(fitted))))
             }
             Self::Scene(known) => known.seen(inspection, probe).map(Some),
@@ -150,17 +150,32 @@ impl KnownScene {
     }
 }
 
-/// --lamp, or D65.
-fn lamp(asked: &FilmArguments, bands: &BandGrid) -> miette::Result<SceneLamp> {
+/// --lamp, or the lamps that the file knows, or else D65.
+fn lamps(asked: &FilmArguments, image: &SpectralImage) -> miette::Result<Vec<SceneLamp>> {
+    let nm = FilmFitting::wavelengths_nm(image.bands());
+    if asked.lamp.is_none() {
+        let of_group = |group: &LightGroup| {
+            let lamp = group.lamp.as_ref()?;
+            Some(SceneLamp {
+                name: format!("light group {:?}", group.name),
+                power: nm.iter().map(|&nm| lamp.clamped_at(nm)).collect(),
+            })
+        };
+        let known: Vec<SceneLamp> = image.light_groups().iter().filter_map(of_group).collect();
+        if !known.is_empty() {
+            return Ok(known);
+        }
+    }
     let text = asked.lamp.as_deref().unwrap_or("D65");
     let (name, spectrum) = lamp::spectrum(text).map_err(|error| miette!("--lamp: {error}"))?;
-    let wavelengths = FilmFitting::wavelengths_nm(bands);
-    let power = wavelengths.into_iter().map(|nm| spectrum.at(nm));
-    let power = power.collect::<Result<_, _>>().into_diagnostic();
-    Ok(SceneLamp {
-        power: power.wrap_err_with(|| format!("--lamp {text} does not cover the image's bands"))?,
-        name,
-    })
+    let power = nm
+        .iter()
+        .map(|&nm| spectrum.at(nm))
+        .collect::<Result<_, _>>();
+    let power = power.into_diagnostic();
+    let power =
+        power.wrap_err_with(|| format!("--lamp {text} does not cover the image's bands"))?;
+    Ok(vec![SceneLamp { name, power }])
 }
 
 /// The thicknesses that come nearest, in the lamp in which they come nearest.

@@ -54,7 +54,8 @@ struct FilmArguments {
     /// The angle at which --film is seen, in degrees
     #[arg(long, value_name = "DEGREES", requires = "film", value_parser = numbers::number, allow_hyphen_values = true)]
     angle: Option<f64>,
-    /// The lamp that --film mirrors: an illuminant's name or a file .csv [default: D65]
+    /// The lamp that --film mirrors: an illuminant's name or a file .csv [default: those that the image's light
+    /// groups burn with, where it tells; else D65]
     #[arg(long, value_name = "LAMP", requires = "film")]
     lamp: Option<String>,
     /// The layer whose thickness is looked for, from 1, and its range in nm [default: layer 1 from 0 to 2000 nm]

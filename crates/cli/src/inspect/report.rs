@@ -104,6 +104,7 @@ impl Inspection<'_> {
             lab.chroma(),
             lab.hue_deg()
         );
+        self.light_groups(text, place);
         let _ = write!(text, "  {} samples", probe.samples);
         if probe.left_out > 0 {
             let _ = write!(
@@ -113,6 +114,23 @@ impl Inspection<'_> {
             );
         }
         text.push('\n');
+    }
+
+    /// How much of the luminance each light group makes, where there are several.
+    fn light_groups(&self, text: &mut String, place: &Place) {
+        let probe = &place.probe;
+        if probe.light_groups.len() < 2 {
+            return;
+        }
+        for (group, share) in self.image.light_groups().iter().zip(&probe.light_groups) {
+            let [x, y, z] = share.xyz;
+            let part = 100.0 * y / probe.xyz[1];
+            let _ = writeln!(
+                text,
+                "  light {:<12} {part:>6.2} % of Y; XYZ {x:.6e} {y:.6e} {z:.6e}",
+                group.name
+            );
+        }
     }
 
     fn spectra(&self, text: &mut String) {
@@ -193,6 +211,9 @@ impl Inspection<'_> {
             "region": [region.x, region.y, region.width, region.height],
             "radiance": probe.radiance,
             "deviation": probe.deviation,
+            "light_groups": self.image.light_groups().iter().zip(&probe.light_groups).map(|(group, share)| json!({
+                "name": group.name, "radiance": share.radiance, "xyz": share.xyz,
+            })).collect::<Vec<_>>(),
             "samples": probe.samples,
             "left_out": probe.left_out,
             "xyz": probe.xyz,
