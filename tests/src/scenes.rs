@@ -81,6 +81,7 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "send_to_light",
     "trace_path",
     "walk_on",
+    "with_light",
     "with_layers",
 ];
 

@@ -82,6 +82,15 @@ pub const FRAMES: FrameTolerance = FrameTolerance {
     floor: 1e-2,
 };
 
+/// The same picture with its light summed in another order: rounding of some ten sums of f32.
+pub const SUMS: FrameTolerance = FrameTolerance {
+    p99: 1e-5,
+    bias: 1e-6,
+    outlier: 1e-4,
+    outlier_share: 0.0,
+    floor: 1e-2,
+};
+
 /// Largest |z| of a picture's mean difference under different random numbers: 4.5 standard errors, 1 in 150 000, over some
 /// hundred bands and scenes.
 pub const Z_MEAN: f64 = 4.5;

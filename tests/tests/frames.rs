@@ -5,7 +5,7 @@ use gpu::Gpu;
 use pellicle_tests::device::open;
 use pellicle_tests::frames::{Values, same_expectation, same_numbers, same_variances};
 use pellicle_tests::scenes::{SHIPPED, file, small};
-use pellicle_tests::tolerances::{FRAMES, SAME_COLOUR, VARIANCES, Z_FURNACE, Z_MEAN};
+use pellicle_tests::tolerances::{FRAMES, SAME_COLOUR, SUMS, VARIANCES, Z_FURNACE, Z_MEAN};
 use scene::Scene;
 use spectra::SpectralImage;
 use std::ops::ControlFlow;
@@ -36,7 +36,10 @@ fn the_same_random_numbers_give_the_same_picture() {
             same_variances(&actual, &expected, &VARIANCES),
             same_numbers(colours.0, colours.1, &FRAMES).map_err(|report| format!("XYZ: {report}")),
             same_colours(&actual, &expected),
-        ] {
+        ]
+        .into_iter()
+        .chain(same_light_groups(&actual, &expected))
+        {
             match compared {
                 Ok(report) => println!("{name}: {report}"),
                 Err(report) => wrong.push(format!("{name}: {report}")),
@@ -44,6 +47,28 @@ fn the_same_random_numbers_give_the_same_picture() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// The light of each group, where there are several.
+fn same_light_groups(
+    actual: &SpectralImage,
+    expected: &SpectralImage,
+) -> Vec<Result<String, String>> {
+    if actual.light_groups() != expected.light_groups() {
+        return vec![Err("the light groups differ".to_owned())];
+    }
+    let groups = actual.light_groups().iter().enumerate();
+    let compared = groups.flat_map(|(index, group)| {
+        let of = |image| Values::of_light(image, index);
+        let of_xyz = |image| Values::of_light_xyz(image, index);
+        let bands = same_numbers(of(actual), of(expected), &FRAMES);
+        let colours = same_numbers(of_xyz(actual), of_xyz(expected), &FRAMES);
+        [(bands, "bands"), (colours, "XYZ")].map(|(compared, what)| {
+            let named = |report| format!("light group {}, {what}: {report}", group.name);
+            compared.map(named).map_err(named)
+        })
+    });
+    compared.collect()
 }
 
 /// XYZ is accumulated apart from the bands, so its mean over the picture is compared apart too.
@@ -79,6 +104,40 @@ fn different_random_numbers_give_the_same_expectation() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// The same picture in several light groups and in one: the sum of the groups is the total, and neither it nor the variance
+/// depends on how the light is told apart.
+#[test]
+fn light_groups_add_up_to_the_picture() {
+    let gpu = open();
+    let mut file = file("everything");
+    let render = &mut file.description.render;
+    (render.size, render.samples, render.bands, render.seed) = ([64, 48], 16, 10, 7);
+    let apart = file.validate().expect("valid").rounded_to_f32();
+    file.description.render.light_groups = scene::description::LightGroups::Single;
+    let together = file.validate().expect("valid").rounded_to_f32();
+    assert_eq!(
+        (apart.light_groups().len(), together.light_groups().len()),
+        (4, 1)
+    );
+    for (who, apart, together) in [
+        ("gpu", on_gpu(&gpu, &apart), on_gpu(&gpu, &together)),
+        ("cpu", on_cpu(&apart), on_cpu(&together)),
+    ] {
+        let radiance = same_numbers(Values::of(&apart), Values::of(&together), &SUMS);
+        let colours = same_numbers(Values::of_xyz(&apart), Values::of_xyz(&together), &SUMS);
+        let variances = same_variances(&apart, &together, &VARIANCES);
+        for compared in [radiance, colours, variances] {
+            println!(
+                "{who}: {}",
+                compared.unwrap_or_else(|report| panic!("{who}: {report}"))
+            );
+        }
+        // A light group that is left out, or counted twice, is noticed.
+        let without = Values::of_light(&apart, 0);
+        assert!(same_numbers(without, Values::of(&together), &SUMS).is_err());
+    }
 }
 
 /// A film whose index is one per cent off, or whose bands are swapped, is another picture.
@@ -236,6 +295,7 @@ fn the_bits_do_not_depend_on_the_division_of_the_work() {
     assert_eq!(at_once, divided(1, 1));
     assert_eq!(at_once, divided(17, 4));
     assert_eq!(at_once, on_gpu(&gpu, &scene));
+    assert_eq!(at_once.light_groups().len(), 2);
     let other = small("soap_bubble", [600, 40], 6, 5, 4);
     assert_ne!(at_once, on_gpu(&gpu, &other), "another seed");
 }

@@ -7,6 +7,7 @@ use clap::ValueEnum;
 use miette::miette;
 use pellicle::colorimetry::chromaticity::{uv_of_xyz, xy_of_xyz};
 use pellicle::colorimetry::matrix::times;
+use pellicle::colorimetry::temperature::{Temperature, correlated_temperature};
 use pellicle::colorimetry::tristimulus::{Rule, Weights, xyz_of_emission};
 use pellicle::colorimetry::{Adaptation, Display, Lab, srgb};
 use pellicle::spectra::table_file::{Quantity, columns};
@@ -85,7 +86,7 @@ impl<'a> Found<'a> {
             observer,
             ..
         } = arguments;
-        let display = display::open(&arguments.display)?;
+        let display = display_seen_by(&arguments.display, *observer)?;
         let spectrum = read(arguments)?;
         let rule = arguments.rule.unwrap_or(illuminant.rule);
         if rule == Rule::OneNm && illuminant.rule == Rule::FiveNm {
@@ -138,6 +139,13 @@ impl<'a> Found<'a> {
         )
     }
 
+    /// Of an emission; for the one observer that it is defined for.
+    fn temperature(&self) -> Option<Temperature> {
+        let is_defined = self.arguments.observer == Observer::Cie1931Deg2;
+        let xy = xy_of_xyz(self.xyz);
+        is_defined.then(|| correlated_temperature(xy)).flatten()
+    }
+
     fn linear_rgb(&self) -> [f64; 3] {
         times(self.display.rgb_from_xyz(), self.adapted())
     }
@@ -175,10 +183,15 @@ impl<'a> Found<'a> {
         let [u, v] = uv_of_xyz(self.xyz);
         let [r, g, b] = self.rgb();
         let about = match self.luminance {
-            Some(luminance) => format!(
-                "an emission beside {}, {observer}, sums at {}; {luminance:.6} cd/m² if its unit is W/(m² sr nm)",
-                illuminant.name, self.rule
-            ),
+            Some(luminance) => {
+                let temperature = self.temperature().map_or_else(String::new, |found| {
+                    format!("{:.0} K, Duv {:.4}; ", found.kelvin, found.duv)
+                });
+                format!(
+                    "an emission beside {}, {observer}, sums at {}; {temperature}{luminance:.6} cd/m² if its unit is W/(m² sr nm)",
+                    illuminant.name, self.rule
+                )
+            }
             None => format!(
                 "under {}, {observer}, sums at {}",
                 illuminant.name, self.rule
@@ -231,9 +244,25 @@ impl<'a> Found<'a> {
         });
         if let Some(luminance) = self.luminance {
             value["luminance_cd_m2"] = json!(luminance);
+            let temperature = self.temperature();
+            value["cct_k"] = json!(temperature.map(|found| found.kelvin));
+            value["duv"] = json!(temperature.map(|found| found.duv));
         }
         value
     }
+}
+
+/// The display as the observer sees it, where that is known.
+fn display_seen_by(name_or_file: &str, observer: Observer) -> miette::Result<Display> {
+    let display = display::open(name_or_file)?;
+    if let Some(seen) = display.seen_by(observer) {
+        return Ok(seen);
+    }
+    print::note(format_args!(
+        "{}: its primaries are known for CIE 1931 alone, RGB take XYZ of {observer} as if they were that observer's",
+        display.name()
+    ));
+    Ok(display)
 }
 
 fn spaced(values: [f64; 3]) -> String {

@@ -16,17 +16,14 @@ pub(crate) struct Lamp {
     /// How sums over it are taken: at 5 nm for the CIE's lamps with lines, which that defines, else at 1 nm.
     pub(crate) rule: Rule,
     /// What the power is multiplied by.
-    #[allow(dead_code, reason = "for lights that are changed in an image")]
     pub(crate) factor: f64,
 }
 
 /// Factors that a lamp may have.
-#[allow(dead_code, reason = "for lights that are changed in an image")]
 const FACTORS: std::ops::RangeInclusive<f64> = 0.0..=1e9;
 
 impl Lamp {
     /// Reads `NAME` or `FILE.csv`, either with `*FACTOR` behind it.
-    #[allow(dead_code, reason = "for lights that are changed in an image")]
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         match text.rsplit_once('*') {
             Some((lamp, factor)) if !is_file(text) => Ok(Self {
@@ -77,8 +74,8 @@ fn is_file(text: &str) -> bool {
     extension.is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
 }
 
-#[allow(dead_code, reason = "for lights that are changed in an image")]
-fn parse_factor(text: &str) -> Result<f64, String> {
+/// What stands behind `*`.
+pub(crate) fn parse_factor(text: &str) -> Result<f64, String> {
     let factor: Result<f64, _> = text.trim().parse();
     factor
         .ok()

@@ -12,10 +12,12 @@ mod image_file;
 mod inspect;
 mod lamp;
 mod materials;
+mod memory;
 mod output;
 mod plot;
 mod print;
 mod progress;
+mod relight;
 mod render;
 
 use clap::{Parser, Subcommand};
@@ -85,7 +87,7 @@ fn check(scene: &std::path::Path) -> miette::Result<()> {
     let validated = pellicle::scene::SceneFile::read(scene)?.validate()?;
     let settings = validated.settings();
     print::result(format_args!(
-        "{}: valid; {}×{} pixels, {} bands, {} samples, {} objects, {} lights",
+        "{}: valid; {}×{} pixels, {} bands, {} samples, {} objects, {} lights; {}",
         scene.display(),
         settings.width,
         settings.height,
@@ -93,5 +95,6 @@ fn check(scene: &std::path::Path) -> miette::Result<()> {
         settings.samples,
         validated.objects().len(),
         validated.lights().len(),
+        memory::of_picture(&validated),
     ))
 }

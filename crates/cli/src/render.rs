@@ -2,7 +2,7 @@
 
 use crate::develop::{self, FOV_SETTING, OfImage};
 use crate::output::Outputs;
-use crate::{print, progress};
+use crate::{memory, print, progress};
 use clap::ValueEnum;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::color::spectral_exr::Metadata;
@@ -123,6 +123,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
         print::note(format_args!("rendering on the CPU: {reason}"));
     }
     print::note(format_args!("{}", renderer.description()));
+    print::note(format_args!("{}", memory::of_picture(&scene)));
     match &arguments.frames {
         None => render_one(&renderer, &scene, &outputs, developing, ""),
         Some(frames) => render_frames(&renderer, file, &outputs, developing, frames.clone()),

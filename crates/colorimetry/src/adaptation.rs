@@ -88,7 +88,7 @@ impl FromStr for Adaptation {
 mod tests {
     use super::*;
 
-    const A: [f64; 3] = [1.098_5, 1.0, 0.355_85];
+    const A: [f64; 3] = [1.0985, 1.0, 0.355_85];
     const D50: [f64; 3] = [0.964_22, 1.0, 0.825_21];
     const D65: [f64; 3] = [0.950_47, 1.0, 1.088_83];
 
@@ -104,6 +104,29 @@ mod tests {
         for (found, published) in found.iter().flatten().zip(published.iter().flatten()) {
             // Seven decimals are printed.
             assert!((found - published).abs() < 2e-7, "{found} {published}");
+        }
+    }
+
+    /// A colour from A to D65, by colour-science 0.4.7 (`chromatic_adaptation_VonKries`).
+    #[test]
+    fn colours_equal_an_independent_computation() {
+        for (adaptation, expected) in [
+            (
+                Adaptation::Cat16,
+                [0.122_728_767_176, 0.509_864_364_475, 0.326_198_248_227],
+            ),
+            (
+                Adaptation::Bradford,
+                [0.149_459_110_458, 0.537_652_430_420, 0.267_759_911_310],
+            ),
+        ] {
+            let found = times(&adaptation.matrix(A, D65), [0.2, 0.5, 0.1]);
+            for (found, expected) in found.into_iter().zip(expected) {
+                assert!(
+                    (found - expected).abs() < 1e-11,
+                    "{adaptation}: {found} {expected}"
+                );
+            }
         }
     }
 

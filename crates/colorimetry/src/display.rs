@@ -19,7 +19,7 @@ use spectra::{Observer, Spectrum, Tabulated};
 
 use crate::chromaticity::{uv_of_xy, xy_of_xyz, xyz_of_xy};
 use crate::matrix::{Matrix3, determinant, inverse, of_columns, times};
-use crate::tristimulus::{Rule, xyz_of_emission};
+use crate::tristimulus::{Rule, Weights, xyz_of_emission};
 
 /// A display.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,11 +30,22 @@ pub struct Display {
     notes: String,
     primaries: Primaries,
     amounts: [f64; 3],
+    observer: Observer,
     xyz_from_rgb: Matrix3,
     rgb_from_xyz: Matrix3,
     responses: [Response; 3],
     white_luminance: f64,
+    black_luminance: f64,
+    ambient: Option<Ambient>,
     black: [f64; 3],
+}
+
+/// Light of the room that the screen reflects.
+#[derive(Clone, Debug, PartialEq)]
+struct Ambient {
+    /// cd/m².
+    luminance: f64,
+    light: Spectrum,
 }
 
 /// The light of full red, green and blue.
@@ -48,7 +59,7 @@ pub enum Primaries {
 
 /// Why primaries and a white make no display.
 #[derive(Clone, Copy, Debug, thiserror::Error, PartialEq, Eq)]
-pub enum MixtureError {
+enum MixtureError {
     /// A spectrum ends within 380 to 780 nm or has no light there.
     #[error("each primary's spectrum must shine and cover 380 to 780 nm")]
     Spectrum,
@@ -57,6 +68,9 @@ pub enum MixtureError {
         "the white must lie within the triangle of red, green and blue, but no positive amounts of the three mix it"
     )]
     White,
+    /// The ambient light is not seen.
+    #[error("it must shine and cover 380 to 780 nm")]
+    Ambient,
 }
 
 impl Primaries {
@@ -93,6 +107,12 @@ impl Primaries {
             Err(MixtureError::White)
         }
     }
+}
+
+/// M of primaries by their chromaticities and that of the white, the white's Y = 1.
+pub(crate) fn xyz_from_rgb_of(primaries: [[f64; 2]; 3], white: [f64; 2]) -> Matrix3 {
+    let columns = of_columns(primaries.map(xyz_of_xy));
+    mixed(&columns, times(&inverse(&columns), xyz_of_xy(white)))
 }
 
 /// M: the columns times the amounts, scaled to the white's Y = 1.
@@ -147,16 +167,41 @@ impl Display {
         &self.rgb_from_xyz
     }
 
-    /// M for another observer, the white's Y = 1, where the primaries are spectra; `None` where they are chromaticities, which hold
-    /// for one observer.
-    pub fn xyz_from_rgb_seen_by(&self, observer: Observer) -> Option<Matrix3> {
-        match &self.primaries {
-            Primaries::Spectra(_) => {
-                let columns = self.primaries.columns(observer).ok()?;
-                Some(mixed(&columns, self.amounts))
-            }
-            Primaries::Chromaticities(_) => None,
+    /// The observer that its XYZ are for.
+    pub fn observer(&self) -> Observer {
+        self.observer
+    }
+
+    /// The same display as another observer sees it, where the primaries are spectra; `None` where they are chromaticities, which hold
+    /// for CIE 1931 alone.
+    pub fn seen_by(&self, observer: Observer) -> Option<Self> {
+        if observer == self.observer {
+            return Some(self.clone());
         }
+        if let Primaries::Chromaticities(_) = self.primaries {
+            return None;
+        }
+        let mut display = self.clone();
+        display.mix(observer).ok()?;
+        Some(display)
+    }
+
+    /// Works out M, M⁻¹ and what the screen shows at code 0.
+    fn mix(&mut self, observer: Observer) -> Result<(), MixtureError> {
+        let columns = self.primaries.columns(observer)?;
+        self.observer = observer;
+        self.xyz_from_rgb = mixed(&columns, self.amounts);
+        self.rgb_from_xyz = inverse(&self.xyz_from_rgb);
+        let own = self.white_xyz().map(|v| v * self.black_luminance);
+        let reflected = match &self.ambient {
+            Some(Ambient { luminance, light }) => Weights::new(light, observer, Rule::FiveNm)
+                .map_err(|_| MixtureError::Ambient)?
+                .white()
+                .map(|v| v * luminance),
+            None => [0.0; 3],
+        };
+        self.black = std::array::from_fn(|i| (own[i] + reflected[i]) / self.white_luminance);
+        Ok(())
     }
 
     /// XYZ of the white (1, 1, 1), Y = 1.

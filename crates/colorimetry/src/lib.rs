@@ -3,7 +3,7 @@
 //! ```text
 //! spectrum
 //!   -> tristimulus    XYZ under a light for an observer, by sums at 5 or 1 nm
-//!   -> chromaticity   x, y and u', v'
+//!   -> chromaticity   x, y and u', v'; temperature, of the nearest black body
 //!   -> lab, oklab, ciecam16   what it looks like, and how different two colours look
 //!   -> adaptation     the same under another white
 //!   -> Display        amounts of a display's primaries -> its codes
@@ -39,6 +39,7 @@ pub mod lab;
 pub mod matrix;
 pub mod oklab;
 pub mod srgb;
+pub mod temperature;
 pub mod tristimulus;
 
 pub use adaptation::Adaptation;

@@ -90,6 +90,30 @@ mod tests {
         }
     }
 
+    /// A red, a green and a blue, by colour-science 0.4.7.
+    #[test]
+    fn colours_equal_an_independent_computation() {
+        for (xyz, lab) in [
+            (
+                [0.206_540_08, 0.121_972_25, 0.051_369_52],
+                [0.516_340_191_406, 0.154_694_999_017, 0.062_895_787_289],
+            ),
+            (
+                [0.142_220_10, 0.230_427_68, 0.104_957_72],
+                [0.599_107_456_915, -0.111_392_073_483, 0.075_084_651_007_6],
+            ),
+            (
+                [0.078_187_80, 0.061_572_01, 0.280_993_26],
+                [0.402_213_919_069, -0.008_783_644_205_03, -0.139_373_677_981],
+            ),
+        ] {
+            let found = Oklab::from_xyz(xyz);
+            for (found, expected) in [found.l, found.a, found.b].into_iter().zip(lab) {
+                assert!((found - expected).abs() < 1e-11, "{xyz:?}: {found}");
+            }
+        }
+    }
+
     #[test]
     fn there_and_back_is_the_same_colour() {
         for xyz in [

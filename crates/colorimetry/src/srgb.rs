@@ -7,6 +7,7 @@
 use std::sync::OnceLock;
 
 use crate::chromaticity::xyz_of_xy;
+use crate::display::xyz_from_rgb_of;
 use crate::matrix::{Matrix3, inverse, times};
 
 /// Chromaticities x, y of the red, green and blue primary.
@@ -14,18 +15,10 @@ pub const PRIMARIES: [[f64; 2]; 3] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]];
 /// Chromaticity x, y of the white, D65 as the standard rounds it.
 pub const WHITE: [f64; 2] = [0.3127, 0.3290];
 
-/// The matrix that takes XYZ to linear RGB.
-///
-/// With P the matrix whose columns are the primaries' XYZ, the scales s = P⁻¹ W make RGB (1, 1, 1)
-/// the white W; the matrix is (P diag s)⁻¹ (SMPTE RP 177:1993).
+/// The matrix that takes XYZ to linear RGB: M⁻¹ of the primaries and the white (SMPTE RP 177:1993).
 pub fn rgb_from_xyz() -> &'static Matrix3 {
     static MATRIX: OnceLock<Matrix3> = OnceLock::new();
-    MATRIX.get_or_init(|| {
-        let columns = PRIMARIES.map(xyz_of_xy);
-        let p: Matrix3 = std::array::from_fn(|row| columns.map(|column| column[row]));
-        let s = times(&inverse(&p), xyz_of_xy(WHITE));
-        inverse(&p.map(|row| std::array::from_fn(|i| row[i] * s[i])))
-    })
+    MATRIX.get_or_init(|| inverse(&xyz_from_rgb_of(PRIMARIES, WHITE)))
 }
 
 /// Linear RGB of XYZ. Colours that the display cannot show have values below 0 or above 1.

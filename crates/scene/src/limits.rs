@@ -124,8 +124,6 @@ pub const MAX_OBJECTS: usize = 65_536;
 pub const MAX_MATERIALS: usize = 4096;
 /// The most light groups: with 1024 bands a row of 512 pixels of theirs fits into the 128 MiB that any device binds.
 pub const MAX_LIGHT_GROUPS: usize = 32;
-/// The longest name of a light group, in bytes.
-pub const MAX_LIGHT_GROUP_NAME: usize = 32;
 /// The largest spectral image, in bytes.
 pub const MAX_IMAGE_BYTES: u128 = 32 << 30;
 /// The largest file that is read, of a scene or of figures that it names, in bytes.

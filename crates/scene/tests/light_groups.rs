@@ -183,7 +183,7 @@ fn bad_names_are_told() {
         ["environment.light_group", "\"\" cannot be the name"],
         ["materials.a.light_group", "1 to 32 ASCII letters"],
         ["materials.b.light_group", "\"a.b\" cannot be the name"],
-        ["materials.c.light_group", "has another meaning"],
+        ["materials.c.light_group", "mean other things"],
     ]) {
         for phrase in phrases {
             assert!(told.contains(phrase), "{told:?} lacks {phrase:?}");

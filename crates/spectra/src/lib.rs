@@ -30,8 +30,8 @@ pub use band_grid::{BandGrid, BandGridError};
 pub use band_table::BandTable;
 pub use data::{
     DataSet, IlluminantError, KM_LUMENS_PER_WATT, MaterialInfo, Observer, UnknownObserver,
-    find_illuminant, illuminant, illuminant_names, is_line_lamp, material_info, material_names,
-    observer_1931, optical_constants, reflectance, reflectance_names,
+    black_body, find_illuminant, illuminant, illuminant_names, is_line_lamp, material_info,
+    material_names, observer_1931, optical_constants, reflectance, reflectance_names,
 };
 pub use effective_medium::{MixtureError, MixtureRule, bruggeman, maxwell_garnett};
 pub use formula::{DispersionFormula, FormulaError, FormulaKind};

@@ -12,7 +12,25 @@ pub struct LightGroup {
     pub lamp: Option<Tabulated>,
 }
 
+/// Words that name other things in files of spectral images: components of polarised light, transmission, our own layer.
+const RESERVED: [&str; 6] = ["S0", "S1", "S2", "S3", "T", "pellicle"];
+
 impl LightGroup {
+    /// The longest name, in bytes.
+    pub const MAX_NAME: usize = 32;
+
+    /// Whether a light group may have this name: 1 to 32 ASCII letters, digits, `_` or `-`, so that it can name a layer of an
+    /// image file, and none of the few words that have another meaning there (`S0` to `S3`, `T`, `pellicle`).
+    pub fn is_name(name: &str) -> bool {
+        let is_short = (1..=Self::MAX_NAME).contains(&name.len());
+        is_short && name.bytes().all(Self::is_in_names) && !RESERVED.contains(&name)
+    }
+
+    /// Whether names may contain this byte.
+    pub fn is_in_names(byte: u8) -> bool {
+        byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-'
+    }
+
     /// The only light group of an image that does not tell.
     pub fn unknown() -> Self {
         Self {

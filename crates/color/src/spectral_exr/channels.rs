@@ -2,9 +2,10 @@
 
 use exr::meta::attribute::{ChannelDescription, SampleType, Text};
 use exr::prelude::SmallVec;
-use spectra::BandGrid;
+use spectra::{BandGrid, LightGroup};
 
 use super::bands::{radiance_name, wavelength_text};
+use super::lights;
 
 /// The names of our own channels start so.
 const OWN: &str = "pellicle.";
@@ -24,6 +25,19 @@ pub(super) enum Content {
     Rgb(usize),
     /// Number of samples.
     Samples,
+    /// Of the light group with this number.
+    Light(usize, LightContent),
+}
+
+/// What a channel of a light group holds.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum LightContent {
+    /// Radiance of this band.
+    Radiance(usize),
+    /// X, Y or Z.
+    Xyz(usize),
+    /// Linear red, green or blue.
+    Rgb(usize),
 }
 
 impl Content {
@@ -79,8 +93,9 @@ pub(super) struct Channels {
 
 impl Channels {
     /// The channels of an image with these bands.
-    pub(super) fn new(grid: &BandGrid, variance: bool) -> Self {
+    pub(super) fn new(grid: &BandGrid, light_groups: &[LightGroup], variance: bool) -> Self {
         let mut named: Vec<(String, Content)> = plain().collect();
+        named.extend(lights::channels(light_groups, grid));
         for band in 0..grid.count() {
             let (nm, index) = (grid.centre_nm(band), band as usize);
             named.push((radiance_name(nm), Content::Radiance(index)));
@@ -112,17 +127,29 @@ mod tests {
     #[test]
     fn every_channel_of_a_file_is_told_from_its_name() {
         let grid = BandGrid::visible(48).unwrap();
-        let channels = Channels::new(&grid, true);
-        assert_eq!(channels.contents.len(), 2 * 48 + 7);
+        let group = |name: &str| LightGroup {
+            name: name.to_owned(),
+            lamp: None,
+        };
+        let groups = ["key", "S0_sky"].map(group);
+        let channels = Channels::new(&grid, &groups, true);
+        assert_eq!(channels.contents.len(), 2 * 48 + 7 + 2 * (48 + 6));
         for (description, &content) in channels.descriptions.iter().zip(&channels.contents) {
             let name = description.name.to_string();
             let found =
                 plain_content(&name).or_else(|| variance_band(&name, &grid).map(Content::Variance));
+            let found = found.or_else(|| lights::content(&name, &groups, &grid));
             match content {
-                Content::Radiance(_) => assert_eq!(found, None),
+                Content::Radiance(_) | Content::Light(_, LightContent::Rgb(_)) => {
+                    assert_eq!(found, None);
+                }
                 other => assert_eq!(found, Some(other), "{name}"),
             }
         }
+        assert_eq!(
+            Channels::new(&grid, &groups[..1], true).contents.len(),
+            2 * 48 + 7
+        );
         assert_eq!(plain_content("A"), None);
         assert_eq!(variance_band("variance.385,000000nm", &grid), None);
     }

@@ -10,6 +10,8 @@
 //! | `pellicle.cieX`, `.cieY`, `.cieZ` | float | CIE 1931 XYZ of the pixel, cd/m² |
 //! | `pellicle.samples` | uint | number of samples of the pixel |
 //! | `pellicle.variance.385,000000nm` … | float | variance of the mean of `S0.…`, where asked for |
+//! | `pellicle.light.key.385,000000nm` …, `.cieX`, `.cieY`, `.cieZ` | float | the same of the light group `key` alone |
+//! | `key.R`, `key.G`, `key.B` | float | that developed, as a layer for viewers |
 //!
 //! | attribute | type | content |
 //! | --- | --- | --- |
@@ -19,7 +21,11 @@
 //! | `software` | string | name and version |
 //! | `pellicle.lambdaMin`, `pellicle.lambdaMax` | double | ends of the band grid, nm |
 //! | `pellicle.exposureEv` | double | the exposure that R, G and B were developed with |
+//! | `pellicle.lightGroups` | string | names of the light groups, with spaces between them |
+//! | `pellicle.light.key.lamp` | string | lamp of `key` where it is known: lines of wavelength in nm, a comma, and power at scale 1 |
 //! | `pellicle.setting.…` | string | settings that the caller gave |
+//!
+//! Light groups have channels where there are several; the sum of their bands is `S0.…`. Lamps are told in any case.
 //!
 //! Our own channels stand in a layer of their own, so that neither an ordinary viewer nor a reader
 //! of the layout takes them for colour, depth or spectrum.
@@ -33,6 +39,7 @@
 mod attribute_order;
 mod bands;
 mod channels;
+mod lights;
 mod metadata;
 mod read;
 mod wavelength;

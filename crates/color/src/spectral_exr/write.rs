@@ -16,7 +16,8 @@ use spectra::SpectralImage;
 use thiserror::Error;
 
 use super::attribute_order::sort_attributes;
-use super::channels::{Channels, Content};
+use super::channels::{Channels, Content, LightContent};
+use super::lights;
 use super::metadata::Metadata;
 use crate::pending_file::PendingFile;
 use crate::xyz::exposure_scale;
@@ -73,6 +74,14 @@ pub enum WriteExrError {
         /// The name as given.
         name: String,
     },
+    /// A light group's name cannot be that of a layer, or stands twice.
+    #[error("cannot write {path}: {name:?} cannot be the name of a light group, or is that of two")]
+    LightGroup {
+        /// The file asked for.
+        path: PathBuf,
+        /// The name.
+        name: String,
+    },
     /// The image cannot be put into an `OpenEXR` file.
     #[error("cannot encode {path} as OpenEXR")]
     Encode {
@@ -96,7 +105,7 @@ pub enum WriteExrError {
 /// times their bytes beside the image.
 ///
 /// # Errors
-/// When the file cannot be written, the image has no pixels, or a setting's name cannot be an attribute's.
+/// When the file cannot be written, the image has no pixels, or the name of a setting or light group cannot stand in a file.
 pub fn write(
     path: &Path,
     image: &SpectralImage,
@@ -114,6 +123,12 @@ pub fn write(
     }
     if let Some(name) = metadata.bad_setting() {
         return Err(WriteExrError::SettingName {
+            path: path.to_owned(),
+            name: name.to_owned(),
+        });
+    }
+    if let Some(name) = lights::bad_name(image.light_groups()) {
+        return Err(WriteExrError::LightGroup {
             path: path.to_owned(),
             name: name.to_owned(),
         });
@@ -138,7 +153,7 @@ fn encode(
     metadata: &Metadata,
     options: WriteOptions,
 ) -> exr::error::UnitResult {
-    let channels = Channels::new(image.bands(), options.variance);
+    let channels = Channels::new(image.bands(), image.light_groups(), options.variance);
     let size = (image.width() as usize, image.height() as usize);
     let mut header = Header::new(Text::default(), size, channels.descriptions.clone())
         .with_encoding(
@@ -147,6 +162,7 @@ fn encode(
             LineOrder::Increasing,
         );
     metadata.clone().into_header(image.bands(), &mut header);
+    lights::into_header(image.light_groups(), &mut header);
     let source = Source {
         image,
         contents: &channels.contents,
@@ -211,12 +227,20 @@ impl Source<'_> {
                     .map(|v| v.to_ne_bytes()),
             );
         };
-        let xyz = &self.image.xyz()[pixels.clone()];
+        let xyz = match self.contents[location.channel] {
+            Content::Light(group, _) => &self.image.group_xyz(group)[pixels.clone()],
+            _ => &self.image.xyz()[pixels.clone()],
+        };
         match self.contents[location.channel] {
             Content::Radiance(band) => every_band(self.image.radiance(), band, out),
             Content::Variance(band) => every_band(self.image.variance(), band, out),
-            Content::Xyz(axis) => fill_with(out, xyz.iter().map(|v| v[axis].to_ne_bytes())),
-            Content::Rgb(channel) => {
+            Content::Light(group, LightContent::Radiance(band)) => {
+                every_band(self.image.group_radiance(group), band, out);
+            }
+            Content::Xyz(axis) | Content::Light(_, LightContent::Xyz(axis)) => {
+                fill_with(out, xyz.iter().map(|v| v[axis].to_ne_bytes()));
+            }
+            Content::Rgb(channel) | Content::Light(_, LightContent::Rgb(channel)) => {
                 let values = xyz.iter().map(|&v| self.linear_rgb(v)[channel] as f32);
                 fill_with(out, values.map(f32::to_ne_bytes));
             }

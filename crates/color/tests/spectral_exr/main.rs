@@ -2,5 +2,6 @@
 
 mod damaged;
 mod foreign;
+mod lights;
 mod round_trip;
 mod support;

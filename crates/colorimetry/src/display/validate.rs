@@ -3,15 +3,15 @@
 use std::path::Path;
 
 use spectra::table_file::{Quantity, TableFileError, parse_columns, parse_rows};
-use spectra::{Observer, Tabulated};
+use spectra::{Observer, Spectrum, Tabulated};
 
 use super::file::{
     AmbientDescription, Curve, Description, DisplayError, PerChannel, PrimariesDescription,
     ReadTable, ResponseDescription, WhiteDescription,
 };
-use super::{Display, MixtureError, Primaries, Response, mixed};
+use super::{Ambient, Display, MixtureError, Primaries, Response};
 use crate::chromaticity::xy_of_xyz;
-use crate::matrix::inverse;
+use crate::matrix::IDENTITY;
 use crate::tristimulus::{Rule, Weights};
 
 /// Turns what is written into a display.
@@ -52,22 +52,15 @@ impl Checks<'_> {
             let field = match error {
                 MixtureError::Spectrum => "primaries.spectra",
                 MixtureError::White => "white",
+                MixtureError::Ambient => "ambient.illuminant",
             };
             self.fault(field, error.to_string())
         };
         let amounts = primaries.amounts(white).map_err(fault)?;
-        let columns = primaries.columns(Observer::Cie1931Deg2).map_err(fault)?;
-        let xyz_from_rgb = mixed(&columns, amounts);
         let white_luminance = self.number("white_luminance", written.white_luminance, 1e-3, 1e6)?;
-        let black = self.number(
-            "black_luminance",
-            written.black_luminance,
-            0.0,
-            0.5 * white_luminance,
-        )?;
-        let ambient = written
-            .ambient
-            .map_or(Ok([0.0; 3]), |ambient| self.ambient(&ambient))?;
+        let most = 0.5 * white_luminance;
+        let black_luminance = self.number("black_luminance", written.black_luminance, 0.0, most)?;
+        let ambient = written.ambient.map(|ambient| self.ambient(&ambient));
         let mut display = Display {
             name: self.path.to_owned(),
             title: written.title,
@@ -75,14 +68,16 @@ impl Checks<'_> {
             notes: written.notes,
             primaries,
             amounts,
-            xyz_from_rgb,
-            rgb_from_xyz: inverse(&xyz_from_rgb),
-            responses: self.responses(&written.response, white_luminance, black)?,
+            observer: Observer::Cie1931Deg2,
+            xyz_from_rgb: IDENTITY,
+            rgb_from_xyz: IDENTITY,
+            responses: self.responses(&written.response, white_luminance, black_luminance)?,
             white_luminance,
+            black_luminance,
+            ambient: ambient.transpose()?,
             black: [0.0; 3],
         };
-        let own = display.white_xyz();
-        display.black = std::array::from_fn(|i| (black * own[i] + ambient[i]) / white_luminance);
+        display.mix(Observer::Cie1931Deg2).map_err(fault)?;
         Ok(display)
     }
 
@@ -138,7 +133,10 @@ impl Checks<'_> {
         match (written, primaries) {
             (Some(WhiteDescription::Chromaticity(xy)), _) => self.chromaticity("white", xy).map(Some),
             (Some(WhiteDescription::Illuminant(name)), _) => {
-                self.illuminant("white", &name).map(|xyz| Some(xy_of_xyz(xyz)))
+                let light = self.illuminant("white", &name)?;
+                let weights = Weights::new(&light, Observer::Cie1931Deg2, Rule::FiveNm)
+                    .map_err(|error| self.fault("white", error.to_string()))?;
+                Ok(Some(xy_of_xyz(weights.white())))
             }
             (None, Primaries::Spectra(_)) => Ok(None),
             (None, Primaries::Chromaticities(_)) => Err(self.fault(
@@ -148,22 +146,21 @@ impl Checks<'_> {
         }
     }
 
-    /// XYZ of an illuminant, Y = 1.
-    fn illuminant(&self, field: &'static str, name: &str) -> Result<[f64; 3], DisplayError> {
-        let set =
-            spectra::find_illuminant(name).map_err(|error| self.fault(field, error.to_string()))?;
-        let weights = Weights::new(&set.data, Observer::Cie1931Deg2, Rule::FiveNm)
-            .map_err(|error| self.fault(field, error.to_string()))?;
-        Ok(weights.white())
+    fn illuminant(&self, field: &'static str, name: &str) -> Result<Spectrum, DisplayError> {
+        let set = spectra::find_illuminant(name);
+        set.map(|set| set.data)
+            .map_err(|error| self.fault(field, error.to_string()))
     }
 
-    /// XYZ of the reflected ambient light, Y in cd/m²: E ρ / π.
-    fn ambient(&self, written: &AmbientDescription) -> Result<[f64; 3], DisplayError> {
+    /// The luminance is E ρ / π.
+    fn ambient(&self, written: &AmbientDescription) -> Result<Ambient, DisplayError> {
         let illuminance =
             self.number("ambient.illuminance_lux", written.illuminance_lux, 0.0, 1e6)?;
         let reflectance = self.number("ambient.reflectance", written.reflectance, 0.0, 1.0)?;
-        let white = self.illuminant("ambient.illuminant", &written.illuminant)?;
-        Ok(white.map(|v| v * illuminance * reflectance / std::f64::consts::PI))
+        Ok(Ambient {
+            luminance: illuminance * reflectance / std::f64::consts::PI,
+            light: self.illuminant("ambient.illuminant", &written.illuminant)?,
+        })
     }
 
     fn responses(

@@ -3,13 +3,10 @@
 use super::checks::Checks;
 use super::spectrum_list::Lamp;
 use crate::description::{self, Description, LightGroups};
-use crate::limits::{MAX_LIGHT_GROUP_NAME, MAX_LIGHT_GROUPS};
+use crate::limits::MAX_LIGHT_GROUPS;
 use crate::problem::{Problem, ProblemKind};
 use crate::{Emission, Environment, FieldPath, LightGroupId, Material, Object};
 use spectra::LightGroup;
-
-/// Words that name other things in files of spectral images: components of polarised light, transmission, our own layer.
-const RESERVED: [&str; 6] = ["S0", "S1", "S2", "S3", "T", "pellicle"];
 
 /// The parts of a scene that know of light. Each emission has its lamp's number for a light group.
 pub(crate) struct Unlit {
@@ -58,22 +55,16 @@ fn name_of_environment(environment: Option<&description::Environment>) -> Option
 
 fn check_name(checks: &mut Checks, field: &FieldPath, name: &str) {
     let short: String = name.chars().take(64).collect();
-    let message = if RESERVED.contains(&name) {
-        format!("{short:?} has another meaning in files of spectral images")
-    } else if name.is_empty() || name.len() > MAX_LIGHT_GROUP_NAME || !name.bytes().all(is_in_names)
-    {
-        format!("{short:?} cannot be the name of a light group")
-    } else {
+    if LightGroup::is_name(name) {
         return;
-    };
+    }
+    let message = format!("{short:?} cannot be the name of a light group");
     let help = format!(
-        "a name has 1 to {MAX_LIGHT_GROUP_NAME} ASCII letters, digits, `_` or `-`, such as \"key\""
+        "a name has 1 to {} ASCII letters, digits, `_` or `-`, such as \"key\"; S0 to S3, T and pellicle mean other things \
+         in image files",
+        LightGroup::MAX_NAME
     );
     checks.report(Problem::new(ProblemKind::OutOfRange, field, message).help(help));
-}
-
-fn is_in_names(byte: u8) -> bool {
-    byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-'
 }
 
 /// Gives every emission its light group. Only what shines on objects that are there makes a group.
@@ -190,12 +181,12 @@ impl List {
     /// A name like that of a lamp that no group has: `D65`, then `D65_2`.
     fn free_name(&self, like: &str) -> String {
         let letters = like.bytes().map(|byte| match byte {
-            byte if is_in_names(byte) => char::from(byte),
+            byte if LightGroup::is_in_names(byte) => char::from(byte),
             _ => '_',
         });
         // Room for a number.
-        let mut stem: String = letters.take(MAX_LIGHT_GROUP_NAME - 4).collect();
-        if stem.is_empty() || RESERVED.contains(&stem.as_str()) {
+        let mut stem: String = letters.take(LightGroup::MAX_NAME - 4).collect();
+        if !LightGroup::is_name(&stem) {
             "light".clone_into(&mut stem);
         }
         let is_free = |name: &String| self.groups.iter().all(|group| group.name != *name);

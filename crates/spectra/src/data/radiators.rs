@@ -75,13 +75,17 @@ fn daylight_xy(kelvin: f64) -> [f64; 2] {
     [x, -3.000 * x * x + 2.870 * x - 0.275]
 }
 
-/// A black body by Planck's law, λ⁻⁵ / (exp(c₂/λT) − 1) with c₂ = 1.4388e-2 m K, 1 at 560 nm (CIE 015:2018, section 4.1.1); at
-/// 1 nm from 300 to 830 nm.
-fn blackbody(kelvin: f64) -> Tabulated {
+/// Power of a black body at a wavelength, relative to that at 560 nm, by Planck's law: λ⁻⁵ / (exp(c₂/λT) − 1) with
+/// c₂ = 1.4388e-2 m K (CIE 015:2018, section 4.1.1).
+pub fn black_body(nm: f64, kelvin: f64) -> f64 {
     const C2_NM_K: f64 = 1.4388e7;
     let planck = |nm: f64| 1.0 / (nm.powi(5) * (C2_NM_K / (nm * kelvin)).exp_m1());
-    let scale = 1.0 / planck(560.0);
-    tabulated((300..=830).map(|nm| (f64::from(nm), scale * planck(f64::from(nm)))))
+    planck(nm) / planck(560.0)
+}
+
+/// A black body at 1 nm from 300 to 830 nm.
+fn blackbody(kelvin: f64) -> Tabulated {
+    tabulated((300..=830).map(|nm| (f64::from(nm), black_body(f64::from(nm), kelvin))))
 }
 
 /// # Panics

@@ -8,18 +8,21 @@
 //! [`GamutMapping::Perceptual`] takes chroma away along a line of constant hue and lightness of a perceptual space, so the space
 //! is the one whose lines observers agree with. Two published experiments give colours that observers saw in the same hue: those
 //! of Hung and Berns (Color Res. Appl. 20, 285 (1995), table III: 48 colours of 12 hues) and of Ebner and Fairchild (Proc. SPIE
-//! 3300, 107 (1998): 318 colours of 15 hues). Each colour was turned, in the space, to the mean hue of those seen alike; how far
+//! 3300, 107 (1998): 321 colours of 15 hues). Each colour was turned, in the space, to the mean hue of those seen alike; how far
 //! that moves it, in ΔE₀₀, is the error of the space:
 //!
 //! | | Hung and Berns: mean | 95 % | blue | max | Ebner and Fairchild: mean | 95 % | max |
 //! | --- | --- | --- | --- | --- | --- | --- | --- |
 //! | CIELAB | 1.66 | 4.7 | 8.5 | 19.8 | 1.33 | 4.0 | 11.0 |
-//! | CIECAM16-UCS | 1.03 | 3.1 | 3.3 | 6.7 | 1.10 | 3.0 | 5.2 |
-//! | Oklab | **0.76** | **1.9** | **1.6** | **3.3** | **0.93** | **2.5** | **4.5** |
+//! | CIECAM16-UCS | 1.03 | 3.4 | 3.3 | 6.7 | 1.10 | 3.0 | 5.2 |
+//! | Oklab | **0.76** | **2.0** | **1.6** | **3.3** | **0.93** | **2.5** | **4.5** |
 //!
-//! CIELAB turns blues to purple, which is what most other software's mapping does to them. Oklab is best in every column, and cheap: a mapping is the
-//! smallest root of six cubics. (It was fitted to the second data set, among others; the first is independent of it.) A test of
-//! this crate computes the table again.
+//! CIELAB turns blues to purple. Oklab is best in every column, and cheap: a mapping is the smallest root of six cubics. (It was
+//! fitted to the second data set, among others; the first is independent of it.)
+//!
+//! On interference colours: of 600 free films in D65, of index 4/3 and 2.4 and 5 to 1500 nm thick, 126 lie outside sRGB. By the
+//! hue angle of CIECAM16, which none of the mappings was made with, clipping turns them by 3.7° on average (12° at most), mixing
+//! with white by 1.1° (6.8°), Oklab by 0.7° (5.6°). Both are computed again by `tests/gamut` of this crate.
 
 mod perceptual;
 mod report;

@@ -68,7 +68,7 @@ fn fits(plan: &Plan) -> bool {
     let (Ok(width), Ok(height)) = (u32::try_from(plan.size.0), u32::try_from(plan.size.1)) else {
         return false;
     };
-    let bytes = SpectralImage::bytes(width, height, plan.grid.count(), 1);
+    let bytes = SpectralImage::bytes(width, height, plan.grid.count(), plan.light_groups.len());
     if bytes > MAX_BYTES {
         return false;
     }

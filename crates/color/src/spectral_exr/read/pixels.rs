@@ -8,7 +8,7 @@ use spectra::{Observer, SpectralImage};
 
 use super::Plan;
 use crate::BandWeights;
-use crate::spectral_exr::channels::Content;
+use crate::spectral_exr::channels::{Content, LightContent};
 
 /// An image that is being read.
 pub(super) struct Pixels {
@@ -29,13 +29,20 @@ struct Row {
     /// How many radiances and how many variances each pixel has.
     channels: usize,
     bands: usize,
+    /// Radiance and XYZ of each of several light groups.
+    lights: Vec<(Vec<f32>, Vec<[f32; 3]>)>,
 }
 
 impl Pixels {
     pub(super) fn new(plan: Plan) -> Self {
         let (width, height) = plan.size;
         Self {
-            image: SpectralImage::new(width as u32, height as u32, plan.grid),
+            image: SpectralImage::with_light_groups(
+                width as u32,
+                height as u32,
+                plan.grid,
+                plan.light_groups.clone(),
+            ),
             filled: vec![0; height],
             observer: (!plan.has_xyz())
                 .then(|| BandWeights::observed(&plan.grid, Observer::Cie1931Deg2)),
@@ -65,8 +72,7 @@ impl Pixels {
         {
             return None;
         }
-        let bands = self.plan.grid.count() as usize;
-        let mut row = Row::new(size.width(), self.plan.spectral_channels, bands);
+        let mut row = Row::new(size.width(), &self.plan);
         let last = channels.list.len() - 1;
         for line in block.lines(channels) {
             let (channel, y) = (line.location.channel, line.location.position.y());
@@ -88,6 +94,7 @@ impl Pixels {
     fn put(&mut self, row: &Row, x0: usize, y: usize) {
         let bands = self.plan.grid.count() as usize;
         let mut even = vec![0.0; bands];
+        let mut lights = (Vec::new(), Vec::new());
         for (x, &xyz) in row.xyz.iter().enumerate() {
             let values = x * bands..(x + 1) * bands;
             let radiance = &row.radiance[x * row.channels..(x + 1) * row.channels];
@@ -106,8 +113,15 @@ impl Pixels {
             };
             let place = ((x0 + x) as u32, y as u32);
             let variance = &row.variance[values];
-            self.image
-                .set_pixel(place, radiance, variance, xyz, row.samples[x]);
+            if row.lights.is_empty() {
+                self.image
+                    .set_pixel(place, radiance, variance, xyz, row.samples[x]);
+            } else {
+                row.by_light(x, &mut lights);
+                let (radiance, xyz) = &lights;
+                self.image
+                    .set_pixel_by_light(place, radiance, variance, xyz, row.samples[x]);
+            }
         }
         self.filled[y] += row.xyz.len();
     }
@@ -123,7 +137,10 @@ impl Pixels {
 }
 
 impl Row {
-    fn new(width: usize, channels: usize, bands: usize) -> Self {
+    fn new(width: usize, plan: &Plan) -> Self {
+        let (channels, bands) = (plan.spectral_channels, plan.grid.count() as usize);
+        let light_groups = plan.light_groups.len();
+        let kept = if light_groups > 1 { light_groups } else { 0 };
         Self {
             channels,
             bands,
@@ -131,6 +148,18 @@ impl Row {
             variance: vec![0.0; width * bands],
             xyz: vec![[0.0; 3]; width],
             samples: vec![0; width],
+            lights: vec![(vec![0.0; width * bands], vec![[0.0; 3]; width]); kept],
+        }
+    }
+
+    /// What the light groups bring to a pixel: radiance as `[light group][band]`, and XYZ.
+    fn by_light(&self, x: usize, (radiance, xyz): &mut (Vec<f32>, Vec<[f32; 3]>)) {
+        let bands = self.bands;
+        radiance.clear();
+        xyz.clear();
+        for (radiances, colours) in &self.lights {
+            radiance.extend(&radiances[x * bands..(x + 1) * bands]);
+            xyz.push(colours[x]);
         }
     }
 
@@ -149,7 +178,15 @@ impl Row {
                 }
             }
             Content::Samples => each(line, kind, |x, v| self.samples[x] = v as u32),
-            Content::Rgb(_) => {}
+            Content::Light(group, LightContent::Radiance(band)) => {
+                let radiance = &mut self.lights[group].0;
+                each(line, kind, |x, v| radiance[x * bands + band] = v);
+            }
+            Content::Light(group, LightContent::Xyz(axis)) => {
+                let xyz = &mut self.lights[group].1;
+                each(line, kind, |x, v| xyz[x][axis] = v);
+            }
+            Content::Rgb(_) | Content::Light(_, LightContent::Rgb(_)) => {}
         }
     }
 }

@@ -2,12 +2,13 @@
 
 use exr::math::Vec2;
 use exr::meta::header::Header;
-use spectra::BandGrid;
+use spectra::{BandGrid, LightGroup};
 
 use super::{Context, ReadExrError};
 use crate::spectral_exr::BandLayoutError;
 use crate::spectral_exr::bands::{Bands, Shares};
 use crate::spectral_exr::channels::{Content, plain_content, variance_band};
+use crate::spectral_exr::lights;
 use crate::spectral_exr::metadata::{Metadata, range_nm};
 use crate::spectral_exr::wavelength::{Place, Quantity, spectral_channel};
 
@@ -28,6 +29,8 @@ pub(super) struct Plan {
     pub(super) shares: Option<Shares>,
     /// What radiances are multiplied by.
     pub(super) scale: f32,
+    /// The light groups, at least one.
+    pub(super) light_groups: Vec<LightGroup>,
 }
 
 /// The spectral channels of a layer, in order of their wavelengths.
@@ -60,6 +63,11 @@ impl Plan {
         }
         let places: Vec<Place> = spectrum.channels.iter().map(|&(place, _)| place).collect();
         let bands = Bands::new(&places, range_nm(header)).map_err(bands_error)?;
+        let light_groups = lights::of_header(header);
+        let contents = contents(header, &spectrum, &bands, &light_groups);
+        if let Some(name) = lights::incomplete(&light_groups, &contents, &bands.grid) {
+            return Err(context.damaged(&format!("the light group {name:?} lacks channels")));
+        }
         let mut metadata = Metadata::of_header(header);
         let scale = match spectrum.quantity {
             Quantity::Reflectance => 1.0,
@@ -70,10 +78,11 @@ impl Plan {
             layer,
             size: (header.layer_size.width(), header.layer_size.height()),
             grid: bands.grid,
-            contents: contents(header, &spectrum, &bands),
+            contents,
             spectral_channels: bands.used.len(),
             shares: bands.shares,
             scale: scale as f32,
+            light_groups,
         };
         Ok((plan, metadata))
     }
@@ -122,12 +131,19 @@ fn names(header: &Header) -> Vec<String> {
 }
 
 /// What each channel holds.
-fn contents(header: &Header, spectrum: &Spectrum, bands: &Bands) -> Vec<Option<Content>> {
+fn contents(
+    header: &Header,
+    spectrum: &Spectrum,
+    bands: &Bands,
+    light_groups: &[LightGroup],
+) -> Vec<Option<Content>> {
     let content = |name: &String| match plain_content(name) {
         // Developed again from XYZ when needed.
         Some(Content::Rgb(_)) => None,
         Some(content) => Some(content),
-        None => variance_band(name, &bands.grid).map(Content::Variance),
+        None => variance_band(name, &bands.grid)
+            .map(Content::Variance)
+            .or_else(|| lights::content(name, light_groups, &bands.grid)),
     };
     let mut contents: Vec<Option<Content>> = names(header).iter().map(content).collect();
     for (band, &(_, channel)) in spectrum.channels[bands.used.clone()].iter().enumerate() {

@@ -1,0 +1,205 @@
+//! Which space keeps hue: against what observers saw, and on interference colours that no display shows.
+
+use color::develop::{Gamut, GamutMapping};
+use color::xyz::{BandObserver, exposure_scale};
+use colorimetry::adaptation::Adaptation;
+use colorimetry::ciecam16::{Surround, Ucs, ViewingConditions};
+use colorimetry::lab::delta_e_2000;
+use colorimetry::matrix::{inverse, times};
+use colorimetry::{Display, Lab, Oklab};
+use pellicle_color as color;
+use spectra::BandGrid;
+use std::collections::BTreeMap;
+
+/// Colours seen in the same hue, by its name, and their white.
+struct Loci {
+    white: [f64; 3],
+    hues: BTreeMap<&'static str, Vec<[f64; 3]>>,
+}
+
+impl Loci {
+    fn read(text: &'static str, white: [f64; 3]) -> Self {
+        let mut hues = BTreeMap::<_, Vec<_>>::new();
+        let lines = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+        for line in lines {
+            let mut fields = line.split(',');
+            let hue = fields.next().unwrap();
+            let mut next = || fields.next().unwrap().parse().unwrap();
+            hues.entry(hue).or_default().push([next(), next(), next()]);
+        }
+        Self { white, hues }
+    }
+
+    fn hung_berns() -> Self {
+        let (x, y) = (0.3101, 0.3163);
+        let white = [x / y, 1.0, (1.0 - x - y) / y];
+        Self::read(include_str!("hung_berns_1995.csv"), white)
+    }
+
+    fn ebner_fairchild() -> Self {
+        let white = [0.9501, 1.0, 1.0881];
+        Self::read(include_str!("ebner_fairchild_1998.csv"), white)
+    }
+}
+
+/// A space: lightness and the two coordinates of hue, there and back.
+struct Space {
+    name: &'static str,
+    of_xyz: Box<dyn Fn([f64; 3]) -> [f64; 3]>,
+    to_xyz: Box<dyn Fn([f64; 3]) -> [f64; 3]>,
+}
+
+fn spaces(white: [f64; 3]) -> [Space; 3] {
+    let d65 = Display::named("srgb").unwrap().white_xyz();
+    let to_d65 = Adaptation::Bradford.matrix(white, d65);
+    let from_d65 = inverse(&to_d65);
+    // As CIECAM16's authors compare spaces: an average surround, and an adapting field of a fifth of 64 cd/m².
+    let conditions =
+        ViewingConditions::new(white.map(|v| 100.0 * v), 64.0, 20.0, Surround::Average);
+    let back = conditions.clone();
+    [
+        Space {
+            name: "CIELAB",
+            of_xyz: Box::new(move |xyz| {
+                let Lab { l, a, b } = Lab::from_xyz(xyz, white);
+                [l, a, b]
+            }),
+            to_xyz: Box::new(move |[l, a, b]| Lab { l, a, b }.to_xyz(white)),
+        },
+        Space {
+            name: "CIECAM16-UCS",
+            of_xyz: Box::new(move |xyz| {
+                let Ucs { j, a, b } = conditions.ucs(xyz.map(|v| 100.0 * v));
+                [j, a, b]
+            }),
+            to_xyz: Box::new(move |[j, a, b]| back.xyz_of_ucs(Ucs { j, a, b }).map(|v| v / 100.0)),
+        },
+        Space {
+            name: "Oklab",
+            of_xyz: Box::new(move |xyz| {
+                let Oklab { l, a, b } = Oklab::from_xyz(times(&to_d65, xyz));
+                [l, a, b]
+            }),
+            to_xyz: Box::new(move |[l, a, b]| times(&from_d65, Oklab { l, a, b }.to_xyz())),
+        },
+    ]
+}
+
+/// How far each colour moves, in ΔE₀₀, when it takes the mean hue of those seen alike.
+fn errors(space: &Space, colours: &[[f64; 3]], white: [f64; 3]) -> Vec<f64> {
+    let own: Vec<[f64; 3]> = colours.iter().map(|&xyz| (space.of_xyz)(xyz)).collect();
+    let directions = own
+        .iter()
+        .map(|[_, a, b]| [a / a.hypot(*b), b / a.hypot(*b)]);
+    let [a, b] = directions.fold([0.0; 2], |sum, d| [sum[0] + d[0], sum[1] + d[1]]);
+    let (a, b) = (a / a.hypot(b), b / a.hypot(b));
+    let moved = own.iter().map(|&[l, x, y]| {
+        let chroma = x.hypot(y);
+        (space.to_xyz)([l, chroma * a, chroma * b])
+    });
+    let lab = |xyz| Lab::from_xyz(xyz, white);
+    let pairs = moved.zip(colours);
+    pairs
+        .map(|(moved, &xyz)| delta_e_2000(lab(moved), lab(xyz)))
+        .collect()
+}
+
+/// Mean, 95th percentile and largest.
+fn summary(errors: &mut [f64]) -> [f64; 3] {
+    errors.sort_by(f64::total_cmp);
+    let mean = errors.iter().sum::<f64>() / errors.len() as f64;
+    let p95 = errors[(0.95 * (errors.len() - 1) as f64).round() as usize];
+    [mean, p95, errors[errors.len() - 1]]
+}
+
+#[test]
+fn oklab_keeps_hue_best() {
+    for (loci, count, published) in [
+        (Loci::hung_berns(), 48, [1.66, 1.03, 0.76]),
+        (Loci::ebner_fairchild(), 321, [1.33, 1.10, 0.93]),
+    ] {
+        let found: usize = loci.hues.values().map(Vec::len).sum();
+        assert_eq!(found, count);
+        let mut means = Vec::new();
+        for space in &spaces(loci.white) {
+            let of_hue = |colours: &Vec<[f64; 3]>| errors(space, colours, loci.white);
+            let mut all: Vec<f64> = loci.hues.values().flat_map(of_hue).collect();
+            let [mean, p95, max] = summary(&mut all);
+            println!(
+                "{:12} mean {mean:.2}, 95 % {p95:.1}, max {max:.1}",
+                space.name
+            );
+            if let Some(blue) = loci.hues.get("blue") {
+                println!("{:12} blue {:.1}", "", summary(&mut of_hue(blue))[0]);
+            }
+            means.push(mean);
+        }
+        // Figures of the table where the default is chosen, from an independent computation (colour-science 0.4.7).
+        for (mean, published) in means.iter().zip(published) {
+            assert!((mean - published).abs() < 0.015, "{means:?}");
+        }
+    }
+}
+
+/// XYZ of free films in D65, 5 to 1500 nm thick, exposed so that the brightest are near the white.
+fn films(index: f64) -> Vec<[f64; 3]> {
+    let grid = BandGrid::visible(200).unwrap();
+    let observer = BandObserver::new(&grid);
+    let light = spectra::illuminant("D65").unwrap().data;
+    let r2 = ((1.0 - index) / (1.0 + index)).powi(2);
+    // The largest reflectance of such a film.
+    let most = 4.0 * r2 / (1.0 + r2).powi(2);
+    let film = |thickness_nm: f64| {
+        let radiance: Vec<f32> = (0..grid.count())
+            .map(|band| {
+                let nm = grid.centre_nm(band);
+                let f = 4.0 * r2 / (1.0 - r2).powi(2)
+                    * (2.0 * std::f64::consts::PI * index * thickness_nm / nm)
+                        .sin()
+                        .powi(2);
+                (light.at(nm).unwrap() * f / (1.0 + f) / most) as f32
+            })
+            .collect();
+        observer.xyz(&radiance).map(|v| v * exposure_scale(0.0))
+    };
+    (1..=300).map(|i| film(5.0 * f64::from(i))).collect()
+}
+
+/// A judge that none of the mappings was made with: the hue angle of CIECAM16.
+#[test]
+fn interference_colours_keep_their_hue() {
+    let display = Display::named("srgb").unwrap();
+    let gamut = Gamut::new(&display);
+    let white = display.white_xyz().map(|v| 100.0 * v);
+    let judge = ViewingConditions::new(white, 64.0, 20.0, Surround::Average);
+    let hue = |rgb| {
+        judge
+            .appearance(times(display.xyz_from_rgb(), rgb).map(|v: f64| 100.0 * v))
+            .h
+    };
+    let outside: Vec<[f64; 3]> = [4.0 / 3.0, 2.4]
+        .into_iter()
+        .flat_map(films)
+        .map(|xyz| times(display.rgb_from_xyz(), xyz))
+        .filter(|&rgb| !gamut.contains(rgb))
+        .collect();
+    assert!(outside.len() > 100, "{}", outside.len());
+    let mean_turn = |mapping| {
+        let turn = |&rgb: &[f64; 3]| {
+            let turn = hue(gamut.map(mapping, rgb)) - hue(rgb);
+            ((turn + 540.0).rem_euclid(360.0) - 180.0).abs()
+        };
+        let mut turns: Vec<f64> = outside.iter().map(turn).collect();
+        let [mean, p95, max] = summary(&mut turns);
+        println!("{mapping:?}: hue turns by {mean:.2}°, 95 % {p95:.2}°, at most {max:.2}°");
+        mean
+    };
+    println!("{} of 600 films lie outside sRGB", outside.len());
+    let [clip, white, perceptual] = [
+        GamutMapping::Clip,
+        GamutMapping::TowardWhite,
+        GamutMapping::Perceptual,
+    ]
+    .map(mean_turn);
+    assert!(perceptual < white && perceptual < clip);
+}

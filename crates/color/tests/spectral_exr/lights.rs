@@ -1,0 +1,130 @@
+//! Light groups are written as layers, and read again.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use exr::meta::MetaData;
+use pellicle_color::spectral_exr::{self, ReadExrError, WriteExrError, WriteOptions};
+use spectra::{BandGrid, LightGroup, SpectralImage};
+
+use crate::support::{metadata, noise};
+
+/// An image in which every number differs, of light groups with these lamps.
+fn image(groups: &[(&str, Option<&str>)]) -> SpectralImage {
+    let grid = BandGrid::visible(5).unwrap();
+    let lamp = |name: &str| grid.lamp(&spectra::illuminant(name).unwrap().data);
+    let group = |(name, burns): &(&str, Option<&str>)| LightGroup {
+        name: (*name).to_owned(),
+        lamp: burns.and_then(lamp),
+    };
+    let list = groups.iter().map(group).collect();
+    let mut image = SpectralImage::with_light_groups(9, 35, grid, list);
+    let values = 5 * groups.len() as u32;
+    for (x, y) in (0..9 * 35).map(|i| (i % 9, i / 9)) {
+        let first = (y * 9 + x) * 100;
+        let radiance: Vec<f32> = (0..values).map(|i| noise(first + i)).collect();
+        let variance: Vec<f32> = (0..5).map(|i| noise(first + 60 + i)).collect();
+        let xyz: Vec<_> = (0..groups.len() as u32)
+            .map(|group| [0, 1, 2].map(|i| noise(first + 70 + 3 * group + i)))
+            .collect();
+        image.set_pixel_by_light((x, y), &radiance, &variance, &xyz, x + y);
+    }
+    image
+}
+
+fn write(path: &Path, image: &SpectralImage) -> Result<(), WriteExrError> {
+    spectral_exr::write(path, image, &metadata(), WriteOptions::default())
+}
+
+fn channels(path: &Path) -> BTreeSet<String> {
+    let meta = MetaData::read_from_file(path, true).unwrap();
+    let list = meta.headers[0].channels.list.iter();
+    list.map(|channel| channel.name.to_string()).collect()
+}
+
+#[test]
+fn light_groups_come_back_to_the_bit() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("image.exr");
+    let several = [("sky", Some("D65")), ("key", Some("FL11")), ("mixed", None)];
+    let one = [("D65", Some("D65"))];
+    for groups in [&several[..], &several[1..], &one, &[("all", None)]] {
+        let image = image(groups);
+        write(&path, &image).unwrap();
+        let (found, found_metadata) = spectral_exr::read(&path).unwrap();
+        assert_eq!(found, image);
+        assert_eq!(found_metadata, metadata());
+    }
+}
+
+#[test]
+fn each_of_several_light_groups_is_a_layer() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("image.exr");
+    write(&path, &image(&[("only", Some("A"))])).unwrap();
+    let single = channels(&path);
+    write(&path, &image(&[("sky", None), ("key", None)])).unwrap();
+    let both = channels(&path);
+    assert!(both.is_superset(&single) && both.len() == single.len() + 2 * (5 + 6));
+    for name in [
+        "sky.R",
+        "key.B",
+        "pellicle.light.key.cieX",
+        "pellicle.light.sky.420,000000nm",
+    ] {
+        assert!(both.contains(name), "{name}");
+    }
+}
+
+#[test]
+fn names_that_cannot_be_layers_are_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("image.exr");
+    for names in [
+        ["a", "a"],
+        ["a", "b.c"],
+        ["", "b"],
+        ["S0", "b"],
+        ["a", "b c"],
+    ] {
+        let refused = write(&path, &image(&names.map(|name| (name, None))));
+        assert!(
+            matches!(refused, Err(WriteExrError::LightGroup { .. })),
+            "{names:?}"
+        );
+    }
+    assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 0);
+}
+
+/// The same file with some bytes replaced by as many others.
+fn replaced(path: &Path, from: &str, to: &str) {
+    assert_eq!(from.len(), to.len());
+    let mut bytes = fs::read(path).unwrap();
+    let at = bytes.windows(from.len()).position(|w| w == from.as_bytes());
+    let at = at.expect("the header has it");
+    bytes[at..at + to.len()].copy_from_slice(to.as_bytes());
+    fs::write(path, bytes).unwrap();
+}
+
+#[test]
+fn a_light_group_without_its_channels_is_damage() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("image.exr");
+    write(&path, &image(&[("sky", None), ("key", None)])).unwrap();
+    replaced(&path, "pellicle.light.key.cieX", "pellicle.light.key.cieW");
+    match spectral_exr::read(&path) {
+        Err(ReadExrError::Damaged { reason, .. }) => {
+            assert_eq!(reason, "the light group \"key\" lacks channels");
+        }
+        other => panic!("{other:?}"),
+    }
+    // A list of names that says nothing: the total is there.
+    let image = image(&[("sky", None), ("key", None)]);
+    write(&path, &image).unwrap();
+    replaced(&path, "sky key", "sky sky");
+    let (found, _) = spectral_exr::read(&path).unwrap();
+    assert_eq!(found.light_groups(), [LightGroup::unknown()]);
+    assert_eq!(found.radiance(), image.radiance());
+    assert_eq!(found.xyz(), image.xyz());
+}
