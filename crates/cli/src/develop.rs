@@ -1,5 +1,6 @@
 //! `pellicle develop`: a spectral image becomes a picture for a display; and the options by which `render` does the same.
 
+use crate::booth::{self, BoothLamp};
 use crate::image_file;
 use crate::lamp;
 use crate::output::check_place;
@@ -13,7 +14,7 @@ use pellicle::color::develop::{
 };
 use pellicle::color::rgb_exr::Samples;
 use pellicle::color::spectral_exr::{self, Metadata};
-use pellicle::color::{png, rgb_exr};
+use pellicle::color::{RgbImage8, develop, png, rgb_exr};
 use pellicle::colorimetry::chromaticity::xy_of_xyz;
 use pellicle::colorimetry::{Adaptation, Display, tristimulus};
 use pellicle::spectra::{Observer, SpectralImage};
@@ -28,6 +29,10 @@ pub(crate) struct Arguments {
     /// What to write: .png for the display, .exr for its linear red, green and blue; can be repeated
     #[arg(short, long, value_name = "PATH", required = true)]
     output: Vec<PathBuf>,
+    /// A contact sheet (.png): the image with all its lights burning with each of these lamps in turn, like A,D65,F11,LED-B3,
+    /// each times a factor or not
+    #[arg(long, value_name = "LAMP,LAMP,…", value_delimiter = ',', value_parser = booth::lamp)]
+    booth: Vec<BoothLamp>,
     #[command(flatten)]
     options: Options,
 }
@@ -274,6 +279,22 @@ impl Options {
         }
     }
 
+    /// The codes of a picture of 8 bits.
+    pub(crate) fn codes<'a>(
+        &self,
+        image: impl Into<Latent<'a>>,
+        of_image: OfImage,
+        height: u32,
+    ) -> miette::Result<RgbImage8> {
+        develop(image, &self.settings(of_image, height))
+            .into_diagnostic()
+            .wrap_err("the picture cannot be developed")
+    }
+
+    pub(crate) fn display(&self) -> &Display {
+        &self.display
+    }
+
     fn format(&self, path: &Path) -> miette::Result<Format> {
         let extension = path.extension().map(OsStr::to_string_lossy);
         let extension = extension.map(|name| name.to_lowercase());
@@ -386,6 +407,19 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     for output in &arguments.output {
         options.format(output)?;
         check_place("-o", output, path)?;
+    }
+    if !arguments.booth.is_empty() {
+        booth::check(&arguments.booth, &arguments.output)?;
+        let (image, metadata) = image_file::spectral(path)?;
+        let of_image = OfImage::said_by(&metadata);
+        options.check(&arguments.output, of_image)?;
+        return booth::write(
+            &image,
+            of_image,
+            &arguments.booth,
+            options,
+            &arguments.output,
+        );
     }
     if options.needs_spectra() {
         let (mut image, metadata) = spectral_exr::read(path).into_diagnostic()?;

@@ -1,6 +1,7 @@
 //! The `pellicle` command: arguments, progress and errors; the work is done by the library.
 
 mod bench;
+mod booth;
 mod color;
 mod compare;
 mod develop;

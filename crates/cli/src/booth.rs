@@ -1,0 +1,88 @@
+//! `pellicle develop --booth`: the same image under one lamp after another, on one sheet.
+
+use crate::develop::{OfImage, Options};
+use crate::lamp::Lamp;
+use crate::print;
+use miette::{IntoDiagnostic, WrapErr, miette};
+use pellicle::coating::contact_sheet;
+use pellicle::color::{Relight, png, relight};
+use pellicle::spectra::{Observer, SpectralImage};
+use std::path::{Path, PathBuf};
+
+/// A lamp of the booth and how it was written.
+#[derive(Clone, Debug)]
+pub(crate) struct BoothLamp {
+    label: String,
+    lamp: Lamp,
+}
+
+/// The most pictures of a sheet.
+const MOST: usize = 36;
+
+/// `A,D65,F11,LED-B3`, each with a factor or not.
+pub(crate) fn lamp(text: &str) -> Result<BoothLamp, String> {
+    let lamp = Lamp::parse(text)?;
+    let label = if text.trim() == lamp.name {
+        lamp.name.clone()
+    } else {
+        format!("{} ({})", text.trim(), lamp.name)
+    };
+    Ok(BoothLamp { label, lamp })
+}
+
+/// Tells what cannot be before the image is read.
+pub(crate) fn check(lamps: &[BoothLamp], outputs: &[PathBuf]) -> miette::Result<()> {
+    let is_png = |path: &Path| {
+        path.extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("png"))
+    };
+    if let Some(path) = outputs.iter().find(|path| !is_png(path)) {
+        return Err(miette!(
+            help = "end it in .png",
+            "-o {}: a contact sheet cannot be written so",
+            path.display()
+        ));
+    }
+    if lamps.len() > MOST {
+        let found = lamps.len();
+        return Err(miette!(
+            "--booth: {found} lamps; a sheet has room for {MOST}"
+        ));
+    }
+    Ok(())
+}
+
+/// Lets all lights burn with each lamp in turn, develops, and writes the sheet.
+pub(crate) fn write(
+    image: &SpectralImage,
+    of_image: OfImage,
+    lamps: &[BoothLamp],
+    options: &Options,
+    outputs: &[PathBuf],
+) -> miette::Result<()> {
+    let mut pictures = Vec::with_capacity(lamps.len());
+    for BoothLamp { label, lamp } in lamps {
+        let mut relit = image.clone();
+        let burns = Relight {
+            lamp: Some(lamp.spectrum.clone()),
+            factor: lamp.factor,
+        };
+        let groups = image.light_groups().iter();
+        let lights: Vec<(String, Relight)> = groups
+            .map(|group| (group.name.clone(), burns.clone()))
+            .collect();
+        relight(&mut relit, &lights, Observer::Cie1931Deg2)
+            .into_diagnostic()
+            .wrap_err_with(|| format!("--booth {label}"))?;
+        let height = relit.height();
+        pictures.push((label.clone(), options.codes(&relit, of_image, height)?));
+    }
+    let sheet = contact_sheet(&pictures).ok_or_else(|| miette!("--booth: there is no lamp"))?;
+    for path in outputs {
+        png::write_for_display(path, &sheet, options.display())
+            .into_diagnostic()
+            .wrap_err_with(|| format!("{} was not written", path.display()))?;
+        print::note(format_args!("wrote {}", path.display()));
+    }
+    Ok(())
+}

@@ -1,0 +1,133 @@
+//! Pictures side by side, each with a label above it.
+
+use crate::picture::{self, Drawing, Drawn, Scale};
+use color::RgbImage8;
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+/// A dark grey that stands back behind pictures.
+const GROUND: u8 = 40;
+/// Pixels around and between pictures.
+const GAP: u32 = 12;
+/// Units of a label's height; a unit is two pixels.
+const LABEL_UNITS: u32 = 20;
+
+/// A label in white on dark grey.
+struct Label<'a> {
+    text: &'a str,
+    width: u32,
+}
+
+impl Drawing for Label<'_> {
+    fn size(&self) -> (u32, u32) {
+        (self.width, LABEL_UNITS)
+    }
+
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: Scale) -> Drawn<B> {
+        area.fill(&RGBColor(GROUND, GROUND, GROUND))?;
+        let style = scale.text(13.0).color(&WHITE);
+        let style = style.pos(Pos::new(HPos::Left, VPos::Center));
+        let middle = scale.px(0.5 * f64::from(LABEL_UNITS));
+        area.draw(&Text::new(self.text, (0, middle), style))
+    }
+}
+
+/// A contact sheet of pictures of the same size with their labels, in rows from the left; as nearly square as their number
+/// allows. The pictures' codes stay as they are.
+///
+/// `None` where there is no picture, or they differ in size.
+pub fn contact_sheet(pictures: &[(String, RgbImage8)]) -> Option<RgbImage8> {
+    let (_, first) = pictures.first()?;
+    let (width, height) = (first.width(), first.height());
+    if pictures
+        .iter()
+        .any(|(_, p)| (p.width(), p.height()) != (width, height))
+    {
+        return None;
+    }
+    let columns = (pictures.len() as f64).sqrt().ceil() as u32;
+    let rows = (pictures.len() as u32).div_ceil(columns);
+    let label = 2 * LABEL_UNITS;
+    let (cell_width, cell_height) = (width + GAP, label + height + GAP);
+    let mut sheet = Sheet::new(columns * cell_width + GAP, rows * cell_height + GAP);
+    for (index, (text, picture)) in (0..).zip(pictures) {
+        let x = GAP + (index % columns) * cell_width;
+        let y = GAP + (index / columns) * cell_height;
+        let units = width.div_ceil(2);
+        sheet.put(
+            &picture::pixels(&Label { text, width: units }),
+            (x, y),
+            width,
+        );
+        sheet.put(picture, (x, y + label), width);
+    }
+    RgbImage8::new(sheet.width, sheet.height, sheet.codes)
+}
+
+struct Sheet {
+    width: u32,
+    height: u32,
+    codes: Vec<u8>,
+}
+
+impl Sheet {
+    fn new(width: u32, height: u32) -> Self {
+        Self {
+            width,
+            height,
+            codes: vec![GROUND; 3 * width as usize * height as usize],
+        }
+    }
+
+    /// Copies a picture, as much of it as is `width` wide.
+    fn put(&mut self, picture: &RgbImage8, (x, y): (u32, u32), width: u32) {
+        let rows = picture.data().chunks(3 * picture.width() as usize);
+        for (row, codes) in (y as usize..).zip(rows) {
+            let start = 3 * (row * self.width as usize + x as usize);
+            let length = 3 * width.min(picture.width()) as usize;
+            self.codes[start..start + length].copy_from_slice(&codes[..length]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn filled(width: u32, height: u32, code: u8) -> RgbImage8 {
+        RgbImage8::new(width, height, vec![code; 3 * (width * height) as usize]).unwrap()
+    }
+
+    #[test]
+    fn pictures_stand_in_rows_below_their_labels() {
+        let pictures: Vec<(String, RgbImage8)> = (1..=3)
+            .map(|i| (format!("D{i}5"), filled(61, 30, 100 + i)))
+            .collect();
+        let sheet = contact_sheet(&pictures).unwrap();
+        assert_eq!((sheet.width(), sheet.height()), (2 * 73 + 12, 2 * 82 + 12));
+        for (index, (x, y)) in [(12, 52), (85, 52), (12, 134)].into_iter().enumerate() {
+            let code = 101 + index as u8;
+            for (dx, dy) in [(0, 0), (60, 29)] {
+                assert_eq!(sheet.pixel(x + dx, y + dy), Some([code; 3]));
+            }
+            assert_eq!(sheet.pixel(x + 61, y), Some([GROUND; 3]));
+            // The label is written above it.
+            let bright = |x, y| sheet.pixel(x, y).is_some_and(|p| p[0] > 200);
+            assert!((x..x + 61).any(|x| (y - 40..y).any(|y| bright(x, y))));
+        }
+        assert_eq!(
+            sheet.pixel(85 + 5, 134 + 5),
+            Some([GROUND; 3]),
+            "an empty place"
+        );
+    }
+
+    #[test]
+    fn pictures_of_different_sizes_make_no_sheet() {
+        let named = |p| (String::new(), p);
+        assert!(contact_sheet(&[]).is_none());
+        assert!(contact_sheet(&[named(filled(4, 4, 0)), named(filled(4, 5, 0))]).is_none());
+        assert!(contact_sheet(&[named(filled(1, 1, 0))]).is_some());
+    }
+}
