@@ -224,7 +224,7 @@ impl Source<'_> {
                 every_band(self.image.group_radiance(group), band, out);
             }
             Content::Xyz(axis) | Content::Light(_, LightContent::Xyz(axis)) => {
-                fill_with(out, xyz.iter().map(|v| v[axis].to_ne_bytes()))
+                fill_with(out, xyz.iter().map(|v| v[axis].to_ne_bytes()));
             }
             Content::Rgb(channel) | Content::Light(_, LightContent::Rgb(channel)) => {
                 let values = xyz
