@@ -420,3 +420,57 @@ fn files_of_other_origin_are_told() {
     let found: Value = serde_json::from_str(&ran.stdout).unwrap();
     assert_eq!(found["notes"].as_array().unwrap().len(), 2);
 }
+
+/// A rendered bubble under four lamps on one sheet: each picture is what `develop` makes of the image relit by it.
+#[test]
+fn a_booth_shows_each_lamp() {
+    let place = Place::default();
+    let scene = root().join("scenes/soap_bubble.toml");
+    let scene = scene.display();
+    let _ = place
+        .run(&format!(
+            "render {scene} --backend cpu --size 64x48 --samples 4 -o a.exr"
+        ))
+        .succeeded();
+    let _ = place
+        .run("develop a.exr --booth D65,A,F11 -o booth.png --gamut clip")
+        .succeeded();
+    let _ = place
+        .run("develop a.exr -o d65.png --gamut clip")
+        .succeeded();
+    let sheet = image::open(place.path("booth.png")).unwrap().into_rgb8();
+    let alone = image::open(place.path("d65.png")).unwrap().into_rgb8();
+    // Two columns of 64 pixels, gaps of 12, labels of 40.
+    assert_eq!(sheet.dimensions(), (2 * 76 + 12, 2 * 100 + 12));
+    let (mut of_lamps, mut same) = ([[0_u64; 3]; 3], 0);
+    for (x, y, pixel) in alone.enumerate_pixels() {
+        for (lamp, (left, top)) in [(12, 52), (88, 52), (12, 152)].into_iter().enumerate() {
+            for channel in 0..3 {
+                of_lamps[lamp][channel] += u64::from(sheet.get_pixel(left + x, top + y).0[channel]);
+            }
+        }
+        let found = sheet.get_pixel(12 + x, 52 + y).0;
+        same += u32::from((0..3).all(|i| found[i].abs_diff(pixel.0[i]) <= 1));
+    }
+    // Its own lamp changes nothing but roundings; A is redder than D65.
+    assert_eq!(same, 64 * 48);
+    assert!(
+        of_lamps[1][0] > of_lamps[0][0] && of_lamps[1][2] < of_lamps[0][2],
+        "{of_lamps:?}"
+    );
+    assert_ne!(of_lamps[2], of_lamps[0]);
+
+    let before = place.names();
+    for (arguments, words) in [
+        ("a.exr --booth A,x -o b.png", &["\"x\"", "known are"][..]),
+        ("a.exr --booth A -o b.exr", &["b.exr", ".png"]),
+        ("none.exr --booth A -o b.png", &["none.exr"]),
+    ] {
+        told(&place.run(&format!("develop {arguments}")).failed(), words);
+    }
+    // What does not know its lamp cannot burn with another.
+    write(&place.path("unknown.exr"), &grey([4, 3], 5, None));
+    let said = place.run("develop unknown.exr --booth A -o b.png").failed();
+    told(&said, &["--booth A", "cannot be changed"]);
+    assert_eq!(place.names().len(), before.len() + 1);
+}

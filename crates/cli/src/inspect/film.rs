@@ -154,14 +154,7 @@ impl KnownScene {
 fn lamps(asked: &FilmArguments, image: &SpectralImage) -> miette::Result<Vec<SceneLamp>> {
     let nm = FilmFitting::wavelengths_nm(image.bands());
     if asked.lamp.is_none() {
-        let of_group = |group: &LightGroup| {
-            let lamp = group.lamp.as_ref()?;
-            Some(SceneLamp {
-                name: format!("light group {:?}", group.name),
-                power: nm.iter().map(|&nm| lamp.clamped_at(nm)).collect(),
-            })
-        };
-        let known: Vec<SceneLamp> = image.light_groups().iter().filter_map(of_group).collect();
+        let known = lamps_of_groups(image.light_groups(), &nm);
         if !known.is_empty() {
             return Ok(known);
         }
@@ -176,6 +169,23 @@ fn lamps(asked: &FilmArguments, image: &SpectralImage) -> miette::Result<Vec<Sce
     let power =
         power.wrap_err_with(|| format!("--lamp {text} does not cover the image's bands"))?;
     Ok(vec![SceneLamp { name, power }])
+}
+
+/// The different lamps of light groups, named after the groups that burn with them.
+fn lamps_of_groups(groups: &[LightGroup], nm: &[f64]) -> Vec<SceneLamp> {
+    let mut known: Vec<SceneLamp> = Vec::new();
+    for group in groups {
+        let Some(lamp) = &group.lamp else { continue };
+        let power: Vec<f64> = nm.iter().map(|&nm| lamp.clamped_at(nm)).collect();
+        match known.iter_mut().find(|lamp| lamp.power == power) {
+            Some(same) => same.name += &format!(" and {:?}", group.name),
+            None => known.push(SceneLamp {
+                name: format!("the lights {:?}", group.name),
+                power,
+            }),
+        }
+    }
+    known
 }
 
 /// The thicknesses that come nearest, in the lamp in which they come nearest.
