@@ -1,7 +1,8 @@
 //! `pellicle develop`, and the same options of `pellicle render`.
 
+use color::BandWeights;
 use color::spectral_exr::{self, Metadata, WriteOptions};
-use color::xyz::{BandObserver, equal_energy_luminance};
+use color::xyz::equal_energy_luminance;
 use image::{ImageReader, RgbImage};
 use pellicle_tests::command::Place;
 use spectra::{BandGrid, SpectralImage};
@@ -13,7 +14,7 @@ const SIZE: [u32; 2] = [12, 8];
 fn place() -> Place {
     let place = Place::default();
     let grid = BandGrid::visible(40).unwrap();
-    let observer = BandObserver::new(&grid);
+    let observer = BandWeights::observed(&grid, spectra::Observer::Cie1931Deg2);
     let [width, height] = SIZE;
     let mut image = SpectralImage::new(width, height, grid);
     for y in 0..height {

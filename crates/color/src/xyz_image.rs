@@ -1,9 +1,9 @@
 //! An image of colours without their spectra.
 
 use rayon::prelude::*;
-use spectra::SpectralImage;
+use spectra::{Observer, SpectralImage};
 
-use crate::xyz::BandObserver;
+use crate::BandWeights;
 
 /// XYZ per pixel, row 0 on top: what developing needs of a spectral image.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,10 +37,10 @@ impl XyzImage {
 }
 
 impl XyzImage {
-    /// The colours that the bands of an image sum up to ([`BandObserver`]). Those that the image carries are summed at the very
+    /// The colours that the bands of an image sum up to ([`BandWeights::observed`]). Those that the image carries are summed at the very
     /// wavelengths drawn, and are nearer to the truth.
     pub fn of_bands(image: &SpectralImage) -> Self {
-        let observer = BandObserver::new(image.bands());
+        let observer = BandWeights::observed(image.bands(), Observer::Cie1931Deg2);
         let bands = image.bands().count() as usize;
         let pixels = image.radiance().par_chunks_exact(bands);
         Self {
