@@ -145,8 +145,8 @@ fn a_relit_bubble_is_the_bubble_rendered_under_that_lamp() {
 /// XYZ is summed at the drawn wavelengths, so that it does not know of bands, not even under a lamp with lines.
 #[test]
 fn the_colour_of_a_film_does_not_depend_on_the_number_of_bands() {
-    let gpu = open();
     const COLUMNS: [u32; 2] = [16, 4];
+    let gpu = open();
     let columns = |bands| {
         let image = on_gpu(
             &gpu,
