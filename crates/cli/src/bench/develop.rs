@@ -50,9 +50,12 @@ pub(super) fn run() -> miette::Result<()> {
         "step", "seconds", "share, all bands", "share, colours"
     ))?;
     for ((name, in_all, in_colours), seconds) in STEPS.into_iter().zip(best) {
-        let share = |counts: bool, total: f64| match counts {
-            true => format!("{:.0} %", 100.0 * seconds / total),
-            false => String::new(),
+        let share = |counts: bool, total: f64| {
+            if counts {
+                format!("{:.0} %", 100.0 * seconds / total)
+            } else {
+                String::new()
+            }
         };
         print::result(format_args!(
             "{name:<24}{seconds:>8.3}{:>18}{:>18}",
@@ -85,7 +88,7 @@ fn round(files: &Files) -> miette::Result<[f64; STEPS.len()]> {
     gamut::map(&mut linear, &settings);
     let codes = quantise::codes::<u8>(&linear, &settings.display, settings.dither);
     let develop = lap();
-    png::write(&files.picture, &codes).into_diagnostic()?;
+    png::write_for_display(&files.picture, &codes, &settings.display).into_diagnostic()?;
     Ok([read, read_colours, sum, develop, lap()])
 }
 
