@@ -5,6 +5,7 @@ use crate::image_file;
 use crate::lamp;
 use crate::output::check_place;
 use crate::print;
+use crate::relight::RelightArguments;
 use clap::ValueEnum;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::color::develop::{
@@ -16,7 +17,7 @@ use pellicle::color::spectral_exr::{self, Metadata};
 use pellicle::color::{RgbImage8, develop, png, rgb_exr};
 use pellicle::colorimetry::chromaticity::xy_of_xyz;
 use pellicle::colorimetry::{Adaptation, Display, tristimulus};
-use pellicle::spectra::Observer;
+use pellicle::spectra::{Observer, SpectralImage};
 use std::ffi::OsStr;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -40,6 +41,8 @@ pub(crate) struct Arguments {
 #[derive(clap::Args)]
 #[command(next_help_heading = "Developing")]
 pub(crate) struct Options {
+    #[command(flatten)]
+    lamps: RelightArguments,
     /// How much light becomes the display's white: stops (3), a luminance in the scene (250cd), that of the display (display), or
     /// the one that a percentage of the pixels does not exceed (auto, which is auto:99) [default: the scene's stops]
     #[arg(long, value_name = "STOPS|CDcd|display|auto[:PERCENT]", value_parser = exposure, allow_hyphen_values = true)]
@@ -236,9 +239,14 @@ impl Options {
         Ok(())
     }
 
+    /// Shows an image under the lamps and to the observer asked for.
+    pub(crate) fn relight(&self, image: &mut SpectralImage) -> miette::Result<()> {
+        self.lamps.apply(image)
+    }
+
     /// Whether the spectra are needed, or colours are enough.
     fn needs_spectra(&self) -> bool {
-        matches!(self.glare, GlareName::Mesopic | GlareName::Scotopic)
+        !self.lamps.is_nothing() || matches!(self.glare, GlareName::Mesopic | GlareName::Scotopic)
     }
 
     fn settings(&self, of_image: OfImage, height: u32) -> DevelopSettings {
@@ -414,8 +422,9 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
         );
     }
     if options.needs_spectra() {
-        let (image, metadata) = spectral_exr::read(path).into_diagnostic()?;
+        let (mut image, metadata) = spectral_exr::read(path).into_diagnostic()?;
         image_file::tell(path, &metadata);
+        options.relight(&mut image)?;
         write(arguments, &image, image.height(), &metadata)
     } else {
         let (image, metadata) = spectral_exr::read_xyz(path).into_diagnostic()?;

@@ -13,7 +13,7 @@ pub(crate) struct RelightArguments {
     #[arg(long = "light", value_name = "GROUP=LAMP*FACTOR", value_parser = light)]
     lights: Vec<(String, Relight)>,
     /// The CIE observer: 1931_2, 1964_10, 2015_2 or 2015_10
-    #[arg(long, value_name = "NAME", default_value = Observer::Cie1931Deg2.name(), value_parser = observer)]
+    #[arg(long, value_name = "NAME", default_value = Observer::Cie1931Deg2.name())]
     observer: Observer,
 }
 
@@ -52,19 +52,6 @@ fn light(text: &str) -> Result<(String, Relight), String> {
         }
     };
     Ok((group.to_owned(), relight))
-}
-
-fn observer(text: &str) -> Result<Observer, String> {
-    let known = Observer::ALL.map(Observer::name);
-    Observer::ALL
-        .into_iter()
-        .find(|observer| observer.name() == text)
-        .ok_or_else(|| {
-            format!(
-                "there is no observer {text:?}; known are {}",
-                known.join(", ")
-            )
-        })
 }
 
 #[cfg(test)]

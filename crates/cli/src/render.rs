@@ -8,6 +8,7 @@ use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::color::spectral_exr::Metadata;
 use pellicle::gpu::AdapterChoice;
 use pellicle::scene::{RenderSettings, Scene, SceneFile};
+use pellicle::spectra::SpectralImage;
 use pellicle::{Backend, Renderer};
 use std::ops::{ControlFlow, Range};
 use std::path::PathBuf;
@@ -115,6 +116,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     let outputs = Outputs::new(&arguments.scene, &arguments.output)?;
     let developing = &arguments.developing;
     developing.check(outputs.pictures(), of_image(&scene))?;
+    developing.relight(&mut one_pixel(&scene))?;
     let renderer = Renderer::open(&arguments.backend()?).into_diagnostic()?;
     if let Renderer::Cpu {
         instead_of_gpu: Some(reason),
@@ -191,7 +193,7 @@ fn render_one(
     let total = samples_of(settings);
     let bar = progress::bar(total, heading);
     let started = Instant::now();
-    let image = renderer
+    let mut image = renderer
         .render(scene, &mut |done| {
             bar.set_position(done);
             ControlFlow::Continue(())
@@ -207,8 +209,16 @@ fn render_one(
         settings.samples,
         total as f64 / seconds * 1e-6,
     ));
-    developing.write(&image, of_image(scene), image.height(), outputs.pictures())?;
-    outputs.write_spectral(&image, &metadata(scene, renderer))
+    outputs.write_spectral(&image, &metadata(scene, renderer))?;
+    // Other lamps are for the pictures: the spectral image keeps the scene's.
+    developing.relight(&mut image)?;
+    developing.write(&image, of_image(scene), image.height(), outputs.pictures())
+}
+
+/// A picture of one pixel with the scene's light groups, on which to try what will be done to the whole.
+fn one_pixel(scene: &Scene) -> SpectralImage {
+    let groups = scene.light_groups().to_vec();
+    SpectralImage::with_light_groups(1, 1, scene.settings().bands, groups)
 }
 
 /// What developing asks of an image.

@@ -5,6 +5,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use ::png::Compression;
 use colorimetry::Display;
 use thiserror::Error;
 
@@ -49,7 +50,8 @@ pub enum WritePngError {
 /// # Errors
 /// When the file cannot be written or the picture has no pixels.
 pub fn write(path: &Path, image: &RgbImage8) -> Result<(), WritePngError> {
-    write_tagged(path, image, &Tags::srgb())
+    // Mostly diagrams, which compress well.
+    write_tagged(path, image, &Tags::srgb(), Compression::Balanced)
 }
 
 /// Writes an RGB PNG of 8 or 16 bits per channel whose codes are those of `display`.
@@ -68,7 +70,8 @@ pub fn write_for_display<C: PngCode>(
         path: path.to_owned(),
         source,
     })?;
-    write_tagged(path, image, &tags)
+    // Rendered pictures have noise, which does not compress whatever it costs.
+    write_tagged(path, image, &tags, Compression::Fast)
 }
 
 /// What a file says about its colour space.
@@ -130,6 +133,7 @@ fn write_tagged<C: PngCode>(
     path: &Path,
     image: &RgbImage<C>,
     tags: &Tags,
+    compression: Compression,
 ) -> Result<(), WritePngError> {
     let file_error = |source| WritePngError::File {
         path: path.to_owned(),
@@ -137,7 +141,7 @@ fn write_tagged<C: PngCode>(
     };
     let pending = PendingFile::create(path).map_err(file_error)?;
     let file = pending.handle().map_err(file_error)?;
-    encode(file, image, tags).map_err(|error| match error {
+    encode(file, image, tags, compression).map_err(|error| match error {
         ::png::EncodingError::IoError(source) => file_error(source),
         source => WritePngError::Encode {
             path: path.to_owned(),
@@ -151,6 +155,7 @@ fn encode<C: PngCode>(
     file: File,
     image: &RgbImage<C>,
     tags: &Tags,
+    compression: Compression,
 ) -> Result<(), ::png::EncodingError> {
     let mut info = ::png::Info::with_size(image.width(), image.height());
     info.color_type = ::png::ColorType::Rgb;
@@ -158,6 +163,7 @@ fn encode<C: PngCode>(
     info.icc_profile = tags.icc.as_ref().map(Into::into);
     let mut buffered = BufWriter::new(file);
     let mut encoder = ::png::Encoder::with_info(&mut buffered, info)?;
+    encoder.set_compression(compression);
     if tags.is_srgb {
         encoder.set_source_srgb(::png::SrgbRenderingIntent::RelativeColorimetric);
     }

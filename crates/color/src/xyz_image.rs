@@ -1,6 +1,9 @@
 //! An image of colours without their spectra.
 
-use spectra::SpectralImage;
+use rayon::prelude::*;
+use spectra::{Observer, SpectralImage};
+
+use crate::BandWeights;
 
 /// XYZ per pixel, row 0 on top: what developing needs of a spectral image.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +33,23 @@ impl XyzImage {
     /// XYZ of each pixel, row by row; Y in cd/m² up to the scene's scale.
     pub fn xyz(&self) -> &[[f32; 3]] {
         &self.xyz
+    }
+}
+
+impl XyzImage {
+    /// The colours that the bands of an image sum up to ([`BandWeights::observed`]). Those that the image carries are summed at the very
+    /// wavelengths drawn, and are nearer to the truth.
+    pub fn of_bands(image: &SpectralImage) -> Self {
+        let observer = BandWeights::observed(image.bands(), Observer::Cie1931Deg2);
+        let bands = image.bands().count() as usize;
+        let pixels = image.radiance().par_chunks_exact(bands);
+        Self {
+            width: image.width(),
+            height: image.height(),
+            xyz: pixels
+                .map(|radiance| observer.xyz(radiance).map(|v| v as f32))
+                .collect(),
+        }
     }
 }
 

@@ -220,3 +220,28 @@ fn names_that_nothing_has_bring_a_suggestion() {
         Display::named("srgb").unwrap()
     );
 }
+
+/// Any character in the place of any other: the file is read or refused, and never more than that.
+#[test]
+fn a_changed_file_is_refused_or_sound() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("screen.toml");
+    let mut sound = 0;
+    for at in 0..SRGB.len() {
+        for by in ["-", "9"] {
+            let mut text = SRGB.to_owned();
+            text.replace_range(at..=at, by);
+            fs::write(&path, text).unwrap();
+            let Ok(display) = Display::read(&path) else {
+                continue;
+            };
+            sound += 1;
+            let numbers = display.xyz_from_rgb().as_flattened().iter();
+            let numbers = numbers.chain(display.rgb_from_xyz().as_flattened());
+            let codes = display.responses().each_ref().map(|r| r.code(r.light(0.5)));
+            let mut all = numbers.chain(&codes).copied().chain(display.black_xyz());
+            assert!(all.all(f64::is_finite), "{at} {by:?}");
+        }
+    }
+    assert!(sound > 10, "{sound}");
+}

@@ -1,5 +1,6 @@
-//! `pellicle bench`: samples and stack evaluations per second on every adapter and on the CPU.
+//! `pellicle bench`: samples and stack evaluations per second on every adapter and on the CPU; seconds of developing.
 
+mod develop;
 mod stacks;
 
 use crate::print;
@@ -19,6 +20,9 @@ pub(crate) struct Arguments {
     /// Only film stacks, no scenes
     #[arg(long)]
     stacks: bool,
+    /// Only developing a picture from a spectral file
+    #[arg(long, conflicts_with = "stacks")]
+    develop: bool,
     /// Seconds that each measurement takes, about
     #[arg(long, default_value_t = 4.0)]
     seconds: f64,
@@ -31,6 +35,9 @@ const ROUNDS: usize = 3;
 
 /// Measures and prints a table.
 pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
+    if arguments.develop {
+        return develop::run();
+    }
     let mut renderers = Vec::new();
     for adapter in adapters() {
         let choice = AdapterChoice::Named(adapter.info.name.clone());

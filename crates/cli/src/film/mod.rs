@@ -326,6 +326,12 @@ impl<'a> Film<'a> {
         let only_csv = self.arguments.format == Some(Format::Csv)
             && self.arguments.plot.is_none()
             && self.arguments.chart.is_none();
+        let observer = self.arguments.look.observer;
+        if observer != Observer::Cie1931Deg2 && !only_csv {
+            print::note(format_args!(
+                "swatches and codes of sRGB take XYZ of {observer} as if they were those of CIE 1931, for which sRGB is defined"
+            ));
+        }
         if self.light.name() != "D65" && !only_csv {
             print::note(format_args!(
                 "swatches and codes of sRGB are not adapted to {}: white under it does not look white",

@@ -79,9 +79,10 @@ fn every_code_comes_back() {
             .collect();
         // A power law is steep at black: the rounding of XYZ there, 1e-8, is a tenth of a code, and dither shows it.
         let has_finite_slope = |r: &Response| matches!(r, Response::Linear | Response::Srgb);
-        let dithers: &[bool] = match display.responses().iter().all(has_finite_slope) {
-            true => &[false, true],
-            false => &[false],
+        let dithers: &[bool] = if display.responses().iter().all(has_finite_slope) {
+            &[false, true]
+        } else {
+            &[false]
         };
         for &dither in dithers {
             for gamut in [

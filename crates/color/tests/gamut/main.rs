@@ -1,7 +1,8 @@
 //! Which space keeps hue: against what observers saw, and on interference colours that no display shows.
 
+use color::BandWeights;
 use color::develop::{Gamut, GamutMapping};
-use color::xyz::{BandObserver, exposure_scale};
+use color::xyz::exposure_scale;
 use colorimetry::adaptation::Adaptation;
 use colorimetry::ciecam16::{Surround, Ucs, ViewingConditions};
 use colorimetry::lab::delta_e_2000;
@@ -144,7 +145,7 @@ fn oklab_keeps_hue_best() {
 /// XYZ of free films in D65, 5 to 1500 nm thick, exposed so that the brightest are near the white.
 fn films(index: f64) -> Vec<[f64; 3]> {
     let grid = BandGrid::visible(200).unwrap();
-    let observer = BandObserver::new(&grid);
+    let observer = BandWeights::observed(&grid, spectra::Observer::Cie1931Deg2);
     let light = spectra::illuminant("D65").unwrap().data;
     let r2 = ((1.0 - index) / (1.0 + index)).powi(2);
     // The largest reflectance of such a film.

@@ -127,20 +127,23 @@ impl Kernels {
         }
     }
 
-    /// The transform of the halo with its share.
-    fn halo(&self, nm: f64) -> Spectrum {
-        let pixel = self.degrees_per_pixel;
+    /// The halo with its share, at a distance in pixels.
+    fn halo(&self, nm: f64) -> impl Fn(usize, usize) -> f64 + Sync {
+        let (pixel, share) = (self.degrees_per_pixel, self.shares[3]);
         // Beyond eight widths of the ring there is nothing.
         let (radius, reach) = (3.0 * nm / 568.0, 8.0 / (2.0 * 19.75_f64).sqrt() + pixel);
-        self.mirror.of_kernel(|x, y| {
+        move |x, y| {
             let theta = pixel * (x as f64).hypot(y as f64);
             if (theta - radius).abs() > reach {
                 return 0.0;
             }
-            over_pixel([x, y], pixel, |theta| {
-                self.shares[3] * point_spread(theta, nm)[3]
-            })
-        })
+            over_pixel([x, y], pixel, |theta| share * point_spread(theta, nm)[3])
+        }
+    }
+
+    /// What light of a wavelength is multiplied by, so that its whole spread has the sum 1.
+    fn scale(&self, nm: f64) -> f64 {
+        1.0 / (self.common.1 + self.mirror.sum_of_kernel(self.halo(nm)))
     }
 
     /// The transforms of red, green and blue, scattered without a halo.
@@ -163,13 +166,10 @@ impl Kernels {
     ) -> Result<[Spectrum; 3], DevelopError> {
         let (grid, radiance) = latent.spectrum.ok_or(DevelopError::NoSpectrum)?;
         let bands = Bands::new(grid, radiance, rgb_from_xyz);
-        let (common, common_sum) = &self.common;
-
-        // Light of a band is scaled by the sum of its own kernel; the remainder by that of the middle.
-        let middle = self.halo(MEAN_NM);
-        let middle_scale = 1.0 / (common_sum + middle[0]);
-        let halos: Vec<Spectrum> = bands.centres_nm.iter().map(|&nm| self.halo(nm)).collect();
-        let scales: Vec<f64> = halos.iter().map(|h| 1.0 / (common_sum + h[0])).collect();
+        // Light of a band is scaled by the sum of its own spread; the remainder by that of the middle.
+        let middle = self.mirror.of_kernel(self.halo(MEAN_NM));
+        let middle_scale = self.scale(MEAN_NM);
+        let scales: Vec<f64> = bands.centres_nm.iter().map(|&nm| self.scale(nm)).collect();
 
         let mut sums: [Spectrum; 3] = std::array::from_fn(|channel| {
             let rest = |i: usize| finite(image.rgb[i])[channel] - bands.colour(i, channel, None);
@@ -183,18 +183,19 @@ impl Kernels {
                 .into_par_iter()
                 .map(|i| rest[i] + bands.colour(i, channel, Some(&scales)));
             let mut sum = self.mirror.of_picture(all.collect());
-            add_product(None, &mut sum, common);
+            add_product(None, &mut sum, &self.common.0);
             let rest = self.mirror.of_picture(rest);
             add_product(Some(&rest), &mut sum, &middle);
             sum
         });
-        for (band, (halo, scale)) in halos.iter().zip(&scales).enumerate() {
+        for (band, (&nm, scale)) in bands.centres_nm.iter().zip(&scales).enumerate() {
+            let halo = self.mirror.of_kernel(self.halo(nm));
             let spectrum = self.mirror.of_picture(bands.plane(band));
             let weights = bands.weights[band].map(|w| w * scale);
             for (sum, weight) in sums.iter_mut().zip(weights) {
                 sum.par_iter_mut()
                     .zip(&spectrum)
-                    .zip(halo)
+                    .zip(&halo)
                     .with_min_len(4096)
                     .for_each(|((sum, v), k)| *sum += weight * v * k);
             }
@@ -268,23 +269,23 @@ impl<'a> Bands<'a> {
         let values = &self.radiance[pixel * bands..(pixel + 1) * bands];
         let scale = |band: usize| scales.map_or(1.0, |scales| scales[band]);
         (0..bands)
-            .map(|b| self.value(values[b]) * self.weights[b][channel] * scale(b))
+            .map(|b| lit(values[b]) * self.weights[b][channel] * scale(b))
             .sum()
     }
 
     /// A band of every pixel.
     fn plane(&self, band: usize) -> Vec<f64> {
         let pixels = self.radiance.par_chunks_exact(self.weights.len());
-        pixels.map(|values| self.value(values[band])).collect()
+        pixels.map(|values| lit(values[band])).collect()
     }
+}
 
-    #[allow(clippy::unused_self)]
-    fn value(&self, radiance: f32) -> f64 {
-        if radiance.is_finite() {
-            f64::from(radiance)
-        } else {
-            0.0
-        }
+/// A radiance, or none where it is no number.
+fn lit(radiance: f32) -> f64 {
+    if radiance.is_finite() {
+        f64::from(radiance)
+    } else {
+        0.0
     }
 }
 

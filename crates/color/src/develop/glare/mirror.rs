@@ -58,6 +58,17 @@ impl Mirror {
         picture
     }
 
+    /// The sum of a kernel, as [`Self::of_kernel`] takes it, which is the first value of its transform.
+    pub(super) fn sum_of_kernel(&self, value: impl Fn(usize, usize) -> f64 + Sync) -> f64 {
+        let times = |at: usize, size: usize| if at == 0 || at == size { 1.0 } else { 2.0 };
+        let row = |y: usize| -> f64 {
+            let values = (0..=self.width).map(|x| times(x, self.width) * value(x, y));
+            times(y, self.height) * values.sum::<f64>()
+        };
+        let rows: Vec<f64> = (0..=self.height).into_par_iter().map(row).collect();
+        rows.iter().sum()
+    }
+
     /// The transform of an even kernel, given by its values at each distance from 0 to the width and the height, both included.
     /// It reaches no further; what is the whole width away, on either side, is the same place and counts once.
     pub(super) fn of_kernel(&self, value: impl Fn(usize, usize) -> f64 + Sync) -> Spectrum {
@@ -138,6 +149,8 @@ mod tests {
             let value = |x: usize, y: usize| kernel[y * (width + 1) + x];
 
             let mirror = Mirror::new(width, height);
+            let first = mirror.of_kernel(value)[0];
+            assert!((mirror.sum_of_kernel(value) / first - 1.0).abs() < 1e-13);
             let mut spectrum = mirror.of_picture(picture.clone());
             for (v, k) in spectrum.iter_mut().zip(mirror.of_kernel(value)) {
                 *v *= k;

@@ -33,9 +33,11 @@ pub(super) fn add(
     rgb_from_xyz: &Matrix3,
     settings: &DevelopSettings,
 ) -> Result<(), DevelopError> {
+    if image.rgb.is_empty() {
+        return Ok(());
+    }
     match settings.glare {
         Glare::Off => {}
-        _ if image.rgb.is_empty() => {}
         Glare::Star(star) => star::add(image, star, settings.display.peak()),
         Glare::Eye(eye) => eye::add(image, latent, rgb_from_xyz, eye)?,
     }
