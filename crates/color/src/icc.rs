@@ -58,8 +58,8 @@ pub fn profile(display: &Display) -> Result<Vec<u8>, IccError> {
     profile.white_point = xyzd(D50);
     profile.media_white_point = Some(xyzd(D50));
     profile.chromatic_adaptation = Some(Matrix3d { v: to_d50 });
-    profile.description = text(display.name());
-    profile.copyright = text("no copyright, use freely");
+    profile.description = Some(text(display.name()));
+    profile.copyright = Some(text("no copyright, use freely"));
     // The same display has the same profile, whenever it is written.
     profile.creation_date_time = ColorDateTime {
         year: 2026,
@@ -77,10 +77,10 @@ fn xyzd([x, y, z]: [f64; 3]) -> Xyzd {
     Xyzd::new(x, y, z)
 }
 
-fn text(value: &str) -> Option<ProfileText> {
+fn text(value: &str) -> ProfileText {
     let (language, country) = ("en".to_owned(), "US".to_owned());
     let string = LocalizableString::new(language, country, value.to_owned());
-    Some(ProfileText::Localizable(vec![string]))
+    ProfileText::Localizable(vec![string])
 }
 
 #[cfg(test)]

@@ -57,7 +57,6 @@ fn spaces(white: [f64; 3]) -> [Space; 3] {
     // As CIECAM16's authors compare spaces: an average surround, and an adapting field of a fifth of 64 cd/m².
     let conditions =
         ViewingConditions::new(white.map(|v| 100.0 * v), 64.0, 20.0, Surround::Average);
-    let back = conditions.clone();
     [
         Space {
             name: "CIELAB",
@@ -73,7 +72,9 @@ fn spaces(white: [f64; 3]) -> [Space; 3] {
                 let Ucs { j, a, b } = conditions.ucs(xyz.map(|v| 100.0 * v));
                 [j, a, b]
             }),
-            to_xyz: Box::new(move |[j, a, b]| back.xyz_of_ucs(Ucs { j, a, b }).map(|v| v / 100.0)),
+            to_xyz: Box::new(move |[j, a, b]| {
+                conditions.xyz_of_ucs(Ucs { j, a, b }).map(|v| v / 100.0)
+            }),
         },
         Space {
             name: "Oklab",

@@ -114,8 +114,8 @@ impl Gamut {
         let luminance: f64 = (0..3).map(|i| self.luminance[i] * rgb[i]).sum();
         let grey = luminance.max(darkest).min(lightest);
         let mut t = 1.0_f64;
-        for i in 0..3 {
-            let direction = rgb[i] - luminance;
+        for (i, value) in rgb.into_iter().enumerate() {
+            let direction = value - luminance;
             let room = if direction > 0.0 {
                 self.high[i] - grey
             } else {

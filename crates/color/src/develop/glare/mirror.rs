@@ -51,7 +51,7 @@ impl Mirror {
         let scale = 4.0 / (self.width * self.height) as f64;
         lines(&mut spectrum, self.height, |column| {
             columns.process_dct3(column);
-            column.iter_mut().for_each(|v| *v *= scale);
+            scale_by(column, scale);
         });
         let mut picture = transposed(&spectrum, self.height, self.width);
         lines(&mut picture, self.width, |row| rows.process_dct3(row));
@@ -88,7 +88,7 @@ impl Mirror {
         spectrum.truncate(self.width * height);
         lines(&mut spectrum, height, |column| {
             columns.process_dct1(column);
-            column.iter_mut().for_each(|v| *v *= 4.0);
+            scale_by(column, 4.0);
         });
         // The highest frequency, which pictures do not have, goes.
         let columns = spectrum.chunks_exact(height);
@@ -96,6 +96,12 @@ impl Mirror {
             .flat_map(|column| &column[..self.height])
             .copied()
             .collect()
+    }
+}
+
+fn scale_by(values: &mut [f64], factor: f64) {
+    for value in values {
+        *value *= factor;
     }
 }
 
