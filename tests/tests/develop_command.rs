@@ -117,7 +117,7 @@ fn the_gamut_report_counts_what_the_warning_marks() {
         .unwrap();
     let picture = developed(&place, "--gamut-warning --exposure -3");
     let is_marked = |x: u32, y: u32| {
-        let stripe = if (x + y) / 4 % 2 == 0 {
+        let stripe = if ((x + y) / 4).is_multiple_of(2) {
             [0; 3]
         } else {
             [255; 3]
