@@ -445,8 +445,9 @@ fn a_booth_shows_each_lamp() {
     let (mut of_lamps, mut same) = ([[0_u64; 3]; 3], 0);
     for (x, y, pixel) in alone.enumerate_pixels() {
         for (lamp, (left, top)) in [(12, 52), (88, 52), (12, 152)].into_iter().enumerate() {
-            for channel in 0..3 {
-                of_lamps[lamp][channel] += u64::from(sheet.get_pixel(left + x, top + y).0[channel]);
+            let codes = sheet.get_pixel(left + x, top + y).0;
+            for (sum, code) in of_lamps[lamp].iter_mut().zip(codes) {
+                *sum += u64::from(code);
             }
         }
         let found = sheet.get_pixel(12 + x, 52 + y).0;
