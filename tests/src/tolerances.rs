@@ -174,6 +174,6 @@ pub const SPECTRUM: Tolerance = of(2e-6, 2e-6);
 /// Mean ΔE2000 between a picture relit from its bands and one rendered under the lamp: half a just noticeable difference. 40
 /// bands serve smooth lamps, 80 those with lines.
 pub const RELIT_DELTA_E: f64 = 0.5;
-/// ΔE2000 of a film's colour between 16 and 160 bands. What is left is noise: in a band of 25 nm the lines of a lamp vary by
-/// twice their mean, which 131 000 samples take to 0.6 %.
+/// Mean ΔE2000 of a film's colour between 16 and 160 bands, over a wedge. What is left is noise: in a band of 25 nm the lines of
+/// a lamp vary by twice their mean, which 131 000 samples of a colour take to 0.6 %; found: 0.11, single colours up to 0.34.
 pub const BANDS_DELTA_E: f64 = 0.3;

@@ -13,6 +13,8 @@ use super::channels::{Content, LightContent};
 const LAYER: &str = "pellicle.light.";
 /// Attribute: the names in their order, with spaces between them.
 const NAMES: &str = "pellicle.lightGroups";
+/// A list of more names is none of ours.
+const MOST: usize = 256;
 /// The names of X, Y and Z behind that of the light group.
 const XYZ: [&str; 3] = ["cieX", "cieY", "cieZ"];
 
@@ -110,8 +112,8 @@ pub(super) fn of_header(header: &Header) -> Vec<LightGroup> {
         name: name.to_owned(),
         lamp: attribute(header, &lamp_key(name)).and_then(|text| parsed(&text)),
     };
-    let groups: Vec<LightGroup> = names.split(' ').map(group).collect();
-    if bad_name(&groups).is_some() {
+    let groups: Vec<LightGroup> = names.split(' ').take(MOST + 1).map(group).collect();
+    if groups.len() > MOST || bad_name(&groups).is_some() {
         return vec![LightGroup::unknown()];
     }
     groups
