@@ -5,8 +5,9 @@ use crate::lamp::Lamp;
 use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::coating::contact_sheet;
+use pellicle::color::develop::SceneWhite;
 use pellicle::color::{Relight, png, relight};
-use pellicle::spectra::{Observer, SpectralImage};
+use pellicle::spectra::SpectralImage;
 use std::path::{Path, PathBuf};
 
 /// A lamp of the booth and how it was written.
@@ -71,9 +72,13 @@ pub(crate) fn write(
         let lights: Vec<(String, Relight)> = groups
             .map(|group| (group.name.clone(), burns.clone()))
             .collect();
-        relight(&mut relit, &lights, Observer::Cie1931Deg2)
+        relight(&mut relit, &lights, options.observer())
             .into_diagnostic()
             .wrap_err_with(|| format!("--booth {label}"))?;
+        let of_image = OfImage {
+            lamp: SceneWhite::of_lamps(&relit, options.observer()),
+            ..of_image
+        };
         let height = relit.height();
         pictures.push((label.clone(), options.codes(&relit, of_image, height)?));
     }

@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
     output: Vec<PathBuf>,
     /// A contact sheet (.png): the image with all its lights burning with each of these lamps in turn, like A,D65,F11,LED-B3,
     /// each times a factor or not
-    #[arg(long, value_name = "LAMP,LAMP,…", value_delimiter = ',', value_parser = booth::lamp)]
+    #[arg(long, conflicts_with = "lights", value_name = "LAMP,LAMP,…", value_delimiter = ',', value_parser = booth::lamp)]
     booth: Vec<BoothLamp>,
     #[command(flatten)]
     options: Options,
@@ -53,9 +53,10 @@ pub(crate) struct Options {
     /// Adapt from the scene's white to the display's
     #[arg(long, value_name = "none|bradford|cat16", default_value = "none")]
     adapt: Adaptation,
-    /// The scene's white: a lamp, a chromaticity x,y, or the image's mean
-    #[arg(long, value_name = "LAMP|X,Y|mean", default_value = "mean", value_parser = white)]
-    adapt_from: SceneWhite,
+    /// The scene's white: that of its own brightest lamp, of another lamp, a chromaticity x,y, or the image's mean [default: its
+    /// own lamp]
+    #[arg(long, value_name = "LAMP|X,Y|mean", value_parser = white)]
+    adapt_from: Option<SceneWhite>,
     /// What bright light does to its surroundings: a star of what is too bright for the display, or the glare of an eye adapted to
     /// light, to dusk or to dark
     #[arg(long, value_enum, default_value_t = GlareName::Off)]
@@ -209,6 +210,8 @@ pub(crate) struct OfImage {
     pub(crate) exposure_ev: f64,
     /// Height of the camera's view, of a perspective camera.
     pub(crate) fov_deg: Option<f64>,
+    /// The white of its brightest lamp.
+    pub(crate) lamp: Option<SceneWhite>,
 }
 
 /// The name under which a spectral image keeps the height of its camera's view.
@@ -220,6 +223,7 @@ impl OfImage {
         Self {
             exposure_ev: metadata.exposure_ev,
             fov_deg: fov.and_then(|text| number(text, &FOV_DEG)),
+            lamp: None,
         }
     }
 }
@@ -230,6 +234,13 @@ impl Options {
         for path in pictures {
             self.format(path)?;
         }
+        if self.display.seen_by(self.observer()).is_none() {
+            print::note(format_args!(
+                "{}: its primaries are known for CIE 1931 alone, and take XYZ of {} as if they were that observer's",
+                self.display.name(),
+                self.observer()
+            ));
+        }
         if self.glare.vision().is_some() && self.glare_fov.or(of_image.fov_deg).is_none() {
             return Err(miette!(
                 help = "say how high the view is with --glare-fov DEGREES",
@@ -239,17 +250,43 @@ impl Options {
         Ok(())
     }
 
-    /// Shows an image under the lamps and to the observer asked for.
-    pub(crate) fn relight(&self, image: &mut SpectralImage) -> miette::Result<()> {
-        self.lamps.apply(image)
+    /// Shows an image under the lamps and to the observer asked for, and keeps in mind by which lamp it then is.
+    pub(crate) fn relight(
+        &self,
+        image: &mut SpectralImage,
+        of_image: &mut OfImage,
+    ) -> miette::Result<()> {
+        self.lamps.apply(image)?;
+        of_image.lamp = SceneWhite::of_lamps(image, self.observer());
+        Ok(())
+    }
+
+    pub(crate) fn observer(&self) -> Observer {
+        self.lamps.observer()
     }
 
     /// Whether the spectra are needed, or colours are enough.
     fn needs_spectra(&self) -> bool {
-        !self.lamps.is_nothing() || matches!(self.glare, GlareName::Mesopic | GlareName::Scotopic)
+        let needs_lamp = self.adapt != Adaptation::None && self.adapt_from.is_none();
+        let needs_bands = matches!(self.glare, GlareName::Mesopic | GlareName::Scotopic);
+        needs_lamp || needs_bands || !self.lamps.is_nothing()
     }
 
-    fn settings(&self, of_image: OfImage, height: u32) -> DevelopSettings {
+    fn adaptation(&self, of_image: OfImage) -> miette::Result<Option<WhiteAdaptation>> {
+        if self.adapt == Adaptation::None {
+            return Ok(None);
+        }
+        let from = self.adapt_from.or(of_image.lamp).ok_or_else(|| {
+            miette!(
+                help = "say with --adapt-from which lamp is white, or `mean` for the image's mean",
+                "--adapt: what the image's brightest lights burn with is not known"
+            )
+        })?;
+        let method = self.adapt;
+        Ok(Some(WhiteAdaptation { method, from }))
+    }
+
+    fn settings(&self, of_image: OfImage, height: u32) -> miette::Result<DevelopSettings> {
         let exposure = match self.exposure {
             None => Exposure::Stops(of_image.exposure_ev),
             Some(ExposureOption::Fixed(exposure)) => exposure,
@@ -265,18 +302,16 @@ impl Options {
             }),
             _ => Glare::Off,
         };
-        DevelopSettings {
+        let seen = self.display.seen_by(self.observer());
+        Ok(DevelopSettings {
             exposure,
-            adaptation: (self.adapt != Adaptation::None).then_some(WhiteAdaptation {
-                method: self.adapt,
-                from: self.adapt_from,
-            }),
+            adaptation: self.adaptation(of_image)?,
             glare,
             gamut: self.gamut.map(Into::into).unwrap_or_default(),
             gamut_warning: self.gamut_warning,
             dither: self.dither,
-            ..DevelopSettings::new(self.display.clone())
-        }
+            ..DevelopSettings::new(seen.unwrap_or_else(|| self.display.clone()))
+        })
     }
 
     /// The codes of a picture of 8 bits.
@@ -286,7 +321,7 @@ impl Options {
         of_image: OfImage,
         height: u32,
     ) -> miette::Result<RgbImage8> {
-        develop(image, &self.settings(of_image, height))
+        develop(image, &self.settings(of_image, height)?)
             .into_diagnostic()
             .wrap_err("the picture cannot be developed")
     }
@@ -327,7 +362,7 @@ impl Options {
         if pictures.is_empty() {
             return Ok(());
         }
-        let settings = self.settings(of_image, height);
+        let settings = self.settings(of_image, height)?;
         let linear = expose(image, &settings)
             .into_diagnostic()
             .wrap_err("the picture cannot be developed")?;
@@ -424,12 +459,18 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     if options.needs_spectra() {
         let (mut image, metadata) = spectral_exr::read(path).into_diagnostic()?;
         image_file::tell(path, &metadata);
-        options.relight(&mut image)?;
-        write(arguments, &image, image.height(), &metadata)
+        let mut of_image = OfImage::said_by(&metadata);
+        options.relight(&mut image, &mut of_image)?;
+        write(arguments, &image, image.height(), of_image)
     } else {
         let (image, metadata) = spectral_exr::read_xyz(path).into_diagnostic()?;
         image_file::tell(path, &metadata);
-        write(arguments, &image, image.height(), &metadata)
+        write(
+            arguments,
+            &image,
+            image.height(),
+            OfImage::said_by(&metadata),
+        )
     }
 }
 
@@ -437,10 +478,9 @@ fn write<'a>(
     arguments: &Arguments,
     image: impl Into<Latent<'a>>,
     height: u32,
-    metadata: &Metadata,
+    of_image: OfImage,
 ) -> miette::Result<()> {
     let (options, outputs) = (&arguments.options, &arguments.output);
-    let of_image = OfImage::said_by(metadata);
     options.check(outputs, of_image)?;
     options.write(image, of_image, height, outputs)
 }

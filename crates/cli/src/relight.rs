@@ -23,6 +23,11 @@ impl RelightArguments {
         self.lights.is_empty() && self.observer == Observer::Cie1931Deg2
     }
 
+    /// Who looks.
+    pub(crate) fn observer(&self) -> Observer {
+        self.observer
+    }
+
     /// Changes an image that was rendered or read.
     pub(crate) fn apply(&self, image: &mut SpectralImage) -> miette::Result<()> {
         if self.is_nothing() {

@@ -116,7 +116,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     let outputs = Outputs::new(&arguments.scene, &arguments.output)?;
     let developing = &arguments.developing;
     developing.check(outputs.pictures(), of_image(&scene))?;
-    developing.relight(&mut one_pixel(&scene))?;
+    developing.relight(&mut one_pixel(&scene), &mut of_image(&scene))?;
     let renderer = Renderer::open(&arguments.backend()?).into_diagnostic()?;
     if let Renderer::Cpu {
         instead_of_gpu: Some(reason),
@@ -211,8 +211,9 @@ fn render_one(
     ));
     outputs.write_spectral(&image, &metadata(scene, renderer))?;
     // Other lamps are for the pictures: the spectral image keeps the scene's.
-    developing.relight(&mut image)?;
-    developing.write(&image, of_image(scene), image.height(), outputs.pictures())
+    let mut of_image = of_image(scene);
+    developing.relight(&mut image, &mut of_image)?;
+    developing.write(&image, of_image, image.height(), outputs.pictures())
 }
 
 /// A picture of one pixel with the scene's light groups, on which to try what will be done to the whole.
@@ -226,6 +227,7 @@ fn of_image(scene: &Scene) -> OfImage {
     OfImage {
         exposure_ev: scene.settings().exposure_ev,
         fov_deg: scene.camera().fov_deg(),
+        lamp: None,
     }
 }
 

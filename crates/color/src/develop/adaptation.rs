@@ -4,6 +4,7 @@ use colorimetry::Matrix3;
 use colorimetry::adaptation::Adaptation;
 use colorimetry::chromaticity::{xy_of_xyz, xyz_of_xy};
 use rayon::prelude::*;
+use spectra::{Observer, SpectralImage};
 
 use super::DevelopError;
 
@@ -15,6 +16,27 @@ pub enum SceneWhite {
     /// That of the image's mean XYZ, which is grey for a world that is grey on average (Buchsbaum, A spatial processor model for
     /// object colour perception, J. Franklin Inst. 310, 1 (1980)). A picture of one strong colour is no such world.
     Mean,
+}
+
+impl SceneWhite {
+    /// The lamp of the light group that brings the most light to the image; `None` where that lamp is not known.
+    pub fn of_lamps(image: &SpectralImage, observer: Observer) -> Option<Self> {
+        let luminance = |group: usize| -> f64 {
+            let xyz = image.group_xyz(group).iter();
+            xyz.map(|xyz| f64::from(xyz[1]))
+                .filter(|y| y.is_finite())
+                .sum()
+        };
+        let groups = 0..image.light_groups().len();
+        let brightest = groups.max_by(|&a, &b| luminance(a).total_cmp(&luminance(b)))?;
+        let lamp = image.light_groups()[brightest].lamp.as_ref()?;
+        let (from_nm, to_nm) = lamp.range_nm();
+        let sum = (from_nm.ceil() as u32..=to_nm.floor() as u32)
+            .map(f64::from)
+            .map(|nm| observer.at(nm).map(|v| v * lamp.clamped_at(nm)))
+            .fold([0.0; 3], add);
+        (sum[1] > 0.0).then(|| Self::Chromaticity(xy_of_xyz(sum)))
+    }
 }
 
 /// Complete adaptation from a scene's white to the display's.
@@ -65,6 +87,32 @@ fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 mod tests {
     use super::*;
     use colorimetry::matrix::times;
+    use spectra::{BandGrid, LightGroup};
+
+    #[test]
+    fn the_brightest_lamp_is_the_white() {
+        let grid = BandGrid::visible(4).unwrap();
+        let lamp = |name: &str| LightGroup {
+            name: name.to_owned(),
+            lamp: grid.lamp(&spectra::illuminant(name).unwrap().data),
+        };
+        let groups = vec![lamp("D65"), lamp("A"), LightGroup::unknown()];
+        let mut image = SpectralImage::with_light_groups(1, 1, grid, groups);
+        let mut lit = |y: [f32; 3]| {
+            let xyz = y.map(|y| [1.0, y, 1.0]);
+            image.set_pixel_by_light((0, 0), &[1.0; 12], &[0.0; 4], &xyz, 1);
+            SceneWhite::of_lamps(&image, Observer::Cie1931Deg2)
+        };
+        let Some(SceneWhite::Chromaticity([x, y])) = lit([1.0, 2.0, f32::NAN]) else {
+            panic!("A is known");
+        };
+        // CIE 015:2018 gives 0.44758, 0.40745 by sums at 5 nm.
+        assert!(
+            (x - 0.44758).abs() < 5e-5 && (y - 0.40745).abs() < 5e-5,
+            "{x} {y}"
+        );
+        assert_eq!(lit([1.0, 2.0, 3.0]), None);
+    }
 
     #[test]
     fn the_mean_becomes_the_white() {
