@@ -190,8 +190,10 @@ struct Batch {
     first_sample: u32,
     /// Samples to take now.
     sample_count: u32,
+    /// Passes of the loop by which an invocation finds out whether the driver has ended its loops.
+    passes: u32,
     /// Fills the size up to what a uniform buffer asks for.
-    padding: vec2u,
+    padding: u32,
 }
 
 /// A shape made of a material.

@@ -6,7 +6,7 @@
 @group(1) @binding(1) var<storage, read_write> means: array<vec4f>;
 /// Sum of squared differences of the light of all groups from its mean so far: [group of four bands][pixel of the tile].
 @group(1) @binding(2) var<storage, read_write> deviations: array<vec4f>;
-/// Mean X, Y, Z so far; w is unused: [light group][pixel of the tile].
+/// Mean X, Y, Z so far; w of the first light group is the number of samples: [light group][pixel of the tile].
 @group(1) @binding(3) var<storage, read_write> colors: array<vec4f>;
 
 /// Adds a path's spectrum to the running means (Welford 1962) and returns its X, Y, Z per nm of band width, by light group.
@@ -36,6 +36,16 @@ fn accumulate(pixel: u32, count: f32, at: Wavelengths) -> array<vec3f, LIGHT_GRO
     return color;
 }
 
+/// Whether loops still run to their end. Some drivers end every loop of an invocation that has made so many passes in all
+/// (llvmpipe: 65535), and say nothing. The samples of such an invocation must not count.
+fn loops_run() -> bool {
+    var passes = 0u;
+    for (var i = 0u; i < batch.passes; i++) {
+        passes += 1u;
+    }
+    return passes == batch.passes;
+}
+
 @compute @workgroup_size(WORKGROUP_SIDE, WORKGROUP_SIDE)
 fn render(@builtin(global_invocation_id) id: vec3u) {
     if (id.x >= batch.tile_size.x || id.y >= batch.tile_size.y) {
@@ -53,8 +63,11 @@ fn render(@builtin(global_invocation_id) id: vec3u) {
         let at = trace_path(Sample(batch.tile_origin + id.xy, index));
         let xyz = accumulate(pixel, count, at);
         for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
-            color[light_group] += (vec4f(xyz[light_group], 0.0) - color[light_group]) / count;
+            color[light_group] += vec4f((xyz[light_group] - color[light_group].xyz) / count, 0.0);
         }
+    }
+    if (loops_run()) {
+        color[0].w += f32(batch.sample_count);
     }
     for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
         colors[light_group * pixels + pixel] = color[light_group];

@@ -12,6 +12,7 @@ pub const SHIPPED: &[&str] = &[
     "paper_wedge",
     "oil_on_water",
     "silicon_steps",
+    "metamers",
     "anodised_titanium",
     "tempered_steel",
     "dichroic_ball",

@@ -71,7 +71,7 @@ fn each_step_is_switched_by_its_option() {
         "--exposure display",
         "--exposure auto",
         "--exposure auto:50",
-        "--adapt bradford",
+        "--adapt bradford --adapt-from mean",
         "--adapt cat16 --adapt-from A",
         "--adapt cat16 --adapt-from 0.4,0.4",
         "--glare star",
@@ -194,6 +194,10 @@ fn what_cannot_be_is_told_and_nothing_is_written() {
             "image.exr -o out.png --exposure NaN",
             "an exposure is stops",
         ),
+        (
+            "image.exr -o out.png --adapt bradford",
+            "say with --adapt-from",
+        ),
         ("image.exr -o out.png --adapt-from 0.9,0.9", "a sum up to 1"),
         ("image.exr -o out.png --adapt-from X99", "X99"),
         ("image.exr -o out.png --adapt warm", "cat16"),
@@ -241,7 +245,7 @@ fn a_view_that_is_not_known_is_asked_for() {
             .success
     );
     // A black image is one; but there is nothing in it to expose for, or to adapt from.
-    for option in ["--exposure auto", "--adapt bradford"] {
+    for option in ["--exposure auto", "--adapt bradford --adapt-from mean"] {
         let error = place
             .run(&format!("develop image.exr -o black.png {option}"))
             .failed();

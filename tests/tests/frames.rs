@@ -279,6 +279,28 @@ fn mean_over_band(
     (0..steps).map(at).sum::<f64>() / f64::from(steps)
 }
 
+/// Some drivers end the loops of an invocation that runs long, and say nothing. Runs of many samples in few pixels are divided
+/// so that this does not happen, and where it happens all the same it is an error.
+#[test]
+fn long_runs_of_samples_are_whole_or_refused() {
+    let gpu = open();
+    let scene = small("film_wedge", [4, 4], 20_000, 8, 1);
+    let divided = |samples: Option<u32>| {
+        let division = samples.map(|samples| gpu::Division { rows: 4, samples });
+        gpu::render_divided(&gpu, &scene, division, &mut |_| ControlFlow::Continue(()))
+    };
+    let whole = divided(Some(50)).unwrap();
+    assert_eq!(divided(None).unwrap(), whole);
+    match divided(Some(20_000)) {
+        Ok(image) => assert_eq!(image, whole),
+        Err(gpu::RenderError::CutShort { counted, samples }) => {
+            println!("in one run the driver lets {counted} of {samples} samples be");
+            assert!(counted < samples, "{counted} of {samples}");
+        }
+        Err(other) => panic!("{other}"),
+    }
+}
+
 /// However the samples are divided, and whichever tile a pixel is in, its bits are the same.
 #[test]
 fn the_bits_do_not_depend_on_the_division_of_the_work() {

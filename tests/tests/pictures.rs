@@ -14,7 +14,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 const BLESS: &str = "PELLICLE_BLESS=1 cargo test -p pellicle-tests --test pictures";
-const SCENES: [(&str, [u32; 2]); 11] = [
+const SCENES: [(&str, [u32; 2]); 12] = [
     ("soap_bubble", [160, 120]),
     ("film_wedge", [160, 40]),
     ("metal_spheres", [160, 120]),
@@ -22,6 +22,7 @@ const SCENES: [(&str, [u32; 2]); 11] = [
     ("paper_wedge", [140, 54]),
     ("oil_on_water", [120, 90]),
     ("silicon_steps", [140, 28]),
+    ("metamers", [80, 40]),
     ("anodised_titanium", [120, 90]),
     ("tempered_steel", [120, 75]),
     ("dichroic_ball", [80, 60]),

@@ -267,8 +267,10 @@ structs! { STRUCTS;
         pub first_sample: u32,
         /// Samples to take now.
         pub sample_count: u32,
+        /// Passes of the loop by which an invocation finds out whether the driver has ended its loops.
+        pub passes: u32,
         /// Fills the size up to what a uniform buffer asks for.
-        pub padding: [u32; 2],
+        pub padding: u32,
     }
 
     /// A shape made of a material.

@@ -1,5 +1,6 @@
 //! From a scene to the numbers that the shader reads: the only place where `f64` becomes `f32`.
 
+mod passes;
 mod thickness;
 
 use crate::features::{Features, FilmForm};
@@ -32,6 +33,8 @@ pub struct PackedScene {
     pub spectra: Vec<[f32; 4]>,
     /// How long the record of a path may become.
     pub limits: RecordLimits,
+    /// The most passes of loops that a sample takes.
+    pub passes_per_sample: u64,
     /// What the scene has.
     pub features: Features,
 }
@@ -39,6 +42,7 @@ pub struct PackedScene {
 impl PackedScene {
     /// Packs a scene.
     pub fn new(scene: &Scene) -> Self {
+        let limits = record_limits(scene);
         let lights = scene.lights();
         let objects = scene.objects().iter().enumerate().map(|(index, object)| {
             let is_light = lights.binary_search(&index).is_ok();
@@ -70,7 +74,8 @@ impl PackedScene {
             fields: fields.list,
             samples: fields.samples,
             spectra: spectra.chain(observer).collect(),
-            limits: record_limits(scene),
+            limits,
+            passes_per_sample: passes::of_sample(scene, limits),
             features: Features::of(scene),
         }
     }

@@ -44,6 +44,17 @@ pub enum RenderError {
         /// How many.
         thicknesses: u32,
     },
+    /// The driver ended the shader's loops before their end.
+    #[error(
+        "the driver ended the shader's loops too early: {counted} of {samples} samples of a pixel can be trusted; use fewer objects, \
+         layers or bands, set a smaller render.max_path_segments, or render on another adapter or on the CPU"
+    )]
+    CutShort {
+        /// How many samples were whole.
+        counted: u32,
+        /// How many were asked for.
+        samples: u32,
+    },
     /// The caller asked to stop.
     #[error("stopped before the picture was finished")]
     Stopped,
@@ -95,7 +106,12 @@ pub fn render_divided(
         .max_storage_buffer_binding_size
         .min(limits.max_buffer_size);
     let size = [settings.width, settings.height];
-    let mut planner = Planner::new(size, shape.bytes()[0], largest, division);
+    let mut planner = Planner::new(
+        size,
+        (shape.bytes()[0], largest),
+        packed.passes_per_sample,
+        division,
+    );
     let tile_buffers = TileBuffers::new(gpu, &pipeline, u64::from(planner.max_pixels()), shape)?;
 
     let light_groups = scene.light_groups().to_vec();
@@ -419,6 +435,7 @@ impl TileBuffers {
             tile_size: tile.size,
             first_sample,
             sample_count,
+            passes: 2,
             ..Default::default()
         };
         gpu.queue
@@ -443,7 +460,7 @@ impl TileBuffers {
         tile: Tile,
         samples: u32,
         image: &mut SpectralImage,
-    ) -> Result<(), DeviceError> {
+    ) -> Result<(), RenderError> {
         let bytes = self.bytes(tile);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         for ((from, to), bytes) in self.sums.iter().zip(&self.staging).zip(bytes) {
@@ -463,6 +480,7 @@ impl TileBuffers {
         };
         {
             let (means, deviations, colors) = (mapped(0)?, mapped(1)?, mapped(2)?);
+            check_count(tile, bytemuck::cast_slice(&colors), samples)?;
             store(
                 tile,
                 (
@@ -476,6 +494,18 @@ impl TileBuffers {
         }
         self.staging.iter().for_each(wgpu::Buffer::unmap);
         Ok(())
+    }
+}
+
+/// Whether all samples of all pixels were taken, by the count that stands beside the first light group's colours.
+fn check_count(tile: Tile, colors: &[[f32; 4]], samples: u32) -> Result<(), RenderError> {
+    let counts = colors.iter().take(tile.pixels() as usize);
+    match counts.map(|color| color[3]).find(|&n| n != samples as f32) {
+        None => Ok(()),
+        Some(counted) => Err(RenderError::CutShort {
+            counted: counted as u32,
+            samples,
+        }),
     }
 }
 

@@ -8,6 +8,8 @@ const WIDTH: u32 = 512;
 const MAX_PIXELS: u32 = WIDTH * 512;
 /// Rows of the first tile, before anything is known about the speed.
 const FIRST_ROWS: u32 = 64;
+/// A batch makes at most this many passes of loops in an invocation: llvmpipe ends all loops of one after 65535, silently.
+const MAX_PASSES: u64 = 60_000;
 /// A batch aims at this time.
 const TARGET: Duration = Duration::from_millis(200);
 
@@ -41,6 +43,7 @@ pub(crate) struct Planner {
     image: [u32; 2],
     next: [u32; 2],
     max_rows: u32,
+    max_samples: u32,
     rows: u32,
     fixed: Option<Division>,
     last_batch: u32,
@@ -48,11 +51,12 @@ pub(crate) struct Planner {
 }
 
 impl Planner {
-    /// `bytes_per_pixel` is what one pixel takes of the largest buffer, `max_bytes` what that buffer may have.
+    /// `bytes_per_pixel` is what one pixel takes of the largest buffer, `max_bytes` what that buffer may have,
+    /// `passes_per_sample` the most passes of loops that a sample takes.
     pub(crate) fn new(
         image: [u32; 2],
-        bytes_per_pixel: u64,
-        max_bytes: u64,
+        (bytes_per_pixel, max_bytes): (u64, u64),
+        passes_per_sample: u64,
         fixed: Option<Division>,
     ) -> Self {
         let width = image[0].min(WIDTH);
@@ -62,6 +66,7 @@ impl Planner {
             image,
             next: [0, 0],
             max_rows,
+            max_samples: (MAX_PASSES / passes_per_sample.max(1)).max(1) as u32,
             rows: fixed
                 .map_or(FIRST_ROWS, |fixed| fixed.rows)
                 .clamp(1, max_rows),
@@ -110,7 +115,7 @@ impl Planner {
             TARGET.as_secs_f64() / per_pass.max(1e-9)
         });
         let bounded = fitting.min(4.0 * f64::from(self.last_batch)).max(1.0);
-        self.last_batch = (bounded as u32).min(left);
+        self.last_batch = (bounded as u32).min(self.max_samples).min(left);
         self.last_batch
     }
 
@@ -141,7 +146,7 @@ mod tests {
     #[test]
     fn tiles_cover_every_pixel_once_whatever_the_times() {
         let image = [1300, 700];
-        let mut planner = Planner::new(image, 160, 128 << 20, None);
+        let mut planner = Planner::new(image, (160, 128 << 20), 1, None);
         let mut covered = vec![0; (image[0] * image[1]) as usize];
         let mut slow = true;
         while let Some(tile) = planner.next_tile() {
@@ -160,14 +165,14 @@ mod tests {
     #[test]
     fn a_tile_stays_within_the_buffer() {
         // 256 bands, 128 MiB.
-        let planner = Planner::new([16384, 16384], 1024, 128 << 20, None);
+        let planner = Planner::new([16384, 16384], (1024, 128 << 20), 1, None);
         assert!(u64::from(planner.max_pixels()) * 1024 <= 128 << 20);
         assert!(planner.max_pixels() > 100_000);
     }
 
     #[test]
     fn batches_grow_by_and_by_and_react_at_once() {
-        let mut planner = Planner::new([512, 64], 160, 128 << 20, None);
+        let mut planner = Planner::new([512, 64], (160, 128 << 20), 1, None);
         let tile = planner.next_tile().unwrap();
         let ms = Duration::from_millis;
         assert_eq!(planner.batch(tile, 1000), 1);
@@ -180,5 +185,20 @@ mod tests {
         // Twenty times as slow: the next batch is back at the target.
         planner.learn(tile, 20, ms(4000));
         assert_eq!(planner.batch(tile, 1000), 1);
+    }
+
+    #[test]
+    fn a_batch_ends_before_the_driver_ends_its_loops() {
+        for (passes, most) in [(700, 85), (60_001, 1)] {
+            let mut planner = Planner::new([8, 8], (160, 128 << 20), passes, None);
+            let tile = planner.next_tile().unwrap();
+            let mut largest = 0;
+            for _ in 0..20 {
+                let samples = planner.batch(tile, 1 << 20);
+                planner.learn(tile, samples, Duration::from_micros(1));
+                largest = largest.max(samples);
+            }
+            assert_eq!(largest, most);
+        }
     }
 }

@@ -1,0 +1,45 @@
+//! How many passes of loops a sample takes at most.
+
+use crate::modules::RecordLimits;
+use scene::{Material, Scene, Thickness};
+
+/// Passes of `gradient_noise` (eight corners) for each of the flow's steps and the streaks' octaves, at most.
+const SWIRLS: u64 = 9 * (3 + 6);
+/// Passes for a layer of a stack: its own, and those of the series for small thicknesses.
+const LAYER: u64 = 1 + 8;
+
+/// A bound on the passes of all loops of one sample: those of tracing it (every segment and every film on the way to a light looks
+/// at every object, and works out thicknesses), and those of its spectrum (every group of four bands looks at every vertex, with
+/// its own factor and that of its connection, and at every crossing).
+pub(super) fn of_sample(scene: &Scene, limits: RecordLimits) -> u64 {
+    let materials = || scene.objects().iter().map(|o| scene.material(o.material));
+    let most = |count: fn(&Material) -> u64| materials().map(count).max().unwrap_or(0);
+    let objects = scene.objects().len() as u64 + 1;
+    let segments = u64::from(limits.vertices);
+    let crossings = u64::from(limits.crossings);
+    let light_groups = u64::from(limits.light_groups) + 1;
+    let groups = u64::from(scene.settings().bands.count().div_ceil(4)) + 1;
+
+    let trace = (2 * segments + crossings) * (1 + objects + most(thickness_passes));
+    let factors = (2 * segments + crossings) * (1 + most(layer_passes));
+    let spectrum = groups * (1 + segments + factors + 2 * light_groups);
+    1 + trace + spectrum + 3 * light_groups
+}
+
+/// Of working out all thicknesses of a material.
+fn thickness_passes(material: &Material) -> u64 {
+    let of_part = |part: &Thickness| match part {
+        Thickness::Swirls(_) => 1 + SWIRLS,
+        _ => 1,
+    };
+    let of_layer = |thickness: &Thickness| thickness.parts().map(of_part).sum::<u64>();
+    material.thicknesses().map(|t| 1 + of_layer(t)).sum()
+}
+
+/// Of the factor of a material with a stack; a film of one layer has none.
+fn layer_passes(material: &Material) -> u64 {
+    match material {
+        Material::Film { layers, .. } if layers.len() == 1 => 0,
+        _ => LAYER * material.layers().len() as u64,
+    }
+}
