@@ -77,3 +77,33 @@ fn the_gallery_shows_what_there_is() {
         assert!(pellicle_tests::scenes::SHIPPED.contains(&name), "{name}");
     }
 }
+
+/// Every picture and page that a page of the documentation shows or leads to is there.
+#[test]
+fn the_pages_lead_to_what_there_is() {
+    let docs = root().join("docs");
+    let mut links = 0;
+    for page in ["color.md", "gallery.md", "looking.md", "relighting.md"] {
+        let text = std::fs::read_to_string(docs.join(page)).expect(page);
+        let targets = text
+            .split("](")
+            .skip(1)
+            .filter_map(|rest| rest.split(')').next());
+        for target in targets.filter(|target| !target.contains("://")) {
+            assert!(docs.join(target).exists(), "{page}: {target}");
+            links += 1;
+        }
+    }
+    assert!(links > 12, "{links}");
+}
+
+/// The display that `docs/color.md` shows as an example is one.
+#[test]
+fn the_display_is_valid() {
+    let page = std::fs::read_to_string(root().join("docs/color.md")).expect("there is a page");
+    let directory = tempfile::tempdir().expect("a folder");
+    let path = directory.path().join("monitor.toml");
+    std::fs::write(&path, block(&page, "toml")).expect("writable");
+    let display = colorimetry::Display::read(&path).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(display.title(), "the monitor in room 12");
+}

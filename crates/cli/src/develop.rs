@@ -17,7 +17,7 @@ use pellicle::color::spectral_exr::{self, Metadata};
 use pellicle::color::{RgbImage8, develop, png, rgb_exr};
 use pellicle::colorimetry::chromaticity::xy_of_xyz;
 use pellicle::colorimetry::{Adaptation, Display, tristimulus};
-use pellicle::spectra::{Observer, SpectralImage};
+use pellicle::spectra::{LightGroup, Observer, SpectralImage, Spectrum};
 use std::ffi::OsStr;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -56,7 +56,7 @@ pub(crate) struct Options {
     /// The scene's white: that of its own brightest lamp, of another lamp, a chromaticity x,y, or the image's mean [default: its
     /// own lamp]
     #[arg(long, value_name = "LAMP|X,Y|mean", value_parser = white)]
-    adapt_from: Option<SceneWhite>,
+    adapt_from: Option<White>,
     /// What bright light does to its surroundings: a star of what is too bright for the display, or the glare of an eye adapted to
     /// light, to dusk or to dark
     #[arg(long, value_enum, default_value_t = GlareName::Off)]
@@ -64,9 +64,9 @@ pub(crate) struct Options {
     /// For the glare of the eye: the height of the view [default: the scene's camera]
     #[arg(long, value_name = "DEGREES", value_parser = fov)]
     glare_fov: Option<f64>,
-    /// For the star: where its arms have fallen to 1/e, as a share of the picture's height
-    #[arg(long, value_name = "SHARE", default_value_t = StarGlare::default().length, value_parser = star_length)]
-    star_length: f64,
+    /// For the star: where its arms have fallen to 1/e, as a share of the picture's height [default: 0.05]
+    #[arg(long, value_name = "SHARE", value_parser = star_length)]
+    star_length: Option<f64>,
     /// What becomes of colours that the display cannot show: chroma taken away at constant hue and lightness, mixed with white at
     /// constant luminance, clipped, or kept, for .exr [default: perceptual, for .exr keep]
     #[arg(long, value_enum)]
@@ -90,6 +90,13 @@ enum ExposureOption {
     Fixed(Exposure),
     /// The luminance of the display's own white.
     Display,
+}
+
+/// A white to adapt from. What a lamp's is depends on the observer.
+#[derive(Clone, Debug, PartialEq)]
+enum White {
+    Of(SceneWhite),
+    Lamp(String, Spectrum),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
@@ -142,15 +149,15 @@ fn display(text: &str) -> Result<Display, String> {
     Display::open(text).map_err(|error| error.to_string())
 }
 
-fn white(text: &str) -> Result<SceneWhite, String> {
+fn white(text: &str) -> Result<White, String> {
     if text == "mean" {
-        return Ok(SceneWhite::Mean);
+        return Ok(White::Of(SceneWhite::Mean));
     }
     if let Some((x, y)) = text.split_once(',') {
         let share = 1e-3..=1.0;
         let xy = number(x, &share).zip(number(y, &share));
         return match xy.filter(|(x, y)| x + y <= 1.0) {
-            Some((x, y)) => Ok(SceneWhite::Chromaticity([x, y])),
+            Some((x, y)) => Ok(White::Of(SceneWhite::Chromaticity([x, y]))),
             None => Err(
                 "a chromaticity is two numbers above 0 with a sum up to 1, as in 0.3127,0.3290"
                     .to_owned(),
@@ -158,10 +165,22 @@ fn white(text: &str) -> Result<SceneWhite, String> {
         };
     }
     let (name, spectrum) = lamp::spectrum(text)?;
-    let rule = tristimulus::Rule::for_illuminant(&name);
-    let xyz = tristimulus::xyz_of_emission(&spectrum, Observer::Cie1931Deg2, rule)
-        .map_err(|error| format!("{text}: {error}"))?;
-    Ok(SceneWhite::Chromaticity(xy_of_xyz(xyz)))
+    Ok(White::Lamp(name, spectrum))
+}
+
+impl White {
+    /// The renderer reads a lamp's table as linear between its points, and so does this, lamps with lines included.
+    fn seen_by(&self, observer: Observer) -> miette::Result<SceneWhite> {
+        let (name, spectrum) = match self {
+            Self::Of(white) => return Ok(*white),
+            Self::Lamp(name, spectrum) => (name, spectrum),
+        };
+        let xyz = tristimulus::xyz_of_emission(spectrum, observer, tristimulus::Rule::OneNm);
+        let xyz = xyz
+            .into_diagnostic()
+            .wrap_err_with(|| format!("--adapt-from {name}"))?;
+        Ok(SceneWhite::Chromaticity(xy_of_xyz(xyz)))
+    }
 }
 
 fn fov(text: &str) -> Result<f64, String> {
@@ -228,11 +247,34 @@ impl OfImage {
     }
 }
 
+fn unknown_lamp() -> miette::Report {
+    miette!(
+        help = "say with --adapt-from which lamp is white, or `mean` for the image's mean",
+        "--adapt: what the image's brightest lights burn with is not known"
+    )
+}
+
+fn without_effect(option: &str, needs: &str) -> miette::Report {
+    miette!(
+        help = format!("leave {option} out, or add {needs}"),
+        "{option} has no effect without {needs}"
+    )
+}
+
 impl Options {
     /// Tells what cannot be before the work, not after it.
     pub(crate) fn check(&self, pictures: &[PathBuf], of_image: OfImage) -> miette::Result<()> {
         for path in pictures {
             self.format(path)?;
+        }
+        if self.adapt_from.is_some() && self.adapt == Adaptation::None {
+            return Err(without_effect("--adapt-from", "--adapt"));
+        }
+        if self.glare_fov.is_some() && self.glare.vision().is_none() {
+            return Err(without_effect("--glare-fov", "--glare of an eye"));
+        }
+        if self.star_length.is_some() && self.glare != GlareName::Star {
+            return Err(without_effect("--star-length", "--glare star"));
         }
         if self.display.seen_by(self.observer()).is_none() {
             print::note(format_args!(
@@ -248,6 +290,31 @@ impl Options {
             ));
         }
         Ok(())
+    }
+
+    /// Tells before a picture of these light groups is rendered if none of them will be its white.
+    pub(crate) fn check_lamps(&self, groups: &[LightGroup]) -> miette::Result<()> {
+        let needs_lamp = self.adapt != Adaptation::None && self.adapt_from.is_none();
+        if needs_lamp && groups.iter().any(|group| group.lamp.is_none()) {
+            return Err(unknown_lamp());
+        }
+        Ok(())
+    }
+
+    /// Tells which of these options a contact sheet does not have.
+    pub(crate) fn check_booth(&self) -> miette::Result<()> {
+        let asked = [
+            ("--bits", self.bits.is_some_and(|bits| bits != 8)),
+            ("--gamut-report", self.gamut_report),
+        ];
+        match asked.iter().find(|(_, is_asked)| *is_asked) {
+            Some((option, _)) => Err(miette!(
+                help =
+                    format!("leave {option} out, or develop under one lamp at a time with --light"),
+                "a contact sheet of --booth has 8 bits and no report: {option} has no effect"
+            )),
+            None => Ok(()),
+        }
     }
 
     /// Shows an image under the lamps and to the observer asked for, and keeps in mind by which lamp it then is.
@@ -276,12 +343,10 @@ impl Options {
         if self.adapt == Adaptation::None {
             return Ok(None);
         }
-        let from = self.adapt_from.or(of_image.lamp).ok_or_else(|| {
-            miette!(
-                help = "say with --adapt-from which lamp is white, or `mean` for the image's mean",
-                "--adapt: what the image's brightest lights burn with is not known"
-            )
-        })?;
+        let from = match &self.adapt_from {
+            Some(white) => white.seen_by(self.observer())?,
+            None => of_image.lamp.ok_or_else(unknown_lamp)?,
+        };
         let method = self.adapt;
         Ok(Some(WhiteAdaptation { method, from }))
     }
@@ -298,7 +363,7 @@ impl Options {
                 Glare::Eye(EyeGlare::of_view(fov_deg, height, vision))
             }
             (GlareName::Star, None) => Glare::Star(StarGlare {
-                length: self.star_length,
+                length: self.star_length.unwrap_or(StarGlare::default().length),
             }),
             _ => Glare::Off,
         };
@@ -445,6 +510,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     }
     if !arguments.booth.is_empty() {
         booth::check(&arguments.booth, &arguments.output)?;
+        options.check_booth()?;
         let (image, metadata) = image_file::spectral(path)?;
         let of_image = OfImage::said_by(&metadata);
         options.check(&arguments.output, of_image)?;

@@ -116,7 +116,9 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     let outputs = Outputs::new(&arguments.scene, &arguments.output)?;
     let developing = &arguments.developing;
     developing.check(outputs.pictures(), of_image(&scene))?;
-    developing.relight(&mut one_pixel(&scene), &mut of_image(&scene))?;
+    let mut pixel = one_pixel(&scene);
+    developing.relight(&mut pixel, &mut of_image(&scene))?;
+    developing.check_lamps(pixel.light_groups())?;
     let renderer = Renderer::open(&arguments.backend()?).into_diagnostic()?;
     if let Renderer::Cpu {
         instead_of_gpu: Some(reason),
