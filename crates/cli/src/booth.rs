@@ -4,9 +4,10 @@ use crate::develop::{OfImage, Options};
 use crate::lamp::Lamp;
 use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
-use pellicle::coating::contact_sheet;
+use pellicle::coating::{SheetColours, contact_sheet};
 use pellicle::color::develop::SceneWhite;
 use pellicle::color::{Relight, png, relight};
+use pellicle::colorimetry::Display;
 use pellicle::spectra::SpectralImage;
 use std::path::{Path, PathBuf};
 
@@ -22,7 +23,7 @@ const MOST: usize = 36;
 
 /// `A,D65,F11,LED-B3`, each with a factor or not.
 pub(crate) fn lamp(text: &str) -> Result<BoothLamp, String> {
-    let lamp = Lamp::parse(text)?;
+    let lamp = Lamp::parse(text.trim())?;
     let label = if text.trim() == lamp.name {
         lamp.name.clone()
     } else {
@@ -82,7 +83,12 @@ pub(crate) fn write(
         let height = relit.height();
         pictures.push((label.clone(), options.codes(&relit, of_image, height)?));
     }
-    let sheet = contact_sheet(&pictures).ok_or_else(|| miette!("--booth: there is no lamp"))?;
+    let colours = SheetColours {
+        ground: shade(options.display(), 0.02),
+        text: shade(options.display(), 1.0),
+    };
+    let sheet =
+        contact_sheet(&pictures, colours).ok_or_else(|| miette!("--booth: there is no lamp"))?;
     for path in outputs {
         png::write_for_display(path, &sheet, options.display())
             .into_diagnostic()
@@ -90,4 +96,10 @@ pub(crate) fn write(
         print::note(format_args!("wrote {}", path.display()));
     }
     Ok(())
+}
+
+/// The codes of a share of a display's white.
+fn shade(display: &Display, share: f64) -> [u8; 3] {
+    let responses = display.responses().each_ref();
+    responses.map(|response| (255.0 * response.code(share).clamp(0.0, 1.0)).round() as u8)
 }

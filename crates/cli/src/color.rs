@@ -20,7 +20,8 @@ use std::path::PathBuf;
 /// FILE is a table with the columns wavelength_nm and value, linear between its points: a reflectance (or transmittance) from 0 to 1, or
 /// with --emission the power of a light in any unit. Sums run from 380 to 780 nm. XYZ have Y = 100 for the perfect reflector, and for an
 /// emission as a whole; CIELAB is beside the illuminant's white. Linear RGB is XYZ/100 through the display's M⁻¹, beyond 0 and 1 where
-/// the display cannot show the colour; RGB are its codes of 8 bits, clipped.
+/// the display cannot show the colour; RGB are its codes of 8 bits, clipped. The display's black and the ambient light, which `develop`
+/// takes off, are left out here.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// A file .csv of wavelength_nm,value
@@ -179,8 +180,15 @@ impl<'a> Found<'a> {
         } = self.arguments;
         let lab = self.lab();
         let hundred = self.xyz.map(|v| 100.0 * v);
-        let [x, y] = xy_of_xyz(self.xyz);
-        let [u, v] = uv_of_xyz(self.xyz);
+        let pair = |[a, b]: [f64; 2]| {
+            // Black has no chromaticity.
+            if a.is_finite() {
+                format!("{a:.6}  {b:.6}")
+            } else {
+                "none".to_owned()
+            }
+        };
+        let (xy, uv) = (pair(xy_of_xyz(self.xyz)), pair(uv_of_xyz(self.xyz)));
         let [r, g, b] = self.rgb();
         let about = match self.luminance {
             Some(luminance) => {
@@ -207,7 +215,7 @@ impl<'a> Found<'a> {
             "  (beyond the display, clipped)"
         };
         format!(
-            "{}: {about}\nXYZ       {}\nxy        {x:.6}  {y:.6}\nu'v'      {u:.6}  {v:.6}\n\
+            "{}: {about}\nXYZ       {}\nxy        {xy}\nu'v'      {uv}\n\
              L*a*b*    {}   C* {:.4}  h {:.3}°\nlinear    {}   of {}{adapted}\nRGB       {r} {g} {b}   {}#{r:02x}{g:02x}{b:02x}{clipped}",
             self.arguments.file.display(),
             spaced(hundred),

@@ -431,6 +431,12 @@ impl Options {
         let linear = expose(image, &settings)
             .into_diagnostic()
             .wrap_err("the picture cannot be developed")?;
+        let not_finite = linear.not_finite();
+        if not_finite > 0 {
+            print::note(format_args!(
+                "pixels that are no numbers: {not_finite}; they are shown black"
+            ));
+        }
         if self.gamut_report {
             report(&GamutReport::of(&linear, &settings), &settings)?;
         }

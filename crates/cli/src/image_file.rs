@@ -46,7 +46,7 @@ pub(crate) fn spectral(path: &Path) -> miette::Result<(SpectralImage, Metadata)>
 /// Says what reading a file had to assume or change.
 pub(crate) fn tell(path: &Path, metadata: &Metadata) {
     for note in &metadata.notes {
-        print::note(format_args!("{} {note}", path.display()));
+        print::note(format_args!("{}: {note}", path.display()));
     }
 }
 

@@ -40,6 +40,7 @@ impl RelightArguments {
 fn light(text: &str) -> Result<(String, Relight), String> {
     let (group, lamp) = text
         .split_once('=')
+        .map(|(group, lamp)| (group.trim(), lamp.trim()))
         .filter(|(group, _)| !group.is_empty())
         .ok_or("a light is written like key=F11, key=D65*0.3 or key=*0.3")?;
     let relight = if let Some(factor) = lamp.strip_prefix('*') {

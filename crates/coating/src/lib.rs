@@ -53,7 +53,7 @@ pub use optics::batch::Powers;
 pub use plot::{Curve, Plot};
 pub use response::{Angle, AngleError, Batch, Sampled, absorptance};
 pub use sensitivity::{LayerSensitivity, Sensitivity, sensitivity};
-pub use sheet::contact_sheet;
+pub use sheet::{SheetColours, contact_sheet};
 pub use spectrum_plot::{Series, SpectrumPlot};
 pub use stack::{Layer, Medium, SampleError, Stack, StackError};
 pub use tolerance::{Quantiles, Spread, Tolerance, ToleranceError, tolerance};

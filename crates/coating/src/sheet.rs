@@ -6,17 +6,24 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// A dark grey that stands back behind pictures.
-const GROUND: u8 = 40;
 /// Pixels around and between pictures.
 const GAP: u32 = 12;
 /// Units of a label's height; a unit is two pixels.
 const LABEL_UNITS: u32 = 20;
 
-/// A label in white on dark grey.
+/// Codes of what stands around the pictures, for the display that they are for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SheetColours {
+    /// Behind pictures and labels.
+    pub ground: [u8; 3],
+    /// Of the labels.
+    pub text: [u8; 3],
+}
+
 struct Label<'a> {
     text: &'a str,
     width: u32,
+    colours: SheetColours,
 }
 
 impl Drawing for Label<'_> {
@@ -25,8 +32,10 @@ impl Drawing for Label<'_> {
     }
 
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: Scale) -> Drawn<B> {
-        area.fill(&RGBColor(GROUND, GROUND, GROUND))?;
-        let style = scale.text(13.0).color(&WHITE);
+        let rgb = |[r, g, b]: [u8; 3]| RGBColor(r, g, b);
+        area.fill(&rgb(self.colours.ground))?;
+        let ink = rgb(self.colours.text);
+        let style = scale.text(13.0).color(&ink);
         let style = style.pos(Pos::new(HPos::Left, VPos::Center));
         let middle = scale.px(0.5 * f64::from(LABEL_UNITS));
         area.draw(&Text::new(self.text, (0, middle), style))
@@ -37,7 +46,7 @@ impl Drawing for Label<'_> {
 /// allows. The pictures' codes stay as they are.
 ///
 /// `None` where there is no picture, or they differ in size.
-pub fn contact_sheet(pictures: &[(String, RgbImage8)]) -> Option<RgbImage8> {
+pub fn contact_sheet(pictures: &[(String, RgbImage8)], colours: SheetColours) -> Option<RgbImage8> {
     let (_, first) = pictures.first()?;
     let (width, height) = (first.width(), first.height());
     if pictures
@@ -50,13 +59,21 @@ pub fn contact_sheet(pictures: &[(String, RgbImage8)]) -> Option<RgbImage8> {
     let rows = (pictures.len() as u32).div_ceil(columns);
     let label = 2 * LABEL_UNITS;
     let (cell_width, cell_height) = (width + GAP, label + height + GAP);
-    let mut sheet = Sheet::new(columns * cell_width + GAP, rows * cell_height + GAP);
+    let mut sheet = Sheet::new(
+        columns * cell_width + GAP,
+        rows * cell_height + GAP,
+        colours.ground,
+    );
     for (index, (text, picture)) in (0..).zip(pictures) {
         let x = GAP + (index % columns) * cell_width;
         let y = GAP + (index / columns) * cell_height;
         let units = width.div_ceil(2);
         sheet.put(
-            &picture::pixels(&Label { text, width: units }),
+            &picture::pixels(&Label {
+                text,
+                width: units,
+                colours,
+            }),
             (x, y),
             width,
         );
@@ -72,11 +89,11 @@ struct Sheet {
 }
 
 impl Sheet {
-    fn new(width: u32, height: u32) -> Self {
+    fn new(width: u32, height: u32, ground: [u8; 3]) -> Self {
         Self {
             width,
             height,
-            codes: vec![GROUND; 3 * width as usize * height as usize],
+            codes: ground.repeat(width as usize * height as usize),
         }
     }
 
@@ -95,6 +112,12 @@ impl Sheet {
 mod tests {
     use super::*;
 
+    const GROUND: u8 = 40;
+    const COLOURS: SheetColours = SheetColours {
+        ground: [GROUND; 3],
+        text: [255; 3],
+    };
+
     fn filled(width: u32, height: u32, code: u8) -> RgbImage8 {
         RgbImage8::new(width, height, vec![code; 3 * (width * height) as usize]).unwrap()
     }
@@ -104,7 +127,7 @@ mod tests {
         let pictures: Vec<(String, RgbImage8)> = (1..=3)
             .map(|i| (format!("D{i}5"), filled(61, 30, 100 + i)))
             .collect();
-        let sheet = contact_sheet(&pictures).unwrap();
+        let sheet = contact_sheet(&pictures, COLOURS).unwrap();
         assert_eq!((sheet.width(), sheet.height()), (2 * 73 + 12, 2 * 82 + 12));
         for (index, (x, y)) in [(12, 52), (85, 52), (12, 134)].into_iter().enumerate() {
             let code = 101 + index as u8;
@@ -126,8 +149,10 @@ mod tests {
     #[test]
     fn pictures_of_different_sizes_make_no_sheet() {
         let named = |p| (String::new(), p);
-        assert!(contact_sheet(&[]).is_none());
-        assert!(contact_sheet(&[named(filled(4, 4, 0)), named(filled(4, 5, 0))]).is_none());
-        assert!(contact_sheet(&[named(filled(1, 1, 0))]).is_some());
+        assert!(contact_sheet(&[], COLOURS).is_none());
+        assert!(
+            contact_sheet(&[named(filled(4, 4, 0)), named(filled(4, 5, 0))], COLOURS).is_none()
+        );
+        assert!(contact_sheet(&[named(filled(1, 1, 0))], COLOURS).is_some());
     }
 }

@@ -25,7 +25,7 @@ const CURVE_POINTS: u16 = 4096;
 /// A display's profile: a matrix and a curve per channel (ICC.1:2022, 8.3.3).
 ///
 /// The primaries are adapted from the display's white to D50 by Bradford's matrix, which the profile holds too. Curves are tables
-/// of what the channels make of their codes; a display that goes beyond its white (PQ) has 1 at its peak. What the screen
+/// of what the channels make of their codes; of a display that goes beyond its white (PQ) they end at the white. What the screen
 /// shows at code 0 is left out, as relative colorimetry has it.
 ///
 /// # Errors
@@ -38,7 +38,7 @@ pub fn profile(display: &Display) -> Result<Vec<u8>, IccError> {
     let curve = |channel: usize| {
         let response = &display.responses()[channel];
         let light = |i: u16| response.light(f64::from(i) / f64::from(CURVE_POINTS - 1));
-        let value = |i| (light(i) / display.peak()).clamp(0.0, 1.0) * f64::from(u16::MAX);
+        let value = |i| light(i).clamp(0.0, 1.0) * f64::from(u16::MAX);
         Some(ToneReprCurve::Lut(
             (0..CURVE_POINTS).map(|i| value(i).round() as u16).collect(),
         ))
@@ -114,7 +114,7 @@ mod tests {
                 panic!("{name}");
             };
             let middle = f64::from(curve[2048]) / 65535.0;
-            let expected = display.responses()[1].light(2048.0 / 4095.0) / display.peak();
+            let expected = display.responses()[1].light(2048.0 / 4095.0).min(1.0);
             assert!(
                 (middle - expected).abs() < 1e-5,
                 "{name} {middle} {expected}"

@@ -154,6 +154,18 @@ fn mistakes_of_light_and_tables_say_where_and_what_would_be_right() {
             "white_luminance: found 0",
         ),
         (
+            change("[0.3, 0.6]", "[0.3, 0.6, 0.1]"),
+            "primaries.green: found 3 numbers",
+        ),
+        (
+            change(
+                "curve = 'gamma', gamma = [2.1, 2.2, 2.3], alpha = 0.02",
+                "curve = 'pq'",
+            )
+            .replace("white_luminance = 200", "white_luminance = 20000"),
+            "white_luminance: found 20000; the codes of PQ end at 10000 cd/m²",
+        ),
+        (
             change("black_luminance = 0.2", "black_luminance = -1"),
             "black_luminance: found -1",
         ),

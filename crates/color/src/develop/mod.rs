@@ -87,10 +87,12 @@ pub enum DevelopError {
     #[error("this glare depends on wavelength, and the image is one of colours without spectra")]
     NoSpectrum,
     /// The scene's white is to be the mean colour of an image that has none.
-    #[error("the image is black: its mean colour is no white to adapt from")]
+    #[error("the mean colour of the image is no white to adapt from: it is black, or no number")]
     NoWhite,
     /// The exposure is to follow the image, which has no light.
-    #[error("the image is black: there is nothing to expose for")]
+    #[error(
+        "no pixel of the image has a luminance above 0 that is a number: there is nothing to expose for"
+    )]
     NoLight,
 }
 
@@ -145,6 +147,14 @@ impl LinearImage {
     /// The amounts of each pixel, row by row.
     pub fn rgb(&self) -> &[[f32; 3]] {
         &self.rgb
+    }
+
+    /// How many pixels are no numbers.
+    pub fn not_finite(&self) -> usize {
+        let pixels = self.rgb.par_iter();
+        pixels
+            .filter(|rgb| !rgb.iter().all(|v| v.is_finite()))
+            .count()
     }
 
     /// The luminance in the scene that is the display's white, cd/m² up to the scene's scale.

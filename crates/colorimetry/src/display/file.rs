@@ -174,9 +174,9 @@ pub(super) enum WhiteDescription {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct PrimariesDescription {
-    pub(super) red: Option<[f64; 2]>,
-    pub(super) green: Option<[f64; 2]>,
-    pub(super) blue: Option<[f64; 2]>,
+    pub(super) red: Option<Vec<f64>>,
+    pub(super) green: Option<Vec<f64>>,
+    pub(super) blue: Option<Vec<f64>>,
     pub(super) spectra: Option<PathBuf>,
 }
 

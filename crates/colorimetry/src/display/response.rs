@@ -106,7 +106,7 @@ const PQ_C1: f64 = 3424.0 / 4096.0;
 const PQ_C2: f64 = 2413.0 / 4096.0 * 32.0;
 const PQ_C3: f64 = 2392.0 / 4096.0 * 32.0;
 /// Luminance of the largest code, cd/m².
-const PQ_PEAK: f64 = 10_000.0;
+pub(super) const PQ_PEAK: f64 = 10_000.0;
 
 /// cd/m² of a code (ST 2084, equation 4.1).
 fn pq_luminance(code: f64) -> f64 {

@@ -9,6 +9,7 @@ use super::file::{
     AmbientDescription, Curve, Description, DisplayError, PerChannel, PrimariesDescription,
     ReadTable, ResponseDescription, WhiteDescription,
 };
+use super::response::PQ_PEAK;
 use super::{Ambient, Display, MixtureError, Primaries, Response};
 use crate::chromaticity::xy_of_xyz;
 use crate::matrix::IDENTITY;
@@ -82,11 +83,11 @@ impl Checks<'_> {
     }
 
     fn primaries(&self, written: &PrimariesDescription) -> Result<Primaries, DisplayError> {
-        match (written.red, written.green, written.blue, &written.spectra) {
+        match (&written.red, &written.green, &written.blue, &written.spectra) {
             (Some(red), Some(green), Some(blue), None) => Ok(Primaries::Chromaticities([
-                self.chromaticity("primaries.red", red)?,
-                self.chromaticity("primaries.green", green)?,
-                self.chromaticity("primaries.blue", blue)?,
+                self.primary("primaries.red", red)?,
+                self.primary("primaries.green", green)?,
+                self.primary("primaries.blue", blue)?,
             ])),
             (None, None, None, Some(csv)) => {
                 let text = (self.read)(csv)?;
@@ -109,6 +110,15 @@ impl Checks<'_> {
                 .to_string(),
             source,
         }
+    }
+
+    fn primary(&self, field: &'static str, written: &[f64]) -> Result<[f64; 2], DisplayError> {
+        let &[x, y] = written else {
+            let found = written.len();
+            let message = format!("found {found} numbers; a chromaticity is two, x and y");
+            return Err(self.fault(field, message));
+        };
+        self.chromaticity(field, [x, y])
     }
 
     /// Primaries and whites may be imaginary, but lie on one side of the line of no luminance.
@@ -190,6 +200,12 @@ impl Checks<'_> {
             Curve::Bt1886 => {
                 let black = black_luminance / (white_luminance + black_luminance);
                 std::array::from_fn(|_| Response::Bt1886 { black })
+            }
+            Curve::Pq if white_luminance > PQ_PEAK => {
+                return Err(self.fault(
+                    "white_luminance",
+                    format!("found {white_luminance}; the codes of PQ end at {PQ_PEAK} cd/m²"),
+                ));
             }
             Curve::Pq => std::array::from_fn(|_| Response::Pq { white_luminance }),
             Curve::Table => self.measured(written)?,

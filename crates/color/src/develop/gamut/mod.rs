@@ -51,8 +51,12 @@ pub enum GamutMapping {
     Perceptual,
 }
 
-/// How much a value may lie outside a display's range and count as inside, as a share of the white: rounding.
-const TOLERANCE: f64 = 1e-6;
+/// How far an amount may lie below the least, and above the largest, that a display gives, and count as inside: a third of an
+/// 8-bit code of sRGB at the black, a ninth at the white. The white of D65 itself lies 3e-4 beside that of a display whose
+/// standard rounds it to four decimals.
+const BELOW: f64 = 1e-4;
+/// See [`BELOW`].
+const ABOVE: f64 = 1e-3;
 
 /// What a display shows: amounts of red, green and blue, its black included, from `low` to `high`.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,7 +82,7 @@ impl Gamut {
 
     /// Whether the display shows this colour. What is not a number is no colour, and none that it shows.
     pub fn contains(&self, rgb: [f64; 3]) -> bool {
-        (0..3).all(|i| rgb[i] >= self.low[i] - TOLERANCE && rgb[i] <= self.high[i] + TOLERANCE)
+        (0..3).all(|i| rgb[i] >= self.low[i] - BELOW && rgb[i] <= self.high[i] + ABOVE)
     }
 
     /// The colour that the display shows for `rgb`. A colour that it can show is not changed.

@@ -38,7 +38,7 @@ pub(super) fn add(
     }
     match settings.glare {
         Glare::Off => {}
-        Glare::Star(star) => star::add(image, star, settings.display.peak()),
+        Glare::Star(star) => star::add(image, star, &settings.display),
         Glare::Eye(eye) => eye::add(image, latent, rgb_from_xyz, eye)?,
     }
     Ok(())

@@ -1,12 +1,15 @@
 //! A star about what is too bright for the display.
 //!
 //! Of a highlight the display shows as much as it can; the rest is smeared up, down, left and right, as Suzuki, Yokoi and Toriwaki
-//! do in their figures 15 and 16. They give no profile: here a quarter of the excess goes each way and falls exponentially, so
-//! that nothing is lost but what leaves the picture.
+//! do in their figures 15 and 16. They give no profile: here a quarter of the excess goes each way, from the highlight itself on,
+//! and falls exponentially, so that nothing is lost but what leaves the picture, and no arm is brighter than its origin.
+
+use colorimetry::Display;
 
 use super::LinearImage;
 
-/// A star with four arms about each pixel that is too bright.
+/// A star with four arms about each pixel whose luminance is above the display's brightest white. A saturated colour that is no
+/// brighter than that is left to gamut mapping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StarGlare {
     /// The distance over which an arm falls to 1/e, as a share of the picture's height.
@@ -19,22 +22,27 @@ impl Default for StarGlare {
     }
 }
 
-/// Takes from each pixel what exceeds `peak`, its chromaticity kept, and smears it.
-pub(super) fn add(image: &mut LinearImage, star: StarGlare, peak: f64) {
+/// Takes from each pixel what exceeds the luminance of `display`'s peak, its chromaticity kept, and smears it.
+pub(super) fn add(image: &mut LinearImage, star: StarGlare, display: &Display) {
+    let (luminance, peak) = (display.xyz_from_rgb()[1], display.peak());
     let (width, height) = (image.width as usize, image.height as usize);
     let falloff = (-1.0 / (star.length * height as f64).max(1e-3)).exp();
-    let excess: Vec<[f64; 3]> = image.rgb.iter_mut().map(|rgb| excess(rgb, peak)).collect();
+    let excess: Vec<[f64; 3]> = image
+        .rgb
+        .iter_mut()
+        .map(|rgb| excess(rgb, luminance, peak))
+        .collect();
     if excess.iter().flatten().all(|&v| v == 0.0) {
         return;
     }
     let mut add = |line: &mut dyn Iterator<Item = usize>| {
-        // What has come along this arm so far; at each step the share `falloff` of it goes on.
+        // What has come along this arm so far, the pixel's own included; at each step the share `falloff` of it goes on.
         let mut carried = [0.0; 3];
         for at in line {
             let pixel = &mut image.rgb[at];
             for channel in 0..3 {
-                pixel[channel] += (0.25 * (1.0 - falloff) * carried[channel]) as f32;
                 carried[channel] = falloff * carried[channel] + excess[at][channel];
+                pixel[channel] += (0.25 * (1.0 - falloff) * carried[channel]) as f32;
             }
         }
     };
@@ -49,14 +57,14 @@ pub(super) fn add(image: &mut LinearImage, star: StarGlare, peak: f64) {
 }
 
 /// What of a colour exceeds the peak, which is left: a multiple of the colour, so that both have its chromaticity.
-fn excess(rgb: &mut [f32; 3], peak: f64) -> [f64; 3] {
+fn excess(rgb: &mut [f32; 3], luminance: [f64; 3], peak: f64) -> [f64; 3] {
     let colour = rgb.map(f64::from);
-    let largest = colour.into_iter().fold(0.0, f64::max);
-    if largest <= peak || !colour.iter().all(|v| v.is_finite()) {
+    let y: f64 = (0..3).map(|i| luminance[i] * colour[i]).sum();
+    if !(y > peak && y.is_finite()) {
         return [0.0; 3];
     }
-    *rgb = colour.map(|v| (v * peak / largest) as f32);
-    colour.map(|v| v * (1.0 - peak / largest))
+    *rgb = colour.map(|v| (v * peak / y) as f32);
+    colour.map(|v| v * (1.0 - peak / y))
 }
 
 #[cfg(test)]
@@ -78,18 +86,30 @@ mod tests {
         std::array::from_fn(|i| image.rgb.iter().map(|rgb| f64::from(rgb[i])).sum())
     }
 
+    fn srgb() -> Display {
+        Display::named("srgb").unwrap()
+    }
+
     const STAR: StarGlare = StarGlare { length: 0.02 };
 
     #[test]
     fn four_arms_hold_the_excess() {
         let before = point([40.0, 20.0, 4.0]);
         let mut after = before.clone();
-        add(&mut after, STAR, 1.0);
+        add(&mut after, STAR, &srgb());
         for (before, after) in sum(&before).into_iter().zip(sum(&after)) {
             assert!((after / before - 1.0).abs() < 1e-6, "{before} {after}");
         }
         let at = |x: usize, y: usize| after.rgb[y * 201 + x];
-        assert_eq!(at(100, 50), [1.0, 0.5, 0.1]);
+        // The centre has the luminance of the white and its share of each arm.
+        let share = f64::from(at(101, 50)[0] - 0.25) / (-1.0 / (0.02 * 101.0_f64)).exp();
+        let y = 0.212_639 * 40.0 + 0.715_169 * 20.0 + 0.072_192 * 4.0;
+        let expected = 40.0 / y + 4.0 * share;
+        assert!(
+            (f64::from(at(100, 50)[0]) / expected - 1.0).abs() < 1e-5,
+            "{expected}"
+        );
+        assert!(at(100, 50)[0] > at(101, 50)[0]);
         for d in 1..50 {
             let arm = at(100 + d, 50);
             for other in [at(100 - d, 50), at(100, 50 + d), at(100, 50 - d)] {
@@ -108,16 +128,16 @@ mod tests {
     fn what_the_display_shows_stays() {
         let before = point([1.0, 0.5, -0.1]);
         let mut after = before.clone();
-        add(&mut after, STAR, 1.0);
+        add(&mut after, STAR, &srgb());
         assert_eq!(after, before);
-        // On a display that goes up to 50, so does this.
+        // On a display that goes up to 49 times its white, so does this.
         let before = point([40.0, 20.0, 4.0]);
         let mut after = before.clone();
-        add(&mut after, STAR, 50.0);
+        add(&mut after, STAR, &Display::named("bt2100_pq").unwrap());
         assert_eq!(after, before);
         let before = point([f32::INFINITY, 1.0, 1.0]);
         let mut after = before.clone();
-        add(&mut after, STAR, 1.0);
+        add(&mut after, STAR, &srgb());
         assert_eq!(after, before);
     }
 }
