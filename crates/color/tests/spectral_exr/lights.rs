@@ -97,6 +97,29 @@ fn names_that_cannot_be_layers_are_refused() {
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 0);
 }
 
+/// A lamp of any wavelengths could keep a reader busy for ever.
+#[test]
+fn a_lamp_that_is_none_is_unknown_and_noted() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("image.exr");
+    let grid = BandGrid::visible(5).unwrap();
+    let written = image(&[("sky", Some("A")), ("key", Some("D65"))]);
+    write(&path, &written).unwrap();
+    let lamp = written.light_groups()[0].lamp.as_ref().unwrap();
+    let last = lamp.points().last().unwrap();
+    assert_eq!(last.0, grid.max_nm());
+    let line = format!("780,{}", last.1);
+    replaced(&path, &line, &format!("9e9,{}", last.1));
+    let (found, metadata) = spectral_exr::read(&path).unwrap();
+    assert_eq!(found.light_groups()[0].lamp, None);
+    assert_eq!(found.light_groups()[1], written.light_groups()[1]);
+    assert_eq!(found.radiance(), written.radiance());
+    let [note] = metadata.notes.as_slice() else {
+        panic!("{:?}", metadata.notes)
+    };
+    assert!(note.contains("\"sky\""), "{note}");
+}
+
 /// The same file with some bytes replaced by as many others.
 fn replaced(path: &Path, from: &str, to: &str) {
     assert_eq!(from.len(), to.len());
