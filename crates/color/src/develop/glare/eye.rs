@@ -113,7 +113,7 @@ impl Kernels {
         let mirror = Mirror::new(image.width as usize, image.height as usize);
         let (shares, pixel) = (eye.vision.shares(), eye.degrees_per_pixel);
         let common = mirror.of_kernel(|x, y| {
-            over_pixel([x, y], pixel, |theta| {
+            over_pixel([x, y], pixel, core_parts([x, y], pixel), |theta| {
                 let f = point_spread(theta, MEAN_NM);
                 (0..3).map(|i| shares[i] * f[i]).sum()
             })
@@ -137,7 +137,9 @@ impl Kernels {
             if (theta - radius).abs() > reach {
                 return 0.0;
             }
-            over_pixel([x, y], pixel, |theta| share * point_spread(theta, nm)[3])
+            over_pixel([x, y], pixel, halo_parts(pixel), |theta| {
+                share * point_spread(theta, nm)[3]
+            })
         }
     }
 
@@ -224,17 +226,33 @@ fn finite(rgb: [f32; 3]) -> [f64; 3] {
     }
 }
 
-/// The mean of a function of the angle over the square of a pixel, which far from the light is its middle.
-fn over_pixel([x, y]: [usize; 2], degrees_per_pixel: f64, f: impl Fn(f64) -> f64) -> f64 {
+/// Into how many parts each side of a pixel is cut for f₀, f₁ and f₂: an eighth of what they change over, which is 0.02° at the
+/// light and grows with the angle. Far from the light that is the whole pixel.
+fn core_parts([x, y]: [usize; 2], degrees_per_pixel: f64) -> usize {
     let [x, y] = [x, y].map(|v| v as f64);
     let nearest = degrees_per_pixel * (x - 0.5).max(0.0).hypot((y - 0.5).max(0.0));
-    // Parts of a quarter of what the functions change over, which near the light is 0.02°.
     let parts = (4.0 * degrees_per_pixel / (nearest + 0.02)).ceil();
-    let parts = if parts <= 1.0 {
+    if parts <= 1.0 {
         1
     } else {
         2 * (parts as usize).min(64)
-    };
+    }
+}
+
+/// The same for f₃: a quarter of what it changes over, 0.16° at every angle.
+fn halo_parts(degrees_per_pixel: f64) -> usize {
+    // The bound is reached by pixels of 10°, of which a picture has few.
+    ((4.0 * degrees_per_pixel / 0.16).ceil() as usize).clamp(1, 256)
+}
+
+/// The mean of a function of the angle over the square of a pixel: that of the middles of its parts.
+fn over_pixel(
+    [x, y]: [usize; 2],
+    degrees_per_pixel: f64,
+    parts: usize,
+    f: impl Fn(f64) -> f64,
+) -> f64 {
+    let [x, y] = [x, y].map(|v| v as f64);
     let place = |v: f64, i: usize| degrees_per_pixel * (v - 0.5 + (i as f64 + 0.5) / parts as f64);
     let mut sum = 0.0;
     for i in 0..parts {
