@@ -72,7 +72,7 @@ pub fn point_spread(theta_deg: f64, nm: f64) -> [f64; 4] {
 /// The wavelength of light whose wavelength is not known: the one that f₃ is written for.
 const MEAN_NM: f64 = 568.0;
 
-/// Scatters a picture that `rgb_from_xyz` made of `latent`.
+/// Scatters a picture that `rgb_from_xyz` made of `latent`, whose XYZ are those of `observer`.
 ///
 /// The spread is cut at the picture's size and scaled to the sum 1, so that no light is lost; beyond the picture the scene is
 /// taken to go on as in mirrors. Only the halo depends on wavelength: it is spread band by band, the rest once. Where the bands
@@ -82,11 +82,14 @@ pub(super) fn add(
     latent: &Latent<'_>,
     rgb_from_xyz: &Matrix3,
     eye: EyeGlare,
+    observer: Observer,
 ) -> Result<(), DevelopError> {
     let kernels = Kernels::new(image, eye);
     let has_halo = eye.vision.shares()[3] > 0.0;
     let spectra = if has_halo {
-        kernels.of_spectrum(image, latent, rgb_from_xyz)?
+        let (grid, radiance) = latent.spectrum.ok_or(DevelopError::NoSpectrum)?;
+        let bands = Bands::new(grid, radiance, rgb_from_xyz, observer);
+        kernels.of_spectrum(image, &bands)
     } else {
         kernels.of_colours(image)
     };
@@ -160,14 +163,7 @@ impl Kernels {
     }
 
     /// The transforms of red, green and blue, the halo of each band scattered apart.
-    fn of_spectrum(
-        &self,
-        image: &LinearImage,
-        latent: &Latent<'_>,
-        rgb_from_xyz: &Matrix3,
-    ) -> Result<[Spectrum; 3], DevelopError> {
-        let (grid, radiance) = latent.spectrum.ok_or(DevelopError::NoSpectrum)?;
-        let bands = Bands::new(grid, radiance, rgb_from_xyz);
+    fn of_spectrum(&self, image: &LinearImage, bands: &Bands<'_>) -> [Spectrum; 3] {
         // Light of a band is scaled by the sum of its own spread; the remainder by that of the middle.
         let middle = self.mirror.of_kernel(self.halo(MEAN_NM));
         let middle_scale = self.scale(MEAN_NM);
@@ -202,7 +198,7 @@ impl Kernels {
                     .for_each(|((sum, v), k)| *sum += weight * v * k);
             }
         }
-        Ok(sums)
+        sums
     }
 }
 
@@ -271,8 +267,14 @@ struct Bands<'a> {
 }
 
 impl<'a> Bands<'a> {
-    fn new(grid: &BandGrid, radiance: &'a [f32], rgb_from_xyz: &Matrix3) -> Self {
-        let observer = BandWeights::observed(grid, Observer::Cie1931Deg2);
+    /// For a picture that `rgb_from_xyz` makes of the XYZ of `observer`.
+    fn new(
+        grid: &BandGrid,
+        radiance: &'a [f32],
+        rgb_from_xyz: &Matrix3,
+        observer: Observer,
+    ) -> Self {
+        let observer = BandWeights::observed(grid, observer);
         let rgb = |&xyz: &[f64; 3]| times(rgb_from_xyz, xyz);
         Self {
             radiance,
