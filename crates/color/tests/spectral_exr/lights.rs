@@ -97,6 +97,46 @@ fn names_that_cannot_be_layers_are_refused() {
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 0);
 }
 
+#[test]
+fn a_unit_that_is_a_scale_away_is_that_of_all_light() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("image.exr");
+    let written = image(&[("sky", None), ("key", None)]);
+    write(&path, &written).unwrap();
+    replaced(&path, "W.m^-2.sr^-1.nm^-1", "W.m^-2.sr^-1.um^-1");
+    let (found, _) = spectral_exr::read(&path).unwrap();
+    let check = |found: &[f32], written: &[f32], scale: f32| {
+        assert_eq!(found.len(), written.len());
+        for (found, written) in found.iter().zip(written) {
+            let expected = scale * written;
+            assert!((found - expected).abs() <= 1e-6 * expected, "{scale}");
+        }
+    };
+    check(found.variance(), written.variance(), 1e-6);
+    for group in 0..2 {
+        let [xyz, written_xyz] =
+            [&found, &written].map(|image| image.group_xyz(group).as_flattened());
+        check(xyz, written_xyz, 1e-3);
+        check(
+            found.group_radiance(group),
+            written.group_radiance(group),
+            1e-3,
+        );
+    }
+    check(
+        found.xyz().as_flattened(),
+        written.xyz().as_flattened(),
+        1e-3,
+    );
+    check(found.radiance(), written.radiance(), 1e-3);
+    let (colours, _) = spectral_exr::read_xyz(&path).unwrap();
+    check(
+        colours.xyz().as_flattened(),
+        written.xyz().as_flattened(),
+        1e-3,
+    );
+}
+
 /// A lamp of any wavelengths could keep a reader busy for ever.
 #[test]
 fn a_lamp_that_is_none_is_unknown_and_noted() {

@@ -27,7 +27,7 @@ pub(super) struct Plan {
     pub(super) spectral_channels: usize,
     /// How the spectral channels make the grid's bands; `None` where they are the grid's bands.
     pub(super) shares: Option<Shares>,
-    /// What radiances are multiplied by.
+    /// What radiances and XYZ are multiplied by, and variances twice.
     pub(super) scale: f32,
     /// The light groups, at least one.
     pub(super) light_groups: Vec<LightGroup>,
