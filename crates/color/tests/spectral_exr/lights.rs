@@ -77,6 +77,27 @@ fn each_of_several_light_groups_is_a_layer() {
     }
 }
 
+/// Bit 10 of the version field is for names beyond 31 bytes.
+#[test]
+fn long_names_are_marked() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("image.exr");
+    let longest = "abcdefghijklmnopqrstuvwxyz_01234";
+    assert_eq!(longest.len(), LightGroup::MAX_NAME);
+    let flags = || {
+        let version = fs::read(&path).unwrap()[4..8].try_into().unwrap();
+        u32::from_le_bytes(version)
+    };
+    write(&path, &image(&[("only", None)])).unwrap();
+    assert_eq!(flags(), 2);
+    let image = image(&[(longest, Some("D65")), ("key", None)]);
+    write(&path, &image).unwrap();
+    assert_eq!(flags(), 2 | 1 << 10);
+    let (found, found_metadata) = spectral_exr::read(&path).unwrap();
+    assert_eq!(found, image);
+    assert_eq!(found_metadata, metadata());
+}
+
 #[test]
 fn names_that_cannot_be_layers_are_refused() {
     let directory = tempfile::tempdir().unwrap();
