@@ -2,12 +2,13 @@
 
 use std::fmt::Write;
 
-use exr::meta::attribute::{AttributeValue, Text};
+use exr::meta::attribute::AttributeValue;
 use exr::meta::header::Header;
 use spectra::{BandGrid, LightGroup, Tabulated};
 
-use super::bands::wavelength_text;
+use super::bands::{band_of_text, wavelength_text};
 use super::channels::{Content, LightContent};
+use super::metadata::{text, unicode};
 
 /// The names of the channels start so, and go on with the light group's name.
 const LAYER: &str = "pellicle.light.";
@@ -51,12 +52,8 @@ pub(super) fn content(name: &str, groups: &[LightGroup], grid: &BandGrid) -> Opt
     if let Some(axis) = XYZ.iter().position(|xyz| *xyz == rest) {
         return Some(Content::Light(index, LightContent::Xyz(axis)));
     }
-    let nm: f64 = rest.strip_suffix("nm")?.replace(',', ".").parse().ok()?;
-    let band = ((nm - grid.min_nm()) / grid.width_nm()).floor();
-    // A cast takes what is negative or not a number to 0, and the name then differs.
-    let band = (band as u32).min(grid.count() - 1);
-    let is_same = wavelength_text(grid.centre_nm(band)) == rest;
-    is_same.then_some(Content::Light(index, LightContent::Radiance(band as usize)))
+    let band = band_of_text(rest, grid)?;
+    Some(Content::Light(index, LightContent::Radiance(band)))
 }
 
 /// The first light group without some of its channels.
@@ -166,15 +163,9 @@ fn parsed(text: &str, grid: &BandGrid) -> Option<Tabulated> {
 
 fn attribute(header: &Header, name: &str) -> Option<String> {
     match header.own_attributes.other.get(&text(name)) {
-        Some(AttributeValue::Text(value)) => {
-            Some(String::from_utf8_lossy(value.as_slice()).into_owned())
-        }
+        Some(AttributeValue::Text(value)) => Some(unicode(value)),
         _ => None,
     }
-}
-
-fn text(string: &str) -> Text {
-    Text::from_slice_unchecked(string.as_bytes())
 }
 
 #[cfg(test)]

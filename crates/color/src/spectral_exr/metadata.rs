@@ -161,7 +161,7 @@ fn emissive_units(shared: &ImageAttributes, own: &LayerAttributes) -> Option<Str
 }
 
 /// Strings stand in the file as UTF-8, which the format asks for.
-fn text(string: &str) -> Text {
+pub(super) fn text(string: &str) -> Text {
     Text::from_slice_unchecked(string.as_bytes())
 }
 
@@ -169,7 +169,8 @@ fn string(value: &str) -> AttributeValue {
     AttributeValue::Text(text(value))
 }
 
-fn unicode(text: &Text) -> String {
+/// What a string of a file says, whatever its bytes are.
+pub(super) fn unicode(text: &Text) -> String {
     String::from_utf8_lossy(text.as_slice()).into_owned()
 }
 
