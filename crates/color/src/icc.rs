@@ -22,6 +22,19 @@ const D50: [f64; 3] = [0.9642, 1.0, 0.8249];
 /// Points of a response curve; between them readers interpolate.
 const CURVE_POINTS: u16 = 4096;
 
+/// The most characters of a profile's description that are told.
+const DESCRIPTION_CHARACTERS: usize = 60;
+
+/// How a profile describes itself; `None` where it does not, or is none.
+pub(crate) fn description(profile: &[u8]) -> Option<String> {
+    let text = match ColorProfile::new_from_slice(profile).ok()?.description? {
+        ProfileText::PlainString(text) => text,
+        ProfileText::Localizable(texts) => texts.into_iter().next()?.value,
+        ProfileText::Description(text) => text.ascii_string,
+    };
+    Some(text.chars().take(DESCRIPTION_CHARACTERS).collect())
+}
+
 /// A display's profile: a matrix and a curve per channel (ICC.1:2022, 8.3.3).
 ///
 /// The primaries are adapted from the display's white to D50 by Bradford's matrix, which the profile holds too. Curves are tables

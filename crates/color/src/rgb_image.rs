@@ -17,7 +17,8 @@ impl<Code: Copy> RgbImage<Code> {
     /// A picture of these codes, red, green and blue of each pixel in turn, row by row; `None` unless there are
     /// 3 × `width` × `height` of them.
     pub fn new(width: u32, height: u32, data: Vec<Code>) -> Option<Self> {
-        let expected = 3 * width as usize * height as usize;
+        let pixels = (width as usize).checked_mul(height as usize)?;
+        let expected = pixels.checked_mul(3)?;
         (data.len() == expected).then_some(Self {
             width,
             height,
@@ -47,5 +48,18 @@ impl<Code: Copy> RgbImage<Code> {
         }
         let start = 3 * (y as usize * self.width as usize + x as usize);
         self.data[start..start + 3].try_into().ok()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_has_three_codes_per_pixel() {
+        assert!(RgbImage8::new(2, 1, vec![0; 6]).is_some());
+        assert_eq!(RgbImage8::new(2, 1, vec![0; 5]), None);
+        // 3 (2³² − 1)² does not fit 64 bits.
+        assert_eq!(RgbImage8::new(u32::MAX, u32::MAX, Vec::new()), None);
     }
 }

@@ -3,7 +3,7 @@
 use crate::RgbImage8;
 
 /// Magma, from black over purple and orange to pale yellow, at 17 even places: lightness rises evenly, also for those who are
-/// colour-blind (S. van der Walt and N. Smith, 2015, public domain).
+/// colour-blind (S. van der Walt and N. Smith, 2015, for matplotlib; CC0 1.0).
 const MAGMA: [[u8; 3]; 17] = [
     [0, 0, 4],
     [10, 8, 34],

@@ -1,6 +1,7 @@
 //! Pictures to compare, and how far their colours are apart.
 
 use std::fs::File;
+use std::hash::{DefaultHasher, Hasher};
 use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
 
@@ -12,6 +13,7 @@ use thiserror::Error;
 
 use super::CompareError;
 use crate::RgbImage8;
+use crate::icc;
 use crate::xyz::exposure_scale;
 
 /// A picture in linear sRGB, not clipped, row 0 on top.
@@ -95,7 +97,7 @@ impl Picture {
         &self.linear
     }
 
-    /// What the file says its colours are, where that is not sRGB.
+    /// What the file says its colours are, where that is not sRGB. Files with different ICC profiles have different tags.
     pub fn tag(&self) -> Option<&str> {
         self.tag.as_deref()
     }
@@ -170,9 +172,18 @@ fn tag(info: &::png::Info<'_>) -> Option<String> {
             .then(|| format!("cICP primaries {primaries}, transfer function {curve}"));
     }
     match (&info.icc_profile, info.srgb) {
-        (Some(profile), None) => Some(format!("an ICC profile of {} bytes", profile.len())),
+        (Some(profile), None) => Some(icc_tag(profile)),
         _ => None,
     }
+}
+
+/// A profile's name, its size, and a hash that tells it from others of the same name.
+fn icc_tag(profile: &[u8]) -> String {
+    let mut hasher = DefaultHasher::new();
+    hasher.write(profile);
+    let name = icc::description(profile).map_or_else(String::new, |name| format!(" {name:?}"));
+    let (bytes, hash) = (profile.len(), hasher.finish());
+    format!("an ICC profile{name} of {bytes} bytes (hash {hash:016x})")
 }
 
 /// The colour difference ΔE₀₀ at each pixel, CIELAB under the white of sRGB, colours beyond the display included; not a number
@@ -292,6 +303,27 @@ mod tests {
         assert_eq!(found.linear()[0], [1.0; 3]);
         assert!((found.linear()[1][0] - srgb::decode(32768.0 / 65535.0)).abs() < 1e-15);
         assert!(found.tag().unwrap().contains("primaries 12"));
+
+        // As long as each other, and of the same name: one byte of a curve differs.
+        let profile = icc::profile(&colorimetry::Display::named("lcd").unwrap()).unwrap();
+        let tag_with = |profile: &[u8]| {
+            let mut info = ::png::Info::with_size(1, 1);
+            info.icc_profile = Some(profile.to_vec().into());
+            let file = File::create(&path).unwrap();
+            let mut writer = ::png::Encoder::with_info(file, info)
+                .unwrap()
+                .write_header()
+                .unwrap();
+            writer.write_image_data(&[0]).unwrap();
+            writer.finish().unwrap();
+            Picture::read_png(&path).unwrap().tag().unwrap().to_owned()
+        };
+        let mut other = profile.clone();
+        *other.last_mut().unwrap() ^= 1;
+        assert_eq!(tag_with(&profile), tag_with(&profile));
+        assert_ne!(tag_with(&profile), tag_with(&other));
+        assert!(tag_with(&profile).starts_with("an ICC profile \"lcd\" of "));
+        assert!(tag_with(b"no profile").starts_with("an ICC profile of 10 bytes"));
 
         std::fs::write(&path, "no picture").unwrap();
         assert!(Picture::read_png(&path).is_err());

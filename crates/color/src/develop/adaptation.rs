@@ -30,7 +30,9 @@ impl SceneWhite {
         let groups = 0..image.light_groups().len();
         let brightest = groups.max_by(|&a, &b| luminance(a).total_cmp(&luminance(b)))?;
         let lamp = image.light_groups()[brightest].lamp.as_ref()?;
-        let (from_nm, to_nm) = lamp.range_nm();
+        // A lamp may go on beyond the bands, without end.
+        let (grid, (from_nm, to_nm)) = (image.bands(), lamp.range_nm());
+        let (from_nm, to_nm) = (from_nm.max(grid.min_nm()), to_nm.min(grid.max_nm()));
         let sum = (from_nm.ceil() as u32..=to_nm.floor() as u32)
             .map(f64::from)
             .map(|nm| observer.at(nm).map(|v| v * lamp.clamped_at(nm)))
@@ -112,6 +114,22 @@ mod tests {
             "{x} {y}"
         );
         assert_eq!(lit([1.0, 2.0, 3.0]), None);
+    }
+
+    #[test]
+    fn a_lamp_is_walked_over_the_bands_alone() {
+        let grid = BandGrid::visible(4).unwrap();
+        let white = |points: &[(f64, f64)]| {
+            let groups = vec![LightGroup {
+                name: "key".to_owned(),
+                lamp: spectra::Tabulated::new(points.to_vec()).ok(),
+            }];
+            let image = SpectralImage::with_light_groups(1, 1, grid, groups);
+            SceneWhite::of_lamps(&image, Observer::Cie1931Deg2)
+        };
+        let over_the_bands = white(&[(380.0, 1.0), (780.0, 1.0)]);
+        assert!(over_the_bands.is_some());
+        assert_eq!(white(&[(1.0, 1.0), (1e12, 1.0)]), over_the_bands);
     }
 
     #[test]

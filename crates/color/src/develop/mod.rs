@@ -22,7 +22,7 @@ pub mod quantise;
 use colorimetry::matrix::{product, times};
 use colorimetry::{Display, Matrix3};
 use rayon::prelude::*;
-use spectra::{BandGrid, SpectralImage};
+use spectra::{BandGrid, Observer, SpectralImage};
 use thiserror::Error;
 
 pub use adaptation::{SceneWhite, WhiteAdaptation};
@@ -38,6 +38,9 @@ use crate::{RgbImage8, XyzImage};
 pub struct DevelopSettings {
     /// The display that the picture is for.
     pub display: Display,
+    /// The observer that the image's XYZ are for. It need not be the display's: primaries known for CIE 1931 alone take XYZ of
+    /// others as if they were of that.
+    pub observer: Observer,
     /// How much light becomes its white.
     pub exposure: Exposure,
     /// From which white to its own; `None` leaves colours as the light makes them.
@@ -53,9 +56,10 @@ pub struct DevelopSettings {
 }
 
 impl DevelopSettings {
-    /// The default on a display.
+    /// The default on a display, of XYZ of the observer that it is for.
     pub fn new(display: Display) -> Self {
         Self {
+            observer: display.observer(),
             display,
             exposure: Exposure::default(),
             adaptation: None,

@@ -76,7 +76,10 @@ pub enum RelightError {
 /// at the very wavelengths drawn: to the last bit, times its factor. XYZ of another observer are scaled so that an equal-energy
 /// radiance of 1 keeps its Y.
 ///
-/// The variance of a band keeps its relative size: what of it comes from which light group is not known.
+/// A band that a new lamp would take below 0 is 0; XYZ are summed before, and are not cut there.
+///
+/// The variance of a band keeps its relative size: what of it comes from which light group is not known. Where the band was 0,
+/// or is no number, it keeps its value.
 ///
 /// The image must hold XYZ of the observer of 1931, as one that was rendered or read does.
 ///
@@ -240,8 +243,8 @@ fn relight_row(row: RowMut<'_>, changes: &[Change], bands: usize) {
     }
     let changed = before.iter().zip(row.radiance.iter());
     for (variance, (&before, &after)) in row.variance.iter_mut().zip(changed) {
-        if before != after {
-            let ratio = if before > 0.0 { after / before } else { 0.0 };
+        let ratio = after / before;
+        if before != after && ratio.is_finite() {
             *variance *= ratio * ratio;
         }
     }

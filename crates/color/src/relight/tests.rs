@@ -169,3 +169,20 @@ fn what_cannot_be_relit_is_told_and_left() {
     let error = relight(&mut image, &[change("key", Some("A"), 1.0)], DEG2).unwrap_err();
     assert!(error.to_string().contains("from 380 to 405 nm"), "{error}");
 }
+
+#[test]
+fn variance_stays_where_a_band_gives_no_ratio() {
+    let mut image = image(&[("all", Some("D65"))]);
+    let mut radiance = [2.0; 16];
+    (radiance[3], radiance[5]) = (f32::NAN, 0.0);
+    image.set_pixel((1, 1), &radiance, &[0.01; 16], [1.0; 3], 4);
+    let before = image.clone();
+    let pixel = |image: &SpectralImage| image.variance()[4 * 16..5 * 16].to_vec();
+    relight(&mut image, &[change("all", None, 3.0)], DEG2).unwrap();
+    for (band, (after, before)) in pixel(&image).iter().zip(pixel(&before)).enumerate() {
+        let expected = if band == 3 || band == 5 { 1.0 } else { 9.0 };
+        assert!((after / before - expected).abs() < 1e-5, "{band}");
+    }
+    relight(&mut image, &[change("all", Some("A"), 1.0)], DEG2).unwrap();
+    assert!((pixel(&image)[3] / pixel(&before)[3] - 1.0).abs() < 1e-5);
+}

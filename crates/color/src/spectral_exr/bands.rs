@@ -64,6 +64,15 @@ pub(super) fn wavelength_text(nm: f64) -> String {
     format!("{nm:.6}nm").replace('.', ",")
 }
 
+/// The band whose centre this text is, as [`wavelength_text`] writes it.
+pub(super) fn band_of_text(text: &str, grid: &BandGrid) -> Option<usize> {
+    let nm: f64 = text.strip_suffix("nm")?.replace(',', ".").parse().ok()?;
+    let band = ((nm - grid.min_nm()) / grid.width_nm()).floor();
+    // A cast takes what is negative or not a number to 0, and the text then differs.
+    let band = (band as u32).min(grid.count() - 1);
+    (wavelength_text(grid.centre_nm(band)) == text).then_some(band as usize)
+}
+
 /// The name of the channel of the band with centre `nm`.
 pub(super) fn radiance_name(nm: f64) -> String {
     format!("{PREFIX}{}", wavelength_text(nm))

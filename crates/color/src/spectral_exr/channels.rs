@@ -4,7 +4,7 @@ use exr::meta::attribute::{ChannelDescription, SampleType, Text};
 use exr::prelude::SmallVec;
 use spectra::{BandGrid, LightGroup};
 
-use super::bands::{radiance_name, wavelength_text};
+use super::bands::{band_of_text, radiance_name, wavelength_text};
 use super::lights;
 
 /// The names of our own channels start so.
@@ -74,12 +74,7 @@ pub(super) fn plain_content(name: &str) -> Option<Content> {
 
 /// The band whose variance a channel of this name holds.
 pub(super) fn variance_band(name: &str, grid: &BandGrid) -> Option<usize> {
-    let text = name.strip_prefix(OWN)?.strip_prefix(VARIANCE)?;
-    let nm: f64 = text.strip_suffix("nm")?.replace(',', ".").parse().ok()?;
-    let band = ((nm - grid.min_nm()) / grid.width_nm()).floor();
-    // A cast takes what is negative or not a number to 0, and the name then differs.
-    let band = (band as u32).min(grid.count() - 1);
-    (variance_name(grid.centre_nm(band)) == name).then_some(band as usize)
+    band_of_text(name.strip_prefix(OWN)?.strip_prefix(VARIANCE)?, grid)
 }
 
 /// The channels that an image is written with, in the order of their names, which the format asks for.

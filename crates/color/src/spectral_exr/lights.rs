@@ -2,12 +2,13 @@
 
 use std::fmt::Write;
 
-use exr::meta::attribute::{AttributeValue, Text};
+use exr::meta::attribute::AttributeValue;
 use exr::meta::header::Header;
 use spectra::{BandGrid, LightGroup, Tabulated};
 
-use super::bands::wavelength_text;
+use super::bands::{band_of_text, wavelength_text};
 use super::channels::{Content, LightContent};
+use super::metadata::{text, unicode};
 
 /// The names of the channels start so, and go on with the light group's name.
 const LAYER: &str = "pellicle.light.";
@@ -15,6 +16,8 @@ const LAYER: &str = "pellicle.light.";
 const NAMES: &str = "pellicle.lightGroups";
 /// A list of more names is none of ours.
 const MOST: usize = 256;
+/// A lamp of more power than this is none: its products with other figures would not be finite in `f32`.
+const MOST_POWER: f64 = 1e30;
 /// The names of X, Y and Z behind that of the light group.
 const XYZ: [&str; 3] = ["cieX", "cieY", "cieZ"];
 
@@ -49,12 +52,8 @@ pub(super) fn content(name: &str, groups: &[LightGroup], grid: &BandGrid) -> Opt
     if let Some(axis) = XYZ.iter().position(|xyz| *xyz == rest) {
         return Some(Content::Light(index, LightContent::Xyz(axis)));
     }
-    let nm: f64 = rest.strip_suffix("nm")?.replace(',', ".").parse().ok()?;
-    let band = ((nm - grid.min_nm()) / grid.width_nm()).floor();
-    // A cast takes what is negative or not a number to 0, and the name then differs.
-    let band = (band as u32).min(grid.count() - 1);
-    let is_same = wavelength_text(grid.centre_nm(band)) == rest;
-    is_same.then_some(Content::Light(index, LightContent::Radiance(band as usize)))
+    let band = band_of_text(rest, grid)?;
+    Some(Content::Light(index, LightContent::Radiance(band)))
 }
 
 /// The first light group without some of its channels.
@@ -105,16 +104,31 @@ pub(super) fn into_header(groups: &[LightGroup], header: &mut Header) {
     }
 }
 
-/// The light groups that the header of a file tells of; a single unknown one where it tells of none, or not in our way.
-pub(super) fn of_header(header: &Header) -> Vec<LightGroup> {
+/// The light groups that the header of a file tells of; a single unknown one where it tells of none, or not in our way. A lamp
+/// that cannot be that of an image with these bands is unknown, with a note.
+pub(super) fn of_header(
+    header: &Header,
+    grid: &BandGrid,
+    notes: &mut Vec<String>,
+) -> Vec<LightGroup> {
     let names = attribute(header, NAMES).unwrap_or_default();
     let group = |name: &str| LightGroup {
         name: name.to_owned(),
-        lamp: attribute(header, &lamp_key(name)).and_then(|text| parsed(&text)),
+        lamp: None,
     };
-    let groups: Vec<LightGroup> = names.split(' ').take(MOST + 1).map(group).collect();
+    let mut groups: Vec<LightGroup> = names.split(' ').take(MOST + 1).map(group).collect();
     if groups.len() > MOST || bad_name(&groups).is_some() {
         return vec![LightGroup::unknown()];
+    }
+    for LightGroup { name, lamp } in &mut groups {
+        if let Some(text) = attribute(header, &lamp_key(name)) {
+            *lamp = parsed(&text, grid);
+            if lamp.is_none() {
+                notes.push(format!(
+                    "the lamp of its light group {name:?} is no spectrum over its bands: it is taken as unknown"
+                ));
+            }
+        }
     }
     groups
 }
@@ -132,27 +146,26 @@ fn table(lamp: &Tabulated) -> String {
     })
 }
 
-fn parsed(text: &str) -> Option<Tabulated> {
+/// `None` unless it is the spectrum of a lamp over all of the bands.
+fn parsed(text: &str, grid: &BandGrid) -> Option<Tabulated> {
+    let (low, high) = BandGrid::LIMITS_NM;
     let point = |line: &str| {
         let (nm, value) = line.split_once(',')?;
         let (nm, value): (f64, f64) = (nm.parse().ok()?, value.parse().ok()?);
-        (value >= 0.0).then_some((nm, value))
+        let is_sound = (low..=high).contains(&nm) && (0.0..=MOST_POWER).contains(&value);
+        is_sound.then_some((nm, value))
     };
     let points: Option<Vec<_>> = text.lines().map(point).collect();
-    Tabulated::new(points?).ok()
+    let lamp = Tabulated::new(points?).ok()?;
+    let (from_nm, to_nm) = lamp.range_nm();
+    (from_nm <= grid.min_nm() && grid.max_nm() <= to_nm).then_some(lamp)
 }
 
 fn attribute(header: &Header, name: &str) -> Option<String> {
     match header.own_attributes.other.get(&text(name)) {
-        Some(AttributeValue::Text(value)) => {
-            Some(String::from_utf8_lossy(value.as_slice()).into_owned())
-        }
+        Some(AttributeValue::Text(value)) => Some(unicode(value)),
         _ => None,
     }
-}
-
-fn text(string: &str) -> Text {
-    Text::from_slice_unchecked(string.as_bytes())
 }
 
 #[cfg(test)]
@@ -161,11 +174,27 @@ mod tests {
 
     #[test]
     fn a_lamp_comes_back_from_its_text() {
+        let grid = BandGrid::visible(4).unwrap();
         let points = vec![(380.0, 0.1), (385.5, 1.0 / 3.0), (780.0, 12.0)];
         let lamp = Tabulated::new(points).unwrap();
-        assert_eq!(parsed(&table(&lamp)), Some(lamp));
-        for bad in ["", "380", "380,x", "380,1\n370,1", "380,-1", "380,NaN"] {
-            assert_eq!(parsed(bad), None, "{bad:?}");
+        assert_eq!(parsed(&table(&lamp), &grid), Some(lamp));
+        assert!(parsed("360,1\n830,1e30", &grid).is_some());
+        for bad in [
+            "",
+            "380",
+            "380,1\n780,x",
+            "380,1\n370,1\n780,1",
+            "380,-1\n780,1",
+            "380,NaN\n780,1",
+            "380,inf\n780,1",
+            "380,1\n780,1e31",
+            "381,1\n780,1",
+            "380,1\n779,1",
+            "1,1\n1e12,1",
+            "359,1\n780,1",
+            "380,1\n831,1",
+        ] {
+            assert_eq!(parsed(bad, &grid), None, "{bad:?}");
         }
     }
 }

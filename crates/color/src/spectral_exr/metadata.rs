@@ -17,6 +17,9 @@ const LAMBDA_MAX: &str = "pellicle.lambdaMax";
 const EXPOSURE: &str = "pellicle.exposureEv";
 const SETTING: &str = "pellicle.setting.";
 
+/// The most stops, up or down, that a file's exposure is believed to be.
+const MOST_STOPS: f64 = 40.0;
+
 /// The most bytes that an attribute's name may have in an `OpenEXR` file.
 const NAME_BYTES: usize = 255;
 
@@ -85,6 +88,7 @@ impl Metadata {
     /// Reads everything from the header of a file; what is missing is empty or 0.
     pub(super) fn of_header(header: &Header) -> Self {
         let own = &header.own_attributes;
+        let mut notes = Vec::new();
         let mut settings = BTreeMap::new();
         for (name, value) in &own.other {
             if let (Some(key), AttributeValue::Text(value)) =
@@ -95,10 +99,10 @@ impl Metadata {
         }
         Self {
             software: own.software_name.as_ref().map(unicode).unwrap_or_default(),
-            exposure_ev: number(header, EXPOSURE).unwrap_or(0.0),
+            exposure_ev: exposure_ev(header, &mut notes),
             emissive_units: emissive_units(&header.shared_attributes, own).unwrap_or_default(),
             settings,
-            notes: Vec::new(),
+            notes,
         }
     }
 
@@ -128,6 +132,19 @@ pub(super) fn range_nm(header: &Header) -> Option<(f64, f64)> {
     Some((number(header, LAMBDA_MIN)?, number(header, LAMBDA_MAX)?))
 }
 
+/// The exposure, in stops; 0 where the file does not say, or nothing that an exposure can be.
+fn exposure_ev(header: &Header, notes: &mut Vec<String>) -> f64 {
+    let told = number(header, EXPOSURE).unwrap_or(0.0);
+    // A NaN fails the comparison.
+    if told.abs() <= MOST_STOPS {
+        return told;
+    }
+    notes.push(format!(
+        "its exposure of {told} stops is none from -{MOST_STOPS} to {MOST_STOPS}: 0 is taken"
+    ));
+    0.0
+}
+
 fn number(header: &Header, name: &str) -> Option<f64> {
     match header.own_attributes.other.get(&text(name)) {
         Some(&AttributeValue::F64(value)) => Some(value),
@@ -144,7 +161,7 @@ fn emissive_units(shared: &ImageAttributes, own: &LayerAttributes) -> Option<Str
 }
 
 /// Strings stand in the file as UTF-8, which the format asks for.
-fn text(string: &str) -> Text {
+pub(super) fn text(string: &str) -> Text {
     Text::from_slice_unchecked(string.as_bytes())
 }
 
@@ -152,7 +169,8 @@ fn string(value: &str) -> AttributeValue {
     AttributeValue::Text(text(value))
 }
 
-fn unicode(text: &Text) -> String {
+/// What a string of a file says, whatever its bytes are.
+pub(super) fn unicode(text: &Text) -> String {
     String::from_utf8_lossy(text.as_slice()).into_owned()
 }
 

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use spectra::SpectralImage;
 use thiserror::Error;
 
-use super::attribute_order::sort_attributes;
+use super::attribute_order::finish_header;
 use super::channels::{Channels, Content, LightContent};
 use super::lights;
 use super::metadata::Metadata;
@@ -143,7 +143,7 @@ pub fn write(
         },
     })?;
     let written = pending.handle().map_err(file_error)?;
-    sort_attributes(written).map_err(file_error)?;
+    finish_header(written).map_err(file_error)?;
     pending.commit().map_err(file_error)
 }
 

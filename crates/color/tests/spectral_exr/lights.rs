@@ -77,6 +77,27 @@ fn each_of_several_light_groups_is_a_layer() {
     }
 }
 
+/// Bit 10 of the version field is for names beyond 31 bytes.
+#[test]
+fn long_names_are_marked() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("image.exr");
+    let longest = "abcdefghijklmnopqrstuvwxyz_01234";
+    assert_eq!(longest.len(), LightGroup::MAX_NAME);
+    let flags = || {
+        let version = fs::read(&path).unwrap()[4..8].try_into().unwrap();
+        u32::from_le_bytes(version)
+    };
+    write(&path, &image(&[("only", None)])).unwrap();
+    assert_eq!(flags(), 2);
+    let image = image(&[(longest, Some("D65")), ("key", None)]);
+    write(&path, &image).unwrap();
+    assert_eq!(flags(), 2 | 1 << 10);
+    let (found, found_metadata) = spectral_exr::read(&path).unwrap();
+    assert_eq!(found, image);
+    assert_eq!(found_metadata, metadata());
+}
+
 #[test]
 fn names_that_cannot_be_layers_are_refused() {
     let directory = tempfile::tempdir().unwrap();
@@ -95,6 +116,69 @@ fn names_that_cannot_be_layers_are_refused() {
         );
     }
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn a_unit_that_is_a_scale_away_is_that_of_all_light() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("image.exr");
+    let written = image(&[("sky", None), ("key", None)]);
+    write(&path, &written).unwrap();
+    replaced(&path, "W.m^-2.sr^-1.nm^-1", "W.m^-2.sr^-1.um^-1");
+    let (found, _) = spectral_exr::read(&path).unwrap();
+    let check = |found: &[f32], written: &[f32], scale: f32| {
+        assert_eq!(found.len(), written.len());
+        for (found, written) in found.iter().zip(written) {
+            let expected = scale * written;
+            assert!((found - expected).abs() <= 1e-6 * expected, "{scale}");
+        }
+    };
+    check(found.variance(), written.variance(), 1e-6);
+    for group in 0..2 {
+        let [xyz, written_xyz] =
+            [&found, &written].map(|image| image.group_xyz(group).as_flattened());
+        check(xyz, written_xyz, 1e-3);
+        check(
+            found.group_radiance(group),
+            written.group_radiance(group),
+            1e-3,
+        );
+    }
+    check(
+        found.xyz().as_flattened(),
+        written.xyz().as_flattened(),
+        1e-3,
+    );
+    check(found.radiance(), written.radiance(), 1e-3);
+    let (colours, _) = spectral_exr::read_xyz(&path).unwrap();
+    check(
+        colours.xyz().as_flattened(),
+        written.xyz().as_flattened(),
+        1e-3,
+    );
+}
+
+/// A lamp of any wavelengths could keep a reader busy for ever.
+#[test]
+fn a_lamp_that_is_none_is_unknown_and_noted() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("image.exr");
+    let grid = BandGrid::visible(5).unwrap();
+    let written = image(&[("sky", Some("A")), ("key", Some("D65"))]);
+    write(&path, &written).unwrap();
+    let lamp = written.light_groups()[0].lamp.as_ref().unwrap();
+    let last = lamp.points().last().unwrap();
+    assert_eq!(last.0, grid.max_nm());
+    let line = format!("780,{}", last.1);
+    replaced(&path, &line, &format!("9e9,{}", last.1));
+    let (found, metadata) = spectral_exr::read(&path).unwrap();
+    assert_eq!(found.light_groups()[0].lamp, None);
+    assert_eq!(found.light_groups()[1], written.light_groups()[1]);
+    assert_eq!(found.radiance(), written.radiance());
+    let [note] = metadata.notes.as_slice() else {
+        panic!("{:?}", metadata.notes)
+    };
+    assert!(note.contains("\"sky\""), "{note}");
 }
 
 /// The same file with some bytes replaced by as many others.

@@ -52,6 +52,30 @@ fn values_that_are_no_numbers_are_kept() {
 }
 
 #[test]
+fn an_exposure_that_cannot_be_is_0_and_noted() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("image.exr");
+    let image = SpectralImage::new(1, 1, BandGrid::visible(3).unwrap());
+    for (written, read, notes) in [
+        (-40.0, -40.0, 0),
+        (40.0, 40.0, 0),
+        (40.1, 0.0, 1),
+        (-1e9, 0.0, 1),
+        (f64::INFINITY, 0.0, 1),
+        (f64::NAN, 0.0, 1),
+    ] {
+        let metadata = Metadata {
+            exposure_ev: written,
+            ..Metadata::default()
+        };
+        spectral_exr::write(&path, &image, &metadata, WriteOptions::default()).unwrap();
+        let (_, found) = spectral_exr::read(&path).unwrap();
+        assert_eq!(found.exposure_ev, read, "{written}");
+        assert_eq!(found.notes.len(), notes, "{:?}", found.notes);
+    }
+}
+
+#[test]
 fn variance_can_be_left_out() {
     let directory = tempfile::tempdir().unwrap();
     let (path, image) = write_noisy(directory.path(), false);

@@ -72,7 +72,7 @@ pub fn point_spread(theta_deg: f64, nm: f64) -> [f64; 4] {
 /// The wavelength of light whose wavelength is not known: the one that f₃ is written for.
 const MEAN_NM: f64 = 568.0;
 
-/// Scatters a picture that `rgb_from_xyz` made of `latent`.
+/// Scatters a picture that `rgb_from_xyz` made of `latent`, whose XYZ are those of `observer`.
 ///
 /// The spread is cut at the picture's size and scaled to the sum 1, so that no light is lost; beyond the picture the scene is
 /// taken to go on as in mirrors. Only the halo depends on wavelength: it is spread band by band, the rest once. Where the bands
@@ -82,11 +82,14 @@ pub(super) fn add(
     latent: &Latent<'_>,
     rgb_from_xyz: &Matrix3,
     eye: EyeGlare,
+    observer: Observer,
 ) -> Result<(), DevelopError> {
     let kernels = Kernels::new(image, eye);
     let has_halo = eye.vision.shares()[3] > 0.0;
     let spectra = if has_halo {
-        kernels.of_spectrum(image, latent, rgb_from_xyz)?
+        let (grid, radiance) = latent.spectrum.ok_or(DevelopError::NoSpectrum)?;
+        let bands = Bands::new(grid, radiance, rgb_from_xyz, observer);
+        kernels.of_spectrum(image, &bands)
     } else {
         kernels.of_colours(image)
     };
@@ -113,7 +116,7 @@ impl Kernels {
         let mirror = Mirror::new(image.width as usize, image.height as usize);
         let (shares, pixel) = (eye.vision.shares(), eye.degrees_per_pixel);
         let common = mirror.of_kernel(|x, y| {
-            over_pixel([x, y], pixel, |theta| {
+            over_pixel([x, y], pixel, core_parts([x, y], pixel), |theta| {
                 let f = point_spread(theta, MEAN_NM);
                 (0..3).map(|i| shares[i] * f[i]).sum()
             })
@@ -137,7 +140,9 @@ impl Kernels {
             if (theta - radius).abs() > reach {
                 return 0.0;
             }
-            over_pixel([x, y], pixel, |theta| share * point_spread(theta, nm)[3])
+            over_pixel([x, y], pixel, halo_parts(pixel), |theta| {
+                share * point_spread(theta, nm)[3]
+            })
         }
     }
 
@@ -158,14 +163,7 @@ impl Kernels {
     }
 
     /// The transforms of red, green and blue, the halo of each band scattered apart.
-    fn of_spectrum(
-        &self,
-        image: &LinearImage,
-        latent: &Latent<'_>,
-        rgb_from_xyz: &Matrix3,
-    ) -> Result<[Spectrum; 3], DevelopError> {
-        let (grid, radiance) = latent.spectrum.ok_or(DevelopError::NoSpectrum)?;
-        let bands = Bands::new(grid, radiance, rgb_from_xyz);
+    fn of_spectrum(&self, image: &LinearImage, bands: &Bands<'_>) -> [Spectrum; 3] {
         // Light of a band is scaled by the sum of its own spread; the remainder by that of the middle.
         let middle = self.mirror.of_kernel(self.halo(MEAN_NM));
         let middle_scale = self.scale(MEAN_NM);
@@ -200,7 +198,7 @@ impl Kernels {
                     .for_each(|((sum, v), k)| *sum += weight * v * k);
             }
         }
-        Ok(sums)
+        sums
     }
 }
 
@@ -224,17 +222,33 @@ fn finite(rgb: [f32; 3]) -> [f64; 3] {
     }
 }
 
-/// The mean of a function of the angle over the square of a pixel, which far from the light is its middle.
-fn over_pixel([x, y]: [usize; 2], degrees_per_pixel: f64, f: impl Fn(f64) -> f64) -> f64 {
+/// Into how many parts each side of a pixel is cut for f₀, f₁ and f₂: an eighth of what they change over, which is 0.02° at the
+/// light and grows with the angle. Far from the light that is the whole pixel.
+fn core_parts([x, y]: [usize; 2], degrees_per_pixel: f64) -> usize {
     let [x, y] = [x, y].map(|v| v as f64);
     let nearest = degrees_per_pixel * (x - 0.5).max(0.0).hypot((y - 0.5).max(0.0));
-    // Parts of a quarter of what the functions change over, which near the light is 0.02°.
     let parts = (4.0 * degrees_per_pixel / (nearest + 0.02)).ceil();
-    let parts = if parts <= 1.0 {
+    if parts <= 1.0 {
         1
     } else {
         2 * (parts as usize).min(64)
-    };
+    }
+}
+
+/// The same for f₃: a quarter of what it changes over, 0.16° at every angle.
+fn halo_parts(degrees_per_pixel: f64) -> usize {
+    // The bound is reached by pixels of 10°, of which a picture has few.
+    ((4.0 * degrees_per_pixel / 0.16).ceil() as usize).clamp(1, 256)
+}
+
+/// The mean of a function of the angle over the square of a pixel: that of the middles of its parts.
+fn over_pixel(
+    [x, y]: [usize; 2],
+    degrees_per_pixel: f64,
+    parts: usize,
+    f: impl Fn(f64) -> f64,
+) -> f64 {
+    let [x, y] = [x, y].map(|v| v as f64);
     let place = |v: f64, i: usize| degrees_per_pixel * (v - 0.5 + (i as f64 + 0.5) / parts as f64);
     let mut sum = 0.0;
     for i in 0..parts {
@@ -253,8 +267,14 @@ struct Bands<'a> {
 }
 
 impl<'a> Bands<'a> {
-    fn new(grid: &BandGrid, radiance: &'a [f32], rgb_from_xyz: &Matrix3) -> Self {
-        let observer = BandWeights::observed(grid, Observer::Cie1931Deg2);
+    /// For a picture that `rgb_from_xyz` makes of the XYZ of `observer`.
+    fn new(
+        grid: &BandGrid,
+        radiance: &'a [f32],
+        rgb_from_xyz: &Matrix3,
+        observer: Observer,
+    ) -> Self {
+        let observer = BandWeights::observed(grid, observer);
         let rgb = |&xyz: &[f64; 3]| times(rgb_from_xyz, xyz);
         Self {
             radiance,

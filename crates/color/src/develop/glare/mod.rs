@@ -39,7 +39,7 @@ pub(super) fn add(
     match settings.glare {
         Glare::Off => {}
         Glare::Star(star) => star::add(image, star, &settings.display),
-        Glare::Eye(eye) => eye::add(image, latent, rgb_from_xyz, eye)?,
+        Glare::Eye(eye) => eye::add(image, latent, rgb_from_xyz, eye, settings.observer)?,
     }
     Ok(())
 }

@@ -49,7 +49,7 @@ impl Colours {
             let start = y * self.size.0 + x;
             let row = &mut self.xyz[start..start + at.sample_count];
             each(line, channels.list[at.channel].sample_type, |x, value| {
-                row[x][axis] = value;
+                row[x][axis] = plan.scale * value;
             });
             self.filled += at.sample_count;
         }

@@ -163,15 +163,17 @@ impl Row {
         }
     }
 
-    /// Takes over the samples of one channel.
+    /// Takes over the samples of one channel. A unit that is a scale away is that of all light in the file.
     fn take(&mut self, line: LineRef<'_>, kind: SampleType, content: Content, scale: f32) {
         let (channels, bands) = (self.channels, self.bands);
         match content {
             Content::Radiance(band) => each(line, kind, |x, v| {
                 self.radiance[x * channels + band] = scale * v;
             }),
-            Content::Variance(band) => each(line, kind, |x, v| self.variance[x * bands + band] = v),
-            Content::Xyz(axis) => each(line, kind, |x, v| self.xyz[x][axis] = v),
+            Content::Variance(band) => each(line, kind, |x, v| {
+                self.variance[x * bands + band] = scale * (scale * v);
+            }),
+            Content::Xyz(axis) => each(line, kind, |x, v| self.xyz[x][axis] = scale * v),
             Content::Samples if kind == SampleType::U32 => {
                 for (samples, bytes) in self.samples.iter_mut().zip(words(line.value)) {
                     *samples = u32::from_ne_bytes(bytes);
@@ -180,11 +182,11 @@ impl Row {
             Content::Samples => each(line, kind, |x, v| self.samples[x] = v as u32),
             Content::Light(group, LightContent::Radiance(band)) => {
                 let radiance = &mut self.lights[group].0;
-                each(line, kind, |x, v| radiance[x * bands + band] = v);
+                each(line, kind, |x, v| radiance[x * bands + band] = scale * v);
             }
             Content::Light(group, LightContent::Xyz(axis)) => {
                 let xyz = &mut self.lights[group].1;
-                each(line, kind, |x, v| xyz[x][axis] = v);
+                each(line, kind, |x, v| xyz[x][axis] = scale * v);
             }
             Content::Rgb(_) | Content::Light(_, LightContent::Rgb(_)) => {}
         }

@@ -27,7 +27,7 @@ pub(super) struct Plan {
     pub(super) spectral_channels: usize,
     /// How the spectral channels make the grid's bands; `None` where they are the grid's bands.
     pub(super) shares: Option<Shares>,
-    /// What radiances are multiplied by.
+    /// What radiances and XYZ are multiplied by, and variances twice.
     pub(super) scale: f32,
     /// The light groups, at least one.
     pub(super) light_groups: Vec<LightGroup>,
@@ -63,12 +63,12 @@ impl Plan {
         }
         let places: Vec<Place> = spectrum.channels.iter().map(|&(place, _)| place).collect();
         let bands = Bands::new(&places, range_nm(header)).map_err(bands_error)?;
-        let light_groups = lights::of_header(header);
+        let mut metadata = Metadata::of_header(header);
+        let light_groups = lights::of_header(header, &bands.grid, &mut metadata.notes);
         let contents = contents(header, &spectrum, &bands, &light_groups);
         if let Some(name) = lights::incomplete(&light_groups, &contents, &bands.grid) {
             return Err(context.damaged(&format!("the light group {name:?} lacks channels")));
         }
-        let mut metadata = Metadata::of_header(header);
         let scale = match spectrum.quantity {
             Quantity::Reflectance => 1.0,
             Quantity::Radiance | Quantity::Range => metadata.take_units(),
