@@ -1,8 +1,8 @@
 //! "Did you mean …?"
 
 /// The candidate nearest to `word` that a slip of the keys could have turned into it, or else the first that goes
-/// on where it ends or ends where it goes on: `fov` means `fov_deg`. A slip changes at most one in three letters; upper and
-/// lower case are no difference.
+/// on where it ends or ends where it goes on: `fov` means `fov_deg`. A slip changes at most a third of the letters of
+/// the shorter word, rounded up, and not all of them; upper and lower case are no difference.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // A long word in a file is not a slip of a short known one; the bound keeps the comparison cheap.
     if word.chars().count() > 64 {
@@ -23,7 +23,7 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 fn badness(word: &str, known: &str) -> Option<usize> {
     let length = known.chars().count().min(word.chars().count());
     let distance = strsim::osa_distance(word, known);
-    if 3 * distance <= length {
+    if distance <= length.div_ceil(3) && distance < length {
         return Some(distance);
     }
     let is_start = known.starts_with(word) || word.starts_with(known);
