@@ -369,6 +369,7 @@ impl Options {
         };
         let seen = self.display.seen_by(self.observer());
         Ok(DevelopSettings {
+            observer: self.observer(),
             exposure,
             adaptation: self.adaptation(of_image)?,
             glare,

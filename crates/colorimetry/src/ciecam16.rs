@@ -89,7 +89,7 @@ impl ViewingConditions {
         let [f, c, n_c] = surround.factors();
         let degree = (f * (1.0 - ((-l_a - 42.0) / 92.0).exp() / 3.6)).clamp(0.0, 1.0);
         let rgb_w = times(&CAT16, white);
-        let adapted = rgb_w.map(|response| degree * 100.0 / response + 1.0 - degree);
+        let adapted = rgb_w.map(|response| degree * white[1] / response + 1.0 - degree);
         let k4 = (1.0 / (5.0 * l_a + 1.0)).powi(4);
         let f_l = 0.2 * k4 * 5.0 * l_a + 0.1 * (1.0 - k4).powi(2) * (5.0 * l_a).cbrt();
         let n = y_b / white[1];
@@ -276,6 +276,20 @@ mod tests {
                 );
             }
         }
+    }
+
+    /// D Y_w / R_w + 1 − D: what a white is scaled by does not depend on how bright it is called.
+    #[test]
+    fn adaptation_depends_on_the_white_s_chromaticity_alone() {
+        let of = |scale: f64| {
+            let white = [109.85, 100.0, 35.58].map(|v| v * scale);
+            ViewingConditions::new(white, 64.0, 20.0 * scale, Surround::Average)
+        };
+        let (hundred, one) = (of(1.0), of(0.01));
+        for (a, b) in hundred.adapted.iter().zip(one.adapted) {
+            assert!((a - b).abs() < 1e-12, "{a} {b}");
+        }
+        assert!((hundred.n - one.n).abs() < 1e-15);
     }
 
     #[test]

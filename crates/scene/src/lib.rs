@@ -33,7 +33,6 @@ mod problem;
 mod rounding;
 mod schema;
 mod settings;
-mod suggestion;
 mod thickness;
 mod validate;
 mod validated;

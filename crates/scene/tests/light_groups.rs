@@ -191,6 +191,26 @@ fn bad_names_are_told() {
     }
 }
 
+/// A scene without a word of light groups is sound with any number of spectra.
+#[test]
+fn many_spectra_without_names_are_a_single_group() {
+    let lit = |count| {
+        let says: Vec<_> = (0..count)
+            .map(|i| format!("emission = {{ nm = [380, 780], values = [1, {i}] }}"))
+            .collect();
+        let materials: Vec<_> = (0..count).map(|i| format!("m{i}")).collect();
+        let names = materials.iter().map(String::as_str);
+        let emitters: Vec<_> = names.zip(says.iter().map(String::as_str)).collect();
+        scene(&emitters, "")
+    };
+    let most = lit(32);
+    assert_eq!(names(&most).len(), 32);
+    assert_eq!(names(&most)[..3], ["table", "table_2", "table_3"]);
+    let more = lit(33);
+    assert_eq!((names(&more), has_lamps(&more)), (vec!["all"], vec![false]));
+    assert_eq!(groups_of(&more), ["all"; 33]);
+}
+
 #[test]
 fn too_many_groups_and_too_much_memory_are_told() {
     let says: Vec<_> = (0..33)
@@ -201,9 +221,14 @@ fn too_many_groups_and_too_much_memory_are_told() {
     let emitters: Vec<_> = names.zip(says.iter().map(String::as_str)).collect();
     let told = complaints("", &emitters, "");
     assert!(
-        told.len() == 1 && told[0].contains("make 33 light groups"),
+        told.len() == 1 && told[0].contains("make more than 32 light groups"),
         "{told:#?}"
     );
+
+    // With names for all but one the one is too many as well.
+    let mut emitters = emitters;
+    emitters[32].1 = "emission = { constant = 1 }";
+    assert_eq!(complaints("", &emitters, "").len(), 1);
 
     // 10 000 × 10 000 pixels of 40 bands: 31.3 GiB in one light group, 130 in four.
     let size = "size = [10000, 10000]";

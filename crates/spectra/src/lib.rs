@@ -23,6 +23,7 @@ mod light_group;
 mod optical_constants;
 mod spectral_image;
 mod spectrum;
+pub mod suggestion;
 pub mod table_file;
 pub mod text_file;
 

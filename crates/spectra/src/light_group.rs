@@ -1,14 +1,14 @@
 //! Lights that an image keeps apart.
 
-use crate::{BandGrid, Spectrum, Tabulated};
+use crate::{BandGrid, BandTable, Spectrum, Tabulated};
 
 /// A named set of lights whose light an image keeps apart from that of others, so that their lamp can be changed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightGroup {
     /// Its name.
     pub name: String,
-    /// What its lights burn with: the spectrum at scale 1 that all of them share up to a factor, over the bands. `None` where
-    /// they differ, or where nothing is known of it.
+    /// What its lights burn with: the spectrum at scale 1 that all of them share up to a factor, over the bands, as
+    /// [`BandGrid::lamp`] makes it. `None` where they differ, or where nothing is known of it.
     pub lamp: Option<Tabulated>,
 }
 
@@ -41,41 +41,100 @@ impl LightGroup {
 }
 
 impl BandGrid {
-    /// The part of a lamp's spectrum that lies in the bands, as a table. A constant is a lamp of 1: its value is a factor.
+    /// A lamp as a render over the bands burns it: its values at the knots of a [`BandTable`], linear between them. What lies
+    /// between two knots of its own table is not seen by a render. A constant is a lamp of 1: its value is a factor.
     ///
     /// `None` where the spectrum does not cover the bands, or is a formula, which no lamp is.
     pub fn lamp(&self, spectrum: &Spectrum) -> Option<Tabulated> {
-        let ends = [self.min_nm(), self.max_nm()];
         let points = match spectrum {
-            Spectrum::Constant(_) => ends.map(|nm| (nm, 1.0)).to_vec(),
-            Spectrum::Table(table) | Spectrum::ClampedTable(table) => {
-                let inner = table
-                    .points()
-                    .filter(|&(nm, _)| ends[0] < nm && nm < ends[1]);
-                let mut points = vec![(ends[0], spectrum.at(ends[0]).ok()?)];
-                points.extend(inner);
-                points.push((ends[1], spectrum.at(ends[1]).ok()?));
-                points
+            Spectrum::Constant(_) => [self.min_nm(), self.max_nm()].map(|nm| (nm, 1.0)).to_vec(),
+            Spectrum::Table(_) | Spectrum::ClampedTable(_) => {
+                let knot = |nm| Some((nm, spectrum.at(nm).ok()?));
+                let points: Option<Vec<_>> = self.knots_nm().map(knot).collect();
+                without_collinear(&points?)
             }
             Spectrum::Formula(_) | Spectrum::ClampedFormula(_) => return None,
         };
         Tabulated::new(points).ok()
     }
+
+    /// The knots of a [`BandTable`], rising; neighbouring bands share one.
+    fn knots_nm(&self) -> impl Iterator<Item = f64> + '_ {
+        let steps = BandTable::steps_of(self);
+        let offset = move |step| f64::from(step) / f64::from(steps);
+        let of_band = move |band| (0..steps).map(move |step| (band, offset(step)));
+        let inner = (0..self.count()).flat_map(of_band);
+        inner
+            .chain([(self.count() - 1, 1.0)])
+            .map(|(band, offset)| self.wavelength_nm(band, offset))
+    }
+}
+
+/// The points without those that lie on the line between their neighbours, up to rounding: a table of 5 nm keeps its size.
+fn without_collinear(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let peak = points.iter().fold(0.0_f64, |peak, p| peak.max(p.1.abs()));
+    let mut kept: Vec<(f64, f64)> = Vec::new();
+    for (index, &(nm, value)) in points.iter().enumerate() {
+        if let (Some(&(low_nm, low)), Some(&(high_nm, high))) = (kept.last(), points.get(index + 1))
+        {
+            let line = low + (high - low) * (nm - low_nm) / (high_nm - low_nm);
+            if (value - line).abs() <= 1e-13 * peak {
+                continue;
+            }
+        }
+        kept.push((nm, value));
+    }
+    kept
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// A line at 450.2 nm, between knots of 0.9375 nm, on a slope.
+    fn line() -> Spectrum {
+        let points = vec![
+            (400.0, 0.5),
+            (449.5, 1.0),
+            (450.2, 9.0),
+            (451.3, 1.0),
+            (600.0, 2.0),
+        ];
+        Spectrum::Table(Tabulated::new(points).unwrap())
+    }
+
     #[test]
-    fn a_lamp_is_the_part_of_its_table_in_the_bands() {
+    fn a_lamp_is_what_a_render_samples() {
         let grid = BandGrid::new(402.5, 500.0, 4).unwrap();
-        let table = Tabulated::new(vec![(400.0, 0.0), (405.0, 1.0), (600.0, 2.0)]).unwrap();
-        let lamp = grid.lamp(&Spectrum::Table(table.clone())).unwrap();
+        let lamp = grid.lamp(&line()).unwrap();
         assert_eq!(lamp.range_nm(), (402.5, 500.0));
-        for nm in [402.5, 404.0, 405.0, 450.0, 500.0] {
-            assert!((lamp.at(nm).unwrap() - table.at(nm).unwrap()).abs() < 1e-12);
+        let table = BandTable::new(&grid, &line()).unwrap();
+        for (band, i) in (0..4).flat_map(|band| (0..=1000).map(move |i| (band, i))) {
+            let offset = f64::from(i) / 1000.0;
+            let nm = grid.wavelength_nm(band, offset);
+            let found = lamp.clamped_at(nm);
+            assert!((found - table.at(band, offset)).abs() < 1e-10, "{nm}");
         }
+        // The line's peak is not among the knots, and no knot is needed on the slopes.
+        assert!((lamp.at(450.2).unwrap() - line().at(450.2).unwrap()).abs() > 0.5);
+        assert!(lamp.points().len() < 10, "{lamp:?}");
+        assert_eq!(grid.lamp(&Spectrum::Table(lamp.clone())), Some(lamp));
+    }
+
+    #[test]
+    fn a_table_whose_points_are_knots_keeps_them() {
+        let grid = BandGrid::visible(40).unwrap();
+        let fl11 = crate::illuminant("FL11").unwrap().data;
+        let lamp = grid.lamp(&fl11).unwrap();
+        assert!(lamp.points().len() <= 81, "{}", lamp.points().len());
+        for nm in (380..=780).map(f64::from) {
+            assert!((lamp.at(nm).unwrap() - fl11.at(nm).unwrap()).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn constants_are_ones_and_short_tables_no_lamps() {
+        let grid = BandGrid::new(402.5, 500.0, 4).unwrap();
         let ones = grid.lamp(&Spectrum::Constant(0.2)).unwrap();
         assert_eq!(ones.at(450.0), Ok(1.0));
         let short = Tabulated::new(vec![(450.0, 1.0), (600.0, 1.0)]).unwrap();

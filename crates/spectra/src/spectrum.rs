@@ -103,6 +103,18 @@ impl Tabulated {
         self.at(nm.clamp(min_nm, max_nm)).unwrap_or(self.values[0])
     }
 
+    /// The first place where a table whose values do not fall reaches a value: [`Self::at`] backwards. The first point for what
+    /// lies below the table, `None` for what lies above it.
+    pub fn first_reach(&self, value: f64) -> Option<f64> {
+        let above = self.values.partition_point(|&v| v < value);
+        let nm = *self.nm.get(above)?;
+        let Some(below) = above.checked_sub(1) else {
+            return Some(nm);
+        };
+        let (low_nm, low) = (self.nm[below], self.values[below]);
+        Some(low_nm + (nm - low_nm) * (value - low) / (self.values[above] - low))
+    }
+
     /// The same table with all values times `factor`.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
@@ -186,6 +198,23 @@ impl Spectrum {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_first_place_of_a_value_is_found() {
+        let points = vec![(0.0, 1.0), (1.0, 1.0), (3.0, 2.0), (4.0, 2.0), (5.0, 6.0)];
+        let table = Tabulated::new(points).unwrap();
+        for (value, place) in [
+            (0.5, Some(0.0)),
+            (1.0, Some(0.0)),
+            (1.5, Some(2.0)),
+            (2.0, Some(3.0)),
+            (3.0, Some(4.25)),
+            (6.0, Some(5.0)),
+            (6.1, None),
+        ] {
+            assert_eq!(table.first_reach(value), place, "{value}");
+        }
+    }
 
     #[test]
     fn between_points_the_table_is_linear_and_outside_it_is_an_error() {

@@ -1,5 +1,6 @@
 //! An image seen under other lamps, without rendering again.
 
+mod knots;
 mod weights;
 
 pub use weights::{BandWeights, DarkBand};
@@ -55,16 +56,16 @@ pub enum RelightError {
         /// Where.
         source: OutOfRange,
     },
-    /// The new lamp gives light where the old one gives none.
+    /// The new lamp gives light that is seen where the old one gives none.
     #[error(
-        "the light group {name:?} cannot burn with this lamp: from {} to {} nm it gives light where the lamp that the image was \
-         rendered with gives none, so that nothing is known there",
+        "the light group {name:?} cannot burn with this lamp: from {} to {} nm it gives light that is seen, and the lamp that the image \
+         was rendered with gives none, so that nothing is known there",
         .band.from_nm, .band.to_nm
     )]
     Dark {
         /// The light group.
         name: String,
-        /// The first such band.
+        /// The band where most of it is seen.
         band: DarkBand,
     },
 }
@@ -76,7 +77,8 @@ pub enum RelightError {
 /// at the very wavelengths drawn: to the last bit, times its factor. XYZ of another observer are scaled so that an equal-energy
 /// radiance of 1 keeps its Y.
 ///
-/// A band that a new lamp would take below 0 is 0; XYZ are summed before, and are not cut there.
+/// A band that a new lamp would take below 0 is 0; XYZ are summed before, and are not cut there. Bands in which the old lamp gives no
+/// light stay dark. That is refused where more than [`BandWeights::DARK_SHARE`] of the new lamp's Y lies in them.
 ///
 /// The variance of a band keeps its relative size: what of it comes from which light group is not known. Where the band was 0,
 /// or is no number, it keeps its value.

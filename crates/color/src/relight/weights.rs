@@ -1,7 +1,9 @@
 //! What bands that were seen under one lamp weigh under another.
 
+use colorimetry::matrix::{determinant, inverse};
 use spectra::{BandGrid, KM_LUMENS_PER_WATT, Observer, Tabulated};
 
+use super::knots::Knots;
 use crate::xyz::equal_energy_luminance;
 
 /// Turns the bands of a light group into its XYZ, and into its bands, under a lamp.
@@ -14,7 +16,7 @@ use crate::xyz::equal_energy_luminance;
 /// each of X, Y, Z and for each band.
 ///
 /// It is exact where T is a parabola over three bands. Where S is no guide (its lines lie too close to a common edge of two
-/// bands, or a neighbour is dark) the parabola is a line, or a constant.
+/// bands, or a neighbour is dark) the parabola is a line, or a constant; where it gives no light at all a band stays dark.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BandWeights {
     /// X, Y, Z per band.
@@ -23,7 +25,7 @@ pub struct BandWeights {
     bands: Vec<(usize, [f64; 3])>,
 }
 
-/// A lamp gives light where the lamp that an image was rendered with gives none, so that nothing is known there.
+/// A lamp gives light that is seen where the lamp that an image was rendered with gives none, so that nothing is known there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DarkBand {
     /// Lower end of the band, nm.
@@ -33,49 +35,66 @@ pub struct DarkBand {
 }
 
 impl BandWeights {
+    /// The largest share of a new lamp's Y that may lie in bands where the old lamp gives no light.
+    pub const DARK_SHARE: f64 = 1e-4;
+
     /// For light whose lamp is not known: its own spectrum takes the transfer's place.
     pub fn observed(grid: &BandGrid, observer: Observer) -> Self {
-        let (weights, _) = Self::of_powers(grid, &|_| 1.0, &|_| 1.0, observer);
-        weights
+        let one = |_| 1.0;
+        let knots = Knots::new(grid, &[]);
+        Self::of_powers(
+            &Lamp::new(grid, &one, &knots),
+            &one,
+            (grid, &knots),
+            observer,
+        )
     }
 
-    /// For light of the lamp `before` that is to be light of the lamp `after`; both cover the grid.
+    /// For light of the lamp `before` that is to be light of the lamp `after`; both cover the grid, and are linear between
+    /// their points, as [`BandGrid::lamp`] makes them.
+    ///
+    /// Bands in which `before` gives no light stay dark, as long as nobody sees that: they may have a share of
+    /// [`Self::DARK_SHARE`] of the Y of `after`.
     ///
     /// # Errors
-    /// The first band in which only `after` gives light.
+    /// When they have a larger one: the band with most of it.
     pub fn new(
         grid: &BandGrid,
         before: &Tabulated,
         after: &Tabulated,
         observer: Observer,
     ) -> Result<Self, DarkBand> {
-        let (before, after) = (|nm| before.clamped_at(nm), |nm| after.clamped_at(nm));
-        let (weights, dark) = Self::of_powers(grid, &before, &after, observer);
-        dark.map_or(Ok(weights), Err)
+        let knots = Knots::new(grid, &[before, after]);
+        let after = |nm| after.clamped_at(nm);
+        let lamp = Lamp::new(grid, &|nm| before.clamped_at(nm), &knots);
+        match dark_band(&lamp, &after, (grid, &knots), observer) {
+            Some(band) => Err(band),
+            None => Ok(Self::of_powers(&lamp, &after, (grid, &knots), observer)),
+        }
     }
 
-    /// The weights, and the first band in which only the lamp `after` gives light, where they are infinite.
+    /// The weights from the lamp `before` to that of the power `after`; 0 in bands where `before` gives no light.
     fn of_powers(
-        grid: &BandGrid,
-        before: &dyn Fn(f64) -> f64,
+        before: &Lamp,
         after: &dyn Fn(f64) -> f64,
+        (grid, knots): (&BandGrid, &Knots),
         observer: Observer,
-    ) -> (Self, Option<DarkBand>) {
-        let lamp = Lamp::new(grid, before);
+    ) -> Self {
         let scale = luminous_scale(observer);
-        let mut xyz = vec![[0.0; 3]; lamp.means.len()];
-        let (mut bands, mut dark) = (Vec::new(), None);
-        for band in 0..lamp.means.len() {
+        let mut xyz = vec![[0.0; 3]; before.means.len()];
+        let mut bands = Vec::new();
+        for band in 0..before.means.len() {
             let (from_nm, to_nm) = ends_of(grid, band);
-            let stencil = lamp.stencil(band);
+            let stencil = before.stencil(band);
             let mut own = [0.0; 3];
-            integrate(from_nm, to_nm, |nm, d_nm| {
+            knots.integrate(from_nm, to_nm, |nm, d_nm| {
                 let light = after(nm) * d_nm;
                 let shares = stencil.shares((nm - grid.centre_nm(band as u32)) / grid.width_nm());
                 let seen = observer.at(nm);
                 for (i, share) in shares.into_iter().enumerate() {
-                    if light != 0.0 && share != 0.0 {
-                        let transfer = light * share / lamp.means[stencil.first + i];
+                    let power = before.means.get(stencil.first + i).copied();
+                    if let Some(power) = power.filter(|&power| power > 0.0) {
+                        let transfer = light * share / power;
                         own[i] += transfer / grid.width_nm();
                         let sums = &mut xyz[stencil.first + i];
                         *sums =
@@ -83,12 +102,9 @@ impl BandWeights {
                     }
                 }
             });
-            if dark.is_none() && !own.iter().all(|weight| weight.is_finite()) {
-                dark = Some(DarkBand { from_nm, to_nm });
-            }
             bands.push((stencil.first, own));
         }
-        (Self { xyz, bands }, dark)
+        Self { xyz, bands }
     }
 
     /// XYZ, Y in cd/m² up to the scene's scale, that a value of 1 in each band adds.
@@ -135,22 +151,37 @@ fn luminous_scale(observer: Observer) -> f64 {
     equal_energy_luminance() / sum
 }
 
+/// Of the bands in which `before` gives no light the one that has most of the Y of `after`; `None` where all of them together
+/// have too little to be seen.
+fn dark_band(
+    before: &Lamp,
+    after: &dyn Fn(f64) -> f64,
+    (grid, knots): (&BandGrid, &Knots),
+    observer: Observer,
+) -> Option<DarkBand> {
+    let luminance = |band: usize| {
+        let (from_nm, to_nm) = ends_of(grid, band);
+        let mut sum = 0.0;
+        knots.integrate(from_nm, to_nm, |nm, d_nm| {
+            sum += after(nm) * observer.at(nm)[1] * d_nm;
+        });
+        sum
+    };
+    let of_bands: Vec<f64> = (0..before.means.len()).map(luminance).collect();
+    let is_dark = |band: &usize| before.means[*band] <= 0.0;
+    let dark = || (0..of_bands.len()).filter(is_dark);
+    let share: f64 = dark().map(|band| of_bands[band]).sum();
+    if share <= BandWeights::DARK_SHARE * of_bands.iter().sum::<f64>() {
+        return None;
+    }
+    let most = dark().max_by(|&a, &b| of_bands[a].total_cmp(&of_bands[b]))?;
+    let (from_nm, to_nm) = ends_of(grid, most);
+    Some(DarkBand { from_nm, to_nm })
+}
+
 fn ends_of(grid: &BandGrid, band: usize) -> (f64, f64) {
     let at = |offset| grid.wavelength_nm(band as u32, offset);
     (at(0.0), at(1.0))
-}
-
-/// Calls `add` with wavelengths and what they stand for, by Simpson's rule between the whole nanometres.
-fn integrate(from_nm: f64, to_nm: f64, mut add: impl FnMut(f64, f64)) {
-    let mut low = from_nm;
-    while low < to_nm {
-        let high = (low.floor() + 1.0).min(to_nm);
-        let sixth = (high - low) / 6.0;
-        add(low, sixth);
-        add(f64::midpoint(low, high), 4.0 * sixth);
-        add(high, sixth);
-        low = high;
-    }
 }
 
 /// A lamp as the bands see it.
@@ -164,11 +195,11 @@ struct Lamp {
 }
 
 impl Lamp {
-    fn new(grid: &BandGrid, power: &dyn Fn(f64) -> f64) -> Self {
+    fn new(grid: &BandGrid, power: &dyn Fn(f64) -> f64, knots: &Knots) -> Self {
         let moments = (0..grid.count()).map(|band| {
             let (from_nm, to_nm) = ends_of(grid, band as usize);
             let mut moments = [0.0; 3];
-            integrate(from_nm, to_nm, |nm, d_nm| {
+            knots.integrate(from_nm, to_nm, |nm, d_nm| {
                 let place = (nm - grid.centre_nm(band)) / grid.width_nm();
                 let power = power(nm) * d_nm / grid.width_nm();
                 let powers = [power, power * place, power * place * place];
@@ -218,9 +249,9 @@ impl Lamp {
             let u = self.centroids[first + i] - band as f64;
             [1.0, u, u * u + self.spreads[first + i]]
         });
-        inverse(&rows).map(|coefficients| Stencil {
+        (determinant(&rows).abs() > 1e-6).then(|| Stencil {
             first,
-            coefficients,
+            coefficients: inverse(&rows),
         })
     }
 
@@ -275,18 +306,6 @@ impl Stencil {
         let [one, slope, bend] = &self.coefficients;
         std::array::from_fn(|i| one[i] + u * (slope[i] + u * bend[i]))
     }
-}
-
-/// The inverse of a matrix, by cofactors; `None` where it has none.
-fn inverse(m: &[[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
-    let cofactor = |i: usize, j: usize| {
-        let (a, b) = ((i + 1) % 3, (i + 2) % 3);
-        let (c, d) = ((j + 1) % 3, (j + 2) % 3);
-        m[a][c] * m[b][d] - m[a][d] * m[b][c]
-    };
-    let determinant: f64 = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum();
-    let inverse = std::array::from_fn(|i| std::array::from_fn(|j| cofactor(j, i) / determinant));
-    (determinant.abs() > 1e-6).then_some(inverse)
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
+use spectra::suggestion;
 use spectra::table_file::TableFileError;
 use spectra::text_file::{TextFileError, read_text};
 use thiserror::Error;
@@ -122,19 +123,14 @@ impl Display {
     }
 }
 
-/// The known name that a slip of the keys is nearest to, or else one that has the word in it.
+/// The known name that was probably meant, or else one that has the word in it.
 fn nearest(name: &str) -> Option<&'static str> {
     let word: String = name.to_lowercase().chars().take(24).collect();
-    let names = Display::names().into_iter();
-    let distances = names.map(|known| (strsim::osa_distance(&word, known), known));
-    let slip = distances
-        .min()
-        .filter(|(distance, known)| 3 * distance <= known.len());
     let part = || {
         let mut names = Display::names().into_iter();
         names.find(|known| word.len() >= 2 && known.contains(&word))
     };
-    slip.map(|(_, known)| known).or_else(part)
+    suggestion::nearest(name, Display::names()).or_else(part)
 }
 
 /// A display as it is written in a file.

@@ -120,21 +120,11 @@ fn pq_code(luminance: f64) -> f64 {
     ((PQ_C1 + PQ_C2 * power) / (1.0 + PQ_C3 * power)).powf(PQ_M2)
 }
 
-/// The smallest code that a measured curve gives an amount of light for, linear between its points.
+/// The smallest code that a measured curve, whose values do not fall, gives an amount of light for, linear between its points.
 fn code_of_table(table: &Tabulated, light: f64) -> f64 {
-    let mut below = None;
-    for (code, value) in table.points() {
-        if value >= light {
-            return match below {
-                Some((code0, value0)) => {
-                    code0 + (code - code0) * (light - value0) / (value - value0)
-                }
-                None => code,
-            };
-        }
-        below = Some((code, value));
-    }
-    table.range_nm().1
+    table
+        .first_reach(light)
+        .unwrap_or_else(|| table.range_nm().1)
 }
 
 #[cfg(test)]
@@ -255,5 +245,6 @@ mod tests {
         assert!((response.code(0.25) - 0.4).abs() < 1e-15);
         assert_eq!(response.code(0.5), 0.6);
         assert_eq!(response.code(2.0), 1.0);
+        assert_eq!(response.code(-1.0), 0.0);
     }
 }

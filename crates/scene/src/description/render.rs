@@ -55,7 +55,8 @@ pub enum WavelengthSampling {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LightGroups {
-    /// Those of each `light_group`, and of the lights without one those of each different spectrum.
+    /// Those of each `light_group`, and of the lights without one those of each different spectrum. Where no light has a
+    /// `light_group` and the spectra are more than 32, all lights are one group.
     #[default]
     BySpectrum,
     /// None: all lights are one group, which takes the least memory and time.

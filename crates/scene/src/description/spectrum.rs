@@ -161,9 +161,10 @@ pub enum Emission {
         #[schemars(range(min = limits::EMISSION.low, max = limits::EMISSION.high))]
         scale: f64,
     },
-    /// An illuminant that Pellicle carries, such as "D65". At scale 1 it is as bright as constant = 1.
+    /// An illuminant that Pellicle carries. At scale 1 it is as bright as constant = 1.
     Illuminant {
-        /// The name.
+        /// The name: a standard one ("A", "C", "D65", "E"), a fluorescent lamp ("F11" or "FL11"), a LED ("LED-B3"), a
+        /// high-pressure lamp ("HP1"), or a temperature of daylight ("D5700K") or of a black body ("blackbody_3000K").
         illuminant: String,
         /// What the table says outside its wavelengths.
         #[serde(default)]

@@ -3,10 +3,10 @@
 use super::Tree;
 use super::shape::{Field, Fields, Shape, TAG, quoted_choice};
 use crate::problem::{Location, Problem, ProblemKind};
-use crate::suggestion::nearest;
 use crate::{FieldPath, Problems};
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
+use spectra::suggestion::nearest;
 use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
 use toml::de::{DeArray, DeInteger, DeTable, DeValue};

@@ -3,8 +3,8 @@
 use crate::FieldPath;
 use crate::limits::{self, Range};
 use crate::problem::{Problem, ProblemKind};
-use crate::suggestion::nearest;
 use glam::DVec3;
+use spectra::suggestion::nearest;
 use std::path::{Path, PathBuf};
 
 /// Collects problems, and knows what the whole scene shares. A check returns the value when it is sound.

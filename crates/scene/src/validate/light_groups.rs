@@ -74,32 +74,66 @@ pub(crate) fn assign(
     description: &Description,
     mut parts: Unlit,
 ) -> Option<Lit> {
-    let mut list = List::default();
-    let is_single = description.render.light_groups == LightGroups::Single;
     let mut lights = lights(description, &mut parts);
-    // The names that are written come first, and the others keep clear of them.
-    let named: Vec<Option<LightGroupId>> = lights
+    let burning: Vec<(&Lamp, Option<&str>)> = lights
         .iter()
-        .map(|(light, name)| {
-            let name = if is_single { Some("all") } else { *name };
-            let lamp = &lamps[light.light_group.index()];
-            lamp.shines
-                .then(|| name.map(|name| list.named(name, lamp)))?
-        })
+        .map(|(light, name)| (&lamps[light.light_group.index()], *name))
         .collect();
-    for ((light, _), named) in lights.iter_mut().zip(named) {
-        let lamp = &lamps[light.light_group.index()];
-        light.light_group = match named {
-            Some(id) => id,
-            None if lamp.shines => list.by_spectrum(lamp),
-            None => LightGroupId(0),
-        };
+    let single = || {
+        let of_all: Vec<_> = burning
+            .iter()
+            .map(|(lamp, _)| (*lamp, Some("all")))
+            .collect();
+        grouped(&of_all)
+    };
+    let is_named = burning.iter().any(|(_, name)| name.is_some());
+    let found = match description.render.light_groups {
+        LightGroups::Single => single(),
+        LightGroups::BySpectrum if is_named => grouped(&burning),
+        LightGroups::BySpectrum => grouped(&burning).or_else(single),
+    };
+    let Some((mut light_groups, ids)) = found else {
+        report_too_many(checks);
+        return None;
+    };
+    for ((light, _), id) in lights.iter_mut().zip(ids) {
+        light.light_group = id;
     }
-    let light_groups = list.finished(checks)?;
+    if light_groups.is_empty() {
+        light_groups.push(LightGroup::unknown());
+    }
     Some(Lit {
         parts,
         light_groups,
     })
+}
+
+/// The light groups of lamps, each with a name where one is written, and the group of each lamp; `None` where there are too many.
+fn grouped(burning: &[(&Lamp, Option<&str>)]) -> Option<(Vec<LightGroup>, Vec<LightGroupId>)> {
+    let mut list = List::default();
+    let mut ids = vec![LightGroupId(0); burning.len()];
+    let shining = || (0..).zip(burning).filter(|(_, (lamp, _))| lamp.shines);
+    // The names that are written come first, and the others keep clear of them.
+    for (index, &(lamp, name)) in shining() {
+        if let Some(name) = name {
+            ids[index] = list.named(name, lamp)?;
+        }
+    }
+    for (index, &(lamp, name)) in shining() {
+        if name.is_none() {
+            ids[index] = list.by_spectrum(lamp)?;
+        }
+    }
+    Some((list.groups, ids))
+}
+
+fn report_too_many(checks: &mut Checks) {
+    let message = format!(
+        "the lights make more than {MAX_LIGHT_GROUPS} light groups, which are the most that are possible"
+    );
+    let field = FieldPath::root().key("render").key("light_groups");
+    let help = "give lights a common `light_group`, or write `render.light_groups = \"single\"`";
+    checks.report(Problem::new(ProblemKind::TooLarge, &field, message).help(help));
 }
 
 /// The emissions of objects and surroundings, each with the name of a light group where one is written.
@@ -147,35 +181,38 @@ struct List {
 }
 
 impl List {
-    /// The group of this name, which loses its lamp where lights differ.
-    fn named(&mut self, name: &str, lamp: &Lamp) -> LightGroupId {
+    /// The group of this name, which loses its lamp where lights differ; `None` where there are too many.
+    fn named(&mut self, name: &str, lamp: &Lamp) -> Option<LightGroupId> {
         let position = self.groups.iter().position(|group| group.name == name);
         if let Some(position) = position {
             let group = &mut self.groups[position];
             group.lamp = group.lamp.take().filter(|known| *known == lamp.spectrum);
-            return LightGroupId(position as u32);
+            return Some(LightGroupId(position as u32));
         }
         self.written += 1;
         self.add(name.to_owned(), lamp)
     }
 
-    /// The group of all lights without a name that burn with this lamp.
-    fn by_spectrum(&mut self, lamp: &Lamp) -> LightGroupId {
+    /// The group of all lights without a name that burn with this lamp; `None` where there are too many.
+    fn by_spectrum(&mut self, lamp: &Lamp) -> Option<LightGroupId> {
         let others = &self.groups[self.written..];
         let position = others
             .iter()
             .position(|group| group.lamp.as_ref() == Some(&lamp.spectrum));
         match position {
-            Some(position) => LightGroupId((self.written + position) as u32),
+            Some(position) => Some(LightGroupId((self.written + position) as u32)),
             None => self.add(self.free_name(&lamp.name), lamp),
         }
     }
 
-    fn add(&mut self, name: String, lamp: &Lamp) -> LightGroupId {
+    fn add(&mut self, name: String, lamp: &Lamp) -> Option<LightGroupId> {
+        if self.groups.len() == MAX_LIGHT_GROUPS {
+            return None;
+        }
         let id = LightGroupId(self.groups.len() as u32);
         let lamp = Some(lamp.spectrum.clone());
         self.groups.push(LightGroup { name, lamp });
-        id
+        Some(id)
     }
 
     /// A name like that of a lamp that no group has: `D65`, then `D65_2`.
@@ -193,23 +230,5 @@ impl List {
         let numbered = (2..).map(|number| format!("{stem}_{number}"));
         let mut names = std::iter::once(stem.clone()).chain(numbered);
         names.find(is_free).unwrap_or(stem)
-    }
-
-    fn finished(mut self, checks: &mut Checks) -> Option<Vec<LightGroup>> {
-        let count = self.groups.len();
-        if count > MAX_LIGHT_GROUPS {
-            let message = format!(
-                "the lights make {count} light groups; at most {MAX_LIGHT_GROUPS} are possible"
-            );
-            let field = FieldPath::root().key("render").key("light_groups");
-            let help =
-                "give lights a common `light_group`, or write `render.light_groups = \"single\"`";
-            checks.report(Problem::new(ProblemKind::TooLarge, &field, message).help(help));
-            return None;
-        }
-        if self.groups.is_empty() {
-            self.groups.push(LightGroup::unknown());
-        }
-        Some(self.groups)
     }
 }

@@ -126,8 +126,9 @@ fn line_lamps_do_not_magnify_noise() {
             let Ok(weights) = BandWeights::new(&grid, &before, &after, OBSERVER) else {
                 continue;
             };
-            let powers = Lamp::new(&grid, &|nm| before.clamped_at(nm)).means;
-            let targets = Lamp::new(&grid, &|nm| after.clamped_at(nm)).means;
+            let knots = Knots::new(&grid, &[&before, &after]);
+            let powers = Lamp::new(&grid, &|nm| before.clamped_at(nm), &knots).means;
+            let targets = Lamp::new(&grid, &|nm| after.clamped_at(nm), &knots).means;
             for (band, (first, own)) in weights.bands.iter().enumerate() {
                 let gain: f64 = own
                     .iter()
@@ -147,8 +148,75 @@ fn light_from_nothing_is_refused() {
     let yellow = Tabulated::new(points).unwrap();
     let d65 = lamp(&grid, "D65");
     let refused = BandWeights::new(&grid, &yellow, &d65, OBSERVER);
-    let (from_nm, to_nm) = (380.0, 390.0);
+    // Four dark bands have 4e-4 of the Y of D65; the last of them has most.
+    let (from_nm, to_nm) = (410.0, 420.0);
     assert_eq!(refused, Err(DarkBand { from_nm, to_nm }));
     assert!(BandWeights::new(&grid, &d65, &yellow, OBSERVER).is_ok());
     assert!(BandWeights::new(&grid, &yellow, &yellow, OBSERVER).is_ok());
+}
+
+/// LED-B2 is 0 from 380 to 390 nm, where D65 has 3e-6 of its Y.
+#[test]
+fn dark_bands_that_nobody_sees_stay_dark() {
+    let grid = BandGrid::visible(40).unwrap();
+    let (led, d65) = (lamp(&grid, "LED-B2"), lamp(&grid, "D65"));
+    let seen = bands(&grid, &led, |_| 0.5);
+    assert_eq!(seen[0], 0.0);
+    let weights = BandWeights::new(&grid, &led, &d65, OBSERVER).unwrap();
+    let expected = BandWeights::observed(&grid, OBSERVER).xyz(&bands(&grid, &d65, |_| 0.5));
+    let found = weights.xyz(&seen);
+    let y = found[1] / expected[1] - 1.0;
+    assert!(y.abs() < BandWeights::DARK_SHARE, "{y:e}");
+    let relit: Vec<f64> = weights.relit(&seen).collect();
+    assert_eq!(relit[0], 0.0);
+    assert!(relit.iter().skip(1).all(|&value| value > 0.1));
+}
+
+/// A lamp with a line between two knots: the image holds what the knots burnt, and a transfer that is a parabola comes back to
+/// the rounding of the image's f32. The lamp's own points give another result.
+#[test]
+fn a_line_between_knots_is_the_one_that_was_rendered() {
+    let grid = BandGrid::visible(16).unwrap();
+    let points = vec![
+        (380.0, 1.0),
+        (549.3, 1.0),
+        (550.4, 90.0),
+        (551.1, 1.0),
+        (780.0, 1.5),
+    ];
+    let points = Tabulated::new(points).unwrap();
+    let spectrum = spectra::Spectrum::Table(points.clone());
+    let table = spectra::BandTable::new(&grid, &spectrum).unwrap();
+    let transfer = |nm: f64| 0.3 + ((nm - 560.0) / 300.0).powi(2);
+    // The mean over a band of the table times the parabola: Simpson's rule is exact between two knots.
+    let steps = table.steps();
+    let seen: Vec<f32> = (0..grid.count())
+        .map(|band| {
+            let light = |at: f64| {
+                let offset = at / f64::from(steps);
+                table.at(band, offset) * transfer(grid.wavelength_nm(band, offset))
+            };
+            let step = |i: u32| {
+                let at = f64::from(i);
+                (light(at) + 4.0 * light(at + 0.5) + light(at + 1.0)) / 6.0
+            };
+            ((0..steps).map(step).sum::<f64>() / f64::from(steps)) as f32
+        })
+        .collect();
+    let off = |before: &Tabulated| {
+        let ideal = Tabulated::new(vec![(380.0, 1.0), (780.0, 1.0)]).unwrap();
+        let relit = BandWeights::new(&grid, before, &ideal, OBSERVER).unwrap();
+        let mean = |band| {
+            // ∫ of the parabola over a band, by Simpson's rule.
+            let at = |offset| transfer(grid.wavelength_nm(band, offset));
+            (at(0.0) + 4.0 * at(0.5) + at(1.0)) / 6.0
+        };
+        let errors = (0..)
+            .zip(relit.relit(&seen))
+            .map(|(band, value)| value / mean(band) - 1.0);
+        errors.fold(0.0, |most: f64, error| most.max(error.abs()))
+    };
+    let rendered = grid.lamp(&spectrum).unwrap();
+    assert!(off(&rendered) < 1e-6, "{:e}", off(&rendered));
+    assert!(off(&points) > 1e-2, "{:e}", off(&points));
 }

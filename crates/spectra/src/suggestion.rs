@@ -1,11 +1,9 @@
 //! "Did you mean …?"
 
 /// The candidate nearest to `word` that a slip of the keys could have turned into it, or else the first that goes
-/// on where it ends or ends where it goes on: `fov` means `fov_deg`.
-pub(crate) fn nearest<'a>(
-    word: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+/// on where it ends or ends where it goes on: `fov` means `fov_deg`. A slip changes at most a third of the letters of
+/// the shorter word, rounded up, and not all of them; upper and lower case are no difference.
+pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // A long word in a file is not a slip of a short known one; the bound keeps the comparison cheap.
     if word.chars().count() > 64 {
         return None;
@@ -20,20 +18,16 @@ pub(crate) fn nearest<'a>(
         .map(|(_, known)| known)
 }
 
-/// How far `word` is from `known`; `None` when they have nothing to do with each other.
+/// How far `word` is from `known`, in insertions, deletions, replacements and swaps of neighbours; `None` when they have
+/// nothing to do with each other.
 fn badness(word: &str, known: &str) -> Option<usize> {
     let length = known.chars().count().min(word.chars().count());
-    let distance = distance(word, known);
+    let distance = strsim::osa_distance(word, known);
     if distance <= length.div_ceil(3) && distance < length {
         return Some(distance);
     }
     let is_start = known.starts_with(word) || word.starts_with(known);
     (is_start && length >= 3).then_some(usize::MAX)
-}
-
-/// The fewest insertions, deletions, replacements and swaps of neighbours between two words.
-fn distance(a: &str, b: &str) -> usize {
-    strsim::osa_distance(a, b)
 }
 
 #[cfg(test)]
