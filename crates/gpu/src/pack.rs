@@ -7,6 +7,7 @@ use crate::features::{Features, FilmForm};
 use crate::layout::{self, Frame};
 use crate::modules::RecordLimits;
 use glam::DVec3;
+use scene::limits::{MAX_LAYERS, MAX_LIGHT_GROUPS, MAX_MATERIALS};
 use scene::{
     Emission, Environment, Layer, Material, Object, PathDifference, Pattern, Projection, Scene,
     Shape, SpectrumId, Thickness, WavelengthSampling,
@@ -89,9 +90,26 @@ fn id(spectrum: SpectrumId) -> u32 {
     spectrum.index() as u32
 }
 
-/// A light as records name it.
+/// The most spectra of a scene: a material has n and k of its substrate and of each layer, or fewer of other kinds, and the
+/// surroundings have three.
+const MAX_SPECTRA: usize = MAX_MATERIALS * 2 * (MAX_LAYERS + 1) + 3;
+
+// Numbers of spectra fit into the low bits of a light, those of light groups into the others.
+const _: () = assert!(MAX_SPECTRA < 1 << layout::LIGHT_GROUP_SHIFT);
+const _: () = assert!(MAX_LIGHT_GROUPS <= 1 << (u32::BITS - layout::LIGHT_GROUP_SHIFT));
+
+/// A light as records name it: the spectrum in the low 24 bits, the light group in the high 8.
+///
+/// # Panics
+/// When either does not fit, which the limits of scenes exclude: [`MAX_SPECTRA`] and [`MAX_LIGHT_GROUPS`].
 fn light(emission: Emission) -> u32 {
-    id(emission.spectrum) | (emission.light_group.index() as u32) << layout::LIGHT_GROUP_SHIFT
+    let (spectrum, group) = (id(emission.spectrum), emission.light_group.index() as u32);
+    assert!(
+        spectrum < 1 << layout::LIGHT_GROUP_SHIFT,
+        "spectrum {spectrum}"
+    );
+    assert!(group < MAX_LIGHT_GROUPS as u32, "light group {group}");
+    spectrum | group << layout::LIGHT_GROUP_SHIFT
 }
 
 fn pack_frame(scene: &Scene, light_count: u32) -> Frame {
