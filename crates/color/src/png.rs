@@ -57,7 +57,7 @@ pub fn write(path: &Path, image: &RgbImage8) -> Result<(), WritePngError> {
 /// Writes an RGB PNG of 8 or 16 bits per channel whose codes are those of `display`.
 ///
 /// The file says so with the code points of ITU-R H.273 (cICP) where the display has them, which the third edition of PNG puts
-/// first; with an ICC profile ([`icc`](crate::icc)), which all software knows; and for sRGB with the sRGB chunk in its place.
+/// first; with an ICC profile ([`icc`]), which all software knows; and for sRGB with the sRGB chunk in its place.
 ///
 /// # Errors
 /// As [`write()`]; and when the display's figures do not fit a profile.
