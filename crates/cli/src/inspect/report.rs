@@ -123,13 +123,7 @@ impl Inspection<'_> {
             return;
         }
         for (group, share) in self.image.light_groups().iter().zip(&probe.light_groups) {
-            let [x, y, z] = share.xyz;
-            let part = 100.0 * y / probe.xyz[1];
-            let _ = writeln!(
-                text,
-                "  light {:<12} {part:>6.2} % of Y; XYZ {x:.6e} {y:.6e} {z:.6e}",
-                group.name
-            );
+            text.push_str(&light_line(&group.name, share.xyz, probe.xyz[1]));
         }
     }
 
@@ -339,6 +333,16 @@ impl Fitted {
     }
 }
 
+/// What a light group makes of a luminance; black has no shares.
+fn light_line(name: &str, [x, y, z]: [f64; 3], of_y: f64) -> String {
+    let part = if of_y == 0.0 {
+        String::new()
+    } else {
+        format!("{:>6.2} % of Y; ", 100.0 * y / of_y)
+    };
+    format!("  light {name:<12} {part}XYZ {x:.6e} {y:.6e} {z:.6e}\n")
+}
+
 fn line(name: &str, fit: &FilmFit) -> String {
     let deviation = fit
         .deviation_nm
@@ -355,4 +359,20 @@ fn line(name: &str, fit: &FilmFit) -> String {
         fit.delta_e,
         fit.scale
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn black_has_no_shares() {
+        let half = light_line("key", [1.0, 2.0, 3.0], 4.0);
+        assert!(
+            half.contains("key") && half.contains(" 50.00 % of Y; XYZ 1.0"),
+            "{half}"
+        );
+        let black = light_line("key", [0.0; 3], 0.0);
+        assert!(!black.contains('%') && !black.contains("NaN"), "{black}");
+    }
 }
