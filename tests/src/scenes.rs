@@ -90,4 +90,4 @@ pub const PROVED_ON_PATHS: &[&str] = &[
 pub const PROVED_ON_STACKS: &[&str] = &["evaluate_stacks", "run_index", "run_stack"];
 
 /// WGSL functions that the suite `frames` proves: the accumulation of samples.
-pub const PROVED_ON_FRAMES: &[&str] = &["accumulate", "render"];
+pub const PROVED_ON_FRAMES: &[&str] = &["accumulate", "loops_run", "render"];

@@ -413,8 +413,8 @@ fn files_of_other_origin_are_told() {
     told(
         &ran.stderr,
         &[
-            "t.exr holds reflectances",
-            "t.exr its 3 bands are of different widths",
+            "t.exr: holds reflectances",
+            "t.exr: its 3 bands are of different widths",
         ],
     );
     let found: Value = serde_json::from_str(&ran.stdout).unwrap();
