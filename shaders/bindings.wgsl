@@ -9,5 +9,5 @@
 @group(0) @binding(4) var<storage, read> spectra: array<vec4f>;
 /// What thicknesses that vary are made of, those of a layer one after another in postfix order.
 @group(0) @binding(5) var<storage, read> fields: array<Field>;
-/// Numbers that fields look up, row by row.
-@group(0) @binding(6) var samples: texture_2d<f32>;
+/// Tables that anything looks numbers up in, row by row.
+@group(0) @binding(6) var numbers: texture_2d<f32>;

@@ -23,20 +23,17 @@ fn send_to_light(walk: Walk, sample: Sample, point: SurfacePoint) -> Sent {
     return Sent(light, direction, light_pdf(light, point.position, direction) / count);
 }
 
-/// Adds to the vertex what arrives from the light. `reflection` is the surface's function times the cosine,
-/// without its spectral factor; `scatter_pdf` the density with which scattering would have found this direction
-/// (balance heuristic: reflection / pdf × pdf / (pdf + scatter_pdf)).
+/// Adds to the vertex what arrives from the light. Balance heuristic: value / pdf × pdf / (pdf + pdf of the scattering).
 fn connect(
     vertex_in: Vertex,
     walk: Walk,
     object: u32,
     point: SurfacePoint,
     sent: Sent,
-    reflection: f32,
-    scatter_pdf: f32,
+    towards: Scattering,
 ) -> Vertex {
     var vertex = vertex_in;
-    if (reflection <= 0.0) {
+    if (!is_lit(towards.lobes)) {
         return vertex;
     }
     vertex.first_crossing = crossing_count;
@@ -50,7 +47,7 @@ fn connect(
     vertex.end_crossing = crossing_count;
     let material = objects[sent.light].material;
     vertex.connection = materials[material].emission;
-    vertex.connection_weight = materials[material].emission_scale * reflection / (sent.pdf + scatter_pdf);
+    vertex.connected = scaled(towards.lobes, materials[material].emission_scale / (sent.pdf + towards.pdf));
     return vertex;
 }
 

@@ -97,21 +97,27 @@ fn free_stack_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
     return 0.5 * (powers.reflectance_s + powers.reflectance_p);
 }
 
-/// Radiance that a vertex receives straight from a light and scatters, before the path's throughput. `scatter` is
-/// the vertex's own factor, which is also that of a diffuse surface towards the light.
-fn connection_value(vertex: Vertex, scatter: vec4f, group: u32, at: Wavelengths) -> vec4f {
-    var light = vertex.connection_weight * spectrum_at(light_spectrum(vertex.connection), group, at);
+/// What lobes make of the spectra of a vertex.
+fn lobes_value(vertex: Vertex, lobes: Lobes, group: u32, at: Wavelengths) -> vec4f {
+    var factor = vertex.scatter;
+    factor.cosine = lobes.cosine;
+    return lobes.single * factor_value(factor, group, at);
+}
+
+/// The spectrum of a light.
+fn light_value(light: u32, texel: u32, group: u32, at: Wavelengths) -> vec4f {
+    return spectrum_at(light_spectrum(light), group, at);
+}
+
+/// Radiance that a vertex receives straight from a light and scatters, before the path's throughput.
+fn connection_value(vertex: Vertex, group: u32, at: Wavelengths) -> vec4f {
+    var light = light_value(vertex.connection, vertex.connection_texel, group, at);
     if (HAS_FILMS) {
         for (var i = vertex.first_crossing; i < vertex.end_crossing; i++) {
             light *= film_value(crossings[i], group, at);
         }
     }
-    if (HAS_ROUGH_CONDUCTORS && vertex.scatter.kind != FACTOR_REFLECTANCE) {
-        var facet = vertex.scatter;
-        facet.cosine = vertex.connection_cosine;
-        return light * factor_value(facet, group, at);
-    }
-    return light * scatter;
+    return light * lobes_value(vertex, vertex.connected, group, at);
 }
 
 /// Radiance by light group with more of one of them. The loop has a fixed length, so that it is unrolled and the array stays in
@@ -135,19 +141,18 @@ fn path_radiance(group: u32, at: Wavelengths) -> array<vec4f, LIGHT_GROUPS> {
     for (var i = 0u; i < vertex_count; i++) {
         let vertex = vertices[i];
         if (vertex.emission_weight > 0.0) {
-            let emission = spectrum_at(light_spectrum(vertex.emission), group, at);
+            let emission = light_value(vertex.emission, vertex.emission_texel, group, at);
             let arrived = throughput * vertex.emission_weight * emission;
             radiance = with_light(radiance, light_group_of(vertex.emission), arrived);
         }
         if (vertex.scatter.kind == FACTOR_ONE) {
             continue;
         }
-        let scatter = factor_value(vertex.scatter, group, at);
-        if (vertex.connection_weight > 0.0) {
-            let arrived = throughput * connection_value(vertex, scatter, group, at);
+        if (is_lit(vertex.connected)) {
+            let arrived = throughput * connection_value(vertex, group, at);
             radiance = with_light(radiance, light_group_of(vertex.connection), arrived);
         }
-        throughput *= vertex.weight * scatter;
+        throughput *= lobes_value(vertex, vertex.onward, group, at);
     }
     return radiance;
 }

@@ -70,8 +70,8 @@ const ALONG_LINE: u32 = 1u;
 /// The most values that wait for a sum or product.
 const FIELD_STACK: u32 = 5u;
 
-/// Numbers in a row of the texture that fields look up.
-const SAMPLES_WIDTH: u32 = 4096u;
+/// Numbers in a row of the texture of tables.
+const NUMBERS_WIDTH: u32 = 4096u;
 
 /// No layer is thicker, nm.
 const MAX_THICKNESS_NM: u32 = 100000u;
@@ -291,7 +291,7 @@ struct Field {
     /// Chooses the pattern of swirls.
     seed: u32,
     /// First of the numbers that it looks up.
-    first_sample: u32,
+    first_number: u32,
     /// Steps, knots of a profile, pixels of a row; octaves of swirls.
     sample_count: u32,
     /// Rows of a picture.

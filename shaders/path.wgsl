@@ -82,10 +82,11 @@ const REFLECTED_SHARE: f32 = 0.5;
 /// A film or a smooth conductor: the path is mirrored or goes straight on.
 fn meet_smooth(walk: Walk, object: u32, point: SurfacePoint, vertex_in: Vertex, reflects: bool) -> Walk {
     var vertex = vertex_in;
-    vertex.weight = 1.0;
+    var weight = 1.0;
     if (HAS_FILMS && vertex.scatter.kind >= FACTOR_FILM_REFLECTS) {
-        vertex.weight = 1.0 / select(1.0 - REFLECTED_SHARE, REFLECTED_SHARE, reflects);
+        weight = 1.0 / select(1.0 - REFLECTED_SHARE, REFLECTED_SHARE, reflects);
     }
+    vertex.onward = single_lobe(weight, vertex.scatter.cosine);
     push_vertex(vertex);
     if (reflects) {
         return walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0);
@@ -96,53 +97,27 @@ fn meet_smooth(walk: Walk, object: u32, point: SurfacePoint, vertex_in: Vertex, 
     return through;
 }
 
-/// How a diffuse or rough surface scatters between two directions of its local frame.
-struct Scattering {
-    /// The surface's function times the cosine, without its spectral factor.
-    reflection: f32,
-    /// Density with which scattering finds the direction.
-    pdf: f32,
-    /// Cosine at the facet.
-    cosine: f32,
-}
-
-fn scattering(is_rough: bool, eye: vec3f, light: vec3f, slope: f32) -> Scattering {
-    if (HAS_ROUGH_CONDUCTORS && is_rough) {
-        let facet = cook_torrance(eye, light, slope);
-        return Scattering(facet.reflection * light.z, facet.pdf, facet.cosine);
-    }
-    let lambert = max(light.z, 0.0) / PI;
-    return Scattering(lambert, lambert, 1.0);
-}
-
-/// A diffuse surface or a rough conductor: light is sent to it, and the path is scattered.
+/// A diffuse or rough surface: light is sent to it, and the path is scattered.
 fn meet_scattering(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
     var vertex = vertex_in;
-    let slope = materials[objects[object].material].roughness;
-    let is_rough = HAS_ROUGH_CONDUCTORS && vertex.scatter.kind != FACTOR_REFLECTANCE;
+    let scatterer = Scatterer(objects[object].material, vertex.scatter.kind);
     let world_from_local = frame_of(point.normal);
     let eye = -walk.ray.direction * world_from_local;
+    vertex.eye_cosine = eye.z;
 
     let sent = send_to_light(walk, sample, point);
     if (sent.pdf > 0.0) {
-        let towards = scattering(is_rough, eye, sent.direction * world_from_local, slope);
-        vertex = connect(vertex, walk, object, point, sent, towards.reflection, towards.pdf);
-        vertex.connection_cosine = towards.cosine;
+        vertex = connect(vertex, walk, object, point, sent, scattering(scatterer, eye, sent.direction * world_from_local));
     }
 
-    let random = random_at(sample, walk, 1u);
-    var light = sample_cosine_hemisphere(random.x, random.y);
-    if (is_rough) {
-        light = reflect(-eye, sample_beckmann(random.x, random.y, slope));
-    }
-    let onward = scattering(is_rough, eye, select(light, normalize(light), is_rough), slope);
+    let light = sample_scattering(scatterer, eye, random_at(sample, walk, 1u));
+    let onward = scattering(scatterer, eye, light);
     var next = walk_on(walk, object, point, normalize(world_from_local * light), onward.pdf);
     if (onward.pdf > 0.0) {
-        vertex.weight = onward.reflection / onward.pdf;
+        vertex.onward = scaled(onward.lobes, 1.0 / onward.pdf);
     } else {
         next.alive = false;
     }
-    vertex.scatter.cosine = onward.cosine;
     push_vertex(vertex);
     return next;
 }

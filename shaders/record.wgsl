@@ -14,20 +14,54 @@ struct Factor {
     first_thickness: u32,
 }
 
+/// How a surface scatters between two directions: weights of the spectra that it has.
+struct Lobes {
+    /// Of the vertex's factor at `cosine`: light that met the surface once.
+    single: f32,
+    /// Of the colour of light that met several facets of a rough surface.
+    multiple: f32,
+    /// Of the colour of the base below a coat.
+    body: f32,
+    /// Cosine at the facet, or at a smooth surface.
+    cosine: f32,
+    /// Cosine of the light with the surface's normal.
+    light_cosine: f32,
+}
+
 /// A place where a path met a surface, or where it ended.
 struct Vertex {
-    /// What the path is multiplied by here, with its scalar weight.
+    /// What the path meets here; its cosine is that of `onward`.
     scatter: Factor,
-    weight: f32,
-    /// Radiance that joins the path here, before the factor: a light.
+    /// Cosine of the path's arrival with the surface's normal.
+    eye_cosine: f32,
+    /// What the path is multiplied by here.
+    onward: Lobes,
+    /// Radiance that joins the path here, before the factor: a light, and its texel where it has a picture.
     emission: u32,
+    emission_texel: u32,
     emission_weight: f32,
-    /// Radiance sent from a light (`connection`), through the surface's factor at its own cosine and the films in between.
+    /// Radiance sent from a light, by `connected` and through the films in between.
     connection: u32,
-    connection_weight: f32,
-    connection_cosine: f32,
+    connection_texel: u32,
+    connected: Lobes,
     first_crossing: u32,
     end_crossing: u32,
+}
+
+const NO_LOBES: Lobes = Lobes(0.0, 0.0, 0.0, 1.0, 1.0);
+
+/// What only the factor scatters.
+fn single_lobe(weight: f32, cosine: f32) -> Lobes {
+    return Lobes(weight, 0.0, 0.0, cosine, 1.0);
+}
+
+fn scaled(lobes: Lobes, factor: f32) -> Lobes {
+    return Lobes(lobes.single * factor, lobes.multiple * factor, lobes.body * factor, lobes.cosine, lobes.light_cosine);
+}
+
+/// Whether anything is scattered.
+fn is_lit(lobes: Lobes) -> bool {
+    return lobes.single > 0.0 || lobes.multiple > 0.0 || lobes.body > 0.0;
 }
 
 /// The spectrum of a light. A light has its light group in the bits above it.
@@ -62,7 +96,7 @@ fn begin_record() {
 /// A vertex that does nothing yet.
 fn plain_vertex() -> Vertex {
     let one = Factor(FACTOR_ONE, 0u, 1.0, 0.0, 0u);
-    return Vertex(one, 0.0, 0u, 0.0, 0u, 0.0, 1.0, crossing_count, crossing_count);
+    return Vertex(one, 1.0, NO_LOBES, 0u, 0u, 0.0, 0u, 0u, NO_LOBES, crossing_count, crossing_count);
 }
 
 fn push_vertex(vertex: Vertex) {
@@ -91,7 +125,6 @@ fn push_emission(light: u32, weight: f32) {
         return;
     }
     var vertex = plain_vertex();
-    vertex.weight = 1.0;
     vertex.emission = light;
     vertex.emission_weight = weight;
     push_vertex(vertex);

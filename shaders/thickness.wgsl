@@ -52,7 +52,7 @@ fn field_value(field: u32, object: u32, position: vec3f) -> f32 {
     let along = field_coordinate(field, object, position);
     if (HAS_SAMPLED_FIELDS && kind == FIELD_STEPS) {
         let count = fields[field].sample_count;
-        return sample_at(fields[field].first_sample + min(u32(along * f32(count)), count - 1u));
+        return number_at(fields[field].first_number + min(u32(along * f32(count)), count - 1u));
     }
     if (HAS_SAMPLED_FIELDS && kind == FIELD_PROFILE) {
         return profile_value(field, along);
@@ -70,18 +70,13 @@ fn field_coordinate(field: u32, object: u32, position: vec3f) -> f32 {
     return clamp(dot(position - origin, fields[field].along), 0.0, 1.0);
 }
 
-/// One of the numbers that fields look up.
-fn sample_at(index: u32) -> f32 {
-    return textureLoad(samples, vec2u(index % SAMPLES_WIDTH, index / SAMPLES_WIDTH), 0).x;
-}
-
 /// The root of a table of squares, or a black film where it is thin.
 fn profile_value(field: u32, along: f32) -> f32 {
     let steps = fields[field].sample_count - 1u;
     let place = along * f32(steps);
     let knot = min(u32(place), steps - 1u);
-    let first = fields[field].first_sample + knot;
-    let square = mix(sample_at(first), sample_at(first + 1u), place - f32(knot));
+    let first = fields[field].first_number + knot;
+    let square = mix(number_at(first), number_at(first + 1u), place - f32(knot));
     let thickness = min(sqrt(square), fields[field].swing);
     return select(thickness, fields[field].base, thickness < fields[field].threshold);
 }
@@ -123,9 +118,9 @@ fn bilinear(field: u32, place: vec2f, wraps: bool) -> f32 {
     let columns = vec2i(left, left + 1);
     let wrapped = (columns + width) % width;
     let inside = select(clamp(columns, vec2i(0), vec2i(width - 1)), wrapped, wraps);
-    let rows = fields[field].first_sample + u32(width) * vec2u(vec2i(above, min(above + 1, height - 1)));
+    let rows = fields[field].first_number + u32(width) * vec2u(vec2i(above, min(above + 1, height - 1)));
     let part = x - floor(x);
-    let upper = mix(sample_at(rows.x + u32(inside.x)), sample_at(rows.x + u32(inside.y)), part);
-    let lower = mix(sample_at(rows.y + u32(inside.x)), sample_at(rows.y + u32(inside.y)), part);
+    let upper = mix(number_at(rows.x + u32(inside.x)), number_at(rows.x + u32(inside.y)), part);
+    let lower = mix(number_at(rows.y + u32(inside.x)), number_at(rows.y + u32(inside.y)), part);
     return mix(upper, lower, y - f32(above));
 }

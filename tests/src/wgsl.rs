@@ -50,7 +50,7 @@ pub fn declarations(source: &str) -> BTreeSet<String> {
             continue;
         }
         let after = match code.find('>') {
-            Some(end) if keyword == "var" => &code[end + 1..],
+            Some(end) if code.starts_with("var<") => &code[end + 1..],
             _ => &code[keyword.len()..],
         };
         names.extend(identifiers(after).into_iter().next());
@@ -71,12 +71,13 @@ mod tests {
     use super::*;
 
     const SOURCE: &str = "// fn comment()\n@group(0) @binding(1) var<storage, read> objects: array<Object>;\n\
+        var table: texture_2d<f32>;\n\
         const PI: f32 = 3.1; // PI\nstruct Ray {\n    origin: vec3f,\n}\nvar<private> count: u32;\n\
         fn hit(ray: Ray) -> f32 {\n    let first = objects[0].radius * 2u;\n    return first;\n}\n";
 
     #[test]
     fn declarations_are_found() {
-        let expected = ["PI", "Ray", "count", "hit", "objects"].map(String::from);
+        let expected = ["PI", "Ray", "count", "hit", "objects", "table"].map(String::from);
         assert_eq!(declarations(SOURCE), BTreeSet::from(expected));
         assert_eq!(functions(SOURCE), BTreeSet::from(["hit".to_owned()]));
     }

@@ -59,7 +59,7 @@ fn naga_sees_the_offsets_of_rust() {
     assert_layout!(structs, RunLayer: medium, thickness_nm);
     assert_layout!(structs, RunStack: substrate, first_layer, layer_count);
     assert_layout!(structs, Layer: spectrum, thickness_nm, first_field, field_count);
-    assert_layout!(structs, Field: origin, kind, along, runs_along, base, swing, size, phase, cells, seed, first_sample, rows);
+    assert_layout!(structs, Field: origin, kind, along, runs_along, base, swing, size, phase, cells, seed, first_number, rows);
 }
 
 /// The comparison above can fail: a struct with a member more has another size.

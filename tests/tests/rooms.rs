@@ -7,7 +7,10 @@ use std::collections::{BTreeMap, BTreeSet};
 const ARROWS: &[(&str, &[&str])] = &[
     ("pellicle-spectra", &[]),
     ("pellicle-optics", &[]),
-    ("pellicle-scene", &["pellicle-spectra"]),
+    (
+        "pellicle-scene",
+        &["pellicle-color", "pellicle-optics", "pellicle-spectra"],
+    ),
     (
         "pellicle-reference",
         &["pellicle-scene", "pellicle-optics", "pellicle-spectra"],

@@ -162,8 +162,8 @@ constants! { CONSTANTS;
     pub const ALONG_LINE = 1;
     /// The most values that wait for a sum or product.
     pub const FIELD_STACK = MAX_FIELD_DEPTH as u32 + 1;
-    /// Numbers in a row of the texture that fields look up.
-    pub const SAMPLES_WIDTH = 4096;
+    /// Numbers in a row of the texture of tables.
+    pub const NUMBERS_WIDTH = 4096;
     /// No layer is thicker, nm.
     pub const MAX_THICKNESS_NM = THICKNESS_NM.high as u32;
 
@@ -368,7 +368,7 @@ structs! { STRUCTS;
         /// Chooses the pattern of swirls.
         pub seed: u32,
         /// First of the numbers that it looks up.
-        pub first_sample: u32,
+        pub first_number: u32,
         /// Steps, knots of a profile, pixels of a row; octaves of swirls.
         pub sample_count: u32,
         /// Rows of a picture.

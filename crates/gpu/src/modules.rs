@@ -43,20 +43,22 @@ pub const MODULES: &[Module] = modules! {
     "microfacet": ["trig"];
     "bindings": ["layout"];
     "features": [];
+    "numbers": ["bindings", "layout"];
     "spectrum": ["bindings"];
     "camera": ["bindings", "layout"];
     "noise": ["bindings", "features", "layout", "random"];
-    "thickness": ["bindings", "features", "layout", "noise", "trig"];
+    "thickness": ["bindings", "features", "layout", "noise", "numbers", "trig"];
     "surface": ["bindings", "camera", "features", "layout"];
     "hit": ["bindings", "camera", "features", "intersect", "layout"];
     "light": ["bindings", "features", "layout", "sampling", "trig"];
     "record": ["layout", "limits"];
     "walk": ["bindings", "camera", "random", "surface"];
     "factor": ["bindings", "features", "layout", "record", "surface", "thickness"];
-    "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "surface", "walk"];
+    "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "scatter", "surface", "walk"];
+    "scatter": ["bindings", "features", "layout", "microfacet", "record", "sampling", "trig"];
     "path": [
-        "bindings", "camera", "connect", "factor", "features", "hit", "layout", "light", "microfacet", "random", "record",
-        "sampling", "spectrum", "surface", "trig", "walk"
+        "bindings", "camera", "connect", "factor", "features", "hit", "layout", "light", "random", "record", "sampling", "scatter",
+        "spectrum", "surface", "walk"
     ];
     "evaluate": [
         "bindings", "features", "film", "fresnel", "layout", "limits", "record", "spectrum", "stack", "thickness", "two_beam"

@@ -28,8 +28,8 @@ pub struct PackedScene {
     pub layers: Vec<layout::Layer>,
     /// What their thicknesses are made of where they vary.
     pub fields: Vec<layout::Field>,
-    /// Numbers that fields look up.
-    pub samples: Vec<f32>,
+    /// Tables that are looked up.
+    pub numbers: Vec<f32>,
     /// All spectra and the observer: `[spectrum][knot][group of four bands]`.
     pub spectra: Vec<[f32; 4]>,
     /// How long the record of a path may become.
@@ -73,7 +73,7 @@ impl PackedScene {
             materials,
             layers,
             fields: fields.list,
-            samples: fields.samples,
+            numbers: fields.numbers,
             spectra: spectra.chain(observer).collect(),
             limits,
             passes_per_sample: passes::of_sample(scene, limits),

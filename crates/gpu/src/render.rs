@@ -1,6 +1,6 @@
 //! Running a scene on a device and reading the picture back.
 
-use crate::layout::{Batch, Field, SAMPLES_WIDTH, WORKGROUP_SIDE};
+use crate::layout::{Batch, Field, NUMBERS_WIDTH, WORKGROUP_SIDE};
 use crate::modules::Shader;
 use crate::tiles::{Division, Planner, Tile};
 use crate::{DeviceError, Gpu, PackedScene};
@@ -198,12 +198,12 @@ pub fn compile(
 #[derive(Debug)]
 pub struct SceneBindings {
     buffers: [wgpu::Buffer; 6],
-    samples: wgpu::TextureView,
+    numbers: wgpu::TextureView,
 }
 
 impl SceneBindings {
     /// The bind group 0 of a pipeline that uses the bindings in `used` (0: frame, 1: objects, 2: materials, 3: layers, 4: spectra,
-    /// 5: fields, 6: samples).
+    /// 5: fields, 6: numbers).
     pub fn group(
         &self,
         gpu: &Gpu,
@@ -216,7 +216,7 @@ impl SceneBindings {
                 binding,
                 resource: match self.buffers.get(binding as usize) {
                     Some(buffer) => buffer.as_entire_binding(),
-                    None => wgpu::BindingResource::TextureView(&self.samples),
+                    None => wgpu::BindingResource::TextureView(&self.numbers),
                 },
             })
             .collect();
@@ -285,31 +285,31 @@ pub fn bind_scene(gpu: &Gpu, packed: &PackedScene) -> Result<SceneBindings, Rend
             fewer,
         )?,
     ];
-    let samples = upload_samples(gpu, &packed.samples)?;
+    let numbers = upload_numbers(gpu, &packed.numbers)?;
     gpu.check()?;
-    Ok(SceneBindings { buffers, samples })
+    Ok(SceneBindings { buffers, numbers })
 }
 
-/// The numbers that fields look up, as a texture: storage buffers are few.
-fn upload_samples(gpu: &Gpu, samples: &[f32]) -> Result<wgpu::TextureView, RenderError> {
-    let width = (samples.len() as u32).clamp(1, SAMPLES_WIDTH);
-    let rows = (samples.len() as u64).div_ceil(u64::from(SAMPLES_WIDTH));
+/// The tables of numbers, as a texture: storage buffers are few.
+fn upload_numbers(gpu: &Gpu, numbers: &[f32]) -> Result<wgpu::TextureView, RenderError> {
+    let width = (numbers.len() as u32).clamp(1, NUMBERS_WIDTH);
+    let rows = (numbers.len() as u64).div_ceil(u64::from(NUMBERS_WIDTH));
     let most = u64::from(gpu.limits().max_texture_dimension_2d);
     if rows > most {
         return Err(RenderError::TooLarge {
             what: "pictures of thicknesses",
-            bytes: 4 * samples.len() as u64,
-            limit: 4 * most * u64::from(SAMPLES_WIDTH),
+            bytes: 4 * numbers.len() as u64,
+            limit: 4 * most * u64::from(NUMBERS_WIDTH),
             advice: "use fewer or smaller ones",
         });
     }
     let height = rows.max(1) as u32;
-    let mut contents = samples.to_vec();
+    let mut contents = numbers.to_vec();
     contents.resize((width * height) as usize, 0.0);
     let texture = gpu.device.create_texture_with_data(
         &gpu.queue,
         &wgpu::TextureDescriptor {
-            label: Some("samples"),
+            label: Some("numbers"),
             size: wgpu::Extent3d {
                 width,
                 height,

@@ -14,6 +14,7 @@ mod path;
 mod random;
 mod render;
 mod sampling;
+mod scatter;
 mod surface;
 mod thickness;
 

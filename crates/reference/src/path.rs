@@ -1,16 +1,16 @@
 //! A path through the scene with its spectrum.
 
 use crate::interference::{LayersAt, Light};
+use crate::scatter::{Conductor, Lobes, Scatterer};
 use crate::{
-    Hit, Ray, SurfacePoint, camera_ray, cook_torrance, frame_of, light_pdf, nearest_hit, random4,
-    reflectance_spectrum, sample_cosine_hemisphere, sample_light, surface_point,
+    Hit, Ray, SurfacePoint, camera_ray, frame_of, light_pdf, nearest_hit, random4,
+    reflectance_spectrum, sample_light, surface_point,
 };
 use glam::DVec3;
 use optics::Complex64;
 use scene::{
     Emission, Environment, Interference, Material, Pattern, Scene, SpectrumId, WavelengthSampling,
 };
-use std::f64::consts::PI;
 
 /// Share of the paths that follow the reflection of a film rather than its transmission.
 const REFLECTED_SHARE: f64 = 0.5;
@@ -161,7 +161,8 @@ impl<'a> Path<'a> {
                     coating: LayersAt::new(layers, &object.shape, &point),
                 };
                 if roughness > 0.0 {
-                    self.meet_rough_conductor(hit.object, point, &conductor, roughness)
+                    let rough = Scatterer::RoughConductor(conductor, roughness);
+                    self.meet_scattering(hit.object, point, &rough)
                 } else {
                     self.meet_mirror(hit.object, point, &conductor)
                 }
@@ -245,51 +246,56 @@ impl<'a> Path<'a> {
     fn meet_diffuse(&mut self, object: usize, point: SurfacePoint, pattern: &Pattern) -> bool {
         let shape = &self.scene.objects()[object].shape;
         let spectrum = reflectance_spectrum(pattern, shape, point.position);
-        if let Some(sent) = self.send_to_light(object, &point) {
-            let lambert = sent.direction.dot(point.normal) / PI;
-            let reflection = lambert / (sent.pdf + lambert);
-            self.add_connection(&sent, |path, band| {
-                reflection * path.spectrum(spectrum, band)
-            });
-        }
-        let [u, v, ..] = self.random(1);
-        let local = sample_cosine_hemisphere(u, v);
-        self.attenuate(|path, band| path.spectrum(spectrum, band));
-        let direction = (frame_of(point.normal) * local).normalize();
-        self.scatter(object, point.position, direction, Some(local.z / PI));
-        true
+        self.meet_scattering(object, point, &Scatterer::Diffuse(spectrum))
     }
 
-    fn meet_rough_conductor(
+    /// A diffuse or rough surface: light is sent to it, and the path is scattered.
+    fn meet_scattering(
         &mut self,
         object: usize,
         point: SurfacePoint,
-        conductor: &Conductor<'_>,
-        slope: f64,
+        scatterer: &Scatterer<'_>,
     ) -> bool {
         let world_from_local = frame_of(point.normal);
         let local_from_world = world_from_local.transpose();
         let eye = local_from_world * -self.ray.direction;
         if let Some(sent) = self.send_to_light(object, &point) {
-            let facet = cook_torrance(eye, local_from_world * sent.direction, slope);
-            let cosine = sent.direction.dot(point.normal);
-            let reflection = facet.reflection * cosine / (sent.pdf + facet.pdf);
+            let towards = scatterer.between(eye, local_from_world * sent.direction);
+            let share = 1.0 / (sent.pdf + towards.pdf);
             self.add_connection(&sent, |path, band| {
-                reflection * path.reflectance(conductor, facet.cosine, band)
+                share * path.scattered_value(scatterer, eye, &towards.lobes, band)
             });
         }
-        let [u, v, ..] = self.random(1);
-        let normal = DVec3::from_array(optics::sample_beckmann(u, v, slope));
-        let light = (2.0 * eye.dot(normal) * normal - eye).normalize();
-        let facet = cook_torrance(eye, light, slope);
-        if facet.pdf <= 0.0 {
+        let light = scatterer.sample(eye, self.random(1));
+        let onward = scatterer.between(eye, light);
+        if onward.pdf <= 0.0 || !onward.lobes.is_lit() {
             return false;
         }
-        let weight = facet.reflection * light.z / facet.pdf;
-        self.attenuate(|path, band| weight * path.reflectance(conductor, facet.cosine, band));
+        self.attenuate(|path, band| {
+            path.scattered_value(scatterer, eye, &onward.lobes, band) / onward.pdf
+        });
         let direction = (world_from_local * light).normalize();
-        self.scatter(object, point.position, direction, Some(facet.pdf));
+        self.scatter(object, point.position, direction, Some(onward.pdf));
         true
+    }
+
+    /// What lobes make of the spectra of a surface in a band.
+    fn scattered_value(
+        &self,
+        scatterer: &Scatterer<'_>,
+        _eye: DVec3,
+        lobes: &Lobes,
+        band: usize,
+    ) -> f64 {
+        if !lobes.is_lit() {
+            return 0.0;
+        }
+        match scatterer {
+            Scatterer::Diffuse(spectrum) => lobes.single * self.spectrum(*spectrum, band),
+            Scatterer::RoughConductor(conductor, _) => {
+                lobes.single * self.reflectance(conductor, lobes.cosine, band)
+            }
+        }
     }
 
     /// Share of an emitter that belongs to a path which happens to hit it: p / (p + q) with p the density of
@@ -402,12 +408,6 @@ struct Sent<'a> {
 struct Film<'a> {
     layers: LayersAt<'a>,
     interference: Interference,
-}
-
-/// A conductor where a path meets it.
-struct Conductor<'a> {
-    index: (SpectrumId, SpectrumId),
-    coating: LayersAt<'a>,
 }
 
 /// Mirrors a direction at a surface.

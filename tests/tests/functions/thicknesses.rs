@@ -19,7 +19,7 @@ pub(crate) fn checks() -> Vec<Check> {
             THICKNESS_NM,
             &["layer_thickness", "field_value", "field_coordinate"],
         ),
-        thickness(is_sampled, PROFILE_NM, &["profile_value", "sample_at"]),
+        thickness(is_sampled, PROFILE_NM, &["profile_value", "number_at"]),
         thickness(is_swirls, SWIRLS_NM, &["swirls"]),
         thickness(
             is_picture,

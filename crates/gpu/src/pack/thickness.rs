@@ -11,7 +11,7 @@ use std::sync::Arc;
 pub(super) struct Fields {
     pub(super) list: Vec<Field>,
     /// Numbers that they look up.
-    pub(super) samples: Vec<f32>,
+    pub(super) numbers: Vec<f32>,
     /// Pictures that are among the samples already, and where.
     pictures: Vec<(Arc<PictureFile>, u32)>,
 }
@@ -87,7 +87,7 @@ impl Fields {
     fn steps(&mut self, (start, end): (DVec3, DVec3), nm: &[f64]) -> Field {
         Field {
             kind: layout::FIELD_STEPS,
-            first_sample: self.look_up(nm),
+            first_number: self.look_up(nm),
             sample_count: nm.len() as u32,
             ..running_along(&Coordinate::Line { start, end })
         }
@@ -96,7 +96,7 @@ impl Fields {
     fn profile(&mut self, profile: &Profile) -> Field {
         Field {
             kind: layout::FIELD_PROFILE,
-            first_sample: self.look_up(&profile.squares_nm2),
+            first_number: self.look_up(&profile.squares_nm2),
             sample_count: profile.squares_nm2.len() as u32,
             base: profile.black.map_or(0.0, |black| black.nm as f32),
             threshold: profile.black.map_or(0.0, |black| black.below_nm as f32),
@@ -108,14 +108,14 @@ impl Fields {
     fn picture(&mut self, picture: &Picture) -> Field {
         let file = &picture.file;
         let known = self.pictures.iter().find(|(known, _)| known == file);
-        let first_sample = known.map_or(self.samples.len() as u32, |&(_, first)| first);
+        let first_number = known.map_or(self.numbers.len() as u32, |&(_, first)| first);
         if known.is_none() {
-            self.samples.extend_from_slice(&file.values);
-            self.pictures.push((Arc::clone(file), first_sample));
+            self.numbers.extend_from_slice(&file.values);
+            self.pictures.push((Arc::clone(file), first_number));
         }
         Field {
             kind: layout::FIELD_PICTURE,
-            first_sample,
+            first_number,
             sample_count: file.width,
             rows: file.height,
             base: picture.black_nm as f32,
@@ -126,8 +126,8 @@ impl Fields {
     }
 
     fn look_up(&mut self, numbers: &[f64]) -> u32 {
-        let first = self.samples.len() as u32;
-        self.samples.extend(numbers.iter().map(|&x| x as f32));
+        let first = self.numbers.len() as u32;
+        self.numbers.extend(numbers.iter().map(|&x| x as f32));
         first
     }
 }
