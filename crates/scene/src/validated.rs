@@ -141,8 +141,8 @@ impl Scene {
     /// Indices of the objects that light can be sent from: emitting spheres and rectangles.
     pub fn lights(&self) -> Vec<usize> {
         let is_light = |object: &Object| {
-            let is_bounded = !matches!(object.shape, Shape::Plane { .. });
-            is_bounded
+            let is_sampled = matches!(object.shape, Shape::Sphere { .. } | Shape::Rectangle { .. });
+            is_sampled
                 && match self.material(object.material) {
                     Material::Emitter { emission, .. } => self.shines(*emission),
                     _ => false,
