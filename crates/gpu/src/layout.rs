@@ -132,6 +132,12 @@ constants! { CONSTANTS;
     pub const SHAPE_RECTANGLE = 2;
     /// Shape: a plane bounded to a disk.
     pub const SHAPE_DISK = 3;
+    /// Shape that no ray meets: surroundings of the same radiance from everywhere. Those that no ray meets are greater.
+    pub const SHAPE_EVERYWHERE = 16;
+    /// Shape that no ray meets: surroundings by 1 − |h|, with h the height of the direction.
+    pub const SHAPE_HORIZON = 17;
+    /// Shape that no ray meets: surroundings by the cosine with `normal`, where it is above 0.
+    pub const SHAPE_POLE = 18;
 
     /// Surface: Lambertian.
     pub const SURFACE_DIFFUSE = 0;
@@ -243,18 +249,10 @@ structs! { STRUCTS;
         pub object_count: u32,
         /// Number of lights.
         pub light_count: u32,
-        /// Light from above, from the horizon and from below.
-        pub zenith: u32,
-        /// See `zenith`.
-        pub horizon: u32,
-        /// See `zenith`.
-        pub ground: u32,
-        /// Factor of the radiance from above, from the horizon and from below.
-        pub zenith_scale: f32,
-        /// See `zenith_scale`.
-        pub horizon_scale: f32,
-        /// See `zenith_scale`.
-        pub ground_scale: f32,
+        /// First of the objects that are parts of the surroundings.
+        pub first_environment: u32,
+        /// Number of the parts of the surroundings.
+        pub environment_count: u32,
         /// First of the observer's three spectra.
         pub observer: u32,
     }

@@ -27,7 +27,7 @@ pub(crate) struct World {
 }
 
 impl World {
-    fn new(name: &str) -> Self {
+    pub(crate) fn new(name: &str) -> Self {
         let scene = small(name, [96, 64], 1, BANDS, 3);
         let packed = PackedScene::new(&scene);
         Self { scene, packed }
