@@ -38,7 +38,7 @@ mod validate;
 mod validated;
 
 pub use camera::{Camera, Projection};
-pub use description::PathDifference;
+pub use description::{PathDifference, Sampler};
 pub use document::SourceFile;
 pub use field_path::{FieldPath, Step};
 pub use file::SceneFile;

@@ -16,7 +16,7 @@ pub use camera::Camera;
 pub use environment::Environment;
 pub use material::{DiffuseReflectance, FilmModel, Layer, Material, PathDifference};
 pub use object::Object;
-pub use render::{LightGroups, Render, WavelengthSampling};
+pub use render::{LightGroups, Render, Sampler, WavelengthSampling};
 pub use spectrum::{Emission, Extrapolate, Index, MixtureRule, Reflectance, SellmeierTerms};
 pub use thickness::{
     AnodisedMetal, Anodising, Drainage, HeatTint, Quantity, Steel, Steps, Swirls, Thickness,
