@@ -23,3 +23,4 @@ override HAS_PICTURES: bool = true;
 override HAS_SPHERE_LIGHTS: bool = true;
 override HAS_RECTANGLE_LIGHTS: bool = true;
 override HAS_ENVIRONMENT: bool = true;
+override HAS_SOBOL_SAMPLES: bool = true;

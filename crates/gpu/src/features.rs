@@ -1,8 +1,8 @@
 //! What a scene has, so that its pipeline leaves out the rest: the values of `shaders/features.wgsl`.
 
 use scene::{
-    Coordinate, Environment, Interference, Material, PathDifference, Pattern, Profile, Scene,
-    Shape, Thickness,
+    Coordinate, Environment, Interference, Material, PathDifference, Pattern, Profile, Sampler,
+    Scene, Shape, Thickness,
 };
 
 /// Constants of a pipeline by name: 1 where the scene has the thing, 0 where it has not.
@@ -76,6 +76,10 @@ impl Features {
             ("HAS_SPHERE_LIGHTS", light(is_sphere)),
             ("HAS_RECTANGLE_LIGHTS", light(is_rectangle)),
             ("HAS_ENVIRONMENT", !is_dark(scene.environment())),
+            (
+                "HAS_SOBOL_SAMPLES",
+                scene.settings().sampler == Sampler::Sobol,
+            ),
         ];
         Self(
             named

@@ -32,6 +32,7 @@ pub const MODULES: &[Module] = modules! {
     "layout": [];
     "trig": [];
     "random": [];
+    "sobol": ["random"];
     "complex": [];
     "sampling": ["trig"];
     "intersect": [];
@@ -53,12 +54,12 @@ pub const MODULES: &[Module] = modules! {
     "environment": ["bindings", "layout", "sampling", "trig"];
     "light": ["bindings", "features", "layout", "sampling", "trig"];
     "record": ["layout", "limits"];
-    "walk": ["bindings", "camera", "random", "surface"];
+    "walk": ["bindings", "camera", "features", "random", "sobol", "surface"];
     "factor": ["bindings", "features", "layout", "record", "surface", "thickness"];
     "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "scatter", "surface", "walk"];
     "scatter": ["bindings", "features", "layout", "microfacet", "record", "sampling", "trig"];
     "path": [
-        "bindings", "camera", "connect", "environment", "factor", "features", "hit", "layout", "light", "random", "record", "sampling", "scatter",
+        "bindings", "camera", "connect", "environment", "factor", "features", "hit", "layout", "light", "record", "sampling", "scatter",
         "spectrum", "surface", "walk"
     ];
     "evaluate": [

@@ -16,6 +16,7 @@ mod random;
 mod render;
 mod sampling;
 mod scatter;
+mod sobol;
 mod surface;
 mod thickness;
 
@@ -29,5 +30,6 @@ pub use path::{PathSample, radiance};
 pub use random::{pcg4d, random4, unit_interval};
 pub use render::{Stopped, render};
 pub use sampling::{cone_height, frame_of, sample_cone, sample_cosine_hemisphere};
+pub use sobol::{owen_scrambled, scrambled_reversed, sobol_point, sobol4};
 pub use surface::{SurfacePoint, reflectance_spectrum, surface_point};
 pub use thickness::layer_thickness;

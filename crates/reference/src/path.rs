@@ -4,11 +4,14 @@ use crate::interference::{LayersAt, Light};
 use crate::scatter::{Conductor, Lobes, Scatterer};
 use crate::{
     Hit, Ray, SurfacePoint, camera_ray, environment_share, frame_of, light_pdf, nearest_hit,
-    random4, reflectance_spectrum, sample_light, surface_point,
+    random4, reflectance_spectrum, sample_light, sobol4, surface_point,
 };
 use glam::DVec3;
 use optics::Complex64;
-use scene::{Emission, Interference, Material, Pattern, Scene, SpectrumId, WavelengthSampling};
+use scene::{
+    Emission, Interference, Material, Pattern, RenderSettings, Sampler, Scene, SpectrumId,
+    WavelengthSampling,
+};
 
 /// Share of the paths that follow the reflection of a film rather than its transmission.
 const REFLECTED_SHARE: f64 = 0.5;
@@ -25,7 +28,7 @@ pub struct PathSample {
 /// Follows one sample of a pixel. `lights` are the scene's lights ([`Scene::lights`]).
 pub fn radiance(scene: &Scene, lights: &[usize], pixel: [u32; 2], sample: u32) -> PathSample {
     let settings = scene.settings();
-    let [x, y, drawn, _] = random4(pixel, sample, 0, settings.seed);
+    let [x, y, drawn, _] = numbers_of(settings, pixel, sample, 0);
     let bands = settings.bands.count() as usize;
     let mut path = Path {
         scene,
@@ -59,6 +62,14 @@ pub fn radiance(scene: &Scene, lights: &[usize], pixel: [u32; 2], sample: u32) -
     }
 }
 
+/// Four numbers in [0, 1) for a dimension of a sample.
+fn numbers_of(settings: &RenderSettings, pixel: [u32; 2], sample: u32, dimension: u32) -> [f64; 4] {
+    match settings.sampler {
+        Sampler::Sobol => sobol4(pixel, sample, dimension, settings.seed),
+        Sampler::Independent => random4(pixel, sample, dimension, settings.seed),
+    }
+}
+
 /// A path on its way.
 struct Path<'a> {
     scene: &'a Scene,
@@ -80,12 +91,7 @@ struct Path<'a> {
 impl<'a> Path<'a> {
     fn random(&self, use_of: u32) -> [f64; 4] {
         let dimension = 2 * self.segment - 1 + use_of;
-        random4(
-            self.pixel,
-            self.sample,
-            dimension,
-            self.scene.settings().seed,
-        )
+        numbers_of(self.scene.settings(), self.pixel, self.sample, dimension)
     }
 
     fn spectrum(&self, id: SpectrumId, band: usize) -> f64 {

@@ -40,7 +40,7 @@ mod validate;
 mod validated;
 
 pub use camera::{Camera, Projection};
-pub use description::{Distribution, PathDifference};
+pub use description::{Distribution, PathDifference, Sampler};
 pub use document::SourceFile;
 pub use environment::{Environment, EnvironmentPart, EnvironmentShape};
 pub use field_path::{FieldPath, Step};
