@@ -36,6 +36,7 @@ impl Features {
             ("HAS_RECTANGLES", shape(is_rectangle)),
             ("HAS_DIFFUSE", material(is_diffuse)),
             ("HAS_CHECKERS", material(is_checker)),
+            ("HAS_TEXTURES", material(is_texture)),
             (
                 "HAS_MIRRORS",
                 material(|m| matches!(m, Material::Conductor { roughness: 0.0, .. })),
@@ -148,6 +149,15 @@ fn is_checker(material: &Material) -> bool {
         material,
         Material::Diffuse {
             reflectance: Pattern::Checker { .. }
+        }
+    )
+}
+
+fn is_texture(material: &Material) -> bool {
+    matches!(
+        material,
+        Material::Diffuse {
+            reflectance: Pattern::Texture { .. }
         }
     )
 }
