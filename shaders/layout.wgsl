@@ -25,6 +25,9 @@ const SHAPE_PLANE: u32 = 1u;
 /// Shape: a plane bounded to a rectangle.
 const SHAPE_RECTANGLE: u32 = 2u;
 
+/// Shape: a plane bounded to a disk.
+const SHAPE_DISK: u32 = 3u;
+
 /// Surface: Lambertian.
 const SURFACE_DIFFUSE: u32 = 0u;
 
@@ -204,21 +207,21 @@ struct Batch {
 
 /// A shape made of a material.
 struct Object {
-    /// Centre of a sphere or rectangle, a point of a plane.
+    /// Centre of a sphere, rectangle or disk, a point of a plane.
     center: vec3f,
-    /// Radius of a sphere.
+    /// Radius of a sphere or disk.
     radius: f32,
-    /// Unit normal of a plane or rectangle.
+    /// Unit normal of a plane, rectangle or disk.
     normal: vec3f,
     /// A `SHAPE_` tag.
     shape: u32,
-    /// First axis of a plane or rectangle.
+    /// First axis of a plane, rectangle or disk.
     tangent: vec3f,
-    /// Half the width of a rectangle, along `tangent`.
+    /// Half the width of a rectangle, along `tangent`; a disk's radius.
     half_width: f32,
-    /// Second axis of a plane or rectangle.
+    /// Second axis of a plane, rectangle or disk.
     bitangent: vec3f,
-    /// Half the height of a rectangle, along `bitangent`.
+    /// Half the height of a rectangle, along `bitangent`; a disk's radius.
     half_height: f32,
     /// Index of its material.
     material: u32,

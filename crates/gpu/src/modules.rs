@@ -53,6 +53,7 @@ pub const MODULES: &[Module] = modules! {
     "thickness": ["bindings", "features", "layout", "noise", "numbers", "picture", "trig"];
     "surface": ["bindings", "camera", "features", "layout"];
     "hit": ["bindings", "camera", "features", "intersect", "layout"];
+    "environment": ["bindings", "layout", "sampling", "trig"];
     "light": ["bindings", "features", "layout", "sampling", "trig"];
     "record": ["layout", "limits"];
     "walk": ["bindings", "camera", "random", "surface"];
@@ -60,7 +61,7 @@ pub const MODULES: &[Module] = modules! {
     "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "scatter", "surface", "walk"];
     "scatter": ["bindings", "features", "layout", "microfacet", "record", "sampling", "trig"];
     "path": [
-        "bindings", "camera", "connect", "factor", "features", "hit", "layout", "light", "random", "record", "sampling", "scatter",
+        "bindings", "camera", "connect", "environment", "factor", "features", "hit", "layout", "light", "random", "record", "sampling", "scatter",
         "spectrum", "surface", "walk"
     ];
     "evaluate": [

@@ -5,6 +5,7 @@
 //! recursion), and no formula is shared with the shader. Comparing the two proves both.
 
 mod camera;
+mod environment;
 mod interference;
 mod intersect;
 mod light;
@@ -20,6 +21,7 @@ mod surface;
 mod thickness;
 
 pub use camera::{Ray, camera_ray};
+pub use environment::{environment_pdf, environment_share, sample_environment};
 pub use intersect::{Hit, intersect_plane, intersect_sphere, nearest_hit};
 pub use light::{light_pdf, sample_light};
 pub use microfacet::{Microfacet, cook_torrance};

@@ -28,6 +28,9 @@ pub(crate) fn picture_place(
         }
         | Shape::Rectangle {
             tangent, bitangent, ..
+        }
+        | Shape::Disk {
+            tangent, bitangent, ..
         } => {
             let [width, height] = size.unwrap_or(match *shape {
                 Shape::Rectangle {
@@ -35,6 +38,7 @@ pub(crate) fn picture_place(
                     half_height,
                     ..
                 } => [2.0 * half_width, 2.0 * half_height],
+                Shape::Disk { radius, .. } => [2.0 * radius; 2],
                 _ => [1.0, 1.0],
             });
             let across = 0.5 + local.dot(tangent) / width;

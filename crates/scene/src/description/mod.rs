@@ -7,6 +7,7 @@
 mod camera;
 mod environment;
 mod material;
+mod microsurface;
 mod object;
 mod render;
 mod spectrum;
@@ -15,6 +16,7 @@ mod thickness;
 pub use camera::Camera;
 pub use environment::Environment;
 pub use material::{DiffuseReflectance, FilmModel, Layer, Material, PathDifference};
+pub use microsurface::{Brushed, Distribution, Roughness};
 pub use object::Object;
 pub use render::{LightGroups, Render, WavelengthSampling};
 pub use spectrum::{Emission, Extrapolate, Index, MixtureRule, Reflectance, SellmeierTerms};

@@ -10,6 +10,7 @@ mod layers;
 mod lifted;
 mod light_groups;
 mod material;
+mod microsurface;
 mod object;
 mod picture_file;
 mod points;
