@@ -2,6 +2,9 @@
 
 /// The value of a factor in the four bands of a group.
 fn factor_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
+    if (HAS_TEXTURES && factor.kind == FACTOR_SMOOTH) {
+        return smooth_value(texel_at(factor.spectrum).xyz, group, at);
+    }
     if (HAS_FILMS && factor.kind >= FACTOR_FILM_REFLECTS) {
         return film_value(factor, group, at);
     }

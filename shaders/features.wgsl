@@ -6,6 +6,7 @@ override HAS_RECTANGLES: bool = true;
 override HAS_DISKS: bool = true;
 override HAS_DIFFUSE: bool = true;
 override HAS_CHECKERS: bool = true;
+override HAS_TEXTURES: bool = true;
 override HAS_MIRRORS: bool = true;
 override HAS_ROUGH_CONDUCTORS: bool = true;
 override HAS_FILMS: bool = true;

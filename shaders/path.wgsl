@@ -46,8 +46,7 @@ fn meet_surface(walk: Walk, sample: Sample, hit: Hit) -> Walk {
     }
     let surface = materials[material].surface;
     if (HAS_DIFFUSE && surface == SURFACE_DIFFUSE) {
-        let spectrum = reflectance_spectrum(material, hit.object, point.position);
-        vertex.scatter = Factor(FACTOR_REFLECTANCE, spectrum, 1.0, 0.0, 0u);
+        vertex.scatter = diffuse_factor(hit.object, point.position, random_at(sample, walk, 1u).w);
         return meet_scattering(walk, sample, hit.object, point, vertex);
     }
     let reflects = !HAS_FILMS || surface != SURFACE_FILM || random_at(sample, walk, 1u).x < REFLECTED_SHARE;

@@ -15,7 +15,7 @@ struct Scattering {
 
 /// Scattering from `light` to `eye`, unit vectors.
 fn scattering(scatterer: Scatterer, eye: vec3f, light: vec3f) -> Scattering {
-    if (HAS_ROUGH_CONDUCTORS && scatterer.kind != FACTOR_REFLECTANCE) {
+    if (HAS_ROUGH_CONDUCTORS && scatterer.kind != FACTOR_REFLECTANCE && scatterer.kind != FACTOR_SMOOTH) {
         let facet = cook_torrance(eye, light, materials[scatterer.material].roughness);
         return Scattering(Lobes(facet.reflection * light.z, 0.0, 0.0, facet.cosine, light.z), facet.pdf);
     }
@@ -25,7 +25,7 @@ fn scattering(scatterer: Scatterer, eye: vec3f, light: vec3f) -> Scattering {
 
 /// A unit vector towards which light is scattered from `eye`, drawn from four uniform numbers.
 fn sample_scattering(scatterer: Scatterer, eye: vec3f, random: vec4f) -> vec3f {
-    if (HAS_ROUGH_CONDUCTORS && scatterer.kind != FACTOR_REFLECTANCE) {
+    if (HAS_ROUGH_CONDUCTORS && scatterer.kind != FACTOR_REFLECTANCE && scatterer.kind != FACTOR_SMOOTH) {
         let facet = sample_beckmann(random.x, random.y, materials[scatterer.material].roughness);
         return normalize(reflect(-eye, facet));
     }

@@ -38,6 +38,7 @@ impl Features {
             ("HAS_DISKS", shape(is_disk)),
             ("HAS_DIFFUSE", material(is_diffuse)),
             ("HAS_CHECKERS", material(is_checker)),
+            ("HAS_TEXTURES", material(is_texture)),
             (
                 "HAS_MIRRORS",
                 material(|m| {
@@ -168,6 +169,15 @@ fn is_checker(material: &Material) -> bool {
         material,
         Material::Diffuse {
             reflectance: Pattern::Checker { .. }
+        }
+    )
+}
+
+fn is_texture(material: &Material) -> bool {
+    matches!(
+        material,
+        Material::Diffuse {
+            reflectance: Pattern::Texture { .. }
         }
     )
 }

@@ -1,10 +1,11 @@
 //! A path through the scene with its spectrum.
 
 use crate::interference::{LayersAt, Light};
+use crate::picture::smooth_value;
 use crate::scatter::{Conductor, Lobes, Scatterer};
 use crate::{
-    Hit, Ray, SurfacePoint, camera_ray, environment_share, frame_of, light_pdf, nearest_hit,
-    random4, reflectance_spectrum, sample_light, sobol4, surface_point,
+    Hit, Ray, Reflectance, SurfacePoint, camera_ray, environment_share, frame_of, light_pdf,
+    nearest_hit, pattern_reflectance, random4, sample_light, sobol4, surface_point,
 };
 use glam::DVec3;
 use optics::Complex64;
@@ -241,8 +242,9 @@ impl<'a> Path<'a> {
 
     fn meet_diffuse(&mut self, object: usize, point: SurfacePoint, pattern: &Pattern) -> bool {
         let shape = &self.scene.objects()[object].shape;
-        let spectrum = reflectance_spectrum(pattern, shape, point.position);
-        self.meet_scattering(object, point, &Scatterer::Diffuse(spectrum))
+        let [.., random] = self.random(1);
+        let reflectance = pattern_reflectance(pattern, shape, point.position, random);
+        self.meet_scattering(object, point, &Scatterer::Diffuse(reflectance))
     }
 
     /// A diffuse or rough surface: light is sent to it, and the path is scattered.
@@ -275,6 +277,16 @@ impl<'a> Path<'a> {
         true
     }
 
+    /// A reflectance in a band.
+    fn diffuse(&self, reflectance: Reflectance, band: usize) -> f64 {
+        match reflectance {
+            Reflectance::Spectrum(spectrum) => self.spectrum(spectrum, band),
+            Reflectance::Smooth(coefficients) => {
+                smooth_value(coefficients, self.light(band).wavelength_nm)
+            }
+        }
+    }
+
     /// What lobes make of the spectra of a surface in a band.
     fn scattered_value(
         &self,
@@ -287,7 +299,7 @@ impl<'a> Path<'a> {
             return 0.0;
         }
         match scatterer {
-            Scatterer::Diffuse(spectrum) => lobes.single * self.spectrum(*spectrum, band),
+            Scatterer::Diffuse(reflectance) => lobes.single * self.diffuse(*reflectance, band),
             Scatterer::RoughConductor(conductor, _) => {
                 lobes.single * self.reflectance(conductor, lobes.cosine, band)
             }

@@ -1,7 +1,7 @@
 //! How surfaces scatter light between two directions of their local frame, whose z is the normal on the ray's side.
 
 use crate::interference::LayersAt;
-use crate::{cook_torrance, sample_cosine_hemisphere};
+use crate::{Reflectance, cook_torrance, sample_cosine_hemisphere};
 use glam::DVec3;
 use scene::SpectrumId;
 use std::f64::consts::PI;
@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 /// What scatters light.
 pub(crate) enum Scatterer<'a> {
     /// Evenly, by a reflectance.
-    Diffuse(SpectrumId),
+    Diffuse(Reflectance),
     /// A rough conductor of a root mean square slope.
     RoughConductor(Conductor<'a>, f64),
 }

@@ -1,7 +1,9 @@
 //! Materials: spectra by number.
 
 use super::checks::Checks;
+use super::checks::placed_size;
 use super::layers::{Written, check_interference};
+use super::lifted;
 use super::microsurface;
 use super::spectrum_list::SpectrumList;
 use crate::description::{self, DiffuseReflectance};
@@ -144,6 +146,14 @@ fn pattern(
             Some(Pattern::Checker {
                 even: even?,
                 odd: odd?,
+                size: size?,
+            })
+        }
+        DiffuseReflectance::Texture { texture, size } => {
+            let size = placed_size(checks, &field.key("size"), *size);
+            let texels = lifted::picture(checks, &field.key("texture"), texture);
+            Some(Pattern::Texture {
+                texels: texels?,
                 size: size?,
             })
         }
