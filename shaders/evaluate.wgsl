@@ -101,7 +101,11 @@ fn free_stack_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
 fn lobes_value(vertex: Vertex, lobes: Lobes, group: u32, at: Wavelengths) -> vec4f {
     var factor = vertex.scatter;
     factor.cosine = lobes.cosine;
-    return lobes.single * factor_value(factor, group, at);
+    var value = lobes.single * factor_value(factor, group, at);
+    if (HAS_BASES && lobes.body > 0.0) {
+        value += lobes.body * spectrum_at(vertex.base, group, at);
+    }
+    return value;
 }
 
 /// The spectrum of a light.

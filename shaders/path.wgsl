@@ -58,6 +58,12 @@ fn meet_surface(walk: Walk, sample: Sample, hit: Hit) -> Walk {
     }
     let reflects = !HAS_FILMS || surface != SURFACE_FILM || random_at(sample, walk, 1u).x < REFLECTED_SHARE;
     vertex.scatter = layered_factor(hit.object, point, reflects);
+    if (HAS_BASES) {
+        vertex.base = reflectance_spectrum(material, hit.object, point.position);
+    }
+    if (HAS_COOK && is_cook(material)) {
+        return meet_scattering(walk, sample, hit.object, point, vertex);
+    }
     if (HAS_ROUGH_CONDUCTORS && surface == SURFACE_ROUGH_CONDUCTOR) {
         return meet_scattering(walk, sample, hit.object, point, vertex);
     }

@@ -46,6 +46,8 @@ impl Features {
                     |m| matches!(m, Material::Conductor { roughness, .. } if *roughness > 0.0),
                 ),
             ),
+            ("HAS_COOK", material(|m| matches!(m, Material::Cook(_)))),
+            ("HAS_BASES", material(has_base)),
             ("HAS_FILMS", film(|_| true)),
             ("HAS_LOSSY_FILMS", film(|form| form == FilmForm::Lossy)),
             ("HAS_STACKS", film(|form| form == FilmForm::Stack)),
@@ -141,6 +143,11 @@ fn is_diffuse(material: &Material) -> bool {
                 ..
             }
     )
+}
+
+/// Whether something diffuse lies below a coat or beside facets.
+fn has_base(material: &Material) -> bool {
+    matches!(material, Material::Cook(cook) if cook.diffuse.is_some())
 }
 
 fn is_checker(material: &Material) -> bool {

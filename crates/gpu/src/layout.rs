@@ -139,6 +139,10 @@ constants! { CONSTANTS;
     pub const SURFACE_ROUGH_CONDUCTOR = 2;
     /// Surface: a free film.
     pub const SURFACE_FILM = 3;
+    /// Surface: Cook's model with the distribution D1.
+    pub const SURFACE_COOK_D1 = 4;
+    /// Surface: Cook's model with the distribution D2.
+    pub const SURFACE_COOK_D2 = 5;
 
     /// Field: the same everywhere.
     pub const FIELD_CONSTANT = 0;
@@ -327,6 +331,16 @@ structs! { STRUCTS;
         pub is_black: u32,
         /// Number of its layers whose thickness varies over the surface.
         pub varying_layers: u32,
+        /// Spectrum: n of the index above a diffuse base, whose k is the next one.
+        pub coat: u32,
+        /// The part of the light that a base reflects beside the facets of Cook's model.
+        pub base_share: f32,
+        /// Share of the paths that follow what the base reflects.
+        pub base_chance: f32,
+        /// First of the numbers of the slopes of Cook's model: m, weight and part of each.
+        pub first_slope: u32,
+        /// Number of these slopes.
+        pub slope_count: u32,
     }
 
     /// A layer of a film or of a coating.

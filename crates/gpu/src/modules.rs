@@ -41,6 +41,8 @@ pub const MODULES: &[Module] = modules! {
     "two_beam": ["film", "trig"];
     "stack": ["complex", "phase", "trig"];
     "microfacet": ["trig"];
+    "gaussian": ["microfacet", "trig"];
+    "cook": ["bindings", "gaussian", "layout", "microfacet", "numbers", "trig"];
     "bindings": ["layout"];
     "features": [];
     "numbers": ["bindings", "layout"];
@@ -55,7 +57,7 @@ pub const MODULES: &[Module] = modules! {
     "walk": ["bindings", "camera", "random", "surface"];
     "factor": ["bindings", "features", "layout", "record", "surface", "thickness"];
     "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "scatter", "surface", "walk"];
-    "scatter": ["bindings", "features", "layout", "microfacet", "record", "sampling", "trig"];
+    "scatter": ["bindings", "cook", "factor", "features", "layout", "microfacet", "record", "sampling", "trig"];
     "path": [
         "bindings", "camera", "connect", "factor", "features", "hit", "layout", "light", "random", "record", "sampling", "scatter",
         "spectrum", "surface", "walk"

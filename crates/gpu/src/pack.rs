@@ -9,8 +9,8 @@ use crate::modules::RecordLimits;
 use glam::DVec3;
 use scene::limits::{MAX_LAYERS, MAX_LIGHT_GROUPS, MAX_MATERIALS};
 use scene::{
-    Emission, Environment, Layer, Material, Object, PathDifference, Pattern, Projection, Scene,
-    Shape, SpectrumId, Thickness, WavelengthSampling,
+    Cook1981, CookDistribution, Emission, Environment, Layer, Material, Object, PathDifference,
+    Pattern, Projection, Scene, Shape, SpectrumId, Thickness, WavelengthSampling,
 };
 use spectra::BandTable;
 use thickness::Fields;
@@ -239,6 +239,7 @@ fn pack_material(
             packed.roughness = roughness as f32;
             pack_layers(&mut packed, (fields, layers), coating);
         }
+        Material::Cook(ref cook) => pack_cook(&mut packed, fields, cook),
         Material::Film {
             layers: ref own, ..
         } => {
@@ -259,6 +260,28 @@ fn pack_material(
         }
     }
     packed
+}
+
+/// Cook's model: an index above a base.
+fn pack_cook(packed: &mut layout::Material, fields: &mut Fields, cook: &Cook1981) {
+    if let Some(diffuse) = &cook.diffuse {
+        pack_pattern(packed, &Pattern::Uniform(diffuse.reflectance));
+        packed.base_share = diffuse.share as f32;
+        packed.base_chance = diffuse.chance as f32;
+    }
+    packed.surface = match cook.distribution {
+        CookDistribution::Gaussian => layout::SURFACE_COOK_D1,
+        CookDistribution::Beckmann => layout::SURFACE_COOK_D2,
+    };
+    packed.coat = id(cook.n);
+    let slopes = cook.facets.iter();
+    let numbers: Vec<_> = slopes.flat_map(|f| [f.slope, f.weight, f.part]).collect();
+    packed.first_slope = fields.look_up(&numbers);
+    packed.slope_count = cook.facets.len() as u32;
+    if let Some(ambient) = cook.ambient {
+        packed.emission = light(ambient);
+        packed.emission_scale = ambient.scale as f32;
+    }
 }
 
 fn pack_pattern(packed: &mut layout::Material, pattern: &Pattern) {

@@ -5,6 +5,7 @@
 //! recursion), and no formula is shared with the shader. Comparing the two proves both.
 
 mod camera;
+mod cook;
 mod interference;
 mod intersect;
 mod light;
@@ -19,6 +20,7 @@ mod surface;
 mod thickness;
 
 pub use camera::{Ray, camera_ray};
+pub use cook::{cook_facets, sample_cook_facet};
 pub use intersect::{Hit, intersect_plane, intersect_sphere, nearest_hit};
 pub use light::{light_pdf, sample_light};
 pub use microfacet::{Microfacet, cook_torrance};

@@ -167,6 +167,16 @@ impl<'a> Path<'a> {
                     self.meet_mirror(hit.object, point, &conductor)
                 }
             }
+            Material::Cook(ref cook) => {
+                if let Some(ambient) = cook.ambient {
+                    self.add(ambient, 1.0);
+                }
+                let conductor = Conductor {
+                    index: (cook.n, cook.k),
+                    coating: LayersAt::new(&[], &object.shape, &point),
+                };
+                self.meet_scattering(hit.object, point, &Scatterer::Cook(conductor, cook))
+            }
             Material::Film {
                 ref layers,
                 interference,
@@ -292,6 +302,12 @@ impl<'a> Path<'a> {
         }
         match scatterer {
             Scatterer::Diffuse(spectrum) => lobes.single * self.spectrum(*spectrum, band),
+            Scatterer::Cook(conductor, cook) => {
+                let base = cook.diffuse.map_or(0.0, |diffuse| {
+                    lobes.body * self.spectrum(diffuse.reflectance, band)
+                });
+                lobes.single * self.reflectance(conductor, lobes.cosine, band) + base
+            }
             Scatterer::RoughConductor(conductor, _) => {
                 lobes.single * self.reflectance(conductor, lobes.cosine, band)
             }

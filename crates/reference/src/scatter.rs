@@ -1,9 +1,9 @@
 //! How surfaces scatter light between two directions of their local frame, whose z is the normal on the ray's side.
 
 use crate::interference::LayersAt;
-use crate::{cook_torrance, sample_cosine_hemisphere};
+use crate::{cook_facets, cook_torrance, sample_cook_facet, sample_cosine_hemisphere};
 use glam::DVec3;
-use scene::SpectrumId;
+use scene::{Cook1981, SpectrumId};
 use std::f64::consts::PI;
 
 /// What scatters light.
@@ -12,6 +12,8 @@ pub(crate) enum Scatterer<'a> {
     Diffuse(SpectrumId),
     /// A rough conductor of a root mean square slope.
     RoughConductor(Conductor<'a>, f64),
+    /// By Cook's model.
+    Cook(Conductor<'a>, &'a Cook1981),
 }
 
 /// A conductor where a path meets it.
@@ -71,6 +73,19 @@ impl Scatterer<'_> {
                     pdf: lambert,
                 }
             }
+            Self::Cook(_, cook) => {
+                let facets = cook_facets(cook, eye, light);
+                let lambert = light.z.max(0.0) / PI;
+                let (share, chance) = cook.diffuse.map_or((0.0, 0.0), |d| (d.share, d.chance));
+                let single = Lobes::single(facets.reflection * light.z, facets.cosine, light);
+                Scattering {
+                    lobes: Lobes {
+                        body: share * lambert,
+                        ..single
+                    },
+                    pdf: chance * lambert + (1.0 - chance) * facets.pdf,
+                }
+            }
             Self::RoughConductor(_, slope) => {
                 let facet = cook_torrance(eye, light, *slope);
                 Scattering {
@@ -82,13 +97,22 @@ impl Scatterer<'_> {
     }
 
     /// A unit vector towards which light is scattered from `eye`.
-    pub(crate) fn sample(&self, eye: DVec3, [u, v, ..]: [f64; 4]) -> DVec3 {
+    pub(crate) fn sample(&self, eye: DVec3, [u, v, choice, pick]: [f64; 4]) -> DVec3 {
         match self {
             Self::Diffuse(_) => sample_cosine_hemisphere(u, v),
-            Self::RoughConductor(_, slope) => {
-                let facet = DVec3::from_array(optics::sample_beckmann(u, v, *slope));
-                (2.0 * eye.dot(facet) * facet - eye).normalize()
+            Self::Cook(_, cook) if choice < cook.diffuse.map_or(0.0, |diffuse| diffuse.chance) => {
+                sample_cosine_hemisphere(u, v)
             }
+            Self::Cook(_, cook) => mirrored(eye, sample_cook_facet(cook, [u, v, pick])),
+            Self::RoughConductor(_, slope) => mirrored(
+                eye,
+                DVec3::from_array(optics::sample_beckmann(u, v, *slope)),
+            ),
         }
     }
+}
+
+/// The direction that a facet mirrors to `eye`.
+fn mirrored(eye: DVec3, facet: DVec3) -> DVec3 {
+    (2.0 * eye.dot(facet) * facet - eye).normalize()
 }

@@ -19,6 +19,7 @@
 //! degrees in files. Wavelengths and film thicknesses are nanometres.
 
 mod camera;
+mod cook;
 pub mod description;
 mod document;
 mod drainage;
@@ -38,6 +39,7 @@ mod validate;
 mod validated;
 
 pub use camera::{Camera, Projection};
+pub use cook::{Cook1981, CookDistribution, CookFacets, DiffuseShare};
 pub use description::PathDifference;
 pub use document::SourceFile;
 pub use field_path::{FieldPath, Step};

@@ -1,8 +1,8 @@
 //! A scene as a GPU receives it: every number rounded to the nearest `f32`.
 
 use crate::{
-    Camera, Emission, Environment, Layer, Material, Object, Pattern, Projection, RenderSettings,
-    Scene, Shape,
+    Camera, Cook1981, CookFacets, DiffuseShare, Emission, Environment, Layer, Material, Object,
+    Pattern, Projection, RenderSettings, Scene, Shape,
 };
 use glam::DVec3;
 
@@ -102,6 +102,7 @@ impl RoundToF32 for Material {
                 layers: layers.iter().map(RoundToF32::rounded).collect(),
                 roughness: roughness.rounded(),
             },
+            Self::Cook(cook) => Self::Cook(cook.rounded()),
             Self::Film {
                 layers,
                 transparent,
@@ -118,6 +119,37 @@ impl RoundToF32 for Material {
                 emission: emission.rounded(),
                 reflectance: *reflectance,
             },
+        }
+    }
+}
+
+impl RoundToF32 for Cook1981 {
+    fn rounded(&self) -> Self {
+        Self {
+            facets: self.facets.iter().map(RoundToF32::rounded).collect(),
+            diffuse: self.diffuse.as_ref().map(RoundToF32::rounded),
+            ambient: self.ambient.as_ref().map(RoundToF32::rounded),
+            ..self.clone()
+        }
+    }
+}
+
+impl RoundToF32 for CookFacets {
+    fn rounded(&self) -> Self {
+        Self {
+            slope: self.slope.rounded(),
+            weight: self.weight.rounded(),
+            part: self.part.rounded(),
+        }
+    }
+}
+
+impl RoundToF32 for DiffuseShare {
+    fn rounded(&self) -> Self {
+        Self {
+            share: self.share.rounded(),
+            chance: self.chance.rounded(),
+            reflectance: self.reflectance,
         }
     }
 }

@@ -27,7 +27,7 @@ pub(crate) struct World {
 }
 
 impl World {
-    fn new(name: &str) -> Self {
+    pub(crate) fn new(name: &str) -> Self {
         let scene = small(name, [96, 64], 1, BANDS, 3);
         let packed = PackedScene::new(&scene);
         Self { scene, packed }
@@ -781,7 +781,7 @@ fn factors() -> Vec<Check> {
                 films.push((FACTOR_LOSSY_FILM_REFLECTS, spectrum));
                 films.push((FACTOR_LOSSY_FILM_TRANSMITS, spectrum));
             }
-            Material::Emitter { .. } => {}
+            Material::Emitter { .. } | Material::Cook(_) => {}
         }
     }
     let check = |proves, choices: &[(u32, usize)], tolerance| Check {

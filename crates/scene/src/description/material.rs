@@ -1,6 +1,6 @@
 //! Materials as written.
 
-use super::{Emission, Index, Reflectance, Thickness};
+use super::{ConductorModel, Emission, Index, Reflectance, Thickness};
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -23,6 +23,9 @@ pub enum Material {
         #[serde(default)]
         #[schemars(range(min = 0.0, max = limits::ROUGHNESS.high))]
         roughness: f64,
+        /// How reflection is computed; "microfacets" when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        model: Option<ConductorModel>,
     },
     /// A free thin film with air on both sides: one layer (`index` and `thickness_nm`) or several (`layers`).
     /// Light reflects from it or passes straight through it, both with interference.

@@ -1,9 +1,10 @@
 //! Materials: spectra by number.
 
 use super::checks::Checks;
+use super::cook;
 use super::layers::{Written, check_interference};
 use super::spectrum_list::SpectrumList;
-use crate::description::{self, DiffuseReflectance};
+use crate::description::{self, ConductorModel, ConductorModelName, Cook1981, DiffuseReflectance};
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, Material, Pattern};
@@ -34,9 +35,17 @@ fn check(
             let reflectance = pattern(checks, spectra, &field.key("reflectance"), reflectance)?;
             Some(Material::Diffuse { reflectance })
         }
-        description::Material::Conductor { index, roughness } => {
+        description::Material::Conductor {
+            index,
+            roughness,
+            model,
+        } => {
             let index = spectra.index(checks, &field.key("index"), index);
             let roughness = check_roughness(checks, &field.key("roughness"), *roughness);
+            if let Some(model) = cook_model(model.as_ref()) {
+                let surface = (index, roughness?);
+                return cook::check(checks, spectra, field, surface, &model).map(Material::Cook);
+            }
             let (n, k) = index?;
             Some(Material::Conductor {
                 n,
@@ -106,6 +115,15 @@ fn check(
                 reflectance,
             })
         }
+    }
+}
+
+/// Cook's model, where it is asked for.
+fn cook_model(model: Option<&ConductorModel>) -> Option<Cook1981> {
+    match model? {
+        ConductorModel::Named(ConductorModelName::Microfacets) => None,
+        ConductorModel::Named(ConductorModelName::Cook1981) => Some(Cook1981::default()),
+        ConductorModel::Cook { cook1981 } => Some(cook1981.clone()),
     }
 }
 

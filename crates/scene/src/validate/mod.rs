@@ -2,6 +2,7 @@
 
 mod camera;
 mod checks;
+mod cook;
 mod database_file;
 mod environment;
 mod formula;
