@@ -25,6 +25,18 @@ const SHAPE_PLANE: u32 = 1u;
 /// Shape: a plane bounded to a rectangle.
 const SHAPE_RECTANGLE: u32 = 2u;
 
+/// Shape: a plane bounded to a disk.
+const SHAPE_DISK: u32 = 3u;
+
+/// Shape that no ray meets: surroundings of the same radiance from everywhere. Those that no ray meets are greater.
+const SHAPE_EVERYWHERE: u32 = 16u;
+
+/// Shape that no ray meets: surroundings by 1 − |h|, with h the height of the direction.
+const SHAPE_HORIZON: u32 = 17u;
+
+/// Shape that no ray meets: surroundings by the cosine with `normal`, where it is above 0.
+const SHAPE_POLE: u32 = 18u;
+
 /// Surface: Lambertian.
 const SURFACE_DIFFUSE: u32 = 0u;
 
@@ -36,6 +48,12 @@ const SURFACE_ROUGH_CONDUCTOR: u32 = 2u;
 
 /// Surface: a free film.
 const SURFACE_FILM: u32 = 3u;
+
+/// Surface: Cook's model with the distribution D1.
+const SURFACE_COOK_D1: u32 = 4u;
+
+/// Surface: Cook's model with the distribution D2.
+const SURFACE_COOK_D2: u32 = 5u;
 
 /// Field: the same everywhere.
 const FIELD_CONSTANT: u32 = 0u;
@@ -164,18 +182,10 @@ struct Frame {
     object_count: u32,
     /// Number of lights.
     light_count: u32,
-    /// Light from above, from the horizon and from below.
-    zenith: u32,
-    /// See `zenith`.
-    horizon: u32,
-    /// See `zenith`.
-    ground: u32,
-    /// Factor of the radiance from above, from the horizon and from below.
-    zenith_scale: f32,
-    /// See `zenith_scale`.
-    horizon_scale: f32,
-    /// See `zenith_scale`.
-    ground_scale: f32,
+    /// First of the objects that are parts of the surroundings.
+    first_environment: u32,
+    /// Number of the parts of the surroundings.
+    environment_count: u32,
     /// First of the observer's three spectra.
     observer: u32,
 }
@@ -198,21 +208,21 @@ struct Batch {
 
 /// A shape made of a material.
 struct Object {
-    /// Centre of a sphere or rectangle, a point of a plane.
+    /// Centre of a sphere, rectangle or disk, a point of a plane.
     center: vec3f,
-    /// Radius of a sphere.
+    /// Radius of a sphere or disk.
     radius: f32,
-    /// Unit normal of a plane or rectangle.
+    /// Unit normal of a plane, rectangle or disk.
     normal: vec3f,
     /// A `SHAPE_` tag.
     shape: u32,
-    /// First axis of a plane or rectangle.
+    /// First axis of a plane, rectangle or disk.
     tangent: vec3f,
-    /// Half the width of a rectangle, along `tangent`.
+    /// Half the width of a rectangle, along `tangent`; a disk's radius.
     half_width: f32,
-    /// Second axis of a plane or rectangle.
+    /// Second axis of a plane, rectangle or disk.
     bitangent: vec3f,
-    /// Half the height of a rectangle, along `bitangent`.
+    /// Half the height of a rectangle, along `bitangent`; a disk's radius.
     half_height: f32,
     /// Index of its material.
     material: u32,
@@ -250,6 +260,16 @@ struct Material {
     is_black: u32,
     /// Number of its layers whose thickness varies over the surface.
     varying_layers: u32,
+    /// Spectrum: n of the index above a diffuse base, whose k is the next one.
+    coat: u32,
+    /// The part of the light that a base reflects beside the facets of Cook's model.
+    base_share: f32,
+    /// Share of the paths that follow what the base reflects.
+    base_chance: f32,
+    /// First of the numbers of the slopes of Cook's model: m, weight and part of each.
+    first_slope: u32,
+    /// Number of these slopes.
+    slope_count: u32,
 }
 
 /// A layer of a film or of a coating.

@@ -20,19 +20,13 @@ fn trace_path(sample: Sample) -> Wavelengths {
     return wavelengths_at(select(0.5, first.z, frame.draws_wavelengths == 1u));
 }
 
-/// The radiance of the surroundings: zenith, horizon and ground, linear in the height of the direction.
+/// The radiance of the surroundings, part by part.
 fn record_environment(direction: vec3f) {
-    let height = clamp(direction.y, -1.0, 1.0);
-    let level = 1.0 - abs(height);
-    let upper = height >= 0.0;
-    let away = select(frame.ground, frame.zenith, upper);
-    let away_scale = select(frame.ground_scale, frame.zenith_scale, upper);
-    if (away == frame.horizon && away_scale == frame.horizon_scale) {
-        push_emission(away, away_scale); // the same from everywhere
-        return;
+    for (var i = 0u; i < frame.environment_count; i++) {
+        let part = frame.first_environment + i;
+        let material = objects[part].material;
+        push_emission(materials[material].emission, materials[material].emission_scale * environment_share(part, direction));
     }
-    push_emission(frame.horizon, frame.horizon_scale * level);
-    push_emission(away, away_scale * abs(height));
 }
 
 /// Records what the surface adds and does, and sends the walk on.

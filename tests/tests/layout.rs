@@ -51,7 +51,7 @@ macro_rules! assert_layout {
 fn naga_sees_the_offsets_of_rust() {
     let structs = structs_of_naga();
     assert_eq!(structs.len(), 9);
-    assert_layout!(structs, Frame: camera_origin, projection, camera_back, image_size, groups, light_count, zenith, observer);
+    assert_layout!(structs, Frame: camera_origin, projection, camera_back, image_size, groups, light_count, environment_count, observer);
     assert_layout!(structs, Batch: tile_origin, tile_size, first_sample, sample_count);
     assert_layout!(structs, Object: center, radius, normal, tangent, bitangent, half_height, material, is_light, light);
     assert_layout!(structs, Material: surface, roughness, emission_scale, first_layer, layer_count, is_black);

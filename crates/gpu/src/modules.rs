@@ -52,6 +52,7 @@ pub const MODULES: &[Module] = modules! {
     "thickness": ["bindings", "features", "layout", "noise", "numbers", "trig"];
     "surface": ["bindings", "camera", "features", "layout"];
     "hit": ["bindings", "camera", "features", "intersect", "layout"];
+    "environment": ["bindings", "layout", "sampling", "trig"];
     "light": ["bindings", "features", "layout", "sampling", "trig"];
     "record": ["layout", "limits"];
     "walk": ["bindings", "camera", "random", "surface"];
@@ -59,7 +60,7 @@ pub const MODULES: &[Module] = modules! {
     "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "scatter", "surface", "walk"];
     "scatter": ["bindings", "cook", "factor", "features", "layout", "microfacet", "record", "sampling", "trig"];
     "path": [
-        "bindings", "camera", "connect", "factor", "features", "hit", "layout", "light", "random", "record", "sampling", "scatter",
+        "bindings", "camera", "connect", "environment", "factor", "features", "hit", "layout", "light", "random", "record", "sampling", "scatter",
         "spectrum", "surface", "walk"
     ];
     "evaluate": [

@@ -9,8 +9,9 @@ use crate::modules::RecordLimits;
 use glam::DVec3;
 use scene::limits::{MAX_LAYERS, MAX_LIGHT_GROUPS, MAX_MATERIALS};
 use scene::{
-    Cook1981, CookDistribution, Emission, Environment, Layer, Material, Object, PathDifference,
-    Pattern, Projection, Scene, Shape, SpectrumId, Thickness, WavelengthSampling,
+    Cook1981, CookDistribution, Emission, EnvironmentPart, EnvironmentShape, Layer, Material,
+    Object, PathDifference, Pattern, Projection, Scene, Shape, SpectrumId, Thickness,
+    WavelengthSampling,
 };
 use spectra::BandTable;
 use thickness::Fields;
@@ -52,13 +53,18 @@ impl PackedScene {
                 .map_or(layout::NONE, |&light| light as u32);
             pack_object(object, is_light, light)
         });
+        let mut objects: Vec<_> = objects.collect();
         let mut layers = Vec::new();
         let mut fields = Fields::default();
-        let materials = scene
+        let mut materials: Vec<_> = scene
             .materials()
             .iter()
             .map(|material| pack_material(scene, material, &mut layers, &mut fields))
             .collect();
+        for part in scene.environment().parts() {
+            objects.push(pack_environment(&part, materials.len()));
+            materials.push(pack_emitter(part.emission));
+        }
         let spectra = scene
             .spectra()
             .iter()
@@ -69,7 +75,7 @@ impl PackedScene {
             .flat_map(|table| pack_spectrum(table, true));
         Self {
             frame: pack_frame(scene, lights.len() as u32),
-            objects: objects.collect(),
+            objects,
             materials,
             layers,
             fields: fields.list,
@@ -118,14 +124,6 @@ fn pack_frame(scene: &Scene, light_count: u32) -> Frame {
         Projection::Perspective { half_height } => (layout::PROJECTION_PERSPECTIVE, half_height),
         Projection::Orthographic { half_height } => (layout::PROJECTION_ORTHOGRAPHIC, half_height),
     };
-    let (zenith, horizon, ground) = match *scene.environment() {
-        Environment::Constant(all) => (all, all, all),
-        Environment::Gradient {
-            zenith,
-            horizon,
-            ground,
-        } => (zenith, horizon, ground),
-    };
     Frame {
         camera_origin: vec3(camera.origin),
         projection,
@@ -143,12 +141,8 @@ fn pack_frame(scene: &Scene, light_count: u32) -> Frame {
         draws_wavelengths: u32::from(settings.sampling == WavelengthSampling::Random),
         object_count: scene.objects().len() as u32,
         light_count,
-        zenith: light(zenith),
-        horizon: light(horizon),
-        ground: light(ground),
-        zenith_scale: zenith.scale as f32,
-        horizon_scale: horizon.scale as f32,
-        ground_scale: ground.scale as f32,
+        first_environment: scene.objects().len() as u32,
+        environment_count: scene.environment().parts().len() as u32,
         observer: scene.spectra().len() as u32,
     }
 }
@@ -208,8 +202,48 @@ fn pack_object(object: &Object, is_light: bool, light: u32) -> layout::Object {
             packed.half_width = half_width as f32;
             packed.half_height = half_height as f32;
         }
+        Shape::Disk {
+            center,
+            normal,
+            tangent,
+            bitangent,
+            radius,
+        } => {
+            packed.shape = layout::SHAPE_DISK;
+            packed.center = vec3(center);
+            (packed.normal, packed.tangent, packed.bitangent) =
+                (vec3(normal), vec3(tangent), vec3(bitangent));
+            packed.radius = radius as f32;
+            (packed.half_width, packed.half_height) = (packed.radius, packed.radius);
+        }
     }
     packed
+}
+
+/// A part of the surroundings, an object that no ray meets.
+fn pack_environment(part: &EnvironmentPart, material: usize) -> layout::Object {
+    let (shape, normal) = match part.shape {
+        EnvironmentShape::Everywhere => (layout::SHAPE_EVERYWHERE, DVec3::ZERO),
+        EnvironmentShape::Horizon => (layout::SHAPE_HORIZON, DVec3::ZERO),
+        EnvironmentShape::Pole(pole) => (layout::SHAPE_POLE, pole),
+    };
+    layout::Object {
+        material: material as u32,
+        light: layout::NONE,
+        shape,
+        normal: vec3(normal),
+        ..Default::default()
+    }
+}
+
+/// What only emits.
+fn pack_emitter(emission: Emission) -> layout::Material {
+    layout::Material {
+        emission: light(emission),
+        emission_scale: emission.scale as f32,
+        is_black: 1,
+        ..Default::default()
+    }
 }
 
 fn pack_material(
@@ -226,17 +260,16 @@ fn pack_material(
         Material::Diffuse { ref reflectance } => pack_pattern(&mut packed, reflectance),
         Material::Conductor {
             n,
-            roughness,
+            ref microsurface,
             layers: ref coating,
             ..
         } => {
-            packed.surface = if roughness > 0.0 {
-                layout::SURFACE_ROUGH_CONDUCTOR
-            } else {
-                layout::SURFACE_MIRROR
+            packed.surface = match microsurface {
+                Some(_) => layout::SURFACE_ROUGH_CONDUCTOR,
+                None => layout::SURFACE_MIRROR,
             };
             packed.spectrum = id(n);
-            packed.roughness = roughness as f32;
+            packed.roughness = microsurface.as_ref().map_or(0.0, |m| m.roughness[0] as f32);
             pack_layers(&mut packed, (fields, layers), coating);
         }
         Material::Cook(ref cook) => pack_cook(&mut packed, fields, cook),

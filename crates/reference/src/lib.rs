@@ -6,6 +6,7 @@
 
 mod camera;
 mod cook;
+mod environment;
 mod interference;
 mod intersect;
 mod light;
@@ -21,6 +22,7 @@ mod thickness;
 
 pub use camera::{Ray, camera_ray};
 pub use cook::{cook_facets, sample_cook_facet};
+pub use environment::{environment_pdf, environment_share, sample_environment};
 pub use intersect::{Hit, intersect_plane, intersect_sphere, nearest_hit};
 pub use light::{light_pdf, sample_light};
 pub use microfacet::{Microfacet, cook_torrance};

@@ -3,14 +3,12 @@
 use crate::interference::{LayersAt, Light};
 use crate::scatter::{Conductor, Lobes, Scatterer};
 use crate::{
-    Hit, Ray, SurfacePoint, camera_ray, frame_of, light_pdf, nearest_hit, random4,
-    reflectance_spectrum, sample_light, surface_point,
+    Hit, Ray, SurfacePoint, camera_ray, environment_share, frame_of, light_pdf, nearest_hit,
+    random4, reflectance_spectrum, sample_light, surface_point,
 };
 use glam::DVec3;
 use optics::Complex64;
-use scene::{
-    Emission, Environment, Interference, Material, Pattern, Scene, SpectrumId, WavelengthSampling,
-};
+use scene::{Emission, Interference, Material, Pattern, Scene, SpectrumId, WavelengthSampling};
 
 /// Share of the paths that follow the reflection of a film rather than its transmission.
 const REFLECTED_SHARE: f64 = 0.5;
@@ -118,17 +116,9 @@ impl<'a> Path<'a> {
     }
 
     fn add_environment(&mut self) {
-        match *self.scene.environment() {
-            Environment::Constant(everywhere) => self.add(everywhere, 1.0),
-            Environment::Gradient {
-                zenith,
-                horizon,
-                ground,
-            } => {
-                let height = self.ray.direction.y.clamp(-1.0, 1.0);
-                self.add(horizon, 1.0 - height.abs());
-                self.add(if height >= 0.0 { zenith } else { ground }, height.abs());
-            }
+        for part in self.scene.environment().parts() {
+            let share = environment_share(part.shape, self.ray.direction);
+            self.add(part.emission, share);
         }
     }
 
@@ -154,14 +144,14 @@ impl<'a> Path<'a> {
                 n,
                 k,
                 ref layers,
-                roughness,
+                ref microsurface,
             } => {
                 let conductor = Conductor {
                     index: (n, k),
                     coating: LayersAt::new(layers, &object.shape, &point),
                 };
-                if roughness > 0.0 {
-                    let rough = Scatterer::RoughConductor(conductor, roughness);
+                if let Some(facets) = microsurface {
+                    let rough = Scatterer::RoughConductor(conductor, facets.roughness[0]);
                     self.meet_scattering(hit.object, point, &rough)
                 } else {
                     self.meet_mirror(hit.object, point, &conductor)

@@ -2,7 +2,9 @@
 
 use crate::description::Description;
 use crate::rounding::RoundToF32;
-use crate::{Camera, Emission, Material, Object, Problems, RenderSettings, Shape, validate};
+use crate::{
+    Camera, Emission, Environment, Material, Object, Problems, RenderSettings, Shape, validate,
+};
 use spectra::{BandTable, LightGroup, SpectralImage};
 use std::path::Path;
 
@@ -37,23 +39,6 @@ impl MaterialId {
     pub fn index(self) -> usize {
         self.0 as usize
     }
-}
-
-/// What surrounds the objects.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Environment {
-    /// The same radiance from every direction.
-    Constant(Emission),
-    /// A mixture by the height h = dot(direction, +Y): `horizon` at 0, `zenith` at 1, `ground` at −1,
-    /// linear in h between.
-    Gradient {
-        /// Radiance from straight above.
-        zenith: Emission,
-        /// Radiance from the horizon.
-        horizon: Emission,
-        /// Radiance from straight below.
-        ground: Emission,
-    },
 }
 
 /// A scene that can be rendered.
@@ -141,8 +126,8 @@ impl Scene {
     /// Indices of the objects that light can be sent from: emitting spheres and rectangles.
     pub fn lights(&self) -> Vec<usize> {
         let is_light = |object: &Object| {
-            let is_bounded = !matches!(object.shape, Shape::Plane { .. });
-            is_bounded
+            let is_sampled = matches!(object.shape, Shape::Sphere { .. } | Shape::Rectangle { .. });
+            is_sampled
                 && match self.material(object.material) {
                     Material::Emitter { emission, .. } => self.shines(*emission),
                     _ => false,

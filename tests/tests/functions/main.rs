@@ -1,6 +1,7 @@
 //! Every WGSL function against its twin in Rust, on many inputs with the edges among them.
 
 mod bodies;
+mod environments;
 mod numbers;
 mod optics_functions;
 mod scene_functions;
@@ -81,6 +82,7 @@ fn table(ranges: &[(f32, f32)], edges: &[&[f32]]) -> Vec<f32> {
 fn checks() -> Vec<Check> {
     [
         bodies::checks(),
+        environments::checks(),
         numbers::checks(),
         optics_functions::checks(),
         scene_functions::checks(),

@@ -8,6 +8,7 @@ mod camera;
 mod cook;
 mod environment;
 mod material;
+mod microsurface;
 mod object;
 mod render;
 mod spectrum;
@@ -19,6 +20,7 @@ pub use cook::{
 };
 pub use environment::Environment;
 pub use material::{DiffuseReflectance, FilmModel, Layer, Material, PathDifference};
+pub use microsurface::{Brushed, Distribution, Roughness};
 pub use object::Object;
 pub use render::{LightGroups, Render, WavelengthSampling};
 pub use spectrum::{Emission, Extrapolate, Index, MixtureRule, Reflectance, SellmeierTerms};

@@ -2,7 +2,7 @@
 
 use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
-use crate::description::{self, CookNormalisation, Slope};
+use crate::description::{self, CookNormalisation, Roughness, Slope};
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
 use crate::{
@@ -13,16 +13,27 @@ use std::f64::consts::PI;
 /// The weights of slopes may sum to 1 with an error like that of 0.333 three times.
 const WEIGHTS: f64 = 2e-3;
 
-/// The surface of index `(n, k)` at `field` by the model at `field.model.cook1981`.
+/// What the material says beside the model.
+pub(super) struct Surface {
+    pub(super) index: Option<(SpectrumId, SpectrumId)>,
+    pub(super) roughness: Roughness,
+    pub(super) has_distribution: bool,
+    pub(super) is_brushed: bool,
+}
+
+/// The surface at `field` by the model at `field.model.cook1981`.
 pub(super) fn check(
     checks: &mut Checks,
     spectra: &mut SpectrumList<'_>,
     field: &FieldPath,
-    (index, roughness): (Option<(SpectrumId, SpectrumId)>, f64),
+    surface: Surface,
     written: &description::Cook1981,
 ) -> Option<Cook1981> {
     let own = field.key("model").key("cook1981");
-    let slopes = check_slopes(checks, field, &own, roughness, written.slopes.as_deref());
+    let roughness = check_roughness(checks, field, &surface);
+    let slopes = roughness.and_then(|roughness| {
+        check_slopes(checks, field, &own, roughness, written.slopes.as_deref())
+    });
     let constant = check_constant(checks, &own, written);
     let shares = check_shares(checks, &own, written);
     let reflectance = check_diffuse(checks, spectra, &own, written);
@@ -30,7 +41,7 @@ pub(super) fn check(
         description::CookDistribution::Beckmann => CookDistribution::Beckmann,
         description::CookDistribution::Gaussian => CookDistribution::Gaussian,
     };
-    let ((n, k), slopes, constant) = (index?, slopes?, constant?);
+    let ((n, k), slopes, constant) = (surface.index?, slopes?, constant?);
     let ((specular, diffuse), reflectance) = (shares?, reflectance?);
     let facets = slopes.iter().map(|slope| {
         let constant = constant_of(distribution, written.normalisation, constant, slope.m);
@@ -82,6 +93,32 @@ fn constant_of(
             0.25 * optics::gaussian_constant(slope)
         }
         (CookNormalisation::Normalised, CookDistribution::Beckmann) => 0.25 / PI,
+    }
+}
+
+/// The model knows slopes that are the same in all directions, and brings its own distribution.
+fn check_roughness(checks: &mut Checks, field: &FieldPath, surface: &Surface) -> Option<f64> {
+    let is_even = matches!(surface.roughness, Roughness::Even(_));
+    let wrong = [
+        ("distribution", surface.has_distribution),
+        ("brushed", surface.is_brushed),
+        ("roughness", !is_even && !surface.is_brushed),
+    ];
+    let mut is_sound = true;
+    for (name, _) in wrong.iter().filter(|(_, is_wrong)| *is_wrong) {
+        let message = format!(
+            "cook1981 cannot use this `{name}`: its facets slope alike in all directions, by a distribution that the model itself names"
+        );
+        let problem = Problem::new(ProblemKind::Inconsistent, &field.key(name), message);
+        let help = "write one `roughness`, and model = { cook1981 = { distribution = \"beckmann\" } } or \"gaussian\"";
+        checks.report(problem.help(help).involving(field.key("model")));
+        is_sound = false;
+    }
+    match surface.roughness {
+        _ if !is_sound => None,
+        Roughness::Even(0.0) => Some(0.0),
+        Roughness::Even(even) => checks.number(&field.key("roughness"), even, &limits::ROUGHNESS),
+        Roughness::Brushed(_) => None,
     }
 }
 

@@ -3,10 +3,10 @@
 use super::checks::Checks;
 use super::cook;
 use super::layers::{Written, check_interference};
+use super::microsurface;
 use super::spectrum_list::SpectrumList;
 use crate::description::{self, ConductorModel, ConductorModelName, Cook1981, DiffuseReflectance};
 use crate::limits;
-use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, Material, Pattern};
 use std::collections::BTreeMap;
 
@@ -38,20 +38,32 @@ fn check(
         description::Material::Conductor {
             index,
             roughness,
+            distribution,
+            brushed,
             model,
         } => {
             let index = spectra.index(checks, &field.key("index"), index);
-            let roughness = check_roughness(checks, &field.key("roughness"), *roughness);
             if let Some(model) = cook_model(model.as_ref()) {
-                let surface = (index, roughness?);
+                let surface = cook::Surface {
+                    index,
+                    roughness: *roughness,
+                    has_distribution: distribution.is_some(),
+                    is_brushed: brushed.is_some(),
+                };
                 return cook::check(checks, spectra, field, surface, &model).map(Material::Cook);
             }
+            let microsurface = microsurface::Written {
+                roughness: *roughness,
+                distribution: *distribution,
+                brushed: *brushed,
+            }
+            .check(checks, field);
             let (n, k) = index?;
             Some(Material::Conductor {
                 n,
                 k,
                 layers: Vec::new(),
-                roughness: roughness?,
+                microsurface: microsurface?,
             })
         }
         description::Material::Film {
@@ -80,6 +92,8 @@ fn check(
             thickness_nm,
             layers,
             roughness,
+            distribution,
+            brushed,
         } => {
             let written = Written {
                 index: index.as_ref(),
@@ -88,13 +102,18 @@ fn check(
             };
             let substrate = spectra.index(checks, &field.key("substrate"), substrate);
             let layers = written.check(checks, spectra, field);
-            let roughness = check_roughness(checks, &field.key("roughness"), *roughness);
+            let microsurface = microsurface::Written {
+                roughness: *roughness,
+                distribution: *distribution,
+                brushed: *brushed,
+            }
+            .check(checks, field);
             let (n, k) = substrate?;
             Some(Material::Conductor {
                 n,
                 k,
                 layers: layers?,
-                roughness: roughness?,
+                microsurface: microsurface?,
             })
         }
         description::Material::Emitter {
@@ -149,17 +168,4 @@ fn pattern(
             })
         }
     }
-}
-
-/// Either a mirror or rough enough; see [`limits::ROUGHNESS`].
-fn check_roughness(checks: &mut Checks, field: &FieldPath, roughness: f64) -> Option<f64> {
-    if roughness == 0.0 || limits::ROUGHNESS.contains(roughness) {
-        return Some(roughness.abs());
-    }
-    let message = format!(
-        "found {roughness}; it must be 0 (a smooth mirror) or from {}",
-        limits::ROUGHNESS
-    );
-    checks.report(Problem::new(ProblemKind::OutOfRange, field, message));
-    None
 }

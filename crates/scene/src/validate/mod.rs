@@ -10,6 +10,7 @@ mod index;
 mod layers;
 mod light_groups;
 mod material;
+mod microsurface;
 mod object;
 mod picture_file;
 mod points;

@@ -1,0 +1,41 @@
+// What surrounds the scene, in parts that light can be sent from one by one. A part is an object that no ray meets; its radiance in
+// a direction is its emission times its share there.
+
+/// The share of a part's radiance that comes from a direction.
+fn environment_share(light: u32, direction: vec3f) -> f32 {
+    if (objects[light].shape == SHAPE_EVERYWHERE) {
+        return 1.0;
+    }
+    if (objects[light].shape == SHAPE_HORIZON) {
+        return max(1.0 - abs(direction.y), 0.0);
+    }
+    return clamp(dot(direction, objects[light].normal), 0.0, 1.0);
+}
+
+/// A direction towards a part of the surroundings, by the density of environment_pdf.
+fn sample_environment(light: u32, random: vec2f) -> vec3f {
+    if (objects[light].shape == SHAPE_EVERYWHERE) {
+        return sample_cone(random.x, random.y, 2.0);
+    }
+    if (objects[light].shape == SHAPE_HORIZON) {
+        // |h| with density 2 (1 − |h|), above the horizon by the first half of the numbers.
+        let upwards = random.x < 0.5;
+        let t = 2.0 * random.x - select(1.0, 0.0, upwards);
+        let height = t / (1.0 + sqrt(1.0 - t));
+        let around = sqrt((1.0 - height) * (1.0 + height)) * direction_of_turn(random.y);
+        return vec3f(around.x, select(-height, height, upwards), around.y);
+    }
+    return frame_of(objects[light].normal) * sample_cosine_hemisphere(random.x, random.y);
+}
+
+/// Density with which sample_environment draws a direction, sr⁻¹: in proportion to environment_share.
+fn environment_pdf(light: u32, direction: vec3f) -> f32 {
+    let share = environment_share(light, direction);
+    if (objects[light].shape == SHAPE_EVERYWHERE) {
+        return share * (0.25 / PI);
+    }
+    if (objects[light].shape == SHAPE_HORIZON) {
+        return share * (0.5 / PI);
+    }
+    return share / PI;
+}

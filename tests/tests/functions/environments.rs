@@ -1,0 +1,97 @@
+//! environment.wgsl: what surrounds a scene.
+
+use crate::Check;
+use crate::scene_functions::{World, everything, pick, rounded, rows, unit, vector};
+use pellicle_tests::tolerances::{ARITHMETIC, DIRECTION};
+use scene::EnvironmentShape;
+use std::sync::OnceLock;
+
+/// Its surroundings are the same everywhere.
+fn furnace() -> &'static World {
+    static WORLD: OnceLock<World> = OnceLock::new();
+    WORLD.get_or_init(|| World::new("furnace"))
+}
+
+pub(crate) fn checks() -> Vec<Check> {
+    [
+        of_world(
+            everything(),
+            |a| sampled(everything(), a),
+            |a| density(everything(), a),
+        ),
+        of_world(
+            furnace(),
+            |a| sampled(furnace(), a),
+            |a| density(furnace(), a),
+        ),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+type Twin = fn(&[f64]) -> Vec<f64>;
+
+fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
+    let parts: Vec<usize> = (0..world.packed.frame.environment_count as usize)
+        .map(|part| world.packed.frame.first_environment as usize + part)
+        .collect();
+    let others = parts.clone();
+    let mut numbers = rows(3, move |u| {
+        Some(vec![pick(&parts, u[0]) as f64, u[1], u[2]])
+    });
+    for &part in &others {
+        numbers.extend([part as f32, 0.0, 0.0, part as f32, 0.999_999_94, 0.5]);
+    }
+    let directions = rows(3, move |u| {
+        let direction = rounded(unit(u[1], u[2]));
+        let row = [
+            [pick(&others, u[0]) as f64].as_slice(),
+            &direction.to_array(),
+        ]
+        .concat();
+        Some(row)
+    });
+    vec![
+        Check {
+            probe: world.probe(
+                &["environment"],
+                (3, 3),
+                "put3(0u, sample_environment(u32(a(0u)), vec2f(a(1u), a(2u))));",
+            ),
+            proves: &["sample_environment"],
+            inputs: numbers,
+            twin: sampled,
+            tolerance: DIRECTION,
+        },
+        Check {
+            probe: world.probe(
+                &["environment"],
+                (4, 2),
+                "put(0u, environment_pdf(u32(a(0u)), a3(1u))); put(1u, environment_share(u32(a(0u)), a3(1u)));",
+            ),
+            proves: &["environment_pdf", "environment_share"],
+            inputs: directions,
+            twin: density,
+            tolerance: ARITHMETIC,
+        },
+    ]
+}
+
+fn part_of(world: &World, object: f64) -> EnvironmentShape {
+    let part = object as usize - world.packed.frame.first_environment as usize;
+    world.scene.environment().parts()[part].shape
+}
+
+fn sampled(world: &World, a: &[f64]) -> Vec<f64> {
+    let direction = reference::sample_environment(part_of(world, a[0]), a[1], a[2]);
+    direction.to_array().to_vec()
+}
+
+fn density(world: &World, a: &[f64]) -> Vec<f64> {
+    let (part, direction) = (part_of(world, a[0]), vector(&a[1..]));
+    vec![
+        reference::environment_pdf(part, direction),
+        reference::environment_share(part, direction),
+    ]
+}
