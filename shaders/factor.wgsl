@@ -55,7 +55,7 @@ fn factor_source(kind: u32, material: u32) -> u32 {
     if (HAS_FILMS && kind >= FACTOR_FILM_REFLECTS) {
         return layers[materials[material].first_layer].spectrum;
     }
-    if (HAS_COOK && is_cook(material)) {
+    if ((HAS_COOK || HAS_BASES) && materials[material].surface >= SURFACE_COOK_D1) {
         return materials[material].coat;
     }
     return materials[material].spectrum;

@@ -10,6 +10,7 @@ override HAS_MIRRORS: bool = true;
 override HAS_ROUGH_CONDUCTORS: bool = true;
 override HAS_COOK: bool = true;
 override HAS_BASES: bool = true;
+override HAS_COATED_BODIES: bool = true;
 override HAS_FILMS: bool = true;
 override HAS_LOSSY_FILMS: bool = true;
 override HAS_STACKS: bool = true;

@@ -21,7 +21,10 @@ fn gaussian_share(slope: f32) -> f32 {
 
 /// A facet normal drawn from two uniform numbers: a² = −m² ln(1 − u Z).
 fn sample_gaussian(u: f32, v: f32, slope: f32) -> vec3f {
-    let angle = min(slope * sqrt(-log_one_minus(u * gaussian_share(slope))), 0.5 * PI);
+    // 1 − u Z, without the cancellation where Z is all but 1 and u too.
+    let rest = (1.0 - u) + u * exp(-0.25 * PI * PI / (slope * slope));
+    let logarithm = select(log(rest), log_one_minus(u * gaussian_share(slope)), u < 0.03125);
+    let angle = min(slope * sqrt(-logarithm), 0.5 * PI);
     let polar = direction_of_turn(angle * (0.5 / PI));
     return vec3f(polar.y * direction_of_turn(v), polar.x);
 }

@@ -54,8 +54,9 @@ fn meet_surface(walk: Walk, sample: Sample, hit: Hit) -> Walk {
     vertex.scatter = layered_factor(hit.object, point, reflects);
     if (HAS_BASES) {
         vertex.base = reflectance_spectrum(material, hit.object, point.position);
+        vertex.scatter.first_thickness = select(vertex.scatter.first_thickness, material, surface >= SURFACE_COOK_D1);
     }
-    if (HAS_COOK && is_cook(material)) {
+    if ((HAS_COOK || HAS_BASES) && surface >= SURFACE_COOK_D1) {
         return meet_scattering(walk, sample, hit.object, point, vertex);
     }
     if (HAS_ROUGH_CONDUCTORS && surface == SURFACE_ROUGH_CONDUCTOR) {
@@ -110,7 +111,16 @@ fn meet_scattering(walk: Walk, sample: Sample, object: u32, point: SurfacePoint,
         vertex = connect(vertex, walk, object, point, sent, scattering(scatterer, eye, sent.direction * world_from_local));
     }
 
-    let light = sample_scattering(scatterer, eye, random_at(sample, walk, 1u));
+    let random = random_at(sample, walk, 1u);
+    if (HAS_COATED_BODIES && materials[scatterer.material].surface == SURFACE_COATED_BODY) {
+        let share = coat_share(scatterer.material, eye.z);
+        if (random.z < share) {
+            vertex.onward = single_lobe(1.0 / share, eye.z);
+            push_vertex(vertex);
+            return walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0);
+        }
+    }
+    let light = sample_scattering(scatterer, eye, random);
     let onward = scattering(scatterer, eye, light);
     var next = walk_on(walk, object, point, normalize(world_from_local * light), onward.pdf);
     if (onward.pdf > 0.0) {

@@ -10,7 +10,7 @@ struct Factor {
     cosine: f32,
     /// Thickness of a film's only layer.
     thickness_nm: f32,
-    /// Of several layers: the first of the thicknesses that vary over the surface.
+    /// Of several layers: the first of the thicknesses that vary over the surface. Above a base: the material.
     first_thickness: u32,
 }
 

@@ -22,6 +22,11 @@ fn scattering(scatterer: Scatterer, eye: vec3f, light: vec3f) -> Scattering {
         let pdf = mix(facet.pdf, lambert, materials[scatterer.material].base_chance);
         return Scattering(Lobes(facet.reflection * light.z, 0.0, body, facet.cosine, light.z), pdf);
     }
+    if (HAS_COATED_BODIES && materials[scatterer.material].surface == SURFACE_COATED_BODY) {
+        let body = max(light.z, 0.0) / PI;
+        let chance = 1.0 - coat_share(scatterer.material, eye.z);
+        return Scattering(Lobes(0.0, 0.0, body, 1.0, light.z), chance * body);
+    }
     if (HAS_ROUGH_CONDUCTORS && scatterer.kind != FACTOR_REFLECTANCE) {
         let facet = cook_torrance(eye, light, materials[scatterer.material].roughness);
         return Scattering(Lobes(facet.reflection * light.z, 0.0, 0.0, facet.cosine, light.z), facet.pdf);
@@ -38,6 +43,9 @@ fn sample_scattering(scatterer: Scatterer, eye: vec3f, random: vec4f) -> vec3f {
         }
         let facet = sample_cook_facet(scatterer.material, random.x, random.y, random.w);
         return normalize(reflect(-eye, facet));
+    }
+    if (HAS_COATED_BODIES && materials[scatterer.material].surface == SURFACE_COATED_BODY) {
+        return sample_cosine_hemisphere(random.x, random.y);
     }
     if (HAS_ROUGH_CONDUCTORS && scatterer.kind != FACTOR_REFLECTANCE) {
         let facet = sample_beckmann(random.x, random.y, materials[scatterer.material].roughness);

@@ -63,6 +63,7 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "air_above",
     "arrives",
     "begin_record",
+    "body_value",
     "coating_value",
     "connect",
     "connection_value",

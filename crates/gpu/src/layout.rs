@@ -151,6 +151,8 @@ constants! { CONSTANTS;
     pub const SURFACE_COOK_D1 = 4;
     /// Surface: Cook's model with the distribution D2.
     pub const SURFACE_COOK_D2 = 5;
+    /// Surface: a diffuse body below a smooth coat.
+    pub const SURFACE_COATED_BODY = 6;
 
     /// Field: the same everywhere.
     pub const FIELD_CONSTANT = 0;
@@ -335,12 +337,16 @@ structs! { STRUCTS;
         pub coat: u32,
         /// The part of the light that a base reflects beside the facets of Cook's model.
         pub base_share: f32,
-        /// Share of the paths that follow what the base reflects.
+        /// Share of the paths that follow what the base reflects; of a coated body, what stands for its reflectance there.
         pub base_chance: f32,
         /// First of the numbers of the slopes of Cook's model: m, weight and part of each.
         pub first_slope: u32,
         /// Number of these slopes.
         pub slope_count: u32,
+        /// Spectrum: reflectance of a coat for diffuse light from outside.
+        pub mean_reflectance: u32,
+        /// What stands for the index of a coat where a path chooses its way.
+        pub coat_estimate: f32,
     }
 
     /// A layer of a film or of a coating.

@@ -43,6 +43,7 @@ pub const MODULES: &[Module] = modules! {
     "microfacet": ["trig"];
     "gaussian": ["microfacet", "trig"];
     "cook": ["bindings", "gaussian", "layout", "microfacet", "numbers", "trig"];
+    "coat": ["bindings", "fresnel"];
     "bindings": ["layout"];
     "features": [];
     "numbers": ["bindings", "layout"];
@@ -58,13 +59,13 @@ pub const MODULES: &[Module] = modules! {
     "walk": ["bindings", "camera", "random", "surface"];
     "factor": ["bindings", "features", "layout", "record", "surface", "thickness"];
     "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "scatter", "surface", "walk"];
-    "scatter": ["bindings", "cook", "factor", "features", "layout", "microfacet", "record", "sampling", "trig"];
+    "scatter": ["bindings", "coat", "cook", "factor", "features", "layout", "microfacet", "record", "sampling", "trig"];
     "path": [
-        "bindings", "camera", "connect", "environment", "factor", "features", "hit", "layout", "light", "random", "record", "sampling", "scatter",
+        "bindings", "camera", "coat", "connect", "environment", "factor", "features", "hit", "layout", "light", "random", "record", "sampling", "scatter",
         "spectrum", "surface", "walk"
     ];
     "evaluate": [
-        "bindings", "features", "film", "fresnel", "layout", "limits", "record", "spectrum", "stack", "thickness", "two_beam"
+        "bindings", "coat", "features", "film", "fresnel", "layout", "limits", "record", "spectrum", "stack", "thickness", "two_beam"
     ];
     "stack_batch": ["complex", "layout", "stack"];
     "render": ["bindings", "evaluate", "layout", "limits", "path", "spectrum", "walk"];

@@ -273,6 +273,14 @@ fn pack_material(
             pack_layers(&mut packed, (fields, layers), coating);
         }
         Material::Cook(ref cook) => pack_cook(&mut packed, fields, cook),
+        Material::CoatedBody(ref body) => {
+            pack_pattern(&mut packed, &body.base);
+            packed.surface = layout::SURFACE_COATED_BODY;
+            packed.coat = id(body.n);
+            packed.mean_reflectance = id(body.mean_reflectance);
+            packed.coat_estimate = body.estimate.n as f32;
+            packed.base_chance = body.estimate.base as f32;
+        }
         Material::Film {
             layers: ref own, ..
         } => {

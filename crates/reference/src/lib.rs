@@ -31,5 +31,6 @@ pub use path::{PathSample, radiance};
 pub use random::{pcg4d, random4, unit_interval};
 pub use render::{Stopped, render};
 pub use sampling::{cone_height, frame_of, sample_cone, sample_cosine_hemisphere};
+pub use scatter::coat_share;
 pub use surface::{SurfacePoint, reflectance_spectrum, surface_point};
 pub use thickness::layer_thickness;

@@ -1,7 +1,7 @@
 //! A path through the scene with its spectrum.
 
 use crate::interference::{LayersAt, Light};
-use crate::scatter::{Conductor, Lobes, Scatterer};
+use crate::scatter::{Conductor, Lobes, Scatterer, coat_share};
 use crate::{
     Hit, Ray, SurfacePoint, camera_ray, environment_share, frame_of, light_pdf, nearest_hit,
     random4, reflectance_spectrum, sample_light, surface_point,
@@ -157,6 +157,15 @@ impl<'a> Path<'a> {
                     self.meet_mirror(hit.object, point, &conductor)
                 }
             }
+            Material::CoatedBody(ref body) => {
+                let conductor = Conductor {
+                    index: (body.n, body.k),
+                    coating: LayersAt::new(&[], &object.shape, &point),
+                };
+                let base = reflectance_spectrum(&body.base, &object.shape, point.position);
+                let surface = Scatterer::CoatedBody(conductor, body, base);
+                self.meet_scattering(hit.object, point, &surface)
+            }
             Material::Cook(ref cook) => {
                 if let Some(ambient) = cook.ambient {
                     self.add(ambient, 1.0);
@@ -266,7 +275,17 @@ impl<'a> Path<'a> {
                 share * path.scattered_value(scatterer, eye, &towards.lobes, band)
             });
         }
-        let light = scatterer.sample(eye, self.random(1));
+        let random = self.random(1);
+        if let Scatterer::CoatedBody(coat, body, _) = scatterer {
+            let share = coat_share(body, eye.z);
+            if random[2] < share {
+                self.attenuate(|path, band| path.reflectance(coat, eye.z, band) / share);
+                let direction = mirrored(self.ray.direction, point.normal);
+                self.scatter(object, point.position, direction, None);
+                return true;
+            }
+        }
+        let light = scatterer.sample(eye, random);
         let onward = scatterer.between(eye, light);
         if onward.pdf <= 0.0 || !onward.lobes.is_lit() {
             return false;
@@ -283,7 +302,7 @@ impl<'a> Path<'a> {
     fn scattered_value(
         &self,
         scatterer: &Scatterer<'_>,
-        _eye: DVec3,
+        eye: DVec3,
         lobes: &Lobes,
         band: usize,
     ) -> f64 {
@@ -292,6 +311,14 @@ impl<'a> Path<'a> {
         }
         match scatterer {
             Scatterer::Diffuse(spectrum) => lobes.single * self.spectrum(*spectrum, band),
+            Scatterer::CoatedBody(coat, body, base) => {
+                let passes = |cosine: f64| 1.0 - self.reflectance(coat, cosine, band);
+                let base = self.spectrum(*base, band);
+                let outer = self.spectrum(body.mean_reflectance, band);
+                let n = self.spectrum(body.n, band);
+                let inside = base * optics::coated_albedo_factor(base, n, outer);
+                lobes.body * passes(eye.z) * passes(lobes.light_cosine) * inside
+            }
             Scatterer::Cook(conductor, cook) => {
                 let base = cook.diffuse.map_or(0.0, |diffuse| {
                     lobes.body * self.spectrum(diffuse.reflectance, band)

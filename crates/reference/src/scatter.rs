@@ -3,7 +3,7 @@
 use crate::interference::LayersAt;
 use crate::{cook_facets, cook_torrance, sample_cook_facet, sample_cosine_hemisphere};
 use glam::DVec3;
-use scene::{Cook1981, SpectrumId};
+use scene::{CoatedBody, Cook1981, SpectrumId};
 use std::f64::consts::PI;
 
 /// What scatters light.
@@ -12,6 +12,8 @@ pub(crate) enum Scatterer<'a> {
     Diffuse(SpectrumId),
     /// A rough conductor of a root mean square slope.
     RoughConductor(Conductor<'a>, f64),
+    /// A body of this reflectance below a smooth coat; what the coat mirrors is no part of it.
+    CoatedBody(Conductor<'a>, &'a CoatedBody, SpectrumId),
     /// By Cook's model.
     Cook(Conductor<'a>, &'a Cook1981),
 }
@@ -73,6 +75,16 @@ impl Scatterer<'_> {
                     pdf: lambert,
                 }
             }
+            Self::CoatedBody(_, body, _) => {
+                let lambert = light.z.max(0.0) / PI;
+                Scattering {
+                    lobes: Lobes {
+                        body: lambert,
+                        ..Lobes::single(0.0, 1.0, light)
+                    },
+                    pdf: (1.0 - coat_share(body, eye.z)) * lambert,
+                }
+            }
             Self::Cook(_, cook) => {
                 let facets = cook_facets(cook, eye, light);
                 let lambert = light.z.max(0.0) / PI;
@@ -99,7 +111,7 @@ impl Scatterer<'_> {
     /// A unit vector towards which light is scattered from `eye`.
     pub(crate) fn sample(&self, eye: DVec3, [u, v, choice, pick]: [f64; 4]) -> DVec3 {
         match self {
-            Self::Diffuse(_) => sample_cosine_hemisphere(u, v),
+            Self::Diffuse(_) | Self::CoatedBody(..) => sample_cosine_hemisphere(u, v),
             Self::Cook(_, cook) if choice < cook.diffuse.map_or(0.0, |diffuse| diffuse.chance) => {
                 sample_cosine_hemisphere(u, v)
             }
@@ -110,6 +122,13 @@ impl Scatterer<'_> {
             ),
         }
     }
+}
+
+/// Share of the paths that are mirrored by a smooth coat rather than sent on by the body below it: by an estimate of what either
+/// brings.
+pub fn coat_share(body: &CoatedBody, cosine: f64) -> f64 {
+    let reflected = optics::reflectance_unpolarised(body.estimate.n.into(), cosine.max(1e-6));
+    reflected / (reflected + (1.0 - reflected) * body.estimate.base).max(1e-6)
 }
 
 /// The direction that a facet mirrors to `eye`.

@@ -19,6 +19,7 @@
 //! degrees in files. Wavelengths and film thicknesses are nanometres.
 
 mod camera;
+mod coated_body;
 mod cook;
 pub mod description;
 mod document;
@@ -41,6 +42,7 @@ mod validate;
 mod validated;
 
 pub use camera::{Camera, Projection};
+pub use coated_body::{CoatEstimate, CoatedBody};
 pub use cook::{Cook1981, CookDistribution, CookFacets, DiffuseShare};
 pub use description::{Distribution, PathDifference};
 pub use document::SourceFile;

@@ -1,7 +1,7 @@
 //! What a surface is made of, in a validated scene.
 
 use crate::description::PathDifference;
-use crate::{Cook1981, LightGroupId, Microsurface, SpectrumId, Thickness};
+use crate::{CoatedBody, Cook1981, LightGroupId, Microsurface, SpectrumId, Thickness};
 
 /// What a surface is made of. Every surface has two sides. They behave alike, but for a film of several layers that absorbs: from
 /// behind, light meets its layers in the reverse order.
@@ -25,6 +25,8 @@ pub enum Material {
     },
     /// An opaque metal by the model of Cook and Torrance.
     Cook(Cook1981),
+    /// A diffuse body below a clear coat.
+    CoatedBody(CoatedBody),
     /// A free thin film between air and air. Rays reflect from it and pass straight through it.
     Film {
         /// Its layers, at least one: the first on the outside of a sphere or on the side of a plane's normal.

@@ -1,8 +1,9 @@
 //! A scene as a GPU receives it: every number rounded to the nearest `f32`.
 
 use crate::{
-    Camera, Cook1981, CookFacets, DiffuseShare, Emission, Environment, Grain, Layer, Material,
-    Microsurface, Object, Pattern, Projection, RenderSettings, Scene, Shape,
+    Camera, CoatEstimate, CoatedBody, Cook1981, CookFacets, DiffuseShare, Emission, Environment,
+    Grain, Layer, Material, Microsurface, Object, Pattern, Projection, RenderSettings, Scene,
+    Shape,
 };
 use glam::DVec3;
 
@@ -103,6 +104,7 @@ impl RoundToF32 for Material {
                 microsurface: microsurface.as_ref().map(RoundToF32::rounded),
             },
             Self::Cook(cook) => Self::Cook(cook.rounded()),
+            Self::CoatedBody(body) => Self::CoatedBody(body.rounded()),
             Self::Film {
                 layers,
                 transparent,
@@ -119,6 +121,20 @@ impl RoundToF32 for Material {
                 emission: emission.rounded(),
                 reflectance: *reflectance,
             },
+        }
+    }
+}
+
+impl RoundToF32 for CoatedBody {
+    fn rounded(&self) -> Self {
+        Self {
+            microsurface: self.microsurface.as_ref().map(RoundToF32::rounded),
+            base: self.base.rounded(),
+            estimate: CoatEstimate {
+                n: self.estimate.n.rounded(),
+                base: self.estimate.base.rounded(),
+            },
+            ..*self
         }
     }
 }

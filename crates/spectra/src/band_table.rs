@@ -93,6 +93,11 @@ impl BandTable {
         }
     }
 
+    /// The mean of all values.
+    pub fn mean(&self) -> f64 {
+        self.values.iter().sum::<f64>() / self.values.len() as f64
+    }
+
     /// The smallest and the largest value.
     pub fn extent(&self) -> (f64, f64) {
         self.values

@@ -803,7 +803,7 @@ fn factors() -> Vec<Check> {
                 films.push((FACTOR_LOSSY_FILM_REFLECTS, spectrum));
                 films.push((FACTOR_LOSSY_FILM_TRANSMITS, spectrum));
             }
-            Material::Emitter { .. } | Material::Cook(_) => {}
+            Material::Emitter { .. } | Material::Cook(_) | Material::CoatedBody(_) => {}
         }
     }
     let check = |proves, choices: &[(u32, usize)], tolerance| Check {

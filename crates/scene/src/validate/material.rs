@@ -2,6 +2,7 @@
 
 use super::checks::Checks;
 use super::cook;
+use super::dielectric;
 use super::layers::{Written, check_interference};
 use super::microsurface;
 use super::spectrum_list::SpectrumList;
@@ -65,6 +66,27 @@ fn check(
                 layers: Vec::new(),
                 microsurface: microsurface?,
             })
+        }
+        description::Material::Dielectric {
+            index: written,
+            roughness,
+            distribution,
+            brushed,
+            base,
+        } => {
+            let index = spectra.index(checks, &field.key("index"), written);
+            let microsurface = microsurface::Written {
+                roughness: *roughness,
+                distribution: *distribution,
+                brushed: *brushed,
+            }
+            .check(checks, field);
+            let base = match base {
+                Some(base) => pattern(checks, spectra, &field.key("base"), base).map(Some),
+                None => Some(None),
+            };
+            let surface = (index?, microsurface?);
+            dielectric::check(checks, spectra, (field, written), surface, base?)
         }
         description::Material::Film {
             index,

@@ -4,6 +4,7 @@ mod camera;
 mod checks;
 mod cook;
 mod database_file;
+mod dielectric;
 mod environment;
 mod formula;
 mod index;

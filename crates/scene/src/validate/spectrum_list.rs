@@ -69,6 +69,11 @@ impl<'a> SpectrumList<'a> {
         self.tables[id.index()].extent().0
     }
 
+    /// The mean of a spectrum over its knots.
+    pub(crate) fn mean(&self, id: SpectrumId) -> f64 {
+        self.tables[id.index()].mean()
+    }
+
     /// The CIE 1931 colour-matching functions on the grid.
     pub(crate) fn observer(&self, checks: &mut Checks) -> Option<[BandTable; 3]> {
         let field = FieldPath::root().key("render").key("wavelengths_nm");
