@@ -12,7 +12,7 @@ fn factor_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
         return coating_value(factor, group, at);
     }
     let first = spectrum_at(factor.spectrum, group, at);
-    if ((HAS_MIRRORS || HAS_ROUGH_CONDUCTORS) && factor.kind == FACTOR_CONDUCTOR) {
+    if ((HAS_MIRRORS || HAS_ROUGH_CONDUCTORS || HAS_COOK || HAS_BASES) && factor.kind == FACTOR_CONDUCTOR) {
         let k = spectrum_at(factor.spectrum + 1u, group, at);
         return reflectance_unpolarised(first, k, factor.cosine);
     }
@@ -104,7 +104,24 @@ fn free_stack_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
 fn lobes_value(vertex: Vertex, lobes: Lobes, group: u32, at: Wavelengths) -> vec4f {
     var factor = vertex.scatter;
     factor.cosine = lobes.cosine;
-    return lobes.single * factor_value(factor, group, at);
+    var value = lobes.single * factor_value(factor, group, at);
+    if (HAS_BASES && lobes.body > 0.0) {
+        value += lobes.body * body_value(vertex, lobes.light_cosine, group, at);
+    }
+    return value;
+}
+
+/// The colour of a base beside facets, or below a coat with what the coat keeps of it.
+fn body_value(vertex: Vertex, light_cosine: f32, group: u32, at: Wavelengths) -> vec4f {
+    let base = factor_value(Factor(vertex.base_kind, vertex.base, 1.0, 0.0, 0u), group, at);
+    let material = vertex.scatter.first_thickness;
+    if (!HAS_COATED_BODIES || materials[material].surface != SURFACE_COATED_BODY) {
+        return base;
+    }
+    let n = spectrum_at(vertex.scatter.spectrum, group, at);
+    let outer = spectrum_at(materials[material].mean_reflectance, group, at);
+    let passes = coat_passes(n, vertex.eye_cosine) * coat_passes(n, light_cosine);
+    return passes * base * coated_albedo_factor(base, n, outer);
 }
 
 /// The spectrum of a light.

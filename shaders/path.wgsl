@@ -51,6 +51,15 @@ fn meet_surface(walk: Walk, sample: Sample, hit: Hit) -> Walk {
     }
     let reflects = !HAS_FILMS || surface != SURFACE_FILM || random_at(sample, walk, 1u).x < REFLECTED_SHARE;
     vertex.scatter = layered_factor(hit.object, point, reflects);
+    if (HAS_BASES) {
+        let base = diffuse_factor(hit.object, point.position, random_at(sample, walk, 1u).w);
+        vertex.base = base.spectrum;
+        vertex.base_kind = base.kind;
+        vertex.scatter.first_thickness = select(vertex.scatter.first_thickness, material, surface >= SURFACE_COOK_D1);
+    }
+    if ((HAS_COOK || HAS_BASES) && surface >= SURFACE_COOK_D1) {
+        return meet_scattering(walk, sample, hit.object, point, vertex);
+    }
     if (HAS_ROUGH_CONDUCTORS && surface == SURFACE_ROUGH_CONDUCTOR) {
         return meet_scattering(walk, sample, hit.object, point, vertex);
     }
@@ -103,7 +112,16 @@ fn meet_scattering(walk: Walk, sample: Sample, object: u32, point: SurfacePoint,
         vertex = connect(vertex, walk, object, point, sent, scattering(scatterer, eye, sent.direction * world_from_local));
     }
 
-    let light = sample_scattering(scatterer, eye, random_at(sample, walk, 1u));
+    let random = random_at(sample, walk, 1u);
+    if (HAS_COATED_BODIES && materials[scatterer.material].surface == SURFACE_COATED_BODY) {
+        let share = coat_share(scatterer.material, eye.z);
+        if (random.z < share) {
+            vertex.onward = single_lobe(1.0 / share, eye.z);
+            push_vertex(vertex);
+            return walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0);
+        }
+    }
+    let light = sample_scattering(scatterer, eye, random);
     let onward = scattering(scatterer, eye, light);
     var next = walk_on(walk, object, point, normalize(world_from_local * light), onward.pdf);
     if (onward.pdf > 0.0) {

@@ -15,6 +15,18 @@ struct Scattering {
 
 /// Scattering from `light` to `eye`, unit vectors.
 fn scattering(scatterer: Scatterer, eye: vec3f, light: vec3f) -> Scattering {
+    if (HAS_COOK && is_cook(scatterer.material)) {
+        let lambert = max(light.z, 0.0) / PI;
+        let facet = cook_facets(scatterer.material, eye, light);
+        let body = materials[scatterer.material].base_share * lambert;
+        let pdf = mix(facet.pdf, lambert, materials[scatterer.material].base_chance);
+        return Scattering(Lobes(facet.reflection * light.z, 0.0, body, facet.cosine, light.z), pdf);
+    }
+    if (HAS_COATED_BODIES && materials[scatterer.material].surface == SURFACE_COATED_BODY) {
+        let body = max(light.z, 0.0) / PI;
+        let chance = 1.0 - coat_share(scatterer.material, eye.z);
+        return Scattering(Lobes(0.0, 0.0, body, 1.0, light.z), chance * body);
+    }
     if (HAS_ROUGH_CONDUCTORS && scatterer.kind != FACTOR_REFLECTANCE && scatterer.kind != FACTOR_SMOOTH) {
         let facet = cook_torrance(eye, light, materials[scatterer.material].roughness);
         return Scattering(Lobes(facet.reflection * light.z, 0.0, 0.0, facet.cosine, light.z), facet.pdf);
@@ -25,6 +37,16 @@ fn scattering(scatterer: Scatterer, eye: vec3f, light: vec3f) -> Scattering {
 
 /// A unit vector towards which light is scattered from `eye`, drawn from four uniform numbers.
 fn sample_scattering(scatterer: Scatterer, eye: vec3f, random: vec4f) -> vec3f {
+    if (HAS_COOK && is_cook(scatterer.material)) {
+        if (random.z < materials[scatterer.material].base_chance) {
+            return sample_cosine_hemisphere(random.x, random.y);
+        }
+        let facet = sample_cook_facet(scatterer.material, random.x, random.y, random.w);
+        return normalize(reflect(-eye, facet));
+    }
+    if (HAS_COATED_BODIES && materials[scatterer.material].surface == SURFACE_COATED_BODY) {
+        return sample_cosine_hemisphere(random.x, random.y);
+    }
     if (HAS_ROUGH_CONDUCTORS && scatterer.kind != FACTOR_REFLECTANCE && scatterer.kind != FACTOR_SMOOTH) {
         let facet = sample_beckmann(random.x, random.y, materials[scatterer.material].roughness);
         return normalize(reflect(-eye, facet));

@@ -24,15 +24,23 @@ pub const SHIPPED: &[&str] = &[
 /// A scene with every kind of surface, pattern, thickness, light and environment that there is.
 pub const EVERYTHING: &str = include_str!("everything.toml");
 
-/// A scene of `scenes/`, or `everything`, as a file that can still be changed.
+/// A scene with Cook's model in every form and with every kind of body below a coat.
+pub const EVERYTHING_BODIES: &str = include_str!("everything_bodies.toml");
+
+/// The names of the scenes that are made for the suites.
+pub const MADE: &[&str] = &["everything", "everything_bodies"];
+
+/// A scene of `scenes/`, or one of [`MADE`], as a file that can still be changed.
 ///
 /// # Panics
 /// When it cannot be read.
 pub fn file(name: &str) -> SceneFile {
-    let read = if name == "everything" {
-        SceneFile::parse("everything.toml", EVERYTHING, &root())
-    } else {
-        SceneFile::read(root().join("scenes").join(format!("{name}.toml")))
+    let read = match name {
+        "everything" => SceneFile::parse("everything.toml", EVERYTHING, &root()),
+        "everything_bodies" => {
+            SceneFile::parse("everything_bodies.toml", EVERYTHING_BODIES, &root())
+        }
+        _ => SceneFile::read(root().join("scenes").join(format!("{name}.toml"))),
     };
     read.unwrap_or_else(|problems| panic!("{problems}"))
 }
@@ -55,12 +63,14 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "air_above",
     "arrives",
     "begin_record",
+    "body_value",
     "coating_value",
     "connect",
     "connection_value",
     "emission_share",
     "factor_source",
     "free_stack_value",
+    "is_cook",
     "is_lit",
     "is_recorded",
     "layer_varies",

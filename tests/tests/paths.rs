@@ -3,7 +3,7 @@
 use gpu::PackedScene;
 use pellicle_tests::frames::{Values, same_numbers};
 use pellicle_tests::probe::Probe;
-use pellicle_tests::scenes::{SHIPPED, small};
+use pellicle_tests::scenes::{MADE, SHIPPED, small};
 use pellicle_tests::tolerances::PATHS;
 use rayon::prelude::*;
 
@@ -37,7 +37,7 @@ fn probe(packed: &PackedScene) -> Probe<'_> {
 fn every_path_agrees_with_the_reference() {
     let gpu = pellicle_tests::device::open();
     let mut wrong = Vec::new();
-    for name in SHIPPED.iter().chain(&["everything"]) {
+    for name in SHIPPED.iter().chain(MADE) {
         let scene = small(name, [SIDE, SIDE], 1, BANDS, 3);
         let packed = PackedScene::new(&scene);
         let table: Vec<f32> = rows().iter().flatten().map(|&x| x as f32).collect();

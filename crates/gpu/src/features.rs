@@ -63,6 +63,12 @@ impl Features {
                     )
                 }),
             ),
+            ("HAS_COOK", material(|m| matches!(m, Material::Cook(_)))),
+            ("HAS_BASES", material(has_base)),
+            (
+                "HAS_COATED_BODIES",
+                material(|m| matches!(m, Material::CoatedBody(_))),
+            ),
             ("HAS_FILMS", film(|_| true)),
             ("HAS_LOSSY_FILMS", film(|form| form == FilmForm::Lossy)),
             ("HAS_STACKS", film(|form| form == FilmForm::Stack)),
@@ -164,13 +170,22 @@ fn is_diffuse(material: &Material) -> bool {
     )
 }
 
+/// Whether something diffuse lies below a coat or beside facets.
+fn has_base(material: &Material) -> bool {
+    match material {
+        Material::Cook(cook) => cook.diffuse.is_some(),
+        Material::CoatedBody(_) => true,
+        _ => false,
+    }
+}
+
 fn is_checker(material: &Material) -> bool {
-    matches!(
-        material,
-        Material::Diffuse {
-            reflectance: Pattern::Checker { .. }
-        }
-    )
+    let pattern = match material {
+        Material::Diffuse { reflectance } => reflectance,
+        Material::CoatedBody(body) => &body.base,
+        _ => return false,
+    };
+    matches!(pattern, Pattern::Checker { .. })
 }
 
 fn is_texture(material: &Material) -> bool {

@@ -147,6 +147,12 @@ constants! { CONSTANTS;
     pub const SURFACE_ROUGH_CONDUCTOR = 2;
     /// Surface: a free film.
     pub const SURFACE_FILM = 3;
+    /// Surface: Cook's model with the distribution D1.
+    pub const SURFACE_COOK_D1 = 4;
+    /// Surface: Cook's model with the distribution D2.
+    pub const SURFACE_COOK_D2 = 5;
+    /// Surface: a diffuse body below a smooth coat.
+    pub const SURFACE_COATED_BODY = 6;
 
     /// Field: the same everywhere.
     pub const FIELD_CONSTANT = 0;
@@ -334,6 +340,20 @@ structs! { STRUCTS;
         pub varying_layers: u32,
         /// The head of the picture of its reflectance; NONE where that is no picture.
         pub picture: u32,
+        /// Spectrum: n of the index above a diffuse base, whose k is the next one.
+        pub coat: u32,
+        /// The part of the light that a base reflects beside the facets of Cook's model.
+        pub base_share: f32,
+        /// Share of the paths that follow what the base reflects; of a coated body, what stands for its reflectance there.
+        pub base_chance: f32,
+        /// First of the numbers of the slopes of Cook's model: m, weight and part of each.
+        pub first_slope: u32,
+        /// Number of these slopes.
+        pub slope_count: u32,
+        /// Spectrum: reflectance of a coat for diffuse light from outside.
+        pub mean_reflectance: u32,
+        /// What stands for the index of a coat where a path chooses its way.
+        pub coat_estimate: f32,
     }
 
     /// A layer of a film or of a coating.

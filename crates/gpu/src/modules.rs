@@ -42,6 +42,9 @@ pub const MODULES: &[Module] = modules! {
     "two_beam": ["film", "trig"];
     "stack": ["complex", "phase", "trig"];
     "microfacet": ["trig"];
+    "gaussian": ["microfacet", "trig"];
+    "cook": ["bindings", "gaussian", "layout", "microfacet", "numbers", "trig"];
+    "coat": ["bindings", "fresnel"];
     "bindings": ["layout"];
     "features": [];
     "numbers": ["bindings", "layout"];
@@ -60,13 +63,13 @@ pub const MODULES: &[Module] = modules! {
     "walk": ["bindings", "camera", "features", "random", "sobol", "surface"];
     "factor": ["bindings", "features", "layout", "picture", "record", "surface", "texels", "thickness"];
     "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "scatter", "surface", "walk"];
-    "scatter": ["bindings", "features", "layout", "microfacet", "record", "sampling", "trig"];
+    "scatter": ["bindings", "coat", "cook", "factor", "features", "layout", "microfacet", "record", "sampling", "trig"];
     "path": [
-        "bindings", "camera", "connect", "environment", "factor", "features", "hit", "layout", "light", "record", "sampling", "scatter",
+        "bindings", "camera", "coat", "connect", "environment", "factor", "features", "hit", "layout", "light", "record", "sampling", "scatter",
         "spectrum", "surface", "walk"
     ];
     "evaluate": [
-        "bindings", "features", "film", "fresnel", "layout", "lifting", "limits", "record", "spectrum", "stack", "texels", "thickness",
+        "bindings", "coat", "features", "film", "fresnel", "layout", "lifting", "limits", "record", "spectrum", "stack", "texels", "thickness",
         "two_beam"
     ];
     "stack_batch": ["complex", "layout", "stack"];

@@ -10,8 +10,9 @@ use crate::modules::RecordLimits;
 use glam::DVec3;
 use scene::limits::{MAX_LAYERS, MAX_LIGHT_GROUPS, MAX_MATERIALS};
 use scene::{
-    Emission, EnvironmentPart, EnvironmentShape, Layer, Material, Object, PathDifference, Pattern,
-    Projection, Scene, Shape, SpectrumId, Thickness, WavelengthSampling,
+    Cook1981, CookDistribution, Emission, EnvironmentPart, EnvironmentShape, Layer, Material,
+    Object, PathDifference, Pattern, Projection, Scene, Shape, SpectrumId, Thickness,
+    WavelengthSampling,
 };
 use spectra::BandTable;
 use texels::Pictures;
@@ -281,6 +282,15 @@ fn pack_material(
             packed.roughness = microsurface.as_ref().map_or(0.0, |m| m.roughness[0] as f32);
             pack_layers(&mut packed, (fields, layers), coating);
         }
+        Material::Cook(ref cook) => pack_cook(&mut packed, fields, cook),
+        Material::CoatedBody(ref body) => {
+            pack_pattern(&mut packed, &body.base);
+            packed.surface = layout::SURFACE_COATED_BODY;
+            packed.coat = id(body.n);
+            packed.mean_reflectance = id(body.mean_reflectance);
+            packed.coat_estimate = body.estimate.n as f32;
+            packed.base_chance = body.estimate.base as f32;
+        }
         Material::Film {
             layers: ref own, ..
         } => {
@@ -301,6 +311,28 @@ fn pack_material(
         }
     }
     packed
+}
+
+/// Cook's model: an index above a base.
+fn pack_cook(packed: &mut layout::Material, fields: &mut Fields, cook: &Cook1981) {
+    if let Some(diffuse) = &cook.diffuse {
+        pack_pattern(packed, &Pattern::Uniform(diffuse.reflectance));
+        packed.base_share = diffuse.share as f32;
+        packed.base_chance = diffuse.chance as f32;
+    }
+    packed.surface = match cook.distribution {
+        CookDistribution::Gaussian => layout::SURFACE_COOK_D1,
+        CookDistribution::Beckmann => layout::SURFACE_COOK_D2,
+    };
+    packed.coat = id(cook.n);
+    let slopes = cook.facets.iter();
+    let numbers: Vec<_> = slopes.flat_map(|f| [f.slope, f.weight, f.part]).collect();
+    packed.first_slope = fields.look_up(&numbers);
+    packed.slope_count = cook.facets.len() as u32;
+    if let Some(ambient) = cook.ambient {
+        packed.emission = light(ambient);
+        packed.emission_scale = ambient.scale as f32;
+    }
 }
 
 fn pack_pattern(packed: &mut layout::Material, pattern: &Pattern) {

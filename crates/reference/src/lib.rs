@@ -5,6 +5,7 @@
 //! recursion), and no formula is shared with the shader. Comparing the two proves both.
 
 mod camera;
+mod cook;
 mod environment;
 mod interference;
 mod intersect;
@@ -22,6 +23,7 @@ mod surface;
 mod thickness;
 
 pub use camera::{Ray, camera_ray};
+pub use cook::{cook_facets, sample_cook_facet};
 pub use environment::{environment_pdf, environment_share, sample_environment};
 pub use intersect::{Hit, intersect_plane, intersect_sphere, nearest_hit};
 pub use light::{light_pdf, sample_light};
@@ -32,6 +34,7 @@ pub use picture::smooth_value;
 pub use random::{pcg4d, random4, unit_interval};
 pub use render::{Stopped, render};
 pub use sampling::{cone_height, frame_of, sample_cone, sample_cosine_hemisphere};
+pub use scatter::coat_share;
 pub use sobol::{owen_scrambled, scrambled_reversed, sobol_point, sobol4};
 pub use surface::{Reflectance, SurfacePoint, pattern_reflectance, surface_point};
 pub use thickness::layer_thickness;

@@ -2,7 +2,7 @@
 
 use crate::interference::{LayersAt, Light};
 use crate::picture::smooth_value;
-use crate::scatter::{Conductor, Lobes, Scatterer};
+use crate::scatter::{Conductor, Lobes, Scatterer, coat_share};
 use crate::{
     Hit, Ray, Reflectance, SurfacePoint, camera_ray, environment_share, frame_of, light_pdf,
     nearest_hit, pattern_reflectance, random4, sample_light, sobol4, surface_point,
@@ -164,6 +164,26 @@ impl<'a> Path<'a> {
                     self.meet_mirror(hit.object, point, &conductor)
                 }
             }
+            Material::CoatedBody(ref body) => {
+                let conductor = Conductor {
+                    index: (body.n, body.k),
+                    coating: LayersAt::new(&[], &object.shape, &point),
+                };
+                let random = self.random(1)[3];
+                let base = pattern_reflectance(&body.base, &object.shape, point.position, random);
+                let surface = Scatterer::CoatedBody(conductor, body, base);
+                self.meet_scattering(hit.object, point, &surface)
+            }
+            Material::Cook(ref cook) => {
+                if let Some(ambient) = cook.ambient {
+                    self.add(ambient, 1.0);
+                }
+                let conductor = Conductor {
+                    index: (cook.n, cook.k),
+                    coating: LayersAt::new(&[], &object.shape, &point),
+                };
+                self.meet_scattering(hit.object, point, &Scatterer::Cook(conductor, cook))
+            }
             Material::Film {
                 ref layers,
                 interference,
@@ -264,7 +284,17 @@ impl<'a> Path<'a> {
                 share * path.scattered_value(scatterer, eye, &towards.lobes, band)
             });
         }
-        let light = scatterer.sample(eye, self.random(1));
+        let random = self.random(1);
+        if let Scatterer::CoatedBody(coat, body, _) = scatterer {
+            let share = coat_share(body, eye.z);
+            if random[2] < share {
+                self.attenuate(|path, band| path.reflectance(coat, eye.z, band) / share);
+                let direction = mirrored(self.ray.direction, point.normal);
+                self.scatter(object, point.position, direction, None);
+                return true;
+            }
+        }
+        let light = scatterer.sample(eye, random);
         let onward = scatterer.between(eye, light);
         if onward.pdf <= 0.0 || !onward.lobes.is_lit() {
             return false;
@@ -291,7 +321,7 @@ impl<'a> Path<'a> {
     fn scattered_value(
         &self,
         scatterer: &Scatterer<'_>,
-        _eye: DVec3,
+        eye: DVec3,
         lobes: &Lobes,
         band: usize,
     ) -> f64 {
@@ -300,6 +330,20 @@ impl<'a> Path<'a> {
         }
         match scatterer {
             Scatterer::Diffuse(reflectance) => lobes.single * self.diffuse(*reflectance, band),
+            Scatterer::CoatedBody(coat, body, base) => {
+                let passes = |cosine: f64| 1.0 - self.reflectance(coat, cosine, band);
+                let base = self.diffuse(*base, band);
+                let outer = self.spectrum(body.mean_reflectance, band);
+                let n = self.spectrum(body.n, band);
+                let inside = base * optics::coated_albedo_factor(base, n, outer);
+                lobes.body * passes(eye.z) * passes(lobes.light_cosine) * inside
+            }
+            Scatterer::Cook(conductor, cook) => {
+                let base = cook.diffuse.map_or(0.0, |diffuse| {
+                    lobes.body * self.spectrum(diffuse.reflectance, band)
+                });
+                lobes.single * self.reflectance(conductor, lobes.cosine, band) + base
+            }
             Scatterer::RoughConductor(conductor, _) => {
                 lobes.single * self.reflectance(conductor, lobes.cosine, band)
             }

@@ -19,6 +19,8 @@
 //! degrees in files. Wavelengths and film thicknesses are nanometres.
 
 mod camera;
+mod coated_body;
+mod cook;
 pub mod description;
 mod document;
 mod drainage;
@@ -41,6 +43,8 @@ mod validate;
 mod validated;
 
 pub use camera::{Camera, Projection};
+pub use coated_body::{CoatEstimate, CoatedBody};
+pub use cook::{Cook1981, CookDistribution, CookFacets, DiffuseShare};
 pub use description::{Distribution, PathDifference, Sampler};
 pub use document::SourceFile;
 pub use environment::{Environment, EnvironmentPart, EnvironmentShape};

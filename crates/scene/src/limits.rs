@@ -102,6 +102,12 @@ pub const EMISSION: Range = Range::new(0.0, 1e9, "");
 /// Roughness where it is not 0. The highlight's exponent (tan θ / m)² has a relative error of about 2⁻²³ / m²
 /// in `f32`: 3e-4 at m = 0.02, and growing to where the highlight of a smoother surface is mostly rounding.
 pub const ROUGHNESS: Range = Range::new(0.02, 1.0, "");
+/// The most slopes of a surface by Cook's model.
+pub const MAX_SLOPES: usize = 8;
+/// The constant c of Cook's Gaussian distribution.
+pub const COOK_CONSTANT: Range = Range::new(0.0, 1e6, "");
+/// A reflectance at normal incidence that is turned into an index: of 0.996 the index is 998.
+pub const NORMAL_REFLECTANCE: Range = Range::new(0.0, 0.996, "");
 /// Exposure in stops.
 pub const EXPOSURE_EV: Range = Range::new(-32.0, 32.0, " stops");
 /// Wavelengths that bands may cover.

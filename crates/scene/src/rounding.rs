@@ -1,8 +1,9 @@
 //! A scene as a GPU receives it: every number rounded to the nearest `f32`.
 
 use crate::{
-    Camera, Emission, Environment, Grain, Layer, Material, Microsurface, Object, Pattern,
-    Projection, RenderSettings, Scene, Shape,
+    Camera, CoatEstimate, CoatedBody, Cook1981, CookFacets, DiffuseShare, Emission, Environment,
+    Grain, Layer, Material, Microsurface, Object, Pattern, Projection, RenderSettings, Scene,
+    Shape,
 };
 use glam::DVec3;
 use std::sync::Arc;
@@ -103,6 +104,8 @@ impl RoundToF32 for Material {
                 layers: layers.iter().map(RoundToF32::rounded).collect(),
                 microsurface: microsurface.as_ref().map(RoundToF32::rounded),
             },
+            Self::Cook(cook) => Self::Cook(cook.rounded()),
+            Self::CoatedBody(body) => Self::CoatedBody(body.rounded()),
             Self::Film {
                 layers,
                 transparent,
@@ -119,6 +122,51 @@ impl RoundToF32 for Material {
                 emission: emission.rounded(),
                 reflectance: *reflectance,
             },
+        }
+    }
+}
+
+impl RoundToF32 for CoatedBody {
+    fn rounded(&self) -> Self {
+        Self {
+            microsurface: self.microsurface.as_ref().map(RoundToF32::rounded),
+            base: self.base.rounded(),
+            estimate: CoatEstimate {
+                n: self.estimate.n.rounded(),
+                base: self.estimate.base.rounded(),
+            },
+            ..*self
+        }
+    }
+}
+
+impl RoundToF32 for Cook1981 {
+    fn rounded(&self) -> Self {
+        Self {
+            facets: self.facets.iter().map(RoundToF32::rounded).collect(),
+            diffuse: self.diffuse.as_ref().map(RoundToF32::rounded),
+            ambient: self.ambient.as_ref().map(RoundToF32::rounded),
+            ..self.clone()
+        }
+    }
+}
+
+impl RoundToF32 for CookFacets {
+    fn rounded(&self) -> Self {
+        Self {
+            slope: self.slope.rounded(),
+            weight: self.weight.rounded(),
+            part: self.part.rounded(),
+        }
+    }
+}
+
+impl RoundToF32 for DiffuseShare {
+    fn rounded(&self) -> Self {
+        Self {
+            share: self.share.rounded(),
+            chance: self.chance.rounded(),
+            reflectance: self.reflectance,
         }
     }
 }

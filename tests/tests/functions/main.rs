@@ -1,5 +1,6 @@
 //! Every WGSL function against its twin in Rust, on many inputs with the edges among them.
 
+mod bodies;
 mod environments;
 mod numbers;
 mod optics_functions;
@@ -80,6 +81,7 @@ fn table(ranges: &[(f32, f32)], edges: &[&[f32]]) -> Vec<f32> {
 
 fn checks() -> Vec<Check> {
     [
+        bodies::checks(),
         environments::checks(),
         numbers::checks(),
         optics_functions::checks(),

@@ -852,6 +852,8 @@ fn factors() -> Vec<Check> {
                 films.push((FACTOR_LOSSY_FILM_TRANSMITS, spectrum));
             }
             Material::Emitter { .. }
+            | Material::Cook(_)
+            | Material::CoatedBody(_)
             | Material::Diffuse {
                 reflectance: scene::Pattern::Texture { .. },
             } => {}

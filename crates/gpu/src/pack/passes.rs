@@ -20,7 +20,8 @@ pub(super) fn of_sample(scene: &Scene, limits: RecordLimits) -> u64 {
     let light_groups = u64::from(limits.light_groups) + 1;
     let groups = u64::from(scene.settings().bands.count().div_ceil(4)) + 1;
 
-    let trace = (2 * segments + crossings) * (1 + objects + most(thickness_passes));
+    let surfaces = most(thickness_passes) + 3 * most(slope_passes);
+    let trace = (2 * segments + crossings) * (1 + objects + surfaces);
     let factors = (2 * segments + crossings) * (1 + most(layer_passes));
     let spectrum = groups * (1 + segments + factors + 2 * light_groups);
     let environment = scene.environment().parts().len() as u64 + 1;
@@ -35,6 +36,14 @@ fn thickness_passes(material: &Material) -> u64 {
     };
     let of_layer = |thickness: &Thickness| thickness.parts().map(of_part).sum::<u64>();
     material.thicknesses().map(|t| 1 + of_layer(t)).sum()
+}
+
+/// Of Cook's model between two directions, or of drawing one.
+fn slope_passes(material: &Material) -> u64 {
+    match material {
+        Material::Cook(cook) => 1 + cook.facets.len() as u64,
+        _ => 0,
+    }
 }
 
 /// Of the factor of a material with a stack; a film of one layer has none.

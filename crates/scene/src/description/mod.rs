@@ -5,6 +5,7 @@
 //! result to [`Scene::new`](crate::Scene::new). Nothing here is checked beyond its type.
 
 mod camera;
+mod cook;
 mod environment;
 mod material;
 mod microsurface;
@@ -14,6 +15,9 @@ mod spectrum;
 mod thickness;
 
 pub use camera::Camera;
+pub use cook::{
+    ConductorModel, ConductorModelName, Cook1981, CookDistribution, CookNormalisation, Slope,
+};
 pub use environment::Environment;
 pub use material::{DiffuseReflectance, FilmModel, Layer, Material, PathDifference};
 pub use microsurface::{Brushed, Distribution, Roughness};

@@ -127,6 +127,12 @@ pub enum Index {
         #[serde(default)]
         extrapolate: Extrapolate,
     },
+    /// The index without absorption that reflects as much at normal incidence: n = (1 + √F) / (1 − √F), k = 0
+    /// (Cook and Torrance 1982).
+    Reflecting {
+        /// The reflectance at normal incidence, at most 0.996.
+        normal_reflectance: Reflectance,
+    },
     /// A mixture of two media, in grains far smaller than the wavelength.
     Mixture {
         /// The rule.

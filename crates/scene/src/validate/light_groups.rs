@@ -150,9 +150,7 @@ fn lights<'a>(
     let materials = parts.materials.iter_mut().zip(written).zip(is_used);
     let mut lights: Vec<_> = materials
         .filter_map(|((material, name), is_used)| {
-            let Material::Emitter { emission, .. } = material else {
-                return None;
-            };
+            let emission = material.emission_mut()?;
             if is_used {
                 return Some((emission, name));
             }

@@ -2,7 +2,9 @@
 
 mod camera;
 mod checks;
+mod cook;
 mod database_file;
+mod dielectric;
 mod environment;
 mod formula;
 mod index;

@@ -71,6 +71,11 @@ impl<'a> SpectrumList<'a> {
         self.tables[id.index()].extent().0
     }
 
+    /// The mean of a spectrum over its knots.
+    pub(crate) fn mean(&self, id: SpectrumId) -> f64 {
+        self.tables[id.index()].mean()
+    }
+
     /// The CIE 1931 colour-matching functions on the grid.
     pub(crate) fn observer(&self, checks: &mut Checks) -> Option<[BandTable; 3]> {
         let field = FieldPath::root().key("render").key("wavelengths_nm");
@@ -88,46 +93,21 @@ impl<'a> SpectrumList<'a> {
         field: &FieldPath,
         written: &Reflectance,
     ) -> Option<SpectrumId> {
-        let (spectrum, advice) = match written {
-            Reflectance::Constant(value) => {
-                let value = checks.number(field, *value, &limits::REFLECTANCE)?;
-                (Spectrum::Constant(value), Advice::None)
-            }
-            Reflectance::Name(name) => (
-                named_reflectance(checks, field, name, Extrapolate::Error)?,
-                Advice::Name(name),
-            ),
-            Reflectance::Srgb { srgb } => {
-                let rgb = lifted::colour(checks, &field.key("srgb"), *srgb)?;
-                (lifted::reflectance(rgb.map(decode)), Advice::None)
-            }
-            Reflectance::LinearSrgb { linear_srgb } => {
-                let rgb = lifted::colour(checks, &field.key("linear_srgb"), *linear_srgb)?;
-                (lifted::reflectance(rgb), Advice::None)
-            }
-            Reflectance::Named { name, extrapolate } => (
-                named_reflectance(checks, &field.key("name"), name, *extrapolate)?,
-                Advice::Add,
-            ),
-            Reflectance::Table {
-                nm,
-                values,
-                extrapolate,
-            } => {
-                let columns = [(REFLECTANCE, values.as_slice())];
-                let [spectrum] = points::inline(checks, field, nm, columns, *extrapolate)?;
-                (spectrum, Advice::Add)
-            }
-            Reflectance::File { csv, extrapolate } => {
-                let path = self.path(csv);
-                let [spectrum] = points::file(checks, field, &path, [REFLECTANCE], *extrapolate)?;
-                (spectrum, Advice::Add)
-            }
-        };
+        let (spectrum, advice) = read_reflectance(checks, self.directory, field, written)?;
         let table = self.resampled(checks, field, &spectrum, advice)?;
         Some(self.single(&table, limits::REFLECTANCE))
     }
 
+    /// The number of a spectrum that is made of two others, knot by knot.
+    pub(crate) fn combined(
+        &mut self,
+        of: [SpectrumId; 2],
+        f: impl Fn([f64; 2]) -> f64,
+    ) -> SpectrumId {
+        let [a, b] = of.map(|id| &self.tables[id.index()]);
+        let table = a.combined(b, |a, b| f([a, b]));
+        self.single(&table, limits::EMISSION)
+    }
     /// The numbers of an index's n and k; that of k is one more than that of n.
     pub(crate) fn index(
         &mut self,
@@ -287,6 +267,51 @@ impl Advice<'_> {
             "{clamp} to go on with its end values, or narrow `render.wavelengths_nm`"
         ))
     }
+}
+
+/// A reflectance over wavelength, and what to do where it does not reach far enough; files are looked for from `directory`.
+pub(super) fn read_reflectance<'w>(
+    checks: &mut Checks,
+    directory: &Path,
+    field: &FieldPath,
+    written: &'w Reflectance,
+) -> Option<(Spectrum, Advice<'w>)> {
+    Some(match written {
+        Reflectance::Constant(value) => {
+            let value = checks.number(field, *value, &limits::REFLECTANCE)?;
+            (Spectrum::Constant(value), Advice::None)
+        }
+        Reflectance::Name(name) => (
+            named_reflectance(checks, field, name, Extrapolate::Error)?,
+            Advice::Name(name),
+        ),
+        Reflectance::Srgb { srgb } => {
+            let rgb = lifted::colour(checks, &field.key("srgb"), *srgb)?;
+            (lifted::reflectance(rgb.map(decode)), Advice::None)
+        }
+        Reflectance::LinearSrgb { linear_srgb } => {
+            let rgb = lifted::colour(checks, &field.key("linear_srgb"), *linear_srgb)?;
+            (lifted::reflectance(rgb), Advice::None)
+        }
+        Reflectance::Named { name, extrapolate } => (
+            named_reflectance(checks, &field.key("name"), name, *extrapolate)?,
+            Advice::Add,
+        ),
+        Reflectance::Table {
+            nm,
+            values,
+            extrapolate,
+        } => {
+            let columns = [(REFLECTANCE, values.as_slice())];
+            let [spectrum] = points::inline(checks, field, nm, columns, *extrapolate)?;
+            (spectrum, Advice::Add)
+        }
+        Reflectance::File { csv, extrapolate } => {
+            let path = directory.join(csv);
+            let [spectrum] = points::file(checks, field, &path, [REFLECTANCE], *extrapolate)?;
+            (spectrum, Advice::Add)
+        }
+    })
 }
 
 fn named_reflectance(

@@ -1,0 +1,156 @@
+//! gaussian.wgsl and cook.wgsl.
+
+use crate::scene_functions::{World, pick, rows};
+use crate::{Check, pure, table};
+use glam::DVec3;
+use pellicle_tests::tolerances::{ARITHMETIC, BECKMANN, DIRECTION, FACET, TRIGONOMETRY};
+use reference::{cook_facets, sample_cook_facet};
+use scene::{Cook1981, Material};
+use std::f64::consts::TAU;
+use std::sync::OnceLock;
+
+pub(crate) fn checks() -> Vec<Check> {
+    let mut all = gaussian();
+    all.extend([between_directions(), facets()]);
+    all
+}
+
+fn world() -> &'static World {
+    static WORLD: OnceLock<World> = OnceLock::new();
+    WORLD.get_or_init(|| World::new("everything_bodies"))
+}
+
+fn gaussian() -> Vec<Check> {
+    let slopes = (0.05, 1.0);
+    let of_facet = |proves, body, twin, tolerance| Check {
+        probe: pure(&["gaussian"], (2, 1), body),
+        proves,
+        inputs: table(
+            &[(0.02, 1.0), slopes],
+            &[
+                &[1.0, 0.05],
+                &[0.0, 0.1],
+                &[-1.0, 0.1],
+                &[0.999_999_9, 0.02],
+            ],
+        ),
+        twin,
+        tolerance,
+    };
+    vec![
+        of_facet(
+            &["gaussian_d1"],
+            "put(0u, gaussian_d1(a(0u), a(1u)));",
+            |a| vec![optics::gaussian_d1(a[0], a[1])],
+            BECKMANN,
+        ),
+        of_facet(
+            &["gaussian_pdf"],
+            "put(0u, gaussian_pdf(a(0u), a(1u)));",
+            |a| vec![optics::gaussian_pdf(a[0], a[1])],
+            BECKMANN,
+        ),
+        Check {
+            probe: pure(&["gaussian"], (1, 1), "put(0u, facet_angle(a(0u)));"),
+            proves: &["facet_angle"],
+            inputs: table(&[(0.0, 1.0)], &[&[0.0], &[1.0], &[0.999_999_9]]),
+            twin: |a| vec![((1.0 - a[0]) * (1.0 + a[0])).sqrt().atan2(a[0])],
+            tolerance: TRIGONOMETRY,
+        },
+        Check {
+            probe: pure(&["gaussian"], (1, 1), "put(0u, gaussian_share(a(0u)));"),
+            proves: &["gaussian_share"],
+            inputs: table(&[slopes], &[&[0.02], &[1.0]]),
+            twin: |a| vec![optics::gaussian_share(a[0])],
+            tolerance: ARITHMETIC,
+        },
+        Check {
+            probe: pure(
+                &["gaussian"],
+                (3, 3),
+                "put3(0u, sample_gaussian(a(0u), a(1u), a(2u)));",
+            ),
+            proves: &["sample_gaussian"],
+            inputs: table(
+                &[(0.0, 0.999_999), (0.0, 0.999_999), slopes],
+                &[&[0.0, 0.0, 0.1], &[0.999_999_9, 0.5, 1.0]],
+            ),
+            twin: |a| optics::sample_gaussian(a[0], a[1], a[2]).to_vec(),
+            tolerance: DIRECTION,
+        },
+    ]
+}
+
+/// Materials by Cook's model.
+fn materials() -> Vec<usize> {
+    let all = world().scene.materials().iter().enumerate();
+    all.filter(|(_, material)| matches!(material, Material::Cook(_)))
+        .map(|(index, _)| index)
+        .collect()
+}
+
+fn cook(material: f64) -> &'static Cook1981 {
+    match &world().scene.materials()[material as usize] {
+        Material::Cook(cook) => cook,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn between(a: &[f64]) -> Vec<f64> {
+    let direction = |cosine: f64, turn: f64| {
+        let (sine, phi) = ((1.0 - cosine * cosine).sqrt(), TAU * turn);
+        DVec3::new(sine * phi.cos(), sine * phi.sin(), cosine)
+    };
+    let found = cook_facets(cook(a[0]), direction(a[1], 0.0), direction(a[2], a[3]));
+    vec![found.reflection, found.pdf, found.cosine]
+}
+
+fn between_directions() -> Check {
+    let materials = materials();
+    Check {
+        probe: world().probe(
+            &["cook"],
+            (4, 3),
+            "let eye = vec3f(sqrt(1.0 - a(1u) * a(1u)), 0.0, a(1u));
+             let light = vec3f(sqrt(1.0 - a(2u) * a(2u)) * direction_of_turn(a(3u)), a(2u));
+             let f = cook_facets(u32(a(0u)), eye, light);
+             put(0u, f.reflection); put(1u, f.pdf); put(2u, f.cosine);",
+        ),
+        proves: &["cook_facets"],
+        inputs: rows(4, |u| {
+            let cosine = |u: f64| if u < 0.02 { -u } else { 0.03 + 0.97 * u };
+            let material = pick(&materials, u[0]) as f64;
+            Some(vec![material, cosine(u[1]), cosine(u[2]), u[3]])
+        }),
+        twin: between,
+        tolerance: FACET,
+    }
+}
+
+fn facets() -> Check {
+    let materials = materials();
+    Check {
+        probe: world().probe(
+            &["cook"],
+            (4, 3),
+            "put3(0u, sample_cook_facet(u32(a(0u)), a(1u), a(2u), a(3u)));",
+        ),
+        proves: &["sample_cook_facet"],
+        inputs: rows(4, |u| {
+            let material = pick(&materials, u[0]);
+            // Clear of where the choice turns over.
+            let mut below = 0.0;
+            let is_clear = cook(material as f64).facets.iter().all(|facets| {
+                below += facets.part;
+                (below - u[3]).abs() > 1e-5
+            });
+            is_clear.then(|| vec![material as f64, u[1], u[2], u[3]])
+        }),
+        twin: |a| {
+            sample_cook_facet(cook(a[0]), [a[1], a[2], a[3]])
+                .to_array()
+                .to_vec()
+        },
+        tolerance: DIRECTION,
+    }
+}
