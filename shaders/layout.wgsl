@@ -40,6 +40,27 @@ const SURFACE_ROUGH_CONDUCTOR: u32 = 2u;
 /// Surface: a free film.
 const SURFACE_FILM: u32 = 3u;
 
+/// Facets: Beckmann's distribution of slopes.
+const FACETS_BECKMANN: u32 = 0u;
+
+/// Facets: the distribution of Trowbridge and Reitz.
+const FACETS_GGX: u32 = 1u;
+
+/// Grain: a surface alike in all directions.
+const GRAIN_NONE: u32 = 0u;
+
+/// Grain: along a direction in space.
+const GRAIN_ALONG: u32 = 1u;
+
+/// Grain: around an axis through the object's centre.
+const GRAIN_AROUND: u32 = 2u;
+
+/// Knots of a table of energy over the root of the cosine.
+const ENERGY_COSINES: u32 = 32u;
+
+/// Knots of a table of energy over the width of the slopes, where that differs.
+const ENERGY_WIDTHS: u32 = 17u;
+
 /// Field: the same everywhere.
 const FIELD_CONSTANT: u32 = 0u;
 
@@ -229,6 +250,16 @@ struct Object {
 
 /// What a surface is made of.
 struct Material {
+    /// Direction of a surface's grain, or of the axis that it runs around.
+    grain: vec3f,
+    /// A `GRAIN_` tag.
+    grain_kind: u32,
+    /// Width of the distribution of slopes along and across the grain.
+    alpha: vec2f,
+    /// A `FACETS_` tag.
+    facets: u32,
+    /// First number of the table of energy of its facets.
+    first_energy: u32,
     /// A `SURFACE_` tag.
     surface: u32,
     /// Spectrum: reflectance (even squares of a checker), or n of an index, whose k is the next one.
@@ -237,8 +268,8 @@ struct Material {
     odd_spectrum: u32,
     /// Side of a checker's squares.
     checker_size: f32,
-    /// Root mean square slope of a rough conductor, 0 when smooth.
-    roughness: f32,
+    /// Mean of that table over all directions.
+    mean_energy: f32,
     /// A `FILM_` tag, of a film.
     film: u32,
     /// Light that it emits.

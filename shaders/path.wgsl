@@ -101,7 +101,8 @@ fn meet_smooth(walk: Walk, object: u32, point: SurfacePoint, vertex_in: Vertex, 
 fn meet_scattering(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
     var vertex = vertex_in;
     let scatterer = Scatterer(objects[object].material, vertex.scatter.kind);
-    let world_from_local = frame_of(point.normal);
+    vertex.material = scatterer.material;
+    let world_from_local = surface_frame(object, point);
     let eye = -walk.ray.direction * world_from_local;
     vertex.eye_cosine = eye.z;
 

@@ -32,6 +32,8 @@ struct Lobes {
 struct Vertex {
     /// What the path meets here; its cosine is that of `onward`.
     scatter: Factor,
+    /// The material of a rough surface.
+    material: u32,
     /// Cosine of the path's arrival with the surface's normal.
     eye_cosine: f32,
     /// What the path is multiplied by here.
@@ -96,7 +98,7 @@ fn begin_record() {
 /// A vertex that does nothing yet.
 fn plain_vertex() -> Vertex {
     let one = Factor(FACTOR_ONE, 0u, 1.0, 0.0, 0u);
-    return Vertex(one, 1.0, NO_LOBES, 0u, 0u, 0.0, 0u, 0u, NO_LOBES, crossing_count, crossing_count);
+    return Vertex(one, 0u, 1.0, NO_LOBES, 0u, 0u, 0.0, 0u, 0u, NO_LOBES, crossing_count, crossing_count);
 }
 
 fn push_vertex(vertex: Vertex) {

@@ -73,6 +73,7 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "meet_scattering",
     "meet_smooth",
     "meet_surface",
+    "multiple_colour",
     "path_radiance",
     "plain_vertex",
     "push_crossing",

@@ -41,6 +41,8 @@ pub const MODULES: &[Module] = modules! {
     "two_beam": ["film", "trig"];
     "stack": ["complex", "phase", "trig"];
     "microfacet": ["trig"];
+    "microsurface": ["features", "layout", "trig"];
+    "energy": ["bindings", "features", "layout", "numbers"];
     "bindings": ["layout"];
     "features": [];
     "numbers": ["bindings", "layout"];
@@ -48,16 +50,16 @@ pub const MODULES: &[Module] = modules! {
     "camera": ["bindings", "layout"];
     "noise": ["bindings", "features", "layout", "random"];
     "thickness": ["bindings", "features", "layout", "noise", "numbers", "trig"];
-    "surface": ["bindings", "camera", "features", "layout"];
+    "surface": ["bindings", "camera", "features", "layout", "sampling"];
     "hit": ["bindings", "camera", "features", "intersect", "layout"];
     "light": ["bindings", "features", "layout", "sampling", "trig"];
     "record": ["layout", "limits"];
     "walk": ["bindings", "camera", "random", "surface"];
     "factor": ["bindings", "features", "layout", "record", "surface", "thickness"];
     "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "scatter", "surface", "walk"];
-    "scatter": ["bindings", "features", "layout", "microfacet", "record", "sampling", "trig"];
+    "scatter": ["bindings", "energy", "features", "layout", "microsurface", "record", "sampling", "trig"];
     "path": [
-        "bindings", "camera", "connect", "factor", "features", "hit", "layout", "light", "random", "record", "sampling", "scatter",
+        "bindings", "camera", "connect", "factor", "features", "hit", "layout", "light", "random", "record", "scatter",
         "spectrum", "surface", "walk"
     ];
     "evaluate": [

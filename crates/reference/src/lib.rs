@@ -5,6 +5,7 @@
 //! recursion), and no formula is shared with the shader. Comparing the two proves both.
 
 mod camera;
+mod facets;
 mod interference;
 mod intersect;
 mod light;
@@ -19,6 +20,7 @@ mod surface;
 mod thickness;
 
 pub use camera::{Ray, camera_ray};
+pub use facets::{FacetScattering, Facets};
 pub use intersect::{Hit, intersect_plane, intersect_sphere, nearest_hit};
 pub use light::{light_pdf, sample_light};
 pub use microfacet::{Microfacet, cook_torrance};
@@ -27,5 +29,5 @@ pub use path::{PathSample, radiance};
 pub use random::{pcg4d, random4, unit_interval};
 pub use render::{Stopped, render};
 pub use sampling::{cone_height, frame_of, sample_cone, sample_cosine_hemisphere};
-pub use surface::{SurfacePoint, reflectance_spectrum, surface_point};
+pub use surface::{SurfacePoint, reflectance_spectrum, surface_frame, surface_point};
 pub use thickness::layer_thickness;

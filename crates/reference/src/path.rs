@@ -3,8 +3,8 @@
 use crate::interference::{LayersAt, Light};
 use crate::scatter::{Conductor, Lobes, Scatterer};
 use crate::{
-    Hit, Ray, SurfacePoint, camera_ray, frame_of, light_pdf, nearest_hit, random4,
-    reflectance_spectrum, sample_light, surface_point,
+    Facets, Hit, Ray, SurfacePoint, camera_ray, light_pdf, nearest_hit, random4,
+    reflectance_spectrum, sample_light, surface_frame, surface_point,
 };
 use glam::DVec3;
 use optics::Complex64;
@@ -160,8 +160,8 @@ impl<'a> Path<'a> {
                     index: (n, k),
                     coating: LayersAt::new(layers, &object.shape, &point),
                 };
-                if let Some(facets) = microsurface {
-                    let rough = Scatterer::RoughConductor(conductor, facets.roughness[0]);
+                if let Some(microsurface) = microsurface {
+                    let rough = Scatterer::RoughConductor(conductor, Facets::new(microsurface));
                     self.meet_scattering(hit.object, point, &rough)
                 } else {
                     self.meet_mirror(hit.object, point, &conductor)
@@ -256,7 +256,8 @@ impl<'a> Path<'a> {
         point: SurfacePoint,
         scatterer: &Scatterer<'_>,
     ) -> bool {
-        let world_from_local = frame_of(point.normal);
+        let met = &self.scene.objects()[object];
+        let world_from_local = surface_frame(self.scene.material(met.material), &met.shape, &point);
         let local_from_world = world_from_local.transpose();
         let eye = local_from_world * -self.ray.direction;
         if let Some(sent) = self.send_to_light(object, &point) {
@@ -292,8 +293,11 @@ impl<'a> Path<'a> {
         }
         match scatterer {
             Scatterer::Diffuse(spectrum) => lobes.single * self.spectrum(*spectrum, band),
-            Scatterer::RoughConductor(conductor, _) => {
-                lobes.single * self.reflectance(conductor, lobes.cosine, band)
+            Scatterer::RoughConductor(conductor, facets) => {
+                let reflectance = |cosine| self.reflectance(conductor, cosine, band);
+                let mean = optics::mean_reflectance(reflectance);
+                let multiple = optics::multiple_colour(mean, facets.mean_energy());
+                lobes.single * reflectance(lobes.cosine) + lobes.multiple * multiple
             }
         }
     }

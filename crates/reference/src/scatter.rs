@@ -1,7 +1,7 @@
 //! How surfaces scatter light between two directions of their local frame, whose z is the normal on the ray's side.
 
 use crate::interference::LayersAt;
-use crate::{cook_torrance, sample_cosine_hemisphere};
+use crate::{Facets, sample_cosine_hemisphere};
 use glam::DVec3;
 use scene::SpectrumId;
 use std::f64::consts::PI;
@@ -10,8 +10,8 @@ use std::f64::consts::PI;
 pub(crate) enum Scatterer<'a> {
     /// Evenly, by a reflectance.
     Diffuse(SpectrumId),
-    /// A rough conductor of a root mean square slope.
-    RoughConductor(Conductor<'a>, f64),
+    /// A conductor by its facets.
+    RoughConductor(Conductor<'a>, Facets<'a>),
 }
 
 /// A conductor where a path meets it.
@@ -71,24 +71,27 @@ impl Scatterer<'_> {
                     pdf: lambert,
                 }
             }
-            Self::RoughConductor(_, slope) => {
-                let facet = cook_torrance(eye, light, *slope);
+            Self::RoughConductor(_, facets) => facets.between(eye, light).map_or(
                 Scattering {
-                    lobes: Lobes::single(facet.reflection * light.z, facet.cosine, light),
-                    pdf: facet.pdf,
-                }
-            }
+                    lobes: Lobes::single(0.0, 1.0, light),
+                    pdf: 0.0,
+                },
+                |found| Scattering {
+                    lobes: Lobes {
+                        multiple: found.multiple,
+                        ..Lobes::single(found.single, found.cosine, light)
+                    },
+                    pdf: found.pdf,
+                },
+            ),
         }
     }
 
     /// A unit vector towards which light is scattered from `eye`.
-    pub(crate) fn sample(&self, eye: DVec3, [u, v, ..]: [f64; 4]) -> DVec3 {
+    pub(crate) fn sample(&self, eye: DVec3, random: [f64; 4]) -> DVec3 {
         match self {
-            Self::Diffuse(_) => sample_cosine_hemisphere(u, v),
-            Self::RoughConductor(_, slope) => {
-                let facet = DVec3::from_array(optics::sample_beckmann(u, v, *slope));
-                (2.0 * eye.dot(facet) * facet - eye).normalize()
-            }
+            Self::Diffuse(_) => sample_cosine_hemisphere(random[0], random[1]),
+            Self::RoughConductor(_, facets) => facets.sample(eye, random),
         }
     }
 }

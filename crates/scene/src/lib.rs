@@ -19,6 +19,7 @@
 //! degrees in files. Wavelengths and film thicknesses are nanometres.
 
 mod camera;
+mod derived;
 pub mod description;
 mod document;
 mod drainage;
@@ -39,6 +40,7 @@ mod validate;
 mod validated;
 
 pub use camera::{Camera, Projection};
+pub use derived::Energy;
 pub use description::{Distribution, PathDifference};
 pub use document::SourceFile;
 pub use field_path::{FieldPath, Step};

@@ -5,6 +5,7 @@ use crate::{
     Projection, RenderSettings, Scene, Shape,
 };
 use glam::DVec3;
+use std::sync::Arc;
 
 /// Rounds what can be rounded and keeps the rest.
 pub(crate) trait RoundToF32 {
@@ -132,6 +133,7 @@ impl RoundToF32 for Microsurface {
                 Grain::Along(direction) => Grain::Along(direction.rounded()),
                 Grain::Around(axis) => Grain::Around(axis.rounded()),
             },
+            energy: Arc::clone(&self.energy),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Every WGSL function against its twin in Rust, on many inputs with the edges among them.
 
+mod facets;
 mod numbers;
 mod optics_functions;
 mod scene_functions;
@@ -79,6 +80,7 @@ fn table(ranges: &[(f32, f32)], edges: &[&[f32]]) -> Vec<f32> {
 
 fn checks() -> Vec<Check> {
     [
+        facets::checks(),
         numbers::checks(),
         optics_functions::checks(),
         scene_functions::checks(),

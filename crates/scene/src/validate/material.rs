@@ -52,7 +52,7 @@ fn check(
                 n,
                 k,
                 layers: Vec::new(),
-                microsurface: microsurface?,
+                microsurface: microsurface.ok()?,
             })
         }
         description::Material::Film {
@@ -102,7 +102,7 @@ fn check(
                 n,
                 k,
                 layers: layers?,
-                microsurface: microsurface?,
+                microsurface: microsurface.ok()?,
             })
         }
         description::Material::Emitter {
