@@ -55,7 +55,6 @@ fn meet_surface(walk: Walk, sample: Sample, hit: Hit) -> Walk {
         let base = diffuse_factor(hit.object, point.position, random_at(sample, walk, 1u).w);
         vertex.base = base.spectrum;
         vertex.base_kind = base.kind;
-        vertex.scatter.first_thickness = select(vertex.scatter.first_thickness, material, surface >= SURFACE_COOK_D1);
     }
     if ((HAS_COOK || HAS_BASES) && surface >= SURFACE_COOK_D1) {
         return meet_scattering(walk, sample, hit.object, point, vertex);
@@ -103,7 +102,8 @@ fn meet_smooth(walk: Walk, object: u32, point: SurfacePoint, vertex_in: Vertex, 
 fn meet_scattering(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
     var vertex = vertex_in;
     let scatterer = Scatterer(objects[object].material, vertex.scatter.kind);
-    let world_from_local = frame_of(point.normal);
+    vertex.material = scatterer.material;
+    let world_from_local = surface_frame(object, point);
     let eye = -walk.ray.direction * world_from_local;
     vertex.eye_cosine = eye.z;
 
