@@ -50,6 +50,14 @@ impl Material {
         }
     }
 
+    /// What it emits; none where it is no emitter.
+    pub fn emission(&self) -> Option<Emission> {
+        match self {
+            Self::Emitter { emission, .. } => Some(*emission),
+            _ => None,
+        }
+    }
+
     /// The thicknesses of its layers.
     pub fn thicknesses(&self) -> impl Iterator<Item = &Thickness> {
         self.layers().iter().map(|layer| &layer.thickness)

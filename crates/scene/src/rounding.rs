@@ -1,7 +1,7 @@
 //! A scene as a GPU receives it: every number rounded to the nearest `f32`.
 
 use crate::{
-    Camera, Emission, Environment, Layer, Material, Object, Pattern, Projection, RenderSettings,
+    Camera, Emission, Environment, Layer, Light, LightShape, Material, Object, Pattern, Projection, RenderSettings,
     Scene, Shape,
 };
 use glam::DVec3;
@@ -45,6 +45,7 @@ impl RoundToF32 for Scene {
             light_groups: self.light_groups.clone(),
             materials: self.materials.rounded(),
             objects: self.objects.rounded(),
+            lights: self.lights.rounded(),
             environment: self.environment.rounded(),
         }
     }
@@ -194,6 +195,43 @@ impl RoundToF32 for Shape {
                 bitangent: bitangent.rounded(),
                 half_width: half_width.rounded(),
                 half_height: half_height.rounded(),
+            },
+        }
+    }
+}
+
+impl RoundToF32 for Light {
+    fn rounded(&self) -> Self {
+        Self {
+            shape: self.shape.rounded(),
+            emission: self.emission.rounded(),
+        }
+    }
+}
+
+impl RoundToF32 for LightShape {
+    fn rounded(&self) -> Self {
+        match self {
+            Self::Disc { towards, height } => Self::Disc {
+                towards: towards.rounded(),
+                height: height.rounded(),
+            },
+            Self::Direction { towards } => Self::Direction {
+                towards: towards.rounded(),
+            },
+            Self::Point { position } => Self::Point {
+                position: position.rounded(),
+            },
+            Self::Spot {
+                position,
+                axis,
+                full_cosine,
+                edge_cosine,
+            } => Self::Spot {
+                position: position.rounded(),
+                axis: axis.rounded(),
+                full_cosine: full_cosine.rounded(),
+                edge_cosine: edge_cosine.rounded(),
             },
         }
     }

@@ -5,7 +5,9 @@
 //! result to [`Scene::new`](crate::Scene::new). Nothing here is checked beyond its type.
 
 mod camera;
+mod emission;
 mod environment;
+mod light;
 mod material;
 mod object;
 mod render;
@@ -13,11 +15,13 @@ mod spectrum;
 mod thickness;
 
 pub use camera::Camera;
+pub use emission::{Emission, EmissionSpectrum, Strength};
 pub use environment::Environment;
+pub use light::Light;
 pub use material::{DiffuseReflectance, FilmModel, Layer, Material, PathDifference};
 pub use object::Object;
 pub use render::{LightGroups, Render, WavelengthSampling};
-pub use spectrum::{Emission, Extrapolate, Index, MixtureRule, Reflectance, SellmeierTerms};
+pub use spectrum::{Extrapolate, Index, MixtureRule, Reflectance, SellmeierTerms};
 pub use thickness::{
     AnodisedMetal, Anodising, Drainage, HeatTint, Quantity, Steel, Steps, Swirls, Thickness,
 };
@@ -45,6 +49,9 @@ pub struct Description {
     /// The shapes in space.
     #[serde(default)]
     pub objects: Vec<Object>,
+    /// Lights that are no objects.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lights: Vec<Light>,
     /// What surrounds the objects; black when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub environment: Option<Environment>,

@@ -3,6 +3,7 @@
 use super::checks::Checks;
 use super::layers::{Written, check_interference};
 use super::spectrum_list::SpectrumList;
+use super::strength::Radiator;
 use crate::description::{self, DiffuseReflectance};
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
@@ -93,7 +94,7 @@ fn check(
             reflectance,
             ..
         } => {
-            let emission = spectra.emission(checks, &field.key("emission"), emission);
+            let emission = spectra.emission(checks, &field.key("emission"), emission, Radiator::Emitter);
             let reflectance = reflectance.as_ref().map(|reflectance| {
                 spectra.reflectance(checks, &field.key("reflectance"), reflectance)
             });
