@@ -3,6 +3,7 @@
 
 override HAS_SPHERES: bool = true;
 override HAS_RECTANGLES: bool = true;
+override HAS_DISKS: bool = true;
 override HAS_DIFFUSE: bool = true;
 override HAS_CHECKERS: bool = true;
 override HAS_MIRRORS: bool = true;

@@ -22,6 +22,10 @@ fn distance_to(index: u32, ray: Ray, from_object: u32) -> f32 {
             && abs(dot(place, objects[index].bitangent)) <= objects[index].half_height;
         return select(-1.0, distance, inside);
     }
+    if (HAS_DISKS && objects[index].shape == SHAPE_DISK && distance > 0.0) {
+        let place = origin + distance * ray.direction;
+        return select(-1.0, distance, dot(place, place) <= objects[index].radius * objects[index].radius);
+    }
     return distance;
 }
 

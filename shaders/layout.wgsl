@@ -25,14 +25,8 @@ const SHAPE_PLANE: u32 = 1u;
 /// Shape: a plane bounded to a rectangle.
 const SHAPE_RECTANGLE: u32 = 2u;
 
-/// Shape that no ray meets: surroundings of the same radiance from everywhere. Those that no ray meets are greater.
-const SHAPE_EVERYWHERE: u32 = 16u;
-
-/// Shape that no ray meets: surroundings by 1 − |h|, with h the height of the direction.
-const SHAPE_HORIZON: u32 = 17u;
-
-/// Shape that no ray meets: surroundings by the cosine with `normal`, where it is above 0.
-const SHAPE_POLE: u32 = 18u;
+/// Shape: a plane bounded to a disk.
+const SHAPE_DISK: u32 = 3u;
 
 /// Surface: Lambertian.
 const SURFACE_DIFFUSE: u32 = 0u;
@@ -173,10 +167,18 @@ struct Frame {
     object_count: u32,
     /// Number of lights.
     light_count: u32,
-    /// First of the objects that are parts of the surroundings.
-    first_environment: u32,
-    /// Number of the parts of the surroundings.
-    environment_count: u32,
+    /// Light from above, from the horizon and from below.
+    zenith: u32,
+    /// See `zenith`.
+    horizon: u32,
+    /// See `zenith`.
+    ground: u32,
+    /// Factor of the radiance from above, from the horizon and from below.
+    zenith_scale: f32,
+    /// See `zenith_scale`.
+    horizon_scale: f32,
+    /// See `zenith_scale`.
+    ground_scale: f32,
     /// First of the observer's three spectra.
     observer: u32,
 }
@@ -199,21 +201,21 @@ struct Batch {
 
 /// A shape made of a material.
 struct Object {
-    /// Centre of a sphere or rectangle, a point of a plane.
+    /// Centre of a sphere, rectangle or disk, a point of a plane.
     center: vec3f,
-    /// Radius of a sphere.
+    /// Radius of a sphere or disk.
     radius: f32,
-    /// Unit normal of a plane or rectangle.
+    /// Unit normal of a plane, rectangle or disk.
     normal: vec3f,
     /// A `SHAPE_` tag.
     shape: u32,
-    /// First axis of a plane or rectangle.
+    /// First axis of a plane, rectangle or disk.
     tangent: vec3f,
-    /// Half the width of a rectangle, along `tangent`.
+    /// Half the width of a rectangle, along `tangent`; a disk's radius.
     half_width: f32,
-    /// Second axis of a plane or rectangle.
+    /// Second axis of a plane, rectangle or disk.
     bitangent: vec3f,
-    /// Half the height of a rectangle, along `bitangent`.
+    /// Half the height of a rectangle, along `bitangent`; a disk's radius.
     half_height: f32,
     /// Index of its material.
     material: u32,

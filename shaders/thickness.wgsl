@@ -100,7 +100,7 @@ fn picture_place(field: u32, object: u32, position: vec3f) -> vec2f {
     var size = fields[field].size;
     if (size.x == 0.0) {
         let whole = 2.0 * vec2f(objects[object].half_width, objects[object].half_height);
-        size = select(vec2f(1.0), whole, objects[object].shape == SHAPE_RECTANGLE);
+        size = select(whole, vec2f(1.0), objects[object].shape == SHAPE_PLANE);
     }
     let place = vec2f(dot(local, objects[object].tangent), -dot(local, objects[object].bitangent));
     return 0.5 + place / size;

@@ -36,6 +36,7 @@ pub mod chromaticity;
 pub mod ciecam16;
 pub mod display;
 pub mod lab;
+pub mod lifting;
 pub mod matrix;
 pub mod oklab;
 pub mod srgb;

@@ -31,20 +31,36 @@ impl Features {
         };
         let is_sphere = |shape: &Shape| matches!(shape, Shape::Sphere { .. });
         let is_rectangle = |shape: &Shape| matches!(shape, Shape::Rectangle { .. });
+        let is_disk = |shape: &Shape| matches!(shape, Shape::Disk { .. });
         let named = [
             ("HAS_SPHERES", shape(is_sphere)),
             ("HAS_RECTANGLES", shape(is_rectangle)),
+            ("HAS_DISKS", shape(is_disk)),
             ("HAS_DIFFUSE", material(is_diffuse)),
             ("HAS_CHECKERS", material(is_checker)),
             (
                 "HAS_MIRRORS",
-                material(|m| matches!(m, Material::Conductor { roughness: 0.0, .. })),
+                material(|m| {
+                    matches!(
+                        m,
+                        Material::Conductor {
+                            microsurface: None,
+                            ..
+                        }
+                    )
+                }),
             ),
             (
                 "HAS_ROUGH_CONDUCTORS",
-                material(
-                    |m| matches!(m, Material::Conductor { roughness, .. } if *roughness > 0.0),
-                ),
+                material(|m| {
+                    matches!(
+                        m,
+                        Material::Conductor {
+                            microsurface: Some(_),
+                            ..
+                        }
+                    )
+                }),
             ),
             ("HAS_FILMS", film(|_| true)),
             ("HAS_LOSSY_FILMS", film(|form| form == FilmForm::Lossy)),

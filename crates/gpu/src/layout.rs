@@ -130,6 +130,8 @@ constants! { CONSTANTS;
     pub const SHAPE_PLANE = 1;
     /// Shape: a plane bounded to a rectangle.
     pub const SHAPE_RECTANGLE = 2;
+    /// Shape: a plane bounded to a disk.
+    pub const SHAPE_DISK = 3;
     /// Shape that no ray meets: surroundings of the same radiance from everywhere. Those that no ray meets are greater.
     pub const SHAPE_EVERYWHERE = 16;
     /// Shape that no ray meets: surroundings by 1 − |h|, with h the height of the direction.
@@ -273,21 +275,21 @@ structs! { STRUCTS;
 
     /// A shape made of a material.
     pub struct Object {
-        /// Centre of a sphere or rectangle, a point of a plane.
+        /// Centre of a sphere, rectangle or disk, a point of a plane.
         pub center: [f32; 3],
-        /// Radius of a sphere.
+        /// Radius of a sphere or disk.
         pub radius: f32,
-        /// Unit normal of a plane or rectangle.
+        /// Unit normal of a plane, rectangle or disk.
         pub normal: [f32; 3],
         /// A `SHAPE_` tag.
         pub shape: u32,
-        /// First axis of a plane or rectangle.
+        /// First axis of a plane, rectangle or disk.
         pub tangent: [f32; 3],
-        /// Half the width of a rectangle, along `tangent`.
+        /// Half the width of a rectangle, along `tangent`; a disk's radius.
         pub half_width: f32,
-        /// Second axis of a plane or rectangle.
+        /// Second axis of a plane, rectangle or disk.
         pub bitangent: [f32; 3],
-        /// Half the height of a rectangle, along `bitangent`.
+        /// Half the height of a rectangle, along `bitangent`; a disk's radius.
         pub half_height: f32,
         /// Index of its material.
         pub material: u32,

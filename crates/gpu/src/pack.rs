@@ -201,6 +201,20 @@ fn pack_object(object: &Object, is_light: bool, light: u32) -> layout::Object {
             packed.half_width = half_width as f32;
             packed.half_height = half_height as f32;
         }
+        Shape::Disk {
+            center,
+            normal,
+            tangent,
+            bitangent,
+            radius,
+        } => {
+            packed.shape = layout::SHAPE_DISK;
+            packed.center = vec3(center);
+            (packed.normal, packed.tangent, packed.bitangent) =
+                (vec3(normal), vec3(tangent), vec3(bitangent));
+            packed.radius = radius as f32;
+            (packed.half_width, packed.half_height) = (packed.radius, packed.radius);
+        }
     }
     packed
 }
@@ -245,17 +259,16 @@ fn pack_material(
         Material::Diffuse { ref reflectance } => pack_pattern(&mut packed, reflectance),
         Material::Conductor {
             n,
-            roughness,
+            ref microsurface,
             layers: ref coating,
             ..
         } => {
-            packed.surface = if roughness > 0.0 {
-                layout::SURFACE_ROUGH_CONDUCTOR
-            } else {
-                layout::SURFACE_MIRROR
+            packed.surface = match microsurface {
+                Some(_) => layout::SURFACE_ROUGH_CONDUCTOR,
+                None => layout::SURFACE_MIRROR,
             };
             packed.spectrum = id(n);
-            packed.roughness = roughness as f32;
+            packed.roughness = microsurface.as_ref().map_or(0.0, |m| m.roughness[0] as f32);
             pack_layers(&mut packed, (fields, layers), coating);
         }
         Material::Film {

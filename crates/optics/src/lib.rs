@@ -10,6 +10,8 @@
 //! | R and T of many stacks at many angles and wavelengths, fast | [`batch::evaluate`] |
 //! | a film by the two beams of Suzuki, Yokoi and Toriwaki | [`two_beam`] |
 //! | one boundary | [`fresnel`], [`reflectance_unpolarised`] |
+//! | Cook's model as printed in 1981 and after | [`gaussian_d1`], [`beckmann_d2`], [`index_from_normal_reflectance`] |
+//! | a diffuse body below a coat | [`hemispherical_reflectance`], [`coated_albedo_factor`] |
 //! | rough surfaces | [`cook_torrance`], [`sample_beckmann`] |
 //!
 //! Where the light of a coating goes, at one angle and wavelength:
@@ -44,12 +46,19 @@
 //! whose field lies in it. r_p is the ratio that equals −r_s at normal incidence.
 
 pub mod batch;
+mod coat;
+mod cook;
 mod fresnel;
 mod microfacet;
 mod stack;
 mod two_beam;
 
 use bytemuck::{Pod, Zeroable};
+pub use coat::{coated_albedo_factor, hemispherical_reflectance};
+pub use cook::{
+    beckmann_d2, fresnel_by_g_and_c, gaussian_constant, gaussian_d1, gaussian_pdf, gaussian_share,
+    index_from_normal_reflectance, sample_gaussian,
+};
 pub use fresnel::{Amplitudes, cos_refracted, fresnel, reflectance_unpolarised};
 pub use microfacet::{
     beckmann_d, cook_torrance, half_vector_pdf, reflected_pdf, sample_beckmann, v_groove_g,

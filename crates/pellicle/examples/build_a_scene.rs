@@ -5,7 +5,8 @@
 use pellicle::color::{self, DevelopSettings};
 use pellicle::scene::Scene;
 use pellicle::scene::description::{
-    Camera, Description, Emission, Environment, Index, Material, Object, Render, Thickness,
+    Camera, Description, Emission, Environment, Index, Material, Object, Render, Roughness,
+    Thickness,
 };
 use pellicle::{Backend, Renderer};
 use std::error::Error;
@@ -57,7 +58,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     // Black sheets take what passes through the films.
     let black = Material::Conductor {
         index: Index::Real(1.0),
-        roughness: 0.0,
+        roughness: Roughness::Even(0.0),
+        distribution: None,
+        brushed: None,
     };
     description.materials.insert("black".to_owned(), black);
     for i in 0..COUNT {

@@ -49,7 +49,7 @@ pub fn nearest_hit(scene: &Scene, ray: &Ray, from_object: Option<usize>) -> Opti
 fn distance_to(scene: &Scene, ray: &Ray, object: usize, starts_here: bool) -> Option<f64> {
     match scene.objects()[object].shape {
         Shape::Sphere { center, radius } => intersect_sphere(ray, center, radius, starts_here),
-        Shape::Plane { .. } | Shape::Rectangle { .. } if starts_here => None,
+        Shape::Plane { .. } | Shape::Rectangle { .. } | Shape::Disk { .. } if starts_here => None,
         Shape::Plane { point, normal, .. } => intersect_plane(ray, point, normal),
         Shape::Rectangle {
             center,
@@ -61,6 +61,15 @@ fn distance_to(scene: &Scene, ray: &Ray, object: usize, starts_here: bool) -> Op
         } => intersect_plane(ray, center, normal).filter(|distance| {
             let place = ray.origin + ray.direction * *distance - center;
             place.dot(tangent).abs() <= half_width && place.dot(bitangent).abs() <= half_height
+        }),
+        Shape::Disk {
+            center,
+            normal,
+            radius,
+            ..
+        } => intersect_plane(ray, center, normal).filter(|distance| {
+            let place = ray.origin + ray.direction * *distance - center;
+            place.length_squared() <= radius * radius
         }),
     }
 }

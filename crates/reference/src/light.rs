@@ -12,7 +12,7 @@ const INSIDE: f64 = 1.000_01;
 /// inside it), uniform over the area of a rectangle.
 ///
 /// # Panics
-/// For an unbounded plane, which is never a light.
+/// For an unbounded plane or a disk, which are never lights.
 pub fn sample_light(light: &Shape, point: DVec3, u: f64, v: f64) -> DVec3 {
     match *light {
         Shape::Sphere { center, radius } => {
@@ -37,14 +37,14 @@ pub fn sample_light(light: &Shape, point: DVec3, u: f64, v: f64) -> DVec3 {
                 + bitangent * ((2.0 * v - 1.0) * half_height);
             (place - point).normalize()
         }
-        Shape::Plane { .. } => unreachable!("an unbounded plane is no light"),
+        Shape::Plane { .. } | Shape::Disk { .. } => unreachable!("no light has this shape"),
     }
 }
 
 /// Density with which [`sample_light`] draws a direction that hits the light, sr⁻¹.
 ///
 /// # Panics
-/// For an unbounded plane, which is never a light.
+/// For an unbounded plane or a disk, which are never lights.
 pub fn light_pdf(light: &Shape, point: DVec3, direction: DVec3) -> f64 {
     match *light {
         Shape::Sphere { center, radius } => {
@@ -69,6 +69,6 @@ pub fn light_pdf(light: &Shape, point: DVec3, direction: DVec3) -> f64 {
             let area = 4.0 * half_width * half_height;
             distance * distance / (cosine * area)
         }
-        Shape::Plane { .. } => unreachable!("an unbounded plane is no light"),
+        Shape::Plane { .. } | Shape::Disk { .. } => unreachable!("no light has this shape"),
     }
 }

@@ -92,6 +92,12 @@ pub fn swirls(swirls: &Swirls, shape: &Shape, position: DVec3) -> f64 {
             tangent,
             bitangent,
             ..
+        }
+        | Shape::Disk {
+            center: origin,
+            tangent,
+            bitangent,
+            ..
         } => {
             let local = position - origin;
             let across = DVec3::new(local.dot(tangent), local.dot(bitangent), 0.0);

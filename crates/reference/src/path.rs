@@ -144,14 +144,14 @@ impl<'a> Path<'a> {
                 n,
                 k,
                 ref layers,
-                roughness,
+                ref microsurface,
             } => {
                 let conductor = Conductor {
                     index: (n, k),
                     coating: LayersAt::new(layers, &object.shape, &point),
                 };
-                if roughness > 0.0 {
-                    let rough = Scatterer::RoughConductor(conductor, roughness);
+                if let Some(facets) = microsurface {
+                    let rough = Scatterer::RoughConductor(conductor, facets.roughness[0]);
                     self.meet_scattering(hit.object, point, &rough)
                 } else {
                     self.meet_mirror(hit.object, point, &conductor)

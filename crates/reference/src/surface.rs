@@ -25,7 +25,9 @@ pub fn surface_point(shape: &Shape, ray: &Ray, distance: f64) -> SurfacePoint {
             let normal = (reached - center).normalize();
             (center + normal * radius, normal)
         }
-        Shape::Plane { normal, .. } | Shape::Rectangle { normal, .. } => (reached, normal),
+        Shape::Plane { normal, .. }
+        | Shape::Rectangle { normal, .. }
+        | Shape::Disk { normal, .. } => (reached, normal),
     };
     let along = outward.dot(ray.direction);
     SurfacePoint {
@@ -39,7 +41,9 @@ pub fn surface_point(shape: &Shape, ray: &Ray, distance: f64) -> SurfacePoint {
 /// A shape's centre, or the origin of a plane's axes.
 pub(crate) fn center_of(shape: &Shape) -> DVec3 {
     match *shape {
-        Shape::Sphere { center, .. } | Shape::Rectangle { center, .. } => center,
+        Shape::Sphere { center, .. }
+        | Shape::Rectangle { center, .. }
+        | Shape::Disk { center, .. } => center,
         Shape::Plane { point, .. } => point,
     }
 }
@@ -56,6 +60,9 @@ pub fn reflectance_spectrum(pattern: &Pattern, shape: &Shape, position: DVec3) -
                     tangent, bitangent, ..
                 }
                 | Shape::Rectangle {
+                    tangent, bitangent, ..
+                }
+                | Shape::Disk {
                     tangent, bitangent, ..
                 } => local.dot(tangent).floor() + local.dot(bitangent).floor(),
             };

@@ -97,6 +97,9 @@ fn picture_place(picture: &Picture, shape: &Shape, position: DVec3) -> ([f64; 2]
         }
         | Shape::Rectangle {
             tangent, bitangent, ..
+        }
+        | Shape::Disk {
+            tangent, bitangent, ..
         } => {
             let [width, height] = picture.size.unwrap_or(match *shape {
                 Shape::Rectangle {
@@ -104,6 +107,7 @@ fn picture_place(picture: &Picture, shape: &Shape, position: DVec3) -> ([f64; 2]
                     half_height,
                     ..
                 } => [2.0 * half_width, 2.0 * half_height],
+                Shape::Disk { radius, .. } => [2.0 * radius; 2],
                 _ => [1.0, 1.0],
             });
             let across = 0.5 + local.dot(tangent) / width;

@@ -1,7 +1,7 @@
 //! What a surface is made of, in a validated scene.
 
 use crate::description::PathDifference;
-use crate::{LightGroupId, SpectrumId, Thickness};
+use crate::{LightGroupId, Microsurface, SpectrumId, Thickness};
 
 /// What a surface is made of. Every surface has two sides. They behave alike, but for a film of several layers that absorbs: from
 /// behind, light meets its layers in the reverse order.
@@ -20,8 +20,8 @@ pub enum Material {
         k: SpectrumId,
         /// What lies on it, the outermost layer first; none on a bare surface.
         layers: Vec<Layer>,
-        /// Root mean square slope m of the Beckmann distribution; 0 is a smooth mirror.
-        roughness: f64,
+        /// Its facets; none where it is smooth.
+        microsurface: Option<Microsurface>,
     },
     /// A free thin film between air and air. Rays reflect from it and pass straight through it.
     Film {

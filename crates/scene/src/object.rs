@@ -49,4 +49,17 @@ pub enum Shape {
         /// Half the height, > 0.
         half_height: f64,
     },
+    /// A plane bounded to a disk.
+    Disk {
+        /// Centre, the origin of its two axes.
+        center: DVec3,
+        /// Unit normal.
+        normal: DVec3,
+        /// First axis.
+        tangent: DVec3,
+        /// Second axis.
+        bitangent: DVec3,
+        /// Radius, > 0.
+        radius: f64,
+    },
 }

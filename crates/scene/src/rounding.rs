@@ -1,8 +1,8 @@
 //! A scene as a GPU receives it: every number rounded to the nearest `f32`.
 
 use crate::{
-    Camera, Emission, Environment, Layer, Light, LightShape, Material, Object, Pattern, Projection, RenderSettings,
-    Scene, Shape,
+    Camera, Emission, Environment, Grain, Layer, Light, LightShape, Material, Microsurface, Object,
+    Pattern, Projection, RenderSettings, Scene, Shape,
 };
 use glam::DVec3;
 
@@ -96,12 +96,12 @@ impl RoundToF32 for Material {
                 n,
                 k,
                 layers,
-                roughness,
+                microsurface,
             } => Self::Conductor {
                 n: *n,
                 k: *k,
                 layers: layers.iter().map(RoundToF32::rounded).collect(),
-                roughness: roughness.rounded(),
+                microsurface: microsurface.as_ref().map(RoundToF32::rounded),
             },
             Self::Film {
                 layers,
@@ -118,6 +118,20 @@ impl RoundToF32 for Material {
             } => Self::Emitter {
                 emission: emission.rounded(),
                 reflectance: *reflectance,
+            },
+        }
+    }
+}
+
+impl RoundToF32 for Microsurface {
+    fn rounded(&self) -> Self {
+        Self {
+            distribution: self.distribution,
+            roughness: self.roughness.map(|alpha| alpha.rounded()),
+            grain: match self.grain {
+                Grain::None => Grain::None,
+                Grain::Along(direction) => Grain::Along(direction.rounded()),
+                Grain::Around(axis) => Grain::Around(axis.rounded()),
             },
         }
     }
@@ -195,6 +209,19 @@ impl RoundToF32 for Shape {
                 bitangent: bitangent.rounded(),
                 half_width: half_width.rounded(),
                 half_height: half_height.rounded(),
+            },
+            Self::Disk {
+                center,
+                normal,
+                tangent,
+                bitangent,
+                radius,
+            } => Self::Disk {
+                center: center.rounded(),
+                normal: normal.rounded(),
+                tangent: tangent.rounded(),
+                bitangent: bitangent.rounded(),
+                radius: radius.rounded(),
             },
         }
     }

@@ -105,6 +105,7 @@ fn assert_sound(scene: &Scene) {
                     normal,
                     ..
                 } => [half_width, half_height, normal.length()],
+                Shape::Disk { radius, normal, .. } => [radius, normal.length(), 1.0],
             };
             assert!(lengths.iter().all(|&length| length > 1e-7), "{object:?}");
         }

@@ -53,12 +53,14 @@ fn a_stack_keeps_its_layers_in_order() {
 fn a_coating_lies_on_its_substrate() {
     let coated = format!("type = 'coated'\nsubstrate = 'gold'\nroughness = 0.25\n{TWO}");
     let Material::Conductor {
-        layers, roughness, ..
+        layers,
+        microsurface: Some(facets),
+        ..
     } = material(&coated)
     else {
         panic!("not a conductor");
     };
-    assert_eq!((layers.len(), roughness), (2, 0.25));
+    assert_eq!((layers.len(), facets.roughness), (2, [0.25; 2]));
     let single = "type = 'coated'\nsubstrate = 'titanium'\nindex = 2.4\nthickness_nm = 60";
     assert!(matches!(material(single), Material::Conductor { layers, .. } if layers.len() == 1));
 }

@@ -225,7 +225,10 @@ fn missing_fields_are_told_at_their_table() {
             (
                 "4:1",
                 "objects[0].type",
-                &["is missing", "\"plane\", \"rectangle\" or \"sphere\""],
+                &[
+                    "is missing",
+                    "\"disk\", \"plane\", \"rectangle\" or \"sphere\"",
+                ],
             ),
         ],
     );
@@ -459,6 +462,42 @@ fn other_materials_out_of_range_are_told() {
             "9:13",
             "roughness",
             &["0 (a smooth mirror)", "0.02 to 1"],
+        ),
+        (
+            metal("index = 'gold'\nroughness = [0.1, 2]\nbrushed = { along = [1, 0, 0] }"),
+            "9:19",
+            "roughness[1]",
+            &["found 2; it must be from 0.02 to 1"],
+        ),
+        (
+            metal("index = 'gold'\nroughness = [0.1, 0.2]"),
+            "9:13",
+            "roughness",
+            &["which way its grain runs", "brushed = { along"],
+        ),
+        (
+            metal("index = 'gold'\nroughness = 0.1\nbrushed = { around = [0, 1, 0] }"),
+            "10:11",
+            "brushed",
+            &["no grain", "along and across"],
+        ),
+        (
+            metal("index = 'gold'\nroughness = [0.1, 0.2]\nbrushed = { around = [0, 0, 0] }"),
+            "10:22",
+            "brushed.around",
+            &["no direction"],
+        ),
+        (
+            metal("index = 'gold'\ndistribution = 'ggx'"),
+            "9:16",
+            "distribution",
+            &["for a rough surface"],
+        ),
+        (
+            metal("index = 'gold'\nroughness = 0.1\ndistribution = 'phong'"),
+            "10:16",
+            "distribution",
+            &["\"beckmann\" or \"ggx\""],
         ),
         (
             metal("index = { name = 'glod' }"),

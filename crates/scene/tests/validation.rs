@@ -142,7 +142,7 @@ up = [1, 0, 0]
             bitangent,
             ..
         } => (normal, tangent, bitangent),
-        Shape::Sphere { .. } => panic!("a sphere"),
+        Shape::Sphere { .. } | Shape::Disk { .. } => panic!("no rectangle or plane"),
     };
     assert_eq!(axes(0), (DVec3::Y, DVec3::X, DVec3::NEG_Z));
     assert_eq!(axes(1), (DVec3::Z, DVec3::X, DVec3::Y));
@@ -222,14 +222,19 @@ fn every_material_becomes_what_it_says() {
             n,
             k,
             layers,
-            roughness: 0.0,
+            microsurface: None,
         },
-        Material::Conductor { roughness: 0.3, .. },
+        Material::Conductor {
+            microsurface: Some(facets),
+            ..
+        },
     ) = (&materials[2], &materials[3])
     else {
         panic!("{materials:?}");
     };
     assert!(layers.is_empty());
+    assert_eq!(facets.roughness, [0.3, 0.3]);
+    assert!(!facets.is_brushed());
     assert_eq!((value(&scene, *n), value(&scene, *k)), (0.5, 3.0));
     assert_eq!(
         only_layer(&materials[4]),

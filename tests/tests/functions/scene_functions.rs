@@ -121,7 +121,9 @@ fn ray_at(a: &[f64]) -> Ray {
 
 pub(crate) fn center_of(shape: &Shape) -> DVec3 {
     match *shape {
-        Shape::Sphere { center, .. } | Shape::Rectangle { center, .. } => center,
+        Shape::Sphere { center, .. }
+        | Shape::Rectangle { center, .. }
+        | Shape::Disk { center, .. } => center,
         Shape::Plane { point, .. } => point,
     }
 }
@@ -145,6 +147,16 @@ pub(crate) fn point_on(shape: &Shape, u: f64, v: f64) -> DVec3 {
             half_height,
             ..
         } => center + across * half_width * tangent + along * half_height * bitangent,
+        Shape::Disk {
+            center,
+            tangent,
+            bitangent,
+            radius,
+            ..
+        } => {
+            let (sine, cosine) = (TAU * v).sin_cos();
+            center + radius * u.sqrt() * (cosine * tangent + sine * bitangent)
+        }
     }
 }
 
@@ -216,7 +228,7 @@ fn point_about(light: &Shape, u: &[f64], far: bool) -> Option<DVec3> {
             let least = if far { 0.5 } else { 0.1 };
             (aside.dot(normal).abs() > least).then(|| rounded(center + aside))
         }
-        Shape::Plane { .. } => None,
+        Shape::Plane { .. } | Shape::Disk { .. } => None,
     }
 }
 
@@ -390,6 +402,9 @@ fn is_off_the_edges(shape: &Shape, size: f64, point: DVec3) -> bool {
         }
         | Shape::Rectangle {
             tangent, bitangent, ..
+        }
+        | Shape::Disk {
+            tangent, bitangent, ..
         } => vec![local.dot(tangent), local.dot(bitangent)],
     };
     axes.iter().all(|x| (x - x.round()).abs() > 1e-4)
@@ -443,14 +458,19 @@ fn distance(shape: &Shape, ray: &Ray, starts_here: bool) -> f64 {
         }
         _ if starts_here => None,
         Shape::Plane { point, normal, .. } => reference::intersect_plane(ray, point, normal),
-        Shape::Rectangle { center, normal, .. } => reference::intersect_plane(ray, center, normal)
-            .filter(|&t| beyond_the_edge(shape, ray.origin + t * ray.direction) <= 0.0),
+        Shape::Rectangle { center, normal, .. } | Shape::Disk { center, normal, .. } => {
+            reference::intersect_plane(ray, center, normal)
+                .filter(|&t| beyond_the_edge(shape, ray.origin + t * ray.direction) <= 0.0)
+        }
     };
     found.unwrap_or(MISS)
 }
 
-/// How far a point in a rectangle's plane lies outside it, below 0 inside.
+/// How far a point in the plane of a rectangle or disk lies outside it, below 0 inside.
 fn beyond_the_edge(shape: &Shape, place: DVec3) -> f64 {
+    if let Shape::Disk { center, radius, .. } = *shape {
+        return (place - center).length() - radius;
+    }
     let Shape::Rectangle {
         center,
         tangent,
@@ -481,7 +501,9 @@ fn is_clear(shape: &Shape, ray: &Ray, starts_here: bool) -> bool {
             (off_axis - radius).abs() > LEAST && (origin.length() - radius).abs() > LEAST
         }
         _ if starts_here => true,
-        Shape::Plane { normal, .. } | Shape::Rectangle { normal, .. } => {
+        Shape::Plane { normal, .. }
+        | Shape::Rectangle { normal, .. }
+        | Shape::Disk { normal, .. } => {
             let (height, speed) = (origin.dot(normal), ray.direction.dot(normal));
             let place = ray.origin - height / speed * ray.direction;
             height.abs() > LEAST

@@ -1,6 +1,6 @@
 //! Materials as written.
 
-use super::{Emission, Index, Reflectance, Thickness};
+use super::{Brushed, Distribution, Emission, Index, Reflectance, Roughness, Thickness};
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -19,10 +19,15 @@ pub enum Material {
     Conductor {
         /// The index.
         index: Index,
-        /// Root mean square slope of the surface: 0 is a smooth mirror, otherwise from 0.02 to 1.
+        /// Roughness; smooth when absent.
         #[serde(default)]
-        #[schemars(range(min = 0.0, max = limits::ROUGHNESS.high))]
-        roughness: f64,
+        roughness: Roughness,
+        /// How the slopes of a rough surface are distributed; "beckmann" when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        distribution: Option<Distribution>,
+        /// Which way the grain runs, where `roughness` is `[along, across]`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        brushed: Option<Brushed>,
     },
     /// A free thin film with air on both sides: one layer (`index` and `thickness_nm`) or several (`layers`).
     /// Light reflects from it or passes straight through it, both with interference.
@@ -59,11 +64,15 @@ pub enum Material {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(length(min = 1, max = limits::MAX_LAYERS))]
         layers: Option<Vec<Layer>>,
-        /// Root mean square slope of the surface: 0 is a smooth mirror, otherwise from 0.02 to 1. Each microfacet reflects
-        /// as the stack does at the facet's own angle.
+        /// Roughness; smooth when absent. Each facet reflects as the stack does at the facet's own angle.
         #[serde(default)]
-        #[schemars(range(min = 0.0, max = limits::ROUGHNESS.high))]
-        roughness: f64,
+        roughness: Roughness,
+        /// How the slopes of a rough surface are distributed; "beckmann" when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        distribution: Option<Distribution>,
+        /// Which way the grain runs, where `roughness` is `[along, across]`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        brushed: Option<Brushed>,
     },
     /// Emits the same radiance from every point in every direction, on both sides.
     Emitter {

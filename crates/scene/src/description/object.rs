@@ -42,6 +42,18 @@ pub enum Object {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         up: Option<[f64; 3]>,
     },
+    /// A plane bounded to a disk.
+    Disk {
+        /// The name of one of the `materials`.
+        material: String,
+        /// Centre.
+        center: [f64; 3],
+        /// A direction at right angles to the disk.
+        normal: [f64; 3],
+        /// Radius.
+        #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
+        radius: f64,
+    },
 }
 
 impl Object {
@@ -50,7 +62,8 @@ impl Object {
         match self {
             Self::Sphere { material, .. }
             | Self::Plane { material, .. }
-            | Self::Rectangle { material, .. } => material,
+            | Self::Rectangle { material, .. }
+            | Self::Disk { material, .. } => material,
         }
     }
 }

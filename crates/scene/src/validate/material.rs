@@ -2,11 +2,11 @@
 
 use super::checks::Checks;
 use super::layers::{Written, check_interference};
+use super::microsurface;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
 use crate::description::{self, DiffuseReflectance};
 use crate::limits;
-use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, Material, Pattern};
 use std::collections::BTreeMap;
 
@@ -35,15 +35,25 @@ fn check(
             let reflectance = pattern(checks, spectra, &field.key("reflectance"), reflectance)?;
             Some(Material::Diffuse { reflectance })
         }
-        description::Material::Conductor { index, roughness } => {
+        description::Material::Conductor {
+            index,
+            roughness,
+            distribution,
+            brushed,
+        } => {
             let index = spectra.index(checks, &field.key("index"), index);
-            let roughness = check_roughness(checks, &field.key("roughness"), *roughness);
+            let microsurface = microsurface::Written {
+                roughness: *roughness,
+                distribution: *distribution,
+                brushed: *brushed,
+            }
+            .check(checks, field);
             let (n, k) = index?;
             Some(Material::Conductor {
                 n,
                 k,
                 layers: Vec::new(),
-                roughness: roughness?,
+                microsurface: microsurface?,
             })
         }
         description::Material::Film {
@@ -72,6 +82,8 @@ fn check(
             thickness_nm,
             layers,
             roughness,
+            distribution,
+            brushed,
         } => {
             let written = Written {
                 index: index.as_ref(),
@@ -80,13 +92,18 @@ fn check(
             };
             let substrate = spectra.index(checks, &field.key("substrate"), substrate);
             let layers = written.check(checks, spectra, field);
-            let roughness = check_roughness(checks, &field.key("roughness"), *roughness);
+            let microsurface = microsurface::Written {
+                roughness: *roughness,
+                distribution: *distribution,
+                brushed: *brushed,
+            }
+            .check(checks, field);
             let (n, k) = substrate?;
             Some(Material::Conductor {
                 n,
                 k,
                 layers: layers?,
-                roughness: roughness?,
+                microsurface: microsurface?,
             })
         }
         description::Material::Emitter {
@@ -132,17 +149,4 @@ fn pattern(
             })
         }
     }
-}
-
-/// Either a mirror or rough enough; see [`limits::ROUGHNESS`].
-fn check_roughness(checks: &mut Checks, field: &FieldPath, roughness: f64) -> Option<f64> {
-    if roughness == 0.0 || limits::ROUGHNESS.contains(roughness) {
-        return Some(roughness.abs());
-    }
-    let message = format!(
-        "found {roughness}; it must be 0 (a smooth mirror) or from {}",
-        limits::ROUGHNESS
-    );
-    checks.report(Problem::new(ProblemKind::OutOfRange, field, message));
-    None
 }

@@ -10,6 +10,7 @@ mod layers;
 mod light;
 mod light_groups;
 mod material;
+mod microsurface;
 mod object;
 mod picture_file;
 mod points;

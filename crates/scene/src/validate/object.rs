@@ -87,6 +87,7 @@ fn check_is_sphere(
         description::Object::Sphere { .. } => return,
         description::Object::Plane { .. } => "plane",
         description::Object::Rectangle { .. } => "rectangle",
+        description::Object::Disk { .. } => "disk",
     };
     let name = object.material();
     let message = format!(
@@ -126,6 +127,24 @@ fn shape(checks: &mut Checks, field: &FieldPath, object: &description::Object) -
             up,
             ..
         } => rectangle(checks, field, (*center, *normal), *size, *up),
+        description::Object::Disk {
+            center,
+            normal,
+            radius,
+            ..
+        } => {
+            let center = checks.point(&field.key("center"), *center);
+            let radius = checks.number(&field.key("radius"), *radius, &limits::LENGTH);
+            let normal = checks.direction(&field.key("normal"), *normal)?;
+            let bitangent = usual_up(normal);
+            Some(Shape::Disk {
+                center: center?,
+                normal,
+                tangent: bitangent.cross(normal),
+                bitangent,
+                radius: radius?,
+            })
+        }
     }
 }
 

@@ -69,6 +69,7 @@ fn area(shape: &Shape) -> Option<f64> {
             half_height,
             ..
         } => Some(8.0 * half_width * half_height),
+        Shape::Disk { radius, .. } => Some(2.0 * PI * radius * radius),
         Shape::Plane { .. } => None,
     }
 }

@@ -1,0 +1,193 @@
+//! The reflection model of Cook and Torrance as Suzuki, Yokoi and Toriwaki print it (section 3-1), piece by piece.
+//!
+//! I_r = I_a R_a + Σ I_l dω_l R_s with R_s = F D G / (π (N·E)); the cosine N·L of the irradiance is cancelled against that of
+//! the denominator already. G is [`v_groove_g`](crate::v_groove_g). Two forms of D are printed: [`gaussian_d1`] with an arbitrary
+//! constant, and [`beckmann_d2`], whose projected area is π and not 1: with the printed π in place of the 4 of
+//! [`cook_torrance`](crate::cook_torrance) and D₂ in place of D₂/π, R_s is four times as large.
+
+use crate::beckmann_d;
+use std::f64::consts::PI;
+
+/// The index n = (1 + √F₀) / (1 − √F₀) of a dielectric whose reflectance at normal incidence is `normal_reflectance`
+/// (Cook and Torrance 1982, section "Spectral composition", from F₀ = ((n − 1) / (n + 1))²).
+///
+/// Domain: 0 ≤ F₀ < 1; n runs from 1 to ∞.
+pub fn index_from_normal_reflectance(normal_reflectance: f64) -> f64 {
+    let root = normal_reflectance.sqrt();
+    (1.0 + root) / (1.0 - root)
+}
+
+/// Fresnel's reflectance of unpolarised light from a real index `n` ≥ 1, with c the cosine at the facet and g² = n² + c² − 1:
+/// F = ½ (g − c)² / (g + c)² {1 + (c (g + c) − 1)² / (c (g − c) + 1)²} (Cook and Torrance 1982, with c = E·H).
+///
+/// The print has c = N·E and a garbled g. It is the same function as [`reflectance_unpolarised`](crate::reflectance_unpolarised)
+/// of an index without absorption.
+pub fn fresnel_by_g_and_c(n: f64, c: f64) -> f64 {
+    let g = (n * n + c * c - 1.0).sqrt();
+    let first = ((g - c) / (g + c)).powi(2);
+    let second = ((c * (g + c) - 1.0) / (c * (g - c) + 1.0)).powi(2);
+    0.5 * first * (1.0 + second)
+}
+
+/// D₁ = exp(−a² / m²), a the angle between facet and normal in radians, without its constant c: Gaussian in the angle (Blinn 1977).
+pub fn gaussian_d1(cos_facet: f64, slope: f64) -> f64 {
+    if cos_facet <= 0.0 {
+        return 0.0;
+    }
+    let angle = angle_of(cos_facet);
+    (-(angle / slope).powi(2)).exp()
+}
+
+/// The constant c for which c D₁ covers the surface once: c ∫ exp(−a²/m²) cos a dω = 1, that is
+/// 1 / c = π ∫₀^{π/2} exp(−a²/m²) sin 2a da, by Simpson's rule.
+pub fn gaussian_constant(slope: f64) -> f64 {
+    const STEPS: u32 = 2000;
+    let end = (0.5 * PI).min(8.0 * slope);
+    let step = end / f64::from(STEPS);
+    let integrand = |i: u32| {
+        let angle = f64::from(i) * step;
+        (-(angle / slope).powi(2)).exp() * (2.0 * angle).sin()
+    };
+    let inner = (1..STEPS).map(|i| integrand(i) * if i % 2 == 1 { 4.0 } else { 2.0 });
+    let sum = integrand(0) + inner.sum::<f64>() + integrand(STEPS);
+    1.0 / (PI * sum * step / 3.0)
+}
+
+/// D₂ = exp(−tan²a / m²) / (m² cos⁴a), as printed: π times [`beckmann_d`].
+pub fn beckmann_d2(cos_facet: f64, slope: f64) -> f64 {
+    PI * beckmann_d(cos_facet, slope)
+}
+
+/// A facet normal drawn from two uniform numbers in [0, 1) so that the angle's square is as D₁ has it:
+/// a² = −m² ln(1 − u Z) with Z = 1 − exp(−π² / 4m²), which cuts it off at the horizon.
+pub fn sample_gaussian(u: f64, v: f64, slope: f64) -> [f64; 3] {
+    let angle = slope * (-(-u * gaussian_share(slope)).ln_1p()).sqrt();
+    let (sine, cosine) = angle.min(0.5 * PI).sin_cos();
+    let (sin_phi, cos_phi) = (2.0 * PI * v).sin_cos();
+    [sine * cos_phi, sine * sin_phi, cosine]
+}
+
+/// Density of a facet normal drawn by [`sample_gaussian`], sr⁻¹: exp(−a²/m²) a / (π m² Z sin a).
+pub fn gaussian_pdf(cos_facet: f64, slope: f64) -> f64 {
+    if cos_facet <= 0.0 {
+        return 0.0;
+    }
+    let angle = angle_of(cos_facet);
+    let sine = angle.sin();
+    let widening = if sine > 0.0 { angle / sine } else { 1.0 };
+    gaussian_d1(cos_facet, slope) * widening / (PI * slope * slope * gaussian_share(slope))
+}
+
+/// Z = 1 − exp(−π² / 4m²): the share of a Gaussian in the plane that lies above the horizon.
+pub fn gaussian_share(slope: f64) -> f64 {
+    -(-0.25 * PI * PI / (slope * slope)).exp_m1()
+}
+
+/// The angle of a cosine; near 0 it keeps the digits that are there.
+fn angle_of(cosine: f64) -> f64 {
+    let sine = ((1.0 - cosine) * (1.0 + cosine)).max(0.0).sqrt();
+    sine.atan2(cosine)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Complex64, reflectance_unpolarised, v_groove_g};
+
+    fn close(found: f64, expected: f64, tolerance: f64) {
+        assert!((found - expected).abs() <= tolerance, "{found} {expected}");
+    }
+
+    /// √0.04 = 0.2: n = 1.2 / 0.8. √0.25 = 0.5: n = 1.5 / 0.5. √0.81 = 0.9: n = 1.9 / 0.1.
+    #[test]
+    fn the_inversion_by_hand() {
+        for (reflectance, n) in [(0.0, 1.0), (0.04, 1.5), (0.25, 3.0), (0.81, 19.0)] {
+            close(index_from_normal_reflectance(reflectance), n, 1e-12);
+            close(fresnel_by_g_and_c(n, 1.0), reflectance, 1e-14);
+        }
+    }
+
+    /// n = 1.5 at 60°: g² = 2.25 + 0.25 − 1 = 1.5, g = 1.224745; (g − c)²/(g + c)² = 0.525255/2.974745 = 0.176572;
+    /// c (g + c) − 1 = −0.137628, c (g − c) + 1 = 1.362372, their squares' quotient 0.010205;
+    /// F = 0.088286 × 1.010205 = 0.089187. Hecht (Optics, 4th ed., section 4.6) has r⊥ = −0.420 and r∥ = −0.042 (0.0892).
+    #[test]
+    fn fresnel_by_hand() {
+        close(fresnel_by_g_and_c(1.5, 0.5), 0.089_187, 5e-7);
+    }
+
+    /// The formula of g and c is Fresnel's.
+    #[test]
+    fn fresnel_is_that_of_an_index_without_absorption() {
+        for n in [1.0, 1.333, 1.5, 3.0, 19.0, 300.0] {
+            for c in [1e-6, 0.1, 0.5, 0.9, 1.0] {
+                let exact = reflectance_unpolarised(Complex64::from(n), c);
+                close(fresnel_by_g_and_c(n, c), exact, 1e-12);
+            }
+        }
+        // At the cosine of the normal instead of the facet's it is another.
+        assert!((fresnel_by_g_and_c(1.5, 0.3) - fresnel_by_g_and_c(1.5, 0.5)).abs() > 0.1);
+    }
+
+    /// m = 0.2: D₂ = 25 at the normal; where tan a = m, cos²a = 1/1.04 and D₂ = 25 e⁻¹ 1.04² = 25 × 0.3678794 × 1.0816 = 9.947460.
+    /// m = 0.5, a = 45°: e⁻⁴ / (0.25 × 0.25) = 0.0183156 × 16 = 0.293050.
+    #[test]
+    fn d2_by_hand() {
+        close(beckmann_d2(1.0, 0.2), 25.0, 1e-12);
+        close(beckmann_d2(1.04_f64.sqrt().recip(), 0.2), 9.947_460, 1e-6);
+        close(beckmann_d2(0.5_f64.sqrt(), 0.5), 0.293_050, 1e-6);
+        assert_eq!(beckmann_d2(-0.1, 0.5), 0.0);
+    }
+
+    /// At a = m: e⁻¹. At a = 30° (0.523599) and m = 0.35: (0.523599 / 0.35)² = 2.237998, e^−2.237998 = 0.106672.
+    #[test]
+    fn d1_by_hand() {
+        close(gaussian_d1(1.0, 0.2), 1.0, 1e-15);
+        close(gaussian_d1(0.2_f64.cos(), 0.2), 0.367_879, 1e-6);
+        close(gaussian_d1(0.75_f64.sqrt(), 0.35), 0.106_672, 1e-6);
+        assert_eq!(gaussian_d1(0.0, 0.2), 0.0);
+    }
+
+    /// For small m the surface is covered once by c = 1 / (π m²), as in a plane. As far as the horizon does not cut in,
+    /// ∫ exp(−a²/m²) sin 2a da = m F(m) with Dawson's integral: F(0.3) = 0.28263 (Abramowitz and Stegun, table 7.5).
+    #[test]
+    fn the_constant_of_d1_covers_the_surface_once() {
+        close(gaussian_constant(0.02) * PI * 4e-4, 1.0, 4e-4);
+        close(gaussian_constant(0.3), 1.0 / (PI * 0.3 * 0.282_63), 2e-4);
+        for slope in [0.05, 0.2, 0.6, 1.0] {
+            let c = gaussian_constant(slope);
+            let steps = 200_000;
+            let sum: f64 = (0..steps)
+                .map(|i| 0.5 * PI * (f64::from(i) + 0.5) / f64::from(steps))
+                .map(|a| gaussian_d1(a.cos(), slope) * a.cos() * a.sin())
+                .sum();
+            close(c * sum * 2.0 * PI * 0.5 * PI / f64::from(steps), 1.0, 1e-8);
+        }
+    }
+
+    /// Both directions at 60° on opposite sides: the facet lies level and nothing is hidden, 2 · 1 · ½ / ½ = 2 > 1. Both at 75° in the
+    /// same place: E·H = 1, G = 2 cos²75° = 0.133975. E at 60° and L at the normal: H at 30°, E·H = cos 30°, G = 2 (cos 30°)(½) /
+    /// cos 30° = 1; E at 80°, L at the normal: 2 cos 40° cos 80° / cos 40° = 0.347296.
+    #[test]
+    fn g_by_hand() {
+        let cosine = |degrees: f64| degrees.to_radians().cos();
+        close(v_groove_g(1.0, 0.5, 0.5, 0.5), 1.0, 0.0);
+        let steep = cosine(75.0);
+        close(v_groove_g(steep, steep, steep, 1.0), 0.133_975, 1e-6);
+        close(v_groove_g(cosine(30.0), 0.5, 1.0, cosine(30.0)), 1.0, 1e-12);
+        let hidden = v_groove_g(cosine(40.0), cosine(80.0), 1.0, cosine(40.0));
+        close(hidden, 0.347_296, 1e-6);
+    }
+
+    /// The sampler's density covers the hemisphere of facets once.
+    #[test]
+    fn the_density_of_gaussian_facets_is_one() {
+        for slope in [0.05, 0.3, 1.0] {
+            let steps = 200_000;
+            let sum: f64 = (0..steps)
+                .map(|i| 0.5 * PI * (f64::from(i) + 0.5) / f64::from(steps))
+                .map(|a| gaussian_pdf(a.cos(), slope) * a.sin())
+                .sum();
+            close(sum * PI * PI / f64::from(steps), 1.0, 1e-7);
+        }
+    }
+}

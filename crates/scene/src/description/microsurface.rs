@@ -1,0 +1,52 @@
+//! Roughness as written.
+
+use crate::limits;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Roughness of a surface: the width α of its distribution of slopes. For Beckmann's distribution α is the root mean
+/// square slope. 0 is a smooth surface, otherwise it is from 0.02 to 1.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Roughness {
+    /// The same in all directions.
+    Even(#[schemars(range(min = 0.0, max = limits::ROUGHNESS.high))] f64),
+    /// `[along, across]` the grain of a brushed surface, whose direction `brushed` tells.
+    Brushed(
+        #[schemars(inner(range(min = limits::ROUGHNESS.low, max = limits::ROUGHNESS.high)))]
+        [f64; 2],
+    ),
+}
+
+impl Default for Roughness {
+    fn default() -> Self {
+        Self::Even(0.0)
+    }
+}
+
+/// How the slopes of a rough surface are distributed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Distribution {
+    /// A normal distribution of slopes (Beckmann and Spizzichino 1963).
+    #[default]
+    Beckmann,
+    /// The distribution of Trowbridge and Reitz (1975), which Walter et al. (2007) call GGX: its highlights have long tails.
+    Ggx,
+}
+
+/// Which way the grain of a brushed surface runs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, deny_unknown_fields)]
+pub enum Brushed {
+    /// Along the same direction everywhere.
+    Along {
+        /// The direction; its part in the surface counts.
+        along: [f64; 3],
+    },
+    /// In circles about an axis through the object's centre, as a lathe leaves it.
+    Around {
+        /// Direction of the axis.
+        around: [f64; 3],
+    },
+}
