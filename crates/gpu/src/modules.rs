@@ -50,15 +50,16 @@ pub const MODULES: &[Module] = modules! {
     "thickness": ["bindings", "features", "layout", "noise", "numbers", "trig"];
     "surface": ["bindings", "camera", "features", "layout"];
     "hit": ["bindings", "camera", "features", "intersect", "layout"];
-    "environment": ["bindings", "layout", "sampling", "trig"];
-    "light": ["bindings", "features", "layout", "sampling", "trig"];
+    "environment": ["bindings", "features", "layout", "sampling", "trig"];
+    "light": ["bindings", "environment", "features", "layout", "sampling", "trig"];
+    "light_choice": ["bindings", "features", "layout", "light", "sampling", "trig"];
     "record": ["layout", "limits"];
     "walk": ["bindings", "camera", "random", "surface"];
     "factor": ["bindings", "features", "layout", "record", "surface", "thickness"];
-    "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "scatter", "surface", "walk"];
+    "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "light_choice", "record", "scatter", "surface", "walk"];
     "scatter": ["bindings", "features", "layout", "microfacet", "record", "sampling", "trig"];
     "path": [
-        "bindings", "camera", "connect", "environment", "factor", "features", "hit", "layout", "light", "random", "record", "sampling", "scatter",
+        "bindings", "camera", "connect", "environment", "factor", "features", "hit", "layout", "light", "light_choice", "random", "record", "sampling", "scatter",
         "spectrum", "surface", "walk"
     ];
     "evaluate": [

@@ -53,6 +53,6 @@ pub use microsurface::{Grain, Microsurface};
 pub use object::{Object, Shape};
 pub use problem::{Location, Problem, ProblemKind, Problems};
 pub use schema::schema;
-pub use settings::{RenderSettings, WavelengthSampling};
+pub use settings::{DirectLight, RenderSettings, WavelengthSampling};
 pub use thickness::{BlackFilm, Coordinate, Picture, PictureFile, Profile, Swirls, Thickness};
 pub use validated::{LightGroupId, MaterialId, Scene, SpectrumId};

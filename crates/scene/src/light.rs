@@ -1,6 +1,6 @@
 //! Lights that are no objects, and all that light can be sent from, in a validated scene.
 
-use crate::{Emission, Scene, Shape};
+use crate::{Emission, EnvironmentPart, EnvironmentShape, Scene, Shape};
 use glam::DVec3;
 
 /// A light that is no object. Rays do not meet it.
@@ -61,9 +61,9 @@ pub struct LightSource {
 pub enum SourceKind {
     /// One of [`Scene::objects`], which has bounds.
     Object(usize),
-    /// One of the [`parts`](crate::Environment::parts) of the surroundings.
+    /// One of [`Scene::surroundings`].
     Environment(usize),
-    /// One of [`Scene::lights`].
+    /// One of [`Scene::lights`] that is no disc.
     Light(usize),
 }
 
@@ -78,9 +78,11 @@ impl Scene {
                 let emission = self.material(object.material).emission()?;
                 Some((SourceKind::Object(index), emission))
             });
-        let parts = self.environment().parts().into_iter().enumerate();
+        let parts = self.surroundings().into_iter().enumerate();
         let parts = parts.map(|(index, part)| (SourceKind::Environment(index), part.emission));
         let lights = self.lights().iter().enumerate();
+        let is_disc = |light: &Light| matches!(light.shape, LightShape::Disc { .. });
+        let lights = lights.filter(|(_, light)| !is_disc(light));
         let lights = lights.map(|(index, light)| (SourceKind::Light(index), light.emission));
         objects
             .chain(parts)
@@ -91,6 +93,22 @@ impl Scene {
                 brightness: self.brightness(emission),
             })
             .filter(|source| source.brightness > 0.0)
+            .collect()
+    }
+
+    /// What a ray sees that leaves the scene: the parts of the surroundings, then the discs of distant lights.
+    pub fn surroundings(&self) -> Vec<EnvironmentPart> {
+        let discs = self.lights().iter().filter_map(|light| match light.shape {
+            LightShape::Disc { towards, height } => Some(EnvironmentPart {
+                shape: EnvironmentShape::Disc { towards, height },
+                emission: light.emission,
+            }),
+            _ => None,
+        });
+        self.environment()
+            .parts()
+            .into_iter()
+            .chain(discs)
             .collect()
     }
 

@@ -2,9 +2,7 @@
 
 use crate::description::Description;
 use crate::rounding::RoundToF32;
-use crate::{
-    Camera, Environment, Light, Material, Object, Problems, RenderSettings, validate,
-};
+use crate::{Camera, Environment, Light, Material, Object, Problems, RenderSettings, validate};
 use spectra::{BandTable, LightGroup, SpectralImage};
 use std::path::Path;
 

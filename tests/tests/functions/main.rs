@@ -1,6 +1,7 @@
 //! Every WGSL function against its twin in Rust, on many inputs with the edges among them.
 
 mod environments;
+mod light_choices;
 mod numbers;
 mod optics_functions;
 mod scene_functions;
@@ -81,6 +82,7 @@ fn table(ranges: &[(f32, f32)], edges: &[&[f32]]) -> Vec<f32> {
 fn checks() -> Vec<Check> {
     [
         environments::checks(),
+        light_choices::checks(),
         numbers::checks(),
         optics_functions::checks(),
         scene_functions::checks(),

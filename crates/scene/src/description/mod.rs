@@ -15,6 +15,7 @@ mod render;
 mod spectrum;
 mod thickness;
 
+pub use crate::settings::DirectLight;
 pub use camera::Camera;
 pub use emission::{Emission, EmissionSpectrum, Strength};
 pub use environment::Environment;

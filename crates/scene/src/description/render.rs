@@ -1,6 +1,6 @@
 //! How to render, as written.
 
-use crate::{RenderSettings, limits};
+use crate::{DirectLight, RenderSettings, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -24,6 +24,8 @@ pub struct Render {
     pub sampling: WavelengthSampling,
     /// Which lights are kept apart in the spectral image, so that their lamps can be changed without rendering again.
     pub light_groups: LightGroups,
+    /// How light that surfaces scatter is found: the picture is the same, its noise is not.
+    pub direct_light: DirectLight,
     /// Chooses the sequence of random numbers.
     pub seed: u32,
     /// The most segments of a path. The camera ray is the first; the one that reaches a light counts.
@@ -72,6 +74,7 @@ impl Default for Render {
             wavelengths_nm: [380.0, 780.0],
             sampling: WavelengthSampling::Random,
             light_groups: LightGroups::BySpectrum,
+            direct_light: DirectLight::Both,
             seed: 0,
             max_path_segments: 12,
             exposure_ev: 0.0,

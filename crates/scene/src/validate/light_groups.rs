@@ -34,9 +34,11 @@ pub(crate) fn check_names(checks: &mut Checks, description: &Description) {
         root.key("environment"),
         name_of_environment(description.environment.as_ref()),
     );
-    let of_lights = description.lights.iter().enumerate().map(|(index, light)| {
-        (root.key("lights").index(index), light.light_group())
-    });
+    let of_lights = description
+        .lights
+        .iter()
+        .enumerate()
+        .map(|(index, light)| (root.key("lights").index(index), light.light_group()));
     for (field, name) in of_materials.chain(of_lights).chain([of_environment]) {
         if let Some(name) = name {
             check_name(checks, &field.key("light_group"), name);

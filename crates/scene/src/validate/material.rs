@@ -111,7 +111,8 @@ fn check(
             reflectance,
             ..
         } => {
-            let emission = spectra.emission(checks, &field.key("emission"), emission, Radiator::Emitter);
+            let emission =
+                spectra.emission(checks, &field.key("emission"), emission, Radiator::Emitter);
             let reflectance = reflectance.as_ref().map(|reflectance| {
                 spectra.reflectance(checks, &field.key("reflectance"), reflectance)
             });

@@ -69,7 +69,12 @@ pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene
             light_groups: lit.light_groups,
             materials: lit.parts.materials,
             objects: lit.parts.objects,
-            lights: lit.parts.lights.into_iter().map(|(_, light)| light).collect(),
+            lights: lit
+                .parts
+                .lights
+                .into_iter()
+                .map(|(_, light)| light)
+                .collect(),
             environment: lit.parts.environment,
         })
     };

@@ -25,7 +25,8 @@ pub(crate) fn spread(
         }
         let field = FieldPath::root().key("objects").index(index);
         let Some(area) = area(&object.shape) else {
-            let message = "a plane has no bounds, so no radiance gives it the `power_w` of its material";
+            let message =
+                "a plane has no bounds, so no radiance gives it the `power_w` of its material";
             let field = field.key("material");
             let problem = Problem::new(ProblemKind::Inconsistent, &field, message)
                 .help("give the material a `radiance` or `luminance_cd_m2`, or make the plane a rectangle");

@@ -4,7 +4,9 @@ use super::checks::Checks;
 use super::index;
 use super::points::{self, Column};
 use super::strength::{self, Radiator};
-use crate::description::{self, EmissionSpectrum, Extrapolate, Index, Reflectance, WavelengthSampling};
+use crate::description::{
+    self, EmissionSpectrum, Extrapolate, Index, Reflectance, WavelengthSampling,
+};
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
 use crate::{Emission, FieldPath, LightGroupId, SpectrumId};

@@ -1,10 +1,10 @@
 //! How much light: from the units of a file to the factor of a spectrum.
 
 use super::checks::Checks;
+use crate::FieldPath;
 use crate::description::{self, Strength};
 use crate::limits::{self, Range};
 use crate::problem::{Problem, ProblemKind};
-use crate::FieldPath;
 use spectra::{BandGrid, BandTable, KM_LUMENS_PER_WATT, observer_1931};
 use std::f64::consts::PI;
 
@@ -79,17 +79,42 @@ fn written(strength: &Strength) -> Vec<Written> {
     [
         ("scale", strength.scale, emission, Over::Nothing),
         ("radiance", strength.radiance, other, Over::Watts),
-        ("luminance_cd_m2", strength.luminance_cd_m2, other, Over::Lumens),
+        (
+            "luminance_cd_m2",
+            strength.luminance_cd_m2,
+            other,
+            Over::Lumens,
+        ),
         ("power_w", strength.power_w, other, Over::Watts),
-        ("irradiance_w_m2", strength.irradiance_w_m2, other, Over::Watts),
-        ("illuminance_lux", strength.illuminance_lux, other, Over::Lumens),
-        ("intensity_w_sr", strength.intensity_w_sr, other, Over::Watts),
+        (
+            "irradiance_w_m2",
+            strength.irradiance_w_m2,
+            other,
+            Over::Watts,
+        ),
+        (
+            "illuminance_lux",
+            strength.illuminance_lux,
+            other,
+            Over::Lumens,
+        ),
+        (
+            "intensity_w_sr",
+            strength.intensity_w_sr,
+            other,
+            Over::Watts,
+        ),
         ("intensity_cd", strength.intensity_cd, other, Over::Lumens),
     ]
     .into_iter()
     .filter_map(|(name, value, range, over)| {
         let value = value?;
-        Some(Written { name, value, range, over })
+        Some(Written {
+            name,
+            value,
+            range,
+            over,
+        })
     })
     .collect()
 }
@@ -196,7 +221,11 @@ impl Amount {
                 "found {}, but the spectrum is 0 over the scene's wavelengths",
                 self.value
             );
-            checks.report(Problem::new(ProblemKind::Inconsistent, &self.field, message));
+            checks.report(Problem::new(
+                ProblemKind::Inconsistent,
+                &self.field,
+                message,
+            ));
             return None;
         }
         Some(self.value * self.factor / total)
