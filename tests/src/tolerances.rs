@@ -182,6 +182,9 @@ pub const PROVING_ERROR: f64 = 4e-3;
 /// Just outside a sphere light, from 1.000 008 radii: the cone's height is 1 − √(1 − sin²) with 1 − sin² down to 1.6e-5, which
 /// keeps an error of 2e-6 from the coordinates; the root makes that 2.5e-4 of the height, and the density follows it.
 pub const NEAR_LIGHT: Tolerance = of(5e-4, 5e-4);
+/// What lights bring: points keep 3e-7 of coordinates of some units, which a squared distance of a tenth makes 1e-5, and the edges of
+/// cones a little more.
+pub const LIGHT_ESTIMATE: Tolerance = of(5e-5, 1e-5);
 /// A knot and the place after it: offset times up to 32 steps is rounded by 1e-6.
 pub const KNOT: Tolerance = of(2e-6, 0.0);
 /// A value between two knots: the place is off by up to 1e-6 of what lies between them.

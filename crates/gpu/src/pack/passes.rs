@@ -24,8 +24,10 @@ pub(super) fn of_sample(scene: &Scene, limits: RecordLimits) -> u64 {
     let trace = (2 * segments + crossings) * (1 + objects + surfaces);
     let factors = (2 * segments + crossings) * (1 + most(layer_passes));
     let spectrum = groups * (1 + segments + factors + 2 * light_groups);
-    let environment = scene.environment().parts().len() as u64 + 1;
-    1 + trace + environment + spectrum + 3 * light_groups
+    let environment = scene.surroundings().len() as u64 + 1;
+    // The sum of the lights' estimates and the choice among them.
+    let choices = segments * 2 * (1 + scene.light_sources().len() as u64);
+    1 + trace + choices + environment + spectrum + 3 * light_groups
 }
 
 /// Of working out all thicknesses of a material.
