@@ -55,6 +55,9 @@ const SURFACE_COOK_D1: u32 = 4u;
 /// Surface: Cook's model with the distribution D2.
 const SURFACE_COOK_D2: u32 = 5u;
 
+/// Surface: a diffuse body below a smooth coat.
+const SURFACE_COATED_BODY: u32 = 6u;
+
 /// Field: the same everywhere.
 const FIELD_CONSTANT: u32 = 0u;
 
@@ -264,12 +267,16 @@ struct Material {
     coat: u32,
     /// The part of the light that a base reflects beside the facets of Cook's model.
     base_share: f32,
-    /// Share of the paths that follow what the base reflects.
+    /// Share of the paths that follow what the base reflects; of a coated body, what stands for its reflectance there.
     base_chance: f32,
     /// First of the numbers of the slopes of Cook's model: m, weight and part of each.
     first_slope: u32,
     /// Number of these slopes.
     slope_count: u32,
+    /// Spectrum: reflectance of a coat for diffuse light from outside.
+    mean_reflectance: u32,
+    /// What stands for the index of a coat where a path chooses its way.
+    coat_estimate: f32,
 }
 
 /// A layer of a film or of a coating.
