@@ -11,3 +11,5 @@
 @group(0) @binding(5) var<storage, read> fields: array<Field>;
 /// Tables that anything looks numbers up in, row by row.
 @group(0) @binding(6) var numbers: texture_2d<f32>;
+/// Pictures with four numbers in each place, a head before each, row by row.
+@group(0) @binding(7) var texels: texture_2d<f32>;

@@ -2,6 +2,9 @@
 
 /// The value of a factor in the four bands of a group.
 fn factor_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
+    if (HAS_TEXTURES && factor.kind == FACTOR_SMOOTH) {
+        return smooth_value(texel_at(factor.spectrum).xyz, group, at);
+    }
     if (HAS_FILMS && factor.kind >= FACTOR_FILM_REFLECTS) {
         return film_value(factor, group, at);
     }
@@ -110,7 +113,7 @@ fn lobes_value(vertex: Vertex, lobes: Lobes, group: u32, at: Wavelengths) -> vec
 
 /// The colour of a base beside facets, or below a coat with what the coat keeps of it.
 fn body_value(vertex: Vertex, light_cosine: f32, group: u32, at: Wavelengths) -> vec4f {
-    let base = spectrum_at(vertex.base, group, at);
+    let base = factor_value(Factor(vertex.base_kind, vertex.base, 1.0, 0.0, 0u), group, at);
     let material = vertex.scatter.first_thickness;
     if (!HAS_COATED_BODIES || materials[material].surface != SURFACE_COATED_BODY) {
         return base;

@@ -22,6 +22,18 @@ fn layered_factor(object: u32, point: SurfacePoint, reflects: bool) -> Factor {
     return Factor(kind, factor_source(kind, material), point.cosine, thickness_nm, first_thickness);
 }
 
+/// The factor of a diffuse surface at a point: a spectrum, or a texel of its picture.
+fn diffuse_factor(object: u32, position: vec3f, random: f32) -> Factor {
+    let material = objects[object].material;
+    let head = materials[material].picture;
+    if (HAS_TEXTURES && head != NONE) {
+        let place = picture_place(texel_at(head).zw, object, position);
+        let texel = chosen_texel(head, place, objects[object].shape == SHAPE_SPHERE, random);
+        return Factor(FACTOR_SMOOTH, texel, 1.0, 0.0, 0u);
+    }
+    return Factor(FACTOR_REFLECTANCE, reflectance_spectrum(material, object, position), 1.0, 0.0, 0u);
+}
+
 /// The FACTOR_ tag of a film or conductor.
 fn layered_kind(material: u32, is_front: bool, reflects: bool) -> u32 {
     if (!HAS_FILMS || materials[material].surface != SURFACE_FILM) {

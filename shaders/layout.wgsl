@@ -94,6 +94,9 @@ const FIELD_STACK: u32 = 5u;
 /// Numbers in a row of the texture of tables.
 const NUMBERS_WIDTH: u32 = 4096u;
 
+/// Texels in a row of the texture of pictures.
+const TEXELS_WIDTH: u32 = 4096u;
+
 /// No layer is thicker, nm.
 const MAX_THICKNESS_NM: u32 = 100000u;
 
@@ -135,6 +138,9 @@ const FACTOR_TWO_BEAM_REFLECTS: u32 = 11u;
 
 /// Spectral factor: transmittance of a film without interference.
 const FACTOR_TWO_BEAM_TRANSMITS: u32 = 12u;
+
+/// Spectral factor: a smooth reflectance, by the number of a texel.
+const FACTOR_SMOOTH: u32 = 13u;
 
 /// Film: one layer without absorption and with n ≥ 1 everywhere, for which the short formula holds.
 const FILM_TRANSPARENT: u32 = 0u;
@@ -277,6 +283,8 @@ struct Material {
     mean_reflectance: u32,
     /// What stands for the index of a coat where a path chooses its way.
     coat_estimate: f32,
+    /// The head of the picture of its reflectance; NONE where that is no picture.
+    picture: u32,
 }
 
 /// A layer of a film or of a coating.

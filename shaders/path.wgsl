@@ -3,7 +3,7 @@
 /// Traces the path of one sample into the record and returns its wavelengths.
 fn trace_path(sample: Sample) -> Wavelengths {
     begin_record();
-    let first = random4(sample.pixel, sample.index, 0u, frame.seed);
+    let first = numbers_of(sample, 0u);
     var walk = Walk(camera_ray(sample.pixel, first.xy), NONE, vec3f(0.0), 0.0, 1u, true);
     while (walk.alive) {
         let hit = nearest_hit(walk.ray, walk.from_object);
@@ -46,17 +46,19 @@ fn meet_surface(walk: Walk, sample: Sample, hit: Hit) -> Walk {
     }
     let surface = materials[material].surface;
     if (HAS_DIFFUSE && surface == SURFACE_DIFFUSE) {
-        let spectrum = reflectance_spectrum(material, hit.object, point.position);
-        vertex.scatter = Factor(FACTOR_REFLECTANCE, spectrum, 1.0, 0.0, 0u);
+        vertex.scatter = diffuse_factor(hit.object, point.position, random_at(sample, walk, 1u).w);
         return meet_scattering(walk, sample, hit.object, point, vertex);
     }
     let reflects = !HAS_FILMS || surface != SURFACE_FILM || random_at(sample, walk, 1u).x < REFLECTED_SHARE;
     vertex.scatter = layered_factor(hit.object, point, reflects);
     if (HAS_BASES) {
-        vertex.base = reflectance_spectrum(material, hit.object, point.position);
-        vertex.scatter.first_thickness = select(vertex.scatter.first_thickness, material, surface >= SURFACE_COOK_D1);
-    }
     if ((HAS_COOK || HAS_BASES) && surface >= SURFACE_COOK_D1) {
+        if (HAS_BASES) {
+            let base = diffuse_factor(hit.object, point.position, random_at(sample, walk, 1u).w);
+            vertex.base_kind = base.kind;
+            vertex.base = base.spectrum;
+            vertex.scatter.first_thickness = material;
+        }
         return meet_scattering(walk, sample, hit.object, point, vertex);
     }
     if (HAS_ROUGH_CONDUCTORS && surface == SURFACE_ROUGH_CONDUCTOR) {

@@ -34,7 +34,8 @@ struct Vertex {
     scatter: Factor,
     /// Cosine of the path's arrival with the surface's normal.
     eye_cosine: f32,
-    /// Reflectance of what lies below a coat or beside facets.
+    /// What lies below a coat or beside facets: a FACTOR_ tag and its spectrum.
+    base_kind: u32,
     base: u32,
     /// What the path is multiplied by here.
     onward: Lobes,
@@ -98,7 +99,7 @@ fn begin_record() {
 /// A vertex that does nothing yet.
 fn plain_vertex() -> Vertex {
     let one = Factor(FACTOR_ONE, 0u, 1.0, 0.0, 0u);
-    return Vertex(one, 1.0, 0u, NO_LOBES, 0u, 0u, 0.0, 0u, 0u, NO_LOBES, crossing_count, crossing_count);
+    return Vertex(one, 1.0, FACTOR_ONE, 0u, NO_LOBES, 0u, 0u, 0.0, 0u, 0u, NO_LOBES, crossing_count, crossing_count);
 }
 
 fn push_vertex(vertex: Vertex) {

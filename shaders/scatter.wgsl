@@ -27,7 +27,7 @@ fn scattering(scatterer: Scatterer, eye: vec3f, light: vec3f) -> Scattering {
         let chance = 1.0 - coat_share(scatterer.material, eye.z);
         return Scattering(Lobes(0.0, 0.0, body, 1.0, light.z), chance * body);
     }
-    if (HAS_ROUGH_CONDUCTORS && scatterer.kind != FACTOR_REFLECTANCE) {
+    if (HAS_ROUGH_CONDUCTORS && scatterer.kind != FACTOR_REFLECTANCE && scatterer.kind != FACTOR_SMOOTH) {
         let facet = cook_torrance(eye, light, materials[scatterer.material].roughness);
         return Scattering(Lobes(facet.reflection * light.z, 0.0, 0.0, facet.cosine, light.z), facet.pdf);
     }
@@ -47,7 +47,7 @@ fn sample_scattering(scatterer: Scatterer, eye: vec3f, random: vec4f) -> vec3f {
     if (HAS_COATED_BODIES && materials[scatterer.material].surface == SURFACE_COATED_BODY) {
         return sample_cosine_hemisphere(random.x, random.y);
     }
-    if (HAS_ROUGH_CONDUCTORS && scatterer.kind != FACTOR_REFLECTANCE) {
+    if (HAS_ROUGH_CONDUCTORS && scatterer.kind != FACTOR_REFLECTANCE && scatterer.kind != FACTOR_SMOOTH) {
         let facet = sample_beckmann(random.x, random.y, materials[scatterer.material].roughness);
         return normalize(reflect(-eye, facet));
     }

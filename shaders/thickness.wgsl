@@ -83,27 +83,8 @@ fn profile_value(field: u32, along: f32) -> f32 {
 
 /// A picture by longitude and latitude on spheres, by the surface's two axes elsewhere.
 fn picture_value(field: u32, object: u32, position: vec3f) -> f32 {
-    let value = bilinear(field, picture_place(field, object, position), objects[object].shape == SHAPE_SPHERE);
+    let value = bilinear(field, picture_place(fields[field].size, object, position), objects[object].shape == SHAPE_SPHERE);
     return fields[field].base + fields[field].swing * value;
-}
-
-/// Place in a picture, from its upper left corner in its width and height.
-fn picture_place(field: u32, object: u32, position: vec3f) -> vec2f {
-    let local = position - objects[object].center;
-    if (HAS_SPHERES && objects[object].shape == SHAPE_SPHERE) {
-        let aside = length(local.xz);
-        // At the poles every longitude is right.
-        let angle = polar_angle(local.z, max(abs(local.x), 1e-30));
-        let longitude = select(angle, -angle, local.x < 0.0) / (2.0 * PI);
-        return vec2f(0.5 + longitude, polar_angle(local.y, aside) / PI);
-    }
-    var size = fields[field].size;
-    if (size.x == 0.0) {
-        let whole = 2.0 * vec2f(objects[object].half_width, objects[object].half_height);
-        size = select(whole, vec2f(1.0), objects[object].shape == SHAPE_PLANE);
-    }
-    let place = vec2f(dot(local, objects[object].tangent), -dot(local, objects[object].bitangent));
-    return 0.5 + place / size;
 }
 
 /// The value of a picture, linear between the centres of its pixels.

@@ -31,6 +31,8 @@ pub const FILM_THICK: Tolerance = of(3e-4, 0.0);
 pub const FILM_LONG: Tolerance = of(1e-3, 0.0);
 /// Densities and reflection functions of facets: exp of up to −80 with 3 + 2|x| ulp and a cosine to the fourth power.
 pub const FACET: Tolerance = of(1e-6, 3e-5);
+/// Smooth spectra with coefficients to 20: the quadratic is off by 4e-6, and the sigmoid's slope is at most a half.
+pub const SMOOTH: Tolerance = of(3e-6, 1e-6);
 /// Distances along rays: scaled by the coordinates (up to 10) and divided by a cosine.
 pub const DISTANCE: Tolerance = of(1e-5, 1e-5);
 /// Densities of lights: squares of distances over cosines.

@@ -9,7 +9,12 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("pellicle-optics", &[]),
     (
         "pellicle-scene",
-        &["pellicle-color", "pellicle-optics", "pellicle-spectra"],
+        &[
+            "pellicle-color",
+            "pellicle-colorimetry",
+            "pellicle-optics",
+            "pellicle-spectra",
+        ],
     ),
     (
         "pellicle-reference",

@@ -1,8 +1,8 @@
 //! What a scene has, so that its pipeline leaves out the rest: the values of `shaders/features.wgsl`.
 
 use scene::{
-    Coordinate, Environment, Interference, Material, PathDifference, Pattern, Profile, Scene,
-    Shape, Thickness,
+    Coordinate, Environment, Interference, Material, PathDifference, Pattern, Profile, Sampler,
+    Scene, Shape, Thickness,
 };
 
 /// Constants of a pipeline by name: 1 where the scene has the thing, 0 where it has not.
@@ -38,6 +38,7 @@ impl Features {
             ("HAS_DISKS", shape(is_disk)),
             ("HAS_DIFFUSE", material(is_diffuse)),
             ("HAS_CHECKERS", material(is_checker)),
+            ("HAS_TEXTURES", material(is_texture)),
             (
                 "HAS_MIRRORS",
                 material(|m| {
@@ -82,6 +83,10 @@ impl Features {
             ("HAS_SPHERE_LIGHTS", light(is_sphere)),
             ("HAS_RECTANGLE_LIGHTS", light(is_rectangle)),
             ("HAS_ENVIRONMENT", !is_dark(scene.environment())),
+            (
+                "HAS_SOBOL_SAMPLES",
+                scene.settings().sampler == Sampler::Sobol,
+            ),
         ];
         Self(
             named
@@ -175,12 +180,20 @@ fn has_base(material: &Material) -> bool {
 }
 
 fn is_checker(material: &Material) -> bool {
-    let pattern = match material {
-        Material::Diffuse { reflectance } => reflectance,
-        Material::CoatedBody(body) => &body.base,
-        _ => return false,
-    };
-    matches!(pattern, Pattern::Checker { .. })
+    matches!(pattern_of(material), Some(Pattern::Checker { .. }))
+}
+
+fn is_texture(material: &Material) -> bool {
+    matches!(pattern_of(material), Some(Pattern::Texture { .. }))
+}
+
+/// What a diffuse surface or base reflects, where it may vary.
+fn pattern_of(material: &Material) -> Option<&Pattern> {
+    match material {
+        Material::Diffuse { reflectance } => Some(reflectance),
+        Material::CoatedBody(body) => Some(&body.base),
+        _ => None,
+    }
 }
 
 /// The formula that serves a film.

@@ -178,6 +178,8 @@ constants! { CONSTANTS;
     pub const FIELD_STACK = MAX_FIELD_DEPTH as u32 + 1;
     /// Numbers in a row of the texture of tables.
     pub const NUMBERS_WIDTH = 4096;
+    /// Texels in a row of the texture of pictures.
+    pub const TEXELS_WIDTH = 4096;
     /// No layer is thicker, nm.
     pub const MAX_THICKNESS_NM = THICKNESS_NM.high as u32;
 
@@ -207,6 +209,9 @@ constants! { CONSTANTS;
     pub const FACTOR_TWO_BEAM_REFLECTS = 11;
     /// Spectral factor: transmittance of a film without interference.
     pub const FACTOR_TWO_BEAM_TRANSMITS = 12;
+
+    /// Spectral factor: a smooth reflectance, by the number of a texel.
+    pub const FACTOR_SMOOTH = 13;
 
     /// Film: one layer without absorption and with n ≥ 1 everywhere, for which the short formula holds.
     pub const FILM_TRANSPARENT = 0;
@@ -347,6 +352,8 @@ structs! { STRUCTS;
         pub mean_reflectance: u32,
         /// What stands for the index of a coat where a path chooses its way.
         pub coat_estimate: f32,
+        /// The head of the picture of its reflectance; NONE where that is no picture.
+        pub picture: u32,
     }
 
     /// A layer of a film or of a coating.

@@ -32,6 +32,7 @@ pub const MODULES: &[Module] = modules! {
     "layout": [];
     "trig": [];
     "random": [];
+    "sobol": ["random"];
     "complex": [];
     "sampling": ["trig"];
     "intersect": [];
@@ -47,25 +48,29 @@ pub const MODULES: &[Module] = modules! {
     "bindings": ["layout"];
     "features": [];
     "numbers": ["bindings", "layout"];
+    "texels": ["bindings", "layout"];
     "spectrum": ["bindings"];
+    "lifting": ["bindings", "spectrum"];
     "camera": ["bindings", "layout"];
     "noise": ["bindings", "features", "layout", "random"];
-    "thickness": ["bindings", "features", "layout", "noise", "numbers", "trig"];
+    "picture": ["bindings", "features", "layout", "texels", "trig"];
+    "thickness": ["bindings", "features", "layout", "noise", "numbers", "picture", "trig"];
     "surface": ["bindings", "camera", "features", "layout"];
     "hit": ["bindings", "camera", "features", "intersect", "layout"];
     "environment": ["bindings", "layout", "sampling", "trig"];
     "light": ["bindings", "features", "layout", "sampling", "trig"];
     "record": ["layout", "limits"];
-    "walk": ["bindings", "camera", "random", "surface"];
-    "factor": ["bindings", "features", "layout", "record", "surface", "thickness"];
+    "walk": ["bindings", "camera", "features", "random", "sobol", "surface"];
+    "factor": ["bindings", "features", "layout", "picture", "record", "surface", "texels", "thickness"];
     "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "scatter", "surface", "walk"];
     "scatter": ["bindings", "coat", "cook", "factor", "features", "layout", "microfacet", "record", "sampling", "trig"];
     "path": [
-        "bindings", "camera", "coat", "connect", "environment", "factor", "features", "hit", "layout", "light", "random", "record", "sampling", "scatter",
-        "spectrum", "surface", "walk"
+        "bindings", "camera", "coat", "connect", "environment", "factor", "features", "hit", "layout", "light", "record", "sampling",
+        "scatter", "spectrum", "surface", "walk"
     ];
     "evaluate": [
-        "bindings", "coat", "features", "film", "fresnel", "layout", "limits", "record", "spectrum", "stack", "thickness", "two_beam"
+        "bindings", "coat", "features", "film", "fresnel", "layout", "lifting", "limits", "record", "spectrum", "stack", "texels",
+        "thickness", "two_beam"
     ];
     "stack_batch": ["complex", "layout", "stack"];
     "render": ["bindings", "evaluate", "layout", "limits", "path", "spectrum", "walk"];

@@ -1,6 +1,7 @@
 //! From a scene to the numbers that the shader reads: the only place where `f64` becomes `f32`.
 
 mod passes;
+mod texels;
 mod thickness;
 
 use crate::features::{Features, FilmForm};
@@ -14,6 +15,7 @@ use scene::{
     WavelengthSampling,
 };
 use spectra::BandTable;
+use texels::Pictures;
 use thickness::Fields;
 
 /// A scene as the shader reads it.
@@ -31,6 +33,8 @@ pub struct PackedScene {
     pub fields: Vec<layout::Field>,
     /// Tables that are looked up.
     pub numbers: Vec<f32>,
+    /// Pictures with four numbers in each place, a head before each.
+    pub texels: Vec<[f32; 4]>,
     /// All spectra and the observer: `[spectrum][knot][group of four bands]`.
     pub spectra: Vec<[f32; 4]>,
     /// How long the record of a path may become.
@@ -56,10 +60,15 @@ impl PackedScene {
         let mut objects: Vec<_> = objects.collect();
         let mut layers = Vec::new();
         let mut fields = Fields::default();
+        let mut pictures = Pictures::default();
         let mut materials: Vec<_> = scene
             .materials()
             .iter()
-            .map(|material| pack_material(scene, material, &mut layers, &mut fields))
+            .map(|material| {
+                let mut packed = pack_material(scene, material, &mut layers, &mut fields);
+                packed.picture = pictures.of_material(material);
+                packed
+            })
             .collect();
         for part in scene.environment().parts() {
             objects.push(pack_environment(&part, materials.len()));
@@ -80,6 +89,7 @@ impl PackedScene {
             layers,
             fields: fields.list,
             numbers: fields.numbers,
+            texels: pictures.texels,
             spectra: spectra.chain(observer).collect(),
             limits,
             passes_per_sample: passes::of_sample(scene, limits),
@@ -336,6 +346,8 @@ fn pack_pattern(packed: &mut layout::Material, pattern: &Pattern) {
             (packed.spectrum, packed.odd_spectrum) = (id(even), id(odd));
             packed.checker_size = size as f32;
         }
+        // A picture has its place among the texels.
+        Pattern::Texture { .. } => packed.checker_size = 1.0,
     }
 }
 

@@ -1,6 +1,6 @@
 //! Running a scene on a device and reading the picture back.
 
-use crate::layout::{Batch, Field, NUMBERS_WIDTH, WORKGROUP_SIDE};
+use crate::layout::{Batch, Field, Material, NUMBERS_WIDTH, TEXELS_WIDTH, WORKGROUP_SIDE};
 use crate::modules::Shader;
 use crate::tiles::{Division, Planner, Tile};
 use crate::{DeviceError, Gpu, PackedScene};
@@ -198,12 +198,13 @@ pub fn compile(
 #[derive(Debug)]
 pub struct SceneBindings {
     buffers: [wgpu::Buffer; 6],
-    numbers: wgpu::TextureView,
+    /// Numbers and texels.
+    textures: [wgpu::TextureView; 2],
 }
 
 impl SceneBindings {
     /// The bind group 0 of a pipeline that uses the bindings in `used` (0: frame, 1: objects, 2: materials, 3: layers, 4: spectra,
-    /// 5: fields, 6: numbers).
+    /// 5: fields, 6: numbers, 7: texels).
     pub fn group(
         &self,
         gpu: &Gpu,
@@ -216,7 +217,10 @@ impl SceneBindings {
                 binding,
                 resource: match self.buffers.get(binding as usize) {
                     Some(buffer) => buffer.as_entire_binding(),
-                    None => wgpu::BindingResource::TextureView(&self.numbers),
+                    None => {
+                        let texture = binding as usize - self.buffers.len();
+                        wgpu::BindingResource::TextureView(&self.textures[texture])
+                    }
                 },
             })
             .collect();
@@ -268,7 +272,7 @@ pub fn bind_scene(gpu: &Gpu, packed: &PackedScene) -> Result<SceneBindings, Rend
         storage(
             "materials",
             bytemuck::cast_slice(&packed.materials),
-            48,
+            size_of::<Material>(),
             fewer,
         )?,
         storage("layers", bytemuck::cast_slice(&packed.layers), 16, fewer)?,
@@ -285,47 +289,70 @@ pub fn bind_scene(gpu: &Gpu, packed: &PackedScene) -> Result<SceneBindings, Rend
             fewer,
         )?,
     ];
-    let numbers = upload_numbers(gpu, &packed.numbers)?;
+    let numbers = Table {
+        what: "tables of numbers",
+        format: wgpu::TextureFormat::R32Float,
+        width: NUMBERS_WIDTH,
+        bytes: bytemuck::cast_slice(&packed.numbers),
+    };
+    let texels = Table {
+        what: "pictures of colours",
+        format: wgpu::TextureFormat::Rgba32Float,
+        width: TEXELS_WIDTH,
+        bytes: bytemuck::cast_slice(&packed.texels),
+    };
+    let textures = [numbers.upload(gpu)?, texels.upload(gpu)?];
     gpu.check()?;
-    Ok(SceneBindings { buffers, numbers })
+    Ok(SceneBindings { buffers, textures })
 }
 
-/// The tables of numbers, as a texture: storage buffers are few.
-fn upload_numbers(gpu: &Gpu, numbers: &[f32]) -> Result<wgpu::TextureView, RenderError> {
-    let width = (numbers.len() as u32).clamp(1, NUMBERS_WIDTH);
-    let rows = (numbers.len() as u64).div_ceil(u64::from(NUMBERS_WIDTH));
-    let most = u64::from(gpu.limits().max_texture_dimension_2d);
-    if rows > most {
-        return Err(RenderError::TooLarge {
-            what: "pictures of thicknesses",
-            bytes: 4 * numbers.len() as u64,
-            limit: 4 * most * u64::from(NUMBERS_WIDTH),
-            advice: "use fewer or smaller ones",
-        });
-    }
-    let height = rows.max(1) as u32;
-    let mut contents = numbers.to_vec();
-    contents.resize((width * height) as usize, 0.0);
-    let texture = gpu.device.create_texture_with_data(
-        &gpu.queue,
-        &wgpu::TextureDescriptor {
-            label: Some("numbers"),
-            size: wgpu::Extent3d {
-                width,
-                height,
-                depth_or_array_layers: 1,
+/// A list as a texture, row by row: storage buffers are few.
+struct Table<'a> {
+    what: &'static str,
+    format: wgpu::TextureFormat,
+    /// Elements of a row.
+    width: u32,
+    bytes: &'a [u8],
+}
+
+impl Table<'_> {
+    fn upload(&self, gpu: &Gpu) -> Result<wgpu::TextureView, RenderError> {
+        let size = self.format.block_copy_size(None).unwrap_or(16);
+        let count = self.bytes.len() as u64 / u64::from(size);
+        let rows = count.div_ceil(u64::from(self.width)).max(1);
+        let most = u64::from(gpu.limits().max_texture_dimension_2d);
+        if rows > most {
+            return Err(RenderError::TooLarge {
+                what: self.what,
+                bytes: self.bytes.len() as u64,
+                limit: most * u64::from(self.width * size),
+                advice: "use fewer or smaller pictures",
+            });
+        }
+        let extent = wgpu::Extent3d {
+            width: (count as u32).clamp(1, self.width),
+            height: rows as u32,
+            depth_or_array_layers: 1,
+        };
+        let mut contents = self.bytes.to_vec();
+        contents.resize((extent.width * extent.height * size) as usize, 0);
+        let texture = gpu.device.create_texture_with_data(
+            &gpu.queue,
+            &wgpu::TextureDescriptor {
+                label: Some(self.what),
+                size: extent,
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: self.format,
+                usage: wgpu::TextureUsages::TEXTURE_BINDING,
+                view_formats: &[],
             },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::R32Float,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        },
-        wgpu::util::TextureDataOrder::default(),
-        bytemuck::cast_slice(&contents),
-    );
-    Ok(texture.create_view(&wgpu::TextureViewDescriptor::default()))
+            wgpu::util::TextureDataOrder::default(),
+            &contents,
+        );
+        Ok(texture.create_view(&wgpu::TextureViewDescriptor::default()))
+    }
 }
 
 /// What a pixel has of running means.
@@ -440,7 +467,7 @@ impl TileBuffers {
         };
         gpu.queue
             .write_buffer(&self.batch, 0, bytemuck::bytes_of(&batch));
-        let scene = scene.group(gpu, pipeline, &[0, 1, 2, 3, 4, 5, 6]);
+        let scene = scene.group(gpu, pipeline, &[0, 1, 2, 3, 4, 5, 6, 7]);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());

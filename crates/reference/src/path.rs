@@ -1,14 +1,18 @@
 //! A path through the scene with its spectrum.
 
 use crate::interference::{LayersAt, Light};
+use crate::picture::smooth_value;
 use crate::scatter::{Conductor, Lobes, Scatterer, coat_share};
 use crate::{
-    Hit, Ray, SurfacePoint, camera_ray, environment_share, frame_of, light_pdf, nearest_hit,
-    random4, reflectance_spectrum, sample_light, surface_point,
+    Hit, Ray, Reflectance, SurfacePoint, camera_ray, environment_share, frame_of, light_pdf,
+    nearest_hit, pattern_reflectance, random4, sample_light, sobol4, surface_point,
 };
 use glam::DVec3;
 use optics::Complex64;
-use scene::{Emission, Interference, Material, Pattern, Scene, SpectrumId, WavelengthSampling};
+use scene::{
+    Emission, Interference, Material, Pattern, RenderSettings, Sampler, Scene, SpectrumId,
+    WavelengthSampling,
+};
 
 /// Share of the paths that follow the reflection of a film rather than its transmission.
 const REFLECTED_SHARE: f64 = 0.5;
@@ -25,7 +29,7 @@ pub struct PathSample {
 /// Follows one sample of a pixel. `lights` are the scene's lights ([`Scene::lights`]).
 pub fn radiance(scene: &Scene, lights: &[usize], pixel: [u32; 2], sample: u32) -> PathSample {
     let settings = scene.settings();
-    let [x, y, drawn, _] = random4(pixel, sample, 0, settings.seed);
+    let [x, y, drawn, _] = numbers_of(settings, pixel, sample, 0);
     let bands = settings.bands.count() as usize;
     let mut path = Path {
         scene,
@@ -59,6 +63,14 @@ pub fn radiance(scene: &Scene, lights: &[usize], pixel: [u32; 2], sample: u32) -
     }
 }
 
+/// Four numbers in [0, 1) for a dimension of a sample.
+fn numbers_of(settings: &RenderSettings, pixel: [u32; 2], sample: u32, dimension: u32) -> [f64; 4] {
+    match settings.sampler {
+        Sampler::Sobol => sobol4(pixel, sample, dimension, settings.seed),
+        Sampler::Independent => random4(pixel, sample, dimension, settings.seed),
+    }
+}
+
 /// A path on its way.
 struct Path<'a> {
     scene: &'a Scene,
@@ -80,12 +92,7 @@ struct Path<'a> {
 impl<'a> Path<'a> {
     fn random(&self, use_of: u32) -> [f64; 4] {
         let dimension = 2 * self.segment - 1 + use_of;
-        random4(
-            self.pixel,
-            self.sample,
-            dimension,
-            self.scene.settings().seed,
-        )
+        numbers_of(self.scene.settings(), self.pixel, self.sample, dimension)
     }
 
     fn spectrum(&self, id: SpectrumId, band: usize) -> f64 {
@@ -162,7 +169,8 @@ impl<'a> Path<'a> {
                     index: (body.n, body.k),
                     coating: LayersAt::new(&[], &object.shape, &point),
                 };
-                let base = reflectance_spectrum(&body.base, &object.shape, point.position);
+                let [.., random] = self.random(1);
+                let base = pattern_reflectance(&body.base, &object.shape, point.position, random);
                 let surface = Scatterer::CoatedBody(conductor, body, base);
                 self.meet_scattering(hit.object, point, &surface)
             }
@@ -254,8 +262,9 @@ impl<'a> Path<'a> {
 
     fn meet_diffuse(&mut self, object: usize, point: SurfacePoint, pattern: &Pattern) -> bool {
         let shape = &self.scene.objects()[object].shape;
-        let spectrum = reflectance_spectrum(pattern, shape, point.position);
-        self.meet_scattering(object, point, &Scatterer::Diffuse(spectrum))
+        let [.., random] = self.random(1);
+        let reflectance = pattern_reflectance(pattern, shape, point.position, random);
+        self.meet_scattering(object, point, &Scatterer::Diffuse(reflectance))
     }
 
     /// A diffuse or rough surface: light is sent to it, and the path is scattered.
@@ -298,6 +307,16 @@ impl<'a> Path<'a> {
         true
     }
 
+    /// A reflectance in a band.
+    fn diffuse(&self, reflectance: Reflectance, band: usize) -> f64 {
+        match reflectance {
+            Reflectance::Spectrum(spectrum) => self.spectrum(spectrum, band),
+            Reflectance::Smooth(coefficients) => {
+                smooth_value(coefficients, self.light(band).wavelength_nm)
+            }
+        }
+    }
+
     /// What lobes make of the spectra of a surface in a band.
     fn scattered_value(
         &self,
@@ -310,10 +329,10 @@ impl<'a> Path<'a> {
             return 0.0;
         }
         match scatterer {
-            Scatterer::Diffuse(spectrum) => lobes.single * self.spectrum(*spectrum, band),
+            Scatterer::Diffuse(reflectance) => lobes.single * self.diffuse(*reflectance, band),
             Scatterer::CoatedBody(coat, body, base) => {
                 let passes = |cosine: f64| 1.0 - self.reflectance(coat, cosine, band);
-                let base = self.spectrum(*base, band);
+                let base = self.diffuse(*base, band);
                 let outer = self.spectrum(body.mean_reflectance, band);
                 let n = self.spectrum(body.n, band);
                 let inside = base * optics::coated_albedo_factor(base, n, outer);

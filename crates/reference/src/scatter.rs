@@ -1,7 +1,7 @@
 //! How surfaces scatter light between two directions of their local frame, whose z is the normal on the ray's side.
 
 use crate::interference::LayersAt;
-use crate::{cook_facets, cook_torrance, sample_cook_facet, sample_cosine_hemisphere};
+use crate::{Reflectance, cook_facets, cook_torrance, sample_cook_facet, sample_cosine_hemisphere};
 use glam::DVec3;
 use scene::{CoatedBody, Cook1981, SpectrumId};
 use std::f64::consts::PI;
@@ -9,11 +9,11 @@ use std::f64::consts::PI;
 /// What scatters light.
 pub(crate) enum Scatterer<'a> {
     /// Evenly, by a reflectance.
-    Diffuse(SpectrumId),
+    Diffuse(Reflectance),
     /// A rough conductor of a root mean square slope.
     RoughConductor(Conductor<'a>, f64),
     /// A body of this reflectance below a smooth coat; what the coat mirrors is no part of it.
-    CoatedBody(Conductor<'a>, &'a CoatedBody, SpectrumId),
+    CoatedBody(Conductor<'a>, &'a CoatedBody, Reflectance),
     /// By Cook's model.
     Cook(Conductor<'a>, &'a Cook1981),
 }

@@ -1,6 +1,7 @@
 //! What a scene's surface is at a point.
 
 use crate::Ray;
+use crate::picture::{chosen_texel, picture_place};
 use glam::DVec3;
 use scene::{Pattern, Shape, SpectrumId};
 
@@ -48,10 +49,30 @@ pub(crate) fn center_of(shape: &Shape) -> DVec3 {
     }
 }
 
-/// The spectrum of a pattern at a point.
-pub fn reflectance_spectrum(pattern: &Pattern, shape: &Shape, position: DVec3) -> SpectrumId {
+/// A reflectance over wavelength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reflectance {
+    /// One of the scene's spectra.
+    Spectrum(SpectrumId),
+    /// The smooth one with these coefficients.
+    Smooth([f64; 3]),
+}
+
+/// The reflectance of a pattern at a point. `random` in [0, 1) chooses between the texels of a picture.
+pub fn pattern_reflectance(
+    pattern: &Pattern,
+    shape: &Shape,
+    position: DVec3,
+    random: f64,
+) -> Reflectance {
     match *pattern {
-        Pattern::Uniform(spectrum) => spectrum,
+        Pattern::Uniform(spectrum) => Reflectance::Spectrum(spectrum),
+        Pattern::Texture { ref texels, size } => {
+            let (place, wraps) = picture_place(size, shape, position);
+            let [column, row] = chosen_texel(texels, place, wraps, random);
+            let [c0, c1, c2, _] = texels.at(column, row).map(f64::from);
+            Reflectance::Smooth([c0, c1, c2])
+        }
         Pattern::Checker { even, odd, size } => {
             let local = (position - center_of(shape)) / size;
             let squares = match *shape {
@@ -66,11 +87,11 @@ pub fn reflectance_spectrum(pattern: &Pattern, shape: &Shape, position: DVec3) -
                     tangent, bitangent, ..
                 } => local.dot(tangent).floor() + local.dot(bitangent).floor(),
             };
-            if squares.rem_euclid(2.0) == 0.0 {
+            Reflectance::Spectrum(if squares.rem_euclid(2.0) == 0.0 {
                 even
             } else {
                 odd
-            }
+            })
         }
     }
 }

@@ -1,11 +1,11 @@
 //! How thick a layer is at a point of its surface.
 
 use crate::noise::swirls;
+use crate::picture::{half_turns, picture_place};
 use crate::surface::center_of;
 use glam::DVec3;
 use scene::limits::THICKNESS_NM;
 use scene::{Coordinate, Picture, Profile, Shape, Thickness};
-use std::f64::consts::{PI, TAU};
 
 /// Thickness of a layer at a point of its surface, nm.
 pub fn layer_thickness(thickness: &Thickness, shape: &Shape, position: DVec3) -> f64 {
@@ -58,11 +58,6 @@ fn coordinate(coordinate: &Coordinate, shape: &Shape, position: DVec3) -> f64 {
     }
 }
 
-/// The angle between two directions over π. The arc cosine of their product would lose half the digits near 0.
-fn half_turns(a: DVec3, b: DVec3) -> f64 {
-    a.cross(b).length().atan2(a.dot(b)) / PI
-}
-
 fn profile_value(profile: &Profile, along: f64) -> f64 {
     let squares = &profile.squares_nm2;
     let place = along * (squares.len() - 1) as f64;
@@ -78,43 +73,9 @@ fn profile_value(profile: &Profile, along: f64) -> f64 {
 
 /// A picture by longitude and latitude on spheres, by the surface's two axes elsewhere.
 fn picture_value(picture: &Picture, shape: &Shape, position: DVec3) -> f64 {
-    let (place, wraps) = picture_place(picture, shape, position);
+    let (place, wraps) = picture_place(picture.size, shape, position);
     let value = bilinear(picture, place, wraps);
     picture.black_nm + (picture.white_nm - picture.black_nm) * value
-}
-
-/// Place in a picture, from its upper left corner in its width and height, and whether it goes on beyond its sides.
-fn picture_place(picture: &Picture, shape: &Shape, position: DVec3) -> ([f64; 2], bool) {
-    let local = position - center_of(shape);
-    match *shape {
-        Shape::Sphere { .. } => {
-            let longitude = local.x.atan2(local.z) / TAU;
-            let from_pole = half_turns(local, DVec3::Y);
-            ([0.5 + longitude, from_pole], true)
-        }
-        Shape::Plane {
-            tangent, bitangent, ..
-        }
-        | Shape::Rectangle {
-            tangent, bitangent, ..
-        }
-        | Shape::Disk {
-            tangent, bitangent, ..
-        } => {
-            let [width, height] = picture.size.unwrap_or(match *shape {
-                Shape::Rectangle {
-                    half_width,
-                    half_height,
-                    ..
-                } => [2.0 * half_width, 2.0 * half_height],
-                Shape::Disk { radius, .. } => [2.0 * radius; 2],
-                _ => [1.0, 1.0],
-            });
-            let across = 0.5 + local.dot(tangent) / width;
-            let down = 0.5 - local.dot(bitangent) / height;
-            ([across, down], false)
-        }
-    }
 }
 
 /// Linear between the centres of the pixels.

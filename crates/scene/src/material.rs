@@ -1,7 +1,8 @@
 //! What a surface is made of, in a validated scene.
 
 use crate::description::PathDifference;
-use crate::{CoatedBody, Cook1981, LightGroupId, Microsurface, SpectrumId, Thickness};
+use crate::{CoatedBody, Cook1981, LightGroupId, Microsurface, SpectrumId, Texels, Thickness};
+use std::sync::Arc;
 
 /// What a surface is made of. Every surface has two sides. They behave alike, but for a film of several layers that absorbs: from
 /// behind, light meets its layers in the reverse order.
@@ -126,5 +127,12 @@ pub enum Pattern {
         odd: SpectrumId,
         /// Side of a square, > 0.
         size: f64,
+    },
+    /// A picture whose texels are the coefficients of smooth reflectances.
+    Texture {
+        /// The picture.
+        texels: Arc<Texels>,
+        /// Width and height on planes and rectangles; `None` is the whole rectangle, or a square of side 1 on a plane.
+        size: Option<[f64; 2]>,
     },
 }

@@ -6,6 +6,7 @@ use crate::{
     Shape,
 };
 use glam::DVec3;
+use std::sync::Arc;
 
 /// Rounds what can be rounded and keeps the rest.
 pub(crate) trait RoundToF32 {
@@ -210,6 +211,10 @@ impl RoundToF32 for Pattern {
                 even: *even,
                 odd: *odd,
                 size: size.rounded(),
+            },
+            Self::Texture { texels, size } => Self::Texture {
+                texels: Arc::clone(texels),
+                size: size.map(|size| size.map(|side| side.rounded())),
             },
         }
     }

@@ -7,10 +7,10 @@ use num_complex::Complex64;
 use pellicle_tests::probe::Probe;
 use pellicle_tests::scenes::small;
 use pellicle_tests::tolerances::{
-    ARITHMETIC, DIRECTION, DISTANCE, EXACT, FILM, FRESNEL, KNOT, LIGHT_PDF, NEAR_LIGHT, SPECTRUM,
-    SPHERE_DISTANCE,
+    ARITHMETIC, DIRECTION, DISTANCE, EXACT, FILM, FRESNEL, KNOT, LIGHT_PDF, NEAR_LIGHT, SMOOTH,
+    SPECTRUM, SPHERE_DISTANCE,
 };
-use reference::Ray;
+use reference::{Ray, Reflectance};
 use scene::{Material, Scene, Shape};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
@@ -69,7 +69,7 @@ fn wedge() -> &'static World {
 
 pub(crate) fn checks() -> Vec<Check> {
     let mut all = vec![
-        reflectance_spectrum(),
+        diffuse_factor(),
         surface_point(),
         distance_to(),
         nearest_hit(),
@@ -410,42 +410,64 @@ fn is_off_the_edges(shape: &Shape, size: f64, point: DVec3) -> bool {
     axes.iter().all(|x| (x - x.round()).abs() > 1e-4)
 }
 
-fn reflectance_spectrum() -> Check {
+fn diffuse_factor() -> Check {
     let world = everything();
     let diffuse = objects_where(|_, material| matches!(material, Material::Diffuse { .. }));
-    let inputs = rows(3, |u| {
+    let inputs = rows(4, |u| {
         let object = pick(&diffuse, u[0]);
         let shape = world.shape(object);
         let point = rounded(point_on(shape, u[1], u[2]));
+        let row = vec![object as f64, point.x, point.y, point.z, u[3]];
         let is_clear = match *world.material(object) {
             Material::Diffuse {
                 reflectance: scene::Pattern::Checker { size, .. },
             } => is_off_the_edges(shape, size, point),
-            _ => true,
+            // The odds of a texel are off by some 1e-5.
+            _ => [-1e-4, 1e-4].iter().all(|off| {
+                let mut beside = row.clone();
+                beside[4] += off;
+                factor_of_pattern(&beside) == factor_of_pattern(&row)
+            }),
         };
-        is_clear.then(|| vec![object as f64, point.x, point.y, point.z])
+        is_clear.then_some(row)
     });
     Check {
         probe: world.probe(
-            &["surface"],
-            (4, 1),
-            "let i = u32(a(0u)); put(0u, f32(reflectance_spectrum(objects[i].material, i, a3(1u))));",
+            &["factor"],
+            (5, 2),
+            "let factor = diffuse_factor(u32(a(0u)), a3(1u), a(4u)); put(0u, f32(factor.spectrum)); put(1u, f32(factor.kind));",
         ),
-        proves: &["reflectance_spectrum"],
+        proves: &[
+            "chosen_texel",
+            "diffuse_factor",
+            "picture_place",
+            "reflectance_spectrum",
+            "texel_at",
+        ],
         inputs,
-        twin: spectrum_of_pattern,
+        twin: factor_of_pattern,
         tolerance: EXACT,
     }
 }
 
-fn spectrum_of_pattern(a: &[f64]) -> Vec<f64> {
+/// The number of the spectrum or texel, and the kind of factor.
+fn factor_of_pattern(a: &[f64]) -> Vec<f64> {
     let (world, object) = (everything(), a[0] as usize);
     let Material::Diffuse { reflectance } = world.material(object) else {
-        return vec![f64::NAN];
+        return vec![f64::NAN; 2];
     };
     let shape = world.shape(object);
-    let spectrum = reference::reflectance_spectrum(reflectance, shape, vector(&a[1..]));
-    vec![spectrum.index() as f64]
+    match reference::pattern_reflectance(reflectance, shape, vector(&a[1..]), a[4]) {
+        Reflectance::Spectrum(spectrum) => vec![spectrum.index() as f64, 1.0],
+        Reflectance::Smooth(coefficients) => {
+            let material = world.scene.objects()[object].material.index();
+            let first = world.packed.materials[material].picture as usize + 1;
+            let is_it = |texel: &[f32; 4]| (0..3).all(|i| f64::from(texel[i]) == coefficients[i]);
+            let texels = &world.packed.texels[first..];
+            let place = texels.iter().position(is_it).expect("one of its own");
+            vec![(first + place) as f64, 13.0]
+        }
+    }
 }
 
 // Rays.
@@ -676,6 +698,10 @@ fn spectrum_twin(a: &[f64]) -> Vec<f64> {
     bands_of(a[1]).map(value).to_vec()
 }
 
+fn world_bands() -> &'static spectra::BandGrid {
+    &everything().scene.settings().bands
+}
+
 fn spectra() -> Vec<Check> {
     let world = everything();
     let count = (world.scene.spectra().len() + 3) as f64;
@@ -712,6 +738,28 @@ fn spectra() -> Vec<Check> {
             }),
             twin: spectrum_twin,
             tolerance: SPECTRUM,
+        },
+        Check {
+            probe: world.probe(
+                &["lifting"],
+                (5, 4),
+                "put4(0u, smooth_value(a3(0u), u32(a(3u)), wavelengths_at(a(4u))));",
+            ),
+            proves: &["smooth_value"],
+            inputs: rows(5, |u| {
+                let spread = |u: f64| 20.0 * (2.0 * u - 1.0).powi(3);
+                let group = (u[3] * f64::from(GROUPS)).floor();
+                Some(vec![spread(u[0]), spread(u[1]), spread(u[2]), group, u[4]])
+            }),
+            twin: |a| {
+                let bands = world_bands();
+                let value = |lane: u32| {
+                    let nm = bands.wavelength_nm(4 * a[3] as u32 + lane, a[4]);
+                    reference::smooth_value([a[0], a[1], a[2]], nm)
+                };
+                (0..4).map(value).collect()
+            },
+            tolerance: SMOOTH,
         },
         Check {
             // In 1/µm, so that the numbers are of order one.
@@ -803,7 +851,12 @@ fn factors() -> Vec<Check> {
                 films.push((FACTOR_LOSSY_FILM_REFLECTS, spectrum));
                 films.push((FACTOR_LOSSY_FILM_TRANSMITS, spectrum));
             }
-            Material::Emitter { .. } | Material::Cook(_) | Material::CoatedBody(_) => {}
+            Material::Emitter { .. }
+            | Material::Cook(_)
+            | Material::CoatedBody(_)
+            | Material::Diffuse {
+                reflectance: scene::Pattern::Texture { .. },
+            } => {}
         }
     }
     let check = |proves, choices: &[(u32, usize)], tolerance| Check {
@@ -838,8 +891,9 @@ fn every_case_occurs() {
         (0..objects).collect()
     );
     assert_eq!(
-        firsts(&reflectance_spectrum(), spectrum_of_pattern).len(),
-        5
+        firsts(&diffuse_factor(), factor_of_pattern).len(),
+        // Seven spectra, and the 35 texels of either picture.
+        7 + 35 + 35
     );
     let kinds: BTreeSet<i64> = factors()
         .iter()
@@ -859,7 +913,7 @@ fn a_wrong_twin_of_a_scene_is_noticed() {
     assert!(check.run().is_ok());
     check.twin = |a| vec![1.001 * density(a)[0]];
     assert!(check.run().is_err());
-    let mut check = reflectance_spectrum();
-    check.twin = |a| spectrum_of_pattern(&[a[0], a[1] + 0.01, a[2], a[3]]);
+    let mut check = diffuse_factor();
+    check.twin = |a| factor_of_pattern(&[a[0], a[1] + 0.01, a[2], a[3], a[4]]);
     assert!(check.run().is_err());
 }

@@ -6,6 +6,7 @@ use super::{
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 /// What a surface is made of. Every surface has two sides. They behave alike, but for a film of several layers that absorbs: from
 /// behind, light meets its layers in the reverse order.
@@ -188,5 +189,16 @@ pub enum DiffuseReflectance {
         /// Side of a square.
         #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
         size: f64,
+    },
+    /// A picture of colours in sRGB, each of which becomes a smooth reflectance with that colour under D65. On planes and rectangles
+    /// it lies upright in the middle; on spheres it lies like a map on a globe, with its middle towards +Z.
+    Texture {
+        /// A PNG file of 8 or 16 bits, in the codes of sRGB; relative to the scene file.
+        texture: PathBuf,
+        /// Width and height on planes and rectangles; when absent the whole rectangle, or a square of side 1 on a plane. Beyond
+        /// it the picture's edge goes on.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(inner(inner(range(min = limits::LENGTH.low, max = limits::LENGTH.high))))]
+        size: Option<[f64; 2]>,
     },
 }

@@ -128,6 +128,21 @@ impl Checks {
     }
 }
 
+/// Width and height of a picture on a surface; the inner `None` where they are left to the surface.
+#[expect(clippy::option_option, reason = "the outer one is of the check")]
+pub(crate) fn placed_size(
+    checks: &mut Checks,
+    field: &FieldPath,
+    size: Option<[f64; 2]>,
+) -> Option<Option<[f64; 2]>> {
+    let Some([width, height]) = size else {
+        return Some(None);
+    };
+    let width = checks.number(&field.index(0), width, &limits::LENGTH);
+    let height = checks.number(&field.index(1), height, &limits::LENGTH);
+    Some(Some([width?, height?]))
+}
+
 fn list_of_names(what: &str, known: &[&str]) -> String {
     const MOST: usize = 30;
     let names: Vec<_> = known

@@ -29,11 +29,11 @@ pub(super) fn check(
     let mean_reflectance = spectra.combined([n, k], |[n, k]| {
         optics::hemispherical_reflectance(optics::Complex64::new(n, k))
     });
-    let reflectances = match base {
-        Pattern::Uniform(only) => [only; 2],
-        Pattern::Checker { even, odd, .. } => [even, odd],
+    let mean_base = match base {
+        Pattern::Uniform(only) => spectra.mean(only),
+        Pattern::Checker { even, odd, .. } => 0.5 * (spectra.mean(even) + spectra.mean(odd)),
+        Pattern::Texture { .. } => 0.5,
     };
-    let [even, odd] = reflectances.map(|id| spectra.mean(id));
     Some(Material::CoatedBody(CoatedBody {
         n,
         k,
@@ -41,7 +41,7 @@ pub(super) fn check(
         mean_reflectance,
         estimate: CoatEstimate {
             n: spectra.mean(n),
-            base: 0.5 * (even + odd),
+            base: mean_base,
         },
         base,
     }))

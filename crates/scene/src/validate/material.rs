@@ -1,9 +1,11 @@
 //! Materials: spectra by number.
 
 use super::checks::Checks;
+use super::checks::placed_size;
 use super::cook;
 use super::dielectric;
 use super::layers::{Written, check_interference};
+use super::lifted;
 use super::microsurface;
 use super::spectrum_list::SpectrumList;
 use crate::description::{self, ConductorModel, ConductorModelName, Cook1981, DiffuseReflectance};
@@ -186,6 +188,14 @@ fn pattern(
             Some(Pattern::Checker {
                 even: even?,
                 odd: odd?,
+                size: size?,
+            })
+        }
+        DiffuseReflectance::Texture { texture, size } => {
+            let size = placed_size(checks, &field.key("size"), *size);
+            let texels = lifted::picture(checks, &field.key("texture"), texture);
+            Some(Pattern::Texture {
+                texels: texels?,
                 size: size?,
             })
         }

@@ -9,6 +9,7 @@ mod environment;
 mod formula;
 mod index;
 mod layers;
+mod lifted;
 mod light_groups;
 mod material;
 mod microsurface;

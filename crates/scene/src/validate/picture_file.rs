@@ -2,7 +2,7 @@
 
 use crate::PictureFile;
 use crate::limits::{MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE};
-use image::{ImageFormat, ImageReader, Limits};
+use image::{DynamicImage, ImageBuffer, ImageFormat, ImageReader, Limits, Rgb};
 use spectra::text_file::{TextFileError, read_bytes};
 use std::io::Cursor;
 use std::path::Path;
@@ -23,6 +23,25 @@ pub(crate) enum PictureFileError {
 
 /// Reads a PNG file of 8 or 16 bits, its values taken as they stand: grey, or luma of a coloured one.
 pub(crate) fn read(path: &Path) -> Result<PictureFile, PictureFileError> {
+    let picture = decode(path)?.into_luma16();
+    let values = picture
+        .pixels()
+        .map(|pixel| f32::from(pixel.0[0]) / 65_535.0);
+    Ok(PictureFile {
+        width: picture.width(),
+        height: picture.height(),
+        values: values.collect(),
+    })
+}
+
+/// The codes of red, green and blue of 16 bits of a PNG file of 8 or 16 bits.
+pub(crate) fn read_colours(
+    path: &Path,
+) -> Result<ImageBuffer<Rgb<u16>, Vec<u16>>, PictureFileError> {
+    Ok(decode(path)?.into_rgb16())
+}
+
+fn decode(path: &Path) -> Result<DynamicImage, PictureFileError> {
     let bytes = read_bytes(path)?;
     let (width, height) = reader(&bytes).into_dimensions()?;
     let is_small = width.max(height) <= MAX_PICTURE_SIDE
@@ -30,15 +49,7 @@ pub(crate) fn read(path: &Path) -> Result<PictureFile, PictureFileError> {
     if !is_small {
         return Err(PictureFileError::TooLarge { width, height });
     }
-    let picture = reader(&bytes).decode()?.into_luma16();
-    let values = picture
-        .pixels()
-        .map(|pixel| f32::from(pixel.0[0]) / 65_535.0);
-    Ok(PictureFile {
-        width,
-        height,
-        values: values.collect(),
-    })
+    Ok(reader(&bytes).decode()?)
 }
 
 fn reader(bytes: &[u8]) -> ImageReader<Cursor<&[u8]>> {

@@ -2,11 +2,13 @@
 
 use super::checks::Checks;
 use super::index;
+use super::lifted;
 use super::points::{self, Column};
 use crate::description::{self, Extrapolate, Index, Reflectance};
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
 use crate::{Emission, FieldPath, LightGroupId, SpectrumId};
+use colorimetry::srgb::decode;
 use spectra::{BandGrid, BandTable, OpticalConstants, Spectrum, Tabulated};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -283,6 +285,14 @@ pub(super) fn read_reflectance<'w>(
             named_reflectance(checks, field, name, Extrapolate::Error)?,
             Advice::Name(name),
         ),
+        Reflectance::Srgb { srgb } => {
+            let rgb = lifted::colour(checks, &field.key("srgb"), *srgb)?;
+            (lifted::reflectance(rgb.map(decode)), Advice::None)
+        }
+        Reflectance::LinearSrgb { linear_srgb } => {
+            let rgb = lifted::colour(checks, &field.key("linear_srgb"), *linear_srgb)?;
+            (lifted::reflectance(rgb), Advice::None)
+        }
         Reflectance::Named { name, extrapolate } => (
             named_reflectance(checks, &field.key("name"), name, *extrapolate)?,
             Advice::Add,

@@ -3,7 +3,7 @@
 use crate::description;
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
-use crate::validate::checks::Checks;
+use crate::validate::checks::{Checks, placed_size};
 use crate::validate::picture_file;
 use crate::{FieldPath, Picture, Swirls, Thickness};
 use std::path::Path;
@@ -50,12 +50,7 @@ pub(super) fn picture(
 ) -> Option<Thickness> {
     let black_nm = checks.number(&field.key("min"), min, &limits::THICKNESS_NM);
     let white_nm = checks.number(&field.key("max"), max, &limits::THICKNESS_NM);
-    let sides = size.map(|size| {
-        let side = |index: usize| field.key("size").index(index);
-        let width = checks.number(&side(0), size[0], &limits::LENGTH);
-        let height = checks.number(&side(1), size[1], &limits::LENGTH);
-        Some([width?, height?])
-    });
+    let size = placed_size(checks, &field.key("size"), size);
     let path = checks.directory.join(image);
     let file = match picture_file::read(&path) {
         Ok(file) => Some(Arc::new(file)),
@@ -69,14 +64,10 @@ pub(super) fn picture(
             None
         }
     };
-    let size = match sides {
-        Some(size) => Some(size?),
-        None => None,
-    };
     Some(Thickness::Picture(Picture {
         file: file?,
         black_nm: black_nm?,
         white_nm: white_nm?,
-        size,
+        size: size?,
     }))
 }

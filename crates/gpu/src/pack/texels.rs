@@ -1,0 +1,45 @@
+//! Pictures of four numbers in each place, in one list of texels. Before the texels of each stands its head.
+
+use crate::layout;
+use scene::{CoatedBody, Material, Pattern, Texels};
+use std::sync::Arc;
+
+/// The pictures of a scene.
+#[derive(Debug, Default)]
+pub(super) struct Pictures {
+    pub(super) texels: Vec<[f32; 4]>,
+    /// Pictures that are among the texels already, with their size on planes, and where.
+    known: Vec<(Arc<Texels>, [f32; 2], u32)>,
+}
+
+impl Pictures {
+    /// The head of a material's picture, or NONE.
+    pub(super) fn of_material(&mut self, material: &Material) -> u32 {
+        match material {
+            Material::Diffuse {
+                reflectance: Pattern::Texture { texels, size },
+            }
+            | Material::CoatedBody(CoatedBody {
+                base: Pattern::Texture { texels, size },
+                ..
+            }) => self.add(texels, size.unwrap_or_default().map(|side| side as f32)),
+            _ => layout::NONE,
+        }
+    }
+
+    /// The head of a picture: width and height in pixels, then the size on planes and rectangles, 0 for its natural one.
+    fn add(&mut self, texels: &Arc<Texels>, size: [f32; 2]) -> u32 {
+        let known = self.known.iter();
+        let mut same = known.filter(|(known, on_planes, _)| known == texels && *on_planes == size);
+        if let Some(&(_, _, head)) = same.next() {
+            return head;
+        }
+        let head = self.texels.len() as u32;
+        let [width, height] = size;
+        let pixels = [texels.width as f32, texels.height as f32];
+        self.texels.push([pixels[0], pixels[1], width, height]);
+        self.texels.extend_from_slice(&texels.values);
+        self.known.push((Arc::clone(texels), size, head));
+        head
+    }
+}

@@ -1,0 +1,65 @@
+//! Colours in sRGB: from codes to smooth reflectances.
+
+use super::checks::Checks;
+use super::picture_file::read_colours;
+use crate::limits;
+use crate::problem::{Problem, ProblemKind};
+use crate::{FieldPath, Texels};
+use colorimetry::lifting::SigmoidReflectance;
+use colorimetry::srgb::decode;
+use rayon::prelude::*;
+use spectra::{BandGrid, Spectrum, Tabulated};
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Red, green and blue from 0 to 1.
+pub(super) fn colour(checks: &mut Checks, field: &FieldPath, rgb: [f64; 3]) -> Option<[f64; 3]> {
+    let checked: Vec<_> = (0..3)
+        .map(|i| checks.number(&field.index(i), rgb[i], &limits::REFLECTANCE))
+        .collect();
+    checked
+        .into_iter()
+        .all(|value| value.is_some())
+        .then_some(rgb)
+}
+
+/// The smooth reflectance of a colour, as a table at every nm that bands may cover.
+pub(super) fn reflectance(linear_rgb: [f64; 3]) -> Spectrum {
+    let reflectance = SigmoidReflectance::of_linear_srgb(linear_rgb);
+    let (first, last) = BandGrid::LIMITS_NM;
+    let points =
+        (first as u32..=last as u32).map(|nm| (f64::from(nm), reflectance.at(f64::from(nm))));
+    Spectrum::Table(Tabulated::new(points.collect()).expect("its wavelengths rise"))
+}
+
+/// The texels of a picture's colours.
+pub(super) fn picture(checks: &mut Checks, field: &FieldPath, file: &Path) -> Option<Arc<Texels>> {
+    let path = checks.directory.join(file);
+    let picture = match read_colours(&path) {
+        Ok(picture) => picture,
+        Err(error) => {
+            let message = format!("{}: {error}", path.display());
+            checks.report(Problem::new(ProblemKind::File, field, message));
+            return None;
+        }
+    };
+    let mut colours: Vec<[u16; 3]> = picture.pixels().map(|pixel| pixel.0).collect();
+    colours.sort_unstable();
+    colours.dedup();
+    let texels: HashMap<[u16; 3], [f32; 4]> = colours
+        .into_par_iter()
+        .map(|codes| (codes, texel(codes)))
+        .collect();
+    Some(Arc::new(Texels {
+        width: picture.width(),
+        height: picture.height(),
+        values: picture.pixels().map(|pixel| texels[&pixel.0]).collect(),
+    }))
+}
+
+fn texel(codes: [u16; 3]) -> [f32; 4] {
+    let linear = codes.map(|code| decode(f64::from(code) / 65_535.0));
+    let [c0, c1, c2] = SigmoidReflectance::of_linear_srgb(linear).coefficients;
+    [c0 as f32, c1 as f32, c2 as f32, 1.0]
+}

@@ -1,0 +1,38 @@
+// Where pictures lie on surfaces, and which of their texels a path takes.
+
+/// Place in a picture, from its upper left corner in its width and height; `size_in` is its size on planes, 0 for that of the surface.
+fn picture_place(size_in: vec2f, object: u32, position: vec3f) -> vec2f {
+    let local = position - objects[object].center;
+    if (HAS_SPHERES && objects[object].shape == SHAPE_SPHERE) {
+        let aside = length(local.xz);
+        // At the poles every longitude is right.
+        let angle = polar_angle(local.z, max(abs(local.x), 1e-30));
+        let longitude = select(angle, -angle, local.x < 0.0) / (2.0 * PI);
+        return vec2f(0.5 + longitude, polar_angle(local.y, aside) / PI);
+    }
+    var size = size_in;
+    if (size.x == 0.0) {
+        let whole = 2.0 * vec2f(objects[object].half_width, objects[object].half_height);
+        size = select(whole, vec2f(1.0), objects[object].shape == SHAPE_PLANE);
+    }
+    let place = vec2f(dot(local, objects[object].tangent), -dot(local, objects[object].bitangent));
+    return 0.5 + place / size;
+}
+
+/// The texel that a path takes at a place of a picture: one of the four whose centres are around it, with the weights that they
+/// have between the centres as odds (`random` in [0, 1)).
+fn chosen_texel(head: u32, place: vec2f, wraps: bool, random: f32) -> u32 {
+    let size = texel_at(head).xy;
+    let x = clamp(place.x * size.x - 0.5, -1.0, size.x);
+    let y = clamp(place.y * size.y - 0.5, 0.0, size.y - 1.0);
+    let to_right = x - floor(x);
+    let is_right = random < to_right;
+    let rest = select((random - to_right) / (1.0 - to_right), random / to_right, is_right);
+    let is_below = rest < y - floor(y);
+    // From −1 to width + 1: one width more or less comes back inside.
+    let width = i32(size.x);
+    let column = i32(floor(x)) + select(0, 1, is_right);
+    let inside = select(clamp(column, 0, width - 1), (column + width) % width, wraps);
+    let row = min(i32(y) + select(0, 1, is_below), i32(size.y) - 1);
+    return head + 1u + u32(row * width + inside);
+}
