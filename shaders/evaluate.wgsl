@@ -100,11 +100,29 @@ fn free_stack_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
     return 0.5 * (powers.reflectance_s + powers.reflectance_p);
 }
 
-/// What lobes make of the spectra of a vertex.
-fn lobes_value(vertex: Vertex, lobes: Lobes, group: u32, at: Wavelengths) -> vec4f {
+/// The colour of light that met several facets of a vertex's surface: F² E / (1 − F (1 − E)) with F the mean of the factor over
+/// a hemisphere, by Gauss's rule of three points for the weight x (Abramowitz and Stegun, table 25.8), and E that of the facets'
+/// albedo (Kulla and Conty 2017).
+fn multiple_colour(vertex: Vertex, group: u32, at: Wavelengths) -> vec4f {
+    var factor = vertex.scatter;
+    factor.cosine = 0.2123405382;
+    var mean = 0.1396539598 * factor_value(factor, group, at);
+    factor.cosine = 0.5905331356;
+    mean += 0.4584822127 * factor_value(factor, group, at);
+    factor.cosine = 0.9114120405;
+    mean += 0.4018638275 * factor_value(factor, group, at);
+    let energy = materials[vertex.material].mean_energy;
+    return mean * mean * energy / (1.0 - mean * (1.0 - energy));
+}
+
+/// What lobes make of the spectra of a vertex; `multiple` is its multiple_colour.
+fn lobes_value(vertex: Vertex, lobes: Lobes, multiple: vec4f, group: u32, at: Wavelengths) -> vec4f {
     var factor = vertex.scatter;
     factor.cosine = lobes.cosine;
     var value = lobes.single * factor_value(factor, group, at);
+    if (HAS_ROUGH_CONDUCTORS) {
+        value += lobes.multiple * multiple;
+    }
     if (HAS_BASES && lobes.body > 0.0) {
         value += lobes.body * body_value(vertex, lobes.light_cosine, group, at);
     }
@@ -114,12 +132,11 @@ fn lobes_value(vertex: Vertex, lobes: Lobes, group: u32, at: Wavelengths) -> vec
 /// The colour of a base beside facets, or below a coat with what the coat keeps of it.
 fn body_value(vertex: Vertex, light_cosine: f32, group: u32, at: Wavelengths) -> vec4f {
     let base = factor_value(Factor(vertex.base_kind, vertex.base, 1.0, 0.0, 0u), group, at);
-    let material = vertex.scatter.first_thickness;
-    if (!HAS_COATED_BODIES || materials[material].surface != SURFACE_COATED_BODY) {
+    if (!HAS_COATED_BODIES || materials[vertex.material].surface != SURFACE_COATED_BODY) {
         return base;
     }
     let n = spectrum_at(vertex.scatter.spectrum, group, at);
-    let outer = spectrum_at(materials[material].mean_reflectance, group, at);
+    let outer = spectrum_at(materials[vertex.material].mean_reflectance, group, at);
     let passes = coat_passes(n, vertex.eye_cosine) * coat_passes(n, light_cosine);
     return passes * base * coated_albedo_factor(base, n, outer);
 }
@@ -130,14 +147,14 @@ fn light_value(light: u32, texel: u32, group: u32, at: Wavelengths) -> vec4f {
 }
 
 /// Radiance that a vertex receives straight from a light and scatters, before the path's throughput.
-fn connection_value(vertex: Vertex, group: u32, at: Wavelengths) -> vec4f {
+fn connection_value(vertex: Vertex, multiple: vec4f, group: u32, at: Wavelengths) -> vec4f {
     var light = light_value(vertex.connection, vertex.connection_texel, group, at);
     if (HAS_FILMS) {
         for (var i = vertex.first_crossing; i < vertex.end_crossing; i++) {
             light *= film_value(crossings[i], group, at);
         }
     }
-    return light * lobes_value(vertex, vertex.connected, group, at);
+    return light * lobes_value(vertex, vertex.connected, multiple, group, at);
 }
 
 /// Radiance by light group with more of one of them. The loop has a fixed length, so that it is unrolled and the array stays in
@@ -168,11 +185,15 @@ fn path_radiance(group: u32, at: Wavelengths) -> array<vec4f, LIGHT_GROUPS> {
         if (vertex.scatter.kind == FACTOR_ONE) {
             continue;
         }
+        var multiple = vec4f(0.0);
+        if (HAS_ROUGH_CONDUCTORS && vertex.onward.multiple + vertex.connected.multiple > 0.0) {
+            multiple = multiple_colour(vertex, group, at);
+        }
         if (is_lit(vertex.connected)) {
-            let arrived = throughput * connection_value(vertex, group, at);
+            let arrived = throughput * connection_value(vertex, multiple, group, at);
             radiance = with_light(radiance, light_group_of(vertex.connection), arrived);
         }
-        throughput *= lobes_value(vertex, vertex.onward, group, at);
+        throughput *= lobes_value(vertex, vertex.onward, multiple, group, at);
     }
     return radiance;
 }

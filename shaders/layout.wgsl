@@ -245,6 +245,16 @@ struct Object {
 
 /// What a surface is made of.
 struct Material {
+    /// Direction of a surface's grain, or of the axis that it runs around.
+    grain: vec3f,
+    /// A `GRAIN_` tag.
+    grain_kind: u32,
+    /// Width of the distribution of slopes along and across the grain.
+    alpha: vec2f,
+    /// A `FACETS_` tag.
+    facets: u32,
+    /// First number of the table of energy of its facets.
+    first_energy: u32,
     /// A `SURFACE_` tag.
     surface: u32,
     /// Spectrum: reflectance (even squares of a checker), or n of an index, whose k is the next one.
@@ -253,8 +263,8 @@ struct Material {
     odd_spectrum: u32,
     /// Side of a checker's squares.
     checker_size: f32,
-    /// Root mean square slope of a rough conductor, 0 when smooth.
-    roughness: f32,
+    /// Mean of that table over all directions.
+    mean_energy: f32,
     /// A `FILM_` tag, of a film.
     film: u32,
     /// Light that it emits.
@@ -269,6 +279,8 @@ struct Material {
     is_black: u32,
     /// Number of its layers whose thickness varies over the surface.
     varying_layers: u32,
+    /// The head of the picture of its reflectance; NONE where that is no picture.
+    picture: u32,
     /// Spectrum: n of the index above a diffuse base, whose k is the next one.
     coat: u32,
     /// The part of the light that a base reflects beside the facets of Cook's model.
@@ -283,8 +295,6 @@ struct Material {
     mean_reflectance: u32,
     /// What stands for the index of a coat where a path chooses its way.
     coat_estimate: f32,
-    /// The head of the picture of its reflectance; NONE where that is no picture.
-    picture: u32,
 }
 
 /// A layer of a film or of a coating.

@@ -52,13 +52,11 @@ fn meet_surface(walk: Walk, sample: Sample, hit: Hit) -> Walk {
     let reflects = !HAS_FILMS || surface != SURFACE_FILM || random_at(sample, walk, 1u).x < REFLECTED_SHARE;
     vertex.scatter = layered_factor(hit.object, point, reflects);
     if (HAS_BASES) {
+        let base = diffuse_factor(hit.object, point.position, random_at(sample, walk, 1u).w);
+        vertex.base = base.spectrum;
+        vertex.base_kind = base.kind;
+    }
     if ((HAS_COOK || HAS_BASES) && surface >= SURFACE_COOK_D1) {
-        if (HAS_BASES) {
-            let base = diffuse_factor(hit.object, point.position, random_at(sample, walk, 1u).w);
-            vertex.base_kind = base.kind;
-            vertex.base = base.spectrum;
-            vertex.scatter.first_thickness = material;
-        }
         return meet_scattering(walk, sample, hit.object, point, vertex);
     }
     if (HAS_ROUGH_CONDUCTORS && surface == SURFACE_ROUGH_CONDUCTOR) {
@@ -104,7 +102,8 @@ fn meet_smooth(walk: Walk, object: u32, point: SurfacePoint, vertex_in: Vertex, 
 fn meet_scattering(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
     var vertex = vertex_in;
     let scatterer = Scatterer(objects[object].material, vertex.scatter.kind);
-    let world_from_local = frame_of(point.normal);
+    vertex.material = scatterer.material;
+    let world_from_local = surface_frame(object, point);
     let eye = -walk.ray.direction * world_from_local;
     vertex.eye_cosine = eye.z;
 

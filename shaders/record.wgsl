@@ -10,7 +10,7 @@ struct Factor {
     cosine: f32,
     /// Thickness of a film's only layer.
     thickness_nm: f32,
-    /// Of several layers: the first of the thicknesses that vary over the surface. Above a base: the material.
+    /// Of several layers: the first of the thicknesses that vary over the surface.
     first_thickness: u32,
 }
 
@@ -32,11 +32,14 @@ struct Lobes {
 struct Vertex {
     /// What the path meets here; its cosine is that of `onward`.
     scatter: Factor,
+    /// The material of what scatters.
+    material: u32,
     /// Cosine of the path's arrival with the surface's normal.
     eye_cosine: f32,
-    /// What lies below a coat or beside facets: a FACTOR_ tag and its spectrum.
-    base_kind: u32,
+    /// Reflectance of what lies below a coat or beside facets.
     base: u32,
+    /// Its FACTOR_ tag.
+    base_kind: u32,
     /// What the path is multiplied by here.
     onward: Lobes,
     /// Radiance that joins the path here, before the factor: a light, and its texel where it has a picture.
@@ -99,7 +102,7 @@ fn begin_record() {
 /// A vertex that does nothing yet.
 fn plain_vertex() -> Vertex {
     let one = Factor(FACTOR_ONE, 0u, 1.0, 0.0, 0u);
-    return Vertex(one, 1.0, FACTOR_ONE, 0u, NO_LOBES, 0u, 0u, 0.0, 0u, 0u, NO_LOBES, crossing_count, crossing_count);
+    return Vertex(one, 0u, 1.0, 0u, FACTOR_ONE, NO_LOBES, 0u, 0u, 0.0, 0u, 0u, NO_LOBES, crossing_count, crossing_count);
 }
 
 fn push_vertex(vertex: Vertex) {

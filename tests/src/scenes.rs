@@ -87,6 +87,7 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "meet_scattering",
     "meet_smooth",
     "meet_surface",
+    "multiple_colour",
     "numbers_of",
     "path_radiance",
     "plain_vertex",

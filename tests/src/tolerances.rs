@@ -33,6 +33,20 @@ pub const FILM_LONG: Tolerance = of(1e-3, 0.0);
 pub const FACET: Tolerance = of(1e-6, 3e-5);
 /// Smooth spectra with coefficients to 20: the quadratic is off by 4e-6, and the sigmoid's slope is at most a half.
 pub const SMOOTH: Tolerance = of(3e-6, 1e-6);
+/// exp(x²) erfc(x) and what is made of it: exp and nine terms, each 2 ulp.
+pub const SCALED_ERFC: Tolerance = of(1e-7, 2e-6);
+/// A first guess at erf⁻¹, whose formula is off by 2e-3, and in f32 by √(5e-7) where the logarithm is near 0.
+pub const ROUGH_INVERSE: Tolerance = of(3e-3, 3e-3);
+/// Smith's Λ: the difference of two terms of the same size times exp of up to −36.
+pub const LAMBDA: Tolerance = of(1e-6, 1e-5);
+/// Densities of facets of α from 0.1: a half vector's slope is off by 1e-6/α, its square in an exponent of up to −80 by 1e-4.
+pub const FACETS: Tolerance = of(2e-6, 2e-4);
+/// Directions of facets drawn by numbers up to 0.999, where the slope's density has fallen to 1e-2 of its largest.
+pub const FACET_DIRECTION: Tolerance = of(3e-5, 0.0);
+/// A place in a table of 31 steps, off by 1e-6, and at the azimuth's width.
+pub const FACET_ENERGY: Tolerance = of(2e-6, 0.0);
+/// A frame along a grain that stands at a sine of at least 0.1 from the normal.
+pub const FRAME: Tolerance = of(5e-6, 0.0);
 /// Distances along rays: scaled by the coordinates (up to 10) and divided by a cosine.
 pub const DISTANCE: Tolerance = of(1e-5, 1e-5);
 /// Densities of lights: squares of distances over cosines.

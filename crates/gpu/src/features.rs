@@ -1,8 +1,8 @@
 //! What a scene has, so that its pipeline leaves out the rest: the values of `shaders/features.wgsl`.
 
 use scene::{
-    Coordinate, Environment, Interference, Material, PathDifference, Pattern, Profile, Sampler,
-    Scene, Shape, Thickness,
+    Coordinate, Distribution, Environment, Interference, Material, Microsurface, PathDifference,
+    Pattern, Profile, Sampler, Scene, Shape, Thickness,
 };
 
 /// Constants of a pipeline by name: 1 where the scene has the thing, 0 where it has not.
@@ -28,6 +28,10 @@ impl Features {
         let film = |wanted: fn(FilmForm) -> bool| {
             let mut forms = used.iter().filter_map(|m| FilmForm::of(scene, m));
             forms.any(wanted)
+        };
+        let facets = |wanted: fn(&Microsurface) -> bool| {
+            let mut rough = used.iter().filter_map(|material| material.microsurface());
+            rough.any(wanted)
         };
         let is_sphere = |shape: &Shape| matches!(shape, Shape::Sphere { .. });
         let is_rectangle = |shape: &Shape| matches!(shape, Shape::Rectangle { .. });
@@ -69,6 +73,12 @@ impl Features {
                 "HAS_COATED_BODIES",
                 material(|m| matches!(m, Material::CoatedBody(_))),
             ),
+            (
+                "HAS_BECKMANN",
+                facets(|m| m.distribution == Distribution::Beckmann),
+            ),
+            ("HAS_GGX", facets(|m| m.distribution == Distribution::Ggx)),
+            ("HAS_GRAIN", facets(Microsurface::is_brushed)),
             ("HAS_FILMS", film(|_| true)),
             ("HAS_LOSSY_FILMS", film(|form| form == FilmForm::Lossy)),
             ("HAS_STACKS", film(|form| form == FilmForm::Stack)),

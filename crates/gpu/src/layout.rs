@@ -3,6 +3,7 @@
 //! The macros below take documented Rust types, prove at compile time that Rust places every field
 //! where WGSL expects it, and give the text of `shaders/layout.wgsl`. That file is committed, and a test proves it fresh.
 
+use scene::Energy;
 use scene::limits::{MAX_FIELD_DEPTH, THICKNESS_NM};
 
 /// A type with the same bytes in Rust and in WGSL (WGSL specification, section 14.4.1).
@@ -153,6 +154,21 @@ constants! { CONSTANTS;
     pub const SURFACE_COOK_D2 = 5;
     /// Surface: a diffuse body below a smooth coat.
     pub const SURFACE_COATED_BODY = 6;
+
+    /// Facets: Beckmann's distribution of slopes.
+    pub const FACETS_BECKMANN = 0;
+    /// Facets: the distribution of Trowbridge and Reitz.
+    pub const FACETS_GGX = 1;
+    /// Grain: a surface alike in all directions.
+    pub const GRAIN_NONE = 0;
+    /// Grain: along a direction in space.
+    pub const GRAIN_ALONG = 1;
+    /// Grain: around an axis through the object's centre.
+    pub const GRAIN_AROUND = 2;
+    /// Knots of a table of energy over the root of the cosine.
+    pub const ENERGY_COSINES = Energy::COSINES as u32;
+    /// Knots of a table of energy over the width of the slopes, where that differs.
+    pub const ENERGY_WIDTHS = Energy::WIDTHS as u32;
 
     /// Field: the same everywhere.
     pub const FIELD_CONSTANT = 0;
@@ -314,6 +330,16 @@ structs! { STRUCTS;
 
     /// What a surface is made of.
     pub struct Material {
+        /// Direction of a surface's grain, or of the axis that it runs around.
+        pub grain: [f32; 3],
+        /// A `GRAIN_` tag.
+        pub grain_kind: u32,
+        /// Width of the distribution of slopes along and across the grain.
+        pub alpha: [f32; 2],
+        /// A `FACETS_` tag.
+        pub facets: u32,
+        /// First number of the table of energy of its facets.
+        pub first_energy: u32,
         /// A `SURFACE_` tag.
         pub surface: u32,
         /// Spectrum: reflectance (even squares of a checker), or n of an index, whose k is the next one.
@@ -322,8 +348,8 @@ structs! { STRUCTS;
         pub odd_spectrum: u32,
         /// Side of a checker's squares.
         pub checker_size: f32,
-        /// Root mean square slope of a rough conductor, 0 when smooth.
-        pub roughness: f32,
+        /// Mean of that table over all directions.
+        pub mean_energy: f32,
         /// A `FILM_` tag, of a film.
         pub film: u32,
         /// Light that it emits.
@@ -338,6 +364,8 @@ structs! { STRUCTS;
         pub is_black: u32,
         /// Number of its layers whose thickness varies over the surface.
         pub varying_layers: u32,
+        /// The head of the picture of its reflectance; NONE where that is no picture.
+        pub picture: u32,
         /// Spectrum: n of the index above a diffuse base, whose k is the next one.
         pub coat: u32,
         /// The part of the light that a base reflects beside the facets of Cook's model.
@@ -352,8 +380,6 @@ structs! { STRUCTS;
         pub mean_reflectance: u32,
         /// What stands for the index of a coat where a path chooses its way.
         pub coat_estimate: f32,
-        /// The head of the picture of its reflectance; NONE where that is no picture.
-        pub picture: u32,
     }
 
     /// A layer of a film or of a coating.

@@ -45,6 +45,8 @@ pub const MODULES: &[Module] = modules! {
     "gaussian": ["microfacet", "trig"];
     "cook": ["bindings", "gaussian", "layout", "microfacet", "numbers", "trig"];
     "coat": ["bindings", "fresnel"];
+    "microsurface": ["features", "layout", "trig"];
+    "energy": ["bindings", "features", "layout", "numbers"];
     "bindings": ["layout"];
     "features": [];
     "numbers": ["bindings", "layout"];
@@ -55,7 +57,7 @@ pub const MODULES: &[Module] = modules! {
     "noise": ["bindings", "features", "layout", "random"];
     "picture": ["bindings", "features", "layout", "texels", "trig"];
     "thickness": ["bindings", "features", "layout", "noise", "numbers", "picture", "trig"];
-    "surface": ["bindings", "camera", "features", "layout"];
+    "surface": ["bindings", "camera", "features", "layout", "sampling"];
     "hit": ["bindings", "camera", "features", "intersect", "layout"];
     "environment": ["bindings", "layout", "sampling", "trig"];
     "light": ["bindings", "features", "layout", "sampling", "trig"];
@@ -63,14 +65,16 @@ pub const MODULES: &[Module] = modules! {
     "walk": ["bindings", "camera", "features", "random", "sobol", "surface"];
     "factor": ["bindings", "features", "layout", "picture", "record", "surface", "texels", "thickness"];
     "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "scatter", "surface", "walk"];
-    "scatter": ["bindings", "coat", "cook", "factor", "features", "layout", "microfacet", "record", "sampling", "trig"];
+    "scatter": [
+        "bindings", "coat", "cook", "energy", "factor", "features", "layout", "microsurface", "record", "sampling", "trig"
+    ];
     "path": [
-        "bindings", "camera", "coat", "connect", "environment", "factor", "features", "hit", "layout", "light", "record", "sampling",
-        "scatter", "spectrum", "surface", "walk"
+        "bindings", "camera", "coat", "connect", "environment", "factor", "features", "hit", "layout", "light", "record", "scatter",
+        "spectrum", "surface", "walk"
     ];
     "evaluate": [
-        "bindings", "coat", "features", "film", "fresnel", "layout", "lifting", "limits", "record", "spectrum", "stack", "texels",
-        "thickness", "two_beam"
+        "bindings", "coat", "features", "film", "fresnel", "layout", "lifting", "limits", "record", "spectrum", "stack", "texels", "thickness",
+        "two_beam"
     ];
     "stack_batch": ["complex", "layout", "stack"];
     "render": ["bindings", "evaluate", "layout", "limits", "path", "spectrum", "walk"];

@@ -10,9 +10,9 @@ use crate::modules::RecordLimits;
 use glam::DVec3;
 use scene::limits::{MAX_LAYERS, MAX_LIGHT_GROUPS, MAX_MATERIALS};
 use scene::{
-    Cook1981, CookDistribution, Emission, EnvironmentPart, EnvironmentShape, Layer, Material,
-    Object, PathDifference, Pattern, Projection, Scene, Shape, SpectrumId, Thickness,
-    WavelengthSampling,
+    Cook1981, CookDistribution, Distribution, Emission, EnvironmentPart, EnvironmentShape, Grain,
+    Layer, Material, Microsurface, Object, PathDifference, Pattern, Projection, Scene, Shape,
+    SpectrumId, Thickness, WavelengthSampling,
 };
 use spectra::BandTable;
 use texels::Pictures;
@@ -279,7 +279,9 @@ fn pack_material(
                 None => layout::SURFACE_MIRROR,
             };
             packed.spectrum = id(n);
-            packed.roughness = microsurface.as_ref().map_or(0.0, |m| m.roughness[0] as f32);
+            if let Some(microsurface) = microsurface {
+                pack_microsurface(&mut packed, microsurface, fields);
+            }
             pack_layers(&mut packed, (fields, layers), coating);
         }
         Material::Cook(ref cook) => pack_cook(&mut packed, fields, cook),
@@ -333,6 +335,27 @@ fn pack_cook(packed: &mut layout::Material, fields: &mut Fields, cook: &Cook1981
         packed.emission = light(ambient);
         packed.emission_scale = ambient.scale as f32;
     }
+}
+
+fn pack_microsurface(
+    packed: &mut layout::Material,
+    microsurface: &Microsurface,
+    fields: &mut Fields,
+) {
+    let (kind, grain) = match microsurface.grain {
+        Grain::None => (layout::GRAIN_NONE, DVec3::ZERO),
+        Grain::Along(direction) => (layout::GRAIN_ALONG, direction),
+        Grain::Around(axis) => (layout::GRAIN_AROUND, axis),
+    };
+    packed.grain_kind = kind;
+    packed.grain = vec3(grain);
+    packed.alpha = microsurface.roughness.map(|alpha| alpha as f32);
+    packed.facets = match microsurface.distribution {
+        Distribution::Beckmann => layout::FACETS_BECKMANN,
+        Distribution::Ggx => layout::FACETS_GGX,
+    };
+    packed.first_energy = fields.look_up(microsurface.energy.values());
+    packed.mean_energy = microsurface.energy.mean() as f32;
 }
 
 fn pack_pattern(packed: &mut layout::Material, pattern: &Pattern) {

@@ -4,8 +4,8 @@ use crate::interference::{LayersAt, Light};
 use crate::picture::smooth_value;
 use crate::scatter::{Conductor, Lobes, Scatterer, coat_share};
 use crate::{
-    Hit, Ray, Reflectance, SurfacePoint, camera_ray, environment_share, frame_of, light_pdf,
-    nearest_hit, pattern_reflectance, random4, sample_light, sobol4, surface_point,
+    Facets, Hit, Ray, Reflectance, SurfacePoint, camera_ray, environment_share, light_pdf,
+    nearest_hit, pattern_reflectance, random4, sample_light, sobol4, surface_frame, surface_point,
 };
 use glam::DVec3;
 use optics::Complex64;
@@ -157,8 +157,8 @@ impl<'a> Path<'a> {
                     index: (n, k),
                     coating: LayersAt::new(layers, &object.shape, &point),
                 };
-                if let Some(facets) = microsurface {
-                    let rough = Scatterer::RoughConductor(conductor, facets.roughness[0]);
+                if let Some(microsurface) = microsurface {
+                    let rough = Scatterer::RoughConductor(conductor, Facets::new(microsurface));
                     self.meet_scattering(hit.object, point, &rough)
                 } else {
                     self.meet_mirror(hit.object, point, &conductor)
@@ -169,7 +169,7 @@ impl<'a> Path<'a> {
                     index: (body.n, body.k),
                     coating: LayersAt::new(&[], &object.shape, &point),
                 };
-                let [.., random] = self.random(1);
+                let random = self.random(1)[3];
                 let base = pattern_reflectance(&body.base, &object.shape, point.position, random);
                 let surface = Scatterer::CoatedBody(conductor, body, base);
                 self.meet_scattering(hit.object, point, &surface)
@@ -274,7 +274,8 @@ impl<'a> Path<'a> {
         point: SurfacePoint,
         scatterer: &Scatterer<'_>,
     ) -> bool {
-        let world_from_local = frame_of(point.normal);
+        let met = &self.scene.objects()[object];
+        let world_from_local = surface_frame(self.scene.material(met.material), &met.shape, &point);
         let local_from_world = world_from_local.transpose();
         let eye = local_from_world * -self.ray.direction;
         if let Some(sent) = self.send_to_light(object, &point) {
@@ -344,8 +345,11 @@ impl<'a> Path<'a> {
                 });
                 lobes.single * self.reflectance(conductor, lobes.cosine, band) + base
             }
-            Scatterer::RoughConductor(conductor, _) => {
-                lobes.single * self.reflectance(conductor, lobes.cosine, band)
+            Scatterer::RoughConductor(conductor, facets) => {
+                let reflectance = |cosine| self.reflectance(conductor, cosine, band);
+                let mean = optics::mean_reflectance(reflectance);
+                let multiple = optics::multiple_colour(mean, facets.mean_energy());
+                lobes.single * reflectance(lobes.cosine) + lobes.multiple * multiple
             }
         }
     }

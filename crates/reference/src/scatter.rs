@@ -1,7 +1,7 @@
 //! How surfaces scatter light between two directions of their local frame, whose z is the normal on the ray's side.
 
 use crate::interference::LayersAt;
-use crate::{Reflectance, cook_facets, cook_torrance, sample_cook_facet, sample_cosine_hemisphere};
+use crate::{Facets, Reflectance, cook_facets, sample_cook_facet, sample_cosine_hemisphere};
 use glam::DVec3;
 use scene::{CoatedBody, Cook1981, SpectrumId};
 use std::f64::consts::PI;
@@ -10,8 +10,8 @@ use std::f64::consts::PI;
 pub(crate) enum Scatterer<'a> {
     /// Evenly, by a reflectance.
     Diffuse(Reflectance),
-    /// A rough conductor of a root mean square slope.
-    RoughConductor(Conductor<'a>, f64),
+    /// A conductor by its facets.
+    RoughConductor(Conductor<'a>, Facets<'a>),
     /// A body of this reflectance below a smooth coat; what the coat mirrors is no part of it.
     CoatedBody(Conductor<'a>, &'a CoatedBody, Reflectance),
     /// By Cook's model.
@@ -98,28 +98,32 @@ impl Scatterer<'_> {
                     pdf: chance * lambert + (1.0 - chance) * facets.pdf,
                 }
             }
-            Self::RoughConductor(_, slope) => {
-                let facet = cook_torrance(eye, light, *slope);
+            Self::RoughConductor(_, facets) => facets.between(eye, light).map_or(
                 Scattering {
-                    lobes: Lobes::single(facet.reflection * light.z, facet.cosine, light),
-                    pdf: facet.pdf,
-                }
-            }
+                    lobes: Lobes::single(0.0, 1.0, light),
+                    pdf: 0.0,
+                },
+                |found| Scattering {
+                    lobes: Lobes {
+                        multiple: found.multiple,
+                        ..Lobes::single(found.single, found.cosine, light)
+                    },
+                    pdf: found.pdf,
+                },
+            ),
         }
     }
 
     /// A unit vector towards which light is scattered from `eye`.
-    pub(crate) fn sample(&self, eye: DVec3, [u, v, choice, pick]: [f64; 4]) -> DVec3 {
+    pub(crate) fn sample(&self, eye: DVec3, random: [f64; 4]) -> DVec3 {
+        let [u, v, choice, pick] = random;
         match self {
             Self::Diffuse(_) | Self::CoatedBody(..) => sample_cosine_hemisphere(u, v),
             Self::Cook(_, cook) if choice < cook.diffuse.map_or(0.0, |diffuse| diffuse.chance) => {
                 sample_cosine_hemisphere(u, v)
             }
             Self::Cook(_, cook) => mirrored(eye, sample_cook_facet(cook, [u, v, pick])),
-            Self::RoughConductor(_, slope) => mirrored(
-                eye,
-                DVec3::from_array(optics::sample_beckmann(u, v, *slope)),
-            ),
+            Self::RoughConductor(_, facets) => facets.sample(eye, random),
         }
     }
 }

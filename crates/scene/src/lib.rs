@@ -21,6 +21,7 @@
 mod camera;
 mod coated_body;
 mod cook;
+mod derived;
 pub mod description;
 mod document;
 mod drainage;
@@ -45,6 +46,7 @@ mod validated;
 pub use camera::{Camera, Projection};
 pub use coated_body::{CoatEstimate, CoatedBody};
 pub use cook::{Cook1981, CookDistribution, CookFacets, DiffuseShare};
+pub use derived::Energy;
 pub use description::{Distribution, PathDifference, Sampler};
 pub use document::SourceFile;
 pub use environment::{Environment, EnvironmentPart, EnvironmentShape};

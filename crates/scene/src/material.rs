@@ -55,6 +55,14 @@ impl Material {
         }
     }
 
+    /// Its facets; none where it is smooth or diffuse.
+    pub fn microsurface(&self) -> Option<&Microsurface> {
+        match self {
+            Self::Conductor { microsurface, .. } => microsurface.as_ref(),
+            _ => None,
+        }
+    }
+
     /// The thicknesses of its layers.
     pub fn thicknesses(&self) -> impl Iterator<Item = &Thickness> {
         self.layers().iter().map(|layer| &layer.thickness)

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod environments;
+mod facets;
 mod numbers;
 mod optics_functions;
 mod scene_functions;
@@ -83,6 +84,7 @@ fn checks() -> Vec<Check> {
     [
         bodies::checks(),
         environments::checks(),
+        facets::checks(),
         numbers::checks(),
         optics_functions::checks(),
         scene_functions::checks(),

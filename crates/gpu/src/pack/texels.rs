@@ -1,7 +1,7 @@
 //! Pictures of four numbers in each place, in one list of texels. Before the texels of each stands its head.
 
 use crate::layout;
-use scene::{CoatedBody, Material, Pattern, Texels};
+use scene::{Material, Pattern, Texels};
 use std::sync::Arc;
 
 /// The pictures of a scene.
@@ -15,14 +15,15 @@ pub(super) struct Pictures {
 impl Pictures {
     /// The head of a material's picture, or NONE.
     pub(super) fn of_material(&mut self, material: &Material) -> u32 {
-        match material {
-            Material::Diffuse {
-                reflectance: Pattern::Texture { texels, size },
+        let pattern = match material {
+            Material::Diffuse { reflectance } => Some(reflectance),
+            Material::CoatedBody(body) => Some(&body.base),
+            _ => None,
+        };
+        match pattern {
+            Some(Pattern::Texture { texels, size }) => {
+                self.add(texels, size.unwrap_or_default().map(|side| side as f32))
             }
-            | Material::CoatedBody(CoatedBody {
-                base: Pattern::Texture { texels, size },
-                ..
-            }) => self.add(texels, size.unwrap_or_default().map(|side| side as f32)),
             _ => layout::NONE,
         }
     }

@@ -7,7 +7,10 @@
 //! is (1 + Λ(w)) cos θ, with Λ of Smith (1967); heights of neighbouring facets are taken for independent, those of the facet
 //! seen and lit for the same (Heitz, Understanding the Masking-Shadowing Function, JCGT 3(2), 2014, equations 83, 86 and 99).
 
+mod multiple;
 mod slopes;
+
+pub use multiple::{MEAN_COSINES, mean_reflectance, multiple_colour};
 
 use std::f64::consts::PI;
 

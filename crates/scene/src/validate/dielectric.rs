@@ -29,7 +29,7 @@ pub(super) fn check(
     let mean_reflectance = spectra.combined([n, k], |[n, k]| {
         optics::hemispherical_reflectance(optics::Complex64::new(n, k))
     });
-    let mean_base = match base {
+    let base_estimate = match base {
         Pattern::Uniform(only) => spectra.mean(only),
         Pattern::Checker { even, odd, .. } => 0.5 * (spectra.mean(even) + spectra.mean(odd)),
         Pattern::Texture { .. } => 0.5,
@@ -41,7 +41,7 @@ pub(super) fn check(
         mean_reflectance,
         estimate: CoatEstimate {
             n: spectra.mean(n),
-            base: mean_base,
+            base: base_estimate,
         },
         base,
     }))

@@ -66,7 +66,7 @@ fn check(
                 n,
                 k,
                 layers: Vec::new(),
-                microsurface: microsurface?,
+                microsurface: microsurface.ok()?,
             })
         }
         description::Material::Dielectric {
@@ -137,7 +137,7 @@ fn check(
                 n,
                 k,
                 layers: layers?,
-                microsurface: microsurface?,
+                microsurface: microsurface.ok()?,
             })
         }
         description::Material::Emitter {

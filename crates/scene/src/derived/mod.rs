@@ -1,0 +1,5 @@
+//! Tables that renderers look up, made from a scene when it is validated.
+
+mod energy;
+
+pub use energy::Energy;
