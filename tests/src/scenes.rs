@@ -18,6 +18,10 @@ pub const SHIPPED: &[&str] = &[
     "dichroic_ball",
     "gold_visor",
     "metal_spheres",
+    "paper_figure_5",
+    "figure_5_exact",
+    "metals",
+    "brushed_disc",
     "furnace",
 ];
 

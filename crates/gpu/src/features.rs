@@ -206,21 +206,20 @@ fn has_base(material: &Material) -> bool {
 }
 
 fn is_checker(material: &Material) -> bool {
-    let pattern = match material {
-        Material::Diffuse { reflectance } => reflectance,
-        Material::CoatedBody(body) => &body.base,
-        _ => return false,
-    };
-    matches!(pattern, Pattern::Checker { .. })
+    matches!(pattern_of(material), Some(Pattern::Checker { .. }))
 }
 
 fn is_texture(material: &Material) -> bool {
-    matches!(
-        material,
-        Material::Diffuse {
-            reflectance: Pattern::Texture { .. }
-        }
-    )
+    matches!(pattern_of(material), Some(Pattern::Texture { .. }))
+}
+
+/// What a diffuse surface or base reflects, where it may vary.
+fn pattern_of(material: &Material) -> Option<&Pattern> {
+    match material {
+        Material::Diffuse { reflectance } => Some(reflectance),
+        Material::CoatedBody(body) => Some(&body.base),
+        _ => None,
+    }
 }
 
 /// The formula that serves a film.

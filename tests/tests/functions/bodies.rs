@@ -1,10 +1,10 @@
-//! gaussian.wgsl and cook.wgsl.
+//! gaussian.wgsl, cook.wgsl and coat.wgsl.
 
 use crate::scene_functions::{World, pick, rows};
 use crate::{Check, pure, table};
 use glam::DVec3;
-use pellicle_tests::tolerances::{ARITHMETIC, BECKMANN, DIRECTION, FACET, TRIGONOMETRY};
-use reference::{cook_facets, sample_cook_facet};
+use pellicle_tests::tolerances::{ARITHMETIC, BECKMANN, DIRECTION, FACET, FRESNEL, TRIGONOMETRY};
+use reference::{coat_share, cook_facets, sample_cook_facet};
 use scene::{Cook1981, Material};
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
@@ -12,6 +12,7 @@ use std::sync::OnceLock;
 pub(crate) fn checks() -> Vec<Check> {
     let mut all = gaussian();
     all.extend([between_directions(), facets()]);
+    all.extend(coats());
     all
 }
 
@@ -81,12 +82,17 @@ fn gaussian() -> Vec<Check> {
     ]
 }
 
-/// Materials by Cook's model.
-fn materials() -> Vec<usize> {
+/// The materials of a kind.
+fn indices_of(wanted: fn(&Material) -> bool) -> Vec<usize> {
     let all = world().scene.materials().iter().enumerate();
-    all.filter(|(_, material)| matches!(material, Material::Cook(_)))
+    all.filter(|(_, material)| wanted(material))
         .map(|(index, _)| index)
         .collect()
+}
+
+/// Materials by Cook's model.
+fn materials() -> Vec<usize> {
+    indices_of(|material| matches!(material, Material::Cook(_)))
 }
 
 fn cook(material: f64) -> &'static Cook1981 {
@@ -153,4 +159,49 @@ fn facets() -> Check {
         },
         tolerance: DIRECTION,
     }
+}
+
+fn coats() -> [Check; 3] {
+    let bodies: Vec<usize> = indices_of(|material| matches!(material, Material::CoatedBody(_)));
+    [
+        Check {
+            probe: world().probe(&["coat"], (2, 1), "put(0u, coat_share(u32(a(0u)), a(1u)));"),
+            proves: &["coat_share"],
+            inputs: rows(2, |u| Some(vec![pick(&bodies, u[0]) as f64, u[1]])),
+            twin: |a| match &world().scene.materials()[a[0] as usize] {
+                Material::CoatedBody(body) => vec![coat_share(body, a[1])],
+                other => panic!("{other:?}"),
+            },
+            tolerance: FRESNEL,
+        },
+        Check {
+            probe: pure(
+                &["coat"],
+                (2, 1),
+                "put(0u, coat_passes(vec4f(a(0u)), a(1u)).x);",
+            ),
+            proves: &["coat_passes"],
+            inputs: table(
+                &[(1.0, 3.0), (0.0, 1.0)],
+                &[&[1.5, 0.0], &[1.0, 0.0], &[1.0, 1.0]],
+            ),
+            twin: |a| vec![1.0 - optics::reflectance_unpolarised(a[0].into(), a[1].max(1e-6))],
+            tolerance: FRESNEL,
+        },
+        Check {
+            probe: pure(
+                &["coat"],
+                (3, 1),
+                "put(0u, coated_albedo_factor(vec4f(a(0u)), vec4f(a(1u)), vec4f(a(2u))).x);",
+            ),
+            proves: &["coated_albedo_factor"],
+            inputs: table(
+                &[(0.0, 1.0), (0.8, 3.0), (0.0, 0.6)],
+                &[&[1.0, 3.0, 0.6], &[0.0, 1.0, 0.0]],
+            ),
+            twin: |a| vec![optics::coated_albedo_factor(a[0], a[1], a[2])],
+            // n² − ρ (n² − 1) cancels up to 9 against 8.6.
+            tolerance: BECKMANN,
+        },
+    ]
 }

@@ -21,7 +21,9 @@ impl Pictures {
             _ => None,
         };
         match pattern {
-            Some(Pattern::Texture { texels, size }) => self.add(texels, size.unwrap_or_default().map(|side| side as f32)),
+            Some(Pattern::Texture { texels, size }) => {
+                self.add(texels, size.unwrap_or_default().map(|side| side as f32))
+            }
             _ => layout::NONE,
         }
     }
