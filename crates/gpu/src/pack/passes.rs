@@ -20,10 +20,21 @@ pub(super) fn of_sample(scene: &Scene, limits: RecordLimits) -> u64 {
     let light_groups = u64::from(limits.light_groups) + 1;
     let groups = u64::from(scene.settings().bands.count().div_ceil(4)) + 1;
 
-    let trace = (2 * segments + crossings) * (1 + objects + most(thickness_passes));
-    let factors = (2 * segments + crossings) * (1 + most(layer_passes));
+    let facets = segments * most(facet_passes);
+    let trace = (2 * segments + crossings) * (1 + objects + most(thickness_passes)) + facets;
+    let factors =
+        (2 * segments + crossings) * (1 + most(layer_passes)) + facets * (1 + most(layer_passes));
     let spectrum = groups * (1 + segments + factors + 2 * light_groups);
     1 + trace + spectrum + 3 * light_groups
+}
+
+/// Of drawing a facet (two slopes) or of the mean reflectance of facets (three cosines), at most.
+fn facet_passes(material: &Material) -> u64 {
+    if material.microsurface().is_some() {
+        2 * (1 + 4)
+    } else {
+        0
+    }
 }
 
 /// Of working out all thicknesses of a material.
