@@ -786,7 +786,8 @@ fn spectra() -> Vec<Check> {
 
 // Factors.
 
-const FACTOR: &str = "put4(0u, factor_value(Factor(u32(a(0u)), u32(a(1u)), a(2u), a(3u), 0u), u32(a(4u)), wavelengths_at(a(5u))));";
+const OF_SURFACE: &str = "put4(0u, surface_value(Factor(u32(a(0u)), u32(a(1u)), a(2u), a(3u), 0u), u32(a(4u)), wavelengths_at(a(5u))));";
+const OF_FILM: &str = "put4(0u, film_value(Factor(u32(a(0u)), u32(a(1u)), a(2u), a(3u), 0u), u32(a(4u)), wavelengths_at(a(5u))));";
 
 fn factor_twin(a: &[f64]) -> Vec<f64> {
     use gpu::layout::{
@@ -864,16 +865,16 @@ fn factors() -> Vec<Check> {
             } => {}
         }
     }
-    let check = |proves, choices: &[(u32, usize)], tolerance| Check {
-        probe: world.probe(&["evaluate"], (6, 4), FACTOR),
+    let check = |proves, body, choices: &[(u32, usize)], tolerance| Check {
+        probe: world.probe(&["evaluate"], (6, 4), body),
         proves,
         inputs: factor_rows(choices),
         twin: factor_twin,
         tolerance,
     };
     vec![
-        check(&["factor_value"], &surfaces, FRESNEL),
-        check(&["factor_value", "film_value"], &films, FILM),
+        check(&["surface_value"], OF_SURFACE, &surfaces, FRESNEL),
+        check(&["film_value"], OF_FILM, &films, FILM),
     ]
 }
 
