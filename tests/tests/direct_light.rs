@@ -21,8 +21,8 @@ const LIGHTS: &[(&str, &str)] = &[
     ("rectangle", RECTANGLE),
     ("disk", DISK),
     (
-        "sun",
-        "[[lights]]\ntype = \"distant\"\nemission = { constant = 1 }\ndirection = [0.3, 1, -0.7]\n",
+        "small distant light",
+        "[[lights]]\ntype = \"distant\"\nemission = { constant = 1 }\ndirection = [0, 0.55, -1]\ndiameter_deg = 6\n",
     ),
     (
         "wide distant light",

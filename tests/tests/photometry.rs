@@ -18,14 +18,16 @@ fn scene(light: &str) -> Scene {
          [render]\nsize = [32, 32]\nsamples = 64\nmax_path_segments = 2\n\
          [materials.white]\ntype = \"diffuse\"\nreflectance = 1.0\n{light}\n"
     );
-    let file = SceneFile::parse("photometry.toml", &text, &root()).unwrap_or_else(|e| panic!("{e:#}"));
+    let file =
+        SceneFile::parse("photometry.toml", &text, &root()).unwrap_or_else(|e| panic!("{e:#}"));
     file.validate().unwrap_or_else(|e| panic!("{e:#}"))
 }
 
 const FLOOR: &str = "[[objects]]\ntype = \"rectangle\"\nmaterial = \"white\"\ncenter = [0, 0, 0]\nnormal = [0, 1, 0]\nsize = [1, 1]\n";
 
 fn rendered(scene: &Scene) -> SpectralImage {
-    gpu::render(&open(), scene, &mut |_| ControlFlow::Continue(())).unwrap_or_else(|e| panic!("{e}"))
+    gpu::render(&open(), scene, &mut |_| ControlFlow::Continue(()))
+        .unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// Mean Y of the samples' own wavelengths, cd/m².
@@ -52,9 +54,15 @@ fn luminance_of_bands(image: &SpectralImage) -> f64 {
     let (grid, [_, y, _]) = (image.bands(), observer_1931());
     let mean_y = |band| {
         let places = (0..100).map(|i| (f64::from(i) + 0.5) / 100.0);
-        places.map(|at| y.at(grid.wavelength_nm(band, at)).unwrap()).sum::<f64>() / 100.0
+        places
+            .map(|at| y.at(grid.wavelength_nm(band, at)).unwrap())
+            .sum::<f64>()
+            / 100.0
     };
-    let sum: f64 = (0..).zip(bands(image)).map(|(band, value)| value * mean_y(band)).sum();
+    let sum: f64 = (0..)
+        .zip(bands(image))
+        .map(|(band, value)| value * mean_y(band))
+        .sum();
     KM_LUMENS_PER_WATT * grid.width_nm() * sum
 }
 
@@ -64,7 +72,10 @@ fn radiance(image: &SpectralImage) -> f64 {
 
 fn assert_near(what: &str, found: f64, expected: f64) {
     println!("{what}: {found:.4}, expected {expected:.4}");
-    assert!((found / expected - 1.0).abs() < PROMISE, "{what}: {found} instead of {expected}");
+    assert!(
+        (found / expected - 1.0).abs() < PROMISE,
+        "{what}: {found} instead of {expected}"
+    );
 }
 
 fn panel(emission: &str) -> String {
@@ -76,19 +87,30 @@ fn panel(emission: &str) -> String {
 
 #[test]
 fn a_panel_of_1000_candelas_reads_1000() {
-    for lamp in ["illuminant = \"D65\"", "illuminant = \"A\"", "constant = 3", "illuminant = \"FL11\""] {
+    for lamp in [
+        "illuminant = \"D65\"",
+        "illuminant = \"A\"",
+        "constant = 3",
+        "illuminant = \"FL11\"",
+    ] {
         let image = rendered(&scene(&panel(&format!("{lamp}, luminance_cd_m2 = 1000"))));
         assert_near(&format!("{lamp}, XYZ"), luminance(&image), 1000.0);
         // The lines of a fluorescent lamp are narrower than a band.
         if !lamp.contains("FL11") {
-            assert_near(&format!("{lamp}, bands"), luminance_of_bands(&image), 1000.0);
+            assert_near(
+                &format!("{lamp}, bands"),
+                luminance_of_bands(&image),
+                1000.0,
+            );
         }
     }
 }
 
 #[test]
 fn a_wrong_luminance_is_noticed() {
-    let image = rendered(&scene(&panel("illuminant = \"D65\", luminance_cd_m2 = 1002")));
+    let image = rendered(&scene(&panel(
+        "illuminant = \"D65\", luminance_cd_m2 = 1002",
+    )));
     assert!((luminance(&image) / 1000.0 - 1.0).abs() > PROMISE);
 }
 
@@ -120,7 +142,9 @@ fn a_distant_light_gives_its_illuminance_whatever_its_diameter() {
 
 #[test]
 fn constant_surroundings_give_their_illuminance() {
-    let light = format!("{FLOOR}[environment]\ntype = \"constant\"\nemission = {{ illuminant = \"D65\", illuminance_lux = 500 }}\n");
+    let light = format!(
+        "{FLOOR}[environment]\ntype = \"constant\"\nemission = {{ illuminant = \"D65\", illuminance_lux = 500 }}\n"
+    );
     assert_near("E", luminance(&rendered(&scene(&light))), 500.0 / PI);
 }
 
@@ -128,7 +152,9 @@ fn constant_surroundings_give_their_illuminance() {
 #[test]
 fn a_point_of_100_candelas_gives_25_lux_at_two_metres() {
     let point = |emission: &str| {
-        format!("{FLOOR}[[lights]]\ntype = \"point\"\nemission = {{ illuminant = \"A\", {emission} }}\nposition = [0, 2, 0]\n")
+        format!(
+            "{FLOOR}[[lights]]\ntype = \"point\"\nemission = {{ illuminant = \"A\", {emission} }}\nposition = [0, 2, 0]\n"
+        )
     };
     let image = rendered(&scene(&point("intensity_cd = 100")));
     assert_near("100 cd", luminance(&image), 25.0 / PI);
@@ -152,24 +178,39 @@ fn a_spot_sends_out_its_power() {
             let cosine = (f64::from(i) + 0.5) / f64::from(steps);
             let direction = glam::DVec3::new((1.0 - cosine * cosine).sqrt(), cosine, 0.0);
             // At a distance of 1 the irradiance is the intensity.
-            let LightShape::Spot { position, .. } = light.shape else { return f64::NAN };
+            let LightShape::Spot { position, .. } = light.shape else {
+                return f64::NAN;
+            };
             Source::Single(light.shape).share(position - direction, direction)
         })
         .sum();
     let watts = light.emission.scale * 400.0 * 2.0 * PI * sum / f64::from(steps);
     assert!((watts / 20.0 - 1.0).abs() < 1e-6, "{watts}");
     let image = rendered(&scene);
-    assert_near("on the axis", radiance(&image), light.emission.scale * 400.0 / 4.0 / PI);
+    assert_near(
+        "on the axis",
+        radiance(&image),
+        light.emission.scale * 400.0 / 4.0 / PI,
+    );
 }
 
 /// A sphere of power Φ gives E = Φ / (4π d²) at any distance, as a point does.
 #[test]
 fn a_sphere_and_a_disk_send_out_their_power() {
-    let lamp = "[materials.lamp]\ntype = \"emitter\"\nemission = { illuminant = \"A\", power_w = 60 }\n";
-    let sphere = format!("{FLOOR}{lamp}[[objects]]\ntype = \"sphere\"\nmaterial = \"lamp\"\ncenter = [0, 2, 0]\nradius = 0.3\n");
-    assert_near("sphere", radiance(&rendered(&scene(&sphere))), 60.0 / (4.0 * PI) / 4.0 / PI);
+    let lamp =
+        "[materials.lamp]\ntype = \"emitter\"\nemission = { illuminant = \"A\", power_w = 60 }\n";
+    let sphere = format!(
+        "{FLOOR}{lamp}[[objects]]\ntype = \"sphere\"\nmaterial = \"lamp\"\ncenter = [0, 2, 0]\nradius = 0.3\n"
+    );
+    assert_near(
+        "sphere",
+        radiance(&rendered(&scene(&sphere))),
+        60.0 / (4.0 * PI) / 4.0 / PI,
+    );
     // A disk faces its axis: E = π L r² / (d² + r²), with Φ = 2 π² r² L for both sides.
-    let disk = format!("{FLOOR}{lamp}[[objects]]\ntype = \"disk\"\nmaterial = \"lamp\"\ncenter = [0, 2, 0]\nnormal = [0, 1, 0]\nradius = 0.3\n");
+    let disk = format!(
+        "{FLOOR}{lamp}[[objects]]\ntype = \"disk\"\nmaterial = \"lamp\"\ncenter = [0, 2, 0]\nnormal = [0, 1, 0]\nradius = 0.3\n"
+    );
     let expected = 60.0 / (2.0 * PI) / (4.0 + 0.09) / PI;
     assert_near("disk", radiance(&rendered(&scene(&disk))), expected);
 }

@@ -1,6 +1,6 @@
 //! Lights that are no objects, and all that light can be sent from, in a validated scene.
 
-use crate::{Emission, EnvironmentPart, EnvironmentShape, Scene, Shape};
+use crate::{DirectLight, Emission, EnvironmentPart, EnvironmentShape, Scene, Shape};
 use glam::DVec3;
 
 /// A light that is no object. Rays do not meet it.
@@ -68,8 +68,10 @@ pub enum SourceKind {
 }
 
 impl Scene {
-    /// All that light can be sent from: emitting objects with bounds, what surrounds them, and lights. What emits nothing is not
-    /// among them.
+    /// All that light is sent from: emitting objects with bounds, what surrounds them, and lights. What emits nothing is not
+    /// among them, nor are surroundings that are the same everywhere, unless sending is the only way to find light: scattered rays
+    /// find them with less noise. (The density of a light after compensation for those rays is then 0: Karlík et al., MIS
+    /// Compensation, ACM Transactions on Graphics 38(6), 2019.)
     pub fn light_sources(&self) -> Vec<LightSource> {
         let objects = self.objects().iter().enumerate();
         let objects = objects
@@ -79,6 +81,9 @@ impl Scene {
                 Some((SourceKind::Object(index), emission))
             });
         let parts = self.surroundings().into_iter().enumerate();
+        let sends_only = self.settings().direct_light == DirectLight::Lights;
+        let parts =
+            parts.filter(|(_, part)| sends_only || part.shape != EnvironmentShape::Everywhere);
         let parts = parts.map(|(index, part)| (SourceKind::Environment(index), part.emission));
         let lights = self.lights().iter().enumerate();
         let is_disc = |light: &Light| matches!(light.shape, LightShape::Disc { .. });
