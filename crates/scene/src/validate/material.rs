@@ -87,7 +87,7 @@ fn check(
                 Some(base) => pattern(checks, spectra, &field.key("base"), base).map(Some),
                 None => Some(None),
             };
-            let surface = (index?, microsurface?);
+            let surface = (index?, microsurface.ok()?);
             dielectric::check(checks, spectra, (field, written), surface, base?)
         }
         description::Material::Film {
