@@ -133,13 +133,18 @@ fn lobes_value(vertex: Vertex, lobes: Lobes, multiple: vec4f, group: u32, at: Wa
 /// The colour of a base beside facets, or below a coat with what the coat keeps of it.
 fn body_value(vertex: Vertex, light_cosine: f32, group: u32, at: Wavelengths) -> vec4f {
     let base = surface_value(Factor(vertex.base_kind, vertex.base, 1.0, 0.0, 0u), group, at);
-    if (!HAS_COATED_BODIES || materials[vertex.material].surface != SURFACE_COATED_BODY) {
+    let surface = materials[vertex.material].surface;
+    if (!(HAS_COATED_BODIES || HAS_ROUGH_COATS) || surface < SURFACE_COATED_BODY) {
         return base;
     }
     let n = spectrum_at(vertex.scatter.spectrum, group, at);
     let outer = spectrum_at(materials[vertex.material].mean_reflectance, group, at);
-    let passes = coat_passes(n, vertex.eye_cosine) * coat_passes(n, light_cosine);
-    return passes * base * coated_albedo_factor(base, n, outer);
+    let inside = base * coated_albedo_factor(base, n, outer);
+    if (HAS_ROUGH_COATS && surface == SURFACE_ROUGH_COATED_BODY) {
+        let enters = rough_coat_passes(vertex.material, light_cosine, group, at);
+        return enters * rough_coat_passes(vertex.material, vertex.eye_cosine, group, at) * inside;
+    }
+    return coat_passes(n, vertex.eye_cosine) * coat_passes(n, light_cosine) * inside;
 }
 
 /// The spectrum of a light.

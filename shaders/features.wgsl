@@ -12,6 +12,7 @@ override HAS_ROUGH_CONDUCTORS: bool = true;
 override HAS_COOK: bool = true;
 override HAS_BASES: bool = true;
 override HAS_COATED_BODIES: bool = true;
+override HAS_ROUGH_COATS: bool = true;
 override HAS_BECKMANN: bool = true;
 override HAS_GGX: bool = true;
 override HAS_GRAIN: bool = true;

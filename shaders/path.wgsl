@@ -55,12 +55,12 @@ fn meet_surface(walk: Walk, sample: Sample, hit: Hit) -> Walk {
     }
     let reflects = !HAS_FILMS || surface != SURFACE_FILM || random_at(sample, walk, 1u).x < REFLECTED_SHARE;
     vertex.scatter = layered_factor(hit.object, point, reflects);
-    if (HAS_BASES) {
-        let base = diffuse_factor(hit.object, point.position, random_at(sample, walk, 1u).w);
-        vertex.base = base.spectrum;
-        vertex.base_kind = base.kind;
-    }
     if ((HAS_COOK || HAS_BASES) && surface >= SURFACE_COOK_D1) {
+        if (HAS_BASES) {
+            let base = diffuse_factor(hit.object, point.position, random_at(sample, walk, 1u).w);
+            vertex.base = base.spectrum;
+            vertex.base_kind = base.kind;
+        }
         return meet_scattering(walk, sample, hit.object, point, vertex);
     }
     if (HAS_ROUGH_CONDUCTORS && surface == SURFACE_ROUGH_CONDUCTOR) {

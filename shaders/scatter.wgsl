@@ -22,6 +22,14 @@ fn scattering(scatterer: Scatterer, eye: vec3f, light: vec3f) -> Scattering {
         let pdf = mix(facet.pdf, lambert, materials[scatterer.material].base_chance);
         return Scattering(Lobes(facet.reflection * light.z, 0.0, body, facet.cosine, light.z), pdf);
     }
+    if (HAS_ROUGH_COATS && materials[scatterer.material].surface == SURFACE_ROUGH_COATED_BODY) {
+        var both = facet_scattering(scatterer.material, eye, light);
+        if (eye.z > 0.0 && light.z > 0.0) {
+            both.lobes.body = light.z / PI;
+            both.pdf = mix(light.z / PI, both.pdf, coat_share(scatterer.material, eye.z));
+        }
+        return both;
+    }
     if (HAS_COATED_BODIES && materials[scatterer.material].surface == SURFACE_COATED_BODY) {
         let body = max(light.z, 0.0) / PI;
         let chance = 1.0 - coat_share(scatterer.material, eye.z);
@@ -42,6 +50,13 @@ fn sample_scattering(scatterer: Scatterer, eye: vec3f, random: vec4f) -> vec3f {
         }
         let facet = sample_cook_facet(scatterer.material, random.x, random.y, random.w);
         return normalize(reflect(-eye, facet));
+    }
+    if (HAS_ROUGH_COATS && materials[scatterer.material].surface == SURFACE_ROUGH_COATED_BODY) {
+        let share = coat_share(scatterer.material, eye.z);
+        if (random.z < share) {
+            return sample_facet_scattering(scatterer.material, eye, vec4f(random.xy, random.z / share, random.w));
+        }
+        return sample_cosine_hemisphere(random.x, random.y);
     }
     if (HAS_COATED_BODIES && materials[scatterer.material].surface == SURFACE_COATED_BODY) {
         return sample_cosine_hemisphere(random.x, random.y);

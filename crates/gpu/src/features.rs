@@ -63,21 +63,21 @@ impl Features {
             ),
             (
                 "HAS_ROUGH_CONDUCTORS",
-                material(|m| {
-                    matches!(
-                        m,
-                        Material::Conductor {
-                            microsurface: Some(_),
-                            ..
-                        }
-                    )
-                }),
+                material(|m| m.microsurface().is_some()),
             ),
             ("HAS_COOK", material(|m| matches!(m, Material::Cook(_)))),
             ("HAS_BASES", material(has_base)),
             (
                 "HAS_COATED_BODIES",
-                material(|m| matches!(m, Material::CoatedBody(_))),
+                material(
+                    |m| matches!(m, Material::CoatedBody(body) if body.microsurface.is_none()),
+                ),
+            ),
+            (
+                "HAS_ROUGH_COATS",
+                material(
+                    |m| matches!(m, Material::CoatedBody(body) if body.microsurface.is_some()),
+                ),
             ),
             (
                 "HAS_BECKMANN",

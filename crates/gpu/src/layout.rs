@@ -3,8 +3,8 @@
 //! The macros below take documented Rust types, prove at compile time that Rust places every field
 //! where WGSL expects it, and give the text of `shaders/layout.wgsl`. That file is committed, and a test proves it fresh.
 
-use scene::Energy;
 use scene::limits::{MAX_FIELD_DEPTH, THICKNESS_NM};
+use scene::{CoatedBody, Energy};
 
 /// A type with the same bytes in Rust and in WGSL (WGSL specification, section 14.4.1).
 trait Shared {
@@ -162,6 +162,8 @@ constants! { CONSTANTS;
     pub const SURFACE_COOK_D2 = 5;
     /// Surface: a diffuse body below a smooth coat.
     pub const SURFACE_COATED_BODY = 6;
+    /// Surface: a diffuse body below a rough coat.
+    pub const SURFACE_ROUGH_COATED_BODY = 7;
 
     /// Facets: Beckmann's distribution of slopes.
     pub const FACETS_BECKMANN = 0;
@@ -173,6 +175,8 @@ constants! { CONSTANTS;
     pub const GRAIN_ALONG = 1;
     /// Grain: around an axis through the object's centre.
     pub const GRAIN_AROUND = 2;
+    /// Cosines for which a rough coat has its reflectance, even in their roots.
+    pub const COAT_COSINES = CoatedBody::COSINES as u32;
     /// Knots of a table of energy over the root of the cosine.
     pub const ENERGY_COSINES = Energy::COSINES as u32;
     /// Knots of a table of energy over the width of the slopes, where that differs.
@@ -388,6 +392,12 @@ structs! { STRUCTS;
         pub mean_reflectance: u32,
         /// What stands for the index of a coat where a path chooses its way.
         pub coat_estimate: f32,
+        /// Spectra: the reflectance of a rough coat for COAT_COSINES cosines.
+        pub coat_reflectances: u32,
+        /// Fills the size up to a multiple of 16.
+        pub padding_1: u32,
+        /// Fills the size up.
+        pub padding_2: [u32; 2],
     }
 
     /// A layer of a film or of a coating.

@@ -44,7 +44,7 @@ pub const MODULES: &[Module] = modules! {
     "microfacet": ["trig"];
     "gaussian": ["microfacet", "trig"];
     "cook": ["bindings", "gaussian", "layout", "microfacet", "numbers", "trig"];
-    "coat": ["bindings", "fresnel"];
+    "coat": ["bindings", "fresnel", "layout", "spectrum"];
     "microsurface": ["features", "layout", "trig"];
     "energy": ["bindings", "features", "layout", "numbers"];
     "bindings": ["layout"];

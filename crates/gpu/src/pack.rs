@@ -250,7 +250,14 @@ fn pack_material(
         Material::Cook(ref cook) => pack_cook(&mut packed, fields, cook),
         Material::CoatedBody(ref body) => {
             pack_pattern(&mut packed, &body.base);
-            packed.surface = layout::SURFACE_COATED_BODY;
+            packed.surface = match body.microsurface {
+                Some(_) => layout::SURFACE_ROUGH_COATED_BODY,
+                None => layout::SURFACE_COATED_BODY,
+            };
+            if let Some(microsurface) = &body.microsurface {
+                pack_microsurface(&mut packed, microsurface, fields);
+            }
+            packed.coat_reflectances = body.reflectances.map_or(0, id);
             packed.coat = id(body.n);
             packed.mean_reflectance = id(body.mean_reflectance);
             packed.coat_estimate = body.estimate.n as f32;

@@ -11,8 +11,8 @@ use crate::{
 use glam::DVec3;
 use optics::Complex64;
 use scene::{
-    DirectLight, Emission, Interference, LightSource, Material, Pattern, RenderSettings, Sampler,
-    Scene, SourceKind, SpectrumId, WavelengthSampling,
+    CoatedBody, DirectLight, Emission, Interference, LightSource, Material, Pattern,
+    RenderSettings, Sampler, Scene, SourceKind, SpectrumId, WavelengthSampling,
 };
 
 /// Share of the paths that follow the reflection of a film rather than its transmission.
@@ -176,7 +176,13 @@ impl<'a> Path<'a> {
                 };
                 let random = self.random(1)[3];
                 let base = pattern_reflectance(&body.base, &object.shape, point.position, random);
-                let surface = Scatterer::CoatedBody(conductor, body, base);
+                let surface = match &body.microsurface {
+                    None => Scatterer::CoatedBody(conductor, body, base),
+                    Some(microsurface) => {
+                        let facets = Facets::new(microsurface);
+                        Scatterer::RoughCoatedBody(conductor, body, base, facets)
+                    }
+                };
                 self.meet_scattering(hit.object, point, &surface)
             }
             Material::Cook(ref cook) => {
@@ -335,6 +341,24 @@ impl<'a> Path<'a> {
         }
     }
 
+    /// P of a body below a coat.
+    fn below_coat(&self, body: &CoatedBody, base: Reflectance, band: usize) -> f64 {
+        let base = self.diffuse(base, band);
+        let outer = self.spectrum(body.mean_reflectance, band);
+        base * optics::coated_albedo_factor(base, self.spectrum(body.n, band), outer)
+    }
+
+    /// The reflectance of a rough coat, from its table.
+    fn rough_coat(&self, body: &CoatedBody, cosine: f64, band: usize) -> f64 {
+        let place = cosine.clamp(0.0, 1.0).sqrt() * (CoatedBody::COSINES - 1) as f64;
+        let knot = (place as usize).min(CoatedBody::COSINES - 2);
+        let at = |knot| {
+            let spectrum = body.reflectances.map(|first| first.after(knot));
+            spectrum.map_or(0.0, |spectrum| self.spectrum(spectrum, band))
+        };
+        at(knot) + (at(knot + 1) - at(knot)) * (place - knot as f64)
+    }
+
     /// What lobes make of the spectra of a surface in a band.
     fn scattered_value(
         &self,
@@ -350,11 +374,18 @@ impl<'a> Path<'a> {
             Scatterer::Diffuse(reflectance) => lobes.single * self.diffuse(*reflectance, band),
             Scatterer::CoatedBody(coat, body, base) => {
                 let passes = |cosine: f64| 1.0 - self.reflectance(coat, cosine, band);
-                let base = self.diffuse(*base, band);
-                let outer = self.spectrum(body.mean_reflectance, band);
-                let n = self.spectrum(body.n, band);
-                let inside = base * optics::coated_albedo_factor(base, n, outer);
+                let inside = self.below_coat(body, *base, band);
                 lobes.body * passes(eye.z) * passes(lobes.light_cosine) * inside
+            }
+            Scatterer::RoughCoatedBody(coat, body, base, facets) => {
+                let reflectance = |cosine| self.reflectance(coat, cosine, band);
+                let mean = optics::mean_reflectance(reflectance);
+                let multiple = optics::multiple_colour(mean, facets.mean_energy());
+                let passes = |cosine: f64| 1.0 - self.rough_coat(body, cosine, band);
+                let inside = self.below_coat(body, *base, band);
+                lobes.single * reflectance(lobes.cosine)
+                    + lobes.multiple * multiple
+                    + lobes.body * passes(eye.z) * passes(lobes.light_cosine) * inside
             }
             Scatterer::Cook(conductor, cook) => {
                 let base = cook.diffuse.map_or(0.0, |diffuse| {

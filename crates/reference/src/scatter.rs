@@ -14,6 +14,8 @@ pub(crate) enum Scatterer<'a> {
     RoughConductor(Conductor<'a>, Facets<'a>),
     /// A body of this reflectance below a smooth coat; what the coat mirrors is no part of it.
     CoatedBody(Conductor<'a>, &'a CoatedBody, Reflectance),
+    /// A body of this reflectance below a rough coat.
+    RoughCoatedBody(Conductor<'a>, &'a CoatedBody, Reflectance, Facets<'a>),
     /// By Cook's model.
     Cook(Conductor<'a>, &'a Cook1981),
 }
@@ -85,6 +87,24 @@ impl Scatterer<'_> {
                     pdf: (1.0 - coat_share(body, eye.z)) * lambert,
                 }
             }
+            Self::RoughCoatedBody(_, body, _, facets) => match facets.between(eye, light) {
+                None => Scattering {
+                    lobes: Lobes::single(0.0, 1.0, light),
+                    pdf: 0.0,
+                },
+                Some(found) => {
+                    let share = coat_share(body, eye.z);
+                    let lambert = light.z / PI;
+                    Scattering {
+                        lobes: Lobes {
+                            multiple: found.multiple,
+                            body: lambert,
+                            ..Lobes::single(found.single, found.cosine, light)
+                        },
+                        pdf: share * found.pdf + (1.0 - share) * lambert,
+                    }
+                }
+            },
             Self::Cook(_, cook) => {
                 let facets = cook_facets(cook, eye, light);
                 let lambert = light.z.max(0.0) / PI;
@@ -119,6 +139,14 @@ impl Scatterer<'_> {
         let [u, v, choice, pick] = random;
         match self {
             Self::Diffuse(_) | Self::CoatedBody(..) => sample_cosine_hemisphere(u, v),
+            Self::RoughCoatedBody(_, body, _, facets) => {
+                let share = coat_share(body, eye.z);
+                if choice < share {
+                    facets.sample(eye, [u, v, choice / share, pick])
+                } else {
+                    sample_cosine_hemisphere(u, v)
+                }
+            }
             Self::Cook(_, cook) if choice < cook.diffuse.map_or(0.0, |diffuse| diffuse.chance) => {
                 sample_cosine_hemisphere(u, v)
             }
@@ -132,7 +160,12 @@ impl Scatterer<'_> {
 /// brings.
 pub fn coat_share(body: &CoatedBody, cosine: f64) -> f64 {
     let reflected = optics::reflectance_unpolarised(body.estimate.n.into(), cosine.max(1e-6));
-    reflected / (reflected + (1.0 - reflected) * body.estimate.base).max(1e-6)
+    let share = reflected / (reflected + (1.0 - reflected) * body.estimate.base).max(1e-6);
+    match body.microsurface {
+        // Near grazing it reflects less than a smooth one: both must stay within reach.
+        Some(_) => share.clamp(0.1, 0.9),
+        None => share,
+    }
 }
 
 /// The direction that a facet mirrors to `eye`.

@@ -1,5 +1,6 @@
 //! A diffuse body below a clear coat, in a validated scene.
 
+use crate::derived::coats;
 use crate::{Microsurface, Pattern, SpectrumId};
 
 /// A diffuse body below a coat without absorption: what the coat reflects, and
@@ -16,8 +17,16 @@ pub struct CoatedBody {
     pub base: Pattern,
     /// Ē: the coat's reflectance of diffuse light from outside.
     pub mean_reflectance: SpectrumId,
+    /// E of a rough coat: the first of [`Self::COSINES`] spectra, for cosines that are even in their roots from 0 to 1 and with straight
+    /// lines between. None where the coat is smooth, and E Fresnel's reflectance.
+    pub reflectances: Option<SpectrumId>,
     /// What steers which way paths go: an index of the coat, and a reflectance of the body.
     pub estimate: CoatEstimate,
+}
+
+impl CoatedBody {
+    /// Number of cosines for which a rough coat has its reflectance.
+    pub const COSINES: usize = coats::COSINES;
 }
 
 /// Numbers that stand for the spectra of a coated body where a path chooses its way.

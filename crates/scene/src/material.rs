@@ -58,7 +58,8 @@ impl Material {
     /// Its facets; none where it is smooth or diffuse.
     pub fn microsurface(&self) -> Option<&Microsurface> {
         match self {
-            Self::Conductor { microsurface, .. } => microsurface.as_ref(),
+            Self::Conductor { microsurface, .. }
+            | Self::CoatedBody(CoatedBody { microsurface, .. }) => microsurface.as_ref(),
             _ => None,
         }
     }

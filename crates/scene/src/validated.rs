@@ -15,6 +15,12 @@ impl SpectrumId {
     pub fn index(self) -> usize {
         self.0 as usize
     }
+
+    /// The spectrum that stands this many places after this one.
+    #[must_use]
+    pub fn after(self, places: usize) -> Self {
+        Self(self.0 + places as u32)
+    }
 }
 
 /// Index of a light group in [`Scene::light_groups`].

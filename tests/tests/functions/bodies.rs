@@ -5,7 +5,7 @@ use crate::{Check, pure, table};
 use glam::DVec3;
 use pellicle_tests::tolerances::{ARITHMETIC, BECKMANN, DIRECTION, FACET, FRESNEL, TRIGONOMETRY};
 use reference::{coat_share, cook_facets, sample_cook_facet};
-use scene::{Cook1981, Material};
+use scene::{CoatedBody, Cook1981, Material};
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 
@@ -13,6 +13,7 @@ pub(crate) fn checks() -> Vec<Check> {
     let mut all = gaussian();
     all.extend([between_directions(), facets()]);
     all.extend(coats());
+    all.push(rough_coats());
     all
 }
 
@@ -158,6 +159,39 @@ fn facets() -> Check {
                 .to_vec()
         },
         tolerance: DIRECTION,
+    }
+}
+
+/// A rough coat of a table's spectra, and what it lets in in the bands of a group.
+fn rough_coat(a: &[f64]) -> Vec<f64> {
+    let scene = &world().scene;
+    let Material::CoatedBody(body) = &scene.materials()[a[0] as usize] else {
+        panic!("{a:?}");
+    };
+    let first = body.reflectances.expect("it is rough");
+    let place = a[1].sqrt() * (CoatedBody::COSINES - 1) as f64;
+    let knot = (place as usize).min(CoatedBody::COSINES - 2);
+    let at = |knot: usize| scene.spectrum(first.after(knot)).at(4 + a[2] as u32, a[3]);
+    vec![1.0 - (at(knot) + (at(knot + 1) - at(knot)) * (place - knot as f64))]
+}
+
+fn rough_coats() -> Check {
+    let bodies: Vec<usize> = indices_of(
+        |material| matches!(material, Material::CoatedBody(body) if body.microsurface.is_some()),
+    );
+    Check {
+        probe: world().probe(
+            &["coat"],
+            (4, 1),
+            "put(0u, rough_coat_passes(u32(a(0u)), a(1u), 1u, wavelengths_at(a(3u)))[u32(a(2u))]);",
+        ),
+        proves: &["rough_coat_passes"],
+        inputs: rows(4, |u| {
+            let lane = (4.0 * u[2]).floor();
+            Some(vec![pick(&bodies, u[0]) as f64, u[1], lane, u[3]])
+        }),
+        twin: rough_coat,
+        tolerance: FRESNEL,
     }
 }
 

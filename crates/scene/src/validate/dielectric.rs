@@ -2,6 +2,7 @@
 
 use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
+use crate::derived::coats;
 use crate::description::Index;
 use crate::problem::{Problem, ProblemKind};
 use crate::{CoatEstimate, CoatedBody, FieldPath, Material, Microsurface, Pattern, SpectrumId};
@@ -26,9 +27,17 @@ pub(super) fn check(
         report_absorption(checks, &field.key("index"), index);
         return None;
     }
-    let mean_reflectance = spectra.combined([n, k], |[n, k]| {
-        optics::hemispherical_reflectance(optics::Complex64::new(n, k))
-    });
+    let (reflectances, mean_reflectance) = match &microsurface {
+        None => {
+            let mean =
+                |[n, k]: [f64; 2]| optics::hemispherical_reflectance(optics::Complex64::new(n, k));
+            (None, spectra.combined([n, k], mean))
+        }
+        Some(microsurface) => {
+            let (reflectances, mean) = coats::reflectances(microsurface, spectra.table(n));
+            (Some(spectra.run(reflectances)), spectra.run([mean]))
+        }
+    };
     let base_estimate = match base {
         Pattern::Uniform(only) => spectra.mean(only),
         Pattern::Checker { even, odd, .. } => 0.5 * (spectra.mean(even) + spectra.mean(odd)),
@@ -39,6 +48,7 @@ pub(super) fn check(
         k,
         microsurface,
         mean_reflectance,
+        reflectances,
         estimate: CoatEstimate {
             n: spectra.mean(n),
             base: base_estimate,

@@ -85,6 +85,18 @@ impl<'a> SpectrumList<'a> {
         self.tables[id.index()].extent().0
     }
 
+    /// One of the spectra.
+    pub(crate) fn table(&self, id: SpectrumId) -> &BandTable {
+        &self.tables[id.index()]
+    }
+
+    /// The number of the first of spectra that get numbers one after another.
+    pub(crate) fn run(&mut self, tables: impl IntoIterator<Item = BandTable>) -> SpectrumId {
+        let first = SpectrumId(self.tables.len() as u32);
+        self.tables.extend(tables);
+        first
+    }
+
     /// The mean of a spectrum over its knots.
     pub(crate) fn mean(&self, id: SpectrumId) -> f64 {
         self.tables[id.index()].mean()
