@@ -1,12 +1,9 @@
 // The spectrum along a recorded path, four bands at a time.
 
-/// The value of a factor in the four bands of a group.
-fn factor_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
+/// The value of a factor that is no film's, in the four bands of a group.
+fn surface_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
     if (HAS_TEXTURES && factor.kind == FACTOR_SMOOTH) {
         return smooth_value(texel_at(factor.spectrum).xyz, group, at);
-    }
-    if (HAS_FILMS && factor.kind >= FACTOR_FILM_REFLECTS) {
-        return film_value(factor, group, at);
     }
     if (HAS_COATINGS && factor.kind == FACTOR_COATED) {
         return coating_value(factor, group, at);
@@ -19,7 +16,7 @@ fn factor_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
     return first; // a reflectance
 }
 
-/// The reflectance or transmittance of a film.
+/// The reflectance or transmittance of a film, in the four bands of a group.
 fn film_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
     if (HAS_STACKS && factor.kind >= FACTOR_STACK_REFLECTS && factor.kind <= FACTOR_STACK_TRANSMITS) {
         return free_stack_value(factor, group, at);
@@ -100,26 +97,30 @@ fn free_stack_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
     return 0.5 * (powers.reflectance_s + powers.reflectance_p);
 }
 
-/// The colour of light that met several facets of a vertex's surface: F² E / (1 − F (1 − E)) with F the mean of the factor over
-/// a hemisphere, by Gauss's rule of three points for the weight x (Abramowitz and Stegun, table 25.8), and E that of the facets'
-/// albedo (Kulla and Conty 2017).
+/// Cosines and weights of a mean over a hemisphere: Gauss's rule of three points for the weight x (Abramowitz and Stegun,
+/// table 25.8).
+const MEAN_COSINES: vec3f = vec3f(0.2123405382, 0.5905331356, 0.9114120405);
+const MEAN_WEIGHTS: vec3f = vec3f(0.1396539598, 0.4584822127, 0.4018638275);
+
+/// The colour of light that met several facets of a vertex's surface: F² E / (1 − F (1 − E)) with F the mean of its reflectance
+/// over a hemisphere and E that of the facets' albedo (Kulla and Conty 2017).
 fn multiple_colour(vertex: Vertex, group: u32, at: Wavelengths) -> vec4f {
     var factor = vertex.scatter;
-    factor.cosine = 0.2123405382;
-    var mean = 0.1396539598 * factor_value(factor, group, at);
-    factor.cosine = 0.5905331356;
-    mean += 0.4584822127 * factor_value(factor, group, at);
-    factor.cosine = 0.9114120405;
-    mean += 0.4018638275 * factor_value(factor, group, at);
+    var mean = vec4f(0.0);
+    // In a loop, so that the layers' code is there once.
+    for (var i = 0u; i < 3u; i++) {
+        factor.cosine = MEAN_COSINES[i];
+        mean += MEAN_WEIGHTS[i] * surface_value(factor, group, at);
+    }
     let energy = materials[vertex.material].mean_energy;
     return mean * mean * energy / (1.0 - mean * (1.0 - energy));
 }
 
-/// What lobes make of the spectra of a vertex; `multiple` is its multiple_colour.
+/// What lobes make of the spectra of a vertex that scatters; `multiple` is its multiple_colour.
 fn lobes_value(vertex: Vertex, lobes: Lobes, multiple: vec4f, group: u32, at: Wavelengths) -> vec4f {
     var factor = vertex.scatter;
     factor.cosine = lobes.cosine;
-    var value = lobes.single * factor_value(factor, group, at);
+    var value = lobes.single * surface_value(factor, group, at);
     if (HAS_ROUGH_CONDUCTORS) {
         value += lobes.multiple * multiple;
     }
@@ -131,7 +132,7 @@ fn lobes_value(vertex: Vertex, lobes: Lobes, multiple: vec4f, group: u32, at: Wa
 
 /// The colour of a base beside facets, or below a coat with what the coat keeps of it.
 fn body_value(vertex: Vertex, light_cosine: f32, group: u32, at: Wavelengths) -> vec4f {
-    let base = factor_value(Factor(vertex.base_kind, vertex.base, 1.0, 0.0, 0u), group, at);
+    let base = surface_value(Factor(vertex.base_kind, vertex.base, 1.0, 0.0, 0u), group, at);
     let surface = materials[vertex.material].surface;
     if (!(HAS_COATED_BODIES || HAS_ROUGH_COATS) || surface < SURFACE_COATED_BODY) {
         return base;
@@ -198,7 +199,11 @@ fn path_radiance(group: u32, at: Wavelengths) -> array<vec4f, LIGHT_GROUPS> {
             let arrived = throughput * connection_value(vertex, multiple, group, at);
             radiance = with_light(radiance, light_group_of(vertex.connection), arrived);
         }
-        throughput *= lobes_value(vertex, vertex.onward, multiple, group, at);
+        if (HAS_FILMS && vertex.scatter.kind >= FACTOR_FILM_REFLECTS) {
+            throughput *= vertex.onward.single * film_value(vertex.scatter, group, at);
+        } else {
+            throughput *= lobes_value(vertex, vertex.onward, multiple, group, at);
+        }
     }
     return radiance;
 }

@@ -30,5 +30,13 @@ override HAS_SWIRLS: bool = true;
 override HAS_PICTURES: bool = true;
 override HAS_SPHERE_LIGHTS: bool = true;
 override HAS_RECTANGLE_LIGHTS: bool = true;
+override HAS_DISK_LIGHTS: bool = true;
+override HAS_DELTA_LIGHTS: bool = true;
+override HAS_DISCS: bool = true;
+override HAS_LIGHTS: bool = true;
+override HAS_LIGHT_CHOICE: bool = true;
 override HAS_ENVIRONMENT: bool = true;
 override HAS_SOBOL_SAMPLES: bool = true;
+// How light is found: by sending rays to lights, by meeting them by chance, or both.
+override SENDS_LIGHT: bool = true;
+override MEETS_LIGHT: bool = true;

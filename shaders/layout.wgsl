@@ -37,6 +37,18 @@ const SHAPE_HORIZON: u32 = 17u;
 /// Shape that no ray meets: surroundings by the cosine with `normal`, where it is above 0.
 const SHAPE_POLE: u32 = 18u;
 
+/// Shape that no ray meets: a disc in the sky about `normal`, with 1 − cos of its half angle for `radius`.
+const SHAPE_DISC: u32 = 24u;
+
+/// Shape that no ray meets: light from the direction `normal` alone. Those of a single direction at each place are greater.
+const SHAPE_DIRECTION: u32 = 25u;
+
+/// Shape that no ray meets: a point that shines to all sides. Those that lie at a place are greater.
+const SHAPE_POINT: u32 = 26u;
+
+/// Shape that no ray meets: a point that shines about `normal`, fully from the cosine `half_width` on, not below `half_height`.
+const SHAPE_SPOT: u32 = 27u;
+
 /// Surface: Lambertian.
 const SURFACE_DIFFUSE: u32 = 0u;
 
@@ -218,9 +230,9 @@ struct Frame {
     object_count: u32,
     /// Number of lights.
     light_count: u32,
-    /// First of the objects that are parts of the surroundings.
+    /// First of the objects that are parts of the surroundings, discs in the sky among them.
     first_environment: u32,
-    /// Number of the parts of the surroundings.
+    /// Number of them.
     environment_count: u32,
     /// First of the observer's three spectra.
     observer: u32,
@@ -266,8 +278,8 @@ struct Object {
     is_light: u32,
     /// The light that has this object's number is the object `light`; NONE past the last light.
     light: u32,
-    /// Fills the size up to a multiple of 16.
-    padding: u32,
+    /// How bright its light is to the eye; steers the choice among lights.
+    brightness: f32,
 }
 
 /// What a surface is made of.

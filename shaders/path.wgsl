@@ -4,12 +4,12 @@
 fn trace_path(sample: Sample) -> Wavelengths {
     begin_record();
     let first = numbers_of(sample, 0u);
-    var walk = Walk(camera_ray(sample.pixel, first.xy), NONE, vec3f(0.0), 0.0, 1u, true);
+    var walk = Walk(camera_ray(sample.pixel, first.xy), NONE, vec3f(0.0), 0.0, vec3f(0.0), 0.0, 1u, true);
     while (walk.alive) {
         let hit = nearest_hit(walk.ray, walk.from_object);
         if (hit.object == NONE) {
             if (HAS_ENVIRONMENT) {
-                record_environment(walk.ray.direction);
+                record_environment(walk);
             }
             break;
         }
@@ -21,11 +21,15 @@ fn trace_path(sample: Sample) -> Wavelengths {
 }
 
 /// The radiance of the surroundings, part by part.
-fn record_environment(direction: vec3f) {
+fn record_environment(walk: Walk) {
     for (var i = 0u; i < frame.environment_count; i++) {
         let part = frame.first_environment + i;
-        let material = objects[part].material;
-        push_emission(materials[material].emission, materials[material].emission_scale * environment_share(part, direction));
+        let share = environment_share(part, walk.ray.direction);
+        if (share > 0.0) {
+            let material = objects[part].material;
+            let weight = share * emission_share(walk, part);
+            push_emission(materials[material].emission, materials[material].emission_scale * weight);
+        }
     }
 }
 
@@ -65,15 +69,16 @@ fn meet_surface(walk: Walk, sample: Sample, hit: Hit) -> Walk {
     return meet_smooth(walk, hit.object, point, vertex, reflects);
 }
 
-/// Weight of an emitter that a scattered path happens to hit, by the balance heuristic (Veach 1997, equation 9.8):
-/// the rest is what connections to that light bring.
-fn emission_share(walk: Walk, object: u32) -> f32 {
-    let has_lights = HAS_SPHERE_LIGHTS || HAS_RECTANGLE_LIGHTS;
-    if (!has_lights || walk.scatter_pdf <= 0.0 || objects[object].is_light == 0u) {
+/// Weight of a light that a scattered path happens to meet: the rest is what connections to that light bring.
+fn emission_share(walk: Walk, light: u32) -> f32 {
+    if (!HAS_LIGHTS || walk.scatter_pdf <= 0.0 || objects[light].is_light == 0u) {
         return 1.0;
     }
-    let sent = light_pdf(object, walk.scattered_at, walk.ray.direction) / f32(frame.light_count);
-    return walk.scatter_pdf / (walk.scatter_pdf + sent);
+    if (!MEETS_LIGHT || !SENDS_LIGHT) {
+        return select(0.0, 1.0, MEETS_LIGHT);
+    }
+    let chosen = choice_probability(light, walk.scattered_at, walk.scattered_normal, walk.estimates);
+    return mis_share(walk.scatter_pdf, chosen * light_pdf(light, walk.scattered_at, walk.ray.direction));
 }
 
 /// Share of the paths that follow the reflection of a film rather than its transmission. What is bright behind a film is
@@ -90,7 +95,7 @@ fn meet_smooth(walk: Walk, object: u32, point: SurfacePoint, vertex_in: Vertex, 
     vertex.onward = single_lobe(weight, vertex.scatter.cosine);
     push_vertex(vertex);
     if (reflects) {
-        return walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0);
+        return walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0, 0.0);
     }
     var through = walk;
     through.ray.origin = point.position;
@@ -118,12 +123,12 @@ fn meet_scattering(walk: Walk, sample: Sample, object: u32, point: SurfacePoint,
         if (random.z < share) {
             vertex.onward = single_lobe(1.0 / share, eye.z);
             push_vertex(vertex);
-            return walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0);
+            return walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0, 0.0);
         }
     }
     let light = sample_scattering(scatterer, eye, random);
     let onward = scattering(scatterer, eye, light);
-    var next = walk_on(walk, object, point, normalize(world_from_local * light), onward.pdf);
+    var next = walk_on(walk, object, point, normalize(world_from_local * light), onward.pdf, sent.total);
     if (onward.pdf > 0.0) {
         vertex.onward = scaled(onward.lobes, 1.0 / onward.pdf);
     } else {

@@ -74,6 +74,7 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "emission_share",
     "factor_source",
     "free_stack_value",
+    "is_before",
     "is_cook",
     "is_lit",
     "is_recorded",

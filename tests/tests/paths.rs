@@ -52,7 +52,7 @@ fn every_path_agrees_with_the_reference() {
             })
             .copied()
             .collect();
-        let lights = scene.lights();
+        let lights = scene.light_sources();
         let expected: Vec<_> = rows()
             .par_iter()
             .map(|&[x, y, sample]| reference::radiance(&scene, &lights, [x, y], sample))

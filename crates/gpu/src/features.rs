@@ -1,8 +1,9 @@
 //! What a scene has, so that its pipeline leaves out the rest: the values of `shaders/features.wgsl`.
 
 use scene::{
-    Coordinate, Distribution, Environment, Interference, Material, Microsurface, PathDifference,
-    Pattern, Profile, Sampler, Scene, Shape, Thickness,
+    Coordinate, DirectLight, Distribution, EnvironmentPart, EnvironmentShape, Interference,
+    LightSource, Material, Microsurface, PathDifference, Pattern, Profile, Sampler, Scene, Shape,
+    SourceKind, Thickness,
 };
 
 /// Constants of a pipeline by name: 1 where the scene has the thing, 0 where it has not.
@@ -12,13 +13,18 @@ pub struct Features(Vec<(&'static str, f64)>);
 impl Features {
     /// What a scene has.
     pub fn of(scene: &Scene) -> Self {
+        let sources = scene.light_sources();
+        let surroundings = scene.surroundings();
         let shape = |wanted: fn(&Shape) -> bool| scene.objects().iter().any(|o| wanted(&o.shape));
         let light = |wanted: fn(&Shape) -> bool| {
-            scene
-                .lights()
-                .iter()
-                .any(|&index| wanted(&scene.objects()[index].shape))
+            sources.iter().any(|source| match source.kind {
+                SourceKind::Object(index) => wanted(&scene.objects()[index].shape),
+                _ => false,
+            })
         };
+        let is_delta = |source: &LightSource| matches!(source.kind, SourceKind::Light(_));
+        let is_disc = |part: &EnvironmentPart| matches!(part.shape, EnvironmentShape::Disc { .. });
+        let direct = scene.settings().direct_light;
         let used: Vec<&Material> = scene
             .objects()
             .iter()
@@ -92,7 +98,17 @@ impl Features {
             ),
             ("HAS_SPHERE_LIGHTS", light(is_sphere)),
             ("HAS_RECTANGLE_LIGHTS", light(is_rectangle)),
-            ("HAS_ENVIRONMENT", !is_dark(scene.environment())),
+            ("HAS_DISK_LIGHTS", light(is_disk)),
+            ("HAS_DELTA_LIGHTS", sources.iter().any(is_delta)),
+            ("HAS_DISCS", surroundings.iter().any(is_disc)),
+            ("HAS_LIGHTS", !sources.is_empty()),
+            ("HAS_LIGHT_CHOICE", sources.len() > 1),
+            (
+                "HAS_ENVIRONMENT",
+                surroundings.iter().any(|part| part.emission.scale > 0.0),
+            ),
+            ("SENDS_LIGHT", direct != DirectLight::Surfaces),
+            ("MEETS_LIGHT", direct != DirectLight::Lights),
             (
                 "HAS_SOBOL_SAMPLES",
                 scene.settings().sampler == Sampler::Sobol,
@@ -240,18 +256,5 @@ impl FilmForm {
             (Interference::Exact, [_]) => Self::Lossy,
             (Interference::Exact, _) => Self::Stack,
         })
-    }
-}
-
-fn is_dark(environment: &Environment) -> bool {
-    match environment {
-        Environment::Constant(all) => all.scale == 0.0,
-        Environment::Gradient {
-            zenith,
-            horizon,
-            ground,
-        } => [zenith, horizon, ground]
-            .iter()
-            .all(|emission| emission.scale == 0.0),
     }
 }

@@ -139,6 +139,14 @@ constants! { CONSTANTS;
     pub const SHAPE_HORIZON = 17;
     /// Shape that no ray meets: surroundings by the cosine with `normal`, where it is above 0.
     pub const SHAPE_POLE = 18;
+    /// Shape that no ray meets: a disc in the sky about `normal`, with 1 − cos of its half angle for `radius`.
+    pub const SHAPE_DISC = 24;
+    /// Shape that no ray meets: light from the direction `normal` alone. Those of a single direction at each place are greater.
+    pub const SHAPE_DIRECTION = 25;
+    /// Shape that no ray meets: a point that shines to all sides. Those that lie at a place are greater.
+    pub const SHAPE_POINT = 26;
+    /// Shape that no ray meets: a point that shines about `normal`, fully from the cosine `half_width` on, not below `half_height`.
+    pub const SHAPE_SPOT = 27;
 
     /// Surface: Lambertian.
     pub const SURFACE_DIFFUSE = 0;
@@ -280,9 +288,9 @@ structs! { STRUCTS;
         pub object_count: u32,
         /// Number of lights.
         pub light_count: u32,
-        /// First of the objects that are parts of the surroundings.
+        /// First of the objects that are parts of the surroundings, discs in the sky among them.
         pub first_environment: u32,
-        /// Number of the parts of the surroundings.
+        /// Number of them.
         pub environment_count: u32,
         /// First of the observer's three spectra.
         pub observer: u32,
@@ -328,8 +336,8 @@ structs! { STRUCTS;
         pub is_light: u32,
         /// The light that has this object's number is the object `light`; NONE past the last light.
         pub light: u32,
-        /// Fills the size up to a multiple of 16.
-        pub padding: u32,
+        /// How bright its light is to the eye; steers the choice among lights.
+        pub brightness: f32,
     }
 
     /// What a surface is made of.

@@ -59,17 +59,18 @@ pub const MODULES: &[Module] = modules! {
     "thickness": ["bindings", "features", "layout", "noise", "numbers", "picture", "trig"];
     "surface": ["bindings", "camera", "features", "layout", "sampling"];
     "hit": ["bindings", "camera", "features", "intersect", "layout"];
-    "environment": ["bindings", "layout", "sampling", "trig"];
-    "light": ["bindings", "features", "layout", "sampling", "trig"];
+    "environment": ["bindings", "features", "layout", "sampling", "trig"];
+    "light": ["bindings", "environment", "features", "layout", "sampling", "trig"];
+    "light_choice": ["bindings", "features", "layout", "light", "sampling", "trig"];
     "record": ["layout", "limits"];
     "walk": ["bindings", "camera", "features", "random", "sobol", "surface"];
     "factor": ["bindings", "features", "layout", "picture", "record", "surface", "texels", "thickness"];
-    "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "scatter", "surface", "walk"];
+    "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "light_choice", "record", "scatter", "surface", "walk"];
     "scatter": [
         "bindings", "coat", "cook", "energy", "factor", "features", "layout", "microsurface", "record", "sampling", "trig"
     ];
     "path": [
-        "bindings", "camera", "coat", "connect", "environment", "factor", "features", "hit", "layout", "light", "record", "scatter",
+        "bindings", "camera", "coat", "connect", "environment", "factor", "features", "hit", "layout", "light", "light_choice", "record", "scatter",
         "spectrum", "surface", "walk"
     ];
     "evaluate": [

@@ -1,5 +1,6 @@
 //! From a scene to the numbers that the shader reads: the only place where `f64` becomes `f32`.
 
+mod lights;
 mod passes;
 mod texels;
 mod thickness;
@@ -49,15 +50,6 @@ impl PackedScene {
     /// Packs a scene.
     pub fn new(scene: &Scene) -> Self {
         let limits = record_limits(scene);
-        let lights = scene.lights();
-        let objects = scene.objects().iter().enumerate().map(|(index, object)| {
-            let is_light = lights.binary_search(&index).is_ok();
-            let light = lights
-                .get(index)
-                .map_or(layout::NONE, |&light| light as u32);
-            pack_object(object, is_light, light)
-        });
-        let mut objects: Vec<_> = objects.collect();
         let mut layers = Vec::new();
         let mut fields = Fields::default();
         let mut pictures = Pictures::default();
@@ -70,10 +62,8 @@ impl PackedScene {
                 packed
             })
             .collect();
-        for part in scene.environment().parts() {
-            objects.push(pack_environment(&part, materials.len()));
-            materials.push(pack_emitter(part.emission));
-        }
+        let mut objects: Vec<_> = scene.objects().iter().map(pack_object).collect();
+        lights::append(scene, &mut objects, &mut materials);
         let spectra = scene
             .spectra()
             .iter()
@@ -83,7 +73,7 @@ impl PackedScene {
             .iter()
             .flat_map(|table| pack_spectrum(table, true));
         Self {
-            frame: pack_frame(scene, lights.len() as u32),
+            frame: pack_frame(scene),
             objects,
             materials,
             layers,
@@ -128,7 +118,7 @@ fn light(emission: Emission) -> u32 {
     spectrum | group << layout::LIGHT_GROUP_SHIFT
 }
 
-fn pack_frame(scene: &Scene, light_count: u32) -> Frame {
+fn pack_frame(scene: &Scene) -> Frame {
     let (camera, settings) = (scene.camera(), scene.settings());
     let (projection, half_height) = match camera.projection {
         Projection::Perspective { half_height } => (layout::PROJECTION_PERSPECTIVE, half_height),
@@ -150,9 +140,9 @@ fn pack_frame(scene: &Scene, light_count: u32) -> Frame {
         steps: BandTable::steps_of(&settings.bands),
         draws_wavelengths: u32::from(settings.sampling == WavelengthSampling::Random),
         object_count: scene.objects().len() as u32,
-        light_count,
+        light_count: scene.light_sources().len() as u32,
         first_environment: scene.objects().len() as u32,
-        environment_count: scene.environment().parts().len() as u32,
+        environment_count: scene.surroundings().len() as u32,
         observer: scene.spectra().len() as u32,
     }
 }
@@ -173,11 +163,10 @@ fn pack_spectrum(table: &BandTable, dark_padding: bool) -> Vec<[f32; 4]> {
     .collect()
 }
 
-fn pack_object(object: &Object, is_light: bool, light: u32) -> layout::Object {
+fn pack_object(object: &Object) -> layout::Object {
     let mut packed = layout::Object {
         material: object.material.index() as u32,
-        is_light: u32::from(is_light),
-        light,
+        light: layout::NONE,
         ..Default::default()
     };
     match object.shape {
@@ -228,32 +217,6 @@ fn pack_object(object: &Object, is_light: bool, light: u32) -> layout::Object {
         }
     }
     packed
-}
-
-/// A part of the surroundings, an object that no ray meets.
-fn pack_environment(part: &EnvironmentPart, material: usize) -> layout::Object {
-    let (shape, normal) = match part.shape {
-        EnvironmentShape::Everywhere => (layout::SHAPE_EVERYWHERE, DVec3::ZERO),
-        EnvironmentShape::Horizon => (layout::SHAPE_HORIZON, DVec3::ZERO),
-        EnvironmentShape::Pole(pole) => (layout::SHAPE_POLE, pole),
-    };
-    layout::Object {
-        material: material as u32,
-        light: layout::NONE,
-        shape,
-        normal: vec3(normal),
-        ..Default::default()
-    }
-}
-
-/// What only emits.
-fn pack_emitter(emission: Emission) -> layout::Material {
-    layout::Material {
-        emission: light(emission),
-        emission_scale: emission.scale as f32,
-        is_black: 1,
-        ..Default::default()
-    }
 }
 
 fn pack_material(
@@ -431,7 +394,8 @@ fn record_limits(scene: &Scene) -> RecordLimits {
         .map(|segment| per_connection.min(segments - segment - 1))
         .sum();
     RecordLimits {
-        vertices: segments + 1,
+        // Of a gradient a direction sees two parts, of which one stands for the segment that escapes.
+        vertices: segments + 1 + discs(scene),
         crossings: u32::max(crossings, 1),
         thicknesses: u32::max(
             most_varying(scene, |_| true) * segments + most_varying(scene, is_film) * crossings,
@@ -439,6 +403,13 @@ fn record_limits(scene: &Scene) -> RecordLimits {
         ),
         light_groups: scene.light_groups().len() as u32,
     }
+}
+
+/// Number of discs in the sky.
+fn discs(scene: &Scene) -> u32 {
+    let parts = scene.surroundings();
+    let is_disc = |part: &&EnvironmentPart| matches!(part.shape, EnvironmentShape::Disc { .. });
+    parts.iter().filter(is_disc).count() as u32
 }
 
 fn is_film(material: &Material) -> bool {

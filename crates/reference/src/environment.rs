@@ -11,6 +11,9 @@ pub fn environment_share(part: EnvironmentShape, direction: DVec3) -> f64 {
         EnvironmentShape::Everywhere => 1.0,
         EnvironmentShape::Horizon => (1.0 - direction.y.abs()).max(0.0),
         EnvironmentShape::Pole(pole) => direction.dot(pole).clamp(0.0, 1.0),
+        EnvironmentShape::Disc { towards, height } => f64::from(u8::from(
+            (direction - towards).length_squared() <= 2.0 * height,
+        )),
     }
 }
 
@@ -31,6 +34,7 @@ pub fn sample_environment(part: EnvironmentShape, u: f64, v: f64) -> DVec3 {
             DVec3::new(sine * phi.cos(), side * height, sine * phi.sin())
         }
         EnvironmentShape::Pole(pole) => frame_of(pole) * sample_cosine_hemisphere(u, v),
+        EnvironmentShape::Disc { towards, height } => frame_of(towards) * sample_cone(u, v, height),
     }
 }
 
@@ -41,5 +45,6 @@ pub fn environment_pdf(part: EnvironmentShape, direction: DVec3) -> f64 {
         EnvironmentShape::Everywhere => share / (2.0 * TAU),
         EnvironmentShape::Horizon => share / TAU,
         EnvironmentShape::Pole(_) => share * FRAC_1_PI,
+        EnvironmentShape::Disc { height, .. } => share / (TAU * height),
     }
 }

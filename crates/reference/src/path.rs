@@ -4,14 +4,15 @@ use crate::interference::{LayersAt, Light};
 use crate::picture::smooth_value;
 use crate::scatter::{Conductor, Lobes, Scatterer, coat_share};
 use crate::{
-    Facets, Hit, Ray, Reflectance, SurfacePoint, camera_ray, environment_share, light_pdf,
-    nearest_hit, pattern_reflectance, random4, sample_light, sobol4, surface_frame, surface_point,
+    Facets, Hit, Ray, Reflectance, Source, SurfacePoint, camera_ray, choice_probabilities,
+    choose_light, environment_share, mis_share, nearest_hit, pattern_reflectance, random4, sobol4,
+    surface_frame, surface_point,
 };
 use glam::DVec3;
 use optics::Complex64;
 use scene::{
-    CoatedBody, Emission, Interference, Material, Pattern, RenderSettings, Sampler, Scene,
-    SpectrumId, WavelengthSampling,
+    CoatedBody, DirectLight, Emission, Interference, LightSource, Material, Pattern,
+    RenderSettings, Sampler, Scene, SourceKind, SpectrumId, WavelengthSampling,
 };
 
 /// Share of the paths that follow the reflection of a film rather than its transmission.
@@ -26,8 +27,8 @@ pub struct PathSample {
     pub radiance: Vec<Vec<f64>>,
 }
 
-/// Follows one sample of a pixel. `lights` are the scene's lights ([`Scene::lights`]).
-pub fn radiance(scene: &Scene, lights: &[usize], pixel: [u32; 2], sample: u32) -> PathSample {
+/// Follows one sample of a pixel. `lights` is what light can be sent from ([`Scene::light_sources`]).
+pub fn radiance(scene: &Scene, lights: &[LightSource], pixel: [u32; 2], sample: u32) -> PathSample {
     let settings = scene.settings();
     let [x, y, drawn, _] = numbers_of(settings, pixel, sample, 0);
     let bands = settings.bands.count() as usize;
@@ -74,15 +75,15 @@ fn numbers_of(settings: &RenderSettings, pixel: [u32; 2], sample: u32, dimension
 /// A path on its way.
 struct Path<'a> {
     scene: &'a Scene,
-    lights: &'a [usize],
+    lights: &'a [LightSource],
     pixel: [u32; 2],
     sample: u32,
     offset: f64,
     ray: Ray,
     /// The object that the ray starts on.
     from_object: Option<usize>,
-    /// Where a surface last scattered the path and with what density; none after the camera or a mirror.
-    scattered: Option<(DVec3, f64)>,
+    /// How a surface last scattered the path; none after the camera or a mirror.
+    scattered: Option<Scattered>,
     segment: u32,
     throughput: Vec<f64>,
     /// Of each light group.
@@ -123,9 +124,10 @@ impl<'a> Path<'a> {
     }
 
     fn add_environment(&mut self) {
-        for part in self.scene.environment().parts() {
+        for (index, part) in self.scene.surroundings().into_iter().enumerate() {
             let share = environment_share(part.shape, self.ray.direction);
-            self.add(part.emission, share);
+            let met = self.share_of_scattering(SourceKind::Environment(index));
+            self.add(part.emission, share * met);
         }
     }
 
@@ -142,7 +144,10 @@ impl<'a> Path<'a> {
                 emission,
                 reflectance,
             } => {
-                self.add(emission, self.share_of_scattering(hit.object));
+                self.add(
+                    emission,
+                    self.share_of_scattering(SourceKind::Object(hit.object)),
+                );
                 reflectance.is_some_and(|spectrum| {
                     self.meet_diffuse(hit.object, point, &Pattern::Uniform(spectrum))
                 })
@@ -204,13 +209,19 @@ impl<'a> Path<'a> {
         }
     }
 
-    fn scatter(&mut self, object: usize, position: DVec3, direction: DVec3, pdf: Option<f64>) {
+    fn scatter(
+        &mut self,
+        object: usize,
+        position: DVec3,
+        direction: DVec3,
+        scattered: Option<Scattered>,
+    ) {
         self.ray = Ray {
             origin: position,
             direction,
         };
         self.from_object = Some(object);
-        self.scattered = pdf.map(|pdf| (position, pdf));
+        self.scattered = scattered;
     }
 
     fn meet_mirror(
@@ -284,9 +295,10 @@ impl<'a> Path<'a> {
         let world_from_local = surface_frame(self.scene.material(met.material), &met.shape, &point);
         let local_from_world = world_from_local.transpose();
         let eye = local_from_world * -self.ray.direction;
-        if let Some(sent) = self.send_to_light(object, &point) {
+        let chances = self.chances(&point);
+        if let Some(sent) = self.send_to_light(object, &point, &chances) {
             let towards = scatterer.between(eye, local_from_world * sent.direction);
-            let share = 1.0 / (sent.pdf + towards.pdf);
+            let share = sent.factor * self.share_of_sending(&sent, towards.pdf);
             self.add_connection(&sent, |path, band| {
                 share * path.scattered_value(scatterer, eye, &towards.lobes, band)
             });
@@ -310,7 +322,12 @@ impl<'a> Path<'a> {
             path.scattered_value(scatterer, eye, &onward.lobes, band) / onward.pdf
         });
         let direction = (world_from_local * light).normalize();
-        self.scatter(object, point.position, direction, Some(onward.pdf));
+        let scattered = Scattered {
+            position: point.position,
+            pdf: onward.pdf,
+            chances,
+        };
+        self.scatter(object, point.position, direction, Some(scattered));
         true
     }
 
@@ -385,43 +402,74 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// Share of an emitter that belongs to a path which happens to hit it: p / (p + q) with p the density of
-    /// the scattering and q that of connections (balance heuristic, Veach 1997, equation 9.8).
-    fn share_of_scattering(&self, object: usize) -> f64 {
-        let Some((position, pdf)) = self.scattered else {
+    /// Share of a light that belongs to a path which happens to meet it: the rest is what connections to that light bring.
+    fn share_of_scattering(&self, kind: SourceKind) -> f64 {
+        let number = self.lights.iter().position(|light| light.kind == kind);
+        let (Some(scattered), Some(number)) = (&self.scattered, number) else {
             return 1.0;
         };
-        if self.lights.binary_search(&object).is_err() {
-            return 1.0;
+        let source = Source::of(self.scene, kind);
+        let sent = source.pdf(scattered.position, self.ray.direction);
+        let sent = scattered.chances[number] * sent.unwrap_or(0.0);
+        match self.scene.settings().direct_light {
+            DirectLight::Both => mis_share(scattered.pdf, sent),
+            DirectLight::Lights => 0.0,
+            DirectLight::Surfaces => 1.0,
         }
-        let shape = &self.scene.objects()[object].shape;
-        let sent = light_pdf(shape, position, self.ray.direction) / self.lights.len() as f64;
-        pdf / (pdf + sent)
+    }
+
+    /// Share of a connection: the rest is what scattering brings that happens to meet the light.
+    fn share_of_sending(&self, sent: &Sent<'_>, scattered: f64) -> f64 {
+        match (self.scene.settings().direct_light, sent.pdf) {
+            (DirectLight::Both, Some(pdf)) => mis_share(pdf, scattered),
+            _ => 1.0,
+        }
+    }
+
+    /// Probabilities of the lights at a point.
+    fn chances(&self, point: &SurfacePoint) -> Vec<f64> {
+        choice_probabilities(self.scene, self.lights, point.position, point.normal)
     }
 
     /// Chooses a light, a direction towards it, and follows it there. None where nothing arrives.
-    fn send_to_light(&self, object: usize, point: &SurfacePoint) -> Option<Sent<'a>> {
-        let max_segments = self.scene.settings().max_path_segments;
-        if self.lights.is_empty() || self.segment >= max_segments {
+    fn send_to_light(
+        &self,
+        object: usize,
+        point: &SurfacePoint,
+        chances: &[f64],
+    ) -> Option<Sent<'a>> {
+        let settings = self.scene.settings();
+        let max_segments = settings.max_path_segments;
+        let sends = settings.direct_light != DirectLight::Surfaces;
+        if !sends || self.segment >= max_segments {
             return None;
         }
         let [pick, u, v, _] = self.random(0);
-        let light = self.lights[(pick * self.lights.len() as f64) as usize];
-        let shape = &self.scene.objects()[light].shape;
-        let direction = sample_light(shape, point.position, u, v);
-        let pdf = light_pdf(shape, point.position, direction) / self.lights.len() as f64;
-        if direction.dot(point.normal) <= 0.0 || pdf <= 0.0 {
+        let choice = choose_light(chances, pick)?;
+        let light = &self.lights[choice.source];
+        let source = Source::of(self.scene, light.kind);
+        let direction = source.sample(point.position, u, v);
+        let pdf = source
+            .pdf(point.position, direction)
+            .map(|pdf| choice.probability * pdf);
+        let strength = source.share(point.position, direction);
+        if direction.dot(point.normal) <= 0.0
+            || pdf.is_some_and(|pdf| pdf <= 0.0)
+            || strength <= 0.0
+        {
             return None;
         }
         let ray = Ray {
             origin: point.position,
             direction,
         };
-        let films = self.films_on_the_way(ray, object, light, max_segments - self.segment - 1)?;
+        let films =
+            self.films_on_the_way(ray, object, light.kind, max_segments - self.segment - 1)?;
         Some(Sent {
-            light,
+            emission: light.emission,
             direction,
             pdf,
+            factor: strength / pdf.unwrap_or(choice.probability),
             films,
         })
     }
@@ -432,16 +480,17 @@ impl<'a> Path<'a> {
         &self,
         mut ray: Ray,
         object: usize,
-        light: usize,
+        light: SourceKind,
         allowed: u32,
     ) -> Option<Vec<Film<'a>>> {
         let mut films = Vec::new();
         let mut from = object;
         loop {
-            let hit = nearest_hit(self.scene, &ray, Some(from))?;
-            if hit.object == light {
+            let hit = nearest_hit(self.scene, &ray, Some(from));
+            if self.has_arrived(&ray, light, hit) {
                 return Some(films);
             }
+            let hit = hit?;
             let met = &self.scene.objects()[hit.object];
             let Material::Film {
                 layers,
@@ -464,11 +513,20 @@ impl<'a> Path<'a> {
         }
     }
 
+    /// Whether a ray to a light meets nothing before it.
+    fn has_arrived(&self, ray: &Ray, light: SourceKind, hit: Option<Hit>) -> bool {
+        if let SourceKind::Object(index) = light {
+            return hit.is_some_and(|hit| hit.object == index);
+        }
+        match (Source::of(self.scene, light).distance(ray.origin), hit) {
+            (_, None) => true,
+            (Some(distance), Some(hit)) => hit.distance >= distance,
+            (None, Some(_)) => false,
+        }
+    }
+
     fn add_connection(&mut self, sent: &Sent<'_>, factor: impl Fn(&Self, usize) -> f64) {
-        let light = &self.scene.objects()[sent.light];
-        let Material::Emitter { emission, .. } = *self.scene.material(light.material) else {
-            return;
-        };
+        let emission = sent.emission;
         for band in self.bands() {
             let mut arriving = emission.scale * self.spectrum(emission.spectrum, band);
             for film in &sent.films {
@@ -481,12 +539,23 @@ impl<'a> Path<'a> {
     }
 }
 
+/// How a surface scattered a path.
+struct Scattered {
+    position: DVec3,
+    /// Density of the direction.
+    pdf: f64,
+    /// Probabilities of the lights there.
+    chances: Vec<f64>,
+}
+
 /// A connection to a light.
 struct Sent<'a> {
-    light: usize,
+    emission: Emission,
     direction: DVec3,
-    /// Density of the direction, the choice among the lights included.
-    pdf: f64,
+    /// Density of the direction, the choice among the lights included; none for light from a single direction.
+    pdf: Option<f64>,
+    /// What the light's emission is multiplied by, besides what the surface does.
+    factor: f64,
     /// The films that it passes straight through.
     films: Vec<Film<'a>>,
 }

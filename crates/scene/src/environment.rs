@@ -29,6 +29,13 @@ pub enum EnvironmentShape {
     Horizon,
     /// About a pole, by the cosine with it; nothing from the other side.
     Pole(DVec3),
+    /// A disc about a unit vector.
+    Disc {
+        /// Towards its middle.
+        towards: DVec3,
+        /// 1 − cos of the angle between middle and edge, > 0.
+        height: f64,
+    },
 }
 
 /// A part of the surroundings: its radiance is its emission times the share that its shape has in the direction.

@@ -64,6 +64,14 @@ impl Material {
         }
     }
 
+    /// What it emits; none where it is no emitter.
+    pub fn emission(&self) -> Option<Emission> {
+        match self {
+            Self::Emitter { emission, .. } => Some(*emission),
+            _ => None,
+        }
+    }
+
     /// The thicknesses of its layers.
     pub fn thicknesses(&self) -> impl Iterator<Item = &Thickness> {
         self.layers().iter().map(|layer| &layer.thickness)
@@ -71,16 +79,7 @@ impl Material {
 }
 
 impl Material {
-    /// What it emits, or sends back of light that is not traced.
-    pub fn emission(&self) -> Option<Emission> {
-        match self {
-            Self::Emitter { emission, .. } => Some(*emission),
-            Self::Cook(Cook1981 { ambient, .. }) => *ambient,
-            _ => None,
-        }
-    }
-
-    /// The same, to be changed.
+    /// What it emits, or sends back of light that is not traced, to be changed.
     pub(crate) fn emission_mut(&mut self) -> Option<&mut Emission> {
         match self {
             Self::Emitter { emission, .. } => Some(emission),

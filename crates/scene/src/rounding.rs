@@ -2,8 +2,8 @@
 
 use crate::{
     Camera, CoatEstimate, CoatedBody, Cook1981, CookFacets, DiffuseShare, Emission, Environment,
-    Grain, Layer, Material, Microsurface, Object, Pattern, Projection, RenderSettings, Scene,
-    Shape,
+    Grain, Layer, Light, LightShape, Material, Microsurface, Object, Pattern, Projection,
+    RenderSettings, Scene, Shape,
 };
 use glam::DVec3;
 use std::sync::Arc;
@@ -47,6 +47,7 @@ impl RoundToF32 for Scene {
             light_groups: self.light_groups.clone(),
             materials: self.materials.rounded(),
             objects: self.objects.rounded(),
+            lights: self.lights.rounded(),
             environment: self.environment.rounded(),
         }
     }
@@ -275,6 +276,43 @@ impl RoundToF32 for Shape {
                 tangent: tangent.rounded(),
                 bitangent: bitangent.rounded(),
                 radius: radius.rounded(),
+            },
+        }
+    }
+}
+
+impl RoundToF32 for Light {
+    fn rounded(&self) -> Self {
+        Self {
+            shape: self.shape.rounded(),
+            emission: self.emission.rounded(),
+        }
+    }
+}
+
+impl RoundToF32 for LightShape {
+    fn rounded(&self) -> Self {
+        match self {
+            Self::Disc { towards, height } => Self::Disc {
+                towards: towards.rounded(),
+                height: height.rounded(),
+            },
+            Self::Direction { towards } => Self::Direction {
+                towards: towards.rounded(),
+            },
+            Self::Point { position } => Self::Point {
+                position: position.rounded(),
+            },
+            Self::Spot {
+                position,
+                axis,
+                full_cosine,
+                edge_cosine,
+            } => Self::Spot {
+                position: position.rounded(),
+                axis: axis.rounded(),
+                full_cosine: full_cosine.rounded(),
+                edge_cosine: edge_cosine.rounded(),
             },
         }
     }

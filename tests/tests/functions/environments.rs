@@ -80,7 +80,7 @@ fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
 
 fn part_of(world: &World, object: f64) -> EnvironmentShape {
     let part = object as usize - world.packed.frame.first_environment as usize;
-    world.scene.environment().parts()[part].shape
+    world.scene.surroundings()[part].shape
 }
 
 fn sampled(world: &World, a: &[f64]) -> Vec<f64> {

@@ -3,6 +3,7 @@
 mod bodies;
 mod environments;
 mod facets;
+mod light_choices;
 mod numbers;
 mod optics_functions;
 mod scene_functions;
@@ -85,6 +86,7 @@ fn checks() -> Vec<Check> {
         bodies::checks(),
         environments::checks(),
         facets::checks(),
+        light_choices::checks(),
         numbers::checks(),
         optics_functions::checks(),
         scene_functions::checks(),

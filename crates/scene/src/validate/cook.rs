@@ -1,5 +1,6 @@
 //! Conductors by Cook's model: slopes and constants to weights.
 
+use super::strength::Radiator;
 use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
 use crate::description::{self, CookNormalisation, Roughness, Slope};
@@ -271,7 +272,7 @@ fn ambient_light(
     written: &description::Emission,
     (specular, (n, k), diffuse): (f64, (SpectrumId, SpectrumId), Option<DiffuseShare>),
 ) -> Option<Emission> {
-    let light = spectra.emission(checks, field, written)?;
+    let light = spectra.emission(checks, field, written, Radiator::Surroundings)?;
     let normal = spectra.combined([n, k], |[n, k]| {
         specular * optics::reflectance_unpolarised(optics::Complex64::new(n, k), 1.0)
     });

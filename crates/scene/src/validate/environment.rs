@@ -2,6 +2,7 @@
 
 use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
+use super::strength::Radiator;
 use crate::{Environment, FieldPath, description};
 
 /// Checks `[environment]`; without one it is black.
@@ -11,12 +12,17 @@ pub(crate) fn check(
     environment: Option<&description::Environment>,
 ) -> Option<Environment> {
     let top = FieldPath::root().key("environment");
-    let mut emission = |name: &str, emission| spectra.emission(checks, &top.key(name), emission);
+    let radiator = match environment {
+        Some(description::Environment::Gradient { .. }) => Radiator::PartOfSurroundings,
+        _ => Radiator::Surroundings,
+    };
+    let mut emission =
+        |name: &str, emission| spectra.emission(checks, &top.key(name), emission, radiator);
     match environment {
         None => {
-            let black = description::Emission::Constant {
-                constant: 0.0,
-                scale: 0.0,
+            let black = description::Emission {
+                spectrum: description::EmissionSpectrum::Constant { constant: 0.0 },
+                strength: description::Strength::default(),
             };
             emission("emission", &black).map(Environment::Constant)
         }

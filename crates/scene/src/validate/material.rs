@@ -8,6 +8,7 @@ use super::layers::{Written, check_interference};
 use super::lifted;
 use super::microsurface;
 use super::spectrum_list::SpectrumList;
+use super::strength::Radiator;
 use crate::description::{self, ConductorModel, ConductorModelName, Cook1981, DiffuseReflectance};
 use crate::limits;
 use crate::{FieldPath, Material, Pattern};
@@ -145,7 +146,8 @@ fn check(
             reflectance,
             ..
         } => {
-            let emission = spectra.emission(checks, &field.key("emission"), emission);
+            let emission =
+                spectra.emission(checks, &field.key("emission"), emission, Radiator::Emitter);
             let reflectance = reflectance.as_ref().map(|reflectance| {
                 spectra.reflectance(checks, &field.key("reflectance"), reflectance)
             });

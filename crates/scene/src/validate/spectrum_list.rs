@@ -4,7 +4,10 @@ use super::checks::Checks;
 use super::index;
 use super::lifted;
 use super::points::{self, Column};
-use crate::description::{self, Extrapolate, Index, Reflectance};
+use super::strength::{self, Radiator};
+use crate::description::{
+    self, EmissionSpectrum, Extrapolate, Index, Reflectance, WavelengthSampling,
+};
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
 use crate::{Emission, FieldPath, LightGroupId, SpectrumId};
@@ -16,6 +19,7 @@ use std::path::{Path, PathBuf};
 /// The spectra of a scene, each one once.
 pub(crate) struct SpectrumList<'a> {
     grid: Option<BandGrid>,
+    sampling: WavelengthSampling,
     directory: &'a Path,
     tables: Vec<BandTable>,
     singles: HashMap<Vec<u64>, SpectrumId>,
@@ -40,9 +44,14 @@ const EMISSION: Column = Column::new("radiance", "values", &limits::EMISSION);
 
 impl<'a> SpectrumList<'a> {
     /// An empty list over `grid`. Without a grid everything is still checked, but nothing comes of it.
-    pub(crate) fn new(grid: Option<BandGrid>, directory: &'a Path) -> Self {
+    pub(crate) fn new(
+        grid: Option<BandGrid>,
+        sampling: WavelengthSampling,
+        directory: &'a Path,
+    ) -> Self {
         Self {
             grid,
+            sampling,
             directory,
             tables: Vec::new(),
             singles: HashMap::new(),
@@ -64,6 +73,11 @@ impl<'a> SpectrumList<'a> {
     /// Whether a spectrum is 0 everywhere.
     pub(crate) fn is_black(&self, id: SpectrumId) -> bool {
         self.tables[id.index()].extent() == (0.0, 0.0)
+    }
+
+    /// The largest value of a spectrum.
+    pub(crate) fn peak(&self, id: SpectrumId) -> f64 {
+        self.tables[id.index()].extent().1
     }
 
     /// The smallest value of a spectrum.
@@ -141,53 +155,23 @@ impl<'a> SpectrumList<'a> {
         checks: &mut Checks,
         field: &FieldPath,
         written: &description::Emission,
+        radiator: Radiator,
     ) -> Option<Emission> {
-        let (spectrum, scale) = match written {
-            description::Emission::Constant { constant, scale } => {
-                let constant = checks.number(&field.key("constant"), *constant, &limits::EMISSION);
-                (constant.map(Spectrum::Constant), *scale)
-            }
-            description::Emission::Illuminant {
-                illuminant,
-                extrapolate,
-                scale,
-            } => {
-                let named = field.key("illuminant");
-                (
-                    named_illuminant(checks, &named, illuminant, *extrapolate),
-                    *scale,
-                )
-            }
-            description::Emission::Table {
-                nm,
-                values,
-                extrapolate,
-                scale,
-            } => {
-                let columns = [(EMISSION, values.as_slice())];
-                let spectrum = points::inline(checks, field, nm, columns, *extrapolate);
-                (spectrum.map(|[only]| only), *scale)
-            }
-            description::Emission::File {
-                csv,
-                extrapolate,
-                scale,
-            } => {
-                let path = self.path(csv);
-                let spectrum = points::file(checks, field, &path, [EMISSION], *extrapolate);
-                (spectrum.map(|[only]| only), *scale)
-            }
-        };
-        let scale = checks.number(&field.key("scale"), scale, &limits::EMISSION);
+        let spectrum = self.emission_spectrum(checks, field, &written.spectrum);
+        let amount = strength::check(checks, field, &written.strength, radiator);
         let spectrum = spectrum?;
         let table = self.resampled(checks, field, &spectrum, Advice::Add)?;
-        let scale = scale?;
+        let (amount, grid) = (amount?, self.grid?);
+        let scale = amount.scale(checks, &table, (&grid, self.sampling))?;
         let peak = table.extent().1;
-        check_brightness(checks, field, peak, scale)?;
+        // What an emitter's power makes of its radiance depends on the object.
+        if written.strength.power_w.is_none() || radiator != Radiator::Emitter {
+            check_brightness(checks, (field, &amount.field), peak, scale)?;
+        }
         let light_group = LightGroupId(self.lamps.len() as u32);
         self.lamps.push(Lamp {
-            name: lamp_name(written),
-            spectrum: self.grid?.lamp(&spectrum)?,
+            name: lamp_name(&written.spectrum),
+            spectrum: grid.lamp(&spectrum)?,
             shines: scale > 0.0 && peak > 0.0,
         });
         Some(Emission {
@@ -195,6 +179,38 @@ impl<'a> SpectrumList<'a> {
             scale,
             light_group,
         })
+    }
+
+    fn emission_spectrum(
+        &self,
+        checks: &mut Checks,
+        field: &FieldPath,
+        written: &EmissionSpectrum,
+    ) -> Option<Spectrum> {
+        match written {
+            EmissionSpectrum::Constant { constant } => {
+                let constant = checks.number(&field.key("constant"), *constant, &limits::EMISSION);
+                constant.map(Spectrum::Constant)
+            }
+            EmissionSpectrum::Illuminant {
+                illuminant,
+                extrapolate,
+            } => named_illuminant(checks, &field.key("illuminant"), illuminant, *extrapolate),
+            EmissionSpectrum::Table {
+                nm,
+                values,
+                extrapolate,
+            } => {
+                let columns = [(EMISSION, values.as_slice())];
+                let [spectrum] = points::inline(checks, field, nm, columns, *extrapolate)?;
+                Some(spectrum)
+            }
+            EmissionSpectrum::File { csv, extrapolate } => {
+                let path = self.path(csv);
+                let [spectrum] = points::file(checks, field, &path, [EMISSION], *extrapolate)?;
+                Some(spectrum)
+            }
+        }
     }
 
     fn path(&self, csv: &Path) -> PathBuf {
@@ -362,28 +378,33 @@ pub(super) fn extrapolated(spectrum: Spectrum, extrapolate: Extrapolate) -> Spec
     }
 }
 
-fn lamp_name(written: &description::Emission) -> String {
+fn lamp_name(written: &EmissionSpectrum) -> String {
     match written {
-        description::Emission::Constant { .. } => "constant".to_owned(),
-        description::Emission::Illuminant { illuminant, .. } => illuminant.clone(),
-        description::Emission::Table { .. } => "table".to_owned(),
-        description::Emission::File { csv, .. } => {
+        EmissionSpectrum::Constant { .. } => "constant".to_owned(),
+        EmissionSpectrum::Illuminant { illuminant, .. } => illuminant.clone(),
+        EmissionSpectrum::Table { .. } => "table".to_owned(),
+        EmissionSpectrum::File { csv, .. } => {
             let stem = csv.file_stem().unwrap_or_default();
             stem.to_string_lossy().into_owned()
         }
     }
 }
 
-fn check_brightness(checks: &mut Checks, field: &FieldPath, peak: f64, scale: f64) -> Option<()> {
+fn check_brightness(
+    checks: &mut Checks,
+    (field, amount): (&FieldPath, &FieldPath),
+    peak: f64,
+    scale: f64,
+) -> Option<()> {
     if limits::EMISSION.contains(peak * scale) {
         return Some(());
     }
     let message = format!(
-        "found {scale}, which makes the spectrum's peak of {peak} a radiance of {}; at most {} is possible",
+        "found a factor of {scale}, which makes the spectrum's peak of {peak} a radiance of {}; at most {} is possible",
         peak * scale,
         limits::EMISSION.high
     );
-    let problem = Problem::new(ProblemKind::OutOfRange, &field.key("scale"), message);
+    let problem = Problem::new(ProblemKind::OutOfRange, amount, message);
     checks.report(problem.involving(field.clone()));
     None
 }
