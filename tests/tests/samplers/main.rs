@@ -7,7 +7,9 @@
 mod facets;
 
 use glam::DVec3;
-use optics::{half_vector_pdf, reflected_pdf, sample_beckmann};
+use optics::{
+    gaussian_pdf, gaussian_share, half_vector_pdf, reflected_pdf, sample_beckmann, sample_gaussian,
+};
 use reference::{
     cone_height, cook_torrance, environment_pdf, frame_of, light_pdf, random4, sample_cone,
     sample_cosine_hemisphere, sample_environment, sample_light,
@@ -24,7 +26,7 @@ const TESTS: f64 = 1.0
     + 3.0
     + 3.0
     + 6.0
-    + SLOPES.len() as f64 * (1.0 + EYES_DEGREES.len() as f64)
+    + SLOPES.len() as f64 * (2.0 + EYES_DEGREES.len() as f64)
     + facets::TESTS as f64;
 const SLOPES: [f64; 6] = [0.05, 0.1, 0.2, 0.4, 0.7, 1.0];
 const EYES_DEGREES: [f64; 4] = [0.0, 30.0, 60.0, 85.0];
@@ -474,6 +476,43 @@ fn facets_are_drawn_by_half_vector_pdf() {
 fn facets_of_another_slope_are_noticed() {
     for (seed, slope) in (31..).zip(SLOPES) {
         facets(slope, 0.97 * slope, |wrong| wrong.is_refused(seed));
+    }
+}
+
+/// Facets of a Gaussian distribution of angles a, by q = (1 − exp(−a² / m²)) / Z and the azimuth; the density is taken for the slope
+/// `claimed`.
+fn gaussian_facets(slope: f64, claimed: f64, check: impl Fn(&Experiment)) {
+    let (share, m2) = (gaussian_share(slope), slope * slope);
+    let draw = |u: f64, v: f64| {
+        let h = DVec3::from_array(sample_gaussian(u, v, slope));
+        let angle = h.x.hypot(h.y).atan2(h.z);
+        Some([-(-angle * angle / m2).exp_m1() / share, turns(h)])
+    };
+    let density = |q: f64, _| {
+        let angle = slope * (-(-q * share).ln_1p()).sqrt();
+        let angle_per_q = share * m2 / (2.0 * angle * (1.0 - q * share));
+        gaussian_pdf(angle.cos(), claimed) * TAU * angle.sin() * angle_per_q
+    };
+    check(&Experiment {
+        name: format!("Gaussian facets of slope {slope}"),
+        ranges: [(0.0, 1.0), (0.0, 1.0)],
+        draw: &draw,
+        density: &density,
+        outside: Some(0.0),
+    });
+}
+
+#[test]
+fn gaussian_facets_are_drawn_by_gaussian_pdf() {
+    for (seed, slope) in (41..).zip(SLOPES) {
+        gaussian_facets(slope, slope, |experiment| experiment.holds(seed));
+    }
+}
+
+#[test]
+fn gaussian_facets_of_another_slope_are_noticed() {
+    for (seed, slope) in (41..).zip(SLOPES) {
+        gaussian_facets(slope, 0.95 * slope, |wrong| wrong.is_refused(seed));
     }
 }
 

@@ -1,8 +1,8 @@
 //! Conductors by Cook's model: slopes and constants to weights.
 
-use super::strength::Radiator;
 use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
+use super::strength::Radiator;
 use crate::description::{self, CookNormalisation, Roughness, Slope};
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
