@@ -16,7 +16,8 @@ use std::f64::consts::{PI, TAU};
 /// Chance that any of the [`TESTS`] fails although every sampler is right.
 const FALSE_ALARM: f64 = 1e-3;
 /// How many chi-square tests there are, those that must fail left out.
-const TESTS: f64 = 1.0 + 4.0 + 4.0 + 3.0 + 3.0 + 6.0 + SLOPES.len() as f64 * (1.0 + EYES_DEGREES.len() as f64);
+const TESTS: f64 =
+    1.0 + 4.0 + 4.0 + 3.0 + 3.0 + 6.0 + SLOPES.len() as f64 * (1.0 + EYES_DEGREES.len() as f64);
 const SLOPES: [f64; 6] = [0.05, 0.1, 0.2, 0.4, 0.7, 1.0];
 const EYES_DEGREES: [f64; 4] = [0.0, 30.0, 60.0, 85.0];
 const SAMPLES: u32 = 1 << 17;
