@@ -13,7 +13,7 @@ fn send_to_light(walk: Walk, sample: Sample, point: SurfacePoint) -> Sent {
     if (!has_lights || walk.segment + 1u > frame.max_path_segments) {
         return Sent(NONE, point.normal, 0.0);
     }
-    let random = random_at(sample, walk, 0u);
+    let random = random_at(sample, walk, FOR_LIGHT);
     let count = f32(frame.light_count);
     let light = objects[min(u32(random.x * count), frame.light_count - 1u)].light;
     let direction = sample_light(light, point.position, random.y, random.z);

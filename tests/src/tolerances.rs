@@ -166,6 +166,11 @@ pub const PROVING_ERROR: f64 = 4e-3;
 /// Just outside a sphere light, from 1.000 008 radii: the cone's height is 1 − √(1 − sin²) with 1 − sin² down to 1.6e-5, which
 /// keeps an error of 2e-6 from the coordinates; the root makes that 2.5e-4 of the height, and the density follows it.
 pub const NEAR_LIGHT: Tolerance = of(5e-4, 5e-4);
+/// Between two knots of a table of 33: the place is rounded by 2e-6 of a step, which near grazing changes R by up to a half.
+pub const ARITHMETIC_OF_TABLES: Tolerance = of(2e-6, 1e-6);
+/// A pixel filter's offset between two of 257 knots: the place is rounded by 1.5e-5 of a step, the last of which are a fifth of a
+/// pixel long.
+pub const FILTER: Tolerance = of(5e-6, 1e-6);
 /// A knot and the place after it: offset times up to 32 steps is rounded by 1e-6.
 pub const KNOT: Tolerance = of(2e-6, 0.0);
 /// A value between two knots: the place is off by up to 1e-6 of what lies between them.

@@ -46,7 +46,7 @@ pub const MODULES: &[Module] = modules! {
     "features": [];
     "numbers": ["bindings", "layout"];
     "spectrum": ["bindings"];
-    "camera": ["bindings", "layout"];
+    "camera": ["bindings", "features", "layout", "numbers", "trig"];
     "noise": ["bindings", "features", "layout", "random"];
     "thickness": ["bindings", "features", "layout", "noise", "numbers", "trig"];
     "surface": ["bindings", "camera", "features", "layout"];
@@ -57,9 +57,10 @@ pub const MODULES: &[Module] = modules! {
     "factor": ["bindings", "features", "layout", "record", "surface", "thickness"];
     "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "scatter", "surface", "walk"];
     "scatter": ["bindings", "features", "layout", "microfacet", "record", "sampling", "trig"];
+    "split": ["bindings", "layout", "limits", "numbers", "record", "walk"];
     "path": [
         "bindings", "camera", "connect", "factor", "features", "hit", "layout", "light", "record", "sampling", "scatter",
-        "spectrum", "surface", "walk"
+        "spectrum", "split", "surface", "walk"
     ];
     "evaluate": [
         "bindings", "features", "film", "fresnel", "layout", "limits", "record", "spectrum", "stack", "thickness", "two_beam"
@@ -79,14 +80,16 @@ pub struct RecordLimits {
     pub thicknesses: u32,
     /// Light groups.
     pub light_groups: u32,
+    /// Films at which a path is split, 1 where there are none.
+    pub splits: u32,
 }
 
 impl RecordLimits {
     fn wgsl(self) -> String {
         format!(
             "const MAX_VERTICES: u32 = {}u;\nconst MAX_CROSSINGS: u32 = {}u;\nconst MAX_THICKNESSES: u32 = {}u;\n\
-             const LIGHT_GROUPS: u32 = {}u;\n",
-            self.vertices, self.crossings, self.thicknesses, self.light_groups
+             const LIGHT_GROUPS: u32 = {}u;\nconst MAX_SPLITS: u32 = {}u;\n",
+            self.vertices, self.crossings, self.thicknesses, self.light_groups, self.splits
         )
     }
 }
@@ -179,6 +182,7 @@ mod tests {
             crossings: 1,
             thicknesses: 1,
             light_groups: 1,
+            splits: 1,
         };
         let shader = Shader::assemble(&["fresnel"], limits, "fn extra() {}");
         let text: Vec<_> = shader.text().lines().collect();

@@ -5,7 +5,7 @@
 use pellicle::color::{self, DevelopSettings};
 use pellicle::scene::Scene;
 use pellicle::scene::description::{
-    Camera, Description, Emission, Environment, Index, Material, Object, Render, Thickness,
+    Camera, Description, Emission, Environment, Filter, Index, Material, Object, Render, Thickness,
 };
 use pellicle::{Backend, Renderer};
 use std::error::Error;
@@ -27,6 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             look_at: [0.0; 3],
             up: [0.0, 1.0, 0.0],
             height: 1.0,
+            filter: Filter::default(),
         },
         render: Render {
             size: [8 * COUNT, 8],

@@ -19,6 +19,7 @@
 //! degrees in files. Wavelengths and film thicknesses are nanometres.
 
 mod camera;
+mod derived;
 pub mod description;
 mod document;
 mod drainage;
@@ -37,7 +38,8 @@ mod thickness;
 mod validate;
 mod validated;
 
-pub use camera::{Camera, Projection};
+pub use camera::{Camera, Lens, Projection};
+pub use derived::{Estimate, PixelFilter};
 pub use description::{PathDifference, Sampler};
 pub use document::SourceFile;
 pub use field_path::{FieldPath, Step};

@@ -1,8 +1,8 @@
 //! A scene as a GPU receives it: every number rounded to the nearest `f32`.
 
 use crate::{
-    Camera, Emission, Environment, Layer, Material, Object, Pattern, Projection, RenderSettings,
-    Scene, Shape,
+    Camera, Emission, Environment, Layer, Lens, Material, Object, Pattern, Projection,
+    RenderSettings, Scene, Shape,
 };
 use glam::DVec3;
 
@@ -46,6 +46,7 @@ impl RoundToF32 for Scene {
             materials: self.materials.rounded(),
             objects: self.objects.rounded(),
             environment: self.environment.rounded(),
+            estimates: self.estimates.rounded(),
         }
     }
 }
@@ -55,6 +56,7 @@ impl RoundToF32 for RenderSettings {
         // The ends of the bands are `f32` numbers already, by validation.
         Self {
             exposure_ev: self.exposure_ev.rounded(),
+            clamp: self.clamp.map(|clamp| clamp.rounded()),
             ..self.clone()
         }
     }
@@ -68,6 +70,11 @@ impl RoundToF32 for Camera {
             up: self.up.rounded(),
             back: self.back.rounded(),
             projection: self.projection.rounded(),
+            lens: self.lens.map(|lens| Lens {
+                radius: lens.radius.rounded(),
+                focus_distance: lens.focus_distance.rounded(),
+            }),
+            filter: self.filter.rounded(),
         }
     }
 }

@@ -2,7 +2,9 @@
 
 use crate::description::Description;
 use crate::rounding::RoundToF32;
-use crate::{Camera, Emission, Material, Object, Problems, RenderSettings, Shape, validate};
+use crate::{
+    Camera, Emission, Estimate, Material, Object, Problems, RenderSettings, Shape, validate,
+};
 use spectra::{BandTable, LightGroup, SpectralImage};
 use std::path::Path;
 
@@ -69,6 +71,8 @@ pub struct Scene {
     pub(crate) materials: Vec<Material>,
     pub(crate) objects: Vec<Object>,
     pub(crate) environment: Environment,
+    /// Of each material.
+    pub(crate) estimates: Vec<Estimate>,
 }
 
 impl Scene {
@@ -131,6 +135,16 @@ impl Scene {
     /// The material of an object.
     pub fn material(&self, id: MaterialId) -> &Material {
         &self.materials[id.index()]
+    }
+
+    /// How each material divides light, roughly.
+    pub fn estimates(&self) -> &[Estimate] {
+        &self.estimates
+    }
+
+    /// How a material divides light, roughly.
+    pub fn estimate(&self, id: MaterialId) -> &Estimate {
+        &self.estimates[id.index()]
     }
 
     /// All objects.

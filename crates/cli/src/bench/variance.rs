@@ -15,11 +15,16 @@ use std::time::Instant;
 type Variant = (&'static str, fn(&mut Render));
 
 /// The first is what the others are compared with.
-const VARIANTS: [Variant; 2] = [
+const VARIANTS: [Variant; 6] = [
     ("independent", |render| {
         render.sampler = Sampler::Independent;
+        render.film_splits = 0;
     }),
-    ("sobol", |render| render.sampler = Sampler::Sobol),
+    ("sobol", |render| render.film_splits = 0),
+    ("sobol, 1 split", |render| render.film_splits = 1),
+    ("sobol, 2 splits", |render| render.film_splits = 2),
+    ("sobol, 3 splits", |render| render.film_splits = 3),
+    ("the scene's own", |_| {}),
 ];
 
 /// Width of the pictures; a pixel's noise does not depend on how many there are.

@@ -12,7 +12,7 @@ mod render;
 mod spectrum;
 mod thickness;
 
-pub use camera::Camera;
+pub use camera::{Camera, Filter, Lens};
 pub use environment::Environment;
 pub use material::{DiffuseReflectance, FilmModel, Layer, Material, PathDifference};
 pub use object::Object;

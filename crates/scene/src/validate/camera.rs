@@ -2,7 +2,7 @@
 
 use super::checks::Checks;
 use crate::limits;
-use crate::{Camera, FieldPath, Projection, description};
+use crate::{Camera, FieldPath, Lens, PixelFilter, Projection, description};
 
 /// Checks `[camera]`.
 pub(crate) fn check(checks: &mut Checks, camera: &description::Camera) -> Option<Camera> {
@@ -34,13 +34,43 @@ pub(crate) fn check(checks: &mut Checks, camera: &description::Camera) -> Option
         (-back, "the direction of view"),
         &[position_field, look_at_field],
     )?;
+    let (lens, filter) = match *camera {
+        description::Camera::Perspective { lens, filter, .. } => {
+            (check_lens(checks, &top, lens, forward.length())?, filter)
+        }
+        description::Camera::Orthographic { filter, .. } => (None, filter),
+    };
     Some(Camera {
         origin,
         right: up.cross(back),
         up,
         back,
         projection: projection?,
+        lens,
+        filter: PixelFilter::new(filter),
     })
+}
+
+/// A lens where there is one; it is focused on what lies at `target_distance` unless it says otherwise.
+fn check_lens(
+    checks: &mut Checks,
+    top: &FieldPath,
+    lens: Option<description::Lens>,
+    target_distance: f64,
+) -> Option<Option<Lens>> {
+    let Some(lens) = lens else {
+        return Some(None);
+    };
+    let field = top.key("lens");
+    let radius = checks.number(&field.key("radius"), lens.radius, &limits::LENGTH);
+    let focus_distance = match lens.focus_distance {
+        Some(distance) => checks.number(&field.key("focus_distance"), distance, &limits::LENGTH),
+        None => Some(target_distance),
+    };
+    Some(Some(Lens {
+        radius: radius?,
+        focus_distance: focus_distance?,
+    }))
 }
 
 fn projection(
