@@ -24,7 +24,7 @@ pub enum Camera {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         lens: Option<Lens>,
         /// How a pixel gathers light from about its middle.
-        #[serde(default, skip_serializing_if = "Filter::is_box")]
+        #[serde(default)]
         filter: Filter,
     },
     /// All rays are parallel.
@@ -40,7 +40,7 @@ pub enum Camera {
         #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
         height: f64,
         /// How a pixel gathers light from about its middle.
-        #[serde(default, skip_serializing_if = "Filter::is_box")]
+        #[serde(default)]
         filter: Filter,
     },
 }
@@ -69,12 +69,6 @@ pub enum Filter {
     Gaussian,
     /// By Blackman and Harris's window of 3 pixels' width (Harris, Proc. IEEE 66, 1978, four terms, −92 dB).
     BlackmanHarris,
-}
-
-impl Filter {
-    fn is_box(&self) -> bool {
-        *self == Self::Box
-    }
 }
 
 fn up_default() -> [f64; 3] {

@@ -101,7 +101,7 @@ impl Default for Render {
             sampler: Sampler::Sobol,
             seed: 0,
             max_path_segments: 12,
-            film_splits: 2,
+            film_splits: 1,
             roulette_after: 4,
             clamp: None,
             exposure_ev: 0.0,

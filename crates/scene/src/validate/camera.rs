@@ -36,7 +36,12 @@ pub(crate) fn check(checks: &mut Checks, camera: &description::Camera) -> Option
     )?;
     let (lens, filter) = match *camera {
         description::Camera::Perspective { lens, filter, .. } => {
-            (check_lens(checks, &top, lens, forward.length())?, filter)
+            let target_distance = forward.length();
+            let lens = match lens {
+                Some(lens) => Some(check_lens(checks, &top, lens, target_distance)?),
+                None => None,
+            };
+            (lens, filter)
         }
         description::Camera::Orthographic { filter, .. } => (None, filter),
     };
@@ -51,26 +56,23 @@ pub(crate) fn check(checks: &mut Checks, camera: &description::Camera) -> Option
     })
 }
 
-/// A lens where there is one; it is focused on what lies at `target_distance` unless it says otherwise.
+/// A lens; it is focused on what lies at `target_distance` unless it says otherwise.
 fn check_lens(
     checks: &mut Checks,
     top: &FieldPath,
-    lens: Option<description::Lens>,
+    lens: description::Lens,
     target_distance: f64,
-) -> Option<Option<Lens>> {
-    let Some(lens) = lens else {
-        return Some(None);
-    };
+) -> Option<Lens> {
     let field = top.key("lens");
     let radius = checks.number(&field.key("radius"), lens.radius, &limits::LENGTH);
     let focus_distance = match lens.focus_distance {
         Some(distance) => checks.number(&field.key("focus_distance"), distance, &limits::LENGTH),
         None => Some(target_distance),
     };
-    Some(Some(Lens {
+    Some(Lens {
         radius: radius?,
         focus_distance: focus_distance?,
-    }))
+    })
 }
 
 fn projection(

@@ -37,9 +37,9 @@ pub(crate) fn check(checks: &mut Checks, render: &Render) -> Checked {
     );
     let roulette = top.key("roulette_after");
     let roulette_after = whole(checks, &roulette, render.roulette_after, most_segments);
-    let clamp = optional(render.clamp, |clamp| {
-        checks.number(&top.key("clamp"), clamp, &limits::CLAMP)
-    });
+    let clamp = render
+        .clamp
+        .map(|clamp| checks.number(&top.key("clamp"), clamp, &limits::CLAMP));
     let exposure = top.key("exposure_ev");
     let exposure_ev = checks.number(&exposure, render.exposure_ev, &limits::EXPOSURE_EV);
     let time_s = checks.number(&top.key("time_s"), render.time_s, &limits::TIME_S);
@@ -60,7 +60,10 @@ pub(crate) fn check(checks: &mut Checks, render: &Render) -> Checked {
             max_path_segments: max_path_segments?,
             film_splits: film_splits?,
             roulette_after: roulette_after?,
-            clamp: clamp?,
+            clamp: match clamp {
+                Some(checked) => Some(checked?),
+                None => None,
+            },
             exposure_ev: exposure_ev?,
             time_s: time_s?,
         })
@@ -75,14 +78,6 @@ fn sampling(written: description::WavelengthSampling) -> WavelengthSampling {
     match written {
         description::WavelengthSampling::Random => WavelengthSampling::Random,
         description::WavelengthSampling::Centre => WavelengthSampling::Centre,
-    }
-}
-
-/// What may be left out, checked where it is given.
-fn optional<T>(given: Option<T>, check: impl FnOnce(T) -> Option<T>) -> Option<Option<T>> {
-    match given {
-        None => Some(None),
-        Some(value) => check(value).map(Some),
     }
 }
 
