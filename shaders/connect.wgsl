@@ -15,7 +15,7 @@ fn send_to_light(walk: Walk, sample: Sample, point: SurfacePoint) -> Sent {
     if (!HAS_LIGHTS || walk.segment + 1u > frame.max_path_segments) {
         return Sent(NONE, point.normal, 0.0, 0.0);
     }
-    let random = random_at(sample, walk, 0u);
+    let random = random_at(sample, walk, FOR_LIGHT);
     let choice = choose_light(point.position, point.normal, random.x);
     if (choice.light == NONE) {
         return Sent(NONE, point.normal, 0.0, choice.total);

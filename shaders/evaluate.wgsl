@@ -177,6 +177,34 @@ fn with_light(
     return radiance;
 }
 
+/// The factor of what a film transmits, from that of what it reflects.
+fn transmitting(reflecting: Factor) -> Factor {
+    var factor = reflecting;
+    factor.kind += select(1u, 2u, HAS_STACKS && factor.kind == FACTOR_STACK_REFLECTS);
+    return factor;
+}
+
+/// The light that waits where films split the path.
+var<private> waiting_light: array<vec4f, MAX_SPLITS>;
+
+/// By how much a sample is dimmed, so that its radiance is at most `frame.clamp` in every band.
+fn dimming(at: Wavelengths) -> f32 {
+    if (!HAS_CLAMP) {
+        return 1.0;
+    }
+    var brightest = vec4f(frame.clamp);
+    for (var group = 0u; group < frame.groups; group++) {
+        let radiance = path_radiance(group, at);
+        var total = vec4f(0.0);
+        for (var i = 0u; i < LIGHT_GROUPS; i++) {
+            total += radiance[i];
+        }
+        let is_band = 4u * group + vec4u(0u, 1u, 2u, 3u) < vec4u(frame.bands);
+        brightest = max(brightest, select(vec4f(0.0), total, is_band));
+    }
+    return frame.clamp / max(max(brightest.x, brightest.y), max(brightest.z, brightest.w));
+}
+
 /// Radiance of the recorded path in the four bands of a group, by light group.
 fn path_radiance(group: u32, at: Wavelengths) -> array<vec4f, LIGHT_GROUPS> {
     var throughput = vec4f(1.0);
@@ -189,7 +217,13 @@ fn path_radiance(group: u32, at: Wavelengths) -> array<vec4f, LIGHT_GROUPS> {
             radiance = with_light(radiance, light_group_of(vertex.emission), arrived);
         }
         if (vertex.scatter.kind == FACTOR_ONE) {
+            if (HAS_SPLITS && vertex.waiting != NONE) {
+                throughput = waiting_light[vertex.waiting];
+            }
             continue;
+        }
+        if (HAS_SPLITS && vertex.waiting != NONE) {
+            waiting_light[vertex.waiting] = throughput * film_value(transmitting(vertex.scatter), group, at);
         }
         var multiple = vec4f(0.0);
         if (HAS_ROUGH_CONDUCTORS && vertex.onward.multiple + vertex.connected.multiple > 0.0) {

@@ -37,6 +37,11 @@ override HAS_LIGHTS: bool = true;
 override HAS_LIGHT_CHOICE: bool = true;
 override HAS_ENVIRONMENT: bool = true;
 override HAS_SOBOL_SAMPLES: bool = true;
+override HAS_SPLITS: bool = true;
+override HAS_ROULETTE: bool = true;
+override HAS_CLAMP: bool = true;
+override HAS_LENS: bool = true;
+override HAS_FILTER: bool = true;
 // How light is found: by sending rays to lights, by meeting them by chance, or both.
 override SENDS_LIGHT: bool = true;
 override MEETS_LIGHT: bool = true;

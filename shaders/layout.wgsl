@@ -139,6 +139,12 @@ const TEXELS_WIDTH: u32 = 4096u;
 /// No layer is thicker, nm.
 const MAX_THICKNESS_NM: u32 = 100000u;
 
+/// Numbers of the table that spreads a pixel's samples by its filter.
+const FILTER_KNOTS: u32 = 257u;
+
+/// Numbers of a film's table of what it reflects, over the cosine.
+const REFLECTED_KNOTS: u32 = 33u;
+
 /// Spectral factor of a path's vertex: 1.
 const FACTOR_ONE: u32 = 0u;
 
@@ -236,6 +242,22 @@ struct Frame {
     environment_count: u32,
     /// First of the observer's three spectra.
     observer: u32,
+    /// Film hits, the first of a path, at which it is split.
+    film_splits: u32,
+    /// Segments after which Russian roulette may end a path.
+    roulette_after: u32,
+    /// The largest radiance that a sample may bring in any band.
+    clamp: f32,
+    /// Number of bands.
+    bands: u32,
+    /// Radius of the camera's lens.
+    lens_radius: f32,
+    /// Distance of the plane that the lens shows sharply, along the direction of view.
+    focus_distance: f32,
+    /// First of the numbers that spread a pixel's samples by its filter.
+    first_filter: u32,
+    /// Fills the size up to a multiple of 16.
+    padding: u32,
 }
 
 /// What holds for one dispatch: a run of samples of one tile.
@@ -336,10 +358,12 @@ struct Material {
     coat_estimate: f32,
     /// Spectra: the reflectance of a rough coat for COAT_COSINES cosines.
     coat_reflectances: u32,
+    /// First of a film's numbers that tell what it reflects.
+    first_reflected: u32,
+    /// About the part of the light that goes on from it.
+    albedo: f32,
     /// Fills the size up to a multiple of 16.
-    padding_1: u32,
-    /// Fills the size up.
-    padding_2: vec2u,
+    padding: u32,
 }
 
 /// A layer of a film or of a coating.

@@ -1,23 +1,52 @@
 // Tracing a path and recording it. Nothing here depends on wavelength.
 
-/// Traces the path of one sample into the record and returns its wavelengths.
+/// Traces the path of one sample into the record and returns its wavelengths. Where films split it, one way is followed to its
+/// end, and then the other.
 fn trace_path(sample: Sample) -> Wavelengths {
     begin_record();
+    waiting_count = 0u;
     let first = numbers_of(sample, 0u);
-    var walk = Walk(camera_ray(sample.pixel, first.xy), NONE, vec3f(0.0), 0.0, vec3f(0.0), 0.0, 1u, true);
+    var walk = Walk(first_ray(sample, first.xy), NONE, vec3f(0.0), 0.0, vec3f(0.0), 0.0, 1u, true, frame.film_splits, 0u, 1.0);
     while (walk.alive) {
-        let hit = nearest_hit(walk.ray, walk.from_object);
-        if (hit.object == NONE) {
-            if (HAS_ENVIRONMENT) {
-                record_environment(walk);
-            }
-            break;
+        walk = advance(walk, sample);
+        if (HAS_SPLITS && !walk.alive && waiting_count > 0u) {
+            waiting_count -= 1u;
+            walk = waiting_walks[waiting_count];
+            push_return(waiting_count);
         }
-        walk = meet_surface(walk, sample, hit);
-        walk.segment += 1u;
-        walk.alive = walk.alive && walk.segment <= frame.max_path_segments;
     }
     return wavelengths_at(select(0.5, first.z, frame.draws_wavelengths == 1u));
+}
+
+/// The dimension of the camera's lens: beyond those of all branches.
+const LENS_DIMENSION: u32 = 0xffffu;
+
+/// The ray that a sample starts with.
+fn first_ray(sample: Sample, jitter: vec2f) -> Ray {
+    if (HAS_LENS) {
+        return camera_ray(sample.pixel, jitter, numbers_of(sample, LENS_DIMENSION).xy);
+    }
+    return camera_ray(sample.pixel, jitter, vec2f(0.0));
+}
+
+/// Follows the walk to the next surface, and sends it on from there.
+fn advance(walk: Walk, sample: Sample) -> Walk {
+    let hit = nearest_hit(walk.ray, walk.from_object);
+    var next = walk;
+    if (hit.object == NONE) {
+        if (HAS_ENVIRONMENT) {
+            record_environment(walk);
+        }
+        next.alive = false;
+        return next;
+    }
+    next = meet_surface(walk, sample, hit);
+    next.alive = next.alive && walk.segment < frame.max_path_segments;
+    if (HAS_ROULETTE && next.alive && walk.segment >= frame.roulette_after) {
+        next = play_roulette(next, sample);
+    }
+    next.segment += 1u;
+    return next;
 }
 
 /// The radiance of the surroundings, part by part.
@@ -50,14 +79,16 @@ fn meet_surface(walk: Walk, sample: Sample, hit: Hit) -> Walk {
     }
     let surface = materials[material].surface;
     if (HAS_DIFFUSE && surface == SURFACE_DIFFUSE) {
-        vertex.scatter = diffuse_factor(hit.object, point.position, random_at(sample, walk, 1u).w);
+        vertex.scatter = diffuse_factor(hit.object, point.position, random_at(sample, walk, FOR_SCATTERING).w);
         return meet_scattering(walk, sample, hit.object, point, vertex);
     }
-    let reflects = !HAS_FILMS || surface != SURFACE_FILM || random_at(sample, walk, 1u).x < REFLECTED_SHARE;
-    vertex.scatter = layered_factor(hit.object, point, reflects);
+    if (HAS_FILMS && surface == SURFACE_FILM) {
+        return meet_film(walk, sample, hit.object, point, vertex);
+    }
+    vertex.scatter = layered_factor(hit.object, point, true);
     if ((HAS_COOK || HAS_BASES) && surface >= SURFACE_COOK_D1) {
         if (HAS_BASES) {
-            let base = diffuse_factor(hit.object, point.position, random_at(sample, walk, 1u).w);
+            let base = diffuse_factor(hit.object, point.position, random_at(sample, walk, FOR_SCATTERING).w);
             vertex.base = base.spectrum;
             vertex.base_kind = base.kind;
         }
@@ -66,7 +97,7 @@ fn meet_surface(walk: Walk, sample: Sample, hit: Hit) -> Walk {
     if (HAS_ROUGH_CONDUCTORS && surface == SURFACE_ROUGH_CONDUCTOR) {
         return meet_scattering(walk, sample, hit.object, point, vertex);
     }
-    return meet_smooth(walk, hit.object, point, vertex, reflects);
+    return meet_mirror(walk, hit.object, point, vertex);
 }
 
 /// Weight of a light that a scattered path happens to meet: the rest is what connections to that light bring.
@@ -81,25 +112,47 @@ fn emission_share(walk: Walk, light: u32) -> f32 {
     return mis_share(walk.scatter_pdf, chosen * light_pdf(light, walk.scattered_at, walk.ray.direction));
 }
 
-/// Share of the paths that follow the reflection of a film rather than its transmission. What is bright behind a film is
-/// dimmed little, what is bright before it much; halves serve both. It steers noise only: the weight undoes it.
-const REFLECTED_SHARE: f32 = 0.5;
-
-/// A film or a smooth conductor: the path is mirrored or goes straight on.
-fn meet_smooth(walk: Walk, object: u32, point: SurfacePoint, vertex_in: Vertex, reflects: bool) -> Walk {
+/// A smooth conductor: the path is mirrored.
+fn meet_mirror(walk: Walk, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
     var vertex = vertex_in;
-    var weight = 1.0;
-    if (HAS_FILMS && vertex.scatter.kind >= FACTOR_FILM_REFLECTS) {
-        weight = 1.0 / select(1.0 - REFLECTED_SHARE, REFLECTED_SHARE, reflects);
+    vertex.onward = single_lobe(1.0, vertex.scatter.cosine);
+    push_vertex(vertex);
+    var next = walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0, 0.0);
+    next.throughput *= materials[objects[object].material].albedo;
+    return next;
+}
+
+/// A film: the path is mirrored or goes straight on, or does both.
+fn meet_film(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
+    let material = objects[object].material;
+    let reflected = reflected_part(material, point.cosine);
+    var vertex = vertex_in;
+    var mirror = walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0, 0.0);
+    var through = walk_through(walk, object, point);
+    mirror.throughput *= materials[material].albedo * reflected;
+    through.throughput *= materials[material].albedo * (1.0 - reflected);
+    if (HAS_SPLITS && walk.splits > 0u && walk.segment < frame.max_path_segments) {
+        vertex.scatter = layered_factor(object, point, true);
+        vertex.onward = single_lobe(1.0, vertex.scatter.cosine);
+        mirror.splits -= 1u;
+        through.splits -= 1u;
+        through.branch += 1u << through.splits;
+        through.segment += 1u;
+        vertex.waiting = wait(through);
+        push_vertex(vertex);
+        return mirror;
     }
-    vertex.onward = single_lobe(weight, vertex.scatter.cosine);
+    let share = reflected_share(reflected);
+    let reflects = random_at(sample, walk, FOR_SCATTERING).x < share;
+    let chance = select(1.0 - share, share, reflects);
+    vertex.scatter = layered_factor(object, point, reflects);
+    vertex.onward = single_lobe(1.0 / chance, vertex.scatter.cosine);
     push_vertex(vertex);
     if (reflects) {
-        return walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0, 0.0);
+        mirror.throughput /= chance;
+        return mirror;
     }
-    var through = walk;
-    through.ray.origin = point.position;
-    through.from_object = object;
+    through.throughput /= chance;
     return through;
 }
 
@@ -117,20 +170,24 @@ fn meet_scattering(walk: Walk, sample: Sample, object: u32, point: SurfacePoint,
         vertex = connect(vertex, walk, object, point, sent, scattering(scatterer, eye, sent.direction * world_from_local));
     }
 
-    let random = random_at(sample, walk, 1u);
+    let random = random_at(sample, walk, FOR_SCATTERING);
     if (HAS_COATED_BODIES && materials[scatterer.material].surface == SURFACE_COATED_BODY) {
         let share = coat_share(scatterer.material, eye.z);
         if (random.z < share) {
             vertex.onward = single_lobe(1.0 / share, eye.z);
             push_vertex(vertex);
-            return walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0, 0.0);
+            var mirror = walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0, 0.0);
+            mirror.throughput *= materials[scatterer.material].albedo;
+            return mirror;
         }
     }
     let light = sample_scattering(scatterer, eye, random);
     let onward = scattering(scatterer, eye, light);
     var next = walk_on(walk, object, point, normalize(world_from_local * light), onward.pdf, sent.total);
+    next.splits = 0u;
     if (onward.pdf > 0.0) {
         vertex.onward = scaled(onward.lobes, 1.0 / onward.pdf);
+        next.throughput *= weight_of(vertex.onward) * materials[scatterer.material].albedo;
     } else {
         next.alive = false;
     }

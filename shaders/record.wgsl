@@ -52,6 +52,9 @@ struct Vertex {
     connected: Lobes,
     first_crossing: u32,
     end_crossing: u32,
+    /// Where a film splits the path, the place where the light that it transmits waits; of a vertex that does nothing, the
+    /// place from which the path goes on; NONE elsewhere.
+    waiting: u32,
 }
 
 const NO_LOBES: Lobes = Lobes(0.0, 0.0, 0.0, 1.0, 1.0);
@@ -63,6 +66,11 @@ fn single_lobe(weight: f32, cosine: f32) -> Lobes {
 
 fn scaled(lobes: Lobes, factor: f32) -> Lobes {
     return Lobes(lobes.single * factor, lobes.multiple * factor, lobes.body * factor, lobes.cosine, lobes.light_cosine);
+}
+
+/// Sum of the weights.
+fn weight_of(lobes: Lobes) -> f32 {
+    return lobes.single + lobes.multiple + lobes.body;
 }
 
 /// Whether anything is scattered.
@@ -102,12 +110,19 @@ fn begin_record() {
 /// A vertex that does nothing yet.
 fn plain_vertex() -> Vertex {
     let one = Factor(FACTOR_ONE, 0u, 1.0, 0.0, 0u);
-    return Vertex(one, 0u, 1.0, 0u, FACTOR_ONE, NO_LOBES, 0u, 0u, 0.0, 0u, 0u, NO_LOBES, crossing_count, crossing_count);
+    return Vertex(one, 0u, 1.0, 0u, FACTOR_ONE, NO_LOBES, 0u, 0u, 0.0, 0u, 0u, NO_LOBES, crossing_count, crossing_count, NONE);
 }
 
 fn push_vertex(vertex: Vertex) {
     vertices[vertex_count] = vertex;
     vertex_count += 1u;
+}
+
+/// Records that the path goes on from where it was split.
+fn push_return(waiting: u32) {
+    var vertex = plain_vertex();
+    vertex.waiting = waiting;
+    push_vertex(vertex);
 }
 
 fn push_crossing(crossing: Factor) {

@@ -13,6 +13,7 @@
 fn accumulate(pixel: u32, count: f32, at: Wavelengths) -> array<vec3f, LIGHT_GROUPS> {
     let pixels = batch.tile_size.x * batch.tile_size.y;
     var color: array<vec3f, LIGHT_GROUPS>;
+    let dimmed = dimming(at);
     for (var group = 0u; group < frame.groups; group++) {
         let radiance = path_radiance(group, at);
         let x = spectrum_at(frame.observer, group, at);
@@ -22,7 +23,7 @@ fn accumulate(pixel: u32, count: f32, at: Wavelengths) -> array<vec3f, LIGHT_GRO
         var before = vec4f(0.0);
         var after = vec4f(0.0);
         for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
-            let value = radiance[light_group];
+            let value = dimmed * radiance[light_group];
             let place = (light_group * frame.groups + group) * pixels + pixel;
             let difference = value - means[place];
             let mean = means[place] + difference / count;

@@ -19,7 +19,7 @@ fn scrambled(reversed: vec4u, seed: vec4u) -> vec4u {
 }
 
 /// All bits where a bit is set, none elsewhere.
-fn chosen(index: u32, bit: u32) -> vec4u {
+fn bit_of(index: u32, bit: u32) -> vec4u {
     return vec4u(0u - ((index >> bit) & 1u));
 }
 
@@ -28,30 +28,30 @@ fn chosen(index: u32, bit: u32) -> vec4u {
 /// drivers count the passes of loops.
 fn sobol_point(index: u32) -> vec4u {
     var point = vec4u(0u);
-    point ^= chosen(index, 31u) & vec4u(0x000001u, 0x000001u, 0x000001u, 0x000001u);
-    point ^= chosen(index, 30u) & vec4u(0x000002u, 0x000003u, 0x000003u, 0x000003u);
-    point ^= chosen(index, 29u) & vec4u(0x000004u, 0x000005u, 0x000006u, 0x000004u);
-    point ^= chosen(index, 28u) & vec4u(0x000008u, 0x00000fu, 0x000009u, 0x00000au);
-    point ^= chosen(index, 27u) & vec4u(0x000010u, 0x000011u, 0x000017u, 0x00001fu);
-    point ^= chosen(index, 26u) & vec4u(0x000020u, 0x000033u, 0x00003au, 0x00002eu);
-    point ^= chosen(index, 25u) & vec4u(0x000040u, 0x000055u, 0x000071u, 0x000045u);
-    point ^= chosen(index, 24u) & vec4u(0x000080u, 0x0000ffu, 0x0000a3u, 0x0000c9u);
-    point ^= chosen(index, 23u) & vec4u(0x000100u, 0x000101u, 0x000116u, 0x00011bu);
-    point ^= chosen(index, 22u) & vec4u(0x000200u, 0x000303u, 0x000339u, 0x0002a4u);
-    point ^= chosen(index, 21u) & vec4u(0x000400u, 0x000505u, 0x000677u, 0x00079au);
-    point ^= chosen(index, 20u) & vec4u(0x000800u, 0x000f0fu, 0x0009aau, 0x000b67u);
-    point ^= chosen(index, 19u) & vec4u(0x001000u, 0x001111u, 0x001601u, 0x00101eu);
-    point ^= chosen(index, 18u) & vec4u(0x002000u, 0x003333u, 0x003903u, 0x00302du);
-    point ^= chosen(index, 17u) & vec4u(0x004000u, 0x005555u, 0x007706u, 0x004041u);
-    point ^= chosen(index, 16u) & vec4u(0x008000u, 0x00ffffu, 0x00aa09u, 0x00a0c3u);
-    point ^= chosen(index, 15u) & vec4u(0x010000u, 0x010001u, 0x010117u, 0x01f104u);
-    point ^= chosen(index, 14u) & vec4u(0x020000u, 0x030003u, 0x03033au, 0x02e28au);
-    point ^= chosen(index, 13u) & vec4u(0x040000u, 0x050005u, 0x060671u, 0x0457dfu);
-    point ^= chosen(index, 12u) & vec4u(0x080000u, 0x0f000fu, 0x0909a3u, 0x0c9baeu);
-    point ^= chosen(index, 11u) & vec4u(0x100000u, 0x110011u, 0x171616u, 0x11a105u);
-    point ^= chosen(index, 10u) & vec4u(0x200000u, 0x330033u, 0x3a3939u, 0x2a7289u);
-    point ^= chosen(index, 9u) & vec4u(0x400000u, 0x550055u, 0x717777u, 0x79e7dbu);
-    point ^= chosen(index, 8u) & vec4u(0x800000u, 0xff00ffu, 0xa3aaaau, 0xb6dba4u);
+    point ^= bit_of(index, 31u) & vec4u(0x000001u, 0x000001u, 0x000001u, 0x000001u);
+    point ^= bit_of(index, 30u) & vec4u(0x000002u, 0x000003u, 0x000003u, 0x000003u);
+    point ^= bit_of(index, 29u) & vec4u(0x000004u, 0x000005u, 0x000006u, 0x000004u);
+    point ^= bit_of(index, 28u) & vec4u(0x000008u, 0x00000fu, 0x000009u, 0x00000au);
+    point ^= bit_of(index, 27u) & vec4u(0x000010u, 0x000011u, 0x000017u, 0x00001fu);
+    point ^= bit_of(index, 26u) & vec4u(0x000020u, 0x000033u, 0x00003au, 0x00002eu);
+    point ^= bit_of(index, 25u) & vec4u(0x000040u, 0x000055u, 0x000071u, 0x000045u);
+    point ^= bit_of(index, 24u) & vec4u(0x000080u, 0x0000ffu, 0x0000a3u, 0x0000c9u);
+    point ^= bit_of(index, 23u) & vec4u(0x000100u, 0x000101u, 0x000116u, 0x00011bu);
+    point ^= bit_of(index, 22u) & vec4u(0x000200u, 0x000303u, 0x000339u, 0x0002a4u);
+    point ^= bit_of(index, 21u) & vec4u(0x000400u, 0x000505u, 0x000677u, 0x00079au);
+    point ^= bit_of(index, 20u) & vec4u(0x000800u, 0x000f0fu, 0x0009aau, 0x000b67u);
+    point ^= bit_of(index, 19u) & vec4u(0x001000u, 0x001111u, 0x001601u, 0x00101eu);
+    point ^= bit_of(index, 18u) & vec4u(0x002000u, 0x003333u, 0x003903u, 0x00302du);
+    point ^= bit_of(index, 17u) & vec4u(0x004000u, 0x005555u, 0x007706u, 0x004041u);
+    point ^= bit_of(index, 16u) & vec4u(0x008000u, 0x00ffffu, 0x00aa09u, 0x00a0c3u);
+    point ^= bit_of(index, 15u) & vec4u(0x010000u, 0x010001u, 0x010117u, 0x01f104u);
+    point ^= bit_of(index, 14u) & vec4u(0x020000u, 0x030003u, 0x03033au, 0x02e28au);
+    point ^= bit_of(index, 13u) & vec4u(0x040000u, 0x050005u, 0x060671u, 0x0457dfu);
+    point ^= bit_of(index, 12u) & vec4u(0x080000u, 0x0f000fu, 0x0909a3u, 0x0c9baeu);
+    point ^= bit_of(index, 11u) & vec4u(0x100000u, 0x110011u, 0x171616u, 0x11a105u);
+    point ^= bit_of(index, 10u) & vec4u(0x200000u, 0x330033u, 0x3a3939u, 0x2a7289u);
+    point ^= bit_of(index, 9u) & vec4u(0x400000u, 0x550055u, 0x717777u, 0x79e7dbu);
+    point ^= bit_of(index, 8u) & vec4u(0x800000u, 0xff00ffu, 0xa3aaaau, 0xb6dba4u);
     return point;
 }
 

@@ -15,6 +15,12 @@ struct Walk {
     /// Segments so far; the camera ray is the first.
     segment: u32,
     alive: bool,
+    /// Films at which it will still be split.
+    splits: u32,
+    /// Which of the ways that splits made of the path it is.
+    branch: u32,
+    /// About what part of the light comes through, in the wavelength where it is largest.
+    throughput: f32,
 }
 
 struct Sample {
@@ -30,15 +36,36 @@ fn numbers_of(sample: Sample, dimension: u32) -> vec4f {
     return random4(sample.pixel, sample.index, dimension, frame.seed);
 }
 
-/// Four random numbers for the light (`use_of` 0) or the scattering (1) at the walk's present vertex.
+/// Dimensions of a branch of a path: more than three for each of its segments.
+const BRANCH_DIMENSIONS: u32 = 128u;
+/// What random numbers of a vertex are for.
+const FOR_LIGHT: u32 = 0u;
+const FOR_SCATTERING: u32 = 1u;
+const FOR_ROULETTE: u32 = 2u;
+
+/// Four random numbers for one use (`FOR_…`) at the walk's present vertex.
 fn random_at(sample: Sample, walk: Walk, use_of: u32) -> vec4f {
-    return numbers_of(sample, 2u * walk.segment - 1u + use_of);
+    return numbers_of(sample, BRANCH_DIMENSIONS * walk.branch + 3u * walk.segment - 2u + use_of);
 }
 
 /// The walk as it goes on from `point` in a new direction.
 fn walk_on(walk: Walk, object: u32, point: SurfacePoint, direction: vec3f, pdf: f32, estimates: f32) -> Walk {
-    let ray = Ray(point.position, direction);
-    return Walk(ray, object, point.position, pdf, point.normal, estimates, walk.segment, true);
+    var next = walk;
+    next.ray = Ray(point.position, direction);
+    next.from_object = object;
+    next.scattered_at = point.position;
+    next.scatter_pdf = pdf;
+    next.scattered_normal = point.normal;
+    next.estimates = estimates;
+    return next;
+}
+
+/// The walk as it goes straight on through a film.
+fn walk_through(walk: Walk, object: u32, point: SurfacePoint) -> Walk {
+    var through = walk;
+    through.ray.origin = point.position;
+    through.from_object = object;
+    return through;
 }
 
 /// Mirrors a direction that runs against `normal`.

@@ -26,6 +26,7 @@ const SMALL: RecordLimits = RecordLimits {
     crossings: 1,
     thicknesses: 1,
     light_groups: 2,
+    splits: 1,
 };
 
 impl Probe<'_> {

@@ -194,7 +194,12 @@ fn the_furnace_is_white() {
 #[test]
 fn the_wedge_is_the_films_reflectance() {
     const SIZE: [u32; 2] = [200, 50];
-    let scene = small("film_wedge", SIZE, 128, 8, 9);
+    // Independent samples, whose standard errors are what they say.
+    let mut file = file("film_wedge");
+    let render = &mut file.description.render;
+    (render.size, render.samples, render.bands, render.seed) = (SIZE, 128, 8, 9);
+    (render.sampler, render.film_splits) = (scene::description::Sampler::Independent, 0);
+    let scene = file.validate().expect("valid").rounded_to_f32();
     let image = on_gpu(&open(), &scene);
     let (film, ends_nm) = wedge_of(&scene);
     let mut largest = 0.0_f64;

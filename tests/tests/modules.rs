@@ -9,6 +9,7 @@ const SIZES: RecordLimits = RecordLimits {
     crossings: 20,
     thicknesses: 20,
     light_groups: 2,
+    splits: 2,
 };
 
 #[test]
@@ -73,6 +74,7 @@ fn owners() -> BTreeMap<String, &'static str> {
         "MAX_CROSSINGS",
         "MAX_THICKNESSES",
         "LIGHT_GROUPS",
+        "MAX_SPLITS",
     ] {
         owners.insert(name.to_owned(), LIMITS);
     }

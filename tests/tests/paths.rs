@@ -16,7 +16,8 @@ const BODY: &str = "let at = trace_path(Sample(vec2u(u32(a(0u)), u32(a(1u))), u3
     put(0u, at.offset);
     let low = path_radiance(0u, at);
     let high = path_radiance(1u, at);
-    for (var i = 0u; i < LIGHT_GROUPS; i++) { put4(8u * i + 1u, low[i]); put4(8u * i + 5u, high[i]); }";
+    let d = dimming(at);
+    for (var i = 0u; i < LIGHT_GROUPS; i++) { put4(8u * i + 1u, d * low[i]); put4(8u * i + 5u, d * high[i]); }";
 
 fn rows() -> Vec<[u32; 3]> {
     (0..SIDE * SIDE)

@@ -253,11 +253,14 @@ fn metadata(scene: &Scene, renderer: &Renderer) -> Metadata {
     ];
     let fov = scene.camera().fov_deg();
     let fov = fov.map(|fov| (FOV_SETTING, format!("{fov:.6}")));
+    // What was taken away is not to be forgotten.
+    let clamp = settings.clamp.map(|clamp| ("clamp", clamp.to_string()));
     Metadata {
         exposure_ev: settings.exposure_ev,
         settings: said
             .into_iter()
             .chain(fov)
+            .chain(clamp)
             .map(|(key, value)| (key.to_owned(), value))
             .collect(),
         ..Metadata::default()

@@ -110,6 +110,17 @@ impl Features {
             ("SENDS_LIGHT", direct != DirectLight::Surfaces),
             ("MEETS_LIGHT", direct != DirectLight::Lights),
             (
+                "HAS_SPLITS",
+                film(|_| true) && scene.settings().film_splits > 0,
+            ),
+            ("HAS_LENS", scene.camera().lens.is_some()),
+            ("HAS_FILTER", scene.camera().filter.offsets().is_some()),
+            ("HAS_CLAMP", scene.settings().clamp.is_some()),
+            (
+                "HAS_ROULETTE",
+                scene.settings().roulette_after < scene.settings().max_path_segments,
+            ),
+            (
                 "HAS_SOBOL_SAMPLES",
                 scene.settings().sampler == Sampler::Sobol,
             ),

@@ -4,7 +4,7 @@
 //! where WGSL expects it, and give the text of `shaders/layout.wgsl`. That file is committed, and a test proves it fresh.
 
 use scene::limits::{MAX_FIELD_DEPTH, THICKNESS_NM};
-use scene::{CoatedBody, Energy};
+use scene::{CoatedBody, Energy, Estimate, PixelFilter};
 
 /// A type with the same bytes in Rust and in WGSL (WGSL specification, section 14.4.1).
 trait Shared {
@@ -211,6 +211,11 @@ constants! { CONSTANTS;
     /// No layer is thicker, nm.
     pub const MAX_THICKNESS_NM = THICKNESS_NM.high as u32;
 
+    /// Numbers of the table that spreads a pixel's samples by its filter.
+    pub const FILTER_KNOTS = PixelFilter::KNOTS as u32;
+    /// Numbers of a film's table of what it reflects, over the cosine.
+    pub const REFLECTED_KNOTS = Estimate::KNOTS as u32;
+
     /// Spectral factor of a path's vertex: 1.
     pub const FACTOR_ONE = 0;
     /// Spectral factor: a reflectance from a table.
@@ -294,6 +299,22 @@ structs! { STRUCTS;
         pub environment_count: u32,
         /// First of the observer's three spectra.
         pub observer: u32,
+        /// Film hits, the first of a path, at which it is split.
+        pub film_splits: u32,
+        /// Segments after which Russian roulette may end a path.
+        pub roulette_after: u32,
+        /// The largest radiance that a sample may bring in any band.
+        pub clamp: f32,
+        /// Number of bands.
+        pub bands: u32,
+        /// Radius of the camera's lens.
+        pub lens_radius: f32,
+        /// Distance of the plane that the lens shows sharply, along the direction of view.
+        pub focus_distance: f32,
+        /// First of the numbers that spread a pixel's samples by its filter.
+        pub first_filter: u32,
+        /// Fills the size up to a multiple of 16.
+        pub padding: u32,
     }
 
     /// What holds for one dispatch: a run of samples of one tile.
@@ -394,10 +415,12 @@ structs! { STRUCTS;
         pub coat_estimate: f32,
         /// Spectra: the reflectance of a rough coat for COAT_COSINES cosines.
         pub coat_reflectances: u32,
+        /// First of a film's numbers that tell what it reflects.
+        pub first_reflected: u32,
+        /// About the part of the light that goes on from it.
+        pub albedo: f32,
         /// Fills the size up to a multiple of 16.
-        pub padding_1: u32,
-        /// Fills the size up.
-        pub padding_2: [u32; 2],
+        pub padding: u32,
     }
 
     /// A layer of a film or of a coating.

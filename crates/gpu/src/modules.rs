@@ -53,7 +53,7 @@ pub const MODULES: &[Module] = modules! {
     "texels": ["bindings", "layout"];
     "spectrum": ["bindings"];
     "lifting": ["bindings", "spectrum"];
-    "camera": ["bindings", "layout"];
+    "camera": ["bindings", "features", "layout", "numbers", "trig"];
     "noise": ["bindings", "features", "layout", "random"];
     "picture": ["bindings", "features", "layout", "texels", "trig"];
     "thickness": ["bindings", "features", "layout", "noise", "numbers", "picture", "trig"];
@@ -69,9 +69,10 @@ pub const MODULES: &[Module] = modules! {
     "scatter": [
         "bindings", "coat", "cook", "energy", "factor", "features", "layout", "microsurface", "record", "sampling", "trig"
     ];
+    "split": ["bindings", "layout", "limits", "numbers", "record", "walk"];
     "path": [
         "bindings", "camera", "coat", "connect", "environment", "factor", "features", "hit", "layout", "light", "light_choice", "record", "scatter",
-        "spectrum", "surface", "walk"
+        "spectrum", "split", "surface", "walk"
     ];
     "evaluate": [
         "bindings", "coat", "features", "film", "fresnel", "layout", "lifting", "limits", "record", "spectrum", "stack", "texels", "thickness",
@@ -92,14 +93,16 @@ pub struct RecordLimits {
     pub thicknesses: u32,
     /// Light groups.
     pub light_groups: u32,
+    /// Films at which a path is split, 1 where there are none.
+    pub splits: u32,
 }
 
 impl RecordLimits {
     fn wgsl(self) -> String {
         format!(
             "const MAX_VERTICES: u32 = {}u;\nconst MAX_CROSSINGS: u32 = {}u;\nconst MAX_THICKNESSES: u32 = {}u;\n\
-             const LIGHT_GROUPS: u32 = {}u;\n",
-            self.vertices, self.crossings, self.thicknesses, self.light_groups
+             const LIGHT_GROUPS: u32 = {}u;\nconst MAX_SPLITS: u32 = {}u;\n",
+            self.vertices, self.crossings, self.thicknesses, self.light_groups, self.splits
         )
     }
 }
@@ -192,6 +195,7 @@ mod tests {
             crossings: 1,
             thicknesses: 1,
             light_groups: 1,
+            splits: 1,
         };
         let shader = Shader::assemble(&["fresnel"], limits, "fn extra() {}");
         let text: Vec<_> = shader.text().lines().collect();

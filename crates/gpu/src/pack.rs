@@ -53,17 +53,21 @@ impl PackedScene {
         let mut layers = Vec::new();
         let mut fields = Fields::default();
         let mut pictures = Pictures::default();
-        let mut materials: Vec<_> = scene
-            .materials()
-            .iter()
-            .map(|material| {
-                let mut packed = pack_material(scene, material, &mut layers, &mut fields);
-                packed.picture = pictures.of_material(material);
-                packed
+        let materials = scene.materials().iter().zip(scene.estimates());
+        let mut materials: Vec<_> = materials
+            .map(|(material, estimate)| layout::Material {
+                albedo: estimate.albedo as f32,
+                first_reflected: fields.look_up(&estimate.reflected),
+                picture: pictures.of_material(material),
+                ..pack_material(scene, material, &mut layers, &mut fields)
             })
             .collect();
         let mut objects: Vec<_> = scene.objects().iter().map(pack_object).collect();
         lights::append(scene, &mut objects, &mut materials);
+        let mut frame = pack_frame(scene);
+        if let Some(offsets) = scene.camera().filter.offsets() {
+            frame.first_filter = fields.look_up(offsets);
+        }
         let spectra = scene
             .spectra()
             .iter()
@@ -73,7 +77,7 @@ impl PackedScene {
             .iter()
             .flat_map(|table| pack_spectrum(table, true));
         Self {
-            frame: pack_frame(scene),
+            frame,
             objects,
             materials,
             layers,
@@ -144,6 +148,13 @@ fn pack_frame(scene: &Scene) -> Frame {
         first_environment: scene.objects().len() as u32,
         environment_count: scene.surroundings().len() as u32,
         observer: scene.spectra().len() as u32,
+        film_splits: settings.film_splits,
+        roulette_after: settings.roulette_after,
+        clamp: settings.clamp.unwrap_or(0.0) as f32,
+        bands: settings.bands.count(),
+        lens_radius: camera.lens.map_or(0.0, |lens| lens.radius as f32),
+        focus_distance: camera.lens.map_or(1.0, |lens| lens.focus_distance as f32),
+        ..Default::default()
     }
 }
 
@@ -373,11 +384,44 @@ fn varying(layers: &[Layer]) -> u32 {
     layers.iter().filter(varies).count() as u32
 }
 
-/// A path has a vertex for each segment but the last, which may end in two terms of the environment. A
-/// connection crosses a film's sphere at most twice and a film's plane once (and the edge where films
-/// touch once more), and never more often than segments are left.
+/// How long the record of a path becomes at most.
+///
+/// A path has a vertex for each segment but the last, which may end in two terms of the environment. Where a film splits it, the
+/// record has the path that goes on, a vertex that says so, and the other path.
 fn record_limits(scene: &Scene) -> RecordLimits {
-    let segments = scene.settings().max_path_segments;
+    let settings = scene.settings();
+    let has_films = scene
+        .objects()
+        .iter()
+        .any(|object| is_film(scene.material(object.material)));
+    let splits = if has_films { settings.film_splits } else { 0 };
+    let segments = settings.max_path_segments;
+    let crossings = crossings(scene, segments, splits);
+    // Of a gradient a direction sees two parts, of which one stands for the segment that escapes.
+    let vertices = vertices(segments, splits) + (discs(scene) << splits);
+    RecordLimits {
+        vertices,
+        crossings: u32::max(crossings, 1),
+        thicknesses: u32::max(
+            most_varying(scene, |_| true) * vertices + most_varying(scene, is_film) * crossings,
+            1,
+        ),
+        light_groups: scene.light_groups().len() as u32,
+        splits: u32::max(splits, 1),
+    }
+}
+
+/// Vertices of a path with so many segments left that can still be split.
+fn vertices(segments: u32, splits: u32) -> u32 {
+    if splits == 0 || segments < 2 {
+        return segments + 1;
+    }
+    2 + 2 * vertices(segments - 1, splits - 1)
+}
+
+/// Films that all connections of a path cross. One crosses a film's sphere at most twice and a film's plane once (and the edge where
+/// films touch once more), and never more often than segments are left. A path that connects is not split any more.
+fn crossings(scene: &Scene, segments: u32, splits: u32) -> u32 {
     let films = scene.objects().iter().filter_map(|object| {
         is_film(scene.material(object.material)).then_some(match object.shape {
             Shape::Sphere { .. } => 2,
@@ -390,19 +434,13 @@ fn record_limits(scene: &Scene) -> RecordLimits {
     } else {
         straight.saturating_add(2)
     };
-    let crossings = (1..segments)
-        .map(|segment| per_connection.min(segments - segment - 1))
-        .sum();
-    RecordLimits {
-        // Of a gradient a direction sees two parts, of which one stands for the segment that escapes.
-        vertices: segments + 1 + discs(scene),
-        crossings: u32::max(crossings, 1),
-        thicknesses: u32::max(
-            most_varying(scene, |_| true) * segments + most_varying(scene, is_film) * crossings,
-            1,
-        ),
-        light_groups: scene.light_groups().len() as u32,
-    }
+    let of_path = |first: u32| -> u32 {
+        (first..segments)
+            .map(|segment| per_connection.min(segments - segment - 1))
+            .sum()
+    };
+    // With i splits there are 2ⁱ paths, each of which has come i segments further.
+    (0..=splits).map(|i| of_path(1 + i) << i).max().unwrap_or(0)
 }
 
 /// Number of discs in the sky.

@@ -193,6 +193,7 @@ impl Evaluator {
             crossings: 1,
             thicknesses: 1,
             light_groups: 1,
+            splits: 1,
         };
         let shader = Shader::assemble(&["stack_batch"], NONE, "");
         let pipeline = compile(gpu, &shader, "evaluate_stacks", &[])?;

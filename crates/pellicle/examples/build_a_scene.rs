@@ -5,8 +5,8 @@
 use pellicle::color::{self, DevelopSettings};
 use pellicle::scene::Scene;
 use pellicle::scene::description::{
-    Camera, Description, Emission, EmissionSpectrum, Environment, Index, Material, Object, Render,
-    Roughness, Strength, Thickness,
+    Camera, Description, Emission, EmissionSpectrum, Environment, Filter, Index, Material, Object,
+    Render, Roughness, Strength, Thickness,
 };
 use pellicle::{Backend, Renderer};
 use std::error::Error;
@@ -28,6 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             look_at: [0.0; 3],
             up: [0.0, 1.0, 0.0],
             height: 1.0,
+            filter: Filter::default(),
         },
         render: Render {
             size: [8 * COUNT, 8],

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use scene::{Projection, Scene};
+use std::f64::consts::TAU;
 
 /// A ray: an origin and a unit direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,21 +13,49 @@ pub struct Ray {
     pub direction: DVec3,
 }
 
-/// The ray through a pixel; `jitter` in [0, 1)² is the place within the pixel, row 0 on top.
-pub fn camera_ray(scene: &Scene, pixel: [u32; 2], jitter: [f64; 2]) -> Ray {
+/// The ray through a place within a pixel, in [0, 1)² with row 0 on top; through the middle of the lens.
+pub fn camera_ray(scene: &Scene, pixel: [u32; 2], place: [f64; 2]) -> Ray {
+    let offset = place.map(|inside| inside - 0.5);
+    ray_off_middle(scene, pixel, offset, [0.0; 2])
+}
+
+/// The ray that a sample starts with: `jitter` in [0, 1)² spreads the samples by the pixel's filter, `on_lens` in [0, 1)² over
+/// the lens.
+pub fn sampled_camera_ray(
+    scene: &Scene,
+    pixel: [u32; 2],
+    jitter: [f64; 2],
+    on_lens: [f64; 2],
+) -> Ray {
+    let filter = &scene.camera().filter;
+    ray_off_middle(scene, pixel, jitter.map(|u| filter.offset_at(u)), on_lens)
+}
+
+/// The ray at an offset from a pixel's middle.
+fn ray_off_middle(scene: &Scene, pixel: [u32; 2], offset: [f64; 2], [u, v]: [f64; 2]) -> Ray {
     let (camera, settings) = (scene.camera(), scene.settings());
     let (width, height) = (f64::from(settings.width), f64::from(settings.height));
     let (Projection::Perspective { half_height } | Projection::Orthographic { half_height }) =
         camera.projection;
     // From −1 at the left and the bottom to 1 at the right and the top.
-    let across = 2.0 * (f64::from(pixel[0]) + jitter[0]) / width - 1.0;
-    let upward = 1.0 - 2.0 * (f64::from(pixel[1]) + jitter[1]) / height;
+    let across = 2.0 * (f64::from(pixel[0]) + 0.5 + offset[0]) / width - 1.0;
+    let upward = 1.0 - 2.0 * (f64::from(pixel[1]) + 0.5 + offset[1]) / height;
     let aside =
         camera.right * (across * half_height * width / height) + camera.up * (upward * half_height);
+    let (on_lens, focus) = match camera.lens {
+        // Uniform over the lens.
+        Some(lens) => {
+            let (sine, cosine) = (TAU * v).sin_cos();
+            let at = camera.right * cosine + camera.up * sine;
+            (at * (lens.radius * u.sqrt()), lens.focus_distance)
+        }
+        None => (DVec3::ZERO, 1.0),
+    };
     match camera.projection {
+        // All rays of a place in the picture meet where the pinhole's ray reaches the plane of focus.
         Projection::Perspective { .. } => Ray {
-            origin: camera.origin,
-            direction: (aside - camera.back).normalize(),
+            origin: camera.origin + on_lens,
+            direction: (focus * (aside - camera.back) - on_lens).normalize(),
         },
         Projection::Orthographic { .. } => Ray {
             origin: camera.origin + aside,

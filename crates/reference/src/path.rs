@@ -4,9 +4,9 @@ use crate::interference::{LayersAt, Light};
 use crate::picture::smooth_value;
 use crate::scatter::{Conductor, Lobes, Scatterer, coat_share};
 use crate::{
-    Facets, Hit, Ray, Reflectance, Source, SurfacePoint, camera_ray, choice_probabilities,
-    choose_light, environment_share, mis_share, nearest_hit, pattern_reflectance, random4, sobol4,
-    surface_frame, surface_point,
+    Facets, Hit, Ray, Reflectance, Source, SurfacePoint, chance_to_go_on, choice_probabilities,
+    choose_light, environment_share, mis_share, nearest_hit, pattern_reflectance, random4,
+    reflected_share, sampled_camera_ray, sobol4, surface_frame, surface_point,
 };
 use glam::DVec3;
 use optics::Complex64;
@@ -15,8 +15,18 @@ use scene::{
     RenderSettings, Sampler, Scene, SourceKind, SpectrumId, WavelengthSampling,
 };
 
-/// Share of the paths that follow the reflection of a film rather than its transmission.
-const REFLECTED_SHARE: f64 = 0.5;
+/// Dimensions of a branch of a path: more than three for each of its segments.
+const BRANCH_DIMENSIONS: u32 = 128;
+/// The dimension of the camera's lens: beyond those of all branches.
+const LENS_DIMENSION: u32 = 0xffff;
+
+/// What the random numbers of a vertex are for.
+#[derive(Clone, Copy)]
+enum Use {
+    Light,
+    Scattering,
+    Roulette,
+}
 
 /// What one sample of a pixel brings.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +42,13 @@ pub fn radiance(scene: &Scene, lights: &[LightSource], pixel: [u32; 2], sample: 
     let settings = scene.settings();
     let [x, y, drawn, _] = numbers_of(settings, pixel, sample, 0);
     let bands = settings.bands.count() as usize;
+    let on_lens = match scene.camera().lens {
+        Some(_) => {
+            let [u, v, ..] = numbers_of(settings, pixel, sample, LENS_DIMENSION);
+            [u, v]
+        }
+        None => [0.0; 2],
+    };
     let mut path = Path {
         scene,
         lights,
@@ -41,23 +58,25 @@ pub fn radiance(scene: &Scene, lights: &[LightSource], pixel: [u32; 2], sample: 
             WavelengthSampling::Random => drawn,
             WavelengthSampling::Centre => 0.5,
         },
-        ray: camera_ray(scene, pixel, [x, y]),
-        from_object: None,
-        scattered: None,
-        segment: 1,
-        throughput: vec![1.0; bands],
+        walk: Walk {
+            ray: sampled_camera_ray(scene, pixel, [x, y], on_lens),
+            from_object: None,
+            scattered: None,
+            segment: 1,
+            splits: settings.film_splits,
+            branch: 0,
+            estimate: 1.0,
+            throughput: vec![1.0; bands],
+        },
+        waiting: Vec::new(),
         radiance: vec![vec![0.0; bands]; scene.light_groups().len()],
     };
-    while path.segment <= settings.max_path_segments {
-        let Some(hit) = nearest_hit(scene, &path.ray, path.from_object) else {
-            path.add_environment();
-            break;
-        };
-        if !path.meet(hit) {
-            break;
-        }
-        path.segment += 1;
+    path.follow();
+    while let Some(walk) = path.waiting.pop() {
+        path.walk = walk;
+        path.follow();
     }
+    path.dim();
     PathSample {
         offset: path.offset,
         radiance: path.radiance,
@@ -79,20 +98,35 @@ struct Path<'a> {
     pixel: [u32; 2],
     sample: u32,
     offset: f64,
+    walk: Walk,
+    /// Walks that begin where films split the path, to be followed when the present one has ended.
+    waiting: Vec<Walk>,
+    /// Of each light group.
+    radiance: Vec<Vec<f64>>,
+}
+
+/// One of the ways that a path takes.
+#[derive(Clone)]
+struct Walk {
     ray: Ray,
     /// The object that the ray starts on.
     from_object: Option<usize>,
     /// How a surface last scattered the path; none after the camera or a mirror.
     scattered: Option<Scattered>,
     segment: u32,
+    /// Films at which it will still be split.
+    splits: u32,
+    /// Which of the ways that splits made of the path it is.
+    branch: u32,
+    /// About what part of the light comes through, in the wavelength where it is largest.
+    estimate: f64,
     throughput: Vec<f64>,
-    /// Of each light group.
-    radiance: Vec<Vec<f64>>,
 }
 
 impl<'a> Path<'a> {
-    fn random(&self, use_of: u32) -> [f64; 4] {
-        let dimension = 2 * self.segment - 1 + use_of;
+    fn random(&self, use_of: Use) -> [f64; 4] {
+        let walk = &self.walk;
+        let dimension = BRANCH_DIMENSIONS * walk.branch + 3 * walk.segment - 2 + use_of as u32;
         numbers_of(self.scene.settings(), self.pixel, self.sample, dimension)
     }
 
@@ -105,7 +139,7 @@ impl<'a> Path<'a> {
     }
 
     fn bands(&self) -> std::ops::Range<usize> {
-        0..self.throughput.len()
+        0..self.walk.throughput.len()
     }
 
     /// Light that joins the path here.
@@ -113,21 +147,66 @@ impl<'a> Path<'a> {
         for band in self.bands() {
             let light = emission.scale * self.spectrum(emission.spectrum, band);
             let light_group = emission.light_group.index();
-            self.radiance[light_group][band] += self.throughput[band] * weight * light;
+            self.radiance[light_group][band] += self.walk.throughput[band] * weight * light;
         }
     }
 
     fn attenuate(&mut self, factor: impl Fn(&Self, usize) -> f64) {
         for band in self.bands() {
-            self.throughput[band] *= factor(self, band);
+            self.walk.throughput[band] *= factor(self, band);
         }
     }
 
     fn add_environment(&mut self) {
         for (index, part) in self.scene.surroundings().into_iter().enumerate() {
-            let share = environment_share(part.shape, self.ray.direction);
+            let share = environment_share(part.shape, self.walk.ray.direction);
             let met = self.share_of_scattering(SourceKind::Environment(index));
             self.add(part.emission, share * met);
+        }
+    }
+
+    /// Follows the present walk to its end.
+    fn follow(&mut self) {
+        let settings = self.scene.settings();
+        while self.walk.segment <= settings.max_path_segments {
+            let Some(hit) = nearest_hit(self.scene, &self.walk.ray, self.walk.from_object) else {
+                self.add_environment();
+                return;
+            };
+            if !self.meet(hit) {
+                return;
+            }
+            let is_last = self.walk.segment == settings.max_path_segments;
+            let plays = self.walk.segment >= settings.roulette_after && !is_last;
+            if plays && !self.survives_roulette() {
+                return;
+            }
+            self.walk.segment += 1;
+        }
+    }
+
+    /// Russian roulette: ends the walk by chance, or lets it count for more.
+    fn survives_roulette(&mut self) -> bool {
+        let chance = chance_to_go_on(self.walk.estimate);
+        if chance < 1.0 {
+            if self.random(Use::Roulette)[0] >= chance {
+                return false;
+            }
+            self.walk.estimate /= chance;
+            self.attenuate(|_, _| 1.0 / chance);
+        }
+        true
+    }
+
+    /// Dims a sample that is brighter than the scene allows.
+    fn dim(&mut self) {
+        let Some(most) = self.scene.settings().clamp else {
+            return;
+        };
+        let of_band = |band: usize| self.radiance.iter().map(|group| group[band]).sum::<f64>();
+        let brightest = self.bands().map(of_band).fold(most, f64::max);
+        for value in self.radiance.iter_mut().flatten() {
+            *value *= most / brightest;
         }
     }
 
@@ -135,7 +214,7 @@ impl<'a> Path<'a> {
     fn meet(&mut self, hit: Hit) -> bool {
         let scene = self.scene;
         let object = &scene.objects()[hit.object];
-        let point = surface_point(&object.shape, &self.ray, hit.distance);
+        let point = surface_point(&object.shape, &self.walk.ray, hit.distance);
         match *scene.material(object.material) {
             Material::Diffuse { ref reflectance } => {
                 self.meet_diffuse(hit.object, point, reflectance)
@@ -174,7 +253,7 @@ impl<'a> Path<'a> {
                     index: (body.n, body.k),
                     coating: LayersAt::new(&[], &object.shape, &point),
                 };
-                let random = self.random(1)[3];
+                let random = self.random(Use::Scattering)[3];
                 let base = pattern_reflectance(&body.base, &object.shape, point.position, random);
                 let surface = match &body.microsurface {
                     None => Scatterer::CoatedBody(conductor, body, base),
@@ -216,12 +295,12 @@ impl<'a> Path<'a> {
         direction: DVec3,
         scattered: Option<Scattered>,
     ) {
-        self.ray = Ray {
+        self.walk.ray = Ray {
             origin: position,
             direction,
         };
-        self.from_object = Some(object);
-        self.scattered = scattered;
+        self.walk.from_object = Some(object);
+        self.walk.scattered = scattered;
     }
 
     fn meet_mirror(
@@ -231,28 +310,44 @@ impl<'a> Path<'a> {
         conductor: &Conductor<'_>,
     ) -> bool {
         self.attenuate(|path, band| path.reflectance(conductor, point.cosine, band));
-        let direction = mirrored(self.ray.direction, point.normal);
+        let direction = mirrored(self.walk.ray.direction, point.normal);
         self.scatter(object, point.position, direction, None);
+        self.walk.estimate *= self.albedo(object);
         true
     }
 
+    /// About what part of the light goes on from an object.
+    fn albedo(&self, object: usize) -> f64 {
+        let material = self.scene.objects()[object].material;
+        self.scene.estimate(material).albedo
+    }
+
+    /// A film: the path is mirrored or goes straight on, or does both.
     fn meet_film(&mut self, object: usize, point: SurfacePoint, film: &Film<'_>) -> bool {
-        let reflects = self.random(1)[0] < REFLECTED_SHARE;
-        self.attenuate(|path, band| {
-            let (reflectance, transmittance) = path.film(film, band);
-            if reflects {
-                reflectance / REFLECTED_SHARE
-            } else {
-                transmittance / (1.0 - REFLECTED_SHARE)
-            }
-        });
-        if reflects {
-            let direction = mirrored(self.ray.direction, point.normal);
-            self.scatter(object, point.position, direction, None);
+        let values: Vec<_> = self.bands().map(|band| self.film(film, band)).collect();
+        let estimate = self.scene.estimate(self.scene.objects()[object].material);
+        let reflected = estimate.reflected_at(point.cosine);
+        self.walk.estimate *= estimate.albedo;
+        let is_split =
+            self.walk.splits > 0 && self.walk.segment < self.scene.settings().max_path_segments;
+        if is_split {
+            self.walk.splits -= 1;
+            let mut through = self.walk.clone();
+            through.branch += 1 << through.splits;
+            through.segment += 1;
+            through.go_through(object, &point, (&values, 1.0 - reflected, 1.0));
+            self.waiting.push(through);
+            self.walk
+                .go_mirrored(object, &point, (&values, reflected, 1.0));
+            return true;
+        }
+        let share = reflected_share(reflected);
+        if self.random(Use::Scattering)[0] < share {
+            self.walk
+                .go_mirrored(object, &point, (&values, reflected, share));
         } else {
-            // Straight on: what was said of the last scattering still holds.
-            self.ray.origin = point.position;
-            self.from_object = Some(object);
+            let ways = (values.as_slice(), 1.0 - reflected, 1.0 - share);
+            self.walk.go_through(object, &point, ways);
         }
         true
     }
@@ -279,7 +374,7 @@ impl<'a> Path<'a> {
 
     fn meet_diffuse(&mut self, object: usize, point: SurfacePoint, pattern: &Pattern) -> bool {
         let shape = &self.scene.objects()[object].shape;
-        let [.., random] = self.random(1);
+        let [.., random] = self.random(Use::Scattering);
         let reflectance = pattern_reflectance(pattern, shape, point.position, random);
         self.meet_scattering(object, point, &Scatterer::Diffuse(reflectance))
     }
@@ -294,7 +389,7 @@ impl<'a> Path<'a> {
         let met = &self.scene.objects()[object];
         let world_from_local = surface_frame(self.scene.material(met.material), &met.shape, &point);
         let local_from_world = world_from_local.transpose();
-        let eye = local_from_world * -self.ray.direction;
+        let eye = local_from_world * -self.walk.ray.direction;
         let chances = self.chances(&point);
         if let Some(sent) = self.send_to_light(object, &point, &chances) {
             let towards = scatterer.between(eye, local_from_world * sent.direction);
@@ -303,13 +398,14 @@ impl<'a> Path<'a> {
                 share * path.scattered_value(scatterer, eye, &towards.lobes, band)
             });
         }
-        let random = self.random(1);
+        let random = self.random(Use::Scattering);
         if let Scatterer::CoatedBody(coat, body, _) = scatterer {
             let share = coat_share(body, eye.z);
             if random[2] < share {
                 self.attenuate(|path, band| path.reflectance(coat, eye.z, band) / share);
-                let direction = mirrored(self.ray.direction, point.normal);
+                let direction = mirrored(self.walk.ray.direction, point.normal);
                 self.scatter(object, point.position, direction, None);
+                self.walk.estimate *= self.albedo(object);
                 return true;
             }
         }
@@ -321,6 +417,14 @@ impl<'a> Path<'a> {
         self.attenuate(|path, band| {
             path.scattered_value(scatterer, eye, &onward.lobes, band) / onward.pdf
         });
+        self.walk.splits = 0;
+        let Lobes {
+            single,
+            multiple,
+            body,
+            ..
+        } = onward.lobes;
+        self.walk.estimate *= (single + multiple + body) / onward.pdf * self.albedo(object);
         let direction = (world_from_local * light).normalize();
         let scattered = Scattered {
             position: point.position,
@@ -405,11 +509,11 @@ impl<'a> Path<'a> {
     /// Share of a light that belongs to a path which happens to meet it: the rest is what connections to that light bring.
     fn share_of_scattering(&self, kind: SourceKind) -> f64 {
         let number = self.lights.iter().position(|light| light.kind == kind);
-        let (Some(scattered), Some(number)) = (&self.scattered, number) else {
+        let (Some(scattered), Some(number)) = (&self.walk.scattered, number) else {
             return 1.0;
         };
         let source = Source::of(self.scene, kind);
-        let sent = source.pdf(scattered.position, self.ray.direction);
+        let sent = source.pdf(scattered.position, self.walk.ray.direction);
         let sent = scattered.chances[number] * sent.unwrap_or(0.0);
         match self.scene.settings().direct_light {
             DirectLight::Both => mis_share(scattered.pdf, sent),
@@ -441,10 +545,10 @@ impl<'a> Path<'a> {
         let settings = self.scene.settings();
         let max_segments = settings.max_path_segments;
         let sends = settings.direct_light != DirectLight::Surfaces;
-        if !sends || self.segment >= max_segments {
+        if !sends || self.walk.segment >= max_segments {
             return None;
         }
-        let [pick, u, v, _] = self.random(0);
+        let [pick, u, v, _] = self.random(Use::Light);
         let choice = choose_light(chances, pick)?;
         let light = &self.lights[choice.source];
         let source = Source::of(self.scene, light.kind);
@@ -464,7 +568,7 @@ impl<'a> Path<'a> {
             direction,
         };
         let films =
-            self.films_on_the_way(ray, object, light.kind, max_segments - self.segment - 1)?;
+            self.films_on_the_way(ray, object, light.kind, max_segments - self.walk.segment - 1)?;
         Some(Sent {
             emission: light.emission,
             direction,
@@ -534,18 +638,48 @@ impl<'a> Path<'a> {
             }
             let light_group = emission.light_group.index();
             self.radiance[light_group][band] +=
-                self.throughput[band] * factor(self, band) * arriving;
+                self.walk.throughput[band] * factor(self, band) * arriving;
         }
     }
 }
 
 /// How a surface scattered a path.
+#[derive(Clone)]
 struct Scattered {
     position: DVec3,
     /// Density of the direction.
     pdf: f64,
     /// Probabilities of the lights there.
     chances: Vec<f64>,
+}
+
+/// What a film does in each band (reflectance and transmittance), about what part goes the way taken, and the chance of that way.
+type Ways<'a> = (&'a [(f64, f64)], f64, f64);
+
+impl Walk {
+    /// Mirrored by a film.
+    fn go_mirrored(&mut self, object: usize, point: &SurfacePoint, (film, part, chance): Ways<'_>) {
+        self.estimate *= part / chance;
+        for (throughput, (reflectance, _)) in self.throughput.iter_mut().zip(film) {
+            *throughput *= reflectance / chance;
+        }
+        self.ray = Ray {
+            origin: point.position,
+            direction: mirrored(self.ray.direction, point.normal),
+        };
+        self.from_object = Some(object);
+        self.scattered = None;
+    }
+
+    /// Straight on through a film: what was said of the last scattering still holds.
+    fn go_through(&mut self, object: usize, point: &SurfacePoint, (film, part, chance): Ways<'_>) {
+        self.estimate *= part / chance;
+        for (throughput, (_, transmittance)) in self.throughput.iter_mut().zip(film) {
+            *throughput *= transmittance / chance;
+        }
+        self.ray.origin = point.position;
+        self.from_object = Some(object);
+    }
 }
 
 /// A connection to a light.

@@ -107,7 +107,9 @@ mod tests {
     fn samples_lie_in_every_elementary_interval() {
         let fills = |cells: Vec<usize>, count: usize| {
             let mut met = vec![0; count];
-            cells.into_iter().for_each(|cell| met[cell] += 1);
+            for cell in cells {
+                met[cell] += 1;
+            }
             met.iter().all(|&n| n == 1)
         };
         for (case, m) in (0..60_u32).zip((1..=8_u32).cycle()) {

@@ -1,8 +1,9 @@
 //! The camera of a validated scene.
 
+use crate::PixelFilter;
 use glam::DVec3;
 
-/// A camera without a lens: rays start at one point or run in parallel.
+/// A camera: rays start at one point, on a lens, or run in parallel.
 ///
 /// `right`, `up` and `back` are orthonormal and are the columns of the rotation `world_from_camera`;
 /// the camera looks along −`back`.
@@ -18,6 +19,19 @@ pub struct Camera {
     pub back: DVec3,
     /// How rays spread.
     pub projection: Projection,
+    /// The lens of a perspective camera; without one everything is sharp.
+    pub lens: Option<Lens>,
+    /// How a pixel gathers light from about its middle.
+    pub filter: PixelFilter,
+}
+
+/// A thin lens: what lies at its distance of focus is sharp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// Radius of its opening.
+    pub radius: f64,
+    /// Distance of the plane that is sharp, along the direction of view.
+    pub focus_distance: f64,
 }
 
 /// How the rays of a camera spread.

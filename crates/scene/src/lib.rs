@@ -44,10 +44,10 @@ mod thickness;
 mod validate;
 mod validated;
 
-pub use camera::{Camera, Projection};
+pub use camera::{Camera, Lens, Projection};
 pub use coated_body::{CoatEstimate, CoatedBody};
 pub use cook::{Cook1981, CookDistribution, CookFacets, DiffuseShare};
-pub use derived::Energy;
+pub use derived::{Energy, Estimate, PixelFilter};
 pub use description::{Distribution, PathDifference, Sampler};
 pub use document::SourceFile;
 pub use environment::{Environment, EnvironmentPart, EnvironmentShape};

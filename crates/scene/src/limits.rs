@@ -123,6 +123,8 @@ pub const MAX_SLOPES: usize = 8;
 pub const COOK_CONSTANT: Range = Range::new(0.0, 1e6, "");
 /// A reflectance at normal incidence that is turned into an index: of 0.996 the index is 998.
 pub const NORMAL_REFLECTANCE: Range = Range::new(0.0, 0.996, "");
+/// The largest radiance of a sample, where it is bounded.
+pub const CLAMP: Range = Range::new(1e-9, 1e9, "");
 /// Exposure in stops.
 pub const EXPOSURE_EV: Range = Range::new(-32.0, 32.0, " stops");
 /// Wavelengths that bands may cover.

@@ -2,7 +2,7 @@
 
 use crate::{
     Camera, CoatEstimate, CoatedBody, Cook1981, CookFacets, DiffuseShare, Emission, Environment,
-    Grain, Layer, Light, LightShape, Material, Microsurface, Object, Pattern, Projection,
+    Grain, Layer, Lens, Light, LightShape, Material, Microsurface, Object, Pattern, Projection,
     RenderSettings, Scene, Shape,
 };
 use glam::DVec3;
@@ -49,6 +49,7 @@ impl RoundToF32 for Scene {
             objects: self.objects.rounded(),
             lights: self.lights.rounded(),
             environment: self.environment.rounded(),
+            estimates: self.estimates.rounded(),
         }
     }
 }
@@ -58,6 +59,7 @@ impl RoundToF32 for RenderSettings {
         // The ends of the bands are `f32` numbers already, by validation.
         Self {
             exposure_ev: self.exposure_ev.rounded(),
+            clamp: self.clamp.map(|clamp| clamp.rounded()),
             ..self.clone()
         }
     }
@@ -71,6 +73,11 @@ impl RoundToF32 for Camera {
             up: self.up.rounded(),
             back: self.back.rounded(),
             projection: self.projection.rounded(),
+            lens: self.lens.map(|lens| Lens {
+                radius: lens.radius.rounded(),
+                focus_distance: lens.focus_distance.rounded(),
+            }),
+            filter: self.filter.rounded(),
         }
     }
 }

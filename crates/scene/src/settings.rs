@@ -27,6 +27,13 @@ pub struct RenderSettings {
     pub max_path_segments: u32,
     /// How light that surfaces scatter is found.
     pub direct_light: DirectLight,
+    /// Film hits, the first of a path, at which it follows both the reflection and the transmission; at most
+    /// [`RenderSettings::MAX_FILM_SPLITS`].
+    pub film_splits: u32,
+    /// Segments after which Russian roulette may end a path.
+    pub roulette_after: u32,
+    /// The largest radiance that a sample may bring in any band; brighter ones are dimmed to it.
+    pub clamp: Option<f64>,
     /// Exposure of the developed picture in stops: 0 shows radiance 1 at every wavelength as white.
     pub exposure_ev: f64,
     /// Time of the picture, s. The thicknesses of the scene are those of this time already.
@@ -36,6 +43,8 @@ pub struct RenderSettings {
 impl RenderSettings {
     /// The longest path that can be asked for.
     pub const MAX_PATH_SEGMENTS: u32 = 32;
+    /// The most film hits at which a path can be split: it then has 8 ends.
+    pub const MAX_FILM_SPLITS: u32 = 3;
     /// The widest or highest picture that can be asked for.
     pub const MAX_SIDE: u32 = 32_768;
 }

@@ -58,6 +58,54 @@ pub enum Thickness {
 }
 
 impl Thickness {
+    /// Bounds of its values, nm (of a factor or a term of a sum, in its own unit): the thinnest and the thickest that it can be,
+    /// though it need not be either anywhere.
+    pub fn extent_nm(&self) -> (f64, f64) {
+        let (least, most) = self.bounds();
+        let high = crate::limits::THICKNESS_NM.high;
+        (least.clamp(0.0, high), most.clamp(0.0, high))
+    }
+
+    fn bounds(&self) -> (f64, f64) {
+        let of = |a: f64, b: f64| (a.min(b), a.max(b));
+        match self {
+            Self::Constant { nm } => (*nm, *nm),
+            Self::Polar {
+                pole_nm,
+                equator_nm,
+                ..
+            } => of(*pole_nm, 2.0 * equator_nm - pole_nm),
+            Self::Linear {
+                start_nm, end_nm, ..
+            } => of(*start_nm, *end_nm),
+            Self::Steps { nm, .. } => extent_of(nm),
+            Self::Profile(profile) => {
+                let (least, most) = extent_of(&profile.squares_nm2);
+                let black = profile.black.map_or(f64::INFINITY, |black| black.nm);
+                (least.sqrt().min(black), most.sqrt().min(profile.most_nm))
+            }
+            Self::Swirls(swirls) => of(
+                swirls.mean - swirls.amplitude,
+                swirls.mean + swirls.amplitude,
+            ),
+            Self::Picture(picture) => of(picture.black_nm, picture.white_nm),
+            Self::Sum(parts) => parts.iter().fold((0.0, 0.0), |sum, part| {
+                let (least, most) = part.bounds();
+                (sum.0 + least, sum.1 + most)
+            }),
+            Self::Product(parts) => parts.iter().fold((1.0, 1.0), |product, part| {
+                let (least, most) = part.bounds();
+                let corners = [
+                    product.0 * least,
+                    product.0 * most,
+                    product.1 * least,
+                    product.1 * most,
+                ];
+                extent_of(&corners)
+            }),
+        }
+    }
+
     /// This and everything that it is made of.
     pub fn parts(&self) -> impl Iterator<Item = &Self> {
         let mut open = vec![self];
@@ -69,6 +117,13 @@ impl Thickness {
             Some(part)
         })
     }
+}
+
+/// The smallest and the largest of some numbers.
+fn extent_of(numbers: &[f64]) -> (f64, f64) {
+    let empty = (f64::INFINITY, f64::NEG_INFINITY);
+    let wider = |(least, most): (f64, f64), &x: &f64| (least.min(x), most.max(x));
+    numbers.iter().fold(empty, wider)
 }
 
 /// What a [`Profile`] runs along.

@@ -2,7 +2,9 @@
 
 use crate::description::Description;
 use crate::rounding::RoundToF32;
-use crate::{Camera, Environment, Light, Material, Object, Problems, RenderSettings, validate};
+use crate::{
+    Camera, Environment, Estimate, Light, Material, Object, Problems, RenderSettings, validate,
+};
 use spectra::{BandTable, LightGroup, SpectralImage};
 use std::path::Path;
 
@@ -59,6 +61,8 @@ pub struct Scene {
     pub(crate) objects: Vec<Object>,
     pub(crate) lights: Vec<Light>,
     pub(crate) environment: Environment,
+    /// Of each material.
+    pub(crate) estimates: Vec<Estimate>,
 }
 
 impl Scene {
@@ -121,6 +125,16 @@ impl Scene {
     /// The material of an object.
     pub fn material(&self, id: MaterialId) -> &Material {
         &self.materials[id.index()]
+    }
+
+    /// How each material divides light, roughly.
+    pub fn estimates(&self) -> &[Estimate] {
+        &self.estimates
+    }
+
+    /// How a material divides light, roughly.
+    pub fn estimate(&self, id: MaterialId) -> &Estimate {
+        &self.estimates[id.index()]
     }
 
     /// All objects.

@@ -470,6 +470,8 @@ fn a_scene_can_be_built_in_code() {
             look_at: [0.0; 3],
             up: [0.0, 1.0, 0.0],
             fov_deg: 30.0,
+            lens: None,
+            filter: description::Filter::Box,
         },
         render: description::Render {
             samples: 2,

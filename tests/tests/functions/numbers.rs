@@ -151,7 +151,7 @@ fn sobol() -> Vec<Check> {
                 "let p = sobol_point(integer(0u));
                  put_integer(0u, p.x); put_integer(2u, p.y); put_integer(4u, p.z); put_integer(6u, p.w);",
             ),
-            proves: &["chosen", "sobol_point"],
+            proves: &["bit_of", "sobol_point"],
             inputs: integer_table_of(2),
             twin: |a| {
                 let point = reference::sobol_point(integer(a, 0).reverse_bits());

@@ -7,8 +7,8 @@ use num_complex::Complex64;
 use pellicle_tests::probe::Probe;
 use pellicle_tests::scenes::small;
 use pellicle_tests::tolerances::{
-    ARITHMETIC, DIRECTION, DISTANCE, EXACT, FILM, FRESNEL, KNOT, LIGHT_PDF, NEAR_LIGHT, SMOOTH,
-    SPECTRUM, SPHERE_DISTANCE,
+    ARITHMETIC, ARITHMETIC_OF_TABLES, DIRECTION, DISTANCE, EXACT, FILM, FILTER, FRESNEL, KNOT,
+    LIGHT_PDF, NEAR_LIGHT, SMOOTH, SPECTRUM, SPHERE_DISTANCE,
 };
 use reference::{Ray, Reflectance};
 use scene::{Material, Scene, Shape, SourceKind};
@@ -75,6 +75,7 @@ pub(crate) fn checks() -> Vec<Check> {
         nearest_hit(),
     ];
     all.extend(cameras());
+    all.extend(splits());
     all.extend(lights());
     all.extend(spectra());
     all.extend(factors());
@@ -170,32 +171,48 @@ pub(crate) fn objects_where(keep: impl Fn(&Shape, &Material) -> bool) -> Vec<usi
 
 // Cameras.
 
-const CAMERA: &str = "let r = camera_ray(vec2u(u32(a(0u)), u32(a(1u))), vec2f(a(2u), a(3u)));
+const CAMERA: &str =
+    "let r = camera_ray(vec2u(u32(a(0u)), u32(a(1u))), vec2f(a(2u), a(3u)), vec2f(a(4u), a(5u)));
     put3(0u, r.origin); put3(3u, r.direction);";
 
 fn camera_twin(world: &World, a: &[f64]) -> Vec<f64> {
-    let ray = reference::camera_ray(&world.scene, [a[0] as u32, a[1] as u32], [a[2], a[3]]);
+    let pixel = [a[0] as u32, a[1] as u32];
+    let ray = reference::sampled_camera_ray(&world.scene, pixel, [a[2], a[3]], [a[4], a[5]]);
     [ray.origin.to_array(), ray.direction.to_array()].concat()
 }
 
 fn cameras() -> Vec<Check> {
     let pixels = || {
         let mut pixels = table(
-            &[(0.0, 96.0), (0.0, 64.0), (0.0, 1.0), (0.0, 1.0)],
             &[
-                &[0.0; 4],
-                &[95.0, 63.0, 0.999_999_94, 0.999_999_94],
-                &[48.0, 32.0, 0.0, 0.0],
+                (0.0, 96.0),
+                (0.0, 64.0),
+                (0.0, 1.0),
+                (0.0, 1.0),
+                (0.0, 1.0),
+                (0.0, 1.0),
+            ],
+            &[
+                &[0.0; 6],
+                &[
+                    95.0,
+                    63.0,
+                    0.999_999_94,
+                    0.999_999_94,
+                    0.999_999_94,
+                    0.999_999_94,
+                ],
+                &[48.0, 32.0, 0.0, 0.0, 0.0, 0.5],
             ],
         );
-        for pixel in pixels.chunks_mut(4) {
+        for pixel in pixels.chunks_mut(6) {
             pixel[0] = pixel[0].floor().min(95.0);
             pixel[1] = pixel[1].floor().min(63.0);
         }
         pixels
     };
     let check = |world: &'static World, twin| Check {
-        probe: world.probe(&["camera"], (4, 6), CAMERA),
+        probe: world.probe(&["camera"], (6, 6), CAMERA),
         proves: &["camera_ray"],
         inputs: pixels(),
         twin,
@@ -204,6 +221,50 @@ fn cameras() -> Vec<Check> {
     vec![
         check(everything(), |a| camera_twin(everything(), a)),
         check(wedge(), |a| camera_twin(wedge(), a)),
+        Check {
+            probe: everything().probe(&["camera"], (1, 1), "put(0u, filter_offset(a(0u)));"),
+            proves: &["filter_offset"],
+            inputs: table(&[(0.0, 1.0)], &[&[0.0], &[0.5], &[0.999_999_94]]),
+            twin: |a| vec![everything().scene.camera().filter.offset_at(a[0])],
+            tolerance: FILTER,
+        },
+    ]
+}
+
+// Where paths divide.
+
+fn splits() -> Vec<Check> {
+    vec![
+        Check {
+            probe: everything().probe(
+                &["split"],
+                (2, 1),
+                "put(0u, reflected_part(u32(a(0u)), a(1u)));",
+            ),
+            proves: &["reflected_part"],
+            inputs: rows(2, |u| {
+                let materials = everything().scene.estimates();
+                let material = (u[0] * materials.len() as f64) as usize;
+                let cosine = (1.02 * u[1]).min(1.0);
+                (!materials[material].reflected.is_empty()).then(|| vec![material as f64, cosine])
+            }),
+            twin: |a| vec![everything().scene.estimates()[a[0] as usize].reflected_at(a[1])],
+            tolerance: ARITHMETIC_OF_TABLES,
+        },
+        Check {
+            probe: everything().probe(
+                &["split"],
+                (1, 2),
+                "put(0u, reflected_share(a(0u))); put(1u, chance_to_go_on(a(0u)));",
+            ),
+            proves: &["chance_to_go_on", "reflected_share"],
+            inputs: table(&[(0.0, 1.2)], &[&[0.0], &[1.0]]),
+            twin: |a| {
+                let chance = reference::chance_to_go_on(a[0]);
+                vec![reference::reflected_share(a[0]), chance]
+            },
+            tolerance: ARITHMETIC,
+        },
     ]
 }
 

@@ -15,14 +15,23 @@ use std::time::Instant;
 type Variant = (&'static str, fn(&mut Render));
 
 /// The first is what the others are compared with.
-const VARIANTS: [Variant; 2] = [
+const VARIANTS: [Variant; 6] = [
     ("independent", |render| {
         render.sampler = Sampler::Independent;
+        render.film_splits = 0;
+        render.roulette_after = render.max_path_segments;
     }),
-    ("sobol", |render| render.sampler = Sampler::Sobol),
+    ("sobol", |render| {
+        render.film_splits = 0;
+        render.roulette_after = render.max_path_segments;
+    }),
+    ("  and roulette", |render| render.film_splits = 0),
+    ("  and 1 split", |render| render.film_splits = 1),
+    ("  and 2 splits", |render| render.film_splits = 2),
+    ("  and 3 splits", |render| render.film_splits = 3),
 ];
 
-/// Width of the pictures; a pixel's noise does not depend on how many there are.
+/// The largest width of the pictures; a pixel's noise does not depend on how many there are.
 const WIDTH: u32 = 64;
 
 /// Prints, of each scene, the variance of each way over that of the first.
@@ -52,7 +61,8 @@ pub(super) fn run(
 fn scene(path: &Path, renderer: &Renderer, samples: u32, seeds: u32) -> miette::Result<()> {
     let mut file = SceneFile::read(path)?;
     let [width, height] = file.description.render.size;
-    file.description.render.size = [WIDTH, (WIDTH * height / width.max(1)).max(1)];
+    let narrow = width.min(WIDTH);
+    file.description.render.size = [narrow, (narrow * height / width.max(1)).max(1)];
     file.description.render.samples = samples;
     let original = file.description.render.clone();
     let shows_film = film_pixels(&file, path.parent().unwrap_or(Path::new(".")))?;

@@ -1,6 +1,11 @@
-//! Tables that renderers look up, made from a scene when it is validated.
+//! What both renderers look up and neither should work out by itself, made once from a validated scene.
 
 pub(crate) mod coats;
 mod energy;
+mod estimate;
+mod filter;
 
 pub use energy::Energy;
+pub use estimate::Estimate;
+pub(crate) use estimate::estimates;
+pub use filter::PixelFilter;

@@ -20,6 +20,12 @@ pub enum Camera {
         /// Vertical field of view in degrees.
         #[schemars(range(min = limits::FOV_DEG.low, max = limits::FOV_DEG.high))]
         fov_deg: f64,
+        /// The lens; without one everything is sharp.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        lens: Option<Lens>,
+        /// How a pixel gathers light from about its middle.
+        #[serde(default)]
+        filter: Filter,
     },
     /// All rays are parallel.
     Orthographic {
@@ -33,7 +39,36 @@ pub enum Camera {
         /// Height of the picture in scene units.
         #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
         height: f64,
+        /// How a pixel gathers light from about its middle.
+        #[serde(default)]
+        filter: Filter,
     },
+}
+
+/// A thin lens.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Lens {
+    /// Radius of its opening, in scene units: the larger, the less is sharp.
+    #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
+    pub radius: f64,
+    /// Distance of the plane that is sharp, along the direction of view; that of `look_at` where it is left out.
+    #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub focus_distance: Option<f64>,
+}
+
+/// How a pixel gathers light from about its middle, in x and in y alike.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Filter {
+    /// Evenly from its own square.
+    #[default]
+    Box,
+    /// By a normal distribution of standard deviation half a pixel, cut off at 1.5 pixels.
+    Gaussian,
+    /// By Blackman and Harris's window of 3 pixels' width (Harris, Proc. IEEE 66, 1978, four terms, −92 dB).
+    BlackmanHarris,
 }
 
 fn up_default() -> [f64; 3] {

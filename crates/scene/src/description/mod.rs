@@ -17,7 +17,7 @@ mod spectrum;
 mod thickness;
 
 pub use crate::settings::DirectLight;
-pub use camera::Camera;
+pub use camera::{Camera, Filter, Lens};
 pub use cook::{
     ConductorModel, ConductorModelName, Cook1981, CookDistribution, CookNormalisation, Slope,
 };

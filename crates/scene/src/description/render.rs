@@ -33,6 +33,18 @@ pub struct Render {
     /// The most segments of a path. The camera ray is the first; the one that reaches a light counts.
     #[schemars(range(min = 1, max = RenderSettings::MAX_PATH_SEGMENTS))]
     pub max_path_segments: u32,
+    /// Film hits, the first of a path from the camera, at which it follows both the reflection and the transmission, so that neither
+    /// is left to luck. After those, and after a diffuse or rough surface, one of both is drawn.
+    #[schemars(range(max = RenderSettings::MAX_FILM_SPLITS))]
+    pub film_splits: u32,
+    /// Segments after which Russian roulette may end a path that carries little light. What is left of the light is right on average.
+    #[schemars(range(min = 1, max = RenderSettings::MAX_PATH_SEGMENTS))]
+    pub roulette_after: u32,
+    /// The largest radiance that a sample may bring in any band: brighter samples are dimmed to it, with their colour. That takes
+    /// away rare bright dots, and some of the light with them. Without it the picture is right on average.
+    #[schemars(range(min = limits::CLAMP.low, max = limits::CLAMP.high))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clamp: Option<f64>,
     /// Exposure of the developed picture in stops: 0 shows radiance 1 at every wavelength as white.
     #[schemars(range(min = limits::EXPOSURE_EV.low, max = limits::EXPOSURE_EV.high))]
     pub exposure_ev: f64,
@@ -92,6 +104,9 @@ impl Default for Render {
             direct_light: DirectLight::Both,
             seed: 0,
             max_path_segments: 12,
+            film_splits: 1,
+            roulette_after: 4,
+            clamp: None,
             exposure_ev: 0.0,
             time_s: 0.0,
             time_step_s: 1.0 / 24.0,

@@ -2,7 +2,7 @@
 
 use super::checks::Checks;
 use crate::limits;
-use crate::{Camera, FieldPath, Projection, description};
+use crate::{Camera, FieldPath, Lens, PixelFilter, Projection, description};
 
 /// Checks `[camera]`.
 pub(crate) fn check(checks: &mut Checks, camera: &description::Camera) -> Option<Camera> {
@@ -34,12 +34,44 @@ pub(crate) fn check(checks: &mut Checks, camera: &description::Camera) -> Option
         (-back, "the direction of view"),
         &[position_field, look_at_field],
     )?;
+    let (lens, filter) = match *camera {
+        description::Camera::Perspective { lens, filter, .. } => {
+            let target_distance = forward.length();
+            let lens = match lens {
+                Some(lens) => Some(check_lens(checks, &top, lens, target_distance)?),
+                None => None,
+            };
+            (lens, filter)
+        }
+        description::Camera::Orthographic { filter, .. } => (None, filter),
+    };
     Some(Camera {
         origin,
         right: up.cross(back),
         up,
         back,
         projection: projection?,
+        lens,
+        filter: PixelFilter::new(filter),
+    })
+}
+
+/// A lens; it is focused on what lies at `target_distance` unless it says otherwise.
+fn check_lens(
+    checks: &mut Checks,
+    top: &FieldPath,
+    lens: description::Lens,
+    target_distance: f64,
+) -> Option<Lens> {
+    let field = top.key("lens");
+    let radius = checks.number(&field.key("radius"), lens.radius, &limits::LENGTH);
+    let focus_distance = match lens.focus_distance {
+        Some(distance) => checks.number(&field.key("focus_distance"), distance, &limits::LENGTH),
+        None => Some(target_distance),
+    };
+    Some(Lens {
+        radius: radius?,
+        focus_distance: focus_distance?,
     })
 }
 

@@ -26,7 +26,7 @@ mod thickness;
 use crate::description::{Description, Index};
 use crate::limits::{MAX_LIGHTS, MAX_MATERIALS, MAX_OBJECTS};
 use crate::problem::{Problem, ProblemKind};
-use crate::{FieldPath, Scene};
+use crate::{FieldPath, Scene, derived};
 use checks::Checks;
 use spectra::OpticalConstants;
 use spectrum_list::SpectrumList;
@@ -79,10 +79,14 @@ pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene
                 .map(|(_, light)| light)
                 .collect(),
             environment: lit.parts.environment,
+            estimates: Vec::new(),
         })
     };
     match assemble() {
-        Some(scene) if checks.problems.is_empty() => Ok(scene),
+        Some(mut scene) if checks.problems.is_empty() => {
+            scene.estimates = derived::estimates(&scene);
+            Ok(scene)
+        }
         _ => Err(checks.problems),
     }
 }

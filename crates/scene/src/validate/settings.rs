@@ -29,6 +29,17 @@ pub(crate) fn check(checks: &mut Checks, render: &Render) -> Checked {
     let most_segments = RenderSettings::MAX_PATH_SEGMENTS;
     let segments = top.key("max_path_segments");
     let max_path_segments = whole(checks, &segments, render.max_path_segments, most_segments);
+    let film_splits = at_most(
+        checks,
+        &top.key("film_splits"),
+        render.film_splits,
+        RenderSettings::MAX_FILM_SPLITS,
+    );
+    let roulette = top.key("roulette_after");
+    let roulette_after = whole(checks, &roulette, render.roulette_after, most_segments);
+    let clamp = render
+        .clamp
+        .map(|clamp| checks.number(&top.key("clamp"), clamp, &limits::CLAMP));
     let exposure = top.key("exposure_ev");
     let exposure_ev = checks.number(&exposure, render.exposure_ev, &limits::EXPOSURE_EV);
     let time_s = checks.number(&top.key("time_s"), render.time_s, &limits::TIME_S);
@@ -48,6 +59,12 @@ pub(crate) fn check(checks: &mut Checks, render: &Render) -> Checked {
             sampling: sampling(render.sampling),
             max_path_segments: max_path_segments?,
             direct_light: render.direct_light,
+            film_splits: film_splits?,
+            roulette_after: roulette_after?,
+            clamp: match clamp {
+                Some(checked) => Some(checked?),
+                None => None,
+            },
             exposure_ev: exposure_ev?,
             time_s: time_s?,
         })
@@ -67,8 +84,22 @@ fn sampling(written: description::WavelengthSampling) -> WavelengthSampling {
 
 /// A whole number from 1 to `most`.
 fn whole(checks: &mut Checks, field: &FieldPath, value: u32, most: u32) -> Option<u32> {
+    whole_from(checks, field, value, (1, most))
+}
+
+/// A whole number from 0 to `most`.
+fn at_most(checks: &mut Checks, field: &FieldPath, value: u32, most: u32) -> Option<u32> {
+    whole_from(checks, field, value, (0, most))
+}
+
+fn whole_from(
+    checks: &mut Checks,
+    field: &FieldPath,
+    value: u32,
+    (least, most): (u32, u32),
+) -> Option<u32> {
     let range = Range {
-        low: 1.0,
+        low: f64::from(least),
         high: f64::from(most),
         unit: "",
     };

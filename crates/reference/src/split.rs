@@ -1,0 +1,20 @@
+//! Where paths divide: at a film into reflection and transmission, both or one of them; and where they end by chance.
+
+/// The least share of the paths that follow the reflection of a film, and the least that follow its transmission: what is seen
+/// faintly may be bright all the same.
+const LEAST_SHARE: f64 = 0.25;
+
+/// The least chance that a path has to go on at Russian roulette, which bounds its weight.
+const LEAST_CHANCE: f64 = 0.05;
+
+/// Share of the paths that follow the reflection of a film of which about the part `reflected` is reflected. It steers noise only:
+/// the weight undoes it.
+pub fn reflected_share(reflected: f64) -> f64 {
+    reflected.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE)
+}
+
+/// Chance that a path goes on through which about the part `throughput` of the light comes. The same for all its wavelengths, so
+/// that each is right on average.
+pub fn chance_to_go_on(throughput: f64) -> f64 {
+    throughput.clamp(LEAST_CHANCE, 1.0)
+}

@@ -1,0 +1,159 @@
+//! Pixel filters, as tables by which samples are spread: a sample then counts for one, wherever it lies.
+
+use crate::description::Filter;
+use crate::rounding::RoundToF32;
+use std::f64::consts::PI;
+
+/// How the samples of a pixel are spread about its middle, in x and in y alike.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PixelFilter(Option<Vec<f64>>);
+
+/// Half the width of the filters that are not a box, in pixels.
+const RADIUS: f64 = 1.5;
+/// Standard deviation of the Gaussian, in pixels.
+const SIGMA: f64 = 0.5;
+/// Steps by which a filter's weight is summed.
+const STEPS: usize = 60_000;
+
+impl PixelFilter {
+    /// Number of knots.
+    pub const KNOTS: usize = 257;
+
+    pub(crate) fn new(filter: Filter) -> Self {
+        match filter {
+            Filter::Box => Self(None),
+            Filter::Gaussian => Self(Some(offsets(|x| (-0.5 * (x / SIGMA).powi(2)).exp()))),
+            Filter::BlackmanHarris => Self(Some(offsets(blackman_harris))),
+        }
+    }
+
+    /// Offsets from a pixel's middle, in pixels, below which 0, 1, … of `KNOTS − 1` equal parts of its weight lie; `None` of a box,
+    /// where they are evenly spaced from −½ to ½.
+    pub fn offsets(&self) -> Option<&[f64]> {
+        self.0.as_deref()
+    }
+
+    /// The offset, in pixels, of a sample with the uniform number `u` in [0, 1): linear between the knots.
+    pub fn offset_at(&self, u: f64) -> f64 {
+        let Some(offsets) = &self.0 else {
+            return u - 0.5;
+        };
+        let place = u * (Self::KNOTS - 1) as f64;
+        let knot = (place as usize).min(Self::KNOTS - 2);
+        offsets[knot] + (place - knot as f64) * (offsets[knot + 1] - offsets[knot])
+    }
+}
+
+impl RoundToF32 for PixelFilter {
+    fn rounded(&self) -> Self {
+        Self(self.0.as_ref().map(RoundToF32::rounded))
+    }
+}
+
+/// The minimum four-term window (Harris, On the Use of Windows for Harmonic Analysis with the Discrete Fourier Transform, Proc. IEEE
+/// 66(1), 1978, equation 33), 1 in the middle.
+fn blackman_harris(x: f64) -> f64 {
+    let terms = [0.358_75, 0.488_29, 0.141_28, 0.011_68];
+    let turn = PI * x / RADIUS;
+    let cosines = terms.into_iter().enumerate();
+    cosines.map(|(i, a)| a * (i as f64 * turn).cos()).sum()
+}
+
+/// Where the running integral of a filter reaches each part of the whole.
+fn offsets(weight: impl Fn(f64) -> f64) -> Vec<f64> {
+    let width = 2.0 * RADIUS / STEPS as f64;
+    let middle = |step: usize| -RADIUS + (step as f64 + 0.5) * width;
+    let whole: f64 = (0..STEPS).map(|step| weight(middle(step))).sum();
+    let parts = (PixelFilter::KNOTS - 1) as f64;
+    let mut found = vec![-RADIUS];
+    let mut sum = 0.0;
+    for step in 0..STEPS {
+        let own = weight(middle(step)) * parts / whole;
+        while (found.len() as f64) <= sum + own && found.len() < PixelFilter::KNOTS - 1 {
+            let inside = (found.len() as f64 - sum) / own;
+            found.push(middle(step) + (inside - 0.5) * width);
+        }
+        sum += own;
+    }
+    found.push(RADIUS);
+    // Even filters, evenly: the sums of rounding errors are not.
+    let mirrored = found.iter().rev().map(|x| -x);
+    found
+        .iter()
+        .zip(mirrored)
+        .map(|(a, b)| 0.5 * (a + b))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// Mean of a power of the offset over uniform numbers.
+    fn moment(filter: &PixelFilter, power: i32) -> f64 {
+        let count = 100_000;
+        let at = |i: i32| filter.offset_at((f64::from(i) + 0.5) / f64::from(count));
+        (0..count).map(|i| at(i).powi(power)).sum::<f64>() / f64::from(count)
+    }
+
+    /// Variances: 1/12 of a box; of the Gaussian σ² (1 − 2 a φ(a) / (2Φ(a) − 1)) with a = 3 cut-off deviations, 0.973 337 σ²; of the
+    /// window, by its integrals, r² (1/3 + Σ 2 aₖ (−1)ᵏ / (a₀ (kπ)²)).
+    #[test]
+    fn the_spread_is_that_of_the_filter() {
+        let box_filter = PixelFilter::new(Filter::Box);
+        assert!((moment(&box_filter, 2) - 1.0 / 12.0).abs() < 1e-6);
+        let gaussian = PixelFilter::new(Filter::Gaussian);
+        let expected = 0.973_337 * SIGMA * SIGMA;
+        let found = moment(&gaussian, 2);
+        assert!((found / expected - 1.0).abs() < 2e-3, "{found} {expected}");
+        let window = PixelFilter::new(Filter::BlackmanHarris);
+        let terms = [(1.0, 0.488_29), (2.0, 0.141_28), (3.0, 0.011_68)];
+        let sum: f64 = terms
+            .iter()
+            .map(|&(k, a)| 2.0 * a * (k * PI).cos() / (0.358_75 * (k * PI).powi(2)))
+            .sum();
+        let expected = RADIUS * RADIUS * (1.0 / 3.0 + sum);
+        let found = moment(&window, 2);
+        assert!((found / expected - 1.0).abs() < 2e-3, "{found} {expected}");
+        for filter in [box_filter, gaussian, window] {
+            assert!(moment(&filter, 1).abs() < 1e-9);
+            assert!(filter.offset_at(0.5).abs() < 1e-12);
+        }
+    }
+
+    /// Chi-square of the offsets against the filter itself, over 30 cells of equal width: 29 degrees of freedom, 0.1 % above. The
+    /// table's own error is far below the noise of 20 000 samples.
+    #[test]
+    fn samples_are_spread_by_the_filter() {
+        let chi2 = |filter: &PixelFilter, weight: &dyn Fn(f64) -> f64| {
+            const CELLS: usize = 30;
+            let width = 2.0 * RADIUS / CELLS as f64;
+            let mut met = [0.0; CELLS];
+            let count = 20_000;
+            for i in 0..count {
+                let u = (f64::from(i) * (TAU.sqrt() - 1.0)).fract();
+                met[((filter.offset_at(u) + RADIUS) / width) as usize] += 1.0;
+            }
+            let fine = |cell: usize| {
+                let at = |i: i32| -RADIUS + width * (cell as f64 + (f64::from(i) + 0.5) / 100.0);
+                (0..100).map(|i| weight(at(i))).sum::<f64>()
+            };
+            let whole: f64 = (0..CELLS).map(fine).sum();
+            let of_cell = |cell: usize| {
+                let expected = f64::from(count) * fine(cell) / whole;
+                (met[cell] - expected).powi(2) / expected.max(1.0)
+            };
+            (0..CELLS).map(of_cell).sum::<f64>()
+        };
+        let normal = |x: f64| (-0.5 * (x / SIGMA).powi(2)).exp();
+        let gaussian = PixelFilter::new(Filter::Gaussian);
+        let window = PixelFilter::new(Filter::BlackmanHarris);
+        assert!(chi2(&gaussian, &normal) < 58.3);
+        assert!(chi2(&window, &blackman_harris) < 58.3);
+        assert!(
+            chi2(&gaussian, &blackman_harris) > 58.3,
+            "another filter is noticed"
+        );
+    }
+}

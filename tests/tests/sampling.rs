@@ -1,0 +1,184 @@
+//! The ways to draw paths: each gives the same picture on average, and those that are said to leave less noise do.
+
+use gpu::Gpu;
+use pellicle_tests::device::open;
+use pellicle_tests::frames::same_expectation;
+use pellicle_tests::scenes::file;
+use scene::description::{Camera, Filter, Render, Sampler};
+use spectra::SpectralImage;
+use std::ops::ControlFlow;
+
+const SIZE: [u32; 2] = [32, 24];
+const BANDS: u32 = 6;
+
+/// A render with settings of its own.
+fn rendered(
+    gpu: &Gpu,
+    name: &str,
+    samples: u32,
+    seed: u32,
+    set: impl Fn(&mut Render),
+) -> SpectralImage {
+    let mut file = file(name);
+    let render = &mut file.description.render;
+    (render.size, render.bands, render.samples, render.seed) = (SIZE, BANDS, samples, seed);
+    (render.clamp, render.sampler) = (None, Sampler::Independent);
+    set(render);
+    let scene = file
+        .validate()
+        .unwrap_or_else(|problems| panic!("{problems}"));
+    gpu::render(gpu, &scene, &mut |_| ControlFlow::Continue(()))
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// No splits, no roulette.
+fn plain(render: &mut Render) {
+    render.film_splits = 0;
+    render.roulette_after = render.max_path_segments;
+}
+
+type Way = (&'static str, fn(&mut Render));
+
+/// Every option against the plain one, on a bubble and on everything; their variances are those of independent samples, or (of
+/// Sobol's) larger than they are.
+#[test]
+fn every_way_to_draw_paths_has_the_same_expectation() {
+    let options: [Way; 4] = [
+        ("one split", |render| render.film_splits = 1),
+        ("three splits", |render| render.film_splits = 3),
+        ("roulette at once", |render| render.roulette_after = 1),
+        ("Sobol, two splits and roulette", |render| {
+            render.sampler = Sampler::Sobol;
+            (render.film_splits, render.roulette_after) = (2, 2);
+        }),
+    ];
+    let gpu = open();
+    let mut wrong = Vec::new();
+    for name in ["floating_bubble", "everything"] {
+        let expected = rendered(&gpu, name, 256, 5, plain);
+        for (what, set) in options {
+            let found = rendered(&gpu, name, 192, 6, |render| {
+                plain(render);
+                set(render);
+            });
+            match same_expectation(&found, &expected) {
+                Ok(report) => println!("{name}, {what}: {report}"),
+                Err(report) => wrong.push(format!("{name}, {what}: {report}")),
+            }
+        }
+        // The comparison can fail: the clamp takes light away.
+        let dimmed = rendered(&gpu, name, 192, 6, |render| render.clamp = Some(0.2));
+        assert!(same_expectation(&dimmed, &expected).is_err(), "{name}");
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Mean variance of the pixels of renders with different seeds.
+fn variance(gpu: &Gpu, name: &str, set: impl Fn(&mut Render)) -> f64 {
+    const SEEDS: u32 = 5;
+    let images: Vec<_> = (0..SEEDS)
+        .map(|seed| rendered(gpu, name, 64, seed, &set))
+        .collect();
+    let count = images[0].radiance().len();
+    let of_value = |i: usize| {
+        let values = images.iter().map(|image| f64::from(image.radiance()[i]));
+        let mean = values.clone().sum::<f64>() / f64::from(SEEDS);
+        values.map(|v| (v - mean).powi(2)).sum::<f64>() / f64::from(SEEDS - 1)
+    };
+    (0..count).map(of_value).sum::<f64>() / count as f64
+}
+
+/// Half of what `pellicle bench --variance` finds, so that chance cannot undo it.
+#[test]
+fn sobol_points_leave_less_than_half_the_variance() {
+    let gpu = open();
+    for name in ["soap_bubble", "metal_spheres"] {
+        let independent = variance(&gpu, name, plain);
+        let sobol = variance(&gpu, name, |render| {
+            plain(render);
+            render.sampler = Sampler::Sobol;
+        });
+        println!("{name}: {:.2}", independent / sobol);
+        assert!(sobol < 0.5 * independent, "{name}: {sobol} {independent}");
+    }
+}
+
+/// No sample is brighter than the clamp, and darker ones are as they were.
+#[test]
+fn the_clamp_bounds_every_sample() {
+    let gpu = open();
+    let single = |clamp| rendered(&gpu, "everything", 1, 3, |render| render.clamp = clamp);
+    let (free, bounded) = (single(None), single(Some(0.3)));
+    let bands = BANDS as usize;
+    let pixels = free
+        .radiance()
+        .chunks(bands)
+        .zip(bounded.radiance().chunks(bands));
+    let mut dimmed = 0;
+    for (free, bounded) in pixels {
+        let brightest = free.iter().copied().fold(0.0, f32::max);
+        let factor = if brightest > 0.3 {
+            0.3 / brightest
+        } else {
+            1.0
+        };
+        dimmed += u32::from(factor < 1.0);
+        for (a, b) in free.iter().zip(bounded) {
+            assert!(
+                (factor * a - b).abs() <= 1e-6,
+                "{a} became {b}, not {}",
+                factor * a
+            );
+        }
+    }
+    assert!(dimmed > 20, "{dimmed} pixels were dimmed");
+}
+
+/// A lens and a filter spread light and neither add nor take any: in a white furnace nothing changes, and before an edge the
+/// mean of the picture stays.
+#[test]
+fn lens_and_filter_keep_the_light() {
+    let gpu = open();
+    let mean = |lens: Option<scene::description::Lens>, filter: Filter| {
+        let mut file = file("floating_bubble");
+        let render = &mut file.description.render;
+        (render.size, render.bands, render.samples) = (SIZE, BANDS, 256);
+        if let Camera::Perspective {
+            lens: l, filter: f, ..
+        } = &mut file.description.camera
+        {
+            (*l, *f) = (lens, filter);
+        }
+        let scene = file
+            .validate()
+            .unwrap_or_else(|problems| panic!("{problems}"));
+        let image = gpu::render(&gpu, &scene, &mut |_| ControlFlow::Continue(()))
+            .unwrap_or_else(|error| panic!("{error}"));
+        let sum: f64 = image.radiance().iter().map(|&v| f64::from(v)).sum();
+        sum / image.radiance().len() as f64
+    };
+    let sharp = mean(None, Filter::Box);
+    for filter in [Filter::Gaussian, Filter::BlackmanHarris] {
+        let found = mean(None, filter);
+        // What a filter brings in over the picture's edges is not what it lets out there.
+        assert!(
+            (found / sharp - 1.0).abs() < 0.02,
+            "{filter:?}: {found} {sharp}"
+        );
+    }
+    let lens = scene::description::Lens {
+        radius: 0.02,
+        focus_distance: None,
+    };
+    let found = mean(Some(lens), Filter::Box);
+    assert!((found / sharp - 1.0).abs() < 0.02, "lens: {found} {sharp}");
+    let wide = scene::description::Lens {
+        radius: 3.0,
+        ..lens
+    };
+    let other = mean(Some(wide), Filter::Box);
+    assert!(
+        (other / sharp - 1.0).abs() > 1e-4,
+        "a wide lens sees the same: {other} {sharp}"
+    );
+}
