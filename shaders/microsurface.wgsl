@@ -52,8 +52,8 @@ fn smith_lambda(surface: Microsurface, direction: vec3f) -> f32 {
     if (a > 6.0) {
         return 0.0;
     }
-    let scaled = 0.5641895835 / a - scaled_erfc(a); // 1 / √π
-    return 0.5 * exp(-a * a) * max(scaled, 0.0);
+    let rest = 0.5641895835 / a - scaled_erfc(a); // 1 / √π
+    return 0.5 * exp(-a * a) * max(rest, 0.0);
 }
 
 struct Reflection {

@@ -171,7 +171,7 @@ pub const VARIANCES: VarianceTolerance = VarianceTolerance {
 pub const CLOSED_FORM: f64 = 2e-5;
 /// Albedo of rough metals: the tables of facets' energy are linear between 32 cosines and made by 48² facets.
 pub const ROUGH_FORM: f64 = 5e-4;
-/// White furnace of rough surfaces: what the tables of facets' energy promise, noise of 65 536 samples included.
+/// White furnace of rough surfaces: what the tables of facets' energy promise, besides the noise; and the most noise that proves it.
 pub const FURNACE_ROUGH: f64 = 5e-3;
 /// Closed forms that no random number touches: a Fresnel quotient or an interpolation, in f32.
 pub const CLOSED_FORM_EXACT: f64 = 5e-6;

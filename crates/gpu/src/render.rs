@@ -1,6 +1,6 @@
 //! Running a scene on a device and reading the picture back.
 
-use crate::layout::{Batch, Field, Material, NUMBERS_WIDTH, TEXELS_WIDTH, WORKGROUP_SIDE};
+use crate::layout::{self, Batch, Field, NUMBERS_WIDTH, TEXELS_WIDTH, WORKGROUP_SIDE};
 use crate::modules::Shader;
 use crate::tiles::{Division, Planner, Tile};
 use crate::{DeviceError, Gpu, PackedScene};
@@ -268,14 +268,24 @@ pub fn bind_scene(gpu: &Gpu, packed: &PackedScene) -> Result<SceneBindings, Rend
     let fewer = "use fewer of them";
     let buffers = [
         frame,
-        storage("objects", bytemuck::cast_slice(&packed.objects), 80, fewer)?,
+        storage(
+            "objects",
+            bytemuck::cast_slice(&packed.objects),
+            size_of::<layout::Object>(),
+            fewer,
+        )?,
         storage(
             "materials",
             bytemuck::cast_slice(&packed.materials),
-            size_of::<Material>(),
+            size_of::<layout::Material>(),
             fewer,
         )?,
-        storage("layers", bytemuck::cast_slice(&packed.layers), 16, fewer)?,
+        storage(
+            "layers",
+            bytemuck::cast_slice(&packed.layers),
+            size_of::<layout::Layer>(),
+            fewer,
+        )?,
         storage(
             "spectra",
             bytemuck::cast_slice(&packed.spectra),

@@ -56,7 +56,9 @@ fn defaults_are_the_documented_ones() {
     assert_eq!(settings.sampling, WavelengthSampling::Random);
     assert_eq!(settings.exposure_ev, 0.0);
     assert!(
-        scene.objects().is_empty() && scene.materials().is_empty() && scene.lights().is_empty()
+        scene.objects().is_empty()
+            && scene.materials().is_empty()
+            && scene.light_sources().is_empty()
     );
     let Environment::Constant(Emission {
         spectrum, scale, ..
@@ -349,7 +351,8 @@ reflectance = 0.5
         object("on", rectangle),
     ];
     let scene = scene(&format!("{materials}{}", objects.concat()));
-    assert_eq!(scene.lights(), [1, 5]);
+    let sources: Vec<_> = scene.light_sources().iter().map(|s| s.kind).collect();
+    assert_eq!(sources, [1, 5].map(SourceKind::Object));
     let names: [MaterialId; 2] = [scene.objects()[0].material, scene.objects()[1].material];
     assert!(matches!(scene.material(names[0]), Material::Diffuse { .. }));
     assert!(matches!(scene.material(names[1]), Material::Emitter { .. }));

@@ -1,0 +1,186 @@
+//! Lights: units of emission, and lights that are no objects.
+
+use pellicle_scene::{LightShape, Problems, Scene, SceneFile, SourceKind};
+use std::f64::consts::PI;
+use std::path::Path;
+
+const CAMERA: &str =
+    "[camera]\ntype = 'perspective'\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nfov_deg = 40\n";
+
+fn read(rest: &str) -> Result<Scene, Problems> {
+    let text = format!("{CAMERA}{rest}");
+    SceneFile::parse("lights.toml", &text, Path::new("")).and_then(|file| file.validate())
+}
+
+fn scene(rest: &str) -> Scene {
+    read(rest).unwrap_or_else(|problems| panic!("{problems:#}"))
+}
+
+/// The only problem: its field and what it says.
+fn refused(rest: &str, field: &str, phrases: &[&str]) {
+    let Err(problems) = read(rest) else {
+        panic!("accepted: {rest}");
+    };
+    let all: Vec<_> = problems.iter().collect();
+    assert_eq!(all.len(), 1, "{problems:#}");
+    assert_eq!(all[0].field.to_string(), field, "{problems:#}");
+    let said = format!(
+        "{} | {}",
+        all[0].message,
+        all[0].help.clone().unwrap_or_default()
+    );
+    for phrase in phrases {
+        assert!(said.contains(phrase), "{said:?} lacks {phrase:?}");
+    }
+}
+
+fn emitter(emission: &str, shape: &str) -> String {
+    format!(
+        "[materials.lamp]\ntype = 'emitter'\nemission = {{ {emission} }}\n[[objects]]\nmaterial = 'lamp'\n{shape}\n"
+    )
+}
+
+const SPHERE: &str = "type = 'sphere'\ncenter = [0, 0, 0]\nradius = 0.5";
+const PLANE: &str = "type = 'plane'\npoint = [0, 0, 0]\nnormal = [0, 1, 0]";
+
+fn scale(scene: &Scene) -> f64 {
+    scene.light_sources()[0].emission.scale
+}
+
+#[test]
+fn units_become_the_factor_of_the_spectrum() {
+    let of = |emission: &str| scale(&scene(&emitter(emission, SPHERE)));
+    assert_eq!(of("constant = 2"), 1.0);
+    assert_eq!(of("constant = 2, scale = 3"), 3.0);
+    // 400 nm of 2 W m⁻² sr⁻¹ nm⁻¹.
+    assert!((of("constant = 2, radiance = 1600") - 2.0).abs() < 1e-12);
+    // Φ = π A L with A = 4π r².
+    let watts = 800.0 * PI * 4.0 * PI * 0.25;
+    assert!((of(&format!("constant = 2, power_w = {watts}")) - 1.0).abs() < 1e-12);
+    // ∫ ȳ dλ from 380 to 780 nm is 106.857 nm for the table of 1 nm (CIE 018:2019 gives 106.857).
+    assert!((of("constant = 1, luminance_cd_m2 = 683") * 106.857 - 1.0).abs() < 1e-4);
+}
+
+#[test]
+fn each_object_has_the_power_of_its_material() {
+    let small = "type = 'sphere'\ncenter = [2, 0, 0]\nradius = 0.25";
+    let text = emitter("constant = 1, power_w = 10", SPHERE);
+    let scene = scene(&format!("{text}[[objects]]\nmaterial = 'lamp'\n{small}\n"));
+    let sources = scene.light_sources();
+    assert_eq!(sources.len(), 2);
+    let ratio = sources[1].emission.scale / sources[0].emission.scale;
+    assert!((ratio - 4.0).abs() < 1e-12, "{ratio}");
+    assert_eq!(scene.light_groups().len(), 1);
+}
+
+#[test]
+fn a_plane_has_no_power() {
+    refused(
+        &emitter("constant = 1, power_w = 10", PLANE),
+        "objects[0].material",
+        &["no bounds", "power_w", "rectangle"],
+    );
+}
+
+#[test]
+fn a_light_has_one_unit_and_one_that_fits() {
+    refused(
+        &emitter("constant = 1, scale = 2, radiance = 3", SPHERE),
+        "materials.lamp.emission.radiance",
+        &["`scale` beside `radiance`", "one of them"],
+    );
+    refused(
+        &emitter("constant = 1, illuminance_lux = 3", SPHERE),
+        "materials.lamp.emission.illuminance_lux",
+        &["an emitter has no", "`luminance_cd_m2`", "`power_w`"],
+    );
+    let point = "[[lights]]\ntype = 'point'\nposition = [0, 1, 0]\nemission = { constant = 1, radiance = 1 }\n";
+    refused(
+        point,
+        "lights[0].emission.radiance",
+        &["`intensity_cd`", "`power_w`"],
+    );
+    let laser = "[[lights]]\ntype = 'distant'\ndirection = [0, 1, 0]\ndiameter_deg = 0\nemission = { constant = 1, luminance_cd_m2 = 1 }\n";
+    refused(
+        laser,
+        "lights[0].emission.luminance_cd_m2",
+        &["without a diameter", "`illuminance_lux`"],
+    );
+    refused(
+        &emitter("constant = 1, radiance = -1", SPHERE),
+        "materials.lamp.emission.radiance",
+        &["found -1"],
+    );
+    refused(
+        &emitter("constant = 0, radiance = 1", SPHERE),
+        "materials.lamp.emission.radiance",
+        &["0 over the scene"],
+    );
+    refused(
+        &emitter("constant = 1, radiance = 1e12", SPHERE),
+        "materials.lamp.emission.radiance",
+        &["at most 1000000000"],
+    );
+}
+
+#[test]
+fn bad_shapes_of_lights_are_told() {
+    let spot = |angles: &str| {
+        format!(
+            "[[lights]]\ntype = 'spot'\nposition = [0, 1, 0]\ndirection = [0, -1, 0]\nemission = {{ constant = 1 }}\n{angles}\n"
+        )
+    };
+    refused(
+        &spot("angle_deg = 40\nfull_angle_deg = 45"),
+        "lights[0].full_angle_deg",
+        &["0 to 39.6"],
+    );
+    refused(
+        &spot("angle_deg = 200"),
+        "lights[0].angle_deg",
+        &["0.1 to 180"],
+    );
+    let distant = |rest: &str| {
+        format!("[[lights]]\ntype = 'distant'\nemission = {{ constant = 1 }}\n{rest}\n")
+    };
+    refused(
+        &distant("direction = [0, 0, 0]"),
+        "lights[0].direction",
+        &["no direction"],
+    );
+    refused(
+        &distant("direction = [0, 1, 0]\ndiameter_deg = 0.001"),
+        "lights[0].diameter_deg",
+        &["0 or at least 0.01"],
+    );
+    refused(
+        &distant("direction = [0, 1, 0]\nlight_group = 'a b'"),
+        "lights[0].light_group",
+        &["cannot be the name"],
+    );
+}
+
+#[test]
+fn the_sun_is_half_a_degree_wide_and_discs_come_first() {
+    let text = "[[lights]]\ntype = 'point'\nposition = [0, 1, 0]\nemission = { constant = 1 }\nlight_group = 'lamp'\n\
+                [[lights]]\ntype = 'distant'\ndirection = [0, 2, 0]\nemission = { constant = 3 }\nlight_group = 'sun'\n";
+    let scene = scene(text);
+    let LightShape::Disc { height, .. } = scene.lights()[0].shape else {
+        panic!("{:?}", scene.lights());
+    };
+    let half: f64 = (1.0 - height).acos().to_degrees();
+    assert!((2.0 * half - 0.533).abs() < 1e-6, "{half}");
+    let kinds: Vec<_> = scene
+        .light_sources()
+        .iter()
+        .map(|source| source.kind)
+        .collect();
+    assert_eq!(kinds, [SourceKind::Environment(1), SourceKind::Light(1)]);
+    let names: Vec<_> = scene
+        .light_groups()
+        .iter()
+        .map(|group| group.name.as_str())
+        .collect();
+    let of = |index: usize| names[scene.lights()[index].emission.light_group.index()];
+    assert_eq!((of(0), of(1)), ("sun", "lamp"));
+}
