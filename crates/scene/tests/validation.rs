@@ -8,7 +8,7 @@ use glam::DVec3;
 use pellicle_scene::description::{self, Description};
 use pellicle_scene::{
     Emission, Environment, Interference, Material, MaterialId, Pattern, Problems, Projection,
-    Scene, SceneFile, Shape, Thickness, WavelengthSampling,
+    Scene, SceneFile, Shape, SourceKind, Thickness, WavelengthSampling,
 };
 use std::path::Path;
 
@@ -485,6 +485,7 @@ fn a_scene_can_be_built_in_code() {
             ),
         )]
         .into(),
+        lights: Vec::new(),
         objects: vec![description::Object::Sphere {
             material: "soap".to_owned(),
             center: [0.0; 3],

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 /// What surrounds the objects.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
+#[expect(clippy::large_enum_variant, reason = "a scene has one of them")]
 pub enum Environment {
     /// The same radiance from every direction.
     Constant {

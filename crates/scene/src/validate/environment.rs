@@ -22,7 +22,7 @@ pub(crate) fn check(
         None => {
             let black = description::Emission {
                 spectrum: description::EmissionSpectrum::Constant { constant: 0.0 },
-                strength: description::Strength::default(),
+                strength: description::Strength::scale(0.0),
             };
             emission("emission", &black).map(Environment::Constant)
         }

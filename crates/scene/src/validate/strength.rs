@@ -49,8 +49,8 @@ impl Radiator {
                 Some(if solid > 0.0 { 1.0 / solid } else { 1.0 })
             }
             (Self::Distant(solid), "radiance" | "luminance_cd_m2") => (solid > 0.0).then_some(1.0),
-            (_, "scale") => Some(1.0),
-            (
+            (_, "scale")
+            | (
                 Self::Emitter | Self::Surroundings | Self::PartOfSurroundings,
                 "radiance" | "luminance_cd_m2",
             )
