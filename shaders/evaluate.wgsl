@@ -107,9 +107,17 @@ fn lobes_value(vertex: Vertex, lobes: Lobes, group: u32, at: Wavelengths) -> vec
     return lobes.single * factor_value(factor, group, at);
 }
 
-/// The spectrum of a light.
+/// The spectrum of a light, times that of a texel of its picture. Texel 0 is none: a head stands there.
 fn light_value(light: u32, texel: u32, group: u32, at: Wavelengths) -> vec4f {
-    return spectrum_at(light_spectrum(light), group, at);
+    let lamp = spectrum_at(light_spectrum(light), group, at);
+    if (!HAS_ENVIRONMENT_PICTURE || texel == 0u) {
+        return lamp;
+    }
+    if (HAS_SPECTRAL_PICTURE) {
+        return lamp * texel_at(texel + group);
+    }
+    let pixel = texel_at(texel);
+    return lamp * pixel.w * smooth_value(pixel.xyz, group, at);
 }
 
 /// Radiance that a vertex receives straight from a light and scatters, before the path's throughput.

@@ -24,3 +24,6 @@ override HAS_PICTURES: bool = true;
 override HAS_SPHERE_LIGHTS: bool = true;
 override HAS_RECTANGLE_LIGHTS: bool = true;
 override HAS_ENVIRONMENT: bool = true;
+override HAS_ENVIRONMENT_PICTURE: bool = true;
+override HAS_SPECTRAL_PICTURE: bool = true;
+override HAS_PANORAMA: bool = true;

@@ -9,7 +9,7 @@ fn trace_path(sample: Sample) -> Wavelengths {
         let hit = nearest_hit(walk.ray, walk.from_object);
         if (hit.object == NONE) {
             if (HAS_ENVIRONMENT) {
-                record_environment(walk.ray.direction);
+                record_environment(walk, sample);
             }
             break;
         }
@@ -21,11 +21,17 @@ fn trace_path(sample: Sample) -> Wavelengths {
 }
 
 /// The radiance of the surroundings, part by part.
-fn record_environment(direction: vec3f) {
+fn record_environment(walk: Walk, sample: Sample) {
+    let direction = walk.ray.direction;
     for (var i = 0u; i < frame.environment_count; i++) {
         let part = frame.first_environment + i;
         let material = objects[part].material;
-        push_emission(materials[material].emission, materials[material].emission_scale * environment_share(part, direction));
+        var texel = 0u;
+        if (HAS_ENVIRONMENT_PICTURE) {
+            texel = environment_texel(part, direction, random_at(sample, walk, 0u).w);
+        }
+        let weight = materials[material].emission_scale * environment_share(part, direction);
+        push_emission(materials[material].emission, texel, weight);
     }
 }
 

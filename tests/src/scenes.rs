@@ -59,6 +59,7 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "connect",
     "connection_value",
     "emission_share",
+    "environment_texel",
     "factor_source",
     "free_stack_value",
     "is_lit",

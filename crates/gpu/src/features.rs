@@ -1,8 +1,8 @@
 //! What a scene has, so that its pipeline leaves out the rest: the values of `shaders/features.wgsl`.
 
 use scene::{
-    Coordinate, Environment, Interference, Material, PathDifference, Pattern, Profile, Scene,
-    Shape, Thickness,
+    Coordinate, Environment, Interference, Material, PathDifference, Pattern, PictureSpectra,
+    Profile, Projection, Scene, Shape, Thickness,
 };
 
 /// Constants of a pipeline by name: 1 where the scene has the thing, 0 where it has not.
@@ -77,6 +77,18 @@ impl Features {
             ("HAS_SPHERE_LIGHTS", light(is_sphere)),
             ("HAS_RECTANGLE_LIGHTS", light(is_rectangle)),
             ("HAS_ENVIRONMENT", !is_dark(scene.environment())),
+            (
+                "HAS_ENVIRONMENT_PICTURE",
+                picture_of(scene.environment()).is_some(),
+            ),
+            (
+                "HAS_SPECTRAL_PICTURE",
+                picture_of(scene.environment()) == Some(PictureSpectra::Bands),
+            ),
+            (
+                "HAS_PANORAMA",
+                scene.camera().projection == Projection::Panorama,
+            ),
         ];
         Self(
             named
@@ -217,7 +229,7 @@ impl FilmForm {
 
 fn is_dark(environment: &Environment) -> bool {
     match environment {
-        Environment::Constant(all) => all.scale == 0.0,
+        Environment::Constant(all) | Environment::Picture { emission: all, .. } => all.scale == 0.0,
         Environment::Gradient {
             zenith,
             horizon,
@@ -225,5 +237,13 @@ fn is_dark(environment: &Environment) -> bool {
         } => [zenith, horizon, ground]
             .iter()
             .all(|emission| emission.scale == 0.0),
+    }
+}
+
+/// What the pixels of surroundings hold that are a picture.
+fn picture_of(environment: &Environment) -> Option<PictureSpectra> {
+    match environment {
+        Environment::Picture { picture, .. } => Some(picture.spectra),
+        _ => None,
     }
 }

@@ -123,6 +123,8 @@ constants! { CONSTANTS;
     pub const PROJECTION_PERSPECTIVE = 0;
     /// Projection: all rays run in parallel.
     pub const PROJECTION_ORTHOGRAPHIC = 1;
+    /// Projection: all directions from the camera's origin by longitude and latitude.
+    pub const PROJECTION_PANORAMA = 2;
 
     /// Shape: a sphere.
     pub const SHAPE_SPHERE = 0;
@@ -138,6 +140,8 @@ constants! { CONSTANTS;
     pub const SHAPE_HORIZON = 17;
     /// Shape that no ray meets: surroundings by the cosine with `normal`, where it is above 0.
     pub const SHAPE_POLE = 18;
+    /// Shape that no ray meets: surroundings by a picture, its middle towards `normal`, its right half towards `tangent`.
+    pub const SHAPE_PICTURE = 19;
 
     /// Surface: Lambertian.
     pub const SURFACE_DIFFUSE = 0;
@@ -302,8 +306,8 @@ structs! { STRUCTS;
         pub is_light: u32,
         /// The light that has this object's number is the object `light`; NONE past the last light.
         pub light: u32,
-        /// Fills the size up to a multiple of 16.
-        pub padding: u32,
+        /// The head of its picture, of surroundings.
+        pub picture: u32,
     }
 
     /// What a surface is made of.

@@ -47,13 +47,14 @@ pub const MODULES: &[Module] = modules! {
     "texels": ["bindings", "layout"];
     "spectrum": ["bindings"];
     "lifting": ["bindings", "spectrum"];
-    "camera": ["bindings", "layout"];
+    "camera": ["bindings", "features", "layout", "trig"];
     "noise": ["bindings", "features", "layout", "random"];
     "picture": ["bindings", "features", "layout", "texels", "trig"];
     "thickness": ["bindings", "features", "layout", "noise", "numbers", "picture", "trig"];
     "surface": ["bindings", "camera", "features", "layout"];
     "hit": ["bindings", "camera", "features", "intersect", "layout"];
-    "environment": ["bindings", "layout", "sampling", "trig"];
+    "environment_picture": ["bindings", "numbers", "picture", "texels", "trig"];
+    "environment": ["bindings", "environment_picture", "features", "layout", "sampling", "trig"];
     "light": ["bindings", "features", "layout", "sampling", "trig"];
     "record": ["layout", "limits"];
     "walk": ["bindings", "camera", "random", "surface"];
@@ -61,7 +62,7 @@ pub const MODULES: &[Module] = modules! {
     "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "scatter", "surface", "walk"];
     "scatter": ["bindings", "features", "layout", "microfacet", "record", "sampling", "trig"];
     "path": [
-        "bindings", "camera", "connect", "environment", "factor", "features", "hit", "layout", "light", "random", "record", "sampling", "scatter",
+        "bindings", "camera", "connect", "environment", "environment_picture", "factor", "features", "hit", "layout", "light", "random", "record", "sampling", "scatter",
         "spectrum", "surface", "walk"
     ];
     "evaluate": [

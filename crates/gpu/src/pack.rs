@@ -70,7 +70,11 @@ impl PackedScene {
             })
             .collect();
         for part in scene.environment().parts() {
-            objects.push(pack_environment(&part, materials.len()));
+            let mut packed = pack_environment(&part, materials.len());
+            if let EnvironmentShape::Picture(picture) = part.shape {
+                packed.picture = pictures.add_environment(picture, &mut fields.numbers);
+            }
+            objects.push(packed);
             materials.push(pack_emitter(part.emission));
         }
         let spectra = scene
@@ -132,6 +136,7 @@ fn pack_frame(scene: &Scene, light_count: u32) -> Frame {
     let (projection, half_height) = match camera.projection {
         Projection::Perspective { half_height } => (layout::PROJECTION_PERSPECTIVE, half_height),
         Projection::Orthographic { half_height } => (layout::PROJECTION_ORTHOGRAPHIC, half_height),
+        Projection::Panorama => (layout::PROJECTION_PANORAMA, 0.0),
     };
     Frame {
         camera_origin: vec3(camera.origin),
@@ -230,17 +235,22 @@ fn pack_object(object: &Object, is_light: bool, light: u32) -> layout::Object {
 }
 
 /// A part of the surroundings, an object that no ray meets.
-fn pack_environment(part: &EnvironmentPart, material: usize) -> layout::Object {
-    let (shape, normal) = match part.shape {
-        EnvironmentShape::Everywhere => (layout::SHAPE_EVERYWHERE, DVec3::ZERO),
-        EnvironmentShape::Horizon => (layout::SHAPE_HORIZON, DVec3::ZERO),
-        EnvironmentShape::Pole(pole) => (layout::SHAPE_POLE, pole),
+fn pack_environment(part: &EnvironmentPart<'_>, material: usize) -> layout::Object {
+    let nowhere = DVec3::ZERO;
+    let (shape, normal, tangent) = match part.shape {
+        EnvironmentShape::Everywhere => (layout::SHAPE_EVERYWHERE, nowhere, nowhere),
+        EnvironmentShape::Horizon => (layout::SHAPE_HORIZON, nowhere, nowhere),
+        EnvironmentShape::Pole(pole) => (layout::SHAPE_POLE, pole, nowhere),
+        EnvironmentShape::Picture(picture) => {
+            (layout::SHAPE_PICTURE, picture.forward, picture.right)
+        }
     };
     layout::Object {
         material: material as u32,
         light: layout::NONE,
         shape,
         normal: vec3(normal),
+        tangent: vec3(tangent),
         ..Default::default()
     }
 }

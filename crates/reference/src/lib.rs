@@ -6,6 +6,7 @@
 
 mod camera;
 mod environment;
+mod environment_picture;
 mod interference;
 mod intersect;
 mod light;
@@ -22,6 +23,7 @@ mod thickness;
 
 pub use camera::{Ray, camera_ray};
 pub use environment::{environment_pdf, environment_share, sample_environment};
+pub use environment_picture::environment_pixel;
 pub use intersect::{Hit, intersect_plane, intersect_sphere, nearest_hit};
 pub use light::{light_pdf, sample_light};
 pub use microfacet::{Microfacet, cook_torrance};

@@ -1,15 +1,19 @@
 //! A path through the scene with its spectrum.
 
+use crate::environment_picture::pixel_value;
 use crate::interference::{LayersAt, Light};
 use crate::picture::smooth_value;
 use crate::scatter::{Conductor, Lobes, Scatterer};
 use crate::{
-    Hit, Ray, Reflectance, SurfacePoint, camera_ray, environment_share, frame_of, light_pdf,
-    nearest_hit, pattern_reflectance, random4, sample_light, surface_point,
+    Hit, Ray, Reflectance, SurfacePoint, camera_ray, environment_pixel, environment_share,
+    frame_of, light_pdf, nearest_hit, pattern_reflectance, random4, sample_light, surface_point,
 };
 use glam::DVec3;
 use optics::Complex64;
-use scene::{Emission, Interference, Material, Pattern, Scene, SpectrumId, WavelengthSampling};
+use scene::{
+    Emission, EnvironmentPicture, EnvironmentShape, Interference, Material, Pattern, Scene,
+    SpectrumId, WavelengthSampling,
+};
 
 /// Share of the paths that follow the reflection of a film rather than its transmission.
 const REFLECTED_SHARE: f64 = 0.5;
@@ -110,6 +114,22 @@ impl<'a> Path<'a> {
         }
     }
 
+    /// Light of a pixel of the surroundings that joins the path here.
+    fn add_picture(
+        &mut self,
+        emission: Emission,
+        (picture, pixel): (&EnvironmentPicture, [u32; 2]),
+        weight: f64,
+    ) {
+        for band in self.bands() {
+            let nm = self.light(band).wavelength_nm;
+            let lamp = emission.scale * self.spectrum(emission.spectrum, band);
+            let light = lamp * pixel_value(picture, pixel, band, nm);
+            let light_group = emission.light_group.index();
+            self.radiance[light_group][band] += self.throughput[band] * weight * light;
+        }
+    }
+
     fn attenuate(&mut self, factor: impl Fn(&Self, usize) -> f64) {
         for band in self.bands() {
             self.throughput[band] *= factor(self, band);
@@ -118,8 +138,13 @@ impl<'a> Path<'a> {
 
     fn add_environment(&mut self) {
         for part in self.scene.environment().parts() {
-            let share = environment_share(part.shape, self.ray.direction);
-            self.add(part.emission, share);
+            let direction = self.ray.direction;
+            if let EnvironmentShape::Picture(picture) = part.shape {
+                let pixel = environment_pixel(picture, direction, self.random(0)[3]);
+                self.add_picture(part.emission, (picture, pixel), 1.0);
+                continue;
+            }
+            self.add(part.emission, environment_share(part.shape, direction));
         }
     }
 

@@ -19,6 +19,7 @@
 //! degrees in files. Wavelengths and film thicknesses are nanometres.
 
 mod camera;
+mod derived;
 pub mod description;
 mod document;
 mod drainage;
@@ -41,9 +42,12 @@ mod validate;
 mod validated;
 
 pub use camera::{Camera, Projection};
+pub use derived::DirectionTable;
 pub use description::{Distribution, PathDifference};
 pub use document::SourceFile;
-pub use environment::{Environment, EnvironmentPart, EnvironmentShape};
+pub use environment::{
+    Environment, EnvironmentPart, EnvironmentPicture, EnvironmentShape, PictureSpectra,
+};
 pub use field_path::{FieldPath, Step};
 pub use file::SceneFile;
 pub use index::optical_constants;

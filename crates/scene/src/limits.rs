@@ -102,6 +102,8 @@ pub const EMISSION: Range = Range::new(0.0, 1e9, "");
 /// Roughness where it is not 0. The highlight's exponent (tan θ / m)² has a relative error of about 2⁻²³ / m²
 /// in `f32`: 3e-4 at m = 0.02, and growing to where the highlight of a smoother surface is mostly rounding.
 pub const ROUGHNESS: Range = Range::new(0.02, 1.0, "");
+/// A turn of the surroundings.
+pub const ROTATION_DEG: Range = Range::new(-360.0, 360.0, "°");
 /// Exposure in stops.
 pub const EXPOSURE_EV: Range = Range::new(-32.0, 32.0, " stops");
 /// Wavelengths that bands may cover.

@@ -1,5 +1,6 @@
 //! A scene as a GPU receives it: every number rounded to the nearest `f32`.
 
+use crate::EnvironmentPicture;
 use crate::{
     Camera, Emission, Environment, Grain, Layer, Material, Microsurface, Object, Pattern,
     Projection, RenderSettings, Scene, Shape,
@@ -79,6 +80,7 @@ impl RoundToF32 for Projection {
             Self::Perspective { half_height } => Self::Perspective {
                 half_height: half_height.rounded(),
             },
+            Self::Panorama => Self::Panorama,
             Self::Orthographic { half_height } => Self::Orthographic {
                 half_height: half_height.rounded(),
             },
@@ -235,6 +237,14 @@ impl RoundToF32 for Environment {
     fn rounded(&self) -> Self {
         match self {
             Self::Constant(emission) => Self::Constant(emission.rounded()),
+            Self::Picture { emission, picture } => Self::Picture {
+                emission: emission.rounded(),
+                picture: Arc::new(EnvironmentPicture {
+                    forward: picture.forward.rounded(),
+                    right: picture.right.rounded(),
+                    ..EnvironmentPicture::clone(picture)
+                }),
+            },
             Self::Gradient {
                 zenith,
                 horizon,

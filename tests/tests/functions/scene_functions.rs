@@ -438,7 +438,7 @@ fn diffuse_factor() -> Check {
             "let factor = diffuse_factor(u32(a(0u)), a3(1u), a(4u)); put(0u, f32(factor.spectrum)); put(1u, f32(factor.kind));",
         ),
         proves: &[
-            "chosen_texel",
+            "chosen_pixel",
             "diffuse_factor",
             "picture_place",
             "reflectance_spectrum",

@@ -21,6 +21,17 @@ pub enum Camera {
         #[schemars(range(min = limits::FOV_DEG.low, max = limits::FOV_DEG.high))]
         fov_deg: f64,
     },
+    /// All directions by longitude and latitude: a picture for `environment = { type = "image" }`. Best twice as wide as high.
+    Panorama {
+        /// Where the camera stands.
+        position: [f64; 3],
+        /// The point in the middle of the picture; straight towards −Z when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        look_at: Option<[f64; 3]>,
+        /// A direction that points upwards in the picture.
+        #[serde(default = "up_default")]
+        up: [f64; 3],
+    },
     /// All rays are parallel.
     Orthographic {
         /// The point that the middle ray starts from.

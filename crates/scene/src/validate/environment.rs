@@ -2,7 +2,12 @@
 
 use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
-use crate::{Environment, FieldPath, description};
+use super::{environment_picture, spectrum_list::check_brightness};
+use crate::description::Extrapolate;
+use crate::problem::{Problem, ProblemKind};
+use crate::{Environment, FieldPath, PictureSpectra, description, limits};
+use std::path::Path;
+use std::sync::Arc;
 
 /// Checks `[environment]`; without one it is black.
 pub(crate) fn check(
@@ -23,6 +28,21 @@ pub(crate) fn check(
         Some(description::Environment::Constant {
             emission: written, ..
         }) => emission("emission", written).map(Environment::Constant),
+        Some(description::Environment::Image {
+            image,
+            scale,
+            illuminant,
+            rotation_deg,
+            ..
+        }) => {
+            let written = Image {
+                file: image,
+                scale: *scale,
+                illuminant: illuminant.as_deref(),
+                rotation_deg: *rotation_deg,
+            };
+            written.check(checks, spectra)
+        }
         Some(description::Environment::Gradient {
             zenith,
             horizon,
@@ -41,5 +61,56 @@ pub(crate) fn check(
                 ground: ground?,
             })
         }
+    }
+}
+
+/// A picture of all directions as written.
+struct Image<'a> {
+    file: &'a Path,
+    scale: f64,
+    illuminant: Option<&'a str>,
+    rotation_deg: f64,
+}
+
+impl Image<'_> {
+    fn check(&self, checks: &mut Checks, spectra: &mut SpectrumList<'_>) -> Option<Environment> {
+        let top = FieldPath::root().key("environment");
+        let turn = checks.number(
+            &top.key("rotation_deg"),
+            self.rotation_deg,
+            &limits::ROTATION_DEG,
+        );
+        let sphere =
+            environment_picture::read(checks, &top.key("image"), self.file, spectra.grid());
+        let is_spectral = sphere
+            .as_ref()
+            .is_some_and(|s| s.spectra == PictureSpectra::Bands);
+        let factor = if is_spectral {
+            description::Emission::Constant {
+                constant: 1.0,
+                scale: self.scale,
+            }
+        } else {
+            description::Emission::Illuminant {
+                illuminant: self.illuminant.unwrap_or("D65").to_owned(),
+                extrapolate: Extrapolate::Error,
+                scale: self.scale,
+            }
+        };
+        let emission = spectra.emission(checks, &top, &factor);
+        let (sphere, emission) = (sphere?, emission?);
+        if is_spectral && self.illuminant.is_some() {
+            let message = "the picture has spectra of its own, which no illuminant changes";
+            let field = top.key("illuminant");
+            let problem = Problem::new(ProblemKind::Inconsistent, &field, message);
+            checks.report(problem.involving(top.key("image")));
+            return None;
+        }
+        let brightest = sphere.brightness.iter().copied().fold(0.0, f32::max);
+        check_brightness(checks, &top, f64::from(brightest), emission.scale)?;
+        Some(Environment::Picture {
+            emission,
+            picture: Arc::new(sphere.turned(turn?)),
+        })
     }
 }

@@ -4,6 +4,7 @@ mod camera;
 mod checks;
 mod database_file;
 mod environment;
+mod environment_picture;
 mod formula;
 mod index;
 mod layers;

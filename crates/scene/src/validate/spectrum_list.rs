@@ -51,6 +51,11 @@ impl<'a> SpectrumList<'a> {
         }
     }
 
+    /// The bands.
+    pub(crate) fn grid(&self) -> Option<BandGrid> {
+        self.grid
+    }
+
     /// All spectra, at the positions that their numbers say.
     pub(crate) fn into_tables(self) -> Vec<BandTable> {
         self.tables
@@ -337,7 +342,12 @@ fn lamp_name(written: &description::Emission) -> String {
     }
 }
 
-fn check_brightness(checks: &mut Checks, field: &FieldPath, peak: f64, scale: f64) -> Option<()> {
+pub(super) fn check_brightness(
+    checks: &mut Checks,
+    field: &FieldPath,
+    peak: f64,
+    scale: f64,
+) -> Option<()> {
     if limits::EMISSION.contains(peak * scale) {
         return Some(());
     }
