@@ -27,3 +27,4 @@ override HAS_ENVIRONMENT: bool = true;
 override HAS_ENVIRONMENT_PICTURE: bool = true;
 override HAS_SPECTRAL_PICTURE: bool = true;
 override HAS_PANORAMA: bool = true;
+override HAS_SOBOL_SAMPLES: bool = true;

@@ -28,6 +28,15 @@ const SHAPE_RECTANGLE: u32 = 2u;
 /// Shape: a plane bounded to a disk.
 const SHAPE_DISK: u32 = 3u;
 
+/// Shape that no ray meets: surroundings of the same radiance from everywhere. Those that no ray meets are greater.
+const SHAPE_EVERYWHERE: u32 = 16u;
+
+/// Shape that no ray meets: surroundings by 1 − |h|, with h the height of the direction.
+const SHAPE_HORIZON: u32 = 17u;
+
+/// Shape that no ray meets: surroundings by the cosine with `normal`, where it is above 0.
+const SHAPE_POLE: u32 = 18u;
+
 /// Surface: Lambertian.
 const SURFACE_DIFFUSE: u32 = 0u;
 
@@ -173,18 +182,10 @@ struct Frame {
     object_count: u32,
     /// Number of lights.
     light_count: u32,
-    /// Light from above, from the horizon and from below.
-    zenith: u32,
-    /// See `zenith`.
-    horizon: u32,
-    /// See `zenith`.
-    ground: u32,
-    /// Factor of the radiance from above, from the horizon and from below.
-    zenith_scale: f32,
-    /// See `zenith_scale`.
-    horizon_scale: f32,
-    /// See `zenith_scale`.
-    ground_scale: f32,
+    /// First of the objects that are parts of the surroundings.
+    first_environment: u32,
+    /// Number of the parts of the surroundings.
+    environment_count: u32,
     /// First of the observer's three spectra.
     observer: u32,
 }

@@ -3,7 +3,7 @@
 /// Traces the path of one sample into the record and returns its wavelengths.
 fn trace_path(sample: Sample) -> Wavelengths {
     begin_record();
-    let first = random4(sample.pixel, sample.index, 0u, frame.seed);
+    let first = numbers_of(sample, 0u);
     var walk = Walk(camera_ray(sample.pixel, first.xy), NONE, vec3f(0.0), 0.0, 1u, true);
     while (walk.alive) {
         let hit = nearest_hit(walk.ray, walk.from_object);

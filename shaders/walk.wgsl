@@ -19,9 +19,17 @@ struct Sample {
     index: u32,
 }
 
+/// Four numbers in [0, 1) for a dimension of a sample.
+fn numbers_of(sample: Sample, dimension: u32) -> vec4f {
+    if (HAS_SOBOL_SAMPLES) {
+        return sobol4(sample.pixel, sample.index, dimension, frame.seed);
+    }
+    return random4(sample.pixel, sample.index, dimension, frame.seed);
+}
+
 /// Four random numbers for the light (`use_of` 0) or the scattering (1) at the walk's present vertex.
 fn random_at(sample: Sample, walk: Walk, use_of: u32) -> vec4f {
-    return random4(sample.pixel, sample.index, 2u * walk.segment - 1u + use_of, frame.seed);
+    return numbers_of(sample, 2u * walk.segment - 1u + use_of);
 }
 
 /// The walk as it goes on from `point` in a new direction.

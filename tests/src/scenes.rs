@@ -74,6 +74,7 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "meet_scattering",
     "meet_smooth",
     "meet_surface",
+    "numbers_of",
     "path_radiance",
     "plain_vertex",
     "push_crossing",

@@ -2,7 +2,7 @@
 
 use scene::{
     Coordinate, Environment, Interference, Material, PathDifference, Pattern, PictureSpectra,
-    Profile, Projection, Scene, Shape, Thickness,
+    Profile, Projection, Sampler, Scene, Shape, Thickness,
 };
 
 /// Constants of a pipeline by name: 1 where the scene has the thing, 0 where it has not.
@@ -88,6 +88,10 @@ impl Features {
             (
                 "HAS_PANORAMA",
                 scene.camera().projection == Projection::Panorama,
+            ),
+            (
+                "HAS_SOBOL_SAMPLES",
+                scene.settings().sampler == Sampler::Sobol,
             ),
         ];
         Self(

@@ -32,6 +32,7 @@ pub const MODULES: &[Module] = modules! {
     "layout": [];
     "trig": [];
     "random": [];
+    "sobol": ["random"];
     "complex": [];
     "sampling": ["trig"];
     "intersect": [];
@@ -57,12 +58,13 @@ pub const MODULES: &[Module] = modules! {
     "environment": ["bindings", "environment_picture", "features", "layout", "sampling", "trig"];
     "light": ["bindings", "features", "layout", "sampling", "trig"];
     "record": ["layout", "limits"];
-    "walk": ["bindings", "camera", "random", "surface"];
+    "walk": ["bindings", "camera", "features", "random", "sobol", "surface"];
     "factor": ["bindings", "features", "layout", "picture", "record", "surface", "texels", "thickness"];
     "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "scatter", "surface", "walk"];
     "scatter": ["bindings", "features", "layout", "microfacet", "record", "sampling", "trig"];
     "path": [
-        "bindings", "camera", "connect", "environment", "environment_picture", "factor", "features", "hit", "layout", "light", "random", "record", "sampling", "scatter",
+        "bindings", "camera", "connect", "environment", "environment_picture", "factor", "features", "hit", "layout", "light", "record",
+        "sampling", "scatter",
         "spectrum", "surface", "walk"
     ];
     "evaluate": [

@@ -50,6 +50,7 @@ mod coat;
 mod cook;
 mod fresnel;
 mod microfacet;
+mod microsurface;
 mod stack;
 mod two_beam;
 
@@ -63,6 +64,7 @@ pub use fresnel::{Amplitudes, cos_refracted, fresnel, reflectance_unpolarised};
 pub use microfacet::{
     beckmann_d, cook_torrance, half_vector_pdf, reflected_pdf, sample_beckmann, v_groove_g,
 };
+pub use microsurface::{Distribution, Microsurface};
 pub use num_complex::Complex64;
 pub use stack::{
     Layer, StackAmplitudes, ThicknessDerivative, absorptance, film, stack, thickness_derivatives,

@@ -18,6 +18,7 @@ mod random;
 mod render;
 mod sampling;
 mod scatter;
+mod sobol;
 mod surface;
 mod thickness;
 
@@ -33,5 +34,6 @@ pub use picture::smooth_value;
 pub use random::{pcg4d, random4, unit_interval};
 pub use render::{Stopped, render};
 pub use sampling::{cone_height, frame_of, sample_cone, sample_cosine_hemisphere};
+pub use sobol::{owen_scrambled, scrambled_reversed, sobol_point, sobol4};
 pub use surface::{Reflectance, SurfacePoint, pattern_reflectance, surface_point};
 pub use thickness::layer_thickness;

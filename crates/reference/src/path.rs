@@ -6,13 +6,14 @@ use crate::picture::smooth_value;
 use crate::scatter::{Conductor, Lobes, Scatterer};
 use crate::{
     Hit, Ray, Reflectance, SurfacePoint, camera_ray, environment_pixel, environment_share,
-    frame_of, light_pdf, nearest_hit, pattern_reflectance, random4, sample_light, surface_point,
+    frame_of, light_pdf, nearest_hit, pattern_reflectance, random4, sample_light, sobol4,
+    surface_point,
 };
 use glam::DVec3;
 use optics::Complex64;
 use scene::{
-    Emission, EnvironmentPicture, EnvironmentShape, Interference, Material, Pattern, Scene,
-    SpectrumId, WavelengthSampling,
+    Emission, EnvironmentPicture, EnvironmentShape, Interference, Material, Pattern,
+    RenderSettings, Sampler, Scene, SpectrumId, WavelengthSampling,
 };
 
 /// Share of the paths that follow the reflection of a film rather than its transmission.
@@ -30,7 +31,7 @@ pub struct PathSample {
 /// Follows one sample of a pixel. `lights` are the scene's lights ([`Scene::lights`]).
 pub fn radiance(scene: &Scene, lights: &[usize], pixel: [u32; 2], sample: u32) -> PathSample {
     let settings = scene.settings();
-    let [x, y, drawn, _] = random4(pixel, sample, 0, settings.seed);
+    let [x, y, drawn, _] = numbers_of(settings, pixel, sample, 0);
     let bands = settings.bands.count() as usize;
     let mut path = Path {
         scene,
@@ -64,6 +65,14 @@ pub fn radiance(scene: &Scene, lights: &[usize], pixel: [u32; 2], sample: u32) -
     }
 }
 
+/// Four numbers in [0, 1) for a dimension of a sample.
+fn numbers_of(settings: &RenderSettings, pixel: [u32; 2], sample: u32, dimension: u32) -> [f64; 4] {
+    match settings.sampler {
+        Sampler::Sobol => sobol4(pixel, sample, dimension, settings.seed),
+        Sampler::Independent => random4(pixel, sample, dimension, settings.seed),
+    }
+}
+
 /// A path on its way.
 struct Path<'a> {
     scene: &'a Scene,
@@ -85,12 +94,7 @@ struct Path<'a> {
 impl<'a> Path<'a> {
     fn random(&self, use_of: u32) -> [f64; 4] {
         let dimension = 2 * self.segment - 1 + use_of;
-        random4(
-            self.pixel,
-            self.sample,
-            dimension,
-            self.scene.settings().seed,
-        )
+        numbers_of(self.scene.settings(), self.pixel, self.sample, dimension)
     }
 
     fn spectrum(&self, id: SpectrumId, band: usize) -> f64 {

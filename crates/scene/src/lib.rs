@@ -43,7 +43,7 @@ mod validated;
 
 pub use camera::{Camera, Projection};
 pub use derived::DirectionTable;
-pub use description::{Distribution, PathDifference};
+pub use description::{Distribution, PathDifference, Sampler};
 pub use document::SourceFile;
 pub use environment::{
     Environment, EnvironmentPart, EnvironmentPicture, EnvironmentShape, PictureSpectra,

@@ -1,5 +1,6 @@
 //! How a validated scene is to be rendered.
 
+use crate::Sampler;
 use spectra::BandGrid;
 
 /// How a scene is to be rendered.
@@ -11,6 +12,8 @@ pub struct RenderSettings {
     pub height: u32,
     /// Samples (paths) per pixel.
     pub samples: u32,
+    /// Where the numbers come from that paths are drawn by.
+    pub sampler: Sampler,
     /// Chooses the sequence of random numbers.
     pub seed: u32,
     /// Bands that each pixel has.

@@ -6,7 +6,7 @@ use pellicle_tests::tolerances::{ARITHMETIC, EXACT, TRIGONOMETRY};
 use std::f64::consts::{PI, TAU};
 
 pub(crate) fn checks() -> Vec<Check> {
-    [trig(), random(), complex()]
+    [trig(), random(), sobol(), complex()]
         .into_iter()
         .flatten()
         .collect()
@@ -76,7 +76,13 @@ fn integers(a: &[f64]) -> [u32; 4] {
 
 /// Rows of four random integers, as halves, and the extremes.
 fn integer_table() -> Vec<f32> {
-    let mut rows = table(&[(0.0, 65536.0); 8], &[&[0.0; 8], &[65535.0; 8]]);
+    integer_table_of(8)
+}
+
+/// The same with another number of halves.
+fn integer_table_of(halves: usize) -> Vec<f32> {
+    let edges = [vec![0.0; halves], vec![65535.0; halves]];
+    let mut rows = table(&vec![(0.0, 65536.0); halves], &[&edges[0], &edges[1]]);
     for x in &mut rows {
         *x = x.floor().min(65535.0);
     }
@@ -119,6 +125,51 @@ fn random() -> Vec<Check> {
             twin: |a| {
                 let [x, y, sample, dimension] = integers(a);
                 reference::random4([x & 0xffff, y & 0xffff], sample, dimension, 5).to_vec()
+            },
+            tolerance: EXACT,
+        },
+    ]
+}
+
+fn sobol() -> Vec<Check> {
+    vec![
+        Check {
+            probe: pure(
+                &["sobol"],
+                (4, 2),
+                "put_integer(0u, scrambled(vec4u(integer(0u)), vec4u(integer(2u))).z);",
+            ),
+            proves: &["scrambled"],
+            inputs: integer_table_of(4),
+            twin: |a| halves(reference::scrambled_reversed(integer(a, 0), integer(a, 2))).to_vec(),
+            tolerance: EXACT,
+        },
+        Check {
+            probe: pure(
+                &["sobol"],
+                (2, 8),
+                "let p = sobol_point(integer(0u));
+                 put_integer(0u, p.x); put_integer(2u, p.y); put_integer(4u, p.z); put_integer(6u, p.w);",
+            ),
+            proves: &["chosen", "sobol_point"],
+            inputs: integer_table_of(2),
+            twin: |a| {
+                let point = reference::sobol_point(integer(a, 0).reverse_bits());
+                point.iter().flat_map(|x| halves(x.reverse_bits())).collect()
+            },
+            tolerance: EXACT,
+        },
+        Check {
+            probe: pure(
+                &["sobol"],
+                (8, 4),
+                "put4(0u, sobol4(vec2u(integer(0u) & 0xffffu, integer(2u) & 0xffffu), integer(4u), integer(6u), 5u));",
+            ),
+            proves: &["sobol4"],
+            inputs: integer_table(),
+            twin: |a| {
+                let [x, y, sample, dimension] = integers(a);
+                reference::sobol4([x & 0xffff, y & 0xffff], sample, dimension, 5).to_vec()
             },
             tolerance: EXACT,
         },

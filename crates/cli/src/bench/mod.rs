@@ -2,6 +2,7 @@
 
 mod develop;
 mod stacks;
+mod variance;
 
 use crate::print;
 use miette::IntoDiagnostic;
@@ -23,6 +24,15 @@ pub(crate) struct Arguments {
     /// Only developing a picture from a spectral file
     #[arg(long, conflicts_with = "stacks")]
     develop: bool,
+    /// Only how much noise the ways to draw paths leave, on the best adapter
+    #[arg(long, conflicts_with_all = ["stacks", "develop"])]
+    variance: bool,
+    /// Samples per pixel of --variance
+    #[arg(long, default_value_t = 256, requires = "variance")]
+    samples: u32,
+    /// Renders of each kind for --variance
+    #[arg(long, default_value_t = 8, requires = "variance", value_parser = clap::value_parser!(u32).range(2..))]
+    seeds: u32,
     /// Seconds that each measurement takes, about
     #[arg(long, default_value_t = 4.0)]
     seconds: f64,
@@ -37,6 +47,11 @@ const ROUNDS: usize = 3;
 pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     if arguments.develop {
         return develop::run();
+    }
+    if arguments.variance {
+        let renderer = Renderer::open(&Backend::Auto).into_diagnostic()?;
+        let effort = (arguments.samples, arguments.seeds);
+        return variance::run(&arguments.scenes, &renderer, effort);
     }
     let mut renderers = Vec::new();
     for adapter in adapters() {

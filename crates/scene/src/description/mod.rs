@@ -18,7 +18,7 @@ pub use environment::Environment;
 pub use material::{DiffuseReflectance, FilmModel, Layer, Material, PathDifference};
 pub use microsurface::{Brushed, Distribution, Roughness};
 pub use object::Object;
-pub use render::{LightGroups, Render, WavelengthSampling};
+pub use render::{LightGroups, Render, Sampler, WavelengthSampling};
 pub use spectrum::{Emission, Extrapolate, Index, MixtureRule, Reflectance, SellmeierTerms};
 pub use thickness::{
     AnodisedMetal, Anodising, Drainage, HeatTint, Quantity, Steel, Steps, Swirls, Thickness,

@@ -24,6 +24,8 @@ pub struct Render {
     pub sampling: WavelengthSampling,
     /// Which lights are kept apart in the spectral image, so that their lamps can be changed without rendering again.
     pub light_groups: LightGroups,
+    /// Where the numbers come from that paths are drawn by.
+    pub sampler: Sampler,
     /// Chooses the sequence of random numbers.
     pub seed: u32,
     /// The most segments of a path. The camera ray is the first; the one that reaches a light counts.
@@ -51,6 +53,18 @@ pub enum WavelengthSampling {
     Centre,
 }
 
+/// Where the numbers come from that paths are drawn by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Sampler {
+    /// Sobol's sequence with Owen's scrambling: a pixel's samples are spread evenly, so that they err less. A number of samples
+    /// that is a power of two serves best.
+    #[default]
+    Sobol,
+    /// Independent random numbers.
+    Independent,
+}
+
 /// Which lights are kept apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -72,6 +86,7 @@ impl Default for Render {
             wavelengths_nm: [380.0, 780.0],
             sampling: WavelengthSampling::Random,
             light_groups: LightGroups::BySpectrum,
+            sampler: Sampler::Sobol,
             seed: 0,
             max_path_segments: 12,
             exposure_ev: 0.0,

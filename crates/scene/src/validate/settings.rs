@@ -42,6 +42,7 @@ pub(crate) fn check(checks: &mut Checks, render: &Render) -> Checked {
             width,
             height,
             samples: samples?,
+            sampler: render.sampler,
             seed: render.seed,
             bands: grid?,
             sampling: sampling(render.sampling),

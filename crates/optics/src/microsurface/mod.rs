@@ -1,0 +1,162 @@
+//! Rough surfaces as facets of which each mirrors: distributions of slopes with Smith's masking.
+//!
+//! Directions are unit vectors in a local frame: the third component is the cosine with the macroscopic normal, the first runs
+//! along the grain of a brushed surface, the second across it.
+//!
+//! A distribution of width α along and across the grain is one of width 1 stretched. The amount of facets that a direction w sees
+//! is (1 + Λ(w)) cos θ, with Λ of Smith (1967); heights of neighbouring facets are taken for independent, those of the facet
+//! seen and lit for the same (Heitz, Understanding the Masking-Shadowing Function, JCGT 3(2), 2014, equations 83, 86 and 99).
+
+mod slopes;
+
+use std::f64::consts::PI;
+
+/// How the slopes of facets are distributed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Distribution {
+    /// Normal: the density of slopes s is exp(−s²/α²) / (π α²) (Beckmann and Spizzichino 1963).
+    Beckmann,
+    /// With long tails: 1 / (π α² (1 + s²/α²)²) (Trowbridge and Reitz 1975; GGX of Walter et al. 2007).
+    Ggx,
+}
+
+/// The facets of a rough surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Microsurface {
+    /// How their slopes are distributed.
+    pub distribution: Distribution,
+    /// Width α of the distribution along and across the grain, > 0.
+    pub alpha: [f64; 2],
+}
+
+impl Microsurface {
+    /// Density D of facet normals, sr⁻¹: ∫ D cos θ dω = 1. With s² = (x/αx)² + (y/αy)² and c the cosine, D is
+    /// exp(−s²/c²) / (π αx αy c⁴) for Beckmann and 1 / (π αx αy (s² + c²)²) for GGX.
+    pub fn density(&self, facet: [f64; 3]) -> f64 {
+        let [x, y, cosine] = facet;
+        if cosine <= 0.0 {
+            return 0.0;
+        }
+        let [along, across] = self.alpha;
+        let slope2 = (x / along).powi(2) + (y / across).powi(2);
+        let cos2 = cosine * cosine;
+        let area = PI * along * across;
+        match self.distribution {
+            Distribution::Beckmann => (-slope2 / cos2).exp() / (area * cos2 * cos2),
+            Distribution::Ggx => 1.0 / (area * (slope2 + cos2).powi(2)),
+        }
+    }
+
+    /// Smith's Λ: 1 / (1 + Λ) of the facets that turn towards a direction are seen from there. With a = cot θ over the width
+    /// in the direction's azimuth, Λ is (exp(−a²) / (a √π) − erfc a) / 2 for Beckmann and (√(1 + 1/a²) − 1) / 2 for GGX
+    /// (Heitz 2014, equations 68 and 72).
+    pub fn lambda(&self, direction: [f64; 3]) -> f64 {
+        let [x, y, cosine] = direction;
+        let [along, across] = self.alpha;
+        let width = (along * x).hypot(across * y);
+        if width == 0.0 {
+            return 0.0;
+        }
+        let a = cosine.abs() / width;
+        match self.distribution {
+            Distribution::Beckmann => {
+                0.5 * ((-a * a).exp() / (a * PI.sqrt()) - libm::erfc(a)).max(0.0)
+            }
+            Distribution::Ggx => 0.5 * ((1.0 + 1.0 / (a * a)).sqrt() - 1.0),
+        }
+    }
+
+    /// The reflection function of facets that reflect everything, sr⁻¹: D G / (4 (N·E)(N·L)) with
+    /// G = 1 / (1 + Λ(E) + Λ(L)). What was shadowed is missing.
+    pub fn reflection(&self, eye: [f64; 3], light: [f64; 3]) -> f64 {
+        let Some(facet) = facet_between(eye, light) else {
+            return 0.0;
+        };
+        let seen = 1.0 / (1.0 + self.lambda(eye) + self.lambda(light));
+        self.density(facet) * seen / (4.0 * eye[2] * light[2])
+    }
+
+    /// Density with which a facet drawn by [`Self::sample`] mirrors `eye` to `light`, sr⁻¹: D / (4 (N·E) (1 + Λ(E)))
+    /// (Heitz 2014, equations 16 and 17 with the Jacobian 1 / (4 E·H)).
+    pub fn pdf(&self, eye: [f64; 3], light: [f64; 3]) -> f64 {
+        if eye[2] <= 0.0 {
+            return 0.0;
+        }
+        let facet = half_vector(eye, light);
+        if dot(eye, facet) <= 0.0 {
+            return 0.0;
+        }
+        self.density(facet) / (4.0 * eye[2] * (1.0 + self.lambda(eye)))
+    }
+
+    /// A facet normal as often as `eye` sees it, from two uniform numbers in [0, 1).
+    ///
+    /// GGX: Dupuy and Benyoub, Sampling Visible GGX Normals with Spherical Caps (2023). Beckmann: in the space of slopes
+    /// (Heitz and d'Eon 2014).
+    pub fn sample(&self, eye: [f64; 3], u: f64, v: f64) -> [f64; 3] {
+        let [along, across] = self.alpha;
+        // The same surface stretched to α = 1.
+        let stretched = normalised([along * eye[0], across * eye[1], eye[2]]);
+        let facet = match self.distribution {
+            Distribution::Beckmann => slopes::sample_beckmann(stretched, u, v),
+            Distribution::Ggx => slopes::sample_ggx(stretched, u, v),
+        };
+        normalised([along * facet[0], across * facet[1], facet[2].max(0.0)])
+    }
+
+    /// The part of the light that leaves at once of what comes from `eye` onto facets that reflect everything. 1 minus this
+    /// meets another facet.
+    ///
+    /// By the midpoint rule with `steps`² facets, spread as often as they are seen on a GGX surface of the same α, more densely
+    /// where they are steep.
+    pub fn albedo(&self, eye: [f64; 3], steps: u32) -> f64 {
+        let spread = Self {
+            distribution: Distribution::Ggx,
+            ..*self
+        };
+        let place = |i: u32| (f64::from(i) + 0.5) / f64::from(steps);
+        let lambda_eye = self.lambda(eye);
+        let mut sum = 0.0;
+        for i in 0..steps {
+            for j in 0..steps {
+                // The last of the numbers gives the steep facets, in the long tail of the slopes.
+                let rest = place(j);
+                let facet = spread.sample(eye, place(i), 1.0 - rest * rest);
+                let light = mirrored(eye, facet);
+                if light[2] > 0.0 {
+                    let seen = 1.0 / (1.0 + lambda_eye + self.lambda(light));
+                    sum += 2.0 * rest * self.density(facet) / spread.density(facet) * seen;
+                }
+            }
+        }
+        sum * (1.0 + spread.lambda(eye)) / f64::from(steps * steps)
+    }
+}
+
+/// The facet that mirrors one direction into the other; none where either is below the surface.
+fn facet_between(eye: [f64; 3], light: [f64; 3]) -> Option<[f64; 3]> {
+    let is_above = eye[2] > 0.0 && light[2] > 0.0;
+    is_above.then(|| half_vector(eye, light))
+}
+
+/// The direction opposite `eye` at a facet.
+fn mirrored(eye: [f64; 3], facet: [f64; 3]) -> [f64; 3] {
+    let twice = 2.0 * dot(eye, facet);
+    std::array::from_fn(|i| twice * facet[i] - eye[i])
+}
+
+fn half_vector(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    normalised([a[0] + b[0], a[1] + b[1], a[2] + b[2]])
+}
+
+fn normalised(v: [f64; 3]) -> [f64; 3] {
+    let length = dot(v, v).sqrt();
+    v.map(|x| x / length)
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,154 @@
+// Rough surfaces as facets of which each mirrors: distributions of slopes with Smith's masking.
+//
+// Directions are unit vectors in a local frame whose z is the cosine with the macroscopic normal; x runs along the grain of a
+// brushed surface. `alpha` is the width of the distribution along and across the grain.
+
+struct Microsurface {
+    /// A FACETS_ tag.
+    distribution: u32,
+    alpha: vec2f,
+}
+
+/// exp(x²) erfc(x) for x ≥ 0 by Chebyshev's polynomials (Press et al., Numerical Recipes, 2nd ed., section 6.2; relative
+/// error below 1.2e-7).
+fn scaled_erfc(x: f32) -> f32 {
+    let t = 1.0 / (1.0 + 0.5 * x);
+    var p = t * 0.17087277 - 0.82215223;
+    p = t * p + 1.48851587;
+    p = t * p - 1.13520398;
+    p = t * p + 0.27886807;
+    p = t * p - 0.18628806;
+    p = t * p + 0.09678418;
+    p = t * p + 0.37409196;
+    p = t * p + 1.00002368;
+    return t * exp(t * p - 1.26551223);
+}
+
+/// Density D of facet normals, sr⁻¹: with s² = (x/αx)² + (y/αy)² and c the cosine, exp(−s²/c²) / (π αx αy c⁴) for Beckmann and
+/// 1 / (π αx αy (s² + c²)²) for GGX.
+fn facet_density(surface: Microsurface, facet: vec3f) -> f32 {
+    if (facet.z <= 0.0) {
+        return 0.0;
+    }
+    let s = facet.xy / surface.alpha;
+    let slope2 = dot(s, s);
+    let cos2 = facet.z * facet.z;
+    let area = PI * surface.alpha.x * surface.alpha.y;
+    if (HAS_GGX && (!HAS_BECKMANN || surface.distribution == FACETS_GGX)) {
+        return 1.0 / (area * (slope2 + cos2) * (slope2 + cos2));
+    }
+    return exp(-min(slope2 / cos2, 80.0)) / (area * cos2 * cos2);
+}
+
+/// Smith's Λ: 1 / (1 + Λ) of the facets that turn towards a direction are seen from there. With a = cot θ over the width in the
+/// direction's azimuth, (exp(−a²) / (a √π) − erfc a) / 2 for Beckmann and (√(1 + 1/a²) − 1) / 2 for GGX
+/// (Heitz 2014, equations 68 and 72).
+fn smith_lambda(surface: Microsurface, direction: vec3f) -> f32 {
+    let width = length(surface.alpha * direction.xy);
+    let a = abs(direction.z) / max(width, 1e-12);
+    if (HAS_GGX && (!HAS_BECKMANN || surface.distribution == FACETS_GGX)) {
+        return 0.5 * (sqrt(1.0 + 1.0 / (a * a)) - 1.0);
+    }
+    if (a > 6.0) {
+        return 0.0;
+    }
+    let scaled = 0.5641895835 / a - scaled_erfc(a); // 1 / √π
+    return 0.5 * exp(-a * a) * max(scaled, 0.0);
+}
+
+struct Reflection {
+    /// D G / (4 (N·E)(N·L)): the reflection function of facets that reflect everything, sr⁻¹.
+    value: f32,
+    /// Density with which a facet drawn by sample_facet mirrors the eye to the light, sr⁻¹.
+    pdf: f32,
+    /// E·H: the cosine at the facet.
+    cosine: f32,
+}
+
+/// What facets mirror from `light` to `eye`, both above the surface: G = 1 / (1 + Λ(E) + Λ(L)), the density
+/// D / (4 (N·E) (1 + Λ(E))) (Heitz 2014, equations 99 and 17).
+fn reflection_between(surface: Microsurface, eye: vec3f, light: vec3f) -> Reflection {
+    let facet = normalize(eye + light);
+    let density = facet_density(surface, facet) / (4.0 * eye.z);
+    let lambda = smith_lambda(surface, eye);
+    let seen = 1.0 + lambda + smith_lambda(surface, light);
+    return Reflection(density / (seen * light.z), density / (1.0 + lambda), dot(eye, facet));
+}
+
+/// A facet normal as often as `eye` sees it, from two uniform numbers.
+fn sample_facet(surface: Microsurface, eye: vec3f, u: f32, v: f32) -> vec3f {
+    // The same surface stretched to α = 1.
+    let stretched = normalize(vec3f(surface.alpha * eye.xy, eye.z));
+    var facet: vec3f;
+    if (HAS_GGX && (!HAS_BECKMANN || surface.distribution == FACETS_GGX)) {
+        facet = sample_ggx_facet(stretched, u, v);
+    } else {
+        facet = sample_beckmann_facet(stretched, u, v);
+    }
+    return normalize(vec3f(surface.alpha * facet.xy, max(facet.z, 0.0)));
+}
+
+/// A visible facet of a GGX surface of α = 1: the half of a point of the sphere's lit cap and the eye (Dupuy and Benyoub,
+/// Sampling Visible GGX Normals with Spherical Caps, 2023, listing 3).
+fn sample_ggx_facet(eye: vec3f, u: f32, v: f32) -> vec3f {
+    // From the cap's top, 1 − v of its height lies above: no digits are lost where it is flat.
+    let drop = v * (1.0 + eye.z);
+    let z = 1.0 - drop;
+    let sine = sqrt(max(drop * (2.0 - drop), 0.0));
+    return vec3f(sine * direction_of_turn(u), z) + eye;
+}
+
+/// A visible facet of a Beckmann surface of α = 1: its slope towards the eye by visible_slope, that aside by the normal
+/// distribution alone (Heitz and d'Eon, Importance Sampling Microfacet-Based BSDFs Using the Distribution of Visible Normals,
+/// 2014, appendix).
+fn sample_beckmann_facet(eye: vec3f, u: f32, v: f32) -> vec3f {
+    let sine = length(eye.xy);
+    let along = select(vec2f(1.0, 0.0), eye.xy / max(sine, 1e-30), sine > 0.0);
+    let towards = visible_slope(eye.z, sine, u);
+    let aside = visible_slope(1.0, 0.0, v);
+    return vec3f(-along * towards - vec2f(-along.y, along.x) * aside, 1.0);
+}
+
+/// Steps of Halley's rule by which a slope is found.
+const SLOPE_STEPS: u32 = 4u;
+
+/// The slope x below which the share u of what is seen from θ lies: the density of x is that of exp(−x²) (cos θ − x sin θ) up to
+/// x = cot θ, so the share is F(x) / F(cot θ) with F(x) = cos θ erfc(−x) + sin θ exp(−x²) / √π.
+///
+/// A guess (Jakob, An Improved Visible Normal Sampling Routine for the Beckmann Distribution, 2014) is improved by Halley's rule,
+/// always as often.
+fn visible_slope(cosine: f32, sine: f32, u_in: f32) -> f32 {
+    let u = max(u_in, 1e-7);
+    var steepest = 6.0;
+    if (cosine < 6.0 * sine) {
+        steepest = cosine / sine;
+    }
+    let wanted = u * seen_below(cosine, sine, steepest);
+    let theta = polar_angle(cosine, sine);
+    let power = 1.0 + theta * (-0.876 + theta * (0.4265 - 0.0594 * theta));
+    let guess = seen_below(1.0, 0.0, steepest) * (1.0 - pow(1.0 - u, power));
+    var x = min(rough_inverse_erf(guess), steepest);
+    for (var i = 0u; i < SLOPE_STEPS; i++) {
+        let seen = max(cosine - x * sine, 1e-9);
+        // √π / 2
+        let newton = (wanted - seen_below(cosine, sine, x)) * 0.8862269255 * exp(x * x) / seen;
+        let bend = -x - 0.5 * sine / seen;
+        x = min(x + newton / (1.0 + newton * bend), steepest);
+    }
+    return x;
+}
+
+/// cos θ erfc(−x) + sin θ exp(−x²) / √π.
+fn seen_below(cosine: f32, sine: f32, x: f32) -> f32 {
+    let gauss = exp(-x * x);
+    let tail = gauss * scaled_erfc(abs(x));
+    return cosine * select(tail, 2.0 - tail, x > 0.0) + sine * 0.5641895835 * gauss;
+}
+
+/// The x of which 1 + erf x is `share`, within 2e-3 (Winitzki 2008), from −4 to 4.
+fn rough_inverse_erf(share: f32) -> f32 {
+    let logarithm = log(max(share * (2.0 - share), 1e-8));
+    let half = 4.3307467508 + 0.5 * logarithm; // 2 / (0.147 π)
+    let root = sqrt(max(sqrt(half * half - logarithm / 0.147) - half, 0.0));
+    return select(root, -root, share < 1.0);
+}
