@@ -16,6 +16,9 @@ const PROJECTION_PERSPECTIVE: u32 = 0u;
 /// Projection: all rays run in parallel.
 const PROJECTION_ORTHOGRAPHIC: u32 = 1u;
 
+/// Projection: all directions from the camera's origin by longitude and latitude.
+const PROJECTION_PANORAMA: u32 = 2u;
+
 /// Shape: a sphere.
 const SHAPE_SPHERE: u32 = 0u;
 
@@ -36,6 +39,9 @@ const SHAPE_HORIZON: u32 = 17u;
 
 /// Shape that no ray meets: surroundings by the cosine with `normal`, where it is above 0.
 const SHAPE_POLE: u32 = 18u;
+
+/// Shape that no ray meets: surroundings by a picture, its middle towards `normal`, its right half towards `tangent`.
+const SHAPE_PICTURE: u32 = 19u;
 
 /// Surface: Lambertian.
 const SURFACE_DIFFUSE: u32 = 0u;
@@ -230,8 +236,8 @@ struct Object {
     is_light: u32,
     /// The light that has this object's number is the object `light`; NONE past the last light.
     light: u32,
-    /// Fills the size up to a multiple of 16.
-    padding: u32,
+    /// The head of its picture, of surroundings.
+    picture: u32,
 }
 
 /// What a surface is made of.

@@ -21,18 +21,25 @@ pub const SHIPPED: &[&str] = &[
     "furnace",
 ];
 
+/// Scenes of this folder.
+pub const OURS: &[&str] = &["everything", "everything_pictured"];
+
 /// A scene with every kind of surface, pattern, thickness, light and environment that there is.
 pub const EVERYTHING: &str = include_str!("everything.toml");
 
-/// A scene of `scenes/`, or `everything`, as a file that can still be changed.
+/// What it has not got: surroundings by a picture, a panorama.
+pub const PICTURED: &str = include_str!("everything_pictured.toml");
+
+/// A scene of `scenes/`, or one of ours above, as a file that can still be changed.
 ///
 /// # Panics
 /// When it cannot be read.
 pub fn file(name: &str) -> SceneFile {
-    let read = if name == "everything" {
-        SceneFile::parse("everything.toml", EVERYTHING, &root())
-    } else {
-        SceneFile::read(root().join("scenes").join(format!("{name}.toml")))
+    let ours = |text| SceneFile::parse(&format!("{name}.toml"), text, &root());
+    let read = match name {
+        "everything" => ours(EVERYTHING),
+        "everything_pictured" => ours(PICTURED),
+        _ => SceneFile::read(root().join("scenes").join(format!("{name}.toml"))),
     };
     read.unwrap_or_else(|problems| panic!("{problems}"))
 }

@@ -102,6 +102,14 @@ pub const EMISSION: Range = Range::new(0.0, 1e9, "");
 /// Roughness where it is not 0. The highlight's exponent (tan θ / m)² has a relative error of about 2⁻²³ / m²
 /// in `f32`: 3e-4 at m = 0.02, and growing to where the highlight of a smoother surface is mostly rounding.
 pub const ROUGHNESS: Range = Range::new(0.02, 1.0, "");
+/// Height of the sun.
+pub const SUN_ELEVATION_DEG: Range = Range::new(0.0, 90.0, "°");
+/// Turbidity of a sky.
+pub const TURBIDITY: Range = Range::new(
+    spectra::sky::ClearSky::TURBIDITY.0,
+    spectra::sky::ClearSky::TURBIDITY.1,
+    "",
+);
 /// A turn of the surroundings.
 pub const ROTATION_DEG: Range = Range::new(-360.0, 360.0, "°");
 /// Exposure in stops.

@@ -61,6 +61,12 @@ pub(crate) fn everything() -> &'static World {
     WORLD.get_or_init(|| World::new("everything"))
 }
 
+/// Its surroundings are a picture, and its camera sees all directions.
+pub(crate) fn pictured() -> &'static World {
+    static WORLD: OnceLock<World> = OnceLock::new();
+    WORLD.get_or_init(|| World::new("everything_pictured"))
+}
+
 /// Its camera is orthographic.
 fn wedge() -> &'static World {
     static WORLD: OnceLock<World> = OnceLock::new();
@@ -204,6 +210,7 @@ fn cameras() -> Vec<Check> {
     vec![
         check(everything(), |a| camera_twin(everything(), a)),
         check(wedge(), |a| camera_twin(wedge(), a)),
+        check(pictured(), |a| camera_twin(pictured(), a)),
     ]
 }
 

@@ -2,7 +2,7 @@
 
 use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
-use super::{environment_picture, spectrum_list::check_brightness};
+use super::{environment_picture, sky, spectrum_list::check_brightness};
 use crate::description::Extrapolate;
 use crate::problem::{Problem, ProblemKind};
 use crate::{Environment, FieldPath, PictureSpectra, description, limits};
@@ -28,6 +28,26 @@ pub(crate) fn check(
         Some(description::Environment::Constant {
             emission: written, ..
         }) => emission("emission", written).map(Environment::Constant),
+        Some(description::Environment::Sky {
+            sun_elevation_deg,
+            sun_azimuth_deg,
+            turbidity,
+            ground,
+            scale,
+            ..
+        }) => {
+            let sun = [*sun_elevation_deg, *sun_azimuth_deg];
+            let sphere = sky::check(checks, spectra, (sun, *turbidity), ground);
+            let factor = description::Emission::Constant {
+                constant: 1.0,
+                scale: *scale,
+            };
+            let emission = spectra.emission(checks, &top, &factor);
+            Some(Environment::Picture {
+                emission: emission?,
+                picture: Arc::new(sphere?.turned(-*sun_azimuth_deg)),
+            })
+        }
         Some(description::Environment::Image {
             image,
             scale,

@@ -50,6 +50,7 @@ fn name_of_environment(environment: Option<&description::Environment>) -> Option
     match environment? {
         description::Environment::Constant { light_group, .. }
         | description::Environment::Image { light_group, .. }
+        | description::Environment::Sky { light_group, .. }
         | description::Environment::Gradient { light_group, .. } => light_group.as_deref(),
     }
 }

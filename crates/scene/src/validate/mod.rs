@@ -16,6 +16,7 @@ mod object;
 mod picture_file;
 mod points;
 mod settings;
+mod sky;
 mod spectrum_list;
 mod thickness;
 

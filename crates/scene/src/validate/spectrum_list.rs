@@ -56,6 +56,11 @@ impl<'a> SpectrumList<'a> {
         self.grid
     }
 
+    /// One of the spectra.
+    pub(crate) fn table(&self, id: SpectrumId) -> &BandTable {
+        &self.tables[id.index()]
+    }
+
     /// All spectra, at the positions that their numbers say.
     pub(crate) fn into_tables(self) -> Vec<BandTable> {
         self.tables
