@@ -3,27 +3,41 @@
 struct Sent {
     light: u32,
     direction: vec3f,
-    /// Density of the direction, the choice among the lights included; 0 where nothing can arrive.
+    /// Density of the direction, the choice among the lights included, or the probability of that choice where light comes from a
+    /// single direction; 0 where nothing can arrive.
     pdf: f32,
+    /// The sum of all lights' estimates.
+    total: f32,
+    /// The texel of the light's picture, 0 where it has none.
+    texel: u32,
 }
 
 /// Chooses a light and a direction towards it.
 fn send_to_light(walk: Walk, sample: Sample, point: SurfacePoint) -> Sent {
-    let has_lights = HAS_SPHERE_LIGHTS || HAS_RECTANGLE_LIGHTS;
-    if (!has_lights || walk.segment + 1u > frame.max_path_segments) {
-        return Sent(NONE, point.normal, 0.0);
+    if (!HAS_LIGHTS || walk.segment + 1u > frame.max_path_segments) {
+        return Sent(NONE, point.normal, 0.0, 0.0, 0u);
     }
     let random = random_at(sample, walk, 0u);
-    let count = f32(frame.light_count);
-    let light = objects[min(u32(random.x * count), frame.light_count - 1u)].light;
-    let direction = sample_light(light, point.position, random.y, random.z);
-    if (dot(direction, point.normal) <= 0.0) {
-        return Sent(light, direction, 0.0);
+    let choice = choose_light(point.position, point.normal, random.x);
+    if (choice.light == NONE) {
+        return Sent(NONE, point.normal, 0.0, choice.total, 0u);
     }
-    return Sent(light, direction, light_pdf(light, point.position, direction) / count);
+    let direction = sample_light(choice.light, point.position, random.y, random.z);
+    if (!SENDS_LIGHT || dot(direction, point.normal) <= 0.0) {
+        return Sent(choice.light, direction, 0.0, choice.total, 0u);
+    }
+    var pdf = choice.probability;
+    if (!is_single_direction(choice.light)) {
+        pdf *= light_pdf(choice.light, point.position, direction);
+    }
+    var texel = 0u;
+    if (HAS_ENVIRONMENT_PICTURE && objects[choice.light].shape == SHAPE_PICTURE) {
+        texel = environment_texel(choice.light, direction, random.w);
+    }
+    return Sent(choice.light, direction, pdf, choice.total, texel);
 }
 
-/// Adds to the vertex what arrives from the light. Balance heuristic: value / pdf × pdf / (pdf + pdf of the scattering).
+/// Adds to the vertex what arrives from the light, by its share.
 fn connect(
     vertex_in: Vertex,
     walk: Walk,
@@ -33,7 +47,8 @@ fn connect(
     towards: Scattering,
 ) -> Vertex {
     var vertex = vertex_in;
-    if (!is_lit(towards.lobes)) {
+    let strength = light_share(sent.light, point.position, sent.direction);
+    if (!is_lit(towards.lobes) || strength <= 0.0) {
         return vertex;
     }
     vertex.first_crossing = crossing_count;
@@ -45,9 +60,14 @@ fn connect(
         return vertex;
     }
     vertex.end_crossing = crossing_count;
+    var share = 1.0;
+    if (MEETS_LIGHT && !is_single_direction(sent.light)) {
+        share = mis_share(sent.pdf, towards.pdf);
+    }
     let material = objects[sent.light].material;
     vertex.connection = materials[material].emission;
-    vertex.connected = scaled(towards.lobes, materials[material].emission_scale / (sent.pdf + towards.pdf));
+    vertex.connection_texel = sent.texel;
+    vertex.connected = scaled(towards.lobes, share * strength * materials[material].emission_scale / sent.pdf);
     return vertex;
 }
 
@@ -58,7 +78,7 @@ fn arrives(ray_in: Ray, from_object: u32, light: u32, allowed: u32) -> bool {
     var from_now = from_object;
     for (var crossed = 0u; crossed <= allowed; crossed++) {
         let hit = nearest_hit(ray, from_now);
-        if (hit.object == light) {
+        if (hit.object == light || is_before(ray, light, hit)) {
             return true;
         }
         if (hit.object == NONE || crossed == allowed) {
@@ -74,4 +94,15 @@ fn arrives(ray_in: Ray, from_object: u32, light: u32, allowed: u32) -> bool {
         from_now = hit.object;
     }
     return false;
+}
+
+/// Whether a light that is no object lies before what the ray hits.
+fn is_before(ray: Ray, light: u32, hit: Hit) -> bool {
+    if (light < frame.object_count) {
+        return false;
+    }
+    if (HAS_DELTA_LIGHTS && objects[light].shape >= SHAPE_POINT) {
+        return hit.object == NONE || hit.distance >= length(objects[light].center - ray.origin);
+    }
+    return hit.object == NONE;
 }

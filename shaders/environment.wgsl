@@ -9,6 +9,10 @@ fn environment_share(light: u32, direction: vec3f) -> f32 {
     if (objects[light].shape == SHAPE_HORIZON) {
         return max(1.0 - abs(direction.y), 0.0);
     }
+    if (HAS_DISCS && objects[light].shape == SHAPE_DISC) {
+        let aside = direction - objects[light].normal;
+        return select(0.0, 1.0, dot(aside, aside) <= 2.0 * objects[light].radius);
+    }
     return clamp(dot(direction, objects[light].normal), 0.0, 1.0);
 }
 
@@ -28,6 +32,9 @@ fn sample_environment(light: u32, random: vec2f) -> vec3f {
         let around = sqrt((1.0 - height) * (1.0 + height)) * direction_of_turn(random.y);
         return vec3f(around.x, select(-height, height, upwards), around.y);
     }
+    if (HAS_DISCS && objects[light].shape == SHAPE_DISC) {
+        return normalize(frame_of(objects[light].normal) * sample_cone(random.x, random.y, objects[light].radius));
+    }
     return frame_of(objects[light].normal) * sample_cosine_hemisphere(random.x, random.y);
 }
 
@@ -42,6 +49,9 @@ fn environment_pdf(light: u32, direction: vec3f) -> f32 {
     }
     if (objects[light].shape == SHAPE_HORIZON) {
         return share * (0.5 / PI);
+    }
+    if (HAS_DISCS && objects[light].shape == SHAPE_DISC) {
+        return share * (0.5 / PI) / objects[light].radius;
     }
     return share / PI;
 }

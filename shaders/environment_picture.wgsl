@@ -13,7 +13,7 @@ struct DirectionTable {
 }
 
 fn direction_table(light: u32) -> DirectionTable {
-    let first = u32(texel_at(objects[light].picture).w);
+    let first = u32(texel_at(materials[objects[light].material].picture).w);
     let columns = u32(number_at(first));
     let rows = u32(number_at(first + 1u));
     let heights = first + 2u;
@@ -31,7 +31,7 @@ fn environment_place(light: u32, direction: vec3f) -> vec2f {
 
 /// The first texel of the pixel that a path takes for a direction, by a random number.
 fn environment_texel(light: u32, direction: vec3f, random: f32) -> u32 {
-    let head = objects[light].picture;
+    let head = materials[objects[light].material].picture;
     let pixel = chosen_pixel(head, environment_place(light, direction), true, random);
     return head + 1u + pixel * u32(texel_at(head).z);
 }

@@ -1,25 +1,22 @@
 // The spectrum along a recorded path, four bands at a time.
 
-/// The value of a factor in the four bands of a group.
-fn factor_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
+/// The value of a factor that is no film's, in the four bands of a group.
+fn surface_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
     if (HAS_TEXTURES && factor.kind == FACTOR_SMOOTH) {
         return smooth_value(texel_at(factor.spectrum).xyz, group, at);
-    }
-    if (HAS_FILMS && factor.kind >= FACTOR_FILM_REFLECTS) {
-        return film_value(factor, group, at);
     }
     if (HAS_COATINGS && factor.kind == FACTOR_COATED) {
         return coating_value(factor, group, at);
     }
     let first = spectrum_at(factor.spectrum, group, at);
-    if ((HAS_MIRRORS || HAS_ROUGH_CONDUCTORS) && factor.kind == FACTOR_CONDUCTOR) {
+    if ((HAS_MIRRORS || HAS_ROUGH_CONDUCTORS || HAS_COOK || HAS_BASES) && factor.kind == FACTOR_CONDUCTOR) {
         let k = spectrum_at(factor.spectrum + 1u, group, at);
         return reflectance_unpolarised(first, k, factor.cosine);
     }
     return first; // a reflectance
 }
 
-/// The reflectance or transmittance of a film.
+/// The reflectance or transmittance of a film, in the four bands of a group.
 fn film_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
     if (HAS_STACKS && factor.kind >= FACTOR_STACK_REFLECTS && factor.kind <= FACTOR_STACK_TRANSMITS) {
         return free_stack_value(factor, group, at);
@@ -100,11 +97,54 @@ fn free_stack_value(factor: Factor, group: u32, at: Wavelengths) -> vec4f {
     return 0.5 * (powers.reflectance_s + powers.reflectance_p);
 }
 
-/// What lobes make of the spectra of a vertex.
-fn lobes_value(vertex: Vertex, lobes: Lobes, group: u32, at: Wavelengths) -> vec4f {
+/// Cosines and weights of a mean over a hemisphere: Gauss's rule of three points for the weight x (Abramowitz and Stegun,
+/// table 25.8).
+const MEAN_COSINES: vec3f = vec3f(0.2123405382, 0.5905331356, 0.9114120405);
+const MEAN_WEIGHTS: vec3f = vec3f(0.1396539598, 0.4584822127, 0.4018638275);
+
+/// The colour of light that met several facets of a vertex's surface: F² E / (1 − F (1 − E)) with F the mean of its reflectance
+/// over a hemisphere and E that of the facets' albedo (Kulla and Conty 2017).
+fn multiple_colour(vertex: Vertex, group: u32, at: Wavelengths) -> vec4f {
+    var factor = vertex.scatter;
+    var mean = vec4f(0.0);
+    // In a loop, so that the layers' code is there once.
+    for (var i = 0u; i < 3u; i++) {
+        factor.cosine = MEAN_COSINES[i];
+        mean += MEAN_WEIGHTS[i] * surface_value(factor, group, at);
+    }
+    let energy = materials[vertex.material].mean_energy;
+    return mean * mean * energy / (1.0 - mean * (1.0 - energy));
+}
+
+/// What lobes make of the spectra of a vertex that scatters; `multiple` is its multiple_colour.
+fn lobes_value(vertex: Vertex, lobes: Lobes, multiple: vec4f, group: u32, at: Wavelengths) -> vec4f {
     var factor = vertex.scatter;
     factor.cosine = lobes.cosine;
-    return lobes.single * factor_value(factor, group, at);
+    var value = lobes.single * surface_value(factor, group, at);
+    if (HAS_ROUGH_CONDUCTORS) {
+        value += lobes.multiple * multiple;
+    }
+    if (HAS_BASES && lobes.body > 0.0) {
+        value += lobes.body * body_value(vertex, lobes.light_cosine, group, at);
+    }
+    return value;
+}
+
+/// The colour of a base beside facets, or below a coat with what the coat keeps of it.
+fn body_value(vertex: Vertex, light_cosine: f32, group: u32, at: Wavelengths) -> vec4f {
+    let base = surface_value(Factor(vertex.base_kind, vertex.base, 1.0, 0.0, 0u), group, at);
+    let surface = materials[vertex.material].surface;
+    if (!(HAS_COATED_BODIES || HAS_ROUGH_COATS) || surface < SURFACE_COATED_BODY) {
+        return base;
+    }
+    let n = spectrum_at(vertex.scatter.spectrum, group, at);
+    let outer = spectrum_at(materials[vertex.material].mean_reflectance, group, at);
+    let inside = base * coated_albedo_factor(base, n, outer);
+    if (HAS_ROUGH_COATS && surface == SURFACE_ROUGH_COATED_BODY) {
+        let enters = rough_coat_passes(vertex.material, light_cosine, group, at);
+        return enters * rough_coat_passes(vertex.material, vertex.eye_cosine, group, at) * inside;
+    }
+    return coat_passes(n, vertex.eye_cosine) * coat_passes(n, light_cosine) * inside;
 }
 
 /// The spectrum of a light, times that of a texel of its picture. Texel 0 is none: a head stands there.
@@ -121,14 +161,14 @@ fn light_value(light: u32, texel: u32, group: u32, at: Wavelengths) -> vec4f {
 }
 
 /// Radiance that a vertex receives straight from a light and scatters, before the path's throughput.
-fn connection_value(vertex: Vertex, group: u32, at: Wavelengths) -> vec4f {
+fn connection_value(vertex: Vertex, multiple: vec4f, group: u32, at: Wavelengths) -> vec4f {
     var light = light_value(vertex.connection, vertex.connection_texel, group, at);
     if (HAS_FILMS) {
         for (var i = vertex.first_crossing; i < vertex.end_crossing; i++) {
             light *= film_value(crossings[i], group, at);
         }
     }
-    return light * lobes_value(vertex, vertex.connected, group, at);
+    return light * lobes_value(vertex, vertex.connected, multiple, group, at);
 }
 
 /// Radiance by light group with more of one of them. The loop has a fixed length, so that it is unrolled and the array stays in
@@ -159,11 +199,19 @@ fn path_radiance(group: u32, at: Wavelengths) -> array<vec4f, LIGHT_GROUPS> {
         if (vertex.scatter.kind == FACTOR_ONE) {
             continue;
         }
+        var multiple = vec4f(0.0);
+        if (HAS_ROUGH_CONDUCTORS && vertex.onward.multiple + vertex.connected.multiple > 0.0) {
+            multiple = multiple_colour(vertex, group, at);
+        }
         if (is_lit(vertex.connected)) {
-            let arrived = throughput * connection_value(vertex, group, at);
+            let arrived = throughput * connection_value(vertex, multiple, group, at);
             radiance = with_light(radiance, light_group_of(vertex.connection), arrived);
         }
-        throughput *= lobes_value(vertex, vertex.onward, group, at);
+        if (HAS_FILMS && vertex.scatter.kind >= FACTOR_FILM_REFLECTS) {
+            throughput *= vertex.onward.single * film_value(vertex.scatter, group, at);
+        } else {
+            throughput *= lobes_value(vertex, vertex.onward, multiple, group, at);
+        }
     }
     return radiance;
 }

@@ -67,5 +67,14 @@ fn factor_source(kind: u32, material: u32) -> u32 {
     if (HAS_FILMS && kind >= FACTOR_FILM_REFLECTS) {
         return layers[materials[material].first_layer].spectrum;
     }
+    if ((HAS_COOK || HAS_BASES) && materials[material].surface >= SURFACE_COOK_D1) {
+        return materials[material].coat;
+    }
     return materials[material].spectrum;
+}
+
+/// Whether a surface follows Cook's model.
+fn is_cook(material: u32) -> bool {
+    let surface = materials[material].surface;
+    return surface == SURFACE_COOK_D1 || surface == SURFACE_COOK_D2;
 }

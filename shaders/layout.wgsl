@@ -42,6 +42,17 @@ const SHAPE_POLE: u32 = 18u;
 
 /// Shape that no ray meets: surroundings by a picture, its middle towards `normal`, its right half towards `tangent`.
 const SHAPE_PICTURE: u32 = 19u;
+/// Shape that no ray meets: a disc in the sky about `normal`, with 1 − cos of its half angle for `radius`.
+const SHAPE_DISC: u32 = 24u;
+
+/// Shape that no ray meets: light from the direction `normal` alone. Those of a single direction at each place are greater.
+const SHAPE_DIRECTION: u32 = 25u;
+
+/// Shape that no ray meets: a point that shines to all sides. Those that lie at a place are greater.
+const SHAPE_POINT: u32 = 26u;
+
+/// Shape that no ray meets: a point that shines about `normal`, fully from the cosine `half_width` on, not below `half_height`.
+const SHAPE_SPOT: u32 = 27u;
 
 /// Surface: Lambertian.
 const SURFACE_DIFFUSE: u32 = 0u;
@@ -54,6 +65,36 @@ const SURFACE_ROUGH_CONDUCTOR: u32 = 2u;
 
 /// Surface: a free film.
 const SURFACE_FILM: u32 = 3u;
+
+/// Surface: Cook's model with the distribution D1.
+const SURFACE_COOK_D1: u32 = 4u;
+
+/// Surface: Cook's model with the distribution D2.
+const SURFACE_COOK_D2: u32 = 5u;
+
+/// Surface: a diffuse body below a smooth coat.
+const SURFACE_COATED_BODY: u32 = 6u;
+
+/// Facets: Beckmann's distribution of slopes.
+const FACETS_BECKMANN: u32 = 0u;
+
+/// Facets: the distribution of Trowbridge and Reitz.
+const FACETS_GGX: u32 = 1u;
+
+/// Grain: a surface alike in all directions.
+const GRAIN_NONE: u32 = 0u;
+
+/// Grain: along a direction in space.
+const GRAIN_ALONG: u32 = 1u;
+
+/// Grain: around an axis through the object's centre.
+const GRAIN_AROUND: u32 = 2u;
+
+/// Knots of a table of energy over the root of the cosine.
+const ENERGY_COSINES: u32 = 32u;
+
+/// Knots of a table of energy over the width of the slopes, where that differs.
+const ENERGY_WIDTHS: u32 = 17u;
 
 /// Field: the same everywhere.
 const FIELD_CONSTANT: u32 = 0u;
@@ -188,9 +229,9 @@ struct Frame {
     object_count: u32,
     /// Number of lights.
     light_count: u32,
-    /// First of the objects that are parts of the surroundings.
+    /// First of the objects that are parts of the surroundings, discs in the sky among them.
     first_environment: u32,
-    /// Number of the parts of the surroundings.
+    /// Number of them.
     environment_count: u32,
     /// First of the observer's three spectra.
     observer: u32,
@@ -236,12 +277,22 @@ struct Object {
     is_light: u32,
     /// The light that has this object's number is the object `light`; NONE past the last light.
     light: u32,
-    /// The head of its picture, of surroundings.
-    picture: u32,
+    /// How bright its light is to the eye; steers the choice among lights.
+    brightness: f32,
 }
 
 /// What a surface is made of.
 struct Material {
+    /// Direction of a surface's grain, or of the axis that it runs around.
+    grain: vec3f,
+    /// A `GRAIN_` tag.
+    grain_kind: u32,
+    /// Width of the distribution of slopes along and across the grain.
+    alpha: vec2f,
+    /// A `FACETS_` tag.
+    facets: u32,
+    /// First number of the table of energy of its facets.
+    first_energy: u32,
     /// A `SURFACE_` tag.
     surface: u32,
     /// Spectrum: reflectance (even squares of a checker), or n of an index, whose k is the next one.
@@ -250,8 +301,8 @@ struct Material {
     odd_spectrum: u32,
     /// Side of a checker's squares.
     checker_size: f32,
-    /// Root mean square slope of a rough conductor, 0 when smooth.
-    roughness: f32,
+    /// Mean of that table over all directions.
+    mean_energy: f32,
     /// A `FILM_` tag, of a film.
     film: u32,
     /// Light that it emits.
@@ -268,6 +319,20 @@ struct Material {
     varying_layers: u32,
     /// The head of the picture of its reflectance; NONE where that is no picture.
     picture: u32,
+    /// Spectrum: n of the index above a diffuse base, whose k is the next one.
+    coat: u32,
+    /// The part of the light that a base reflects beside the facets of Cook's model.
+    base_share: f32,
+    /// Share of the paths that follow what the base reflects; of a coated body, what stands for its reflectance there.
+    base_chance: f32,
+    /// First of the numbers of the slopes of Cook's model: m, weight and part of each.
+    first_slope: u32,
+    /// Number of these slopes.
+    slope_count: u32,
+    /// Spectrum: reflectance of a coat for diffuse light from outside.
+    mean_reflectance: u32,
+    /// What stands for the index of a coat where a path chooses its way.
+    coat_estimate: f32,
 }
 
 /// A layer of a film or of a coating.

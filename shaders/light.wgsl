@@ -1,9 +1,28 @@
-// Light sources that directions are drawn towards: emitting spheres and rectangles.
+// What light is sent from: emitting objects with bounds, what surrounds the scene, and lights that are no objects.
+
+/// Whether light comes from a single point or direction, so that no scattered ray ever meets it.
+fn is_single_direction(light: u32) -> bool {
+    return HAS_DELTA_LIGHTS && objects[light].shape >= SHAPE_DIRECTION;
+}
+
+/// Whether a light is a part of what surrounds the scene.
+fn is_surrounding(light: u32) -> bool {
+    return HAS_ENVIRONMENT && objects[light].shape >= SHAPE_EVERYWHERE && objects[light].shape < SHAPE_DIRECTION;
+}
 
 /// A direction from `point` towards a light: uniform in the solid angle of a sphere (over all
-/// directions from inside it), uniform over the area of a rectangle.
+/// directions from inside it), uniform over the area of a rectangle or disk.
 fn sample_light(light: u32, point: vec3f, u: f32, v: f32) -> vec3f {
+    if (is_surrounding(light)) {
+        return sample_environment(light, vec2f(u, v));
+    }
     let towards = objects[light].center - point;
+    if (is_single_direction(light)) {
+        if (objects[light].shape == SHAPE_DIRECTION) {
+            return objects[light].normal;
+        }
+        return normalize(towards);
+    }
     if (HAS_SPHERE_LIGHTS && objects[light].shape == SHAPE_SPHERE) {
         let distance2 = dot(towards, towards);
         if (sphere_surrounds(light, distance2)) {
@@ -12,13 +31,23 @@ fn sample_light(light: u32, point: vec3f, u: f32, v: f32) -> vec3f {
         let height = cone_height(objects[light].radius, distance2);
         return normalize(frame_of(normalize(towards)) * sample_cone(u, v, height));
     }
-    let aside = (2.0 * u - 1.0) * objects[light].half_width * objects[light].tangent;
-    let above = (2.0 * v - 1.0) * objects[light].half_height * objects[light].bitangent;
+    var place = vec2f(2.0 * u - 1.0, 2.0 * v - 1.0);
+    if (HAS_DISK_LIGHTS && objects[light].shape == SHAPE_DISK) {
+        place = sqrt(u) * direction_of_turn(v);
+    }
+    let aside = place.x * objects[light].half_width * objects[light].tangent;
+    let above = place.y * objects[light].half_height * objects[light].bitangent;
     return normalize(towards + aside + above);
 }
 
-/// Density with which sample_light draws a direction that hits the light, sr⁻¹.
+/// Density with which sample_light draws a direction that hits the light, sr⁻¹; 0 for light from a single direction.
 fn light_pdf(light: u32, point: vec3f, direction: vec3f) -> f32 {
+    if (is_surrounding(light)) {
+        return environment_pdf(light, direction);
+    }
+    if (is_single_direction(light)) {
+        return 0.0;
+    }
     let towards = objects[light].center - point;
     if (HAS_SPHERE_LIGHTS && objects[light].shape == SHAPE_SPHERE) {
         let distance2 = dot(towards, towards);
@@ -34,8 +63,39 @@ fn light_pdf(light: u32, point: vec3f, direction: vec3f) -> f32 {
         return 0.0;
     }
     let distance = height / speed;
-    let area = 4.0 * objects[light].half_width * objects[light].half_height;
-    return distance * distance / (speed * area);
+    return distance * distance / (speed * plane_area(light));
+}
+
+/// The area of a rectangle or disk.
+fn plane_area(light: u32) -> f32 {
+    let round = HAS_DISK_LIGHTS && objects[light].shape == SHAPE_DISK;
+    return select(4.0, PI, round) * objects[light].half_width * objects[light].half_height;
+}
+
+/// Factor of a light's emission towards `point`: the share of a part of the surroundings; of a point and of a spot what makes their
+/// intensity an irradiance.
+fn light_share(light: u32, point: vec3f, direction: vec3f) -> f32 {
+    if (is_surrounding(light)) {
+        return environment_share(light, direction);
+    }
+    if (!is_single_direction(light) || objects[light].shape == SHAPE_DIRECTION) {
+        return 1.0;
+    }
+    let towards = objects[light].center - point;
+    let falloff = 1.0 / dot(towards, towards);
+    if (objects[light].shape == SHAPE_SPOT) {
+        return falloff * spot_share(light, direction);
+    }
+    return falloff;
+}
+
+/// A spot's intensity against a direction, relative to that on its axis: 1 within the inner cone, 0 outside the outer one, between
+/// them the cubic 3t² − 2t³ in the cosine (Pharr, Jakob and Humphreys, Physically Based Rendering, 4th edition, section 12.2.3).
+fn spot_share(light: u32, direction: vec3f) -> f32 {
+    let full = objects[light].half_width;
+    let edge = objects[light].half_height;
+    let t = clamp((-dot(direction, objects[light].normal) - edge) / (full - edge), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
 }
 
 /// Whether a point at this squared distance from the centre lies in or on the sphere.

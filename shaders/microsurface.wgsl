@@ -57,7 +57,7 @@ fn smith_lambda(surface: Microsurface, direction: vec3f) -> f32 {
 }
 
 struct Reflection {
-    /// D G / (4 (N·E)(N·L)): the reflection function of facets that reflect everything, sr⁻¹.
+    /// D G / (4 (N·E)): the reflection function of facets that reflect everything times the light's cosine, sr⁻¹.
     value: f32,
     /// Density with which a facet drawn by sample_facet mirrors the eye to the light, sr⁻¹.
     pdf: f32,
@@ -72,7 +72,7 @@ fn reflection_between(surface: Microsurface, eye: vec3f, light: vec3f) -> Reflec
     let density = facet_density(surface, facet) / (4.0 * eye.z);
     let lambda = smith_lambda(surface, eye);
     let seen = 1.0 + lambda + smith_lambda(surface, light);
-    return Reflection(density / (seen * light.z), density / (1.0 + lambda), dot(eye, facet));
+    return Reflection(density / seen, density / (1.0 + lambda), dot(eye, facet));
 }
 
 /// A facet normal as often as `eye` sees it, from two uniform numbers.

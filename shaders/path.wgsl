@@ -4,7 +4,7 @@
 fn trace_path(sample: Sample) -> Wavelengths {
     begin_record();
     let first = numbers_of(sample, 0u);
-    var walk = Walk(camera_ray(sample.pixel, first.xy), NONE, vec3f(0.0), 0.0, 1u, true);
+    var walk = Walk(camera_ray(sample.pixel, first.xy), NONE, vec3f(0.0), 0.0, vec3f(0.0), 0.0, 1u, true);
     while (walk.alive) {
         let hit = nearest_hit(walk.ray, walk.from_object);
         if (hit.object == NONE) {
@@ -22,16 +22,18 @@ fn trace_path(sample: Sample) -> Wavelengths {
 
 /// The radiance of the surroundings, part by part.
 fn record_environment(walk: Walk, sample: Sample) {
-    let direction = walk.ray.direction;
     for (var i = 0u; i < frame.environment_count; i++) {
         let part = frame.first_environment + i;
-        let material = objects[part].material;
-        var texel = 0u;
-        if (HAS_ENVIRONMENT_PICTURE) {
-            texel = environment_texel(part, direction, random_at(sample, walk, 0u).w);
+        let share = environment_share(part, walk.ray.direction);
+        if (share > 0.0) {
+            let material = objects[part].material;
+            let weight = share * emission_share(walk, part);
+            var texel = 0u;
+            if (HAS_ENVIRONMENT_PICTURE && objects[part].shape == SHAPE_PICTURE) {
+                texel = environment_texel(part, walk.ray.direction, random_at(sample, walk, 0u).w);
+            }
+            push_emission(materials[material].emission, texel, materials[material].emission_scale * weight);
         }
-        let weight = materials[material].emission_scale * environment_share(part, direction);
-        push_emission(materials[material].emission, texel, weight);
     }
 }
 
@@ -57,21 +59,30 @@ fn meet_surface(walk: Walk, sample: Sample, hit: Hit) -> Walk {
     }
     let reflects = !HAS_FILMS || surface != SURFACE_FILM || random_at(sample, walk, 1u).x < REFLECTED_SHARE;
     vertex.scatter = layered_factor(hit.object, point, reflects);
+    if ((HAS_COOK || HAS_BASES) && surface >= SURFACE_COOK_D1) {
+        if (HAS_BASES) {
+            let base = diffuse_factor(hit.object, point.position, random_at(sample, walk, 1u).w);
+            vertex.base = base.spectrum;
+            vertex.base_kind = base.kind;
+        }
+        return meet_scattering(walk, sample, hit.object, point, vertex);
+    }
     if (HAS_ROUGH_CONDUCTORS && surface == SURFACE_ROUGH_CONDUCTOR) {
         return meet_scattering(walk, sample, hit.object, point, vertex);
     }
     return meet_smooth(walk, hit.object, point, vertex, reflects);
 }
 
-/// Weight of an emitter that a scattered path happens to hit, by the balance heuristic (Veach 1997, equation 9.8):
-/// the rest is what connections to that light bring.
-fn emission_share(walk: Walk, object: u32) -> f32 {
-    let has_lights = HAS_SPHERE_LIGHTS || HAS_RECTANGLE_LIGHTS;
-    if (!has_lights || walk.scatter_pdf <= 0.0 || objects[object].is_light == 0u) {
+/// Weight of a light that a scattered path happens to meet: the rest is what connections to that light bring.
+fn emission_share(walk: Walk, light: u32) -> f32 {
+    if (!HAS_LIGHTS || walk.scatter_pdf <= 0.0 || objects[light].is_light == 0u) {
         return 1.0;
     }
-    let sent = light_pdf(object, walk.scattered_at, walk.ray.direction) / f32(frame.light_count);
-    return walk.scatter_pdf / (walk.scatter_pdf + sent);
+    if (!MEETS_LIGHT || !SENDS_LIGHT) {
+        return select(0.0, 1.0, MEETS_LIGHT);
+    }
+    let chosen = choice_probability(light, walk.scattered_at, walk.scattered_normal, walk.estimates);
+    return mis_share(walk.scatter_pdf, chosen * light_pdf(light, walk.scattered_at, walk.ray.direction));
 }
 
 /// Share of the paths that follow the reflection of a film rather than its transmission. What is bright behind a film is
@@ -88,7 +99,7 @@ fn meet_smooth(walk: Walk, object: u32, point: SurfacePoint, vertex_in: Vertex, 
     vertex.onward = single_lobe(weight, vertex.scatter.cosine);
     push_vertex(vertex);
     if (reflects) {
-        return walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0);
+        return walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0, 0.0);
     }
     var through = walk;
     through.ray.origin = point.position;
@@ -100,7 +111,8 @@ fn meet_smooth(walk: Walk, object: u32, point: SurfacePoint, vertex_in: Vertex, 
 fn meet_scattering(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, vertex_in: Vertex) -> Walk {
     var vertex = vertex_in;
     let scatterer = Scatterer(objects[object].material, vertex.scatter.kind);
-    let world_from_local = frame_of(point.normal);
+    vertex.material = scatterer.material;
+    let world_from_local = surface_frame(object, point);
     let eye = -walk.ray.direction * world_from_local;
     vertex.eye_cosine = eye.z;
 
@@ -109,9 +121,18 @@ fn meet_scattering(walk: Walk, sample: Sample, object: u32, point: SurfacePoint,
         vertex = connect(vertex, walk, object, point, sent, scattering(scatterer, eye, sent.direction * world_from_local));
     }
 
-    let light = sample_scattering(scatterer, eye, random_at(sample, walk, 1u));
+    let random = random_at(sample, walk, 1u);
+    if (HAS_COATED_BODIES && materials[scatterer.material].surface == SURFACE_COATED_BODY) {
+        let share = coat_share(scatterer.material, eye.z);
+        if (random.z < share) {
+            vertex.onward = single_lobe(1.0 / share, eye.z);
+            push_vertex(vertex);
+            return walk_on(walk, object, point, mirrored(walk.ray.direction, point.normal), 0.0, 0.0);
+        }
+    }
+    let light = sample_scattering(scatterer, eye, random);
     let onward = scattering(scatterer, eye, light);
-    var next = walk_on(walk, object, point, normalize(world_from_local * light), onward.pdf);
+    var next = walk_on(walk, object, point, normalize(world_from_local * light), onward.pdf, sent.total);
     if (onward.pdf > 0.0) {
         vertex.onward = scaled(onward.lobes, 1.0 / onward.pdf);
     } else {

@@ -32,8 +32,14 @@ struct Lobes {
 struct Vertex {
     /// What the path meets here; its cosine is that of `onward`.
     scatter: Factor,
+    /// The material of what scatters.
+    material: u32,
     /// Cosine of the path's arrival with the surface's normal.
     eye_cosine: f32,
+    /// Reflectance of what lies below a coat or beside facets.
+    base: u32,
+    /// Its FACTOR_ tag.
+    base_kind: u32,
     /// What the path is multiplied by here.
     onward: Lobes,
     /// Radiance that joins the path here, before the factor: a light, and its texel where it has a picture (0 where it has none).
@@ -96,7 +102,7 @@ fn begin_record() {
 /// A vertex that does nothing yet.
 fn plain_vertex() -> Vertex {
     let one = Factor(FACTOR_ONE, 0u, 1.0, 0.0, 0u);
-    return Vertex(one, 1.0, NO_LOBES, 0u, 0u, 0.0, 0u, 0u, NO_LOBES, crossing_count, crossing_count);
+    return Vertex(one, 0u, 1.0, 0u, FACTOR_ONE, NO_LOBES, 0u, 0u, 0.0, 0u, 0u, NO_LOBES, crossing_count, crossing_count);
 }
 
 fn push_vertex(vertex: Vertex) {

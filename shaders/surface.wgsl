@@ -23,6 +23,26 @@ fn surface_point(index: u32, ray: Ray, distance: f32) -> SurfacePoint {
     return SurfacePoint(position, select(normal, -normal, cosine > 0.0), abs(cosine), cosine <= 0.0);
 }
 
+/// The frame of a surface at a point, its third column the normal on the ray's side: where the surface is brushed the first runs
+/// along the grain.
+fn surface_frame(object: u32, point: SurfacePoint) -> mat3x3f {
+    let material = objects[object].material;
+    if (!HAS_GRAIN || materials[material].grain_kind == GRAIN_NONE) {
+        return frame_of(point.normal);
+    }
+    var grain = materials[material].grain;
+    if (materials[material].grain_kind == GRAIN_AROUND) {
+        grain = cross(grain, point.position - objects[object].center);
+    }
+    let along = grain - dot(grain, point.normal) * point.normal;
+    let length2 = dot(along, along);
+    if (length2 <= 1e-10 * dot(grain, grain)) {
+        return frame_of(point.normal); // the grain runs into the surface, or the point lies on the axis
+    }
+    let tangent = along * inverseSqrt(length2);
+    return mat3x3f(tangent, cross(point.normal, tangent), point.normal);
+}
+
 /// Spectrum of a diffuse reflectance at a point: one of the two of a checker, or the only one.
 fn reflectance_spectrum(material: u32, index: u32, position: vec3f) -> u32 {
     let even = materials[material].spectrum;

@@ -9,6 +9,9 @@ struct Walk {
     /// no light could have been sent to. Films that are passed straight through change neither.
     scattered_at: vec3f,
     scatter_pdf: f32,
+    /// The normal there, and the sum of all lights' estimates.
+    scattered_normal: vec3f,
+    estimates: f32,
     /// Segments so far; the camera ray is the first.
     segment: u32,
     alive: bool,
@@ -33,8 +36,9 @@ fn random_at(sample: Sample, walk: Walk, use_of: u32) -> vec4f {
 }
 
 /// The walk as it goes on from `point` in a new direction.
-fn walk_on(walk: Walk, object: u32, point: SurfacePoint, direction: vec3f, pdf: f32) -> Walk {
-    return Walk(Ray(point.position, direction), object, point.position, pdf, walk.segment, true);
+fn walk_on(walk: Walk, object: u32, point: SurfacePoint, direction: vec3f, pdf: f32, estimates: f32) -> Walk {
+    let ray = Ray(point.position, direction);
+    return Walk(ray, object, point.position, pdf, point.normal, estimates, walk.segment, true);
 }
 
 /// Mirrors a direction that runs against `normal`.

@@ -18,27 +18,35 @@ pub const SHIPPED: &[&str] = &[
     "dichroic_ball",
     "gold_visor",
     "metal_spheres",
+    "paper_figure_5",
+    "figure_5_exact",
+    "metals",
+    "brushed_disc",
     "furnace",
 ];
-
-/// Scenes of this folder.
-pub const OURS: &[&str] = &["everything", "everything_pictured"];
 
 /// A scene with every kind of surface, pattern, thickness, light and environment that there is.
 pub const EVERYTHING: &str = include_str!("everything.toml");
 
-/// What it has not got: surroundings by a picture, a panorama.
-pub const PICTURED: &str = include_str!("everything_pictured.toml");
+/// A scene with Cook's model in every form and with every kind of body below a coat.
+pub const EVERYTHING_BODIES: &str = include_str!("everything_bodies.toml");
 
-/// A scene of `scenes/`, or one of ours above, as a file that can still be changed.
+/// What they have not got: surroundings by a picture, a panorama.
+pub const EVERYTHING_PICTURED: &str = include_str!("everything_pictured.toml");
+
+/// The names of the scenes that are made for the suites.
+pub const MADE: &[&str] = &["everything", "everything_bodies", "everything_pictured"];
+
+/// A scene of `scenes/`, or one of [`MADE`], as a file that can still be changed.
 ///
 /// # Panics
 /// When it cannot be read.
 pub fn file(name: &str) -> SceneFile {
-    let ours = |text| SceneFile::parse(&format!("{name}.toml"), text, &root());
+    let made = |text| SceneFile::parse(&format!("{name}.toml"), text, &root());
     let read = match name {
-        "everything" => ours(EVERYTHING),
-        "everything_pictured" => ours(PICTURED),
+        "everything" => made(EVERYTHING),
+        "everything_bodies" => made(EVERYTHING_BODIES),
+        "everything_pictured" => made(EVERYTHING_PICTURED),
         _ => SceneFile::read(root().join("scenes").join(format!("{name}.toml"))),
     };
     read.unwrap_or_else(|problems| panic!("{problems}"))
@@ -62,6 +70,7 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "air_above",
     "arrives",
     "begin_record",
+    "body_value",
     "coating_value",
     "connect",
     "connection_value",
@@ -69,6 +78,8 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "environment_texel",
     "factor_source",
     "free_stack_value",
+    "is_before",
+    "is_cook",
     "is_lit",
     "is_recorded",
     "layer_varies",
@@ -81,6 +92,7 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "meet_scattering",
     "meet_smooth",
     "meet_surface",
+    "multiple_colour",
     "numbers_of",
     "path_radiance",
     "plain_vertex",

@@ -33,6 +33,20 @@ pub const FILM_LONG: Tolerance = of(1e-3, 0.0);
 pub const FACET: Tolerance = of(1e-6, 3e-5);
 /// Smooth spectra with coefficients to 20: the quadratic is off by 4e-6, and the sigmoid's slope is at most a half.
 pub const SMOOTH: Tolerance = of(3e-6, 1e-6);
+/// exp(x²) erfc(x) and what is made of it: exp and nine terms, each 2 ulp.
+pub const SCALED_ERFC: Tolerance = of(1e-7, 2e-6);
+/// A first guess at erf⁻¹, whose formula is off by 2e-3, and in f32 by √(5e-7) where the logarithm is near 0.
+pub const ROUGH_INVERSE: Tolerance = of(3e-3, 3e-3);
+/// Smith's Λ: the difference of two terms of the same size times exp of up to −36.
+pub const LAMBDA: Tolerance = of(1e-6, 1e-5);
+/// Densities of facets of α from 0.1: a half vector's slope is off by 1e-6/α, its square in an exponent of up to −80 by 1e-4.
+pub const FACETS: Tolerance = of(2e-6, 2e-4);
+/// Directions of facets drawn by numbers up to 0.999, where the slope's density has fallen to 1e-2 of its largest.
+pub const FACET_DIRECTION: Tolerance = of(3e-5, 0.0);
+/// A place in a table of 31 steps, off by 1e-6, and at the azimuth's width.
+pub const FACET_ENERGY: Tolerance = of(2e-6, 0.0);
+/// A frame along a grain that stands at a sine of at least 0.1 from the normal.
+pub const FRAME: Tolerance = of(5e-6, 0.0);
 /// Distances along rays: scaled by the coordinates (up to 10) and divided by a cosine.
 pub const DISTANCE: Tolerance = of(1e-5, 1e-5);
 /// Densities of lights: squares of distances over cosines.
@@ -155,6 +169,10 @@ pub const VARIANCES: VarianceTolerance = VarianceTolerance {
 /// Closed forms: relative error besides the noise. The view is some thousandths of the distances wide (squared: below
 /// 1e-5) and f32 geometry, optics and sums of a million samples add as much again.
 pub const CLOSED_FORM: f64 = 2e-5;
+/// Albedo of rough metals: the tables of facets' energy are linear between 32 cosines and made by 48² facets.
+pub const ROUGH_FORM: f64 = 5e-4;
+/// White furnace of rough surfaces: what the tables of facets' energy promise, noise of 65 536 samples included.
+pub const FURNACE_ROUGH: f64 = 5e-3;
 /// Closed forms that no random number touches: a Fresnel quotient or an interpolation, in f32.
 pub const CLOSED_FORM_EXACT: f64 = 5e-6;
 /// Films of some 30 half turns at fixed wavelengths: as FILM, relative to R of a tenth.
@@ -168,6 +186,9 @@ pub const PROVING_ERROR: f64 = 4e-3;
 /// Just outside a sphere light, from 1.000 008 radii: the cone's height is 1 − √(1 − sin²) with 1 − sin² down to 1.6e-5, which
 /// keeps an error of 2e-6 from the coordinates; the root makes that 2.5e-4 of the height, and the density follows it.
 pub const NEAR_LIGHT: Tolerance = of(5e-4, 5e-4);
+/// What lights bring: points keep 3e-7 of coordinates of some units, which a squared distance of a tenth makes 1e-5, and the edges of
+/// cones a little more.
+pub const LIGHT_ESTIMATE: Tolerance = of(5e-5, 1e-5);
 /// A knot and the place after it: offset times up to 32 steps is rounded by 1e-6.
 pub const KNOT: Tolerance = of(2e-6, 0.0);
 /// A value between two knots: the place is off by up to 1e-6 of what lies between them.

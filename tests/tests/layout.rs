@@ -54,7 +54,7 @@ fn naga_sees_the_offsets_of_rust() {
     assert_layout!(structs, Frame: camera_origin, projection, camera_back, image_size, groups, light_count, environment_count, observer);
     assert_layout!(structs, Batch: tile_origin, tile_size, first_sample, sample_count);
     assert_layout!(structs, Object: center, radius, normal, tangent, bitangent, half_height, material, is_light, light);
-    assert_layout!(structs, Material: surface, roughness, emission_scale, first_layer, layer_count, is_black);
+    assert_layout!(structs, Material: grain, grain_kind, alpha, facets, first_energy, surface, mean_energy, emission_scale, first_layer, layer_count, is_black);
     assert_layout!(structs, StackRun: wavelength_count, stack_count, incident);
     assert_layout!(structs, RunLayer: medium, thickness_nm);
     assert_layout!(structs, RunStack: substrate, first_layer, layer_count);

@@ -3,7 +3,7 @@
 use gpu::PackedScene;
 use pellicle_tests::frames::{Values, same_numbers};
 use pellicle_tests::probe::Probe;
-use pellicle_tests::scenes::{OURS, SHIPPED, small};
+use pellicle_tests::scenes::{MADE, SHIPPED, small};
 use pellicle_tests::tolerances::PATHS;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -38,7 +38,7 @@ fn probe(packed: &PackedScene) -> Probe<'_> {
 fn every_path_agrees_with_the_reference() {
     let gpu = pellicle_tests::device::open();
     let mut wrong = Vec::new();
-    for name in SHIPPED.iter().chain(OURS) {
+    for name in SHIPPED.iter().chain(MADE) {
         let scene = small(name, [SIDE, SIDE], 1, BANDS, 3);
         let packed = PackedScene::new(&scene);
         let table: Vec<f32> = rows().iter().flatten().map(|&x| x as f32).collect();
@@ -53,7 +53,7 @@ fn every_path_agrees_with_the_reference() {
             })
             .copied()
             .collect();
-        let lights = scene.lights();
+        let lights = scene.light_sources();
         let expected: Vec<_> = rows()
             .par_iter()
             .map(|&[x, y, sample]| reference::radiance(&scene, &lights, [x, y], sample))
@@ -84,7 +84,7 @@ fn every_path_agrees_with_the_reference() {
 /// The probe really runs what it is said to prove.
 #[test]
 fn the_probe_reaches_the_whole_path_tracer() {
-    let called: BTreeSet<String> = OURS
+    let called: BTreeSet<String> = MADE
         .iter()
         .flat_map(|name| {
             let scene = small(name, [SIDE, SIDE], 1, BANDS, 3);

@@ -8,7 +8,9 @@ use pellicle_tests::device::open;
 use pellicle_tests::scenes::file;
 use pellicle_tests::tolerances::{BANDS_DELTA_E, METAMERS_DELTA_E, RELIT_DELTA_E};
 use scene::SceneFile;
-use scene::description::{Emission, Environment, LightGroups, Material, WavelengthSampling};
+use scene::description::{
+    Emission, EmissionSpectrum, Environment, LightGroups, Material, WavelengthSampling,
+};
 use spectra::{Observer, SpectralImage};
 use std::ops::ControlFlow;
 
@@ -22,7 +24,7 @@ fn on_gpu(gpu: &Gpu, file: &SceneFile) -> SpectralImage {
 fn lit_by(name: &str, lamp: &str) -> SceneFile {
     let mut file = file(name);
     let replace = |emission: &mut Emission| {
-        if let Emission::Illuminant { illuminant, .. } = emission {
+        if let EmissionSpectrum::Illuminant { illuminant, .. } = &mut emission.spectrum {
             lamp.clone_into(illuminant);
         }
     };

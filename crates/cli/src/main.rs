@@ -94,7 +94,7 @@ fn check(scene: &std::path::Path) -> miette::Result<()> {
         settings.bands.count(),
         settings.samples,
         validated.objects().len(),
-        validated.lights().len(),
+        validated.light_sources().len(),
         memory::of_picture(&validated),
     ))
 }

@@ -45,6 +45,7 @@ impl Medium {
             Index::Table { .. } => "table".to_owned(),
             Index::Cauchy { .. } => "Cauchy".to_owned(),
             Index::Sellmeier { .. } => "Sellmeier".to_owned(),
+            Index::Reflecting { .. } => "normal reflectance".to_owned(),
             Index::Mixture { .. } => "mixture".to_owned(),
         }
     }

@@ -1,8 +1,9 @@
 //! What a scene has, so that its pipeline leaves out the rest: the values of `shaders/features.wgsl`.
 
 use scene::{
-    Coordinate, Environment, Interference, Material, PathDifference, Pattern, PictureSpectra,
-    Profile, Projection, Sampler, Scene, Shape, Thickness,
+    Coordinate, DirectLight, Distribution, Environment, EnvironmentPart, EnvironmentShape,
+    Interference, LightSource, Material, Microsurface, PathDifference, Pattern, PictureSpectra,
+    Profile, Projection, Sampler, Scene, Shape, SourceKind, Thickness,
 };
 
 /// Constants of a pipeline by name: 1 where the scene has the thing, 0 where it has not.
@@ -12,13 +13,18 @@ pub struct Features(Vec<(&'static str, f64)>);
 impl Features {
     /// What a scene has.
     pub fn of(scene: &Scene) -> Self {
+        let sources = scene.light_sources();
+        let surroundings = scene.surroundings();
         let shape = |wanted: fn(&Shape) -> bool| scene.objects().iter().any(|o| wanted(&o.shape));
         let light = |wanted: fn(&Shape) -> bool| {
-            scene
-                .lights()
-                .iter()
-                .any(|&index| wanted(&scene.objects()[index].shape))
+            sources.iter().any(|source| match source.kind {
+                SourceKind::Object(index) => wanted(&scene.objects()[index].shape),
+                _ => false,
+            })
         };
+        let is_delta = |source: &LightSource| matches!(source.kind, SourceKind::Light(_));
+        let is_disc = |part: &EnvironmentPart| matches!(part.shape, EnvironmentShape::Disc { .. });
+        let direct = scene.settings().direct_light;
         let used: Vec<&Material> = scene
             .objects()
             .iter()
@@ -28,6 +34,10 @@ impl Features {
         let film = |wanted: fn(FilmForm) -> bool| {
             let mut forms = used.iter().filter_map(|m| FilmForm::of(scene, m));
             forms.any(wanted)
+        };
+        let facets = |wanted: fn(&Microsurface) -> bool| {
+            let mut rough = used.iter().filter_map(|material| material.microsurface());
+            rough.any(wanted)
         };
         let is_sphere = |shape: &Shape| matches!(shape, Shape::Sphere { .. });
         let is_rectangle = |shape: &Shape| matches!(shape, Shape::Rectangle { .. });
@@ -53,16 +63,28 @@ impl Features {
             ),
             (
                 "HAS_ROUGH_CONDUCTORS",
-                material(|m| {
-                    matches!(
-                        m,
-                        Material::Conductor {
-                            microsurface: Some(_),
-                            ..
-                        }
-                    )
-                }),
+                material(|m| m.microsurface().is_some()),
             ),
+            ("HAS_COOK", material(|m| matches!(m, Material::Cook(_)))),
+            ("HAS_BASES", material(has_base)),
+            (
+                "HAS_COATED_BODIES",
+                material(
+                    |m| matches!(m, Material::CoatedBody(body) if body.microsurface.is_none()),
+                ),
+            ),
+            (
+                "HAS_ROUGH_COATS",
+                material(
+                    |m| matches!(m, Material::CoatedBody(body) if body.microsurface.is_some()),
+                ),
+            ),
+            (
+                "HAS_BECKMANN",
+                facets(|m| m.distribution == Distribution::Beckmann),
+            ),
+            ("HAS_GGX", facets(|m| m.distribution == Distribution::Ggx)),
+            ("HAS_GRAIN", facets(Microsurface::is_brushed)),
             ("HAS_FILMS", film(|_| true)),
             ("HAS_LOSSY_FILMS", film(|form| form == FilmForm::Lossy)),
             ("HAS_STACKS", film(|form| form == FilmForm::Stack)),
@@ -76,7 +98,17 @@ impl Features {
             ),
             ("HAS_SPHERE_LIGHTS", light(is_sphere)),
             ("HAS_RECTANGLE_LIGHTS", light(is_rectangle)),
-            ("HAS_ENVIRONMENT", !is_dark(scene.environment())),
+            ("HAS_DISK_LIGHTS", light(is_disk)),
+            ("HAS_DELTA_LIGHTS", sources.iter().any(is_delta)),
+            ("HAS_DISCS", surroundings.iter().any(is_disc)),
+            ("HAS_LIGHTS", !sources.is_empty()),
+            ("HAS_LIGHT_CHOICE", sources.len() > 1),
+            (
+                "HAS_ENVIRONMENT",
+                surroundings.iter().any(|part| part.emission.scale > 0.0),
+            ),
+            ("SENDS_LIGHT", direct != DirectLight::Surfaces),
+            ("MEETS_LIGHT", direct != DirectLight::Lights),
             (
                 "HAS_ENVIRONMENT_PICTURE",
                 picture_of(scene.environment()).is_some(),
@@ -176,22 +208,30 @@ fn is_diffuse(material: &Material) -> bool {
     )
 }
 
+/// Whether something diffuse lies below a coat or beside facets.
+fn has_base(material: &Material) -> bool {
+    match material {
+        Material::Cook(cook) => cook.diffuse.is_some(),
+        Material::CoatedBody(_) => true,
+        _ => false,
+    }
+}
+
 fn is_checker(material: &Material) -> bool {
-    matches!(
-        material,
-        Material::Diffuse {
-            reflectance: Pattern::Checker { .. }
-        }
-    )
+    matches!(pattern_of(material), Some(Pattern::Checker { .. }))
 }
 
 fn is_texture(material: &Material) -> bool {
-    matches!(
-        material,
-        Material::Diffuse {
-            reflectance: Pattern::Texture { .. }
-        }
-    )
+    matches!(pattern_of(material), Some(Pattern::Texture { .. }))
+}
+
+/// What a diffuse surface or base reflects, where it may vary.
+fn pattern_of(material: &Material) -> Option<&Pattern> {
+    match material {
+        Material::Diffuse { reflectance } => Some(reflectance),
+        Material::CoatedBody(body) => Some(&body.base),
+        _ => None,
+    }
 }
 
 /// The formula that serves a film.
@@ -228,19 +268,6 @@ impl FilmForm {
             (Interference::Exact, [_]) => Self::Lossy,
             (Interference::Exact, _) => Self::Stack,
         })
-    }
-}
-
-fn is_dark(environment: &Environment) -> bool {
-    match environment {
-        Environment::Constant(all) | Environment::Picture { emission: all, .. } => all.scale == 0.0,
-        Environment::Gradient {
-            zenith,
-            horizon,
-            ground,
-        } => [zenith, horizon, ground]
-            .iter()
-            .all(|emission| emission.scale == 0.0),
     }
 }
 

@@ -4,6 +4,7 @@
 //! where WGSL expects it, and give the text of `shaders/layout.wgsl`. That file is committed, and a test proves it fresh.
 
 use scene::limits::{MAX_FIELD_DEPTH, THICKNESS_NM};
+use scene::{CoatedBody, Energy};
 
 /// A type with the same bytes in Rust and in WGSL (WGSL specification, section 14.4.1).
 trait Shared {
@@ -142,6 +143,14 @@ constants! { CONSTANTS;
     pub const SHAPE_POLE = 18;
     /// Shape that no ray meets: surroundings by a picture, its middle towards `normal`, its right half towards `tangent`.
     pub const SHAPE_PICTURE = 19;
+    /// Shape that no ray meets: a disc in the sky about `normal`, with 1 − cos of its half angle for `radius`.
+    pub const SHAPE_DISC = 24;
+    /// Shape that no ray meets: light from the direction `normal` alone. Those of a single direction at each place are greater.
+    pub const SHAPE_DIRECTION = 25;
+    /// Shape that no ray meets: a point that shines to all sides. Those that lie at a place are greater.
+    pub const SHAPE_POINT = 26;
+    /// Shape that no ray meets: a point that shines about `normal`, fully from the cosine `half_width` on, not below `half_height`.
+    pub const SHAPE_SPOT = 27;
 
     /// Surface: Lambertian.
     pub const SURFACE_DIFFUSE = 0;
@@ -151,6 +160,31 @@ constants! { CONSTANTS;
     pub const SURFACE_ROUGH_CONDUCTOR = 2;
     /// Surface: a free film.
     pub const SURFACE_FILM = 3;
+    /// Surface: Cook's model with the distribution D1.
+    pub const SURFACE_COOK_D1 = 4;
+    /// Surface: Cook's model with the distribution D2.
+    pub const SURFACE_COOK_D2 = 5;
+    /// Surface: a diffuse body below a smooth coat.
+    pub const SURFACE_COATED_BODY = 6;
+    /// Surface: a diffuse body below a rough coat.
+    pub const SURFACE_ROUGH_COATED_BODY = 7;
+
+    /// Facets: Beckmann's distribution of slopes.
+    pub const FACETS_BECKMANN = 0;
+    /// Facets: the distribution of Trowbridge and Reitz.
+    pub const FACETS_GGX = 1;
+    /// Grain: a surface alike in all directions.
+    pub const GRAIN_NONE = 0;
+    /// Grain: along a direction in space.
+    pub const GRAIN_ALONG = 1;
+    /// Grain: around an axis through the object's centre.
+    pub const GRAIN_AROUND = 2;
+    /// Cosines for which a rough coat has its reflectance, even in their roots.
+    pub const COAT_COSINES = CoatedBody::COSINES as u32;
+    /// Knots of a table of energy over the root of the cosine.
+    pub const ENERGY_COSINES = Energy::COSINES as u32;
+    /// Knots of a table of energy over the width of the slopes, where that differs.
+    pub const ENERGY_WIDTHS = Energy::WIDTHS as u32;
 
     /// Field: the same everywhere.
     pub const FIELD_CONSTANT = 0;
@@ -258,9 +292,9 @@ structs! { STRUCTS;
         pub object_count: u32,
         /// Number of lights.
         pub light_count: u32,
-        /// First of the objects that are parts of the surroundings.
+        /// First of the objects that are parts of the surroundings, discs in the sky among them.
         pub first_environment: u32,
-        /// Number of the parts of the surroundings.
+        /// Number of them.
         pub environment_count: u32,
         /// First of the observer's three spectra.
         pub observer: u32,
@@ -306,12 +340,22 @@ structs! { STRUCTS;
         pub is_light: u32,
         /// The light that has this object's number is the object `light`; NONE past the last light.
         pub light: u32,
-        /// The head of its picture, of surroundings.
-        pub picture: u32,
+        /// How bright its light is to the eye; steers the choice among lights.
+        pub brightness: f32,
     }
 
     /// What a surface is made of.
     pub struct Material {
+        /// Direction of a surface's grain, or of the axis that it runs around.
+        pub grain: [f32; 3],
+        /// A `GRAIN_` tag.
+        pub grain_kind: u32,
+        /// Width of the distribution of slopes along and across the grain.
+        pub alpha: [f32; 2],
+        /// A `FACETS_` tag.
+        pub facets: u32,
+        /// First number of the table of energy of its facets.
+        pub first_energy: u32,
         /// A `SURFACE_` tag.
         pub surface: u32,
         /// Spectrum: reflectance (even squares of a checker), or n of an index, whose k is the next one.
@@ -320,8 +364,8 @@ structs! { STRUCTS;
         pub odd_spectrum: u32,
         /// Side of a checker's squares.
         pub checker_size: f32,
-        /// Root mean square slope of a rough conductor, 0 when smooth.
-        pub roughness: f32,
+        /// Mean of that table over all directions.
+        pub mean_energy: f32,
         /// A `FILM_` tag, of a film.
         pub film: u32,
         /// Light that it emits.
@@ -338,6 +382,26 @@ structs! { STRUCTS;
         pub varying_layers: u32,
         /// The head of the picture of its reflectance; NONE where that is no picture.
         pub picture: u32,
+        /// Spectrum: n of the index above a diffuse base, whose k is the next one.
+        pub coat: u32,
+        /// The part of the light that a base reflects beside the facets of Cook's model.
+        pub base_share: f32,
+        /// Share of the paths that follow what the base reflects; of a coated body, what stands for its reflectance there.
+        pub base_chance: f32,
+        /// First of the numbers of the slopes of Cook's model: m, weight and part of each.
+        pub first_slope: u32,
+        /// Number of these slopes.
+        pub slope_count: u32,
+        /// Spectrum: reflectance of a coat for diffuse light from outside.
+        pub mean_reflectance: u32,
+        /// What stands for the index of a coat where a path chooses its way.
+        pub coat_estimate: f32,
+        /// Spectra: the reflectance of a rough coat for COAT_COSINES cosines.
+        pub coat_reflectances: u32,
+        /// Fills the size up to a multiple of 16.
+        pub padding_1: u32,
+        /// Fills the size up.
+        pub padding_2: [u32; 2],
     }
 
     /// A layer of a film or of a coating.

@@ -42,6 +42,11 @@ pub const MODULES: &[Module] = modules! {
     "two_beam": ["film", "trig"];
     "stack": ["complex", "phase", "trig"];
     "microfacet": ["trig"];
+    "gaussian": ["microfacet", "trig"];
+    "cook": ["bindings", "gaussian", "layout", "microfacet", "numbers", "trig"];
+    "coat": ["bindings", "fresnel", "layout", "spectrum"];
+    "microsurface": ["features", "layout", "trig"];
+    "energy": ["bindings", "features", "layout", "numbers"];
     "bindings": ["layout"];
     "features": [];
     "numbers": ["bindings", "layout"];
@@ -52,23 +57,26 @@ pub const MODULES: &[Module] = modules! {
     "noise": ["bindings", "features", "layout", "random"];
     "picture": ["bindings", "features", "layout", "texels", "trig"];
     "thickness": ["bindings", "features", "layout", "noise", "numbers", "picture", "trig"];
-    "surface": ["bindings", "camera", "features", "layout"];
+    "surface": ["bindings", "camera", "features", "layout", "sampling"];
     "hit": ["bindings", "camera", "features", "intersect", "layout"];
     "environment_picture": ["bindings", "numbers", "picture", "texels", "trig"];
     "environment": ["bindings", "environment_picture", "features", "layout", "sampling", "trig"];
-    "light": ["bindings", "features", "layout", "sampling", "trig"];
+    "light": ["bindings", "environment", "features", "layout", "sampling", "trig"];
+    "light_choice": ["bindings", "features", "layout", "light", "sampling", "trig"];
     "record": ["layout", "limits"];
     "walk": ["bindings", "camera", "features", "random", "sobol", "surface"];
     "factor": ["bindings", "features", "layout", "picture", "record", "surface", "texels", "thickness"];
-    "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "record", "scatter", "surface", "walk"];
-    "scatter": ["bindings", "features", "layout", "microfacet", "record", "sampling", "trig"];
+    "connect": ["bindings", "camera", "environment_picture", "factor", "features", "hit", "layout", "light", "light_choice", "record", "scatter", "surface", "walk"];
+    "scatter": [
+        "bindings", "coat", "cook", "energy", "factor", "features", "layout", "microsurface", "record", "sampling", "trig"
+    ];
     "path": [
-        "bindings", "camera", "connect", "environment", "environment_picture", "factor", "features", "hit", "layout", "light", "record",
-        "sampling", "scatter",
+        "bindings", "camera", "coat", "connect", "environment", "environment_picture", "factor", "features", "hit", "layout", "light",
+        "light_choice", "record", "scatter",
         "spectrum", "surface", "walk"
     ];
     "evaluate": [
-        "bindings", "features", "film", "fresnel", "layout", "lifting", "limits", "record", "spectrum", "stack", "texels", "thickness",
+        "bindings", "coat", "features", "film", "fresnel", "layout", "lifting", "limits", "record", "spectrum", "stack", "texels", "thickness",
         "two_beam"
     ];
     "stack_batch": ["complex", "layout", "stack"];

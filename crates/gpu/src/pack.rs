@@ -1,5 +1,6 @@
 //! From a scene to the numbers that the shader reads: the only place where `f64` becomes `f32`.
 
+mod lights;
 mod passes;
 mod texels;
 mod thickness;
@@ -10,8 +11,9 @@ use crate::modules::RecordLimits;
 use glam::DVec3;
 use scene::limits::{MAX_LAYERS, MAX_LIGHT_GROUPS, MAX_MATERIALS};
 use scene::{
-    Emission, EnvironmentPart, EnvironmentShape, Layer, Material, Object, PathDifference, Pattern,
-    Projection, Scene, Shape, SpectrumId, Thickness, WavelengthSampling,
+    Cook1981, CookDistribution, Distribution, Emission, EnvironmentPart, EnvironmentShape, Grain,
+    Layer, Material, Microsurface, Object, PathDifference, Pattern, Projection, Scene, Shape,
+    SpectrumId, Thickness, WavelengthSampling,
 };
 use spectra::BandTable;
 use texels::Pictures;
@@ -48,15 +50,6 @@ impl PackedScene {
     /// Packs a scene.
     pub fn new(scene: &Scene) -> Self {
         let limits = record_limits(scene);
-        let lights = scene.lights();
-        let objects = scene.objects().iter().enumerate().map(|(index, object)| {
-            let is_light = lights.binary_search(&index).is_ok();
-            let light = lights
-                .get(index)
-                .map_or(layout::NONE, |&light| light as u32);
-            pack_object(object, is_light, light)
-        });
-        let mut objects: Vec<_> = objects.collect();
         let mut layers = Vec::new();
         let mut fields = Fields::default();
         let mut pictures = Pictures::default();
@@ -69,14 +62,13 @@ impl PackedScene {
                 packed
             })
             .collect();
-        for part in scene.environment().parts() {
-            let mut packed = pack_environment(&part, materials.len());
-            if let EnvironmentShape::Picture(picture) = part.shape {
-                packed.picture = pictures.add_environment(picture, &mut fields.numbers);
-            }
-            objects.push(packed);
-            materials.push(pack_emitter(part.emission));
-        }
+        let mut objects: Vec<_> = scene.objects().iter().map(pack_object).collect();
+        lights::append(
+            scene,
+            &mut objects,
+            &mut materials,
+            (&mut pictures, &mut fields.numbers),
+        );
         let spectra = scene
             .spectra()
             .iter()
@@ -86,7 +78,7 @@ impl PackedScene {
             .iter()
             .flat_map(|table| pack_spectrum(table, true));
         Self {
-            frame: pack_frame(scene, lights.len() as u32),
+            frame: pack_frame(scene),
             objects,
             materials,
             layers,
@@ -131,7 +123,7 @@ fn light(emission: Emission) -> u32 {
     spectrum | group << layout::LIGHT_GROUP_SHIFT
 }
 
-fn pack_frame(scene: &Scene, light_count: u32) -> Frame {
+fn pack_frame(scene: &Scene) -> Frame {
     let (camera, settings) = (scene.camera(), scene.settings());
     let (projection, half_height) = match camera.projection {
         Projection::Perspective { half_height } => (layout::PROJECTION_PERSPECTIVE, half_height),
@@ -154,9 +146,9 @@ fn pack_frame(scene: &Scene, light_count: u32) -> Frame {
         steps: BandTable::steps_of(&settings.bands),
         draws_wavelengths: u32::from(settings.sampling == WavelengthSampling::Random),
         object_count: scene.objects().len() as u32,
-        light_count,
+        light_count: scene.light_sources().len() as u32,
         first_environment: scene.objects().len() as u32,
-        environment_count: scene.environment().parts().len() as u32,
+        environment_count: scene.surroundings().len() as u32,
         observer: scene.spectra().len() as u32,
     }
 }
@@ -177,11 +169,10 @@ fn pack_spectrum(table: &BandTable, dark_padding: bool) -> Vec<[f32; 4]> {
     .collect()
 }
 
-fn pack_object(object: &Object, is_light: bool, light: u32) -> layout::Object {
+fn pack_object(object: &Object) -> layout::Object {
     let mut packed = layout::Object {
         material: object.material.index() as u32,
-        is_light: u32::from(is_light),
-        light,
+        light: layout::NONE,
         ..Default::default()
     };
     match object.shape {
@@ -234,37 +225,6 @@ fn pack_object(object: &Object, is_light: bool, light: u32) -> layout::Object {
     packed
 }
 
-/// A part of the surroundings, an object that no ray meets.
-fn pack_environment(part: &EnvironmentPart<'_>, material: usize) -> layout::Object {
-    let nowhere = DVec3::ZERO;
-    let (shape, normal, tangent) = match part.shape {
-        EnvironmentShape::Everywhere => (layout::SHAPE_EVERYWHERE, nowhere, nowhere),
-        EnvironmentShape::Horizon => (layout::SHAPE_HORIZON, nowhere, nowhere),
-        EnvironmentShape::Pole(pole) => (layout::SHAPE_POLE, pole, nowhere),
-        EnvironmentShape::Picture(picture) => {
-            (layout::SHAPE_PICTURE, picture.forward, picture.right)
-        }
-    };
-    layout::Object {
-        material: material as u32,
-        light: layout::NONE,
-        shape,
-        normal: vec3(normal),
-        tangent: vec3(tangent),
-        ..Default::default()
-    }
-}
-
-/// What only emits.
-fn pack_emitter(emission: Emission) -> layout::Material {
-    layout::Material {
-        emission: light(emission),
-        emission_scale: emission.scale as f32,
-        is_black: 1,
-        ..Default::default()
-    }
-}
-
 fn pack_material(
     scene: &Scene,
     material: &Material,
@@ -288,8 +248,26 @@ fn pack_material(
                 None => layout::SURFACE_MIRROR,
             };
             packed.spectrum = id(n);
-            packed.roughness = microsurface.as_ref().map_or(0.0, |m| m.roughness[0] as f32);
+            if let Some(microsurface) = microsurface {
+                pack_microsurface(&mut packed, microsurface, fields);
+            }
             pack_layers(&mut packed, (fields, layers), coating);
+        }
+        Material::Cook(ref cook) => pack_cook(&mut packed, fields, cook),
+        Material::CoatedBody(ref body) => {
+            pack_pattern(&mut packed, &body.base);
+            packed.surface = match body.microsurface {
+                Some(_) => layout::SURFACE_ROUGH_COATED_BODY,
+                None => layout::SURFACE_COATED_BODY,
+            };
+            if let Some(microsurface) = &body.microsurface {
+                pack_microsurface(&mut packed, microsurface, fields);
+            }
+            packed.coat_reflectances = body.reflectances.map_or(0, id);
+            packed.coat = id(body.n);
+            packed.mean_reflectance = id(body.mean_reflectance);
+            packed.coat_estimate = body.estimate.n as f32;
+            packed.base_chance = body.estimate.base as f32;
         }
         Material::Film {
             layers: ref own, ..
@@ -311,6 +289,49 @@ fn pack_material(
         }
     }
     packed
+}
+
+/// Cook's model: an index above a base.
+fn pack_cook(packed: &mut layout::Material, fields: &mut Fields, cook: &Cook1981) {
+    if let Some(diffuse) = &cook.diffuse {
+        pack_pattern(packed, &Pattern::Uniform(diffuse.reflectance));
+        packed.base_share = diffuse.share as f32;
+        packed.base_chance = diffuse.chance as f32;
+    }
+    packed.surface = match cook.distribution {
+        CookDistribution::Gaussian => layout::SURFACE_COOK_D1,
+        CookDistribution::Beckmann => layout::SURFACE_COOK_D2,
+    };
+    packed.coat = id(cook.n);
+    let slopes = cook.facets.iter();
+    let numbers: Vec<_> = slopes.flat_map(|f| [f.slope, f.weight, f.part]).collect();
+    packed.first_slope = fields.look_up(&numbers);
+    packed.slope_count = cook.facets.len() as u32;
+    if let Some(ambient) = cook.ambient {
+        packed.emission = light(ambient);
+        packed.emission_scale = ambient.scale as f32;
+    }
+}
+
+fn pack_microsurface(
+    packed: &mut layout::Material,
+    microsurface: &Microsurface,
+    fields: &mut Fields,
+) {
+    let (kind, grain) = match microsurface.grain {
+        Grain::None => (layout::GRAIN_NONE, DVec3::ZERO),
+        Grain::Along(direction) => (layout::GRAIN_ALONG, direction),
+        Grain::Around(axis) => (layout::GRAIN_AROUND, axis),
+    };
+    packed.grain_kind = kind;
+    packed.grain = vec3(grain);
+    packed.alpha = microsurface.roughness.map(|alpha| alpha as f32);
+    packed.facets = match microsurface.distribution {
+        Distribution::Beckmann => layout::FACETS_BECKMANN,
+        Distribution::Ggx => layout::FACETS_GGX,
+    };
+    packed.first_energy = fields.look_up(microsurface.energy.values());
+    packed.mean_energy = microsurface.energy.mean() as f32;
 }
 
 fn pack_pattern(packed: &mut layout::Material, pattern: &Pattern) {
@@ -379,7 +400,8 @@ fn record_limits(scene: &Scene) -> RecordLimits {
         .map(|segment| per_connection.min(segments - segment - 1))
         .sum();
     RecordLimits {
-        vertices: segments + 1,
+        // Of a gradient a direction sees two parts, of which one stands for the segment that escapes.
+        vertices: segments + 1 + discs(scene),
         crossings: u32::max(crossings, 1),
         thicknesses: u32::max(
             most_varying(scene, |_| true) * segments + most_varying(scene, is_film) * crossings,
@@ -387,6 +409,13 @@ fn record_limits(scene: &Scene) -> RecordLimits {
         ),
         light_groups: scene.light_groups().len() as u32,
     }
+}
+
+/// Number of discs in the sky.
+fn discs(scene: &Scene) -> u32 {
+    let parts = scene.surroundings();
+    let is_disc = |part: &&EnvironmentPart| matches!(part.shape, EnvironmentShape::Disc { .. });
+    parts.iter().filter(is_disc).count() as u32
 }
 
 fn is_film(material: &Material) -> bool {

@@ -64,7 +64,9 @@ pub use fresnel::{Amplitudes, cos_refracted, fresnel, reflectance_unpolarised};
 pub use microfacet::{
     beckmann_d, cook_torrance, half_vector_pdf, reflected_pdf, sample_beckmann, v_groove_g,
 };
-pub use microsurface::{Distribution, Microsurface};
+pub use microsurface::{
+    Distribution, MEAN_COSINES, Microsurface, mean_reflectance, multiple_colour,
+};
 pub use num_complex::Complex64;
 pub use stack::{
     Layer, StackAmplitudes, ThicknessDerivative, absorptance, film, stack, thickness_derivatives,

@@ -5,8 +5,8 @@
 use pellicle::color::{self, DevelopSettings};
 use pellicle::scene::Scene;
 use pellicle::scene::description::{
-    Camera, Description, Emission, Environment, Index, Material, Object, Render, Roughness,
-    Thickness,
+    Camera, Description, Emission, EmissionSpectrum, Environment, Index, Material, Object, Render,
+    Roughness, Strength, Thickness,
 };
 use pellicle::{Backend, Renderer};
 use std::error::Error;
@@ -37,11 +37,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         },
         materials: [].into(),
         objects: Vec::new(),
+        lights: Vec::new(),
         environment: Some(Environment::Constant {
-            emission: Emission::Illuminant {
-                illuminant: "D65".to_owned(),
-                extrapolate: Default::default(),
-                scale: 1.0,
+            emission: Emission {
+                spectrum: EmissionSpectrum::Illuminant {
+                    illuminant: "D65".to_owned(),
+                    extrapolate: Default::default(),
+                },
+                strength: Strength::scale(1.0),
             },
             light_group: None,
         }),

@@ -13,6 +13,9 @@ pub fn environment_share(part: EnvironmentShape<'_>, direction: DVec3) -> f64 {
         EnvironmentShape::Horizon => (1.0 - direction.y.abs()).max(0.0),
         EnvironmentShape::Pole(pole) => direction.dot(pole).clamp(0.0, 1.0),
         EnvironmentShape::Picture(_) => 1.0,
+        EnvironmentShape::Disc { towards, height } => f64::from(u8::from(
+            (direction - towards).length_squared() <= 2.0 * height,
+        )),
     }
 }
 
@@ -34,6 +37,7 @@ pub fn sample_environment(part: EnvironmentShape<'_>, u: f64, v: f64) -> DVec3 {
         }
         EnvironmentShape::Picture(picture) => sample_picture(picture, u, v),
         EnvironmentShape::Pole(pole) => frame_of(pole) * sample_cosine_hemisphere(u, v),
+        EnvironmentShape::Disc { towards, height } => frame_of(towards) * sample_cone(u, v, height),
     }
 }
 
@@ -45,5 +49,6 @@ pub fn environment_pdf(part: EnvironmentShape<'_>, direction: DVec3) -> f64 {
         EnvironmentShape::Horizon => share / TAU,
         EnvironmentShape::Pole(_) => share * FRAC_1_PI,
         EnvironmentShape::Picture(picture) => picture_pdf(picture, direction),
+        EnvironmentShape::Disc { height, .. } => share / (TAU * height),
     }
 }

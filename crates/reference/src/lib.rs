@@ -5,11 +5,14 @@
 //! recursion), and no formula is shared with the shader. Comparing the two proves both.
 
 mod camera;
+mod cook;
 mod environment;
 mod environment_picture;
+mod facets;
 mod interference;
 mod intersect;
 mod light;
+mod light_choice;
 mod microfacet;
 mod noise;
 mod path;
@@ -23,10 +26,13 @@ mod surface;
 mod thickness;
 
 pub use camera::{Ray, camera_ray};
+pub use cook::{cook_facets, sample_cook_facet};
 pub use environment::{environment_pdf, environment_share, sample_environment};
 pub use environment_picture::environment_pixel;
+pub use facets::{FacetScattering, Facets};
 pub use intersect::{Hit, intersect_plane, intersect_sphere, nearest_hit};
 pub use light::{light_pdf, sample_light};
+pub use light_choice::{Choice, Source, choice_probabilities, choose_light, mis_share};
 pub use microfacet::{Microfacet, cook_torrance};
 pub use noise::{Noise, gradient_noise, swirls};
 pub use path::{PathSample, radiance};
@@ -34,6 +40,7 @@ pub use picture::smooth_value;
 pub use random::{pcg4d, random4, unit_interval};
 pub use render::{Stopped, render};
 pub use sampling::{cone_height, frame_of, sample_cone, sample_cosine_hemisphere};
+pub use scatter::coat_share;
 pub use sobol::{owen_scrambled, scrambled_reversed, sobol_point, sobol4};
-pub use surface::{Reflectance, SurfacePoint, pattern_reflectance, surface_point};
+pub use surface::{Reflectance, SurfacePoint, pattern_reflectance, surface_frame, surface_point};
 pub use thickness::layer_thickness;

@@ -1,4 +1,4 @@
-//! Light sources that directions are drawn towards: emitting spheres and rectangles.
+//! Shapes that directions are drawn towards: emitting spheres, rectangles and disks.
 
 use crate::{cone_height, frame_of, sample_cone};
 use glam::DVec3;
@@ -9,10 +9,10 @@ use std::f64::consts::PI;
 const INSIDE: f64 = 1.000_01;
 
 /// A direction from `point` towards a light: uniform in the solid angle of a sphere (over all directions from
-/// inside it), uniform over the area of a rectangle.
+/// inside it), uniform over the area of a rectangle or disk.
 ///
 /// # Panics
-/// For an unbounded plane or a disk, which are never lights.
+/// For an unbounded plane, which is never a light.
 pub fn sample_light(light: &Shape, point: DVec3, u: f64, v: f64) -> DVec3 {
     match *light {
         Shape::Sphere { center, radius } => {
@@ -37,14 +37,25 @@ pub fn sample_light(light: &Shape, point: DVec3, u: f64, v: f64) -> DVec3 {
                 + bitangent * ((2.0 * v - 1.0) * half_height);
             (place - point).normalize()
         }
-        Shape::Plane { .. } | Shape::Disk { .. } => unreachable!("no light has this shape"),
+        Shape::Disk {
+            center,
+            tangent,
+            bitangent,
+            radius,
+            ..
+        } => {
+            let (sine, cosine) = (2.0 * PI * v).sin_cos();
+            let place = center + (tangent * cosine + bitangent * sine) * (radius * u.sqrt());
+            (place - point).normalize()
+        }
+        Shape::Plane { .. } => unreachable!("an unbounded plane is no light"),
     }
 }
 
 /// Density with which [`sample_light`] draws a direction that hits the light, sr⁻¹.
 ///
 /// # Panics
-/// For an unbounded plane or a disk, which are never lights.
+/// For an unbounded plane, which is never a light.
 pub fn light_pdf(light: &Shape, point: DVec3, direction: DVec3) -> f64 {
     match *light {
         Shape::Sphere { center, radius } => {
@@ -60,15 +71,28 @@ pub fn light_pdf(light: &Shape, point: DVec3, direction: DVec3) -> f64 {
             half_width,
             half_height,
             ..
-        } => {
-            let cosine = direction.dot(normal).abs();
-            let distance = (center - point).dot(normal).abs() / cosine;
-            if !distance.is_finite() || distance == 0.0 {
-                return 0.0;
-            }
-            let area = 4.0 * half_width * half_height;
-            distance * distance / (cosine * area)
-        }
-        Shape::Plane { .. } | Shape::Disk { .. } => unreachable!("no light has this shape"),
+        } => plane_pdf(
+            center - point,
+            normal,
+            direction,
+            4.0 * half_width * half_height,
+        ),
+        Shape::Disk {
+            center,
+            normal,
+            radius,
+            ..
+        } => plane_pdf(center - point, normal, direction, PI * radius * radius),
+        Shape::Plane { .. } => unreachable!("an unbounded plane is no light"),
     }
+}
+
+/// Density per solid angle of places drawn evenly over an area of a plane.
+fn plane_pdf(to_center: DVec3, normal: DVec3, direction: DVec3, area: f64) -> f64 {
+    let cosine = direction.dot(normal).abs();
+    let distance = to_center.dot(normal).abs() / cosine;
+    if !distance.is_finite() || distance == 0.0 {
+        return 0.0;
+    }
+    distance * distance / (cosine * area)
 }

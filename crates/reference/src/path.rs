@@ -3,17 +3,18 @@
 use crate::environment_picture::pixel_value;
 use crate::interference::{LayersAt, Light};
 use crate::picture::smooth_value;
-use crate::scatter::{Conductor, Lobes, Scatterer};
+use crate::scatter::{Conductor, Lobes, Scatterer, coat_share};
 use crate::{
-    Hit, Ray, Reflectance, SurfacePoint, camera_ray, environment_pixel, environment_share,
-    frame_of, light_pdf, nearest_hit, pattern_reflectance, random4, sample_light, sobol4,
-    surface_point,
+    Facets, Hit, Ray, Reflectance, Source, SurfacePoint, camera_ray, choice_probabilities,
+    choose_light, environment_pixel, environment_share, mis_share, nearest_hit,
+    pattern_reflectance, random4, sobol4, surface_frame, surface_point,
 };
 use glam::DVec3;
 use optics::Complex64;
 use scene::{
-    Emission, EnvironmentPicture, EnvironmentShape, Interference, Material, Pattern,
-    RenderSettings, Sampler, Scene, SpectrumId, WavelengthSampling,
+    CoatedBody, DirectLight, Emission, EnvironmentPicture, EnvironmentShape, Interference,
+    LightSource, Material, Pattern, RenderSettings, Sampler, Scene, SourceKind, SpectrumId,
+    WavelengthSampling,
 };
 
 /// Share of the paths that follow the reflection of a film rather than its transmission.
@@ -28,8 +29,8 @@ pub struct PathSample {
     pub radiance: Vec<Vec<f64>>,
 }
 
-/// Follows one sample of a pixel. `lights` are the scene's lights ([`Scene::lights`]).
-pub fn radiance(scene: &Scene, lights: &[usize], pixel: [u32; 2], sample: u32) -> PathSample {
+/// Follows one sample of a pixel. `lights` is what light can be sent from ([`Scene::light_sources`]).
+pub fn radiance(scene: &Scene, lights: &[LightSource], pixel: [u32; 2], sample: u32) -> PathSample {
     let settings = scene.settings();
     let [x, y, drawn, _] = numbers_of(settings, pixel, sample, 0);
     let bands = settings.bands.count() as usize;
@@ -76,15 +77,15 @@ fn numbers_of(settings: &RenderSettings, pixel: [u32; 2], sample: u32, dimension
 /// A path on its way.
 struct Path<'a> {
     scene: &'a Scene,
-    lights: &'a [usize],
+    lights: &'a [LightSource],
     pixel: [u32; 2],
     sample: u32,
     offset: f64,
     ray: Ray,
     /// The object that the ray starts on.
     from_object: Option<usize>,
-    /// Where a surface last scattered the path and with what density; none after the camera or a mirror.
-    scattered: Option<(DVec3, f64)>,
+    /// How a surface last scattered the path; none after the camera or a mirror.
+    scattered: Option<Scattered>,
     segment: u32,
     throughput: Vec<f64>,
     /// Of each light group.
@@ -141,14 +142,16 @@ impl<'a> Path<'a> {
     }
 
     fn add_environment(&mut self) {
-        for part in self.scene.environment().parts() {
+        for (index, part) in self.scene.surroundings().into_iter().enumerate() {
             let direction = self.ray.direction;
+            let share = environment_share(part.shape, direction);
+            let met = self.share_of_scattering(SourceKind::Environment(index));
             if let EnvironmentShape::Picture(picture) = part.shape {
                 let pixel = environment_pixel(picture, direction, self.random(0)[3]);
-                self.add_picture(part.emission, (picture, pixel), 1.0);
-                continue;
+                self.add_picture(part.emission, (picture, pixel), met);
+            } else {
+                self.add(part.emission, share * met);
             }
-            self.add(part.emission, environment_share(part.shape, direction));
         }
     }
 
@@ -165,7 +168,10 @@ impl<'a> Path<'a> {
                 emission,
                 reflectance,
             } => {
-                self.add(emission, self.share_of_scattering(hit.object));
+                self.add(
+                    emission,
+                    self.share_of_scattering(SourceKind::Object(hit.object)),
+                );
                 reflectance.is_some_and(|spectrum| {
                     self.meet_diffuse(hit.object, point, &Pattern::Uniform(spectrum))
                 })
@@ -180,12 +186,38 @@ impl<'a> Path<'a> {
                     index: (n, k),
                     coating: LayersAt::new(layers, &object.shape, &point),
                 };
-                if let Some(facets) = microsurface {
-                    let rough = Scatterer::RoughConductor(conductor, facets.roughness[0]);
+                if let Some(microsurface) = microsurface {
+                    let rough = Scatterer::RoughConductor(conductor, Facets::new(microsurface));
                     self.meet_scattering(hit.object, point, &rough)
                 } else {
                     self.meet_mirror(hit.object, point, &conductor)
                 }
+            }
+            Material::CoatedBody(ref body) => {
+                let conductor = Conductor {
+                    index: (body.n, body.k),
+                    coating: LayersAt::new(&[], &object.shape, &point),
+                };
+                let random = self.random(1)[3];
+                let base = pattern_reflectance(&body.base, &object.shape, point.position, random);
+                let surface = match &body.microsurface {
+                    None => Scatterer::CoatedBody(conductor, body, base),
+                    Some(microsurface) => {
+                        let facets = Facets::new(microsurface);
+                        Scatterer::RoughCoatedBody(conductor, body, base, facets)
+                    }
+                };
+                self.meet_scattering(hit.object, point, &surface)
+            }
+            Material::Cook(ref cook) => {
+                if let Some(ambient) = cook.ambient {
+                    self.add(ambient, 1.0);
+                }
+                let conductor = Conductor {
+                    index: (cook.n, cook.k),
+                    coating: LayersAt::new(&[], &object.shape, &point),
+                };
+                self.meet_scattering(hit.object, point, &Scatterer::Cook(conductor, cook))
             }
             Material::Film {
                 ref layers,
@@ -201,13 +233,19 @@ impl<'a> Path<'a> {
         }
     }
 
-    fn scatter(&mut self, object: usize, position: DVec3, direction: DVec3, pdf: Option<f64>) {
+    fn scatter(
+        &mut self,
+        object: usize,
+        position: DVec3,
+        direction: DVec3,
+        scattered: Option<Scattered>,
+    ) {
         self.ray = Ray {
             origin: position,
             direction,
         };
         self.from_object = Some(object);
-        self.scattered = pdf.map(|pdf| (position, pdf));
+        self.scattered = scattered;
     }
 
     fn meet_mirror(
@@ -277,17 +315,29 @@ impl<'a> Path<'a> {
         point: SurfacePoint,
         scatterer: &Scatterer<'_>,
     ) -> bool {
-        let world_from_local = frame_of(point.normal);
+        let met = &self.scene.objects()[object];
+        let world_from_local = surface_frame(self.scene.material(met.material), &met.shape, &point);
         let local_from_world = world_from_local.transpose();
         let eye = local_from_world * -self.ray.direction;
-        if let Some(sent) = self.send_to_light(object, &point) {
+        let chances = self.chances(&point);
+        if let Some(sent) = self.send_to_light(object, &point, &chances) {
             let towards = scatterer.between(eye, local_from_world * sent.direction);
-            let share = 1.0 / (sent.pdf + towards.pdf);
+            let share = sent.factor * self.share_of_sending(&sent, towards.pdf);
             self.add_connection(&sent, |path, band| {
                 share * path.scattered_value(scatterer, eye, &towards.lobes, band)
             });
         }
-        let light = scatterer.sample(eye, self.random(1));
+        let random = self.random(1);
+        if let Scatterer::CoatedBody(coat, body, _) = scatterer {
+            let share = coat_share(body, eye.z);
+            if random[2] < share {
+                self.attenuate(|path, band| path.reflectance(coat, eye.z, band) / share);
+                let direction = mirrored(self.ray.direction, point.normal);
+                self.scatter(object, point.position, direction, None);
+                return true;
+            }
+        }
+        let light = scatterer.sample(eye, random);
         let onward = scatterer.between(eye, light);
         if onward.pdf <= 0.0 || !onward.lobes.is_lit() {
             return false;
@@ -296,7 +346,12 @@ impl<'a> Path<'a> {
             path.scattered_value(scatterer, eye, &onward.lobes, band) / onward.pdf
         });
         let direction = (world_from_local * light).normalize();
-        self.scatter(object, point.position, direction, Some(onward.pdf));
+        let scattered = Scattered {
+            position: point.position,
+            pdf: onward.pdf,
+            chances,
+        };
+        self.scatter(object, point.position, direction, Some(scattered));
         true
     }
 
@@ -310,11 +365,29 @@ impl<'a> Path<'a> {
         }
     }
 
+    /// P of a body below a coat.
+    fn below_coat(&self, body: &CoatedBody, base: Reflectance, band: usize) -> f64 {
+        let base = self.diffuse(base, band);
+        let outer = self.spectrum(body.mean_reflectance, band);
+        base * optics::coated_albedo_factor(base, self.spectrum(body.n, band), outer)
+    }
+
+    /// The reflectance of a rough coat, from its table.
+    fn rough_coat(&self, body: &CoatedBody, cosine: f64, band: usize) -> f64 {
+        let place = cosine.clamp(0.0, 1.0).sqrt() * (CoatedBody::COSINES - 1) as f64;
+        let knot = (place as usize).min(CoatedBody::COSINES - 2);
+        let at = |knot| {
+            let spectrum = body.reflectances.map(|first| first.after(knot));
+            spectrum.map_or(0.0, |spectrum| self.spectrum(spectrum, band))
+        };
+        at(knot) + (at(knot + 1) - at(knot)) * (place - knot as f64)
+    }
+
     /// What lobes make of the spectra of a surface in a band.
     fn scattered_value(
         &self,
         scatterer: &Scatterer<'_>,
-        _eye: DVec3,
+        eye: DVec3,
         lobes: &Lobes,
         band: usize,
     ) -> f64 {
@@ -323,49 +396,111 @@ impl<'a> Path<'a> {
         }
         match scatterer {
             Scatterer::Diffuse(reflectance) => lobes.single * self.diffuse(*reflectance, band),
-            Scatterer::RoughConductor(conductor, _) => {
-                lobes.single * self.reflectance(conductor, lobes.cosine, band)
+            Scatterer::CoatedBody(coat, body, base) => {
+                let passes = |cosine: f64| 1.0 - self.reflectance(coat, cosine, band);
+                let inside = self.below_coat(body, *base, band);
+                lobes.body * passes(eye.z) * passes(lobes.light_cosine) * inside
+            }
+            Scatterer::RoughCoatedBody(coat, body, base, facets) => {
+                let reflectance = |cosine| self.reflectance(coat, cosine, band);
+                let mean = optics::mean_reflectance(reflectance);
+                let multiple = optics::multiple_colour(mean, facets.mean_energy());
+                let passes = |cosine: f64| 1.0 - self.rough_coat(body, cosine, band);
+                let inside = self.below_coat(body, *base, band);
+                lobes.single * reflectance(lobes.cosine)
+                    + lobes.multiple * multiple
+                    + lobes.body * passes(eye.z) * passes(lobes.light_cosine) * inside
+            }
+            Scatterer::Cook(conductor, cook) => {
+                let base = cook.diffuse.map_or(0.0, |diffuse| {
+                    lobes.body * self.spectrum(diffuse.reflectance, band)
+                });
+                lobes.single * self.reflectance(conductor, lobes.cosine, band) + base
+            }
+            Scatterer::RoughConductor(conductor, facets) => {
+                let reflectance = |cosine| self.reflectance(conductor, cosine, band);
+                let mean = optics::mean_reflectance(reflectance);
+                let multiple = optics::multiple_colour(mean, facets.mean_energy());
+                lobes.single * reflectance(lobes.cosine) + lobes.multiple * multiple
             }
         }
     }
 
-    /// Share of an emitter that belongs to a path which happens to hit it: p / (p + q) with p the density of
-    /// the scattering and q that of connections (balance heuristic, Veach 1997, equation 9.8).
-    fn share_of_scattering(&self, object: usize) -> f64 {
-        let Some((position, pdf)) = self.scattered else {
+    /// Share of a light that belongs to a path which happens to meet it: the rest is what connections to that light bring.
+    fn share_of_scattering(&self, kind: SourceKind) -> f64 {
+        let number = self.lights.iter().position(|light| light.kind == kind);
+        let (Some(scattered), Some(number)) = (&self.scattered, number) else {
             return 1.0;
         };
-        if self.lights.binary_search(&object).is_err() {
-            return 1.0;
+        let source = Source::of(self.scene, kind);
+        let sent = source.pdf(scattered.position, self.ray.direction);
+        let sent = scattered.chances[number] * sent.unwrap_or(0.0);
+        match self.scene.settings().direct_light {
+            DirectLight::Both => mis_share(scattered.pdf, sent),
+            DirectLight::Lights => 0.0,
+            DirectLight::Surfaces => 1.0,
         }
-        let shape = &self.scene.objects()[object].shape;
-        let sent = light_pdf(shape, position, self.ray.direction) / self.lights.len() as f64;
-        pdf / (pdf + sent)
+    }
+
+    /// Share of a connection: the rest is what scattering brings that happens to meet the light.
+    fn share_of_sending(&self, sent: &Sent<'_>, scattered: f64) -> f64 {
+        match (self.scene.settings().direct_light, sent.pdf) {
+            (DirectLight::Both, Some(pdf)) => mis_share(pdf, scattered),
+            _ => 1.0,
+        }
+    }
+
+    /// Probabilities of the lights at a point.
+    fn chances(&self, point: &SurfacePoint) -> Vec<f64> {
+        choice_probabilities(self.scene, self.lights, point.position, point.normal)
     }
 
     /// Chooses a light, a direction towards it, and follows it there. None where nothing arrives.
-    fn send_to_light(&self, object: usize, point: &SurfacePoint) -> Option<Sent<'a>> {
-        let max_segments = self.scene.settings().max_path_segments;
-        if self.lights.is_empty() || self.segment >= max_segments {
+    fn send_to_light(
+        &self,
+        object: usize,
+        point: &SurfacePoint,
+        chances: &[f64],
+    ) -> Option<Sent<'a>> {
+        let settings = self.scene.settings();
+        let max_segments = settings.max_path_segments;
+        let sends = settings.direct_light != DirectLight::Surfaces;
+        if !sends || self.segment >= max_segments {
             return None;
         }
-        let [pick, u, v, _] = self.random(0);
-        let light = self.lights[(pick * self.lights.len() as f64) as usize];
-        let shape = &self.scene.objects()[light].shape;
-        let direction = sample_light(shape, point.position, u, v);
-        let pdf = light_pdf(shape, point.position, direction) / self.lights.len() as f64;
-        if direction.dot(point.normal) <= 0.0 || pdf <= 0.0 {
+        let [pick, u, v, w] = self.random(0);
+        let choice = choose_light(chances, pick)?;
+        let light = &self.lights[choice.source];
+        let source = Source::of(self.scene, light.kind);
+        let direction = source.sample(point.position, u, v);
+        let pdf = source
+            .pdf(point.position, direction)
+            .map(|pdf| choice.probability * pdf);
+        let strength = source.share(point.position, direction);
+        if direction.dot(point.normal) <= 0.0
+            || pdf.is_some_and(|pdf| pdf <= 0.0)
+            || strength <= 0.0
+        {
             return None;
         }
         let ray = Ray {
             origin: point.position,
             direction,
         };
-        let films = self.films_on_the_way(ray, object, light, max_segments - self.segment - 1)?;
+        let films =
+            self.films_on_the_way(ray, object, light.kind, max_segments - self.segment - 1)?;
+        let pixel = match source {
+            Source::Surrounding(EnvironmentShape::Picture(picture)) => {
+                Some((picture, environment_pixel(picture, direction, w)))
+            }
+            _ => None,
+        };
         Some(Sent {
-            light,
+            emission: light.emission,
+            pixel,
             direction,
             pdf,
+            factor: strength / pdf.unwrap_or(choice.probability),
             films,
         })
     }
@@ -376,16 +511,17 @@ impl<'a> Path<'a> {
         &self,
         mut ray: Ray,
         object: usize,
-        light: usize,
+        light: SourceKind,
         allowed: u32,
     ) -> Option<Vec<Film<'a>>> {
         let mut films = Vec::new();
         let mut from = object;
         loop {
-            let hit = nearest_hit(self.scene, &ray, Some(from))?;
-            if hit.object == light {
+            let hit = nearest_hit(self.scene, &ray, Some(from));
+            if self.has_arrived(&ray, light, hit) {
                 return Some(films);
             }
+            let hit = hit?;
             let met = &self.scene.objects()[hit.object];
             let Material::Film {
                 layers,
@@ -408,13 +544,25 @@ impl<'a> Path<'a> {
         }
     }
 
+    /// Whether a ray to a light meets nothing before it.
+    fn has_arrived(&self, ray: &Ray, light: SourceKind, hit: Option<Hit>) -> bool {
+        if let SourceKind::Object(index) = light {
+            return hit.is_some_and(|hit| hit.object == index);
+        }
+        match (Source::of(self.scene, light).distance(ray.origin), hit) {
+            (_, None) => true,
+            (Some(distance), Some(hit)) => hit.distance >= distance,
+            (None, Some(_)) => false,
+        }
+    }
+
     fn add_connection(&mut self, sent: &Sent<'_>, factor: impl Fn(&Self, usize) -> f64) {
-        let light = &self.scene.objects()[sent.light];
-        let Material::Emitter { emission, .. } = *self.scene.material(light.material) else {
-            return;
-        };
+        let emission = sent.emission;
         for band in self.bands() {
             let mut arriving = emission.scale * self.spectrum(emission.spectrum, band);
+            if let Some((picture, pixel)) = sent.pixel {
+                arriving *= pixel_value(picture, pixel, band, self.light(band).wavelength_nm);
+            }
             for film in &sent.films {
                 arriving *= self.film(film, band).1;
             }
@@ -425,12 +573,25 @@ impl<'a> Path<'a> {
     }
 }
 
+/// How a surface scattered a path.
+struct Scattered {
+    position: DVec3,
+    /// Density of the direction.
+    pdf: f64,
+    /// Probabilities of the lights there.
+    chances: Vec<f64>,
+}
+
 /// A connection to a light.
 struct Sent<'a> {
-    light: usize,
+    emission: Emission,
+    /// The pixel of the surroundings that it comes from.
+    pixel: Option<(&'a EnvironmentPicture, [u32; 2])>,
     direction: DVec3,
-    /// Density of the direction, the choice among the lights included.
-    pdf: f64,
+    /// Density of the direction, the choice among the lights included; none for light from a single direction.
+    pdf: Option<f64>,
+    /// What the light's emission is multiplied by, besides what the surface does.
+    factor: f64,
     /// The films that it passes straight through.
     films: Vec<Film<'a>>,
 }

@@ -2,7 +2,7 @@
 
 use crate::radiance;
 use rayon::prelude::*;
-use scene::Scene;
+use scene::{LightSource, Scene};
 use spectra::{KM_LUMENS_PER_WATT, SpectralImage};
 use std::ops::ControlFlow;
 use thiserror::Error;
@@ -23,7 +23,7 @@ pub fn render(
     on_progress: &mut dyn FnMut(u64) -> ControlFlow<()>,
 ) -> Result<SpectralImage, Stopped> {
     let settings = scene.settings();
-    let lights = scene.lights();
+    let lights = scene.light_sources();
     let (width, height) = (settings.width, settings.height);
     let light_groups = scene.light_groups().to_vec();
     let mut image = SpectralImage::with_light_groups(width, height, settings.bands, light_groups);
@@ -64,7 +64,7 @@ struct Mean {
 }
 
 impl Pixel {
-    fn rendered(scene: &Scene, lights: &[usize], pixel: [u32; 2]) -> Self {
+    fn rendered(scene: &Scene, lights: &[LightSource], pixel: [u32; 2]) -> Self {
         let grid = &scene.settings().bands;
         let bands = grid.count() as usize;
         let mut sum = Self::dark(bands, scene.light_groups().len());

@@ -1,17 +1,23 @@
 //! How surfaces scatter light between two directions of their local frame, whose z is the normal on the ray's side.
 
 use crate::interference::LayersAt;
-use crate::{Reflectance, cook_torrance, sample_cosine_hemisphere};
+use crate::{Facets, Reflectance, cook_facets, sample_cook_facet, sample_cosine_hemisphere};
 use glam::DVec3;
-use scene::SpectrumId;
+use scene::{CoatedBody, Cook1981, SpectrumId};
 use std::f64::consts::PI;
 
 /// What scatters light.
 pub(crate) enum Scatterer<'a> {
     /// Evenly, by a reflectance.
     Diffuse(Reflectance),
-    /// A rough conductor of a root mean square slope.
-    RoughConductor(Conductor<'a>, f64),
+    /// A conductor by its facets.
+    RoughConductor(Conductor<'a>, Facets<'a>),
+    /// A body of this reflectance below a smooth coat; what the coat mirrors is no part of it.
+    CoatedBody(Conductor<'a>, &'a CoatedBody, Reflectance),
+    /// A body of this reflectance below a rough coat.
+    RoughCoatedBody(Conductor<'a>, &'a CoatedBody, Reflectance, Facets<'a>),
+    /// By Cook's model.
+    Cook(Conductor<'a>, &'a Cook1981),
 }
 
 /// A conductor where a path meets it.
@@ -71,24 +77,98 @@ impl Scatterer<'_> {
                     pdf: lambert,
                 }
             }
-            Self::RoughConductor(_, slope) => {
-                let facet = cook_torrance(eye, light, *slope);
+            Self::CoatedBody(_, body, _) => {
+                let lambert = light.z.max(0.0) / PI;
                 Scattering {
-                    lobes: Lobes::single(facet.reflection * light.z, facet.cosine, light),
-                    pdf: facet.pdf,
+                    lobes: Lobes {
+                        body: lambert,
+                        ..Lobes::single(0.0, 1.0, light)
+                    },
+                    pdf: (1.0 - coat_share(body, eye.z)) * lambert,
                 }
             }
+            Self::RoughCoatedBody(_, body, _, facets) => match facets.between(eye, light) {
+                None => Scattering {
+                    lobes: Lobes::single(0.0, 1.0, light),
+                    pdf: 0.0,
+                },
+                Some(found) => {
+                    let share = coat_share(body, eye.z);
+                    let lambert = light.z / PI;
+                    Scattering {
+                        lobes: Lobes {
+                            multiple: found.multiple,
+                            body: lambert,
+                            ..Lobes::single(found.single, found.cosine, light)
+                        },
+                        pdf: share * found.pdf + (1.0 - share) * lambert,
+                    }
+                }
+            },
+            Self::Cook(_, cook) => {
+                let facets = cook_facets(cook, eye, light);
+                let lambert = light.z.max(0.0) / PI;
+                let (share, chance) = cook.diffuse.map_or((0.0, 0.0), |d| (d.share, d.chance));
+                let single = Lobes::single(facets.reflection * light.z, facets.cosine, light);
+                Scattering {
+                    lobes: Lobes {
+                        body: share * lambert,
+                        ..single
+                    },
+                    pdf: chance * lambert + (1.0 - chance) * facets.pdf,
+                }
+            }
+            Self::RoughConductor(_, facets) => facets.between(eye, light).map_or(
+                Scattering {
+                    lobes: Lobes::single(0.0, 1.0, light),
+                    pdf: 0.0,
+                },
+                |found| Scattering {
+                    lobes: Lobes {
+                        multiple: found.multiple,
+                        ..Lobes::single(found.single, found.cosine, light)
+                    },
+                    pdf: found.pdf,
+                },
+            ),
         }
     }
 
     /// A unit vector towards which light is scattered from `eye`.
-    pub(crate) fn sample(&self, eye: DVec3, [u, v, ..]: [f64; 4]) -> DVec3 {
+    pub(crate) fn sample(&self, eye: DVec3, random: [f64; 4]) -> DVec3 {
+        let [u, v, choice, pick] = random;
         match self {
-            Self::Diffuse(_) => sample_cosine_hemisphere(u, v),
-            Self::RoughConductor(_, slope) => {
-                let facet = DVec3::from_array(optics::sample_beckmann(u, v, *slope));
-                (2.0 * eye.dot(facet) * facet - eye).normalize()
+            Self::Diffuse(_) | Self::CoatedBody(..) => sample_cosine_hemisphere(u, v),
+            Self::RoughCoatedBody(_, body, _, facets) => {
+                let share = coat_share(body, eye.z);
+                if choice < share {
+                    facets.sample(eye, [u, v, choice / share, pick])
+                } else {
+                    sample_cosine_hemisphere(u, v)
+                }
             }
+            Self::Cook(_, cook) if choice < cook.diffuse.map_or(0.0, |diffuse| diffuse.chance) => {
+                sample_cosine_hemisphere(u, v)
+            }
+            Self::Cook(_, cook) => mirrored(eye, sample_cook_facet(cook, [u, v, pick])),
+            Self::RoughConductor(_, facets) => facets.sample(eye, random),
         }
     }
+}
+
+/// Share of the paths that are mirrored by a smooth coat rather than sent on by the body below it: by an estimate of what either
+/// brings.
+pub fn coat_share(body: &CoatedBody, cosine: f64) -> f64 {
+    let reflected = optics::reflectance_unpolarised(body.estimate.n.into(), cosine.max(1e-6));
+    let share = reflected / (reflected + (1.0 - reflected) * body.estimate.base).max(1e-6);
+    match body.microsurface {
+        // Near grazing it reflects less than a smooth one: both must stay within reach.
+        Some(_) => share.clamp(0.1, 0.9),
+        None => share,
+    }
+}
+
+/// The direction that a facet mirrors to `eye`.
+fn mirrored(eye: DVec3, facet: DVec3) -> DVec3 {
+    (2.0 * eye.dot(facet) * facet - eye).normalize()
 }

@@ -1,9 +1,9 @@
 //! What a scene's surface is at a point.
 
-use crate::Ray;
 use crate::picture::{chosen_pixel, picture_place};
-use glam::DVec3;
-use scene::{Pattern, Shape, SpectrumId};
+use crate::{Ray, frame_of};
+use glam::{DMat3, DVec3};
+use scene::{Grain, Material, Pattern, Shape, SpectrumId};
 
 /// The point that a ray hits and the unit normal there, on the ray's side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +37,23 @@ pub fn surface_point(shape: &Shape, ray: &Ray, distance: f64) -> SurfacePoint {
         cosine: along.abs(),
         is_front: along <= 0.0,
     }
+}
+
+/// The frame of a surface at a point, its third column the normal on the ray's side: where the surface is brushed the first runs
+/// along the grain.
+pub fn surface_frame(material: &Material, shape: &Shape, point: &SurfacePoint) -> DMat3 {
+    let normal = point.normal;
+    let grain = match material.microsurface().map(|facets| facets.grain) {
+        None | Some(Grain::None) => return frame_of(normal),
+        Some(Grain::Along(direction)) => direction,
+        Some(Grain::Around(axis)) => axis.cross(point.position - center_of(shape)),
+    };
+    let along = grain - grain.dot(normal) * normal;
+    if along.length_squared() <= 1e-10 * grain.length_squared() {
+        return frame_of(normal);
+    }
+    let tangent = along.normalize();
+    DMat3::from_cols(tangent, normal.cross(tangent), normal)
 }
 
 /// A shape's centre, or the origin of a plane's axes.

@@ -40,6 +40,8 @@ pub struct EnvironmentPicture {
     pub forward: DVec3,
     /// The direction of the middle of its right half, horizontal.
     pub right: DVec3,
+    /// Mean radiance over all directions and wavelengths.
+    pub mean: f64,
     /// For drawing directions in proportion to its brightness.
     pub table: DirectionTable,
 }
@@ -64,6 +66,13 @@ pub enum EnvironmentShape<'a> {
     Pole(DVec3),
     /// By a picture.
     Picture(&'a EnvironmentPicture),
+    /// A disc about a unit vector.
+    Disc {
+        /// Towards its middle.
+        towards: DVec3,
+        /// 1 − cos of the angle between middle and edge, > 0.
+        height: f64,
+    },
 }
 
 /// A part of the surroundings: its radiance is its emission times the share that its shape has in the direction.

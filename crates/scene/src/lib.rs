@@ -19,6 +19,8 @@
 //! degrees in files. Wavelengths and film thicknesses are nanometres.
 
 mod camera;
+mod coated_body;
+mod cook;
 mod derived;
 pub mod description;
 mod document;
@@ -28,6 +30,7 @@ mod field_path;
 pub mod file;
 mod growth;
 mod index;
+mod light;
 pub mod limits;
 mod material;
 mod microsurface;
@@ -42,7 +45,9 @@ mod validate;
 mod validated;
 
 pub use camera::{Camera, Projection};
-pub use derived::DirectionTable;
+pub use coated_body::{CoatEstimate, CoatedBody};
+pub use cook::{Cook1981, CookDistribution, CookFacets, DiffuseShare};
+pub use derived::{DirectionTable, Energy};
 pub use description::{Distribution, PathDifference, Sampler};
 pub use document::SourceFile;
 pub use environment::{
@@ -51,12 +56,13 @@ pub use environment::{
 pub use field_path::{FieldPath, Step};
 pub use file::SceneFile;
 pub use index::optical_constants;
+pub use light::{Light, LightShape, LightSource, SourceKind};
 pub use material::{Emission, Interference, Layer, Material, Pattern};
 pub use microsurface::{Grain, Microsurface};
 pub use object::{Object, Shape};
 pub use problem::{Location, Problem, ProblemKind, Problems};
 pub use schema::schema;
-pub use settings::{RenderSettings, WavelengthSampling};
+pub use settings::{DirectLight, RenderSettings, WavelengthSampling};
 pub use texels::Texels;
 pub use thickness::{BlackFilm, Coordinate, Picture, PictureFile, Profile, Swirls, Thickness};
 pub use validated::{LightGroupId, MaterialId, Scene, SpectrumId};

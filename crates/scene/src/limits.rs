@@ -99,6 +99,21 @@ pub const MAX_FORMULA_TERMS: usize = 16;
 pub const REFLECTANCE: Range = Range::new(0.0, 1.0, "");
 /// Radiance, its scale and their product: the square, which the variance needs, times 2²⁴ samples fits in `f32`.
 pub const EMISSION: Range = Range::new(0.0, 1e9, "");
+/// Radiance, luminance, power, irradiance, illuminance or intensity of a light in its unit; what comes of it must lie in [`EMISSION`].
+/// The sun's luminance is 1.6e9 cd/m².
+pub const STRENGTH: Range = Range::new(0.0, 1e12, "");
+/// Angular diameter of a distant light: up to half of the sky.
+pub const ANGULAR_DIAMETER_DEG: Range = Range::new(0.0, 180.0, "°");
+/// The smallest angular diameter above 0: below it, what `f32` keeps of directions would show.
+pub const MIN_ANGULAR_DIAMETER_DEG: f64 = 0.01;
+/// Angle of the cone of a spot.
+pub const SPOT_DEG: Range = Range::new(0.1, 180.0, "°");
+/// The sharpest edge of a spot: how much of its angle may have the full intensity.
+pub const SPOT_SHARPEST: f64 = 0.99;
+/// The most lights that are no objects.
+pub const MAX_LIGHTS: usize = 1024;
+/// The most distant lights with a diameter: what escapes the scene looks at each of them.
+pub const MAX_DISCS_OF_LIGHT: usize = 16;
 /// Roughness where it is not 0. The highlight's exponent (tan θ / m)² has a relative error of about 2⁻²³ / m²
 /// in `f32`: 3e-4 at m = 0.02, and growing to where the highlight of a smoother surface is mostly rounding.
 pub const ROUGHNESS: Range = Range::new(0.02, 1.0, "");
@@ -112,6 +127,12 @@ pub const TURBIDITY: Range = Range::new(
 );
 /// A turn of the surroundings.
 pub const ROTATION_DEG: Range = Range::new(-360.0, 360.0, "°");
+/// The most slopes of a surface by Cook's model.
+pub const MAX_SLOPES: usize = 8;
+/// The constant c of Cook's Gaussian distribution.
+pub const COOK_CONSTANT: Range = Range::new(0.0, 1e6, "");
+/// A reflectance at normal incidence that is turned into an index: of 0.996 the index is 998.
+pub const NORMAL_REFLECTANCE: Range = Range::new(0.0, 0.996, "");
 /// Exposure in stops.
 pub const EXPOSURE_EV: Range = Range::new(-32.0, 32.0, " stops");
 /// Wavelengths that bands may cover.

@@ -1,7 +1,7 @@
 //! What a surface is made of, in a validated scene.
 
 use crate::description::PathDifference;
-use crate::{LightGroupId, Microsurface, SpectrumId, Texels, Thickness};
+use crate::{CoatedBody, Cook1981, LightGroupId, Microsurface, SpectrumId, Texels, Thickness};
 use std::sync::Arc;
 
 /// What a surface is made of. Every surface has two sides. They behave alike, but for a film of several layers that absorbs: from
@@ -24,6 +24,10 @@ pub enum Material {
         /// Its facets; none where it is smooth.
         microsurface: Option<Microsurface>,
     },
+    /// An opaque metal by the model of Cook and Torrance.
+    Cook(Cook1981),
+    /// A diffuse body below a clear coat.
+    CoatedBody(CoatedBody),
     /// A free thin film between air and air. Rays reflect from it and pass straight through it.
     Film {
         /// Its layers, at least one: the first on the outside of a sphere or on the side of a plane's normal.
@@ -51,9 +55,37 @@ impl Material {
         }
     }
 
+    /// Its facets; none where it is smooth or diffuse.
+    pub fn microsurface(&self) -> Option<&Microsurface> {
+        match self {
+            Self::Conductor { microsurface, .. }
+            | Self::CoatedBody(CoatedBody { microsurface, .. }) => microsurface.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// What it emits; none where it is no emitter.
+    pub fn emission(&self) -> Option<Emission> {
+        match self {
+            Self::Emitter { emission, .. } => Some(*emission),
+            _ => None,
+        }
+    }
+
     /// The thicknesses of its layers.
     pub fn thicknesses(&self) -> impl Iterator<Item = &Thickness> {
         self.layers().iter().map(|layer| &layer.thickness)
+    }
+}
+
+impl Material {
+    /// What it emits, or sends back of light that is not traced, to be changed.
+    pub(crate) fn emission_mut(&mut self) -> Option<&mut Emission> {
+        match self {
+            Self::Emitter { emission, .. } => Some(emission),
+            Self::Cook(Cook1981 { ambient, .. }) => ambient.as_mut(),
+            _ => None,
+        }
     }
 }
 

@@ -1,7 +1,9 @@
 //! Rough surfaces, in a validated scene.
 
+use crate::Energy;
 use crate::description::Distribution;
 use glam::DVec3;
+use std::sync::Arc;
 
 /// The facets of a rough surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +14,8 @@ pub struct Microsurface {
     pub roughness: [f64; 2],
     /// Which way the grain runs.
     pub grain: Grain,
+    /// How much light leaves it without meeting another facet.
+    pub energy: Arc<Energy>,
 }
 
 /// Which way the grain of a surface runs.

@@ -2,8 +2,9 @@
 
 use crate::EnvironmentPicture;
 use crate::{
-    Camera, Emission, Environment, Grain, Layer, Material, Microsurface, Object, Pattern,
-    Projection, RenderSettings, Scene, Shape,
+    Camera, CoatEstimate, CoatedBody, Cook1981, CookFacets, DiffuseShare, Emission, Environment,
+    Grain, Layer, Light, LightShape, Material, Microsurface, Object, Pattern, Projection,
+    RenderSettings, Scene, Shape,
 };
 use glam::DVec3;
 use std::sync::Arc;
@@ -47,6 +48,7 @@ impl RoundToF32 for Scene {
             light_groups: self.light_groups.clone(),
             materials: self.materials.rounded(),
             objects: self.objects.rounded(),
+            lights: self.lights.rounded(),
             environment: self.environment.rounded(),
         }
     }
@@ -105,6 +107,8 @@ impl RoundToF32 for Material {
                 layers: layers.iter().map(RoundToF32::rounded).collect(),
                 microsurface: microsurface.as_ref().map(RoundToF32::rounded),
             },
+            Self::Cook(cook) => Self::Cook(cook.rounded()),
+            Self::CoatedBody(body) => Self::CoatedBody(body.rounded()),
             Self::Film {
                 layers,
                 transparent,
@@ -125,6 +129,51 @@ impl RoundToF32 for Material {
     }
 }
 
+impl RoundToF32 for CoatedBody {
+    fn rounded(&self) -> Self {
+        Self {
+            microsurface: self.microsurface.as_ref().map(RoundToF32::rounded),
+            base: self.base.rounded(),
+            estimate: CoatEstimate {
+                n: self.estimate.n.rounded(),
+                base: self.estimate.base.rounded(),
+            },
+            ..*self
+        }
+    }
+}
+
+impl RoundToF32 for Cook1981 {
+    fn rounded(&self) -> Self {
+        Self {
+            facets: self.facets.iter().map(RoundToF32::rounded).collect(),
+            diffuse: self.diffuse.as_ref().map(RoundToF32::rounded),
+            ambient: self.ambient.as_ref().map(RoundToF32::rounded),
+            ..self.clone()
+        }
+    }
+}
+
+impl RoundToF32 for CookFacets {
+    fn rounded(&self) -> Self {
+        Self {
+            slope: self.slope.rounded(),
+            weight: self.weight.rounded(),
+            part: self.part.rounded(),
+        }
+    }
+}
+
+impl RoundToF32 for DiffuseShare {
+    fn rounded(&self) -> Self {
+        Self {
+            share: self.share.rounded(),
+            chance: self.chance.rounded(),
+            reflectance: self.reflectance,
+        }
+    }
+}
+
 impl RoundToF32 for Microsurface {
     fn rounded(&self) -> Self {
         Self {
@@ -135,6 +184,7 @@ impl RoundToF32 for Microsurface {
                 Grain::Along(direction) => Grain::Along(direction.rounded()),
                 Grain::Around(axis) => Grain::Around(axis.rounded()),
             },
+            energy: Arc::clone(&self.energy),
         }
     }
 }
@@ -228,6 +278,43 @@ impl RoundToF32 for Shape {
                 tangent: tangent.rounded(),
                 bitangent: bitangent.rounded(),
                 radius: radius.rounded(),
+            },
+        }
+    }
+}
+
+impl RoundToF32 for Light {
+    fn rounded(&self) -> Self {
+        Self {
+            shape: self.shape.rounded(),
+            emission: self.emission.rounded(),
+        }
+    }
+}
+
+impl RoundToF32 for LightShape {
+    fn rounded(&self) -> Self {
+        match self {
+            Self::Disc { towards, height } => Self::Disc {
+                towards: towards.rounded(),
+                height: height.rounded(),
+            },
+            Self::Direction { towards } => Self::Direction {
+                towards: towards.rounded(),
+            },
+            Self::Point { position } => Self::Point {
+                position: position.rounded(),
+            },
+            Self::Spot {
+                position,
+                axis,
+                full_cosine,
+                edge_cosine,
+            } => Self::Spot {
+                position: position.rounded(),
+                axis: axis.rounded(),
+                full_cosine: full_cosine.rounded(),
+                edge_cosine: edge_cosine.rounded(),
             },
         }
     }

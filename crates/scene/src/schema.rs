@@ -19,7 +19,30 @@ pub(crate) fn schema_of<T: JsonSchema>() -> Value {
         .into_root_schema_for::<T>()
         .to_value();
     remove_null(&mut schema);
+    spread_shared_fields(&mut schema);
     schema
+}
+
+/// A table whose fields stand beside those of several forms: each form gets them too, and is then closed like any other table.
+fn spread_shared_fields(schema: &mut Value) {
+    match schema {
+        Value::Object(object) => {
+            let is_mixed = object.contains_key("anyOf") && object.contains_key("properties");
+            if is_mixed && let Some(Value::Object(shared)) = object.remove("properties") {
+                object.remove("type");
+                let forms = object.get_mut("anyOf").and_then(Value::as_array_mut);
+                for form in forms.into_iter().flatten() {
+                    form["additionalProperties"] = false.into();
+                    if let Some(own) = form["properties"].as_object_mut() {
+                        own.extend(shared.clone());
+                    }
+                }
+            }
+            object.values_mut().for_each(spread_shared_fields);
+        }
+        Value::Array(items) => items.iter_mut().for_each(spread_shared_fields),
+        _ => {}
+    }
 }
 
 /// TOML has no null: an optional field is left out. `anyOf [X, null]` becomes X, and a default of null goes.

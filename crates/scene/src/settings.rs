@@ -1,6 +1,8 @@
 //! How a validated scene is to be rendered.
 
 use crate::Sampler;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use spectra::BandGrid;
 
 /// How a scene is to be rendered.
@@ -23,6 +25,8 @@ pub struct RenderSettings {
     /// The most segments of a path, from 1 to [`RenderSettings::MAX_PATH_SEGMENTS`]. The camera ray is the
     /// first; the one that reaches a light or the environment counts.
     pub max_path_segments: u32,
+    /// How light that surfaces scatter is found.
+    pub direct_light: DirectLight,
     /// Exposure of the developed picture in stops: 0 shows radiance 1 at every wavelength as white.
     pub exposure_ev: f64,
     /// Time of the picture, s. The thicknesses of the scene are those of this time already.
@@ -43,4 +47,17 @@ pub enum WavelengthSampling {
     Random,
     /// Always the centre of the band: fixed wavelengths.
     Centre,
+}
+
+/// How the light that falls on a surface straight from a light is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DirectLight {
+    /// By rays to lights and by scattered rays that meet them, each where it is the better way.
+    #[default]
+    Both,
+    /// By rays to lights alone.
+    Lights,
+    /// By scattered rays alone. What comes from a point, a spot or a single direction is never found.
+    Surfaces,
 }

@@ -2,9 +2,7 @@
 
 use crate::description::Description;
 use crate::rounding::RoundToF32;
-use crate::{
-    Camera, Emission, Environment, Material, Object, Problems, RenderSettings, Shape, validate,
-};
+use crate::{Camera, Environment, Light, Material, Object, Problems, RenderSettings, validate};
 use spectra::{BandTable, LightGroup, SpectralImage};
 use std::path::Path;
 
@@ -16,6 +14,12 @@ impl SpectrumId {
     /// The position in the list.
     pub fn index(self) -> usize {
         self.0 as usize
+    }
+
+    /// The spectrum that stands this many places after this one.
+    #[must_use]
+    pub fn after(self, places: usize) -> Self {
+        Self(self.0 + places as u32)
     }
 }
 
@@ -53,6 +57,7 @@ pub struct Scene {
     pub(crate) light_groups: Vec<LightGroup>,
     pub(crate) materials: Vec<Material>,
     pub(crate) objects: Vec<Object>,
+    pub(crate) lights: Vec<Light>,
     pub(crate) environment: Environment,
 }
 
@@ -123,21 +128,9 @@ impl Scene {
         &self.objects
     }
 
-    /// Indices of the objects that light can be sent from: emitting spheres and rectangles.
-    pub fn lights(&self) -> Vec<usize> {
-        let is_light = |object: &Object| {
-            let is_sampled = matches!(object.shape, Shape::Sphere { .. } | Shape::Rectangle { .. });
-            is_sampled
-                && match self.material(object.material) {
-                    Material::Emitter { emission, .. } => self.shines(*emission),
-                    _ => false,
-                }
-        };
-        let objects = self.objects.iter().enumerate();
-        objects
-            .filter(|(_, object)| is_light(object))
-            .map(|(index, _)| index)
-            .collect()
+    /// Lights that are no objects, discs first. See [`Scene::light_sources`] for all that shines.
+    pub fn lights(&self) -> &[Light] {
+        &self.lights
     }
 
     /// What surrounds the objects.
@@ -152,9 +145,5 @@ impl Scene {
     #[must_use]
     pub fn rounded_to_f32(&self) -> Self {
         self.rounded()
-    }
-
-    fn shines(&self, emission: Emission) -> bool {
-        emission.scale > 0.0 && self.spectrum(emission.spectrum).extent().1 > 0.0
     }
 }

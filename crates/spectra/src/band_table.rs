@@ -79,6 +79,25 @@ impl BandTable {
         }
     }
 
+    /// The table of `f` of the values of this one and of `other`, which is on the same grid.
+    ///
+    /// # Panics
+    /// When it is on another grid.
+    #[must_use]
+    pub fn combined(&self, other: &Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        assert_eq!((self.bands, self.steps), (other.bands, other.steps));
+        let pairs = self.values.iter().zip(&other.values);
+        Self {
+            values: pairs.map(|(&a, &b)| f(a, b)).collect(),
+            ..*self
+        }
+    }
+
+    /// The mean of all values.
+    pub fn mean(&self) -> f64 {
+        self.values.iter().sum::<f64>() / self.values.len() as f64
+    }
+
     /// The smallest and the largest value.
     pub fn extent(&self) -> (f64, f64) {
         self.values

@@ -6,7 +6,8 @@ use gpu::Gpu;
 use optics::Complex64;
 use pellicle_tests::device::open;
 use pellicle_tests::tolerances::{
-    CLOSED_FORM, CLOSED_FORM_EXACT, CLOSED_FORM_FILM, NEARLY_NORMAL, PROVING_ERROR, Z_MEAN,
+    CLOSED_FORM, CLOSED_FORM_EXACT, CLOSED_FORM_FILM, FURNACE_ROUGH, NEARLY_NORMAL, PROVING_ERROR,
+    ROUGH_FORM, Z_MEAN,
 };
 use scene::{Scene, SceneFile};
 use spectra::SpectralImage;
@@ -352,8 +353,9 @@ height = 0.01
     }
 }
 
-/// Directional albedo of a rough conductor seen along its normal: ∫ f R cos θ dω, by quadrature. Under the environment the
-/// light comes by scattering alone, in a luminous sphere by connections too.
+/// Directional albedo of a rough conductor seen along its normal: ∫ f R cos θ dω by quadrature, and of what is left the colour of
+/// light that met several facets. Under the environment the light comes by scattering alone, in a luminous sphere by
+/// connections too.
 #[test]
 fn a_rough_metal_reflects_its_albedo() {
     const SHELL: &str = r#"
@@ -370,23 +372,93 @@ radius = 10
     let gpu = open();
     for roughness in [0.1, 0.3, 0.8] {
         let rough = format!("{GOLD}roughness = {roughness}\n");
+        let surface = optics::Microsurface {
+            distribution: optics::Distribution::Beckmann,
+            alpha: [roughness; 2],
+        };
+        let mean_energy = mean_energy(&surface);
+        let lost = 1.0 - surface.albedo([0.0, 0.0, 1.0], 200);
         let albedo = |index| {
             let steps = 2000;
             let at = |i| {
                 let angle = (f64::from(i) + 0.5) / f64::from(steps) * FRAC_PI_2;
                 let light = [angle.sin(), 0.0, angle.cos()];
-                let facet = optics::cook_torrance([0.0, 0.0, 1.0], light, roughness);
+                let facet = surface.reflection([0.0, 0.0, 1.0], light);
                 let fresnel = optics::reflectance_unpolarised(index, (angle / 2.0).cos());
                 facet * fresnel * angle.cos() * angle.sin()
             };
-            TAU * (0..steps).map(at).sum::<f64>() * FRAC_PI_2 / f64::from(steps)
+            let once = TAU * (0..steps).map(at).sum::<f64>() * FRAC_PI_2 / f64::from(steps);
+            let mean = optics::mean_reflectance(|c| optics::reflectance_unpolarised(index, c));
+            once + lost * optics::multiple_colour(mean, mean_energy)
         };
         for (where_, light) in [("environment", WHITE), ("shell", SHELL)] {
             let lit = scene(&[DOWN, &render(64, 2, "random"), &rough, METAL_FLOOR, light]);
             let what = format!("roughness {roughness}, {where_}");
-            check(&gpu, &what, &lit, CLOSED_FORM, |band| {
+            check(&gpu, &what, &lit, ROUGH_FORM, |band| {
                 metal_mean(&lit, band, albedo)
             });
+        }
+    }
+}
+
+/// The albedo of facets averaged over a hemisphere, ∫ E d(cos²θ).
+fn mean_energy(surface: &optics::Microsurface) -> f64 {
+    let steps = 100;
+    let at = |i| {
+        let cos2 = (f64::from(i) + 0.5) / f64::from(steps);
+        surface.albedo([(1.0 - cos2).sqrt(), 0.0, cos2.sqrt()], 64)
+    };
+    (0..steps).map(at).sum::<f64>() / f64::from(steps)
+}
+
+/// Spheres of a metal that absorbs next to nothing (n = 0.001, k = 1000: 4e-9), bare and under a film, smooth to rough, brushed or
+/// not, before a white environment: nothing of them is to be seen.
+#[test]
+fn lossless_rough_surfaces_are_white() {
+    const TILES: [u32; 2] = [4, 2];
+    let rough = [
+        "roughness = 0.05",
+        "roughness = 0.3",
+        "roughness = 1",
+        "roughness = [0.05, 0.4]\nbrushed = { along = [1, 1, 0] }",
+    ];
+    let lossless = "index = [0.001, 1000]\ntype = \"conductor\"";
+    let under_a_film =
+        "substrate = [0.001, 1000]\nindex = 2.2\nthickness_nm = 300\ntype = \"coated\"";
+    let mut text = String::from(
+        "[camera]\ntype = \"orthographic\"\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nheight = 2\n\
+         [render]\nsize = [64, 32]\nsamples = 256\nbands = 2\nmax_path_segments = 24\n",
+    );
+    for tile in 0..TILES[0] * TILES[1] {
+        let (column, row) = (tile % TILES[0], tile / TILES[0]);
+        let body = if column % 2 == row {
+            lossless
+        } else {
+            under_a_film
+        };
+        let distribution = if row == 0 { "beckmann" } else { "ggx" };
+        text += &format!(
+            "[materials.m{tile}]\n{body}\ndistribution = \"{distribution}\"\n{}\n\
+             [[objects]]\ntype = \"sphere\"\nmaterial = \"m{tile}\"\ncenter = [{}, {}, 0]\nradius = 0.45\n",
+            rough[column as usize],
+            f64::from(column) - 1.5,
+            0.5 - f64::from(row),
+        );
+    }
+    let gpu = open();
+    let white = scene(&[&text, WHITE]);
+    for (who, image) in pictures(&gpu, &white) {
+        for tile in 0..TILES[0] * TILES[1] {
+            let (left, top) = (16 * (tile % TILES[0]), 16 * (tile / TILES[0]));
+            let pixels = (0..256).map(|i| (left + i % 16, top + i / 16));
+            let values =
+                pixels.map(|(x, y)| f64::from(image.radiance()[2 * (64 * y + x) as usize]));
+            let mean = values.sum::<f64>() / 256.0;
+            println!("{who}, tile {tile}: {mean:.5}");
+            assert!(
+                (mean - 1.0).abs() < FURNACE_ROUGH,
+                "{who}, tile {tile}: {mean}"
+            );
         }
     }
 }

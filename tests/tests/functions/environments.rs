@@ -105,7 +105,7 @@ const OF_PICTURES: &[&str] = &[
 
 fn part_of(world: &World, object: f64) -> EnvironmentShape<'_> {
     let part = object as usize - world.packed.frame.first_environment as usize;
-    world.scene.environment().parts()[part].shape
+    world.scene.surroundings()[part].shape
 }
 
 fn sampled(world: &World, a: &[f64]) -> Vec<f64> {

@@ -1,6 +1,9 @@
 //! Every WGSL function against its twin in Rust, on many inputs with the edges among them.
 
+mod bodies;
 mod environments;
+mod facets;
+mod light_choices;
 mod numbers;
 mod optics_functions;
 mod scene_functions;
@@ -80,7 +83,10 @@ fn table(ranges: &[(f32, f32)], edges: &[&[f32]]) -> Vec<f32> {
 
 fn checks() -> Vec<Check> {
     [
+        bodies::checks(),
         environments::checks(),
+        facets::checks(),
+        light_choices::checks(),
         numbers::checks(),
         optics_functions::checks(),
         scene_functions::checks(),

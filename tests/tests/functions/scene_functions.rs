@@ -11,7 +11,7 @@ use pellicle_tests::tolerances::{
     SPECTRUM, SPHERE_DISTANCE,
 };
 use reference::{Ray, Reflectance};
-use scene::{Material, Scene, Shape};
+use scene::{Material, Scene, Shape, SourceKind};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
@@ -230,12 +230,12 @@ fn point_about(light: &Shape, u: &[f64], far: bool) -> Option<DVec3> {
             let distance = if u[0] < 0.3 { 0.999 * u[1] } else { outside };
             Some(rounded(center + radius * distance * unit(u[2], u[3])))
         }
-        Shape::Rectangle { center, normal, .. } => {
+        Shape::Rectangle { center, normal, .. } | Shape::Disk { center, normal, .. } => {
             let aside = 5.0 * (2.0 * DVec3::new(u[1], u[2], u[3]) - 1.0);
             let least = if far { 0.5 } else { 0.1 };
             (aside.dot(normal).abs() > least).then(|| rounded(center + aside))
         }
-        Shape::Plane { .. } | Shape::Disk { .. } => None,
+        Shape::Plane { .. } => None,
     }
 }
 
@@ -258,9 +258,12 @@ fn close_points() -> Vec<f32> {
 
 fn lights_of(keep: impl Fn(&Shape) -> bool) -> Vec<usize> {
     let world = everything();
-    let mut lights = world.scene.lights();
-    lights.retain(|&light| keep(world.shape(light)));
-    lights
+    let sources = world.scene.light_sources().into_iter();
+    let objects = sources.filter_map(|source| match source.kind {
+        SourceKind::Object(index) => Some(index),
+        _ => None,
+    });
+    objects.filter(|&light| keep(world.shape(light))).collect()
 }
 
 /// Rows of a light, a point and two numbers.
@@ -276,7 +279,9 @@ fn light_rows(far: bool) -> Vec<f32> {
     for light in lights {
         let shape = world.shape(light);
         let point = match *shape {
-            Shape::Rectangle { center, normal, .. } => center + normal,
+            Shape::Rectangle { center, normal, .. } | Shape::Disk { center, normal, .. } => {
+                center + normal
+            }
             _ => center_of(shape),
         };
         for (u, v) in [(0.0, 0.0), (0.999_999_94, 0.999_999_94), (0.0, 0.5)] {
@@ -294,7 +299,7 @@ fn pdf_rows(points: &[f32]) -> Vec<f32> {
         let a: Vec<f64> = row.iter().map(|&x| f64::from(x)).collect();
         let shape = world.shape(a[0] as usize);
         let direction = reference::sample_light(shape, vector(&a[1..]), a[4], a[5]).as_vec3();
-        if let Shape::Rectangle { normal, .. } = *shape
+        if let Shape::Rectangle { normal, .. } | Shape::Disk { normal, .. } = *shape
             && direction.as_dvec3().dot(normal).abs() < 0.1
         {
             return None;
@@ -788,7 +793,8 @@ fn spectra() -> Vec<Check> {
 
 // Factors.
 
-const FACTOR: &str = "put4(0u, factor_value(Factor(u32(a(0u)), u32(a(1u)), a(2u), a(3u), 0u), u32(a(4u)), wavelengths_at(a(5u))));";
+const OF_SURFACE: &str = "put4(0u, surface_value(Factor(u32(a(0u)), u32(a(1u)), a(2u), a(3u), 0u), u32(a(4u)), wavelengths_at(a(5u))));";
+const OF_FILM: &str = "put4(0u, film_value(Factor(u32(a(0u)), u32(a(1u)), a(2u), a(3u), 0u), u32(a(4u)), wavelengths_at(a(5u))));";
 
 fn factor_twin(a: &[f64]) -> Vec<f64> {
     use gpu::layout::{
@@ -859,21 +865,23 @@ fn factors() -> Vec<Check> {
                 films.push((FACTOR_LOSSY_FILM_TRANSMITS, spectrum));
             }
             Material::Emitter { .. }
+            | Material::Cook(_)
+            | Material::CoatedBody(_)
             | Material::Diffuse {
                 reflectance: scene::Pattern::Texture { .. },
             } => {}
         }
     }
-    let check = |proves, choices: &[(u32, usize)], tolerance| Check {
-        probe: world.probe(&["evaluate"], (6, 4), FACTOR),
+    let check = |proves, body, choices: &[(u32, usize)], tolerance| Check {
+        probe: world.probe(&["evaluate"], (6, 4), body),
         proves,
         inputs: factor_rows(choices),
         twin: factor_twin,
         tolerance,
     };
     vec![
-        check(&["factor_value"], &surfaces, FRESNEL),
-        check(&["factor_value", "film_value"], &films, FILM),
+        check(&["surface_value"], OF_SURFACE, &surfaces, FRESNEL),
+        check(&["film_value"], OF_FILM, &films, FILM),
     ]
 }
 

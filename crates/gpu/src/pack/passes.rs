@@ -23,11 +23,25 @@ pub(super) fn of_sample(scene: &Scene, limits: RecordLimits) -> u64 {
     let light_groups = u64::from(limits.light_groups) + 1;
     let groups = u64::from(scene.settings().bands.count().div_ceil(4)) + 1;
 
-    let trace = (2 * segments + crossings) * (1 + objects + most(thickness_passes));
-    let factors = (2 * segments + crossings) * (1 + most(layer_passes));
+    let surfaces = most(thickness_passes) + 3 * most(slope_passes);
+    let facets = segments * most(facet_passes);
+    let trace = (2 * segments + crossings) * (1 + objects + surfaces) + facets;
+    let factors =
+        (2 * segments + crossings) * (1 + most(layer_passes)) + facets * (1 + most(layer_passes));
     let spectrum = groups * (1 + segments + factors + 2 * light_groups);
-    let environment = scene.environment().parts().len() as u64 + 1 + segments * SEARCHES;
-    1 + trace + environment + spectrum + 3 * light_groups
+    let environment = scene.surroundings().len() as u64 + 1 + segments * SEARCHES;
+    // The sum of the lights' estimates and the choice among them.
+    let choices = segments * 2 * (1 + scene.light_sources().len() as u64);
+    1 + trace + choices + environment + spectrum + 3 * light_groups
+}
+
+/// Of drawing a facet (two slopes) or of the mean reflectance of facets (three cosines), at most.
+fn facet_passes(material: &Material) -> u64 {
+    if material.microsurface().is_some() {
+        2 * (1 + 4)
+    } else {
+        0
+    }
 }
 
 /// Of working out all thicknesses of a material.
@@ -38,6 +52,14 @@ fn thickness_passes(material: &Material) -> u64 {
     };
     let of_layer = |thickness: &Thickness| thickness.parts().map(of_part).sum::<u64>();
     material.thicknesses().map(|t| 1 + of_layer(t)).sum()
+}
+
+/// Of Cook's model between two directions, or of drawing one.
+fn slope_passes(material: &Material) -> u64 {
+    match material {
+        Material::Cook(cook) => 1 + cook.facets.len() as u64,
+        _ => 0,
+    }
 }
 
 /// Of the factor of a material with a stack; a film of one layer has none.

@@ -15,10 +15,15 @@ pub(super) struct Pictures {
 impl Pictures {
     /// The head of a material's picture, or NONE.
     pub(super) fn of_material(&mut self, material: &Material) -> u32 {
-        match material {
-            Material::Diffuse {
-                reflectance: Pattern::Texture { texels, size },
-            } => self.add(texels, size.unwrap_or_default().map(|side| side as f32)),
+        let pattern = match material {
+            Material::Diffuse { reflectance } => Some(reflectance),
+            Material::CoatedBody(body) => Some(&body.base),
+            _ => None,
+        };
+        match pattern {
+            Some(Pattern::Texture { texels, size }) => {
+                self.add(texels, size.unwrap_or_default().map(|side| side as f32))
+            }
             _ => layout::NONE,
         }
     }

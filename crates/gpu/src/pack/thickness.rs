@@ -125,7 +125,8 @@ impl Fields {
         }
     }
 
-    fn look_up(&mut self, numbers: &[f64]) -> u32 {
+    /// Adds numbers to the tables, and says where they begin.
+    pub(super) fn look_up(&mut self, numbers: &[f64]) -> u32 {
         let first = self.numbers.len() as u32;
         self.numbers.extend(numbers.iter().map(|&x| x as f32));
         first

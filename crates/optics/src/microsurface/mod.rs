@@ -7,7 +7,10 @@
 //! is (1 + Λ(w)) cos θ, with Λ of Smith (1967); heights of neighbouring facets are taken for independent, those of the facet
 //! seen and lit for the same (Heitz, Understanding the Masking-Shadowing Function, JCGT 3(2), 2014, equations 83, 86 and 99).
 
+mod multiple;
 mod slopes;
+
+pub use multiple::{MEAN_COSINES, mean_reflectance, multiple_colour};
 
 use std::f64::consts::PI;
 
@@ -107,16 +110,25 @@ impl Microsurface {
     /// The part of the light that leaves at once of what comes from `eye` onto facets that reflect everything. 1 minus this
     /// meets another facet.
     ///
+    /// By the rule of [`Self::each_reflection`].
+    pub fn albedo(&self, eye: [f64; 3], steps: u32) -> f64 {
+        let mut sum = 0.0;
+        self.each_reflection(eye, steps, |_, weight| sum += weight);
+        sum
+    }
+
+    /// Hands `f` the cosine at each of the facets from which light leaves at once, and its part of the light.
+    ///
     /// By the midpoint rule with `steps`² facets, spread as often as they are seen on a GGX surface of the same α, more densely
     /// where they are steep.
-    pub fn albedo(&self, eye: [f64; 3], steps: u32) -> f64 {
+    pub fn each_reflection(&self, eye: [f64; 3], steps: u32, mut f: impl FnMut(f64, f64)) {
         let spread = Self {
             distribution: Distribution::Ggx,
             ..*self
         };
         let place = |i: u32| (f64::from(i) + 0.5) / f64::from(steps);
         let lambda_eye = self.lambda(eye);
-        let mut sum = 0.0;
+        let all = (1.0 + spread.lambda(eye)) / f64::from(steps * steps);
         for i in 0..steps {
             for j in 0..steps {
                 // The last of the numbers gives the steep facets, in the long tail of the slopes.
@@ -125,11 +137,11 @@ impl Microsurface {
                 let light = mirrored(eye, facet);
                 if light[2] > 0.0 {
                     let seen = 1.0 / (1.0 + lambda_eye + self.lambda(light));
-                    sum += 2.0 * rest * self.density(facet) / spread.density(facet) * seen;
+                    let weight = 2.0 * rest * self.density(facet) / spread.density(facet) * seen;
+                    f(dot(eye, facet), weight * all);
                 }
             }
         }
-        sum * (1.0 + spread.lambda(eye)) / f64::from(steps * steps)
     }
 }
 

@@ -1,6 +1,8 @@
 //! Materials as written.
 
-use super::{Brushed, Distribution, Emission, Index, Reflectance, Roughness, Thickness};
+use super::{
+    Brushed, ConductorModel, Distribution, Emission, Index, Reflectance, Roughness, Thickness,
+};
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -29,6 +31,26 @@ pub enum Material {
         /// Which way the grain runs, where `roughness` is `[along, across]`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         brushed: Option<Brushed>,
+        /// How reflection is computed; "microfacets" when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        model: Option<ConductorModel>,
+    },
+    /// Glass, enamel, lacquer: a clear coat over a diffuse base, or without a base an opaque body, in which what enters is absorbed.
+    Dielectric {
+        /// The index of the coat or body; above a base it must not absorb.
+        index: Index,
+        /// Roughness; smooth when absent.
+        #[serde(default)]
+        roughness: Roughness,
+        /// How the slopes of a rough surface are distributed; "beckmann" when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        distribution: Option<Distribution>,
+        /// Which way the grain runs, where `roughness` is `[along, across]`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        brushed: Option<Brushed>,
+        /// What the base below the coat reflects, or a pattern of two; opaque when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        base: Option<DiffuseReflectance>,
     },
     /// A free thin film with air on both sides: one layer (`index` and `thickness_nm`) or several (`layers`).
     /// Light reflects from it or passes straight through it, both with interference.

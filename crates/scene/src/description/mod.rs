@@ -5,7 +5,10 @@
 //! result to [`Scene::new`](crate::Scene::new). Nothing here is checked beyond its type.
 
 mod camera;
+mod cook;
+mod emission;
 mod environment;
+mod light;
 mod material;
 mod microsurface;
 mod object;
@@ -13,13 +16,19 @@ mod render;
 mod spectrum;
 mod thickness;
 
+pub use crate::settings::DirectLight;
 pub use camera::Camera;
+pub use cook::{
+    ConductorModel, ConductorModelName, Cook1981, CookDistribution, CookNormalisation, Slope,
+};
+pub use emission::{Emission, EmissionSpectrum, Strength};
 pub use environment::Environment;
+pub use light::Light;
 pub use material::{DiffuseReflectance, FilmModel, Layer, Material, PathDifference};
 pub use microsurface::{Brushed, Distribution, Roughness};
 pub use object::Object;
 pub use render::{LightGroups, Render, Sampler, WavelengthSampling};
-pub use spectrum::{Emission, Extrapolate, Index, MixtureRule, Reflectance, SellmeierTerms};
+pub use spectrum::{Extrapolate, Index, MixtureRule, Reflectance, SellmeierTerms};
 pub use thickness::{
     AnodisedMetal, Anodising, Drainage, HeatTint, Quantity, Steel, Steps, Swirls, Thickness,
 };
@@ -47,6 +56,9 @@ pub struct Description {
     /// The shapes in space.
     #[serde(default)]
     pub objects: Vec<Object>,
+    /// Lights that are no objects.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lights: Vec<Light>,
     /// What surrounds the objects; black when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub environment: Option<Environment>,

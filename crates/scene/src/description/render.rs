@@ -1,6 +1,6 @@
 //! How to render, as written.
 
-use crate::{RenderSettings, limits};
+use crate::{DirectLight, RenderSettings, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +26,8 @@ pub struct Render {
     pub light_groups: LightGroups,
     /// Where the numbers come from that paths are drawn by.
     pub sampler: Sampler,
+    /// How light that surfaces scatter is found: the picture is the same, its noise is not.
+    pub direct_light: DirectLight,
     /// Chooses the sequence of random numbers.
     pub seed: u32,
     /// The most segments of a path. The camera ray is the first; the one that reaches a light counts.
@@ -87,6 +89,7 @@ impl Default for Render {
             sampling: WavelengthSampling::Random,
             light_groups: LightGroups::BySpectrum,
             sampler: Sampler::Sobol,
+            direct_light: DirectLight::Both,
             seed: 0,
             max_path_segments: 12,
             exposure_ev: 0.0,

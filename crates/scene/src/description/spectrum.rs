@@ -127,6 +127,12 @@ pub enum Index {
         #[serde(default)]
         extrapolate: Extrapolate,
     },
+    /// The index without absorption that reflects as much at normal incidence: n = (1 + √F) / (1 − √F), k = 0
+    /// (Cook and Torrance 1982).
+    Reflecting {
+        /// The reflectance at normal incidence, at most 0.996.
+        normal_reflectance: Reflectance,
+    },
     /// A mixture of two media, in grains far smaller than the wavelength.
     Mixture {
         /// The rule.
@@ -157,63 +163,4 @@ pub enum MixtureRule {
     Bruggeman,
     /// Spheres of the second medium in the first (Maxwell Garnett 1904).
     MaxwellGarnett,
-}
-
-/// A spectrum of radiance and its scale.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged, deny_unknown_fields)]
-pub enum Emission {
-    /// The same at every wavelength.
-    Constant {
-        /// The radiance at scale 1.
-        #[schemars(range(min = limits::EMISSION.low, max = limits::EMISSION.high))]
-        constant: f64,
-        /// Factor.
-        #[serde(default = "one")]
-        #[schemars(range(min = limits::EMISSION.low, max = limits::EMISSION.high))]
-        scale: f64,
-    },
-    /// An illuminant that Pellicle carries. At scale 1 it is as bright as constant = 1.
-    Illuminant {
-        /// The name: a standard one ("A", "C", "D65", "E"), a fluorescent lamp ("F11" or "FL11"), a LED ("LED-B3"), a
-        /// high-pressure lamp ("HP1"), or a temperature of daylight ("D5700K") or of a black body ("blackbody_3000K").
-        illuminant: String,
-        /// What the table says outside its wavelengths.
-        #[serde(default)]
-        extrapolate: Extrapolate,
-        /// Factor.
-        #[serde(default = "one")]
-        #[schemars(range(min = limits::EMISSION.low, max = limits::EMISSION.high))]
-        scale: f64,
-    },
-    /// A table in the scene, linear between its points.
-    Table {
-        /// Wavelengths in nm, rising.
-        nm: Vec<f64>,
-        /// The radiance at each of them, at scale 1.
-        values: Vec<f64>,
-        /// What the table says outside its wavelengths.
-        #[serde(default)]
-        extrapolate: Extrapolate,
-        /// Factor.
-        #[serde(default = "one")]
-        #[schemars(range(min = limits::EMISSION.low, max = limits::EMISSION.high))]
-        scale: f64,
-    },
-    /// A table in a file.
-    File {
-        /// A text file with two columns, wavelength in nm and radiance at scale 1; relative to the scene file.
-        csv: PathBuf,
-        /// What the table says outside its wavelengths.
-        #[serde(default)]
-        extrapolate: Extrapolate,
-        /// Factor.
-        #[serde(default = "one")]
-        #[schemars(range(min = limits::EMISSION.low, max = limits::EMISSION.high))]
-        scale: f64,
-    },
-}
-
-fn one() -> f64 {
-    1.0
 }

@@ -1,11 +1,12 @@
 //! The checks that many fields share, and the list of what they found.
 
-use crate::FieldPath;
 use crate::limits::{self, Range};
 use crate::problem::{Problem, ProblemKind};
+use crate::{Distribution, Energy, FieldPath};
 use glam::DVec3;
 use spectra::suggestion::nearest;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Collects problems, and knows what the whole scene shares. A check returns the value when it is sound.
 #[derive(Debug)]
@@ -15,6 +16,8 @@ pub(crate) struct Checks {
     pub(crate) directory: PathBuf,
     /// Time of the picture, s.
     pub(crate) time_s: f64,
+    /// Tables of rough surfaces made so far: those alike share theirs.
+    energies: Vec<(Distribution, [f64; 2], Arc<Energy>)>,
 }
 
 impl Checks {
@@ -23,7 +26,26 @@ impl Checks {
             problems: Vec::new(),
             directory: directory.to_owned(),
             time_s: 0.0,
+            energies: Vec::new(),
         }
+    }
+
+    /// The table of energy of a rough surface.
+    pub(crate) fn energy(
+        &mut self,
+        distribution: Distribution,
+        roughness: [f64; 2],
+    ) -> Arc<Energy> {
+        let is_same = |known: &&(Distribution, [f64; 2], Arc<Energy>)| {
+            (known.0, known.1) == (distribution, roughness)
+        };
+        if let Some((.., energy)) = self.energies.iter().find(is_same) {
+            return Arc::clone(energy);
+        }
+        let energy = Arc::new(Energy::new(distribution, roughness));
+        self.energies
+            .push((distribution, roughness, Arc::clone(&energy)));
+        energy
     }
 
     pub(crate) fn report(&mut self, problem: Problem) {

@@ -2,8 +2,9 @@
 
 use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
-use super::{environment_picture, sky, spectrum_list::check_brightness};
-use crate::description::Extrapolate;
+use super::strength::Radiator;
+use super::{environment_picture, sky};
+use crate::description::{Emission, EmissionSpectrum, Extrapolate, Strength};
 use crate::problem::{Problem, ProblemKind};
 use crate::{Environment, FieldPath, PictureSpectra, description, limits};
 use std::path::Path;
@@ -16,12 +17,17 @@ pub(crate) fn check(
     environment: Option<&description::Environment>,
 ) -> Option<Environment> {
     let top = FieldPath::root().key("environment");
-    let mut emission = |name: &str, emission| spectra.emission(checks, &top.key(name), emission);
+    let radiator = match environment {
+        Some(description::Environment::Gradient { .. }) => Radiator::PartOfSurroundings,
+        _ => Radiator::Surroundings,
+    };
+    let mut emission =
+        |name: &str, emission| spectra.emission(checks, &top.key(name), emission, radiator);
     match environment {
         None => {
-            let black = description::Emission::Constant {
-                constant: 0.0,
-                scale: 0.0,
+            let black = description::Emission {
+                spectrum: description::EmissionSpectrum::Constant { constant: 0.0 },
+                strength: description::Strength::default(),
             };
             emission("emission", &black).map(Environment::Constant)
         }
@@ -38,11 +44,8 @@ pub(crate) fn check(
         }) => {
             let sun = [*sun_elevation_deg, *sun_azimuth_deg];
             let sphere = sky::check(checks, spectra, (sun, *turbidity), ground);
-            let factor = description::Emission::Constant {
-                constant: 1.0,
-                scale: *scale,
-            };
-            let emission = spectra.emission(checks, &top, &factor);
+            let factor = times(EmissionSpectrum::Constant { constant: 1.0 }, *scale);
+            let emission = spectra.emission(checks, &top, &factor, Radiator::Surroundings);
             Some(Environment::Picture {
                 emission: emission?,
                 picture: Arc::new(sphere?.turned(-*sun_azimuth_deg)),
@@ -84,6 +87,17 @@ pub(crate) fn check(
     }
 }
 
+/// A spectrum times a factor.
+fn times(spectrum: EmissionSpectrum, scale: f64) -> Emission {
+    Emission {
+        spectrum,
+        strength: Strength {
+            scale: Some(scale),
+            ..Strength::default()
+        },
+    }
+}
+
 /// A picture of all directions as written.
 struct Image<'a> {
     file: &'a Path,
@@ -105,19 +119,16 @@ impl Image<'_> {
         let is_spectral = sphere
             .as_ref()
             .is_some_and(|s| s.spectra == PictureSpectra::Bands);
-        let factor = if is_spectral {
-            description::Emission::Constant {
-                constant: 1.0,
-                scale: self.scale,
-            }
+        let lamp = if is_spectral {
+            EmissionSpectrum::Constant { constant: 1.0 }
         } else {
-            description::Emission::Illuminant {
+            EmissionSpectrum::Illuminant {
                 illuminant: self.illuminant.unwrap_or("D65").to_owned(),
                 extrapolate: Extrapolate::Error,
-                scale: self.scale,
             }
         };
-        let emission = spectra.emission(checks, &top, &factor);
+        let factor = times(lamp, self.scale);
+        let emission = spectra.emission(checks, &top, &factor, Radiator::Surroundings);
         let (sphere, emission) = (sphere?, emission?);
         if is_spectral && self.illuminant.is_some() {
             let message = "the picture has spectra of its own, which no illuminant changes";
@@ -126,8 +137,6 @@ impl Image<'_> {
             checks.report(problem.involving(top.key("image")));
             return None;
         }
-        let brightest = sphere.brightness.iter().copied().fold(0.0, f32::max);
-        check_brightness(checks, &top, f64::from(brightest), emission.scale)?;
         Some(Environment::Picture {
             emission,
             picture: Arc::new(sphere.turned(turn?)),

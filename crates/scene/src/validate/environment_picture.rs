@@ -10,6 +10,7 @@ use colorimetry::lifting::SigmoidReflectance;
 use glam::DVec3;
 use rayon::prelude::*;
 use spectra::{BandGrid, SpectralImage};
+use std::f64::consts::PI;
 use std::path::Path;
 
 /// A picture of all directions as a file has it.
@@ -21,15 +22,28 @@ pub(super) struct Sphere {
 }
 
 impl Sphere {
+    /// Mean radiance over all directions and wavelengths.
+    fn mean(&self) -> f64 {
+        let rows = self.brightness.chunks(self.texels.width as usize);
+        let turn = PI / f64::from(self.texels.height);
+        let of_row = |(row, pixels): (u32, &[f32])| {
+            let share = ((f64::from(row) * turn).cos() - (f64::from(row + 1) * turn).cos()) / 2.0;
+            share * pixels.iter().map(|&b| f64::from(b)).sum::<f64>() / pixels.len() as f64
+        };
+        (0..).zip(rows).map(of_row).sum()
+    }
+
     /// The picture with its middle turned from −Z by an angle.
     pub(super) fn turned(self, rotation_deg: f64) -> EnvironmentPicture {
         let (sine, cosine) = rotation_deg.to_radians().sin_cos();
         let table = DirectionTable::new(self.texels.width, self.texels.height, &self.brightness);
+        let mean = self.mean();
         EnvironmentPicture {
             texels: self.texels,
             spectra: self.spectra,
             forward: DVec3::new(-sine, 0.0, -cosine),
             right: DVec3::new(cosine, 0.0, -sine),
+            mean,
             table,
         }
     }

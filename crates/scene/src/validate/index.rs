@@ -4,11 +4,11 @@ use super::checks::Checks;
 use super::database_file::{self, Block, Data};
 use super::formula;
 use super::points::{self, Column};
-use super::spectrum_list::{Advice, extrapolated};
-use crate::description::{Extrapolate, Index, MixtureRule};
+use super::spectrum_list::{Advice, extrapolated, read_reflectance};
+use crate::description::{Extrapolate, Index, MixtureRule, Reflectance};
 use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, limits};
-use spectra::{DispersionFormula, OpticalConstants, Spectrum};
+use spectra::{DispersionFormula, OpticalConstants, Spectrum, Tabulated};
 use std::path::Path;
 
 const INDEX_N: Column = Column::new("n", "n", &limits::INDEX_N);
@@ -77,6 +77,10 @@ pub(crate) fn read<'w>(
             let formula = formula::sellmeier(checks, &field.key("sellmeier"), sellmeier)?;
             (transparent(formula, *extrapolate), Advice::Add)
         }
+        Index::Reflecting { normal_reflectance } => {
+            let field = field.key("normal_reflectance");
+            reflecting(checks, directory, &field, normal_reflectance)?
+        }
         Index::Mixture {
             mixture: rule,
             of,
@@ -93,6 +97,59 @@ pub(crate) fn read<'w>(
 fn transparent(formula: DispersionFormula, extrapolate: Extrapolate) -> [Spectrum; 2] {
     let n = extrapolated(Spectrum::Formula(formula), extrapolate);
     [n, Spectrum::Constant(0.0)]
+}
+
+/// The index without absorption of a reflectance at normal incidence.
+fn reflecting<'w>(
+    checks: &mut Checks,
+    directory: &Path,
+    field: &FieldPath,
+    written: &'w Reflectance,
+) -> Option<([Spectrum; 2], Advice<'w>)> {
+    let (reflectance, advice) = read_reflectance(checks, directory, field, written)?;
+    let points = points_of(&reflectance);
+    for value in points.iter().map(|&(_, value)| value) {
+        checks.number(field, value, &limits::NORMAL_REFLECTANCE)?;
+    }
+    let index = |(nm, value)| (nm, optics::index_from_normal_reflectance(value));
+    let n = match &reflectance {
+        Spectrum::Constant(value) => {
+            Spectrum::Constant(optics::index_from_normal_reflectance(*value))
+        }
+        other => {
+            // What `finely` gives rises in wavelength like the table that it comes from.
+            let table = Tabulated::new(finely(&points).map(index).collect()).ok()?;
+            match other {
+                Spectrum::ClampedTable(_) => Spectrum::ClampedTable(table),
+                _ => Spectrum::Table(table),
+            }
+        }
+    };
+    Some(([n, Spectrum::Constant(0.0)], advice))
+}
+
+/// The points of a table; a constant as one point.
+fn points_of(spectrum: &Spectrum) -> Vec<(f64, f64)> {
+    match spectrum {
+        Spectrum::Constant(value) => vec![(0.0, *value)],
+        Spectrum::Table(table) | Spectrum::ClampedTable(table) => table.points().collect(),
+        Spectrum::Formula(_) | Spectrum::ClampedFormula(_) => Vec::new(),
+    }
+}
+
+/// The same line through more points, at most a nanometre apart where the table is not longer than scenes can use: the index bends
+/// where the reflectance runs straight.
+fn finely(points: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> {
+    const MOST: f64 = 1000.0;
+    let between = points.windows(2).flat_map(|ends| {
+        let [(nm, value), (next_nm, next)] = [ends[0], ends[1]];
+        let parts = (next_nm - nm).ceil().clamp(1.0, MOST);
+        (0..parts as u32).map(move |part| {
+            let t = f64::from(part) / parts;
+            (nm + t * (next_nm - nm), value + t * (next - value))
+        })
+    });
+    between.chain(points.last().copied())
 }
 
 fn mixture(

@@ -1,6 +1,7 @@
 //! Light groups: which lights are kept apart.
 
 use super::checks::Checks;
+use super::light::Placed;
 use super::spectrum_list::Lamp;
 use crate::description::{self, Description, LightGroups};
 use crate::limits::MAX_LIGHT_GROUPS;
@@ -12,6 +13,7 @@ use spectra::LightGroup;
 pub(crate) struct Unlit {
     pub(crate) materials: Vec<Material>,
     pub(crate) objects: Vec<Object>,
+    pub(crate) lights: Vec<Placed>,
     pub(crate) environment: Environment,
 }
 
@@ -32,7 +34,12 @@ pub(crate) fn check_names(checks: &mut Checks, description: &Description) {
         root.key("environment"),
         name_of_environment(description.environment.as_ref()),
     );
-    for (field, name) in of_materials.chain([of_environment]) {
+    let of_lights = description
+        .lights
+        .iter()
+        .enumerate()
+        .map(|(index, light)| (root.key("lights").index(index), light.light_group()));
+    for (field, name) in of_materials.chain(of_lights).chain([of_environment]) {
         if let Some(name) = name {
             check_name(checks, &field.key("light_group"), name);
         }
@@ -152,9 +159,7 @@ fn lights<'a>(
     let materials = parts.materials.iter_mut().zip(written).zip(is_used);
     let mut lights: Vec<_> = materials
         .filter_map(|((material, name), is_used)| {
-            let Material::Emitter { emission, .. } = material else {
-                return None;
-            };
+            let emission = material.emission_mut()?;
             if is_used {
                 return Some((emission, name));
             }
@@ -162,6 +167,11 @@ fn lights<'a>(
             None
         })
         .collect();
+    let of_lights = parts.lights.iter_mut();
+    lights.extend(of_lights.map(|(index, light)| {
+        let name = description.lights[*index].light_group();
+        (&mut light.emission, name)
+    }));
     let name = name_of_environment(description.environment.as_ref());
     match &mut parts.environment {
         Environment::Constant(everywhere) => lights.push((everywhere, name)),

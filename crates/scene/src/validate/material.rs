@@ -2,11 +2,14 @@
 
 use super::checks::Checks;
 use super::checks::placed_size;
+use super::cook;
+use super::dielectric;
 use super::layers::{Written, check_interference};
 use super::lifted;
 use super::microsurface;
 use super::spectrum_list::SpectrumList;
-use crate::description::{self, DiffuseReflectance};
+use super::strength::Radiator;
+use crate::description::{self, ConductorModel, ConductorModelName, Cook1981, DiffuseReflectance};
 use crate::limits;
 use crate::{FieldPath, Material, Pattern};
 use std::collections::BTreeMap;
@@ -41,8 +44,18 @@ fn check(
             roughness,
             distribution,
             brushed,
+            model,
         } => {
             let index = spectra.index(checks, &field.key("index"), index);
+            if let Some(model) = cook_model(model.as_ref()) {
+                let surface = cook::Surface {
+                    index,
+                    roughness: *roughness,
+                    has_distribution: distribution.is_some(),
+                    is_brushed: brushed.is_some(),
+                };
+                return cook::check(checks, spectra, field, surface, &model).map(Material::Cook);
+            }
             let microsurface = microsurface::Written {
                 roughness: *roughness,
                 distribution: *distribution,
@@ -54,8 +67,29 @@ fn check(
                 n,
                 k,
                 layers: Vec::new(),
-                microsurface: microsurface?,
+                microsurface: microsurface.ok()?,
             })
+        }
+        description::Material::Dielectric {
+            index: written,
+            roughness,
+            distribution,
+            brushed,
+            base,
+        } => {
+            let index = spectra.index(checks, &field.key("index"), written);
+            let microsurface = microsurface::Written {
+                roughness: *roughness,
+                distribution: *distribution,
+                brushed: *brushed,
+            }
+            .check(checks, field);
+            let base = match base {
+                Some(base) => pattern(checks, spectra, &field.key("base"), base).map(Some),
+                None => Some(None),
+            };
+            let surface = (index?, microsurface.ok()?);
+            dielectric::check(checks, spectra, (field, written), surface, base?)
         }
         description::Material::Film {
             index,
@@ -104,7 +138,7 @@ fn check(
                 n,
                 k,
                 layers: layers?,
-                microsurface: microsurface?,
+                microsurface: microsurface.ok()?,
             })
         }
         description::Material::Emitter {
@@ -112,7 +146,8 @@ fn check(
             reflectance,
             ..
         } => {
-            let emission = spectra.emission(checks, &field.key("emission"), emission);
+            let emission =
+                spectra.emission(checks, &field.key("emission"), emission, Radiator::Emitter);
             let reflectance = reflectance.as_ref().map(|reflectance| {
                 spectra.reflectance(checks, &field.key("reflectance"), reflectance)
             });
@@ -125,6 +160,15 @@ fn check(
                 reflectance,
             })
         }
+    }
+}
+
+/// Cook's model, where it is asked for.
+fn cook_model(model: Option<&ConductorModel>) -> Option<Cook1981> {
+    match model? {
+        ConductorModel::Named(ConductorModelName::Microfacets) => None,
+        ConductorModel::Named(ConductorModelName::Cook1981) => Some(Cook1981::default()),
+        ConductorModel::Cook { cook1981 } => Some(cook1981.clone()),
     }
 }
 

@@ -6,6 +6,10 @@ use crate::limits;
 use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, Grain, Microsurface};
 
+/// A problem has been told.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Told;
+
 /// What a material says of its roughness.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Written {
@@ -15,52 +19,61 @@ pub(super) struct Written {
 }
 
 impl Written {
-    /// The facets of the surface; `Some(None)` where it is smooth.
+    /// The facets of the surface; none where it is smooth.
     pub(super) fn check(
         self,
         checks: &mut Checks,
         field: &FieldPath,
-    ) -> Option<Option<Microsurface>> {
+    ) -> Result<Option<Microsurface>, Told> {
         let brushed = self.check_brushed(checks, &field.key("brushed"));
         let roughness = self.check_roughness(checks, &field.key("roughness"))?;
         let Some(roughness) = roughness else {
-            return self.nothing_is_lost(checks, field).then_some(None);
+            return self.nothing_is_lost(checks, field).map(|()| None);
         };
         let grain = self.check_grain(checks, field, brushed?)?;
-        Some(Some(Microsurface {
-            distribution: self.distribution.unwrap_or_default(),
+        let distribution = self.distribution.unwrap_or_default();
+        Ok(Some(Microsurface {
+            distribution,
             roughness,
             grain,
+            energy: checks.energy(distribution, roughness),
         }))
     }
 
-    /// Along and across the grain; `Some(None)` of a smooth surface.
-    fn check_roughness(self, checks: &mut Checks, field: &FieldPath) -> Option<Option<[f64; 2]>> {
+    /// Along and across the grain; none of a smooth surface.
+    fn check_roughness(
+        self,
+        checks: &mut Checks,
+        field: &FieldPath,
+    ) -> Result<Option<[f64; 2]>, Told> {
         match self.roughness {
-            Roughness::Even(0.0) => Some(None),
+            Roughness::Even(0.0) => Ok(None),
             Roughness::Even(even) => {
                 let even = check_number(checks, field, even, "0 (a smooth mirror) or ")?;
-                Some(Some([even; 2]))
+                Ok(Some([even; 2]))
             }
             Roughness::Brushed(both) => {
                 let along = check_number(checks, &field.index(0), both[0], "");
                 let across = check_number(checks, &field.index(1), both[1], "");
-                Some(Some([along?, across?]))
+                Ok(Some([along?, across?]))
             }
         }
     }
 
-    /// `Some(None)` where nothing is said.
-    fn check_brushed(self, checks: &mut Checks, field: &FieldPath) -> Option<Option<Grain>> {
-        Some(match self.brushed {
-            None => None,
+    /// None where nothing is said.
+    fn check_brushed(self, checks: &mut Checks, field: &FieldPath) -> Result<Option<Grain>, Told> {
+        let grain = match self.brushed {
+            None => return Ok(None),
             Some(Brushed::Along { along }) => {
-                Some(Grain::Along(checks.direction(&field.key("along"), along)?))
+                let direction = checks.direction(&field.key("along"), along);
+                direction.map(Grain::Along)
             }
-            Some(Brushed::Around { around }) => Some(Grain::Around(
-                checks.direction(&field.key("around"), around)?,
-            )),
-        })
+            Some(Brushed::Around { around }) => {
+                let axis = checks.direction(&field.key("around"), around);
+                axis.map(Grain::Around)
+            }
+        };
+        grain.map(Some).ok_or(Told)
     }
 
     /// Two numbers and a direction belong together.
@@ -69,11 +82,11 @@ impl Written {
         checks: &mut Checks,
         field: &FieldPath,
         brushed: Option<Grain>,
-    ) -> Option<Grain> {
+    ) -> Result<Grain, Told> {
         let is_even = matches!(self.roughness, Roughness::Even(_));
         let (place, other, message, help) = match brushed {
-            None if is_even => return Some(Grain::None),
-            Some(grain) if !is_even => return Some(grain),
+            None if is_even => return Ok(Grain::None),
+            Some(grain) if !is_even => return Ok(grain),
             None => (
                 "roughness",
                 "brushed",
@@ -89,32 +102,37 @@ impl Written {
         };
         let problem = Problem::new(ProblemKind::Inconsistent, &field.key(place), message);
         checks.report(problem.help(help).involving(field.key(other)));
-        None
+        Err(Told)
     }
 
     /// A smooth surface has neither a distribution nor a grain.
-    fn nothing_is_lost(self, checks: &mut Checks, field: &FieldPath) -> bool {
+    fn nothing_is_lost(self, checks: &mut Checks, field: &FieldPath) -> Result<(), Told> {
         let given = [
             ("distribution", self.distribution.is_some()),
             ("brushed", self.brushed.is_some()),
         ];
-        let mut is_sound = true;
+        let mut result = Ok(());
         for (name, _) in given.iter().filter(|(_, is_given)| *is_given) {
             let message = format!("`{name}` is for a rough surface; this one has no roughness");
             let problem = Problem::new(ProblemKind::Inconsistent, &field.key(name), message);
             checks.report(problem.help("add a roughness from 0.02 to 1, or leave it out"));
-            is_sound = false;
+            result = Err(Told);
         }
-        is_sound
+        result
     }
 }
 
 /// See [`limits::ROUGHNESS`].
-fn check_number(checks: &mut Checks, field: &FieldPath, number: f64, or: &str) -> Option<f64> {
+fn check_number(
+    checks: &mut Checks,
+    field: &FieldPath,
+    number: f64,
+    or: &str,
+) -> Result<f64, Told> {
     if limits::ROUGHNESS.contains(number) {
-        return Some(number);
+        return Ok(number);
     }
     let message = format!("found {number}; it must be {or}from {}", limits::ROUGHNESS);
     checks.report(Problem::new(ProblemKind::OutOfRange, field, message));
-    None
+    Err(Told)
 }

@@ -2,26 +2,31 @@
 
 mod camera;
 mod checks;
+mod cook;
 mod database_file;
+mod dielectric;
 mod environment;
 mod environment_picture;
 mod formula;
 mod index;
 mod layers;
 mod lifted;
+mod light;
 mod light_groups;
 mod material;
 mod microsurface;
 mod object;
 mod picture_file;
 mod points;
+mod power;
 mod settings;
 mod sky;
 mod spectrum_list;
+mod strength;
 mod thickness;
 
 use crate::description::{Description, Index};
-use crate::limits::{MAX_MATERIALS, MAX_OBJECTS};
+use crate::limits::{MAX_LIGHTS, MAX_MATERIALS, MAX_OBJECTS};
 use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, Scene};
 use checks::Checks;
@@ -35,9 +40,10 @@ pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene
     check_counts(&mut checks, description);
     let settings = settings::check(&mut checks, &description.render);
     let camera = camera::check(&mut checks, &description.camera);
-    let mut spectra = SpectrumList::new(settings.grid, directory);
+    let mut spectra = SpectrumList::new(settings.grid, description.render.sampling, directory);
     let materials = material::check_all(&mut checks, &mut spectra, &description.materials);
     let objects = object::check_all(&mut checks, &description.materials, &description.objects);
+    let lights = light::check_all(&mut checks, &mut spectra, &description.lights);
     let environment =
         environment::check(&mut checks, &mut spectra, description.environment.as_ref());
     let observer = spectra.observer(&mut checks);
@@ -46,9 +52,13 @@ pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene
         let parts = light_groups::Unlit {
             materials: materials?,
             objects: objects?,
+            lights: lights?,
             environment: environment?,
         };
-        light_groups::assign(&mut checks, spectra.lamps(), description, parts)
+        let mut lit = light_groups::assign(&mut checks, spectra.lamps(), description, parts)?;
+        let peak = |id| spectra.peak(id);
+        power::spread(&mut checks, description, &mut lit.parts, peak);
+        Some(lit)
     })();
     if settings.settings.is_some() {
         let light_groups = lit.as_ref().map_or(1, |lit| lit.light_groups.len());
@@ -64,6 +74,12 @@ pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene
             light_groups: lit.light_groups,
             materials: lit.parts.materials,
             objects: lit.parts.objects,
+            lights: lit
+                .parts
+                .lights
+                .into_iter()
+                .map(|(_, light)| light)
+                .collect(),
             environment: lit.parts.environment,
         })
     };
@@ -89,6 +105,7 @@ fn check_counts(checks: &mut Checks, description: &Description) {
     let counts = [
         ("objects", description.objects.len(), MAX_OBJECTS),
         ("materials", description.materials.len(), MAX_MATERIALS),
+        ("lights", description.lights.len(), MAX_LIGHTS),
     ];
     for (what, count, most) in counts {
         if count > most {

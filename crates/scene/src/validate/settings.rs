@@ -47,6 +47,7 @@ pub(crate) fn check(checks: &mut Checks, render: &Render) -> Checked {
             bands: grid?,
             sampling: sampling(render.sampling),
             max_path_segments: max_path_segments?,
+            direct_light: render.direct_light,
             exposure_ev: exposure_ev?,
             time_s: time_s?,
         })

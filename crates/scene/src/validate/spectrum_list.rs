@@ -4,7 +4,10 @@ use super::checks::Checks;
 use super::index;
 use super::lifted;
 use super::points::{self, Column};
-use crate::description::{self, Extrapolate, Index, Reflectance};
+use super::strength::{self, Radiator};
+use crate::description::{
+    self, EmissionSpectrum, Extrapolate, Index, Reflectance, WavelengthSampling,
+};
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
 use crate::{Emission, FieldPath, LightGroupId, SpectrumId};
@@ -16,6 +19,7 @@ use std::path::{Path, PathBuf};
 /// The spectra of a scene, each one once.
 pub(crate) struct SpectrumList<'a> {
     grid: Option<BandGrid>,
+    sampling: WavelengthSampling,
     directory: &'a Path,
     tables: Vec<BandTable>,
     singles: HashMap<Vec<u64>, SpectrumId>,
@@ -40,9 +44,14 @@ const EMISSION: Column = Column::new("radiance", "values", &limits::EMISSION);
 
 impl<'a> SpectrumList<'a> {
     /// An empty list over `grid`. Without a grid everything is still checked, but nothing comes of it.
-    pub(crate) fn new(grid: Option<BandGrid>, directory: &'a Path) -> Self {
+    pub(crate) fn new(
+        grid: Option<BandGrid>,
+        sampling: WavelengthSampling,
+        directory: &'a Path,
+    ) -> Self {
         Self {
             grid,
+            sampling,
             directory,
             tables: Vec::new(),
             singles: HashMap::new(),
@@ -54,11 +63,6 @@ impl<'a> SpectrumList<'a> {
     /// The bands.
     pub(crate) fn grid(&self) -> Option<BandGrid> {
         self.grid
-    }
-
-    /// One of the spectra.
-    pub(crate) fn table(&self, id: SpectrumId) -> &BandTable {
-        &self.tables[id.index()]
     }
 
     /// All spectra, at the positions that their numbers say.
@@ -76,9 +80,31 @@ impl<'a> SpectrumList<'a> {
         self.tables[id.index()].extent() == (0.0, 0.0)
     }
 
+    /// The largest value of a spectrum.
+    pub(crate) fn peak(&self, id: SpectrumId) -> f64 {
+        self.tables[id.index()].extent().1
+    }
+
     /// The smallest value of a spectrum.
     pub(crate) fn least(&self, id: SpectrumId) -> f64 {
         self.tables[id.index()].extent().0
+    }
+
+    /// One of the spectra.
+    pub(crate) fn table(&self, id: SpectrumId) -> &BandTable {
+        &self.tables[id.index()]
+    }
+
+    /// The number of the first of spectra that get numbers one after another.
+    pub(crate) fn run(&mut self, tables: impl IntoIterator<Item = BandTable>) -> SpectrumId {
+        let first = SpectrumId(self.tables.len() as u32);
+        self.tables.extend(tables);
+        first
+    }
+
+    /// The mean of a spectrum over its knots.
+    pub(crate) fn mean(&self, id: SpectrumId) -> f64 {
+        self.tables[id.index()].mean()
     }
 
     /// The CIE 1931 colour-matching functions on the grid.
@@ -98,46 +124,21 @@ impl<'a> SpectrumList<'a> {
         field: &FieldPath,
         written: &Reflectance,
     ) -> Option<SpectrumId> {
-        let (spectrum, advice) = match written {
-            Reflectance::Constant(value) => {
-                let value = checks.number(field, *value, &limits::REFLECTANCE)?;
-                (Spectrum::Constant(value), Advice::None)
-            }
-            Reflectance::Name(name) => (
-                named_reflectance(checks, field, name, Extrapolate::Error)?,
-                Advice::Name(name),
-            ),
-            Reflectance::Srgb { srgb } => {
-                let rgb = lifted::colour(checks, &field.key("srgb"), *srgb)?;
-                (lifted::reflectance(rgb.map(decode)), Advice::None)
-            }
-            Reflectance::LinearSrgb { linear_srgb } => {
-                let rgb = lifted::colour(checks, &field.key("linear_srgb"), *linear_srgb)?;
-                (lifted::reflectance(rgb), Advice::None)
-            }
-            Reflectance::Named { name, extrapolate } => (
-                named_reflectance(checks, &field.key("name"), name, *extrapolate)?,
-                Advice::Add,
-            ),
-            Reflectance::Table {
-                nm,
-                values,
-                extrapolate,
-            } => {
-                let columns = [(REFLECTANCE, values.as_slice())];
-                let [spectrum] = points::inline(checks, field, nm, columns, *extrapolate)?;
-                (spectrum, Advice::Add)
-            }
-            Reflectance::File { csv, extrapolate } => {
-                let path = self.path(csv);
-                let [spectrum] = points::file(checks, field, &path, [REFLECTANCE], *extrapolate)?;
-                (spectrum, Advice::Add)
-            }
-        };
+        let (spectrum, advice) = read_reflectance(checks, self.directory, field, written)?;
         let table = self.resampled(checks, field, &spectrum, advice)?;
         Some(self.single(&table, limits::REFLECTANCE))
     }
 
+    /// The number of a spectrum that is made of two others, knot by knot.
+    pub(crate) fn combined(
+        &mut self,
+        of: [SpectrumId; 2],
+        f: impl Fn([f64; 2]) -> f64,
+    ) -> SpectrumId {
+        let [a, b] = of.map(|id| &self.tables[id.index()]);
+        let table = a.combined(b, |a, b| f([a, b]));
+        self.single(&table, limits::EMISSION)
+    }
     /// The numbers of an index's n and k; that of k is one more than that of n.
     pub(crate) fn index(
         &mut self,
@@ -159,53 +160,23 @@ impl<'a> SpectrumList<'a> {
         checks: &mut Checks,
         field: &FieldPath,
         written: &description::Emission,
+        radiator: Radiator,
     ) -> Option<Emission> {
-        let (spectrum, scale) = match written {
-            description::Emission::Constant { constant, scale } => {
-                let constant = checks.number(&field.key("constant"), *constant, &limits::EMISSION);
-                (constant.map(Spectrum::Constant), *scale)
-            }
-            description::Emission::Illuminant {
-                illuminant,
-                extrapolate,
-                scale,
-            } => {
-                let named = field.key("illuminant");
-                (
-                    named_illuminant(checks, &named, illuminant, *extrapolate),
-                    *scale,
-                )
-            }
-            description::Emission::Table {
-                nm,
-                values,
-                extrapolate,
-                scale,
-            } => {
-                let columns = [(EMISSION, values.as_slice())];
-                let spectrum = points::inline(checks, field, nm, columns, *extrapolate);
-                (spectrum.map(|[only]| only), *scale)
-            }
-            description::Emission::File {
-                csv,
-                extrapolate,
-                scale,
-            } => {
-                let path = self.path(csv);
-                let spectrum = points::file(checks, field, &path, [EMISSION], *extrapolate);
-                (spectrum.map(|[only]| only), *scale)
-            }
-        };
-        let scale = checks.number(&field.key("scale"), scale, &limits::EMISSION);
+        let spectrum = self.emission_spectrum(checks, field, &written.spectrum);
+        let amount = strength::check(checks, field, &written.strength, radiator);
         let spectrum = spectrum?;
         let table = self.resampled(checks, field, &spectrum, Advice::Add)?;
-        let scale = scale?;
+        let (amount, grid) = (amount?, self.grid?);
+        let scale = amount.scale(checks, &table, (&grid, self.sampling))?;
         let peak = table.extent().1;
-        check_brightness(checks, field, peak, scale)?;
+        // What an emitter's power makes of its radiance depends on the object.
+        if written.strength.power_w.is_none() || radiator != Radiator::Emitter {
+            check_brightness(checks, (field, &amount.field), peak, scale)?;
+        }
         let light_group = LightGroupId(self.lamps.len() as u32);
         self.lamps.push(Lamp {
-            name: lamp_name(written),
-            spectrum: self.grid?.lamp(&spectrum)?,
+            name: lamp_name(&written.spectrum),
+            spectrum: grid.lamp(&spectrum)?,
             shines: scale > 0.0 && peak > 0.0,
         });
         Some(Emission {
@@ -213,6 +184,38 @@ impl<'a> SpectrumList<'a> {
             scale,
             light_group,
         })
+    }
+
+    fn emission_spectrum(
+        &self,
+        checks: &mut Checks,
+        field: &FieldPath,
+        written: &EmissionSpectrum,
+    ) -> Option<Spectrum> {
+        match written {
+            EmissionSpectrum::Constant { constant } => {
+                let constant = checks.number(&field.key("constant"), *constant, &limits::EMISSION);
+                constant.map(Spectrum::Constant)
+            }
+            EmissionSpectrum::Illuminant {
+                illuminant,
+                extrapolate,
+            } => named_illuminant(checks, &field.key("illuminant"), illuminant, *extrapolate),
+            EmissionSpectrum::Table {
+                nm,
+                values,
+                extrapolate,
+            } => {
+                let columns = [(EMISSION, values.as_slice())];
+                let [spectrum] = points::inline(checks, field, nm, columns, *extrapolate)?;
+                Some(spectrum)
+            }
+            EmissionSpectrum::File { csv, extrapolate } => {
+                let path = self.path(csv);
+                let [spectrum] = points::file(checks, field, &path, [EMISSION], *extrapolate)?;
+                Some(spectrum)
+            }
+        }
     }
 
     fn path(&self, csv: &Path) -> PathBuf {
@@ -299,6 +302,51 @@ impl Advice<'_> {
     }
 }
 
+/// A reflectance over wavelength, and what to do where it does not reach far enough; files are looked for from `directory`.
+pub(super) fn read_reflectance<'w>(
+    checks: &mut Checks,
+    directory: &Path,
+    field: &FieldPath,
+    written: &'w Reflectance,
+) -> Option<(Spectrum, Advice<'w>)> {
+    Some(match written {
+        Reflectance::Constant(value) => {
+            let value = checks.number(field, *value, &limits::REFLECTANCE)?;
+            (Spectrum::Constant(value), Advice::None)
+        }
+        Reflectance::Name(name) => (
+            named_reflectance(checks, field, name, Extrapolate::Error)?,
+            Advice::Name(name),
+        ),
+        Reflectance::Srgb { srgb } => {
+            let rgb = lifted::colour(checks, &field.key("srgb"), *srgb)?;
+            (lifted::reflectance(rgb.map(decode)), Advice::None)
+        }
+        Reflectance::LinearSrgb { linear_srgb } => {
+            let rgb = lifted::colour(checks, &field.key("linear_srgb"), *linear_srgb)?;
+            (lifted::reflectance(rgb), Advice::None)
+        }
+        Reflectance::Named { name, extrapolate } => (
+            named_reflectance(checks, &field.key("name"), name, *extrapolate)?,
+            Advice::Add,
+        ),
+        Reflectance::Table {
+            nm,
+            values,
+            extrapolate,
+        } => {
+            let columns = [(REFLECTANCE, values.as_slice())];
+            let [spectrum] = points::inline(checks, field, nm, columns, *extrapolate)?;
+            (spectrum, Advice::Add)
+        }
+        Reflectance::File { csv, extrapolate } => {
+            let path = directory.join(csv);
+            let [spectrum] = points::file(checks, field, &path, [REFLECTANCE], *extrapolate)?;
+            (spectrum, Advice::Add)
+        }
+    })
+}
+
 fn named_reflectance(
     checks: &mut Checks,
     field: &FieldPath,
@@ -335,21 +383,21 @@ pub(super) fn extrapolated(spectrum: Spectrum, extrapolate: Extrapolate) -> Spec
     }
 }
 
-fn lamp_name(written: &description::Emission) -> String {
+fn lamp_name(written: &EmissionSpectrum) -> String {
     match written {
-        description::Emission::Constant { .. } => "constant".to_owned(),
-        description::Emission::Illuminant { illuminant, .. } => illuminant.clone(),
-        description::Emission::Table { .. } => "table".to_owned(),
-        description::Emission::File { csv, .. } => {
+        EmissionSpectrum::Constant { .. } => "constant".to_owned(),
+        EmissionSpectrum::Illuminant { illuminant, .. } => illuminant.clone(),
+        EmissionSpectrum::Table { .. } => "table".to_owned(),
+        EmissionSpectrum::File { csv, .. } => {
             let stem = csv.file_stem().unwrap_or_default();
             stem.to_string_lossy().into_owned()
         }
     }
 }
 
-pub(super) fn check_brightness(
+fn check_brightness(
     checks: &mut Checks,
-    field: &FieldPath,
+    (field, amount): (&FieldPath, &FieldPath),
     peak: f64,
     scale: f64,
 ) -> Option<()> {
@@ -357,11 +405,11 @@ pub(super) fn check_brightness(
         return Some(());
     }
     let message = format!(
-        "found {scale}, which makes the spectrum's peak of {peak} a radiance of {}; at most {} is possible",
+        "found a factor of {scale}, which makes the spectrum's peak of {peak} a radiance of {}; at most {} is possible",
         peak * scale,
         limits::EMISSION.high
     );
-    let problem = Problem::new(ProblemKind::OutOfRange, &field.key("scale"), message);
+    let problem = Problem::new(ProblemKind::OutOfRange, amount, message);
     checks.report(problem.involving(field.clone()));
     None
 }

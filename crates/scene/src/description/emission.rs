@@ -1,0 +1,107 @@
+//! What lights emit, as written.
+
+use super::Extrapolate;
+use crate::limits;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// What a light emits: a spectrum, and one number that says how much of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Emission {
+    /// The spectrum.
+    #[serde(flatten)]
+    pub spectrum: EmissionSpectrum,
+    /// How much of it.
+    #[serde(flatten)]
+    pub strength: Strength,
+}
+
+/// The spectrum of a light.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum EmissionSpectrum {
+    /// The same at every wavelength.
+    Constant {
+        /// The radiance at scale 1, in W m⁻² sr⁻¹ nm⁻¹.
+        #[schemars(range(min = limits::EMISSION.low, max = limits::EMISSION.high))]
+        constant: f64,
+    },
+    /// An illuminant that Pellicle carries. At scale 1 it is as bright as constant = 1.
+    Illuminant {
+        /// The name: a standard one ("A", "C", "D65", "E"), a fluorescent lamp ("F11" or "FL11"), a LED ("LED-B3"), a
+        /// high-pressure lamp ("HP1"), or a temperature of daylight ("D5700K") or of a black body ("blackbody_3000K").
+        illuminant: String,
+        /// What the table says outside its wavelengths.
+        #[serde(default)]
+        extrapolate: Extrapolate,
+    },
+    /// A table in the scene, linear between its points.
+    Table {
+        /// Wavelengths in nm, rising.
+        nm: Vec<f64>,
+        /// The radiance at each of them, at scale 1.
+        values: Vec<f64>,
+        /// What the table says outside its wavelengths.
+        #[serde(default)]
+        extrapolate: Extrapolate,
+    },
+    /// A table in a file.
+    File {
+        /// A text file with two columns, wavelength in nm and radiance at scale 1; relative to the scene file.
+        csv: PathBuf,
+        /// What the table says outside its wavelengths.
+        #[serde(default)]
+        extrapolate: Extrapolate,
+    },
+}
+
+/// How much light of a spectrum: at most one of these; `scale = 1` where none is written. Sums run over the wavelengths of the
+/// scene, and a unit of length of the scene counts as a metre.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct Strength {
+    /// Factor of the spectrum, which is a radiance in W m⁻² sr⁻¹ nm⁻¹; of a point or spot an intensity in W sr⁻¹ nm⁻¹, of a distant light
+    /// an irradiance in W m⁻² nm⁻¹.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = limits::EMISSION.low, max = limits::EMISSION.high))]
+    pub scale: Option<f64>,
+    /// Radiance in W m⁻² sr⁻¹: of emitters, surroundings, and distant lights with a diameter.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
+    pub radiance: Option<f64>,
+    /// Luminance in cd m⁻²: of emitters, surroundings, and distant lights with a diameter.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
+    pub luminance_cd_m2: Option<f64>,
+    /// Power in W that each object of an emitter (of plane ones both sides together), or that a point or spot sends out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
+    pub power_w: Option<f64>,
+    /// Irradiance in W m⁻² of a surface that faces a distant light, or under constant surroundings.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
+    pub irradiance_w_m2: Option<f64>,
+    /// Illuminance in lux of a surface that faces a distant light, or under constant surroundings.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
+    pub illuminance_lux: Option<f64>,
+    /// Intensity in W sr⁻¹ of a point, or of a spot along its axis.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
+    pub intensity_w_sr: Option<f64>,
+    /// Intensity in cd of a point, or of a spot along its axis.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
+    pub intensity_cd: Option<f64>,
+}
+
+impl Strength {
+    /// A factor.
+    pub fn scale(scale: f64) -> Self {
+        Self {
+            scale: Some(scale),
+            ..Self::default()
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Lights that are no objects, as written.
+
+use super::Emission;
+use crate::limits;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A light that is no object: rays do not meet it. A distant light with a diameter is seen against what surrounds the scene; points,
+/// spots and distant lights without a diameter are seen only by what they shine upon.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Light {
+    /// Light from so far away that it comes from the same direction everywhere, such as the sun's.
+    Distant {
+        /// What it emits.
+        emission: Emission,
+        /// Direction towards the light.
+        direction: [f64; 3],
+        /// Angle under which it is seen: the sun's 0.533° when absent; 0 is light from a single direction.
+        #[serde(default = "sun")]
+        #[schemars(range(min = limits::ANGULAR_DIAMETER_DEG.low, max = limits::ANGULAR_DIAMETER_DEG.high))]
+        diameter_deg: f64,
+        /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, that of all such lights
+        /// with this spectrum.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        light_group: Option<String>,
+    },
+    /// A point that sends light to all sides alike.
+    Point {
+        /// What it emits.
+        emission: Emission,
+        /// Where it is.
+        position: [f64; 3],
+        /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, that of all such lights
+        /// with this spectrum.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        light_group: Option<String>,
+    },
+    /// A point that sends light into a cone.
+    Spot {
+        /// What it emits.
+        emission: Emission,
+        /// Where it is.
+        position: [f64; 3],
+        /// Direction in which it shines.
+        direction: [f64; 3],
+        /// Angle of the whole cone.
+        #[schemars(range(min = limits::SPOT_DEG.low, max = limits::SPOT_DEG.high))]
+        angle_deg: f64,
+        /// Angle of the cone within which it has its full intensity; between the two it falls off smoothly. Four fifths of `angle_deg`
+        /// when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(range(min = 0.0, max = limits::SPOT_DEG.high))]
+        full_angle_deg: Option<f64>,
+        /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, that of all such lights
+        /// with this spectrum.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        light_group: Option<String>,
+    },
+}
+
+/// Mean angular diameter of the sun, degrees.
+fn sun() -> f64 {
+    0.533
+}
+
+impl Light {
+    /// What it emits.
+    pub fn emission(&self) -> &Emission {
+        match self {
+            Self::Distant { emission, .. }
+            | Self::Point { emission, .. }
+            | Self::Spot { emission, .. } => emission,
+        }
+    }
+
+    /// The name of its light group.
+    pub fn light_group(&self) -> Option<&str> {
+        match self {
+            Self::Distant { light_group, .. }
+            | Self::Point { light_group, .. }
+            | Self::Spot { light_group, .. } => light_group.as_deref(),
+        }
+    }
+}

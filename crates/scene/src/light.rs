@@ -1,0 +1,140 @@
+//! Lights that are no objects, and all that light can be sent from, in a validated scene.
+
+use crate::{DirectLight, Emission, EnvironmentPart, EnvironmentShape, Scene, Shape};
+use glam::DVec3;
+
+/// A light that is no object. Rays do not meet it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Light {
+    /// Where it is.
+    pub shape: LightShape,
+    /// Radiance of a disc, irradiance of a surface that faces light from a direction, intensity of a point and of a spot on its axis.
+    pub emission: Emission,
+}
+
+/// Where a light that is no object is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightShape {
+    /// A disc in the sky, seen where nothing is in front of it.
+    Disc {
+        /// Unit vector towards its middle.
+        towards: DVec3,
+        /// 1 − cos of the angle between middle and edge, > 0.
+        height: f64,
+    },
+    /// Light from a single direction.
+    Direction {
+        /// Unit vector towards the light.
+        towards: DVec3,
+    },
+    /// A point that shines to all sides alike.
+    Point {
+        /// Where it is.
+        position: DVec3,
+    },
+    /// A point that shines into a cone.
+    Spot {
+        /// Where it is.
+        position: DVec3,
+        /// Unit vector in which it shines.
+        axis: DVec3,
+        /// Cosine with the axis from which on the intensity is full.
+        full_cosine: f64,
+        /// Cosine with the axis below which there is no light; less than `full_cosine`.
+        edge_cosine: f64,
+    },
+}
+
+/// Something that light can be sent from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightSource {
+    /// What it is.
+    pub kind: SourceKind,
+    /// What it emits.
+    pub emission: Emission,
+    /// How bright that is to the eye, up to a factor that all sources share; never 0. It steers the choice among sources.
+    pub brightness: f64,
+}
+
+/// Where a source of light stands in its list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SourceKind {
+    /// One of [`Scene::objects`], which has bounds.
+    Object(usize),
+    /// One of [`Scene::surroundings`].
+    Environment(usize),
+    /// One of [`Scene::lights`] that is no disc.
+    Light(usize),
+}
+
+impl Scene {
+    /// All that light is sent from: emitting objects with bounds, what surrounds them, and lights. What emits nothing is not
+    /// among them, nor are surroundings that are the same everywhere, unless sending is the only way to find light: scattered rays
+    /// find them with less noise. (The density of a light after compensation for those rays is then 0: Karlík et al., MIS
+    /// Compensation, ACM Transactions on Graphics 38(6), 2019.)
+    pub fn light_sources(&self) -> Vec<LightSource> {
+        let objects = self.objects().iter().enumerate();
+        let objects = objects
+            .filter(|(_, object)| !matches!(object.shape, Shape::Plane { .. }))
+            .filter_map(|(index, object)| {
+                let emission = self.material(object.material).emission()?;
+                Some((SourceKind::Object(index), emission, 1.0))
+            });
+        let parts = self.surroundings().into_iter().enumerate();
+        let sends_only = self.settings().direct_light == DirectLight::Lights;
+        let parts =
+            parts.filter(|(_, part)| sends_only || part.shape != EnvironmentShape::Everywhere);
+        let parts = parts.map(|(index, part)| {
+            let mean = match part.shape {
+                EnvironmentShape::Picture(picture) => picture.mean,
+                _ => 1.0,
+            };
+            (SourceKind::Environment(index), part.emission, mean)
+        });
+        let lights = self.lights().iter().enumerate();
+        let is_disc = |light: &Light| matches!(light.shape, LightShape::Disc { .. });
+        let lights = lights.filter(|(_, light)| !is_disc(light));
+        let lights = lights.map(|(index, light)| (SourceKind::Light(index), light.emission, 1.0));
+        objects
+            .chain(parts)
+            .chain(lights)
+            .map(|(kind, emission, mean)| LightSource {
+                kind,
+                emission,
+                brightness: mean * self.brightness(emission),
+            })
+            .filter(|source| source.brightness > 0.0)
+            .collect()
+    }
+
+    /// What a ray sees that leaves the scene: the parts of the surroundings, then the discs of distant lights.
+    pub fn surroundings(&self) -> Vec<EnvironmentPart<'_>> {
+        let discs = self.lights().iter().filter_map(|light| match light.shape {
+            LightShape::Disc { towards, height } => Some(EnvironmentPart {
+                shape: EnvironmentShape::Disc { towards, height },
+                emission: light.emission,
+            }),
+            _ => None,
+        });
+        self.environment()
+            .parts()
+            .into_iter()
+            .chain(discs)
+            .collect()
+    }
+
+    /// Luminance per nm of bandwidth without its unit. What the eye hardly sees counts a little too.
+    fn brightness(&self, emission: Emission) -> f64 {
+        /// Of the peak of ȳ.
+        const INVISIBLE: f64 = 0.05;
+        let bands = self.settings().bands.count();
+        let (spectrum, [_, y, _]) = (self.spectrum(emission.spectrum), self.observer());
+        let steps = spectrum.steps();
+        let places = (0..bands).flat_map(|band| (0..=steps).map(move |step| (band, step)));
+        let values = places.map(|(band, step)| {
+            let offset = f64::from(step) / f64::from(steps);
+            spectrum.at(band, offset) * (y.at(band, offset) + INVISIBLE)
+        });
+        emission.scale * values.sum::<f64>() / f64::from(bands * (steps + 1))
+    }
+}

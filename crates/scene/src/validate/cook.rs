@@ -1,0 +1,290 @@
+//! Conductors by Cook's model: slopes and constants to weights.
+
+use super::checks::Checks;
+use super::spectrum_list::SpectrumList;
+use super::strength::Radiator;
+use crate::description::{self, CookNormalisation, Roughness, Slope};
+use crate::limits;
+use crate::problem::{Problem, ProblemKind};
+use crate::{
+    Cook1981, CookDistribution, CookFacets, DiffuseShare, Emission, FieldPath, SpectrumId,
+};
+use std::f64::consts::PI;
+
+/// The weights of slopes may sum to 1 with an error like that of 0.333 three times.
+const WEIGHTS: f64 = 2e-3;
+
+/// What the material says beside the model.
+pub(super) struct Surface {
+    pub(super) index: Option<(SpectrumId, SpectrumId)>,
+    pub(super) roughness: Roughness,
+    pub(super) has_distribution: bool,
+    pub(super) is_brushed: bool,
+}
+
+/// The surface at `field` by the model at `field.model.cook1981`.
+pub(super) fn check(
+    checks: &mut Checks,
+    spectra: &mut SpectrumList<'_>,
+    field: &FieldPath,
+    surface: Surface,
+    written: &description::Cook1981,
+) -> Option<Cook1981> {
+    let own = field.key("model").key("cook1981");
+    let roughness = check_roughness(checks, field, &surface);
+    let slopes = roughness.and_then(|roughness| {
+        check_slopes(checks, field, &own, roughness, written.slopes.as_deref())
+    });
+    let constant = check_constant(checks, &own, written);
+    let shares = check_shares(checks, &own, written);
+    let reflectance = check_diffuse(checks, spectra, &own, written);
+    let distribution = match written.distribution {
+        description::CookDistribution::Beckmann => CookDistribution::Beckmann,
+        description::CookDistribution::Gaussian => CookDistribution::Gaussian,
+    };
+    let ((n, k), slopes, constant) = (surface.index?, slopes?, constant?);
+    let ((specular, diffuse), reflectance) = (shares?, reflectance?);
+    let facets = slopes.iter().map(|slope| {
+        let constant = constant_of(distribution, written.normalisation, constant, slope.m);
+        CookFacets {
+            slope: slope.m,
+            weight: specular * slope.weight * constant,
+            part: slope.weight,
+        }
+    });
+    let diffuse = reflectance.map(|reflectance| DiffuseShare {
+        share: diffuse,
+        chance: diffuse / (specular + diffuse),
+        reflectance,
+    });
+    let ambient = match &written.ambient {
+        Some(ambient) => {
+            let returned = (specular, (n, k), diffuse);
+            Some(ambient_light(
+                checks,
+                spectra,
+                &own.key("ambient"),
+                ambient,
+                returned,
+            )?)
+        }
+        None => None,
+    };
+    Some(Cook1981 {
+        n,
+        k,
+        distribution,
+        facets: facets.collect(),
+        diffuse,
+        ambient,
+    })
+}
+
+/// What stands before D with one slope: the printed 1 / π, with D₁ times c; or 1/4, with D made to cover the surface once.
+fn constant_of(
+    distribution: CookDistribution,
+    normalisation: CookNormalisation,
+    printed: f64,
+    slope: f64,
+) -> f64 {
+    match (normalisation, distribution) {
+        (CookNormalisation::Printed, CookDistribution::Gaussian) => printed / PI,
+        (CookNormalisation::Printed, CookDistribution::Beckmann) => 1.0 / PI,
+        (CookNormalisation::Normalised, CookDistribution::Gaussian) => {
+            0.25 * optics::gaussian_constant(slope)
+        }
+        (CookNormalisation::Normalised, CookDistribution::Beckmann) => 0.25 / PI,
+    }
+}
+
+/// The model knows slopes that are the same in all directions, and brings its own distribution.
+fn check_roughness(checks: &mut Checks, field: &FieldPath, surface: &Surface) -> Option<f64> {
+    let is_even = matches!(surface.roughness, Roughness::Even(_));
+    let wrong = [
+        ("distribution", surface.has_distribution),
+        ("brushed", surface.is_brushed),
+        ("roughness", !is_even && !surface.is_brushed),
+    ];
+    let mut is_sound = true;
+    for (name, _) in wrong.iter().filter(|(_, is_wrong)| *is_wrong) {
+        let message = format!(
+            "cook1981 cannot use this `{name}`: its facets slope alike in all directions, by a distribution that the model itself names"
+        );
+        let problem = Problem::new(ProblemKind::Inconsistent, &field.key(name), message);
+        let help = "write one `roughness`, and model = { cook1981 = { distribution = \"beckmann\" } } or \"gaussian\"";
+        checks.report(problem.help(help).involving(field.key("model")));
+        is_sound = false;
+    }
+    match surface.roughness {
+        _ if !is_sound => None,
+        Roughness::Even(0.0) => Some(0.0),
+        Roughness::Even(even) => checks.number(&field.key("roughness"), even, &limits::ROUGHNESS),
+        Roughness::Brushed(_) => None,
+    }
+}
+
+/// The slopes of the model, or the one of the material.
+fn check_slopes(
+    checks: &mut Checks,
+    material: &FieldPath,
+    own: &FieldPath,
+    roughness: f64,
+    written: Option<&[Slope]>,
+) -> Option<Vec<Slope>> {
+    let field = own.key("slopes");
+    let Some(slopes) = written else {
+        if roughness > 0.0 {
+            return Some(vec![Slope {
+                m: roughness,
+                weight: 1.0,
+            }]);
+        }
+        let message =
+            "cook1981 is for rough surfaces: give a `roughness`, or `slopes` to the model";
+        let help = "model = { cook1981 = { slopes = [{ m = 0.2, weight = 0.4 }, { m = 0.6, weight = 0.6 }] } }";
+        let problem = Problem::new(ProblemKind::MissingField, material, message);
+        checks.report(problem.help(help));
+        return None;
+    };
+    if roughness > 0.0 {
+        let message = format!(
+            "found slopes and a roughness of {roughness}; the surface has either the ones or the other"
+        );
+        let problem = Problem::new(ProblemKind::Inconsistent, &field, message);
+        checks.report(problem.involving(material.key("roughness")));
+        return None;
+    }
+    if slopes.is_empty() || slopes.len() > limits::MAX_SLOPES {
+        let message = format!(
+            "found {} slopes; there must be from 1 to {}",
+            slopes.len(),
+            limits::MAX_SLOPES
+        );
+        checks.report(Problem::new(ProblemKind::OutOfRange, &field, message));
+        return None;
+    }
+    check_list(checks, &field, slopes)
+}
+
+/// Slopes in range whose weights sum to 1, which they then do exactly.
+fn check_list(checks: &mut Checks, field: &FieldPath, slopes: &[Slope]) -> Option<Vec<Slope>> {
+    let mut sound = Vec::new();
+    for (index, slope) in slopes.iter().enumerate() {
+        let place = field.index(index);
+        let m = checks.number(&place.key("m"), slope.m, &limits::ROUGHNESS);
+        let weight = checks.number(&place.key("weight"), slope.weight, &limits::FRACTION);
+        sound.extend(m.zip(weight).map(|(m, weight)| Slope { m, weight }));
+    }
+    if sound.len() < slopes.len() {
+        return None;
+    }
+    let sum: f64 = sound.iter().map(|slope| slope.weight).sum();
+    if (sum - 1.0).abs() > WEIGHTS {
+        let message = format!("found weights that sum to {sum}; they must sum to 1");
+        checks.report(Problem::new(ProblemKind::Inconsistent, field, message));
+        return None;
+    }
+    sound.iter_mut().for_each(|slope| slope.weight /= sum);
+    Some(sound)
+}
+
+/// c of D₁, 1 when absent; the other forms have none.
+fn check_constant(
+    checks: &mut Checks,
+    own: &FieldPath,
+    written: &description::Cook1981,
+) -> Option<f64> {
+    let Some(constant) = written.constant else {
+        return Some(1.0);
+    };
+    let field = own.key("constant");
+    let is_printed = written.normalisation == CookNormalisation::Printed;
+    if is_printed && written.distribution == description::CookDistribution::Gaussian {
+        return checks.number(&field, constant, &limits::COOK_CONSTANT);
+    }
+    let message = "only D1 as printed has a constant to choose";
+    let problem = Problem::new(ProblemKind::Inconsistent, &field, message);
+    let help = "leave it out, or write distribution = \"gaussian\" and normalisation = \"printed\"";
+    checks.report(problem.help(help));
+    None
+}
+
+/// s and d.
+fn check_shares(
+    checks: &mut Checks,
+    own: &FieldPath,
+    written: &description::Cook1981,
+) -> Option<(f64, f64)> {
+    let specular = written.specular.unwrap_or(1.0);
+    let diffuse = written.diffuse.unwrap_or(0.0);
+    let specular_field = own.key("specular");
+    let specular = checks.number(&specular_field, specular, &limits::FRACTION);
+    let diffuse = checks.number(&own.key("diffuse"), diffuse, &limits::FRACTION);
+    let (specular, diffuse) = specular.zip(diffuse)?;
+    // 0.7 + 0.3 may come to a little more than 1.
+    if specular + diffuse <= 1.0 + 1e-9 {
+        return Some((specular, diffuse));
+    }
+    let message = format!(
+        "found specular {specular} and diffuse {diffuse}, together {}; they must be at most 1 together",
+        specular + diffuse
+    );
+    let problem = Problem::new(ProblemKind::Inconsistent, &own.key("diffuse"), message);
+    checks.report(problem.involving(specular_field));
+    None
+}
+
+/// ρ, where there is a diffuse share.
+fn check_diffuse(
+    checks: &mut Checks,
+    spectra: &mut SpectrumList<'_>,
+    own: &FieldPath,
+    written: &description::Cook1981,
+) -> Option<Option<SpectrumId>> {
+    let field = own.key("diffuse_reflectance");
+    let is_diffuse = written.diffuse.is_some_and(|share| share > 0.0);
+    match (&written.diffuse_reflectance, is_diffuse) {
+        (Some(reflectance), true) => spectra.reflectance(checks, &field, reflectance).map(Some),
+        (None, false) => Some(None),
+        (given, _) => {
+            let (kind, message) = match given {
+                Some(_) => (
+                    ProblemKind::Inconsistent,
+                    "nothing is reflected evenly: the share `diffuse` is 0",
+                ),
+                None => (
+                    ProblemKind::MissingField,
+                    "a diffuse share needs a `diffuse_reflectance`",
+                ),
+            };
+            let problem = Problem::new(kind, &field, message);
+            checks.report(problem.involving(own.key("diffuse")));
+            None
+        }
+    }
+}
+
+/// Ia Ra with Ra = s F₀ + d ρ.
+fn ambient_light(
+    checks: &mut Checks,
+    spectra: &mut SpectrumList<'_>,
+    field: &FieldPath,
+    written: &description::Emission,
+    (specular, (n, k), diffuse): (f64, (SpectrumId, SpectrumId), Option<DiffuseShare>),
+) -> Option<Emission> {
+    let light = spectra.emission(checks, field, written, Radiator::Surroundings)?;
+    let normal = spectra.combined([n, k], |[n, k]| {
+        specular * optics::reflectance_unpolarised(optics::Complex64::new(n, k), 1.0)
+    });
+    let returned = match diffuse {
+        Some(diffuse) => {
+            let both = [normal, diffuse.reflectance];
+            spectra.combined(both, |[facets, rho]| facets + diffuse.share * rho)
+        }
+        None => normal,
+    };
+    Some(Emission {
+        spectrum: spectra.combined([light.spectrum, returned], |[light, part]| light * part),
+        ..light
+    })
+}

@@ -1,0 +1,71 @@
+//! Dielectrics: opaque ones, and coats over a diffuse base.
+
+use super::checks::Checks;
+use super::spectrum_list::SpectrumList;
+use crate::derived::coats;
+use crate::description::Index;
+use crate::problem::{Problem, ProblemKind};
+use crate::{CoatEstimate, CoatedBody, FieldPath, Material, Microsurface, Pattern, SpectrumId};
+
+/// A material at `field` of index `(n, k)`, written as `index`, with `base` below it where there is one.
+pub(super) fn check(
+    checks: &mut Checks,
+    spectra: &mut SpectrumList<'_>,
+    (field, index): (&FieldPath, &Index),
+    ((n, k), microsurface): ((SpectrumId, SpectrumId), Option<Microsurface>),
+    base: Option<Pattern>,
+) -> Option<Material> {
+    let Some(base) = base else {
+        return Some(Material::Conductor {
+            n,
+            k,
+            layers: Vec::new(),
+            microsurface,
+        });
+    };
+    if !spectra.is_black(k) {
+        report_absorption(checks, &field.key("index"), index);
+        return None;
+    }
+    let (reflectances, mean_reflectance) = match &microsurface {
+        None => {
+            let mean =
+                |[n, k]: [f64; 2]| optics::hemispherical_reflectance(optics::Complex64::new(n, k));
+            (None, spectra.combined([n, k], mean))
+        }
+        Some(microsurface) => {
+            let (reflectances, mean) = coats::reflectances(microsurface, spectra.table(n));
+            (Some(spectra.run(reflectances)), spectra.run([mean]))
+        }
+    };
+    let base_estimate = match base {
+        Pattern::Uniform(only) => spectra.mean(only),
+        Pattern::Checker { even, odd, .. } => 0.5 * (spectra.mean(even) + spectra.mean(odd)),
+        Pattern::Texture { .. } => 0.5,
+    };
+    Some(Material::CoatedBody(CoatedBody {
+        n,
+        k,
+        microsurface,
+        mean_reflectance,
+        reflectances,
+        estimate: CoatEstimate {
+            n: spectra.mean(n),
+            base: base_estimate,
+        },
+        base,
+    }))
+}
+
+fn report_absorption(checks: &mut Checks, field: &FieldPath, index: &Index) {
+    let found = match index {
+        Index::Name(name) | Index::Named { name, .. } => format!("{name:?}, which absorbs"),
+        Index::Complex([_, k]) => format!("k = {k}"),
+        _ => "an index with absorption".to_owned(),
+    };
+    let message = format!(
+        "found {found}; a coat over a base must be clear (k = 0), since its thickness is not known"
+    );
+    let problem = Problem::new(ProblemKind::Inconsistent, field, message);
+    checks.report(problem.help("leave out `base` for an opaque body of this index"));
+}

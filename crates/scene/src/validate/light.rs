@@ -1,0 +1,160 @@
+//! Lights that are no objects: from `[[lights]]` to [`Light`].
+
+use super::checks::Checks;
+use super::spectrum_list::SpectrumList;
+use super::strength::Radiator;
+use crate::limits;
+use crate::problem::{Problem, ProblemKind};
+use crate::{FieldPath, Light, LightShape, description};
+use std::f64::consts::{PI, TAU};
+
+/// A light and the place of its description.
+pub(crate) type Placed = (usize, Light);
+
+/// Checks `[[lights]]`. Discs come first.
+pub(crate) fn check_all(
+    checks: &mut Checks,
+    spectra: &mut SpectrumList<'_>,
+    lights: &[description::Light],
+) -> Option<Vec<Placed>> {
+    let top = FieldPath::root().key("lights");
+    let checked: Vec<_> = lights
+        .iter()
+        .enumerate()
+        .map(|(index, light)| {
+            let light = check(checks, spectra, &top.index(index), light)?;
+            Some((index, light))
+        })
+        .collect();
+    let mut lights = checked.into_iter().collect::<Option<Vec<_>>>()?;
+    lights.sort_by_key(|(_, light)| !is_disc(light));
+    let discs = lights.iter().filter(|(_, light)| is_disc(light)).count();
+    if discs > limits::MAX_DISCS_OF_LIGHT {
+        let message = format!(
+            "found {discs} distant lights with a diameter; at most {} are possible",
+            limits::MAX_DISCS_OF_LIGHT
+        );
+        checks.report(Problem::new(ProblemKind::TooLarge, &top, message));
+        return None;
+    }
+    Some(lights)
+}
+
+fn is_disc(light: &Light) -> bool {
+    matches!(light.shape, LightShape::Disc { .. })
+}
+
+fn check(
+    checks: &mut Checks,
+    spectra: &mut SpectrumList<'_>,
+    field: &FieldPath,
+    light: &description::Light,
+) -> Option<Light> {
+    let shape = match light {
+        description::Light::Distant {
+            direction,
+            diameter_deg,
+            ..
+        } => distant(checks, field, *direction, *diameter_deg),
+        description::Light::Point { position, .. } => checks
+            .point(&field.key("position"), *position)
+            .map(|position| LightShape::Point { position }),
+        description::Light::Spot {
+            position,
+            direction,
+            angle_deg,
+            full_angle_deg,
+            ..
+        } => spot(
+            checks,
+            field,
+            (*position, *direction),
+            (*angle_deg, *full_angle_deg),
+        ),
+    };
+    let radiator = shape.map_or(any_radiator(light), radiator);
+    let emission = spectra.emission(checks, &field.key("emission"), light.emission(), radiator);
+    Some(Light {
+        shape: shape?,
+        emission: emission?,
+    })
+}
+
+/// What a light without a sound shape is checked as.
+fn any_radiator(light: &description::Light) -> Radiator {
+    match light {
+        description::Light::Distant { .. } => Radiator::Distant(1.0),
+        _ => Radiator::Point(1.0),
+    }
+}
+
+fn radiator(shape: LightShape) -> Radiator {
+    match shape {
+        // ∫ cos dω = π sin² of the angle at the edge.
+        LightShape::Disc { height, .. } => Radiator::Distant(PI * height * (2.0 - height)),
+        LightShape::Direction { .. } => Radiator::Distant(0.0),
+        LightShape::Point { .. } => Radiator::Point(2.0 * TAU),
+        // The smooth edge is odd about its middle, so that half of it counts.
+        LightShape::Spot {
+            full_cosine,
+            edge_cosine,
+            ..
+        } => Radiator::Point(TAU * (1.0 - 0.5 * (full_cosine + edge_cosine))),
+    }
+}
+
+fn distant(
+    checks: &mut Checks,
+    field: &FieldPath,
+    direction: [f64; 3],
+    diameter_deg: f64,
+) -> Option<LightShape> {
+    let towards = checks.direction(&field.key("direction"), direction);
+    let at = field.key("diameter_deg");
+    let diameter = checks.number(&at, diameter_deg, &limits::ANGULAR_DIAMETER_DEG)?;
+    if diameter == 0.0 {
+        return Some(LightShape::Direction { towards: towards? });
+    }
+    if diameter < limits::MIN_ANGULAR_DIAMETER_DEG {
+        let message = format!(
+            "found {diameter_deg}; it must be 0 or at least {}°",
+            limits::MIN_ANGULAR_DIAMETER_DEG
+        );
+        checks.report(Problem::new(ProblemKind::OutOfRange, &at, message));
+        return None;
+    }
+    Some(LightShape::Disc {
+        towards: towards?,
+        height: 2.0 * (0.25 * diameter.to_radians()).sin().powi(2),
+    })
+}
+
+fn spot(
+    checks: &mut Checks,
+    field: &FieldPath,
+    (position, direction): ([f64; 3], [f64; 3]),
+    (angle_deg, full_angle_deg): (f64, Option<f64>),
+) -> Option<LightShape> {
+    let position = checks.point(&field.key("position"), position);
+    let axis = checks.direction(&field.key("direction"), direction);
+    let angle = checks.number(&field.key("angle_deg"), angle_deg, &limits::SPOT_DEG)?;
+    let full_angle = full_angle_deg.unwrap_or(0.8 * angle);
+    let most = limits::SPOT_SHARPEST * angle;
+    if !(0.0..=most).contains(&full_angle) {
+        let at = field.key("full_angle_deg");
+        let message = format!(
+            "found {full_angle}; it must be from 0 to {most}°, {} of `angle_deg`",
+            limits::SPOT_SHARPEST
+        );
+        let problem = Problem::new(ProblemKind::OutOfRange, &at, message);
+        checks.report(problem.involving(field.key("angle_deg")));
+        return None;
+    }
+    let cosine = |degrees: f64| (0.5 * degrees).to_radians().cos();
+    Some(LightShape::Spot {
+        position: position?,
+        axis: axis?,
+        full_cosine: cosine(full_angle),
+        edge_cosine: cosine(angle),
+    })
+}

@@ -1,0 +1,76 @@
+//! Emitters by power: each object that has one gets a material of its own, since the radiance depends on the object's area.
+
+use super::checks::Checks;
+use super::light_groups::Unlit;
+use crate::description::{self, Description};
+use crate::limits;
+use crate::problem::{Problem, ProblemKind};
+use crate::{FieldPath, Material, MaterialId, Shape, SpectrumId};
+use std::collections::HashMap;
+use std::f64::consts::PI;
+
+/// Replaces power by radiance, Φ / (π A); `peak` is the largest value of a spectrum.
+pub(crate) fn spread(
+    checks: &mut Checks,
+    description: &Description,
+    parts: &mut Unlit,
+    peak: impl Fn(SpectrumId) -> f64,
+) {
+    let by_power: Vec<bool> = description.materials.values().map(has_power).collect();
+    let mut made: HashMap<(u32, u64), MaterialId> = HashMap::new();
+    for (index, object) in parts.objects.iter_mut().enumerate() {
+        let written = object.material;
+        if !by_power[written.index()] {
+            continue;
+        }
+        let field = FieldPath::root().key("objects").index(index);
+        let Some(area) = area(&object.shape) else {
+            let message =
+                "a plane has no bounds, so no radiance gives it the `power_w` of its material";
+            let field = field.key("material");
+            let problem = Problem::new(ProblemKind::Inconsistent, &field, message)
+                .help("give the material a `radiance` or `luminance_cd_m2`, or make the plane a rectangle");
+            checks.report(problem);
+            continue;
+        };
+        let own = *made.entry((written.0, area.to_bits())).or_insert_with(|| {
+            let mut material = parts.materials[written.index()].clone();
+            if let Material::Emitter { emission, .. } = &mut material {
+                emission.scale /= PI * area;
+                let radiance = peak(emission.spectrum) * emission.scale;
+                if !limits::EMISSION.contains(radiance) {
+                    let message = format!(
+                        "the `power_w` of its material makes its radiance {radiance:.3e} at the spectrum's peak; at most {} is possible",
+                        limits::EMISSION.high
+                    );
+                    checks.report(Problem::new(ProblemKind::OutOfRange, &field, message));
+                }
+            }
+            let id = MaterialId(parts.materials.len() as u32);
+            parts.materials.push(material);
+            id
+        });
+        object.material = own;
+    }
+}
+
+fn has_power(material: &description::Material) -> bool {
+    match material {
+        description::Material::Emitter { emission, .. } => emission.strength.power_w.is_some(),
+        _ => false,
+    }
+}
+
+/// The area that emits, both sides of plane shapes together.
+fn area(shape: &Shape) -> Option<f64> {
+    match *shape {
+        Shape::Sphere { radius, .. } => Some(4.0 * PI * radius * radius),
+        Shape::Rectangle {
+            half_width,
+            half_height,
+            ..
+        } => Some(8.0 * half_width * half_height),
+        Shape::Disk { radius, .. } => Some(2.0 * PI * radius * radius),
+        Shape::Plane { .. } => None,
+    }
+}

@@ -1,0 +1,118 @@
+// The choice among lights, by an estimate of what each of them brings to a point.
+
+struct LightChoice {
+    /// The light, NONE where none can shine on the point.
+    light: u32,
+    /// With what probability it was chosen.
+    probability: f32,
+    /// The sum of all estimates.
+    total: f32,
+}
+
+/// The largest cosine with a normal within a cone whose axis has the cosine `axis` with it; `sine2` is the square of the sine of
+/// the half angle.
+fn most_cosine(axis: f32, sine2: f32) -> f32 {
+    let cosine = sqrt(max(1.0 - sine2, 0.0));
+    if (axis >= cosine) {
+        return 1.0;
+    }
+    return max(axis * cosine + sqrt(max(1.0 - axis * axis, 0.0) * sine2), 0.0);
+}
+
+/// About the luminance that a light gives to a white surface; 0 only where nothing of it can arrive.
+fn light_estimate(light: u32, point: vec3f, normal: vec3f) -> f32 {
+    let brightness = objects[light].brightness;
+    if (is_surrounding(light)) {
+        return brightness * environment_estimate(light, normal);
+    }
+    if (is_single_direction(light)) {
+        let direction = sample_light(light, point, 0.0, 0.0);
+        return brightness * light_share(light, point, direction) * max(dot(direction, normal), 0.0);
+    }
+    let towards = objects[light].center - point;
+    let distance2 = dot(towards, towards);
+    if (HAS_SPHERE_LIGHTS && objects[light].shape == SHAPE_SPHERE) {
+        if (sphere_surrounds(light, distance2)) {
+            return brightness * PI;
+        }
+        let radius = objects[light].radius;
+        let axis = dot(towards, normal) / sqrt(distance2);
+        let solid_angle = 2.0 * PI * cone_height(radius, distance2);
+        return brightness * solid_angle * most_cosine(axis, radius * radius / distance2);
+    }
+    return brightness * plane_estimate(light, towards, distance2, normal);
+}
+
+/// Solid angle of a rectangle or disk times the largest cosine, both from the sphere that holds it.
+fn plane_estimate(light: u32, towards: vec3f, distance2: f32, normal: vec3f) -> f32 {
+    let width = objects[light].half_width;
+    let height = objects[light].half_height;
+    let round = HAS_DISK_LIGHTS && objects[light].shape == SHAPE_DISK;
+    let reach2 = select(width * width + height * height, width * width, round);
+    let area = plane_area(light);
+    // Cosine at the light, at most as if it were turned by the angle under which half of it is seen.
+    let facing = abs(dot(towards, objects[light].normal)) * sqrt(distance2) + reach2;
+    let solid_angle = area * min(facing / max(distance2, 1e-20), 1.0) / (distance2 + area * (0.5 / PI));
+    if (distance2 <= reach2) {
+        return solid_angle;
+    }
+    return solid_angle * most_cosine(dot(towards, normal) / sqrt(distance2), reach2 / distance2);
+}
+
+/// ∫ share cos dω of a part of the surroundings, about.
+fn environment_estimate(light: u32, normal: vec3f) -> f32 {
+    if (objects[light].shape == SHAPE_DISC) {
+        let height = objects[light].radius;
+        return 2.0 * PI * height * most_cosine(dot(objects[light].normal, normal), height * (2.0 - height));
+    }
+    if (objects[light].shape == SHAPE_POLE) {
+        return (PI / 3.0) * max(1.0 + dot(objects[light].normal, normal), 0.0);
+    }
+    return select(PI, 0.5 * PI, objects[light].shape == SHAPE_HORIZON);
+}
+
+/// The sum of all lights' estimates.
+fn light_total(point: vec3f, normal: vec3f) -> f32 {
+    var total = 0.0;
+    for (var i = 0u; i < frame.light_count; i++) {
+        total += light_estimate(objects[i].light, point, normal);
+    }
+    return total;
+}
+
+/// Chooses a light with a probability in proportion to its estimate.
+fn choose_light(point: vec3f, normal: vec3f, random: f32) -> LightChoice {
+    if (!HAS_LIGHT_CHOICE) {
+        return LightChoice(objects[0].light, 1.0, 1.0);
+    }
+    let total = light_total(point, normal);
+    var choice = LightChoice(NONE, 0.0, total);
+    var left = random * total;
+    for (var i = 0u; i < frame.light_count && left >= 0.0; i++) {
+        let estimate = light_estimate(objects[i].light, point, normal);
+        left -= estimate;
+        if (estimate > 0.0) {
+            choice.light = objects[i].light;
+            choice.probability = estimate / total;
+        }
+    }
+    return choice;
+}
+
+/// The probability with which choose_light finds a light, where the sum of all estimates is known.
+fn choice_probability(light: u32, point: vec3f, normal: vec3f, total: f32) -> f32 {
+    if (!HAS_LIGHT_CHOICE) {
+        return 1.0;
+    }
+    if (total <= 0.0) {
+        return 0.0;
+    }
+    return light_estimate(light, point, normal) / total;
+}
+
+/// Share of a way to find a direction with density `own` where another finds it with density `other`: the power heuristic
+/// (Veach 1997, section 9.2.2).
+fn mis_share(own: f32, other: f32) -> f32 {
+    let ratio = min(other / own, 1e18);
+    return 1.0 / (1.0 + ratio * ratio);
+}

@@ -1,0 +1,186 @@
+//! Direct light by rays to lights, by scattered rays that meet them, and by both: the same light, and both are hardly ever noisier
+//! than the better of the two.
+
+use pellicle_tests::wgsl::root;
+use rayon::prelude::*;
+use scene::{DirectLight, Scene, SceneFile};
+
+const SIDE: u32 = 20;
+const SAMPLES: u32 = 200;
+
+/// Standard errors by which two means may differ. For one comparison 3 would be exceeded once in 370 times; here all comparisons
+/// of the suite together, at most 200, are to fail as rarely, so that each has 0.0027 / 200 = 1.35e-5: 4.35 (Bonferroni).
+const Z: f64 = 4.35;
+
+/// Most of the lower variance that both ways together may have.
+const MOST_VARIANCE: f64 = 1.2;
+
+const LIGHTS: &[(&str, &str)] = &[
+    ("small sphere", SMALL_SPHERE),
+    ("large sphere", LARGE_SPHERE),
+    ("rectangle", RECTANGLE),
+    ("disk", DISK),
+    (
+        "small distant light",
+        "[[lights]]\ntype = \"distant\"\nemission = { constant = 1 }\ndirection = [0, 0.55, -1]\ndiameter_deg = 6\n",
+    ),
+    (
+        "wide distant light",
+        "[[lights]]\ntype = \"distant\"\nemission = { constant = 1 }\ndirection = [0.1, 1, -0.9]\ndiameter_deg = 40\n",
+    ),
+    (
+        "constant surroundings",
+        "[environment]\ntype = \"constant\"\nemission = { constant = 1 }\n",
+    ),
+    (
+        "gradient",
+        "[environment]\ntype = \"gradient\"\nzenith = { constant = 2 }\nhorizon = { constant = 0.5 }\nground = { constant = 0.2 }\n",
+    ),
+    ("several", SEVERAL),
+];
+
+/// Lights that no scattered ray meets.
+const SINGLE_DIRECTIONS: &[(&str, &str)] = &[
+    (
+        "direction",
+        "[[lights]]\ntype = \"distant\"\nemission = { constant = 1 }\ndirection = [0.3, 1, -0.7]\ndiameter_deg = 0\n",
+    ),
+    (
+        "point",
+        "[[lights]]\ntype = \"point\"\nemission = { constant = 5 }\nposition = [0.5, 1.5, -1]\n",
+    ),
+    (
+        "spot",
+        "[[lights]]\ntype = \"spot\"\nemission = { constant = 5 }\nposition = [0.5, 1.5, -1]\ndirection = [-0.5, -1.5, 1]\nangle_deg = 50\n",
+    ),
+];
+
+const LAMP: &str = "[materials.lamp]\ntype = \"emitter\"\nemission = { constant = 5 }\n";
+const SMALL_SPHERE: &str =
+    "[[objects]]\ntype = \"sphere\"\nmaterial = \"lamp\"\ncenter = [0.3, 1.5, -1]\nradius = 0.15\n";
+const LARGE_SPHERE: &str =
+    "[[objects]]\ntype = \"sphere\"\nmaterial = \"lamp\"\ncenter = [0.3, 1.8, -1.5]\nradius = 1\n";
+const RECTANGLE: &str = "[[objects]]\ntype = \"rectangle\"\nmaterial = \"lamp\"\ncenter = [0.3, 1.2, -1.5]\nnormal = [0, -0.6, 1]\nsize = [2, 1]\n";
+const DISK: &str = "[[objects]]\ntype = \"disk\"\nmaterial = \"lamp\"\ncenter = [0.3, 1.2, -1.2]\nnormal = [0, -1, 1]\nradius = 0.6\n";
+const SEVERAL: &str = "[[objects]]\ntype = \"sphere\"\nmaterial = \"lamp\"\ncenter = [0.3, 1.5, -1]\nradius = 0.15\n[[objects]]\ntype = \"rectangle\"\nmaterial = \"lamp\"\ncenter = [-1.5, 0.8, 0]\nnormal = [1, -0.5, 0]\nsize = [1, 1]\n[environment]\ntype = \"constant\"\nemission = { constant = 0.3 }\n";
+
+const SURFACES: &[(&str, &str)] = &[
+    ("diffuse", "type = \"diffuse\"\nreflectance = 0.7\n"),
+    (
+        "polished gold",
+        "type = \"conductor\"\nindex = \"gold\"\nroughness = 0.05\n",
+    ),
+    (
+        "satin gold",
+        "type = \"conductor\"\nindex = \"gold\"\nroughness = 0.2\n",
+    ),
+    (
+        "rough silver",
+        "type = \"conductor\"\nindex = \"silver\"\nroughness = 0.6\n",
+    ),
+    (
+        "film on titanium",
+        "type = \"coated\"\nsubstrate = \"titanium\"\nindex = 2.4\nthickness_nm = 80\nroughness = 0.15\n",
+    ),
+];
+
+fn scene(light: &str, surface: &str, direct: DirectLight) -> Scene {
+    let text = format!(
+        "{light}\n{LAMP}\n[materials.floor]\n{surface}\n\
+         [camera]\ntype = \"perspective\"\nposition = [0, 1.2, 2.5]\nlook_at = [0, 0, 0]\nfov_deg = 25\n\
+         [render]\nsize = [{SIDE}, {SIDE}]\nsamples = {SAMPLES}\nbands = 1\nwavelengths_nm = [545, 555]\nmax_path_segments = 2\nseed = {}\n\
+         [[objects]]\ntype = \"rectangle\"\nmaterial = \"floor\"\ncenter = [0, 0, 0]\nnormal = [0, 1, 0]\nsize = [3, 3]\n",
+        direct as u32
+    );
+    let mut file =
+        SceneFile::parse("pair.toml", &text, &root()).unwrap_or_else(|e| panic!("{e:#}"));
+    file.description.render.direct_light = direct;
+    file.validate().unwrap_or_else(|e| panic!("{e:#}"))
+}
+
+/// Mean over the picture, the variance of that mean, both of direct light alone.
+fn mean_and_variance(light: &str, surface: &str, direct: DirectLight) -> (f64, f64) {
+    let scene = scene(light, surface, direct);
+    let sources = scene.light_sources();
+    let pixels: Vec<_> = (0..SIDE * SIDE).map(|i| [i % SIDE, i / SIDE]).collect();
+    let (sum, variance) = pixels
+        .into_par_iter()
+        .map(|pixel| {
+            let (mut sum, mut squares) = (0.0, 0.0);
+            for sample in 0..SAMPLES {
+                let path = reference::radiance(&scene, &sources, pixel, sample);
+                let value: f64 = path.radiance.iter().map(|group| group[0]).sum();
+                (sum, squares) = (sum + value, squares + value * value);
+            }
+            let n = f64::from(SAMPLES);
+            let mean = sum / n;
+            (mean, (squares / n - mean * mean) / (n - 1.0))
+        })
+        .reduce(|| (0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1));
+    let pixels = f64::from(SIDE * SIDE);
+    (sum / pixels, variance / (pixels * pixels))
+}
+
+fn z((a, variance_a): (f64, f64), (b, variance_b): (f64, f64)) -> f64 {
+    // Where nothing is left to chance, rounding is.
+    (a - b) / (variance_a + variance_b + (1e-9 * a).powi(2)).sqrt()
+}
+
+#[test]
+fn three_ways_agree_and_both_together_are_never_much_noisier() {
+    let mut wrong = String::new();
+    for (light_name, light) in LIGHTS {
+        for (surface_name, surface) in SURFACES {
+            let of = |direct| mean_and_variance(light, surface, direct);
+            let (both, lights) = (of(DirectLight::Both), of(DirectLight::Lights));
+            let surfaces = of(DirectLight::Surfaces);
+            let zs = [z(both, lights), z(both, surfaces), z(lights, surfaces)];
+            let least = lights.1.min(surfaces.1);
+            let relative =
+                |way: (f64, f64)| way.1 * f64::from(SIDE * SIDE * SAMPLES) / (way.0 * way.0);
+            let line = format!(
+                "{light_name} × {surface_name}: mean {:.4}, z {:+.1} {:+.1} {:+.1}, relative variance: lights {:.4}, surfaces {:.4}, \
+                 both {:.4}, ratio {:.2}\n",
+                both.0,
+                zs[0],
+                zs[1],
+                zs[2],
+                relative(lights),
+                relative(surfaces),
+                relative(both),
+                both.1 / least
+            );
+            print!("{line}");
+            let is_dark = both.0 <= 0.0;
+            if is_dark || zs.iter().any(|z| z.abs() > Z) || both.1 > MOST_VARIANCE * least {
+                wrong += &line;
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+#[test]
+fn light_from_a_single_direction_is_found_by_sending_alone() {
+    for (light_name, light) in SINGLE_DIRECTIONS {
+        for (surface_name, surface) in SURFACES {
+            let of = |direct| mean_and_variance(light, surface, direct);
+            let (both, lights) = (of(DirectLight::Both), of(DirectLight::Lights));
+            let name = format!("{light_name} × {surface_name}");
+            assert!(
+                both.0 > 0.0 && z(both, lights).abs() < Z,
+                "{name}: {both:?} {lights:?}"
+            );
+            assert_eq!(of(DirectLight::Surfaces).0, 0.0, "{name}");
+        }
+    }
+}
+
+/// The comparison can fail: one lamp two per cent brighter.
+#[test]
+fn a_wrong_light_is_noticed() {
+    let (_, surface) = SURFACES[0];
+    let right = mean_and_variance(SMALL_SPHERE, surface, DirectLight::Both);
+    let wrong = mean_and_variance(SMALL_SPHERE, surface, DirectLight::Lights);
+    assert!(z(right, (1.02 * wrong.0, 1.02 * wrong.1)).abs() > Z);
+}

@@ -1,0 +1,373 @@
+//! microsurface.wgsl, energy.wgsl, and the facets of scatter.wgsl.
+
+use crate::scene_functions::{
+    center_of, everything, objects_where, pick, point_on, rounded, rows, vector,
+};
+use crate::{Check, pure, table};
+use glam::DVec3;
+use optics::{Distribution, Microsurface};
+use pellicle_tests::tolerances::{
+    FACET_DIRECTION, FACET_ENERGY, FACETS, FRAME, LAMBDA, ROUGH_INVERSE, SCALED_ERFC,
+};
+use reference::Facets;
+use scene::{Grain, Shape};
+use std::f64::consts::{PI, TAU};
+
+pub(crate) fn checks() -> Vec<Check> {
+    [special_functions(), surfaces(), samplers(), of_materials()]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+fn direction(cosine: f64, turns: f64) -> DVec3 {
+    let (sine, phi) = ((1.0 - cosine * cosine).sqrt(), TAU * turns);
+    DVec3::new(sine * phi.cos(), sine * phi.sin(), cosine)
+}
+
+/// Of three numbers: a tag and two widths.
+fn surface_of(a: &[f64]) -> Microsurface {
+    let distribution = if a[0] < 1.0 {
+        Distribution::Beckmann
+    } else {
+        Distribution::Ggx
+    };
+    Microsurface {
+        distribution,
+        alpha: [a[1], a[2]],
+    }
+}
+
+const SURFACE: [(f32, f32); 3] = [(0.0, 1.999_999), (0.1, 1.0), (0.1, 1.0)];
+
+/// The columns of a surface and others.
+fn with_surface(others: &[(f32, f32)], edges: &[&[f32]]) -> Vec<f32> {
+    table(&[&SURFACE, others].concat(), edges)
+}
+
+fn special_functions() -> Vec<Check> {
+    vec![
+        Check {
+            probe: pure(&["microsurface"], (1, 1), "put(0u, scaled_erfc(a(0u)));"),
+            proves: &["scaled_erfc"],
+            inputs: table(&[(0.0, 6.0)], &[&[0.0], &[6.0]]),
+            twin: |a| vec![(a[0] * a[0]).exp() * libm::erfc(a[0])],
+            tolerance: SCALED_ERFC,
+        },
+        Check {
+            probe: pure(
+                &["microsurface"],
+                (2, 1),
+                "put(0u, seen_below(a(0u), sqrt(1.0 - a(0u) * a(0u)), a(1u)) * exp(a(1u) * a(1u)));",
+            ),
+            proves: &["seen_below"],
+            inputs: table(&[(0.0, 1.0), (-4.0, 1.0)], &[&[1.0, 0.0], &[0.0, 0.0]]),
+            twin: |a| {
+                let (cosine, sine) = (a[0], (1.0 - a[0] * a[0]).sqrt());
+                vec![cosine * libm::erfc(-a[1]) * (a[1] * a[1]).exp() + sine / PI.sqrt()]
+            },
+            tolerance: SCALED_ERFC,
+        },
+        Check {
+            // Winitzki's formula is off by 2e-3 itself.
+            probe: pure(
+                &["microsurface"],
+                (1, 1),
+                "put(0u, rough_inverse_erf(a(0u)));",
+            ),
+            proves: &["rough_inverse_erf"],
+            inputs: table(&[(0.001, 1.999)], &[&[1.0], &[0.5], &[1e-4]]),
+            twin: |a| vec![inverse_erf(a[0])],
+            tolerance: ROUGH_INVERSE,
+        },
+    ]
+}
+
+/// The x of which erfc(−x) is `share`, by halving.
+fn inverse_erf(share: f64) -> f64 {
+    let (mut low, mut high) = (-6.0, 6.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if libm::erfc(-middle) < share {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
+}
+
+fn surfaces() -> Vec<Check> {
+    vec![
+        Check {
+            probe: pure(
+                &["microsurface", "trig"],
+                (5, 1),
+                "let facet = vec3f(sqrt(1.0 - a(3u) * a(3u)) * direction_of_turn(a(4u)), a(3u));
+                 put(0u, facet_density(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), facet));",
+            ),
+            proves: &["facet_density"],
+            inputs: with_surface(
+                &[(0.0, 1.0), (0.0, 1.0)],
+                &[&[0.0, 0.1, 0.1, 1.0, 0.0], &[1.0, 0.1, 0.2, 1.0, 0.0], &[1.0, 0.1, 0.2, 0.0, 0.2]],
+            ),
+            twin: |a| vec![surface_of(a).density(direction(a[3], a[4]).to_array())],
+            tolerance: FACETS,
+        },
+        Check {
+            probe: pure(
+                &["microsurface", "trig"],
+                (5, 1),
+                "let w = vec3f(sqrt(1.0 - a(3u) * a(3u)) * direction_of_turn(a(4u)), a(3u));
+                 put(0u, smith_lambda(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), w));",
+            ),
+            proves: &["smith_lambda"],
+            inputs: with_surface(
+                &[(0.001, 1.0), (0.0, 1.0)],
+                &[&[0.0, 0.1, 0.1, 1.0, 0.0], &[1.0, 0.1, 0.2, 1.0, 0.0], &[1.0, 0.1, 0.2, 1e-4, 0.2]],
+            ),
+            twin: |a| vec![surface_of(a).lambda(direction(a[3], a[4]).to_array())],
+            tolerance: LAMBDA,
+        },
+        Check {
+            probe: pure(
+                &["microsurface", "trig"],
+                (6, 3),
+                "let eye = vec3f(sqrt(1.0 - a(3u) * a(3u)), 0.0, a(3u));
+                 let light = vec3f(sqrt(1.0 - a(4u) * a(4u)) * direction_of_turn(a(5u)), a(4u));
+                 let f = reflection_between(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), eye, light);
+                 put(0u, f.value); put(1u, f.pdf); put(2u, f.cosine);",
+            ),
+            proves: &["reflection_between"],
+            inputs: with_surface(
+                &[(0.02, 1.0), (0.02, 1.0), (0.0, 1.0)],
+                &[&[0.0, 0.1, 0.1, 1.0, 1.0, 0.0], &[1.0, 0.1, 0.2, 1.0, 0.01, 0.0]],
+            ),
+            twin: |a| {
+                let (eye, light) = (direction(a[3], 0.0), direction(a[4], a[5]));
+                let (e, l) = (eye.to_array(), light.to_array());
+                let surface = surface_of(a);
+                let cosine = eye.dot((eye + light).normalize());
+                vec![surface.reflection(e, l) * light.z, surface.pdf(e, l), cosine]
+            },
+            tolerance: FACETS,
+        },
+    ]
+}
+
+fn sampled(a: &[f64]) -> Vec<f64> {
+    let eye = direction(a[3], a[4]).to_array();
+    surface_of(a).sample(eye, a[5], a[6]).to_vec()
+}
+
+const SAMPLED: [(f32, f32); 4] = [(0.001, 1.0), (0.0, 1.0), (1e-6, 0.999), (1e-6, 0.999)];
+
+fn samplers() -> Vec<Check> {
+    let upright: fn(&[f64]) -> Vec<f64> = |a| {
+        let surface = surface_of(&[a[0], 1.0, 1.0]);
+        surface
+            .sample(direction(a[1], a[2]).to_array(), a[3], a[4])
+            .to_vec()
+    };
+    let of_unit_width = |tag: f32| {
+        let fixed = [&[(tag, tag)][..], &SAMPLED].concat();
+        table(&fixed, &[&[tag, 1.0, 0.0, 0.5, 0.5]])
+    };
+    vec![
+        Check {
+            probe: pure(
+                &["microsurface", "trig"],
+                (7, 3),
+                "let eye = vec3f(sqrt(1.0 - a(3u) * a(3u)) * direction_of_turn(a(4u)), a(3u));
+                 put3(0u, sample_facet(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), eye, a(5u), a(6u)));",
+            ),
+            proves: &["sample_facet"],
+            inputs: with_surface(&SAMPLED, &[&[0.0, 0.5, 0.5, 1.0, 0.0, 0.5, 0.5]]),
+            twin: sampled,
+            tolerance: FACET_DIRECTION,
+        },
+        Check {
+            probe: pure(
+                &["microsurface", "trig"],
+                (5, 3),
+                "let eye = vec3f(sqrt(1.0 - a(1u) * a(1u)) * direction_of_turn(a(2u)), a(1u));
+                 put3(0u, normalize(sample_beckmann_facet(eye, a(3u), a(4u))));",
+            ),
+            proves: &["sample_beckmann_facet"],
+            inputs: of_unit_width(0.0),
+            twin: upright,
+            tolerance: FACET_DIRECTION,
+        },
+        Check {
+            probe: pure(
+                &["microsurface", "trig"],
+                (5, 3),
+                "let eye = vec3f(sqrt(1.0 - a(1u) * a(1u)) * direction_of_turn(a(2u)), a(1u));
+                 let facet = normalize(sample_ggx_facet(eye, a(3u), a(4u)));
+                 put3(0u, facet);",
+            ),
+            proves: &["sample_ggx_facet"],
+            inputs: of_unit_width(1.0),
+            twin: upright,
+            tolerance: FACET_DIRECTION,
+        },
+        Check {
+            // The slope aside is 0 where its number is a half.
+            probe: pure(
+                &["microsurface"],
+                (2, 1),
+                "put(0u, visible_slope(a(0u), sqrt(1.0 - a(0u) * a(0u)), a(1u)));",
+            ),
+            proves: &["visible_slope"],
+            inputs: table(&[(0.0, 1.0), (1e-6, 0.999)], &[&[1.0, 0.5], &[0.0, 0.1], &[1.0, 1e-7], &[0.0, 0.0]]),
+            twin: |a| {
+                let facet = surface_of(&[0.0, 1.0, 1.0]).sample(direction(a[0], 0.0).to_array(), a[1], 0.5);
+                vec![-facet[0] / facet[2]]
+            },
+            tolerance: FACET_DIRECTION,
+        },
+    ]
+}
+
+/// Facets of an object.
+fn facets_of(object: f64) -> Facets<'static> {
+    let material = everything().material(object as usize);
+    Facets::new(material.microsurface().expect("chosen to be rough"))
+}
+
+/// Rows of a rough object, two directions and three numbers.
+fn rough_rows() -> Vec<f32> {
+    let rough = objects_where(|_, material| material.microsurface().is_some());
+    let brushed = |&object: &usize| {
+        let facets = everything().material(object).microsurface();
+        facets.is_some_and(scene::Microsurface::is_brushed)
+    };
+    assert!(rough.iter().filter(|object| brushed(object)).count() >= 2);
+    rows(8, move |u| {
+        let object = pick(&rough, u[0]) as f64;
+        // Not where the choice between the two samplers hangs on the last digit.
+        let eye = direction(0.02 + 0.98 * u[1], u[2]);
+        let lost = facets_of(object).sample(eye, [0.5, 0.5, u[7] + 1e-5, 0.0])
+            == facets_of(object).sample(eye, [0.5, 0.5, u[7] - 1e-5, 0.0]);
+        let row = [
+            object,
+            u[1] * 0.98 + 0.02,
+            u[2],
+            u[3] * 0.98 + 0.02,
+            u[4],
+            0.999 * u[5],
+            0.999 * u[6],
+            u[7],
+        ];
+        lost.then(|| row.to_vec())
+    })
+}
+
+fn of_materials() -> Vec<Check> {
+    let world = everything();
+    vec![
+        Check {
+            probe: world.probe(
+                &["energy", "trig"],
+                (8, 1),
+                "let eye = vec3f(sqrt(1.0 - a(1u) * a(1u)) * direction_of_turn(a(2u)), a(1u));
+                 put(0u, facet_albedo(objects[u32(a(0u))].material, eye));",
+            ),
+            proves: &["facet_albedo"],
+            inputs: rough_rows(),
+            twin: |a| {
+                let material = everything().material(a[0] as usize);
+                let facets = material.microsurface().expect("chosen to be rough");
+                vec![facets.energy.at(direction(a[1], a[2]).to_array())]
+            },
+            tolerance: FACET_ENERGY,
+        },
+        Check {
+            probe: world.probe(
+                &["scatter", "trig"],
+                (8, 4),
+                "let eye = vec3f(sqrt(1.0 - a(1u) * a(1u)) * direction_of_turn(a(2u)), a(1u));
+                 let light = vec3f(sqrt(1.0 - a(3u) * a(3u)) * direction_of_turn(a(4u)), a(3u));
+                 let s = facet_scattering(objects[u32(a(0u))].material, eye, light);
+                 put(0u, s.lobes.single); put(1u, s.lobes.multiple); put(2u, s.lobes.cosine); put(3u, s.pdf);",
+            ),
+            proves: &["facet_scattering", "microsurface_of"],
+            inputs: rough_rows(),
+            twin: |a| {
+                let (eye, light) = (direction(a[1], a[2]), direction(a[3], a[4]));
+                let found = facets_of(a[0]).between(eye, light).expect("both are above");
+                vec![found.single, found.multiple, found.cosine, found.pdf]
+            },
+            tolerance: FACETS,
+        },
+        Check {
+            probe: world.probe(
+                &["scatter", "trig"],
+                (8, 3),
+                "let eye = vec3f(sqrt(1.0 - a(1u) * a(1u)) * direction_of_turn(a(2u)), a(1u));
+                 let random = vec4f(a(5u), a(6u), a(7u), 0.0);
+                 put3(0u, sample_facet_scattering(objects[u32(a(0u))].material, eye, random));",
+            ),
+            proves: &["sample_facet_scattering"],
+            inputs: rough_rows(),
+            twin: |a| {
+                let eye = direction(a[1], a[2]);
+                facets_of(a[0]).sample(eye, [a[5], a[6], a[7], 0.0]).to_array().to_vec()
+            },
+            tolerance: FACET_DIRECTION,
+        },
+        surface_frames(),
+    ]
+}
+
+/// Frames of rough objects, brushed or not, and of a diffuse one.
+fn surface_frames() -> Check {
+    let world = everything();
+    let mut objects = objects_where(|_, material| material.microsurface().is_some());
+    objects.push(0);
+    Check {
+        probe: world.probe(
+            &["surface"],
+            (7, 9),
+            "let p = SurfacePoint(a3(1u), a3(4u), 1.0, true);
+             let f = surface_frame(u32(a(0u)), p); put3(0u, f[0]); put3(3u, f[1]); put3(6u, f[2]);",
+        ),
+        proves: &["surface_frame"],
+        inputs: rows(3, move |u| {
+            let object = pick(&objects, u[0]);
+            let shape = world.shape(object);
+            let position = rounded(point_on(shape, u[1], u[2]));
+            let normal = match *shape {
+                Shape::Sphere { center, .. } => rounded((position - center).normalize()),
+                Shape::Plane { normal, .. }
+                | Shape::Rectangle { normal, .. }
+                | Shape::Disk { normal, .. } => normal,
+            };
+            let is_clear = match world.material(object).microsurface().map(|m| m.grain) {
+                Some(Grain::Along(grain)) => grain.cross(normal).length() > 0.1,
+                Some(Grain::Around(axis)) => axis.cross(position - center_of(shape)).length() > 0.1,
+                _ => normal.z.abs() > 1e-3,
+            };
+            let row = [
+                &[object as f64][..],
+                &position.to_array(),
+                &normal.to_array(),
+            ]
+            .concat();
+            is_clear.then_some(row)
+        }),
+        twin: |a| {
+            let (world, object) = (everything(), a[0] as usize);
+            let point = reference::SurfacePoint {
+                position: vector(&a[1..]),
+                normal: vector(&a[4..]),
+                cosine: 1.0,
+                is_front: true,
+            };
+            let shape = world.shape(object);
+            let frame = reference::surface_frame(world.material(object), shape, &point);
+            frame.to_cols_array().to_vec()
+        },
+        tolerance: FRAME,
+    }
+}

@@ -1,0 +1,129 @@
+//! light_choice.wgsl, and what light.wgsl says of lights that are no objects.
+
+use crate::scene_functions::{everything, rounded, rows, unit, vector};
+use crate::{Check, pure, table};
+use gpu::layout::NONE;
+use pellicle_tests::tolerances::{ARITHMETIC, LIGHT_ESTIMATE};
+use reference::{Source, choice_probabilities, choose_light, mis_share};
+use scene::LightSource;
+use std::sync::OnceLock;
+
+fn sources() -> &'static [LightSource] {
+    static SOURCES: OnceLock<Vec<LightSource>> = OnceLock::new();
+    SOURCES.get_or_init(|| everything().scene.light_sources())
+}
+
+fn source_of(number: f64) -> Source<'static> {
+    Source::of(&everything().scene, sources()[number as usize].kind)
+}
+
+/// Number of a source (a shader asks `objects[number].light`), a point and a unit vector.
+fn places() -> Vec<f32> {
+    let count = sources().len() as f64;
+    rows(6, |u| {
+        let number = (u[0] * count).floor();
+        let point = rounded(12.0 * (glam::DVec3::new(u[1], u[2], u[3]) - 0.5));
+        let normal = rounded(unit(u[4], u[5]));
+        Some([&[number][..], &point.to_array(), &normal.to_array()].concat())
+    })
+}
+
+pub(crate) fn checks() -> Vec<Check> {
+    let world = everything();
+    vec![
+        Check {
+            probe: world.probe(
+                &["light"],
+                (7, 1),
+                "put(0u, light_share(objects[u32(a(0u))].light, a3(1u), a3(4u)));",
+            ),
+            proves: &["light_share", "spot_share", "is_surrounding", "is_single_direction"],
+            inputs: places(),
+            twin: |a| vec![source_of(a[0]).share(vector(&a[1..]), vector(&a[4..]))],
+            tolerance: LIGHT_ESTIMATE,
+        },
+        Check {
+            probe: world.probe(
+                &["light_choice"],
+                (7, 1),
+                "let l = objects[u32(a(0u))].light; put(0u, light_estimate(l, a3(1u), a3(4u)) / objects[l].brightness);",
+            ),
+            proves: &[
+                "light_estimate",
+                "plane_estimate",
+                "plane_area",
+                "environment_estimate",
+                "most_cosine",
+            ],
+            inputs: places(),
+            twin: |a| vec![source_of(a[0]).estimate(vector(&a[1..]), vector(&a[4..]))],
+            tolerance: LIGHT_ESTIMATE,
+        },
+        Check {
+            probe: world.probe(
+                &["light_choice"],
+                (7, 1),
+                "put(0u, choice_probability(objects[u32(a(0u))].light, a3(1u), a3(4u), light_total(a3(1u), a3(4u))));",
+            ),
+            proves: &["choice_probability", "light_total"],
+            inputs: places(),
+            twin: |a| vec![chances(a)[a[0] as usize]],
+            tolerance: LIGHT_ESTIMATE,
+        },
+        Check {
+            probe: world.probe(
+                &["light_choice"],
+                (7, 2),
+                "let c = choose_light(a3(1u), a3(4u), a(0u)); put(0u, f32(c.light)); put(1u, c.probability);",
+            ),
+            proves: &["choose_light"],
+            inputs: choices(),
+            twin: |a| {
+                let chosen = choose_light(&chances(a), a[0]).expect("one of them shines");
+                let light = everything().packed.objects[chosen.source].light;
+                assert_ne!(light, NONE);
+                vec![f64::from(light), chosen.probability]
+            },
+            tolerance: LIGHT_ESTIMATE,
+        },
+        Check {
+            probe: pure_mis(),
+            proves: &["mis_share"],
+            inputs: table(&[(0.01, 10.0), (0.0, 10.0)], &[&[1e-3, 1e3], &[5.0, 0.0]]),
+            twin: |a| vec![mis_share(a[0], a[1])],
+            tolerance: ARITHMETIC,
+        },
+    ]
+}
+
+fn pure_mis() -> pellicle_tests::probe::Probe<'static> {
+    pure(
+        &["light_choice"],
+        (2, 1),
+        "put(0u, mis_share(a(0u), a(1u)));",
+    )
+}
+
+fn chances(a: &[f64]) -> Vec<f64> {
+    let (point, normal) = (vector(&a[1..]), vector(&a[4..]));
+    choice_probabilities(&everything().scene, sources(), point, normal)
+}
+
+/// Numbers with points and normals, without those that lie within a rounding of the border between two lights.
+fn choices() -> Vec<f32> {
+    let is_clear = |row: &&[f32]| {
+        let row: Vec<f64> = row.iter().map(|&x| f64::from(x)).collect();
+        let mut sum = 0.0;
+        chances(&row).iter().all(|chance| {
+            sum += chance;
+            (sum - row[0]).abs() > 1e-4
+        })
+    };
+    let numbers = table(&[(0.0, 0.999)], &[]);
+    let places = places();
+    let rows = places.chunks(7).zip(numbers);
+    let rows = rows.map(|(place, number)| [&[number], &place[1..]].concat());
+    rows.filter(|row| is_clear(&row.as_slice()))
+        .flatten()
+        .collect()
+}
