@@ -42,6 +42,7 @@ const SHAPE_POLE: u32 = 18u;
 
 /// Shape that no ray meets: surroundings by a picture, its middle towards `normal`, its right half towards `tangent`.
 const SHAPE_PICTURE: u32 = 19u;
+
 /// Shape that no ray meets: a disc in the sky about `normal`, with 1 − cos of its half angle for `radius`.
 const SHAPE_DISC: u32 = 24u;
 
@@ -75,6 +76,9 @@ const SURFACE_COOK_D2: u32 = 5u;
 /// Surface: a diffuse body below a smooth coat.
 const SURFACE_COATED_BODY: u32 = 6u;
 
+/// Surface: a diffuse body below a rough coat.
+const SURFACE_ROUGH_COATED_BODY: u32 = 7u;
+
 /// Facets: Beckmann's distribution of slopes.
 const FACETS_BECKMANN: u32 = 0u;
 
@@ -89,6 +93,9 @@ const GRAIN_ALONG: u32 = 1u;
 
 /// Grain: around an axis through the object's centre.
 const GRAIN_AROUND: u32 = 2u;
+
+/// Cosines for which a rough coat has its reflectance, even in their roots.
+const COAT_COSINES: u32 = 32u;
 
 /// Knots of a table of energy over the root of the cosine.
 const ENERGY_COSINES: u32 = 32u;
@@ -333,6 +340,12 @@ struct Material {
     mean_reflectance: u32,
     /// What stands for the index of a coat where a path chooses its way.
     coat_estimate: f32,
+    /// Spectra: the reflectance of a rough coat for COAT_COSINES cosines.
+    coat_reflectances: u32,
+    /// Fills the size up to a multiple of 16.
+    padding_1: u32,
+    /// Fills the size up.
+    padding_2: vec2u,
 }
 
 /// A layer of a film or of a coating.

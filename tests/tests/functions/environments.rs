@@ -3,7 +3,7 @@
 use crate::Check;
 use crate::scene_functions::{World, everything, pick, pictured, rounded, rows, unit, vector};
 use glam::DVec3;
-use pellicle_tests::tolerances::{ARITHMETIC, DIRECTION, LIGHT_PDF};
+use pellicle_tests::tolerances::{ARITHMETIC, DIRECTION, LIGHT_PDF, NEAR_POLE};
 use scene::EnvironmentShape;
 use std::sync::OnceLock;
 
@@ -75,7 +75,7 @@ fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
             proves: if is_picture { OF_PICTURES } else { &["sample_environment"] },
             inputs: numbers,
             twin: sampled,
-            tolerance: DIRECTION,
+            tolerance: if is_picture { NEAR_POLE } else { DIRECTION },
         },
         Check {
             probe: world.probe(

@@ -446,8 +446,8 @@ fn diffuse_factor() -> Check {
     Check {
         probe: world.probe(
             &["factor"],
-            (5, 2),
-            "let factor = diffuse_factor(u32(a(0u)), a3(1u), a(4u)); put(0u, f32(factor.spectrum)); put(1u, f32(factor.kind));",
+            (5, 1),
+            "let factor = diffuse_factor(u32(a(0u)), a3(1u), a(4u)); put(0u, f32(1000u * factor.kind + factor.spectrum));",
         ),
         proves: &[
             "chosen_pixel",
@@ -462,22 +462,22 @@ fn diffuse_factor() -> Check {
     }
 }
 
-/// The number of the spectrum or texel, and the kind of factor.
+/// The number of the spectrum or texel, and a thousand times the kind of factor.
 fn factor_of_pattern(a: &[f64]) -> Vec<f64> {
     let (world, object) = (everything(), a[0] as usize);
     let Material::Diffuse { reflectance } = world.material(object) else {
-        return vec![f64::NAN; 2];
+        return vec![f64::NAN];
     };
     let shape = world.shape(object);
     match reference::pattern_reflectance(reflectance, shape, vector(&a[1..]), a[4]) {
-        Reflectance::Spectrum(spectrum) => vec![spectrum.index() as f64, 1.0],
+        Reflectance::Spectrum(spectrum) => vec![1000.0 + spectrum.index() as f64],
         Reflectance::Smooth(coefficients) => {
             let material = world.scene.objects()[object].material.index();
             let first = world.packed.materials[material].picture as usize + 1;
             let is_it = |texel: &[f32; 4]| (0..3).all(|i| f64::from(texel[i]) == coefficients[i]);
             let texels = &world.packed.texels[first..];
             let place = texels.iter().position(is_it).expect("one of its own");
-            vec![(first + place) as f64, 13.0]
+            vec![(13_000 + first + place) as f64]
         }
     }
 }
