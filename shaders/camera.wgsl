@@ -22,6 +22,12 @@ fn filter_offset(u: f32) -> f32 {
 fn camera_ray(pixel: vec2u, jitter: vec2f, on_lens: vec2f) -> Ray {
     let size = vec2f(frame.image_size);
     let place = (vec2f(pixel) + 0.5 + vec2f(filter_offset(jitter.x), filter_offset(jitter.y))) / size;
+    if (HAS_PANORAMA) {
+        let longitude = direction_of_turn(place.x - 0.5);
+        let latitude = direction_of_turn(0.25 - 0.5 * place.y);
+        let around = latitude.x * (longitude.y * frame.camera_right - longitude.x * frame.camera_back);
+        return Ray(frame.camera_origin, around + latitude.y * frame.camera_up);
+    }
     let x = (2.0 * place.x - 1.0) * (size.x / size.y) * frame.half_height;
     let y = (1.0 - 2.0 * place.y) * frame.half_height;
     let aside = x * frame.camera_right + y * frame.camera_up;

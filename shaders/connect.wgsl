@@ -8,27 +8,33 @@ struct Sent {
     pdf: f32,
     /// The sum of all lights' estimates.
     total: f32,
+    /// The texel of the light's picture, 0 where it has none.
+    texel: u32,
 }
 
 /// Chooses a light and a direction towards it.
 fn send_to_light(walk: Walk, sample: Sample, point: SurfacePoint) -> Sent {
     if (!HAS_LIGHTS || walk.segment + 1u > frame.max_path_segments) {
-        return Sent(NONE, point.normal, 0.0, 0.0);
+        return Sent(NONE, point.normal, 0.0, 0.0, 0u);
     }
     let random = random_at(sample, walk, FOR_LIGHT);
     let choice = choose_light(point.position, point.normal, random.x);
     if (choice.light == NONE) {
-        return Sent(NONE, point.normal, 0.0, choice.total);
+        return Sent(NONE, point.normal, 0.0, choice.total, 0u);
     }
     let direction = sample_light(choice.light, point.position, random.y, random.z);
     if (!SENDS_LIGHT || dot(direction, point.normal) <= 0.0) {
-        return Sent(choice.light, direction, 0.0, choice.total);
+        return Sent(choice.light, direction, 0.0, choice.total, 0u);
     }
     var pdf = choice.probability;
     if (!is_single_direction(choice.light)) {
         pdf *= light_pdf(choice.light, point.position, direction);
     }
-    return Sent(choice.light, direction, pdf, choice.total);
+    var texel = 0u;
+    if (HAS_ENVIRONMENT_PICTURE && objects[choice.light].shape == SHAPE_PICTURE) {
+        texel = environment_texel(choice.light, direction, random.w);
+    }
+    return Sent(choice.light, direction, pdf, choice.total, texel);
 }
 
 /// Adds to the vertex what arrives from the light, by its share.
@@ -60,6 +66,7 @@ fn connect(
     }
     let material = objects[sent.light].material;
     vertex.connection = materials[material].emission;
+    vertex.connection_texel = sent.texel;
     vertex.connected = scaled(towards.lobes, share * strength * materials[material].emission_scale / sent.pdf);
     return vertex;
 }

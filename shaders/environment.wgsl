@@ -1,9 +1,9 @@
 // What surrounds the scene, in parts that light can be sent from one by one. A part is an object that no ray meets; its radiance in
 // a direction is its emission times its share there.
 
-/// The share of a part's radiance that comes from a direction.
+/// The share of a part's radiance that comes from a direction; a picture has its own.
 fn environment_share(light: u32, direction: vec3f) -> f32 {
-    if (objects[light].shape == SHAPE_EVERYWHERE) {
+    if (objects[light].shape == SHAPE_EVERYWHERE || (HAS_ENVIRONMENT_PICTURE && objects[light].shape == SHAPE_PICTURE)) {
         return 1.0;
     }
     if (objects[light].shape == SHAPE_HORIZON) {
@@ -18,6 +18,9 @@ fn environment_share(light: u32, direction: vec3f) -> f32 {
 
 /// A direction towards a part of the surroundings, by the density of environment_pdf.
 fn sample_environment(light: u32, random: vec2f) -> vec3f {
+    if (HAS_ENVIRONMENT_PICTURE && objects[light].shape == SHAPE_PICTURE) {
+        return sample_environment_picture(light, random);
+    }
     if (objects[light].shape == SHAPE_EVERYWHERE) {
         return sample_cone(random.x, random.y, 2.0);
     }
@@ -37,6 +40,9 @@ fn sample_environment(light: u32, random: vec2f) -> vec3f {
 
 /// Density with which sample_environment draws a direction, sr⁻¹: in proportion to environment_share.
 fn environment_pdf(light: u32, direction: vec3f) -> f32 {
+    if (HAS_ENVIRONMENT_PICTURE && objects[light].shape == SHAPE_PICTURE) {
+        return environment_picture_pdf(light, direction);
+    }
     let share = environment_share(light, direction);
     if (objects[light].shape == SHAPE_EVERYWHERE) {
         return share * (0.25 / PI);

@@ -147,9 +147,17 @@ fn body_value(vertex: Vertex, light_cosine: f32, group: u32, at: Wavelengths) ->
     return coat_passes(n, vertex.eye_cosine) * coat_passes(n, light_cosine) * inside;
 }
 
-/// The spectrum of a light.
+/// The spectrum of a light, times that of a texel of its picture. Texel 0 is none: a head stands there.
 fn light_value(light: u32, texel: u32, group: u32, at: Wavelengths) -> vec4f {
-    return spectrum_at(light_spectrum(light), group, at);
+    let lamp = spectrum_at(light_spectrum(light), group, at);
+    if (!HAS_ENVIRONMENT_PICTURE || texel == 0u) {
+        return lamp;
+    }
+    if (HAS_SPECTRAL_PICTURE) {
+        return lamp * texel_at(texel + group);
+    }
+    let pixel = texel_at(texel);
+    return lamp * pixel.w * smooth_value(pixel.xyz, group, at);
 }
 
 /// Radiance that a vertex receives straight from a light and scatters, before the path's throughput.

@@ -28,8 +28,8 @@ fn diffuse_factor(object: u32, position: vec3f, random: f32) -> Factor {
     let head = materials[material].picture;
     if (HAS_TEXTURES && head != NONE) {
         let place = picture_place(texel_at(head).zw, object, position);
-        let texel = chosen_texel(head, place, objects[object].shape == SHAPE_SPHERE, random);
-        return Factor(FACTOR_SMOOTH, texel, 1.0, 0.0, 0u);
+        let pixel = chosen_pixel(head, place, objects[object].shape == SHAPE_SPHERE, random);
+        return Factor(FACTOR_SMOOTH, head + 1u + pixel, 1.0, 0.0, 0u);
     }
     return Factor(FACTOR_REFLECTANCE, reflectance_spectrum(material, object, position), 1.0, 0.0, 0u);
 }

@@ -16,6 +16,9 @@ const PROJECTION_PERSPECTIVE: u32 = 0u;
 /// Projection: all rays run in parallel.
 const PROJECTION_ORTHOGRAPHIC: u32 = 1u;
 
+/// Projection: all directions from the camera's origin by longitude and latitude.
+const PROJECTION_PANORAMA: u32 = 2u;
+
 /// Shape: a sphere.
 const SHAPE_SPHERE: u32 = 0u;
 
@@ -36,6 +39,9 @@ const SHAPE_HORIZON: u32 = 17u;
 
 /// Shape that no ray meets: surroundings by the cosine with `normal`, where it is above 0.
 const SHAPE_POLE: u32 = 18u;
+
+/// Shape that no ray meets: surroundings by a picture, its middle towards `normal`, its right half towards `tangent`.
+const SHAPE_PICTURE: u32 = 19u;
 
 /// Shape that no ray meets: a disc in the sky about `normal`, with 1 − cos of its half angle for `radius`.
 const SHAPE_DISC: u32 = 24u;

@@ -35,7 +35,7 @@ fn advance(walk: Walk, sample: Sample) -> Walk {
     var next = walk;
     if (hit.object == NONE) {
         if (HAS_ENVIRONMENT) {
-            record_environment(walk);
+            record_environment(walk, sample);
         }
         next.alive = false;
         return next;
@@ -50,14 +50,18 @@ fn advance(walk: Walk, sample: Sample) -> Walk {
 }
 
 /// The radiance of the surroundings, part by part.
-fn record_environment(walk: Walk) {
+fn record_environment(walk: Walk, sample: Sample) {
     for (var i = 0u; i < frame.environment_count; i++) {
         let part = frame.first_environment + i;
         let share = environment_share(part, walk.ray.direction);
         if (share > 0.0) {
             let material = objects[part].material;
             let weight = share * emission_share(walk, part);
-            push_emission(materials[material].emission, materials[material].emission_scale * weight);
+            var texel = 0u;
+            if (HAS_ENVIRONMENT_PICTURE && objects[part].shape == SHAPE_PICTURE) {
+                texel = environment_texel(part, walk.ray.direction, random_at(sample, walk, FOR_LIGHT).w);
+            }
+            push_emission(materials[material].emission, texel, materials[material].emission_scale * weight);
         }
     }
 }

@@ -1,4 +1,4 @@
-// Where pictures lie on surfaces, and which of their texels a path takes.
+// Where pictures lie on surfaces, and which of their pixels a path takes.
 
 /// Place in a picture, from its upper left corner in its width and height; `size_in` is its size on planes, 0 for that of the surface.
 fn picture_place(size_in: vec2f, object: u32, position: vec3f) -> vec2f {
@@ -19,9 +19,9 @@ fn picture_place(size_in: vec2f, object: u32, position: vec3f) -> vec2f {
     return 0.5 + place / size;
 }
 
-/// The texel that a path takes at a place of a picture: one of the four whose centres are around it, with the weights that they
+/// The number of the pixel that a path takes at a place of a picture: one of the four whose centres are around it, with the weights that they
 /// have between the centres as odds (`random` in [0, 1)).
-fn chosen_texel(head: u32, place: vec2f, wraps: bool, random: f32) -> u32 {
+fn chosen_pixel(head: u32, place: vec2f, wraps: bool, random: f32) -> u32 {
     let size = texel_at(head).xy;
     let x = clamp(place.x * size.x - 0.5, -1.0, size.x);
     let y = clamp(place.y * size.y - 0.5, 0.0, size.y - 1.0);
@@ -34,5 +34,5 @@ fn chosen_texel(head: u32, place: vec2f, wraps: bool, random: f32) -> u32 {
     let column = i32(floor(x)) + select(0, 1, is_right);
     let inside = select(clamp(column, 0, width - 1), (column + width) % width, wraps);
     let row = min(i32(y) + select(0, 1, is_below), i32(size.y) - 1);
-    return head + 1u + u32(row * width + inside);
+    return u32(row * width + inside);
 }

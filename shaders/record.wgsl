@@ -42,7 +42,7 @@ struct Vertex {
     base_kind: u32,
     /// What the path is multiplied by here.
     onward: Lobes,
-    /// Radiance that joins the path here, before the factor: a light, and its texel where it has a picture.
+    /// Radiance that joins the path here, before the factor: a light, and its texel where it has a picture (0 where it has none).
     emission: u32,
     emission_texel: u32,
     emission_weight: f32,
@@ -140,13 +140,14 @@ fn push_thickness(thickness_nm: f32) {
     }
 }
 
-/// Radiance `weight` × the spectrum of `light` that joins at the path's end.
-fn push_emission(light: u32, weight: f32) {
+/// Radiance `weight` × the spectrum of `light`, and of a texel of its picture where that is not 0, that joins at the path's end.
+fn push_emission(light: u32, texel: u32, weight: f32) {
     if (weight <= 0.0) {
         return;
     }
     var vertex = plain_vertex();
     vertex.emission = light;
+    vertex.emission_texel = texel;
     vertex.emission_weight = weight;
     push_vertex(vertex);
 }

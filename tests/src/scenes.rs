@@ -31,19 +31,22 @@ pub const EVERYTHING: &str = include_str!("everything.toml");
 /// A scene with Cook's model in every form and with every kind of body below a coat.
 pub const EVERYTHING_BODIES: &str = include_str!("everything_bodies.toml");
 
+/// What they have not got: surroundings by a picture, a panorama.
+pub const EVERYTHING_PICTURED: &str = include_str!("everything_pictured.toml");
+
 /// The names of the scenes that are made for the suites.
-pub const MADE: &[&str] = &["everything", "everything_bodies"];
+pub const MADE: &[&str] = &["everything", "everything_bodies", "everything_pictured"];
 
 /// A scene of `scenes/`, or one of [`MADE`], as a file that can still be changed.
 ///
 /// # Panics
 /// When it cannot be read.
 pub fn file(name: &str) -> SceneFile {
+    let made = |text| SceneFile::parse(&format!("{name}.toml"), text, &root());
     let read = match name {
-        "everything" => SceneFile::parse("everything.toml", EVERYTHING, &root()),
-        "everything_bodies" => {
-            SceneFile::parse("everything_bodies.toml", EVERYTHING_BODIES, &root())
-        }
+        "everything" => made(EVERYTHING),
+        "everything_bodies" => made(EVERYTHING_BODIES),
+        "everything_pictured" => made(EVERYTHING_PICTURED),
         _ => SceneFile::read(root().join("scenes").join(format!("{name}.toml"))),
     };
     read.unwrap_or_else(|problems| panic!("{problems}"))
@@ -74,6 +77,7 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "connection_value",
     "dimming",
     "emission_share",
+    "environment_texel",
     "factor_source",
     "first_ray",
     "free_stack_value",

@@ -31,6 +31,8 @@ pub const FILM_THICK: Tolerance = of(3e-4, 0.0);
 pub const FILM_LONG: Tolerance = of(1e-3, 0.0);
 /// Densities and reflection functions of facets: exp of up to −80 with 3 + 2|x| ulp and a cosine to the fourth power.
 pub const FACET: Tolerance = of(1e-6, 3e-5);
+/// Directions by their height: near a pole the sine is the root of 1 − h², of which half the digits are lost.
+pub const NEAR_POLE: Tolerance = of(5e-5, 0.0);
 /// Smooth spectra with coefficients to 20: the quadratic is off by 4e-6, and the sigmoid's slope is at most a half.
 pub const SMOOTH: Tolerance = of(3e-6, 1e-6);
 /// exp(x²) erfc(x) and what is made of it: exp and nine terms, each 2 ulp.

@@ -1,9 +1,9 @@
 //! What a scene has, so that its pipeline leaves out the rest: the values of `shaders/features.wgsl`.
 
 use scene::{
-    Coordinate, DirectLight, Distribution, EnvironmentPart, EnvironmentShape, Interference,
-    LightSource, Material, Microsurface, PathDifference, Pattern, Profile, Sampler, Scene, Shape,
-    SourceKind, Thickness,
+    Coordinate, DirectLight, Distribution, Environment, EnvironmentPart, EnvironmentShape,
+    Interference, LightSource, Material, Microsurface, PathDifference, Pattern, PictureSpectra,
+    Profile, Projection, Sampler, Scene, Shape, SourceKind, Thickness,
 };
 
 /// Constants of a pipeline by name: 1 where the scene has the thing, 0 where it has not.
@@ -119,6 +119,18 @@ impl Features {
             (
                 "HAS_ROULETTE",
                 scene.settings().roulette_after < scene.settings().max_path_segments,
+            ),
+            (
+                "HAS_ENVIRONMENT_PICTURE",
+                picture_of(scene.environment()).is_some(),
+            ),
+            (
+                "HAS_SPECTRAL_PICTURE",
+                picture_of(scene.environment()) == Some(PictureSpectra::Bands),
+            ),
+            (
+                "HAS_PANORAMA",
+                scene.camera().projection == Projection::Panorama,
             ),
             (
                 "HAS_SOBOL_SAMPLES",
@@ -267,5 +279,13 @@ impl FilmForm {
             (Interference::Exact, [_]) => Self::Lossy,
             (Interference::Exact, _) => Self::Stack,
         })
+    }
+}
+
+/// What the pixels of surroundings hold that are a picture.
+fn picture_of(environment: &Environment) -> Option<PictureSpectra> {
+    match environment {
+        Environment::Picture { picture, .. } => Some(picture.spectra),
+        _ => None,
     }
 }

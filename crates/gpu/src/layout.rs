@@ -124,6 +124,8 @@ constants! { CONSTANTS;
     pub const PROJECTION_PERSPECTIVE = 0;
     /// Projection: all rays run in parallel.
     pub const PROJECTION_ORTHOGRAPHIC = 1;
+    /// Projection: all directions from the camera's origin by longitude and latitude.
+    pub const PROJECTION_PANORAMA = 2;
 
     /// Shape: a sphere.
     pub const SHAPE_SPHERE = 0;
@@ -139,6 +141,8 @@ constants! { CONSTANTS;
     pub const SHAPE_HORIZON = 17;
     /// Shape that no ray meets: surroundings by the cosine with `normal`, where it is above 0.
     pub const SHAPE_POLE = 18;
+    /// Shape that no ray meets: surroundings by a picture, its middle towards `normal`, its right half towards `tangent`.
+    pub const SHAPE_PICTURE = 19;
     /// Shape that no ray meets: a disc in the sky about `normal`, with 1 − cos of its half angle for `radius`.
     pub const SHAPE_DISC = 24;
     /// Shape that no ray meets: light from the direction `normal` alone. Those of a single direction at each place are greater.

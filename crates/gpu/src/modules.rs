@@ -59,20 +59,21 @@ pub const MODULES: &[Module] = modules! {
     "thickness": ["bindings", "features", "layout", "noise", "numbers", "picture", "trig"];
     "surface": ["bindings", "camera", "features", "layout", "sampling"];
     "hit": ["bindings", "camera", "features", "intersect", "layout"];
-    "environment": ["bindings", "features", "layout", "sampling", "trig"];
+    "environment_picture": ["bindings", "numbers", "picture", "texels", "trig"];
+    "environment": ["bindings", "environment_picture", "features", "layout", "sampling", "trig"];
     "light": ["bindings", "environment", "features", "layout", "sampling", "trig"];
     "light_choice": ["bindings", "features", "layout", "light", "sampling", "trig"];
     "record": ["layout", "limits"];
     "walk": ["bindings", "camera", "features", "random", "sobol", "surface"];
     "factor": ["bindings", "features", "layout", "picture", "record", "surface", "texels", "thickness"];
-    "connect": ["bindings", "camera", "factor", "features", "hit", "layout", "light", "light_choice", "record", "scatter", "surface", "walk"];
+    "connect": ["bindings", "camera", "environment_picture", "factor", "features", "hit", "layout", "light", "light_choice", "record", "scatter", "surface", "walk"];
     "scatter": [
         "bindings", "coat", "cook", "energy", "factor", "features", "layout", "microsurface", "record", "sampling", "trig"
     ];
     "split": ["bindings", "layout", "limits", "numbers", "record", "walk"];
     "path": [
-        "bindings", "camera", "coat", "connect", "environment", "factor", "features", "hit", "layout", "light", "light_choice", "record", "scatter",
-        "spectrum", "split", "surface", "walk"
+        "bindings", "camera", "coat", "connect", "environment", "environment_picture", "factor", "features", "hit", "layout", "light",
+        "light_choice", "record", "scatter", "spectrum", "split", "surface", "walk"
     ];
     "evaluate": [
         "bindings", "coat", "features", "film", "fresnel", "layout", "lifting", "limits", "record", "spectrum", "stack", "texels", "thickness",

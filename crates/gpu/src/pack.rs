@@ -63,7 +63,12 @@ impl PackedScene {
             })
             .collect();
         let mut objects: Vec<_> = scene.objects().iter().map(pack_object).collect();
-        lights::append(scene, &mut objects, &mut materials);
+        lights::append(
+            scene,
+            &mut objects,
+            &mut materials,
+            (&mut pictures, &mut fields.numbers),
+        );
         let mut frame = pack_frame(scene);
         if let Some(offsets) = scene.camera().filter.offsets() {
             frame.first_filter = fields.look_up(offsets);
@@ -127,6 +132,7 @@ fn pack_frame(scene: &Scene) -> Frame {
     let (projection, half_height) = match camera.projection {
         Projection::Perspective { half_height } => (layout::PROJECTION_PERSPECTIVE, half_height),
         Projection::Orthographic { half_height } => (layout::PROJECTION_ORTHOGRAPHIC, half_height),
+        Projection::Panorama => (layout::PROJECTION_PANORAMA, 0.0),
     };
     Frame {
         camera_origin: vec3(camera.origin),

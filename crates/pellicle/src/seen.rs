@@ -117,7 +117,9 @@ pub fn lamps(description: &Description, scene: &Scene) -> Vec<SceneLamp> {
     };
     let surroundings = "the surroundings";
     match scene.environment() {
-        Environment::Constant(emission) => add(surroundings, emission),
+        Environment::Constant(emission) | Environment::Picture { emission, .. } => {
+            add(surroundings, emission);
+        }
         Environment::Gradient {
             zenith,
             horizon,

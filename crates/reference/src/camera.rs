@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use scene::{Projection, Scene};
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// A ray: an origin and a unit direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,13 +35,12 @@ pub fn sampled_camera_ray(
 fn ray_off_middle(scene: &Scene, pixel: [u32; 2], offset: [f64; 2], [u, v]: [f64; 2]) -> Ray {
     let (camera, settings) = (scene.camera(), scene.settings());
     let (width, height) = (f64::from(settings.width), f64::from(settings.height));
-    let (Projection::Perspective { half_height } | Projection::Orthographic { half_height }) =
-        camera.projection;
     // From −1 at the left and the bottom to 1 at the right and the top.
     let across = 2.0 * (f64::from(pixel[0]) + 0.5 + offset[0]) / width - 1.0;
     let upward = 1.0 - 2.0 * (f64::from(pixel[1]) + 0.5 + offset[1]) / height;
-    let aside =
-        camera.right * (across * half_height * width / height) + camera.up * (upward * half_height);
+    let aside = |half_height: f64| {
+        camera.right * (across * half_height * width / height) + camera.up * (upward * half_height)
+    };
     let (on_lens, focus) = match camera.lens {
         // Uniform over the lens.
         Some(lens) => {
@@ -53,13 +52,22 @@ fn ray_off_middle(scene: &Scene, pixel: [u32; 2], offset: [f64; 2], [u, v]: [f64
     };
     match camera.projection {
         // All rays of a place in the picture meet where the pinhole's ray reaches the plane of focus.
-        Projection::Perspective { .. } => Ray {
+        Projection::Perspective { half_height } => Ray {
             origin: camera.origin + on_lens,
-            direction: (focus * (aside - camera.back) - on_lens).normalize(),
+            direction: (focus * (aside(half_height) - camera.back) - on_lens).normalize(),
         },
-        Projection::Orthographic { .. } => Ray {
-            origin: camera.origin + aside,
+        Projection::Orthographic { half_height } => Ray {
+            origin: camera.origin + aside(half_height),
             direction: -camera.back,
         },
+        Projection::Panorama => {
+            let (sine, cosine) = (PI * across).sin_cos();
+            let (height, radius) = (FRAC_PI_2 * upward).sin_cos();
+            let around = camera.right * sine - camera.back * cosine;
+            Ray {
+                origin: camera.origin,
+                direction: around * radius + camera.up * height,
+            }
+        }
     }
 }

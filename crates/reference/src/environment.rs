@@ -1,16 +1,18 @@
 //! What surrounds the scene, in parts that light can be sent from one by one.
 
+use crate::environment_picture::{picture_pdf, sample_picture};
 use crate::{frame_of, sample_cone, sample_cosine_hemisphere};
 use glam::DVec3;
 use scene::EnvironmentShape;
 use std::f64::consts::{FRAC_1_PI, TAU};
 
-/// The share of a part's radiance that comes from a direction.
-pub fn environment_share(part: EnvironmentShape, direction: DVec3) -> f64 {
+/// The share of a part's radiance that comes from a direction; a picture has its own.
+pub fn environment_share(part: EnvironmentShape<'_>, direction: DVec3) -> f64 {
     match part {
         EnvironmentShape::Everywhere => 1.0,
         EnvironmentShape::Horizon => (1.0 - direction.y.abs()).max(0.0),
         EnvironmentShape::Pole(pole) => direction.dot(pole).clamp(0.0, 1.0),
+        EnvironmentShape::Picture(_) => 1.0,
         EnvironmentShape::Disc { towards, height } => f64::from(u8::from(
             (direction - towards).length_squared() <= 2.0 * height,
         )),
@@ -18,7 +20,7 @@ pub fn environment_share(part: EnvironmentShape, direction: DVec3) -> f64 {
 }
 
 /// A direction towards a part of the surroundings, by the density of [`environment_pdf`].
-pub fn sample_environment(part: EnvironmentShape, u: f64, v: f64) -> DVec3 {
+pub fn sample_environment(part: EnvironmentShape<'_>, u: f64, v: f64) -> DVec3 {
     match part {
         EnvironmentShape::Everywhere => sample_cone(u, v, 2.0),
         EnvironmentShape::Horizon => {
@@ -33,18 +35,20 @@ pub fn sample_environment(part: EnvironmentShape, u: f64, v: f64) -> DVec3 {
             let phi = TAU * v;
             DVec3::new(sine * phi.cos(), side * height, sine * phi.sin())
         }
+        EnvironmentShape::Picture(picture) => sample_picture(picture, u, v),
         EnvironmentShape::Pole(pole) => frame_of(pole) * sample_cosine_hemisphere(u, v),
         EnvironmentShape::Disc { towards, height } => frame_of(towards) * sample_cone(u, v, height),
     }
 }
 
 /// Density with which [`sample_environment`] draws a direction, sr⁻¹: the share over its integral.
-pub fn environment_pdf(part: EnvironmentShape, direction: DVec3) -> f64 {
+pub fn environment_pdf(part: EnvironmentShape<'_>, direction: DVec3) -> f64 {
     let share = environment_share(part, direction);
     match part {
         EnvironmentShape::Everywhere => share / (2.0 * TAU),
         EnvironmentShape::Horizon => share / TAU,
         EnvironmentShape::Pole(_) => share * FRAC_1_PI,
+        EnvironmentShape::Picture(picture) => picture_pdf(picture, direction),
         EnvironmentShape::Disc { height, .. } => share / (TAU * height),
     }
 }

@@ -7,6 +7,7 @@
 mod camera;
 mod cook;
 mod environment;
+mod environment_picture;
 mod facets;
 mod interference;
 mod intersect;
@@ -28,6 +29,7 @@ mod thickness;
 pub use camera::{Ray, camera_ray, sampled_camera_ray};
 pub use cook::{cook_facets, sample_cook_facet};
 pub use environment::{environment_pdf, environment_share, sample_environment};
+pub use environment_picture::environment_pixel;
 pub use facets::{FacetScattering, Facets};
 pub use intersect::{Hit, intersect_plane, intersect_sphere, nearest_hit};
 pub use light::{light_pdf, sample_light};

@@ -13,7 +13,7 @@ pub enum Source<'a> {
     /// An object.
     Shape(&'a Shape),
     /// A part of the surroundings.
-    Surrounding(EnvironmentShape),
+    Surrounding(EnvironmentShape<'a>),
     /// A light of a single direction at each place.
     Single(LightShape),
 }
@@ -144,9 +144,9 @@ fn plane_estimate(towards: DVec3, (across, normal): (DVec3, DVec3), reach: f64, 
     solid_angle * most_cosine(towards.dot(normal) / distance, reach / distance)
 }
 
-fn surrounding_estimate(part: EnvironmentShape, normal: DVec3) -> f64 {
+fn surrounding_estimate(part: EnvironmentShape<'_>, normal: DVec3) -> f64 {
     match part {
-        EnvironmentShape::Everywhere => PI,
+        EnvironmentShape::Everywhere | EnvironmentShape::Picture(_) => PI,
         EnvironmentShape::Horizon => FRAC_PI_2,
         EnvironmentShape::Pole(pole) => FRAC_PI_3 * (1.0 + pole.dot(normal)).max(0.0),
         EnvironmentShape::Disc { towards, height } => {

@@ -1,18 +1,21 @@
 //! A path through the scene with its spectrum.
 
+use crate::environment_picture::pixel_value;
 use crate::interference::{LayersAt, Light};
 use crate::picture::smooth_value;
 use crate::scatter::{Conductor, Lobes, Scatterer, coat_share};
 use crate::{
     Facets, Hit, Ray, Reflectance, Source, SurfacePoint, chance_to_go_on, choice_probabilities,
-    choose_light, environment_share, mis_share, nearest_hit, pattern_reflectance, random4,
-    reflected_share, sampled_camera_ray, sobol4, surface_frame, surface_point,
+    choose_light, environment_pixel, environment_share, mis_share, nearest_hit,
+    pattern_reflectance, random4, reflected_share, sampled_camera_ray, sobol4, surface_frame,
+    surface_point,
 };
 use glam::DVec3;
 use optics::Complex64;
 use scene::{
-    CoatedBody, DirectLight, Emission, Interference, LightSource, Material, Pattern,
-    RenderSettings, Sampler, Scene, SourceKind, SpectrumId, WavelengthSampling,
+    CoatedBody, DirectLight, Emission, EnvironmentPicture, EnvironmentShape, Interference,
+    LightSource, Material, Pattern, RenderSettings, Sampler, Scene, SourceKind, SpectrumId,
+    WavelengthSampling,
 };
 
 /// Dimensions of a branch of a path: more than three for each of its segments.
@@ -151,6 +154,22 @@ impl<'a> Path<'a> {
         }
     }
 
+    /// Light of a pixel of the surroundings that joins the path here.
+    fn add_picture(
+        &mut self,
+        emission: Emission,
+        (picture, pixel): (&EnvironmentPicture, [u32; 2]),
+        weight: f64,
+    ) {
+        for band in self.bands() {
+            let nm = self.light(band).wavelength_nm;
+            let lamp = emission.scale * self.spectrum(emission.spectrum, band);
+            let light = lamp * pixel_value(picture, pixel, band, nm);
+            let light_group = emission.light_group.index();
+            self.radiance[light_group][band] += self.walk.throughput[band] * weight * light;
+        }
+    }
+
     fn attenuate(&mut self, factor: impl Fn(&Self, usize) -> f64) {
         for band in self.bands() {
             self.walk.throughput[band] *= factor(self, band);
@@ -159,9 +178,15 @@ impl<'a> Path<'a> {
 
     fn add_environment(&mut self) {
         for (index, part) in self.scene.surroundings().into_iter().enumerate() {
-            let share = environment_share(part.shape, self.walk.ray.direction);
+            let direction = self.walk.ray.direction;
+            let share = environment_share(part.shape, direction);
             let met = self.share_of_scattering(SourceKind::Environment(index));
-            self.add(part.emission, share * met);
+            if let EnvironmentShape::Picture(picture) = part.shape {
+                let pixel = environment_pixel(picture, direction, self.random(Use::Light)[3]);
+                self.add_picture(part.emission, (picture, pixel), met);
+            } else {
+                self.add(part.emission, share * met);
+            }
         }
     }
 
@@ -548,7 +573,7 @@ impl<'a> Path<'a> {
         if !sends || self.walk.segment >= max_segments {
             return None;
         }
-        let [pick, u, v, _] = self.random(Use::Light);
+        let [pick, u, v, w] = self.random(Use::Light);
         let choice = choose_light(chances, pick)?;
         let light = &self.lights[choice.source];
         let source = Source::of(self.scene, light.kind);
@@ -569,8 +594,15 @@ impl<'a> Path<'a> {
         };
         let films =
             self.films_on_the_way(ray, object, light.kind, max_segments - self.walk.segment - 1)?;
+        let pixel = match source {
+            Source::Surrounding(EnvironmentShape::Picture(picture)) => {
+                Some((picture, environment_pixel(picture, direction, w)))
+            }
+            _ => None,
+        };
         Some(Sent {
             emission: light.emission,
+            pixel,
             direction,
             pdf,
             factor: strength / pdf.unwrap_or(choice.probability),
@@ -633,6 +665,9 @@ impl<'a> Path<'a> {
         let emission = sent.emission;
         for band in self.bands() {
             let mut arriving = emission.scale * self.spectrum(emission.spectrum, band);
+            if let Some((picture, pixel)) = sent.pixel {
+                arriving *= pixel_value(picture, pixel, band, self.light(band).wavelength_nm);
+            }
             for film in &sent.films {
                 arriving *= self.film(film, band).1;
             }
@@ -685,6 +720,8 @@ impl Walk {
 /// A connection to a light.
 struct Sent<'a> {
     emission: Emission,
+    /// The pixel of the surroundings that it comes from.
+    pixel: Option<(&'a EnvironmentPicture, [u32; 2])>,
     direction: DVec3,
     /// Density of the direction, the choice among the lights included; none for light from a single direction.
     pdf: Option<f64>,

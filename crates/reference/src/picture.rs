@@ -1,4 +1,4 @@
-//! Where pictures lie on surfaces, and which of their texels a path takes.
+//! Where pictures lie on surfaces, and which of their pixels a path takes.
 
 use crate::surface::center_of;
 use glam::DVec3;
@@ -48,9 +48,9 @@ pub(crate) fn picture_place(
     }
 }
 
-/// The texel that a path takes at a place of a picture: one of the four whose centres are around it, with the weights that they
+/// The pixel that a path takes at a place of a picture: one of the four whose centres are around it, with the weights that they
 /// have between the centres as odds (`random` in [0, 1)).
-pub(crate) fn chosen_texel(
+pub(crate) fn chosen_pixel(
     texels: &Texels,
     [across, down]: [f64; 2],
     wraps: bool,

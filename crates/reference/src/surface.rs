@@ -1,6 +1,6 @@
 //! What a scene's surface is at a point.
 
-use crate::picture::{chosen_texel, picture_place};
+use crate::picture::{chosen_pixel, picture_place};
 use crate::{Ray, frame_of};
 use glam::{DMat3, DVec3};
 use scene::{Grain, Material, Pattern, Shape, SpectrumId};
@@ -86,8 +86,8 @@ pub fn pattern_reflectance(
         Pattern::Uniform(spectrum) => Reflectance::Spectrum(spectrum),
         Pattern::Texture { ref texels, size } => {
             let (place, wraps) = picture_place(size, shape, position);
-            let [column, row] = chosen_texel(texels, place, wraps, random);
-            let [c0, c1, c2, _] = texels.at(column, row).map(f64::from);
+            let pixel = chosen_pixel(texels, place, wraps, random);
+            let [c0, c1, c2, _] = texels.at(pixel)[0].map(f64::from);
             Reflectance::Smooth([c0, c1, c2])
         }
         Pattern::Checker { even, odd, size } => {

@@ -42,6 +42,8 @@ pub enum Projection {
         /// Half the picture's height at distance 1.
         half_height: f64,
     },
+    /// All directions from the origin by longitude, from left to right, and latitude; the middle is −`back`, the top is `up`.
+    Panorama,
     /// All rays are parallel.
     Orthographic {
         /// Half the picture's height in scene units.
@@ -50,11 +52,11 @@ pub enum Projection {
 }
 
 impl Camera {
-    /// Height of the view in degrees; `None` where rays are parallel.
+    /// Height of the view in degrees; `None` where rays are parallel or go everywhere.
     pub fn fov_deg(&self) -> Option<f64> {
         match self.projection {
             Projection::Perspective { half_height } => Some(2.0 * half_height.atan().to_degrees()),
-            Projection::Orthographic { .. } => None,
+            Projection::Orthographic { .. } | Projection::Panorama => None,
         }
     }
 }

@@ -47,10 +47,12 @@ mod validated;
 pub use camera::{Camera, Lens, Projection};
 pub use coated_body::{CoatEstimate, CoatedBody};
 pub use cook::{Cook1981, CookDistribution, CookFacets, DiffuseShare};
-pub use derived::{Energy, Estimate, PixelFilter};
+pub use derived::{DirectionTable, Energy, Estimate, PixelFilter};
 pub use description::{Distribution, PathDifference, Sampler};
 pub use document::SourceFile;
-pub use environment::{Environment, EnvironmentPart, EnvironmentShape};
+pub use environment::{
+    Environment, EnvironmentPart, EnvironmentPicture, EnvironmentShape, PictureSpectra,
+};
 pub use field_path::{FieldPath, Step};
 pub use file::SceneFile;
 pub use index::optical_constants;

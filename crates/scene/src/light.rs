@@ -78,31 +78,37 @@ impl Scene {
             .filter(|(_, object)| !matches!(object.shape, Shape::Plane { .. }))
             .filter_map(|(index, object)| {
                 let emission = self.material(object.material).emission()?;
-                Some((SourceKind::Object(index), emission))
+                Some((SourceKind::Object(index), emission, 1.0))
             });
         let parts = self.surroundings().into_iter().enumerate();
         let sends_only = self.settings().direct_light == DirectLight::Lights;
         let parts =
             parts.filter(|(_, part)| sends_only || part.shape != EnvironmentShape::Everywhere);
-        let parts = parts.map(|(index, part)| (SourceKind::Environment(index), part.emission));
+        let parts = parts.map(|(index, part)| {
+            let mean = match part.shape {
+                EnvironmentShape::Picture(picture) => picture.mean,
+                _ => 1.0,
+            };
+            (SourceKind::Environment(index), part.emission, mean)
+        });
         let lights = self.lights().iter().enumerate();
         let is_disc = |light: &Light| matches!(light.shape, LightShape::Disc { .. });
         let lights = lights.filter(|(_, light)| !is_disc(light));
-        let lights = lights.map(|(index, light)| (SourceKind::Light(index), light.emission));
+        let lights = lights.map(|(index, light)| (SourceKind::Light(index), light.emission, 1.0));
         objects
             .chain(parts)
             .chain(lights)
-            .map(|(kind, emission)| LightSource {
+            .map(|(kind, emission, mean)| LightSource {
                 kind,
                 emission,
-                brightness: self.brightness(emission),
+                brightness: mean * self.brightness(emission),
             })
             .filter(|source| source.brightness > 0.0)
             .collect()
     }
 
     /// What a ray sees that leaves the scene: the parts of the surroundings, then the discs of distant lights.
-    pub fn surroundings(&self) -> Vec<EnvironmentPart> {
+    pub fn surroundings(&self) -> Vec<EnvironmentPart<'_>> {
         let discs = self.lights().iter().filter_map(|light| match light.shape {
             LightShape::Disc { towards, height } => Some(EnvironmentPart {
                 shape: EnvironmentShape::Disc { towards, height },

@@ -117,6 +117,16 @@ pub const MAX_DISCS_OF_LIGHT: usize = 16;
 /// Roughness where it is not 0. The highlight's exponent (tan θ / m)² has a relative error of about 2⁻²³ / m²
 /// in `f32`: 3e-4 at m = 0.02, and growing to where the highlight of a smoother surface is mostly rounding.
 pub const ROUGHNESS: Range = Range::new(0.02, 1.0, "");
+/// Height of the sun.
+pub const SUN_ELEVATION_DEG: Range = Range::new(0.0, 90.0, "°");
+/// Turbidity of a sky.
+pub const TURBIDITY: Range = Range::new(
+    spectra::sky::ClearSky::TURBIDITY.0,
+    spectra::sky::ClearSky::TURBIDITY.1,
+    "",
+);
+/// A turn of the surroundings.
+pub const ROTATION_DEG: Range = Range::new(-360.0, 360.0, "°");
 /// The most slopes of a surface by Cook's model.
 pub const MAX_SLOPES: usize = 8;
 /// The constant c of Cook's Gaussian distribution.

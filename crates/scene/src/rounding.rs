@@ -1,5 +1,6 @@
 //! A scene as a GPU receives it: every number rounded to the nearest `f32`.
 
+use crate::EnvironmentPicture;
 use crate::{
     Camera, CoatEstimate, CoatedBody, Cook1981, CookFacets, DiffuseShare, Emission, Environment,
     Grain, Layer, Lens, Light, LightShape, Material, Microsurface, Object, Pattern, Projection,
@@ -88,6 +89,7 @@ impl RoundToF32 for Projection {
             Self::Perspective { half_height } => Self::Perspective {
                 half_height: half_height.rounded(),
             },
+            Self::Panorama => Self::Panorama,
             Self::Orthographic { half_height } => Self::Orthographic {
                 half_height: half_height.rounded(),
             },
@@ -329,6 +331,14 @@ impl RoundToF32 for Environment {
     fn rounded(&self) -> Self {
         match self {
             Self::Constant(emission) => Self::Constant(emission.rounded()),
+            Self::Picture { emission, picture } => Self::Picture {
+                emission: emission.rounded(),
+                picture: Arc::new(EnvironmentPicture {
+                    forward: picture.forward.rounded(),
+                    right: picture.right.rounded(),
+                    ..EnvironmentPicture::clone(picture)
+                }),
+            },
             Self::Gradient {
                 zenith,
                 horizon,

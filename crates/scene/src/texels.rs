@@ -12,14 +12,18 @@ pub struct Texels {
     pub width: u32,
     /// Rows.
     pub height: u32,
+    /// Texels of a pixel.
+    pub per_pixel: u32,
     /// The rows from top to bottom.
     pub values: Vec<[f32; 4]>,
 }
 
 impl Texels {
-    /// The texel of a pixel of one texel.
-    pub fn at(&self, column: u32, row: u32) -> [f32; 4] {
-        self.values[row as usize * self.width as usize + column as usize]
+    /// The texels of a pixel.
+    pub fn at(&self, [column, row]: [u32; 2]) -> &[[f32; 4]] {
+        let count = self.per_pixel as usize;
+        let first = (row as usize * self.width as usize + column as usize) * count;
+        &self.values[first..first + count]
     }
 }
 

@@ -21,6 +21,7 @@ mod effective_medium;
 mod formula;
 mod light_group;
 mod optical_constants;
+pub mod sky;
 mod spectral_image;
 mod spectrum;
 pub mod suggestion;

@@ -1,8 +1,9 @@
 //! environment.wgsl: what surrounds a scene.
 
 use crate::Check;
-use crate::scene_functions::{World, everything, pick, rounded, rows, unit, vector};
-use pellicle_tests::tolerances::{ARITHMETIC, DIRECTION};
+use crate::scene_functions::{World, everything, pick, pictured, rounded, rows, unit, vector};
+use glam::DVec3;
+use pellicle_tests::tolerances::{ARITHMETIC, DIRECTION, LIGHT_PDF, NEAR_POLE};
 use scene::EnvironmentShape;
 use std::sync::OnceLock;
 
@@ -24,6 +25,11 @@ pub(crate) fn checks() -> Vec<Check> {
             |a| sampled(furnace(), a),
             |a| density(furnace(), a),
         ),
+        of_world(
+            pictured(),
+            |a| sampled(pictured(), a),
+            |a| density(pictured(), a),
+        ),
     ]
     .into_iter()
     .flatten()
@@ -37,6 +43,11 @@ fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
         .map(|part| world.packed.frame.first_environment as usize + part)
         .collect();
     let others = parts.clone();
+    // The density of a picture jumps from cell to cell.
+    let is_picture = matches!(
+        part_of(world, parts[0] as f64),
+        EnvironmentShape::Picture(_)
+    );
     let mut numbers = rows(3, move |u| {
         Some(vec![pick(&parts, u[0]) as f64, u[1], u[2]])
     });
@@ -45,12 +56,14 @@ fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
     }
     let directions = rows(3, move |u| {
         let direction = rounded(unit(u[1], u[2]));
-        let row = [
-            [pick(&others, u[0]) as f64].as_slice(),
-            &direction.to_array(),
-        ]
-        .concat();
-        Some(row)
+        let part = pick(&others, u[0]) as f64;
+        let row = |d: DVec3| [[part].as_slice(), &d.to_array()].concat();
+        let is_clear = !is_picture
+            || [DVec3::X, DVec3::Y, DVec3::Z].iter().all(|&aside| {
+                let beside = |step: f64| density(&row((direction + step * aside).normalize()));
+                beside(-1e-4) == beside(1e-4)
+            });
+        is_clear.then(|| row(direction))
     });
     vec![
         Check {
@@ -59,10 +72,10 @@ fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
                 (3, 3),
                 "put3(0u, sample_environment(u32(a(0u)), vec2f(a(1u), a(2u))));",
             ),
-            proves: &["sample_environment"],
+            proves: if is_picture { OF_PICTURES } else { &["sample_environment"] },
             inputs: numbers,
             twin: sampled,
-            tolerance: DIRECTION,
+            tolerance: if is_picture { NEAR_POLE } else { DIRECTION },
         },
         Check {
             probe: world.probe(
@@ -70,15 +83,27 @@ fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
                 (4, 2),
                 "put(0u, environment_pdf(u32(a(0u)), a3(1u))); put(1u, environment_share(u32(a(0u)), a3(1u)));",
             ),
-            proves: &["environment_pdf", "environment_share"],
+            proves: if is_picture {
+                &["environment_picture_pdf", "environment_place"]
+            } else {
+                &["environment_pdf", "environment_share"]
+            },
             inputs: directions,
             twin: density,
-            tolerance: ARITHMETIC,
+            tolerance: if is_picture { LIGHT_PDF } else { ARITHMETIC },
         },
     ]
 }
 
-fn part_of(world: &World, object: f64) -> EnvironmentShape {
+/// What surroundings by a picture are made of.
+const OF_PICTURES: &[&str] = &[
+    "direction_table",
+    "interval_of",
+    "place_in_interval",
+    "sample_environment_picture",
+];
+
+fn part_of(world: &World, object: f64) -> EnvironmentShape<'_> {
     let part = object as usize - world.packed.frame.first_environment as usize;
     world.scene.surroundings()[part].shape
 }

@@ -61,6 +61,12 @@ pub(crate) fn everything() -> &'static World {
     WORLD.get_or_init(|| World::new("everything"))
 }
 
+/// Its surroundings are a picture, and its camera sees all directions.
+pub(crate) fn pictured() -> &'static World {
+    static WORLD: OnceLock<World> = OnceLock::new();
+    WORLD.get_or_init(|| World::new("everything_pictured"))
+}
+
 /// Its camera is orthographic.
 fn wedge() -> &'static World {
     static WORLD: OnceLock<World> = OnceLock::new();
@@ -221,6 +227,7 @@ fn cameras() -> Vec<Check> {
     vec![
         check(everything(), |a| camera_twin(everything(), a)),
         check(wedge(), |a| camera_twin(wedge(), a)),
+        check(pictured(), |a| camera_twin(pictured(), a)),
         Check {
             probe: everything().probe(&["camera"], (1, 1), "put(0u, filter_offset(a(0u)));"),
             proves: &["filter_offset"],
@@ -500,11 +507,11 @@ fn diffuse_factor() -> Check {
     Check {
         probe: world.probe(
             &["factor"],
-            (5, 2),
-            "let factor = diffuse_factor(u32(a(0u)), a3(1u), a(4u)); put(0u, f32(factor.spectrum)); put(1u, f32(factor.kind));",
+            (5, 1),
+            "let factor = diffuse_factor(u32(a(0u)), a3(1u), a(4u)); put(0u, f32(1000u * factor.kind + factor.spectrum));",
         ),
         proves: &[
-            "chosen_texel",
+            "chosen_pixel",
             "diffuse_factor",
             "picture_place",
             "reflectance_spectrum",
@@ -516,22 +523,22 @@ fn diffuse_factor() -> Check {
     }
 }
 
-/// The number of the spectrum or texel, and the kind of factor.
+/// The number of the spectrum or texel, and a thousand times the kind of factor.
 fn factor_of_pattern(a: &[f64]) -> Vec<f64> {
     let (world, object) = (everything(), a[0] as usize);
     let Material::Diffuse { reflectance } = world.material(object) else {
-        return vec![f64::NAN; 2];
+        return vec![f64::NAN];
     };
     let shape = world.shape(object);
     match reference::pattern_reflectance(reflectance, shape, vector(&a[1..]), a[4]) {
-        Reflectance::Spectrum(spectrum) => vec![spectrum.index() as f64, 1.0],
+        Reflectance::Spectrum(spectrum) => vec![1000.0 + spectrum.index() as f64],
         Reflectance::Smooth(coefficients) => {
             let material = world.scene.objects()[object].material.index();
             let first = world.packed.materials[material].picture as usize + 1;
             let is_it = |texel: &[f32; 4]| (0..3).all(|i| f64::from(texel[i]) == coefficients[i]);
             let texels = &world.packed.texels[first..];
             let place = texels.iter().position(is_it).expect("one of its own");
-            vec![(first + place) as f64, 13.0]
+            vec![(13_000 + first + place) as f64]
         }
     }
 }

@@ -78,7 +78,17 @@ impl Colours {
 pub(super) fn fit(colours: &Colours, rgb: [f64; 3]) -> SigmoidReflectance {
     // S⁻¹(g) = (g − 1/2) / √(g (1 − g)), kept from the ends, where the derivatives vanish.
     let grey = (rgb.iter().sum::<f64>() / 3.0).clamp(DARKEST, 1.0 - DARKEST);
-    let mut best = [0.0, 0.0, (grey - 0.5) / (grey * (1.0 - grey)).sqrt()];
+    let flat = [0.0, 0.0, (grey - 0.5) / (grey * (1.0 - grey)).sqrt()];
+    fit_from(colours, rgb, SigmoidReflectance { coefficients: flat }).0
+}
+
+/// The same from another start, and whether it came to the colour.
+pub(super) fn fit_from(
+    colours: &Colours,
+    rgb: [f64; 3],
+    start: SigmoidReflectance,
+) -> (SigmoidReflectance, bool) {
+    let mut best = start.coefficients;
     let (found, mut jacobian) = colours.with_derivatives(best);
     let mut error = residual(rgb, found);
     let mut damping = 1e-6;
@@ -97,7 +107,8 @@ pub(super) fn fit(colours: &Colours, rgb: [f64; 3]) -> SigmoidReflectance {
             damping = (damping * 10.0).max(1e-9);
         }
     }
-    SigmoidReflectance { coefficients: best }
+    let is_good = squares(error) < GOOD_ENOUGH * GOOD_ENOUGH;
+    (SigmoidReflectance { coefficients: best }, is_good)
 }
 
 fn residual(wanted: [f64; 3], found: [f64; 3]) -> [f64; 3] {

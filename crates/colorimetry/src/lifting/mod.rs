@@ -20,7 +20,7 @@
 
 mod fit;
 
-use fit::{Colours, fit};
+use fit::{Colours, fit, fit_from};
 
 /// The sigmoid of a quadratic in wavelength: a smooth reflectance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -38,6 +38,18 @@ impl SigmoidReflectance {
     /// The reflectance of a colour in linear sRGB. What lies outside \[0, 1\] is taken to the nearest end.
     pub fn of_linear_srgb(rgb: [f64; 3]) -> Self {
         fit(Colours::shared(), rgb.map(|value| value.clamp(0.0, 1.0)))
+    }
+
+    /// The reflectance of a colour in linear sRGB like [`Self::of_linear_srgb`]'s, found sooner where it is near this one.
+    #[must_use]
+    pub fn moved_to_linear_srgb(self, rgb: [f64; 3]) -> Self {
+        let rgb = rgb.map(|value| value.clamp(0.0, 1.0));
+        let (found, is_good) = fit_from(Colours::shared(), rgb, self);
+        if is_good {
+            found
+        } else {
+            Self::of_linear_srgb(rgb)
+        }
     }
 
     /// Its colour in linear sRGB.

@@ -1,8 +1,8 @@
 //! Lights: which objects they are, and those that are no objects, which follow the others and which no ray meets.
 
+use super::texels::Pictures;
 use super::{light, vec3};
 use crate::layout;
-use glam::DVec3;
 use scene::{Emission, EnvironmentShape, LightShape, Scene, SourceKind};
 
 /// Appends the surroundings and the lights that are no objects, each with a material of its own, and numbers all that light is
@@ -11,18 +11,26 @@ pub(super) fn append(
     scene: &Scene,
     objects: &mut Vec<layout::Object>,
     materials: &mut Vec<layout::Material>,
+    (pictures, numbers): (&mut Pictures, &mut Vec<f32>),
 ) {
-    let mut add = |mut object: layout::Object, emission: Emission| {
+    let mut add = |mut object: layout::Object, emission: Emission, picture: u32| {
         (object.material, object.light) = (materials.len() as u32, layout::NONE);
         objects.push(object);
-        materials.push(emitter(emission));
+        materials.push(layout::Material {
+            picture,
+            ..emitter(emission)
+        });
     };
     for part in scene.surroundings() {
-        add(surrounding(part.shape), part.emission);
+        let head = match part.shape {
+            EnvironmentShape::Picture(picture) => pictures.add_environment(picture, numbers),
+            _ => layout::NONE,
+        };
+        add(surrounding(part.shape), part.emission, head);
     }
     for light in scene.lights() {
         if let Some(object) = single_direction(light.shape) {
-            add(object, light.emission);
+            add(object, light.emission, layout::NONE);
         }
     }
     for (number, source) in scene.light_sources().iter().enumerate() {
@@ -44,19 +52,24 @@ fn object_of(scene: &Scene, kind: SourceKind) -> usize {
     }
 }
 
-fn surrounding(shape: EnvironmentShape) -> layout::Object {
-    let (shape, normal, radius) = match shape {
-        EnvironmentShape::Everywhere => (layout::SHAPE_EVERYWHERE, DVec3::ZERO, 0.0),
-        EnvironmentShape::Horizon => (layout::SHAPE_HORIZON, DVec3::ZERO, 0.0),
-        EnvironmentShape::Pole(pole) => (layout::SHAPE_POLE, pole, 0.0),
-        EnvironmentShape::Disc { towards, height } => (layout::SHAPE_DISC, towards, height),
-    };
-    layout::Object {
-        shape,
-        normal: vec3(normal),
-        radius: radius as f32,
-        ..Default::default()
+fn surrounding(shape: EnvironmentShape<'_>) -> layout::Object {
+    let mut packed = layout::Object::default();
+    match shape {
+        EnvironmentShape::Everywhere => packed.shape = layout::SHAPE_EVERYWHERE,
+        EnvironmentShape::Horizon => packed.shape = layout::SHAPE_HORIZON,
+        EnvironmentShape::Pole(pole) => {
+            (packed.shape, packed.normal) = (layout::SHAPE_POLE, vec3(pole));
+        }
+        EnvironmentShape::Picture(picture) => {
+            packed.shape = layout::SHAPE_PICTURE;
+            (packed.normal, packed.tangent) = (vec3(picture.forward), vec3(picture.right));
+        }
+        EnvironmentShape::Disc { towards, height } => {
+            (packed.shape, packed.normal) = (layout::SHAPE_DISC, vec3(towards));
+            packed.radius = height as f32;
+        }
     }
+    packed
 }
 
 /// A light of a single direction at each place; none for a disc.

@@ -8,6 +8,9 @@ const SWIRLS: u64 = 9 * (3 + 6);
 /// Passes for a layer of a stack: its own, and those of the series for small thicknesses.
 const LAYER: u64 = 1 + 8;
 
+/// Passes of the two searches by which a direction towards a picture of the surroundings is drawn, among 1024 and 512.
+const SEARCHES: u64 = 1 + 10 + 1 + 9;
+
 /// A bound on the passes of all loops of one sample: those of tracing it (every segment and every film on the way to a light looks
 /// at every object, and works out thicknesses), and those of its spectrum (every group of four bands looks at every vertex, with
 /// its own factor and that of its connection, and at every crossing).
@@ -26,7 +29,7 @@ pub(super) fn of_sample(scene: &Scene, limits: RecordLimits) -> u64 {
     let factors =
         (2 * segments + crossings) * (1 + most(layer_passes)) + facets * (1 + most(layer_passes));
     let spectrum = groups * (1 + segments + factors + 2 * light_groups);
-    let environment = scene.surroundings().len() as u64 + 1;
+    let environment = scene.surroundings().len() as u64 + 1 + segments * SEARCHES;
     // The sum of the lights' estimates and the choice among them.
     let choices = segments * 2 * (1 + scene.light_sources().len() as u64);
     1 + trace + choices + environment + spectrum + 3 * light_groups

@@ -1,7 +1,7 @@
 //! Pictures of four numbers in each place, in one list of texels. Before the texels of each stands its head.
 
 use crate::layout;
-use scene::{Material, Pattern, Texels};
+use scene::{EnvironmentPicture, Material, Pattern, Texels};
 use std::sync::Arc;
 
 /// The pictures of a scene.
@@ -26,6 +26,28 @@ impl Pictures {
             }
             _ => layout::NONE,
         }
+    }
+
+    /// The head of a picture of the surroundings: width and height in pixels, texels of a pixel, and the first of its table's numbers.
+    ///
+    /// The table: columns, rows, heights of the rows' edges, running probability of the rows, and of the cells of each row.
+    pub(super) fn add_environment(
+        &mut self,
+        picture: &EnvironmentPicture,
+        numbers: &mut Vec<f32>,
+    ) -> u32 {
+        let (head, texels) = (self.texels.len() as u32, &picture.texels);
+        let of_picture = [texels.width, texels.height, texels.per_pixel];
+        let [width, height, per_pixel] = of_picture.map(|count| count as f32);
+        self.texels
+            .push([width, height, per_pixel, numbers.len() as f32]);
+        self.texels.extend_from_slice(&texels.values);
+        let table = &picture.table;
+        numbers.extend([table.columns as f32, table.rows as f32]);
+        for list in [&table.heights, &table.marginal, &table.conditional] {
+            numbers.extend_from_slice(list);
+        }
+        head
     }
 
     /// The head of a picture: width and height in pixels, then the size on planes and rectangles, 0 for its natural one.

@@ -1,10 +1,12 @@
 //! What both renderers look up and neither should work out by itself, made once from a validated scene.
 
 pub(crate) mod coats;
+mod direction_table;
 mod energy;
 mod estimate;
 mod filter;
 
+pub use direction_table::DirectionTable;
 pub use energy::Energy;
 pub use estimate::Estimate;
 pub(crate) use estimate::estimates;

@@ -27,6 +27,20 @@ pub enum Camera {
         #[serde(default)]
         filter: Filter,
     },
+    /// All directions by longitude and latitude: a picture for `environment = { type = "image" }`. Best twice as wide as high.
+    Panorama {
+        /// Where the camera stands.
+        position: [f64; 3],
+        /// The point in the middle of the picture; straight towards −Z when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        look_at: Option<[f64; 3]>,
+        /// A direction that points upwards in the picture.
+        #[serde(default = "up_default")]
+        up: [f64; 3],
+        /// How a pixel gathers light from about its middle.
+        #[serde(default)]
+        filter: Filter,
+    },
     /// All rays are parallel.
     Orthographic {
         /// The point that the middle ray starts from.

@@ -1,8 +1,10 @@
 //! The surroundings as written.
 
-use super::Emission;
+use super::{Emission, Reflectance};
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 /// What surrounds the objects.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -13,6 +15,54 @@ pub enum Environment {
     Constant {
         /// The radiance.
         emission: Emission,
+        /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, that of all such lights
+        /// with this spectrum.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        light_group: Option<String>,
+    },
+    /// A picture of all directions by longitude and latitude. Its middle is towards −Z, its right half towards +X, its top towards
+    /// +Y.
+    Image {
+        /// A Radiance file (.hdr) or an OpenEXR file; relative to the scene file. Colours are linear with the primaries of sRGB: each
+        /// becomes a smooth spectrum times the illuminant's, so that (1, 1, 1) is the illuminant. The spectra of a spectral
+        /// OpenEXR file are taken as they are.
+        image: PathBuf,
+        /// Factor of all radiance.
+        #[serde(default = "one")]
+        #[schemars(range(min = limits::EMISSION.low, max = limits::EMISSION.high))]
+        scale: f64,
+        /// The illuminant that white light in the picture has; "D65" when absent. Not for a spectral file.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        illuminant: Option<String>,
+        /// By how many degrees the surroundings are turned about +Y, from +Z towards +X.
+        #[serde(default)]
+        #[schemars(range(min = limits::ROTATION_DEG.low, max = limits::ROTATION_DEG.high))]
+        rotation_deg: f64,
+        /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, that of all such lights
+        /// with this spectrum.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        light_group: Option<String>,
+    },
+    /// A clear sky by day over flat ground (Preetham, Shirley and Smits 1999), in W m⁻² sr⁻¹ nm⁻¹. The sun's disc is not in it.
+    Sky {
+        /// Height of the sun over the horizon in degrees.
+        #[schemars(range(min = limits::SUN_ELEVATION_DEG.low, max = limits::SUN_ELEVATION_DEG.high))]
+        sun_elevation_deg: f64,
+        /// Direction of the sun in degrees: 0 towards −Z, 90 towards +X.
+        #[serde(default)]
+        #[schemars(range(min = limits::ROTATION_DEG.low, max = limits::ROTATION_DEG.high))]
+        sun_azimuth_deg: f64,
+        /// Haze: 2 is very clear, 3 clear, 6 hazy.
+        #[serde(default = "clear")]
+        #[schemars(range(min = limits::TURBIDITY.low, max = limits::TURBIDITY.high))]
+        turbidity: f64,
+        /// Reflectance of the ground, which is lit by the sun and the sky; 0.2 when absent.
+        #[serde(default = "ground")]
+        ground: Reflectance,
+        /// Factor of all radiance.
+        #[serde(default = "one")]
+        #[schemars(range(min = limits::EMISSION.low, max = limits::EMISSION.high))]
+        scale: f64,
         /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, that of all such lights
         /// with this spectrum.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -32,4 +82,16 @@ pub enum Environment {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         light_group: Option<String>,
     },
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn clear() -> f64 {
+    3.0
+}
+
+fn ground() -> Reflectance {
+    Reflectance::Constant(0.2)
 }

@@ -20,6 +20,12 @@ pub(crate) fn check(checks: &mut Checks, camera: &description::Camera) -> Option
             up,
             ..
         } => (*position, *look_at, *up),
+        description::Camera::Panorama {
+            position: [x, y, z],
+            look_at,
+            up,
+            ..
+        } => ([*x, *y, *z], look_at.unwrap_or([*x, *y, *z - 1.0]), *up),
     };
     let projection = projection(checks, &top, camera);
     let (position_field, look_at_field) = (top.key("position"), top.key("look_at"));
@@ -43,7 +49,8 @@ pub(crate) fn check(checks: &mut Checks, camera: &description::Camera) -> Option
             };
             (lens, filter)
         }
-        description::Camera::Orthographic { filter, .. } => (None, filter),
+        description::Camera::Orthographic { filter, .. }
+        | description::Camera::Panorama { filter, .. } => (None, filter),
     };
     Some(Camera {
         origin,
@@ -87,6 +94,7 @@ fn projection(
                 half_height: (fov.to_radians() / 2.0).tan(),
             })
         }
+        description::Camera::Panorama { .. } => Some(Projection::Panorama),
         description::Camera::Orthographic { height, .. } => {
             let height = checks.number(&top.key("height"), height, &limits::LENGTH)?;
             Some(Projection::Orthographic {

@@ -3,7 +3,12 @@
 use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
-use crate::{Environment, FieldPath, description};
+use super::{environment_picture, sky};
+use crate::description::{Emission, EmissionSpectrum, Extrapolate, Strength};
+use crate::problem::{Problem, ProblemKind};
+use crate::{Environment, FieldPath, PictureSpectra, description, limits};
+use std::path::Path;
+use std::sync::Arc;
 
 /// Checks `[environment]`; without one it is black.
 pub(crate) fn check(
@@ -29,6 +34,38 @@ pub(crate) fn check(
         Some(description::Environment::Constant {
             emission: written, ..
         }) => emission("emission", written).map(Environment::Constant),
+        Some(description::Environment::Sky {
+            sun_elevation_deg,
+            sun_azimuth_deg,
+            turbidity,
+            ground,
+            scale,
+            ..
+        }) => {
+            let sun = [*sun_elevation_deg, *sun_azimuth_deg];
+            let sphere = sky::check(checks, spectra, (sun, *turbidity), ground);
+            let factor = times(EmissionSpectrum::Constant { constant: 1.0 }, *scale);
+            let emission = spectra.emission(checks, &top, &factor, Radiator::Surroundings);
+            Some(Environment::Picture {
+                emission: emission?,
+                picture: Arc::new(sphere?.turned(-*sun_azimuth_deg)),
+            })
+        }
+        Some(description::Environment::Image {
+            image,
+            scale,
+            illuminant,
+            rotation_deg,
+            ..
+        }) => {
+            let written = Image {
+                file: image,
+                scale: *scale,
+                illuminant: illuminant.as_deref(),
+                rotation_deg: *rotation_deg,
+            };
+            written.check(checks, spectra)
+        }
         Some(description::Environment::Gradient {
             zenith,
             horizon,
@@ -47,5 +84,62 @@ pub(crate) fn check(
                 ground: ground?,
             })
         }
+    }
+}
+
+/// A spectrum times a factor.
+fn times(spectrum: EmissionSpectrum, scale: f64) -> Emission {
+    Emission {
+        spectrum,
+        strength: Strength {
+            scale: Some(scale),
+            ..Strength::default()
+        },
+    }
+}
+
+/// A picture of all directions as written.
+struct Image<'a> {
+    file: &'a Path,
+    scale: f64,
+    illuminant: Option<&'a str>,
+    rotation_deg: f64,
+}
+
+impl Image<'_> {
+    fn check(&self, checks: &mut Checks, spectra: &mut SpectrumList<'_>) -> Option<Environment> {
+        let top = FieldPath::root().key("environment");
+        let turn = checks.number(
+            &top.key("rotation_deg"),
+            self.rotation_deg,
+            &limits::ROTATION_DEG,
+        );
+        let sphere =
+            environment_picture::read(checks, &top.key("image"), self.file, spectra.grid());
+        let is_spectral = sphere
+            .as_ref()
+            .is_some_and(|s| s.spectra == PictureSpectra::Bands);
+        let lamp = if is_spectral {
+            EmissionSpectrum::Constant { constant: 1.0 }
+        } else {
+            EmissionSpectrum::Illuminant {
+                illuminant: self.illuminant.unwrap_or("D65").to_owned(),
+                extrapolate: Extrapolate::Error,
+            }
+        };
+        let factor = times(lamp, self.scale);
+        let emission = spectra.emission(checks, &top, &factor, Radiator::Surroundings);
+        let (sphere, emission) = (sphere?, emission?);
+        if is_spectral && self.illuminant.is_some() {
+            let message = "the picture has spectra of its own, which no illuminant changes";
+            let field = top.key("illuminant");
+            let problem = Problem::new(ProblemKind::Inconsistent, &field, message);
+            checks.report(problem.involving(top.key("image")));
+            return None;
+        }
+        Some(Environment::Picture {
+            emission,
+            picture: Arc::new(sphere.turned(turn?)),
+        })
     }
 }

@@ -54,6 +54,7 @@ pub(super) fn picture(checks: &mut Checks, field: &FieldPath, file: &Path) -> Op
     Some(Arc::new(Texels {
         width: picture.width(),
         height: picture.height(),
+        per_pixel: 1,
         values: picture.pixels().map(|pixel| texels[&pixel.0]).collect(),
     }))
 }

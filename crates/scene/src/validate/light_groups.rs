@@ -56,6 +56,8 @@ fn name_of_material(material: &description::Material) -> Option<&str> {
 fn name_of_environment(environment: Option<&description::Environment>) -> Option<&str> {
     match environment? {
         description::Environment::Constant { light_group, .. }
+        | description::Environment::Image { light_group, .. }
+        | description::Environment::Sky { light_group, .. }
         | description::Environment::Gradient { light_group, .. } => light_group.as_deref(),
     }
 }
@@ -173,6 +175,7 @@ fn lights<'a>(
     let name = name_of_environment(description.environment.as_ref());
     match &mut parts.environment {
         Environment::Constant(everywhere) => lights.push((everywhere, name)),
+        Environment::Picture { emission, .. } => lights.push((emission, name)),
         Environment::Gradient {
             zenith,
             horizon,

@@ -60,6 +60,11 @@ impl<'a> SpectrumList<'a> {
         }
     }
 
+    /// The bands.
+    pub(crate) fn grid(&self) -> Option<BandGrid> {
+        self.grid
+    }
+
     /// All spectra, at the positions that their numbers say.
     pub(crate) fn into_tables(self) -> Vec<BandTable> {
         self.tables

@@ -18,6 +18,7 @@ pub use illuminants::{
 pub use materials::{MaterialInfo, material_info, material_names, optical_constants};
 pub use observer::{Observer, UnknownObserver, observer_1931};
 pub use radiators::black_body;
+pub(crate) use radiators::components as daylight_components;
 pub use reflectances::{reflectance, reflectance_names};
 
 /// Maximum luminous efficacy of radiation, lm/W (CIE 018:2019; 683 as the CIE rounds 683.002).

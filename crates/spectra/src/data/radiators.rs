@@ -95,7 +95,7 @@ fn tabulated(points: impl Iterator<Item = (f64, f64)>) -> Tabulated {
 }
 
 /// S₀, S₁ and S₂.
-fn components() -> &'static [Tabulated; 3] {
+pub(crate) fn components() -> &'static [Tabulated; 3] {
     fn read(table: &Table) -> Result<[Tabulated; 3], TableError> {
         Ok([
             table.series("S0")?,

@@ -1,0 +1,74 @@
+//! Surroundings by a picture of all directions.
+
+use crate::picture::{chosen_pixel, half_turns, smooth_value};
+use glam::DVec3;
+use scene::{DirectionTable, EnvironmentPicture, PictureSpectra};
+use std::f64::consts::TAU;
+
+/// Place of a direction in the picture, from its upper left corner in its width and height.
+pub(crate) fn place_of(picture: &EnvironmentPicture, direction: DVec3) -> [f64; 2] {
+    let longitude = direction
+        .dot(picture.right)
+        .atan2(direction.dot(picture.forward));
+    [0.5 + longitude / TAU, half_turns(direction, DVec3::Y)]
+}
+
+/// The pixel that a path takes for a direction, by a random number.
+pub fn environment_pixel(picture: &EnvironmentPicture, direction: DVec3, random: f64) -> [u32; 2] {
+    chosen_pixel(&picture.texels, place_of(picture, direction), true, random)
+}
+
+/// What a pixel has in a band at a wavelength.
+pub(crate) fn pixel_value(
+    picture: &EnvironmentPicture,
+    pixel: [u32; 2],
+    band: usize,
+    nm: f64,
+) -> f64 {
+    let texels = picture.texels.at(pixel);
+    match picture.spectra {
+        PictureSpectra::Bands => f64::from(texels[band / 4][band % 4]),
+        PictureSpectra::Smooth => {
+            let [c0, c1, c2, scale] = texels[0].map(f64::from);
+            scale * smooth_value([c0, c1, c2], nm)
+        }
+    }
+}
+
+/// A direction drawn in proportion to the brightness of the cells of the picture's table.
+pub(crate) fn sample_picture(picture: &EnvironmentPicture, u: f64, v: f64) -> DVec3 {
+    let table = &picture.table;
+    let (row, down) = inverted(&table.marginal, u);
+    let (column, across) = inverted(columns_of(table, row), v);
+    let [top, bottom] = [table.heights[row], table.heights[row + 1]].map(f64::from);
+    let height = top + (bottom - top) * down;
+    let longitude = TAU * ((column as f64 + across) / f64::from(table.columns) - 0.5);
+    let radius = (1.0 - height * height).max(0.0).sqrt();
+    let around = picture.right * longitude.sin() + picture.forward * longitude.cos();
+    around * radius + DVec3::Y * height
+}
+
+/// Density of [`sample_picture`], sr⁻¹: the probability of the direction's cell over its solid angle.
+pub(crate) fn picture_pdf(picture: &EnvironmentPicture, direction: DVec3) -> f64 {
+    let table = &picture.table;
+    let [across, down] = place_of(picture, direction);
+    let cell =
+        |place: f64, count: u32| ((place * f64::from(count)) as usize).min(count as usize - 1);
+    let (row, column) = (cell(down, table.rows), cell(across, table.columns));
+    let step = |edges: &[f32], i: usize| f64::from(edges[i + 1]) - f64::from(edges[i]);
+    let probability = step(&table.marginal, row) * step(columns_of(table, row), column);
+    let solid_angle = -step(&table.heights, row) * TAU / f64::from(table.columns);
+    probability / solid_angle
+}
+
+fn columns_of(table: &DirectionTable, row: usize) -> &[f32] {
+    let edges = table.columns as usize + 1;
+    &table.conditional[row * edges..(row + 1) * edges]
+}
+
+/// The interval between edges that a number falls into, and where in it.
+fn inverted(edges: &[f32], u: f64) -> (usize, f64) {
+    let index = edges.partition_point(|&edge| f64::from(edge) <= u) - 1;
+    let [low, high] = [edges[index], edges[index + 1]].map(f64::from);
+    (index, (u - low) / (high - low))
+}

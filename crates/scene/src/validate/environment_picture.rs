@@ -1,0 +1,187 @@
+//! Pictures of the surroundings: from files to texels and a table of directions.
+
+use super::checks::Checks;
+use super::picture_file::{LightFile, read_light};
+use crate::derived::DirectionTable;
+use crate::limits;
+use crate::problem::{Problem, ProblemKind};
+use crate::{EnvironmentPicture, FieldPath, PictureSpectra, Texels};
+use colorimetry::lifting::SigmoidReflectance;
+use glam::DVec3;
+use rayon::prelude::*;
+use spectra::{BandGrid, SpectralImage};
+use std::f64::consts::PI;
+use std::path::Path;
+
+/// A picture of all directions as a file has it.
+pub(super) struct Sphere {
+    pub(super) texels: Texels,
+    pub(super) spectra: PictureSpectra,
+    /// Mean radiance over wavelength of each pixel.
+    pub(super) brightness: Vec<f32>,
+}
+
+impl Sphere {
+    /// Mean radiance over all directions and wavelengths.
+    fn mean(&self) -> f64 {
+        let rows = self.brightness.chunks(self.texels.width as usize);
+        let turn = PI / f64::from(self.texels.height);
+        let of_row = |(row, pixels): (u32, &[f32])| {
+            let share = ((f64::from(row) * turn).cos() - (f64::from(row + 1) * turn).cos()) / 2.0;
+            share * pixels.iter().map(|&b| f64::from(b)).sum::<f64>() / pixels.len() as f64
+        };
+        (0..).zip(rows).map(of_row).sum()
+    }
+
+    /// The picture with its middle turned from −Z by an angle.
+    pub(super) fn turned(self, rotation_deg: f64) -> EnvironmentPicture {
+        let (sine, cosine) = rotation_deg.to_radians().sin_cos();
+        let table = DirectionTable::new(self.texels.width, self.texels.height, &self.brightness);
+        let mean = self.mean();
+        EnvironmentPicture {
+            texels: self.texels,
+            spectra: self.spectra,
+            forward: DVec3::new(-sine, 0.0, -cosine),
+            right: DVec3::new(cosine, 0.0, -sine),
+            mean,
+            table,
+        }
+    }
+}
+
+/// Reads a picture of all directions.
+pub(super) fn read(
+    checks: &mut Checks,
+    field: &FieldPath,
+    file: &Path,
+    grid: Option<BandGrid>,
+) -> Option<Sphere> {
+    let path = checks.directory.join(file);
+    let found = match read_light(&path) {
+        Ok(LightFile::Colours { width, rgb }) => lifted(width, &rgb).ok_or_else(unusable),
+        Ok(LightFile::Spectra(image)) => match grid {
+            Some(grid) => resampled(&image, &grid),
+            None => return None,
+        },
+        Err(error) => Err(error.to_string()),
+    };
+    match found {
+        Ok(sphere) => Some(sphere),
+        Err(reason) => {
+            let message = format!("{}: {reason}", path.display());
+            checks.report(Problem::new(ProblemKind::File, field, message));
+            None
+        }
+    }
+}
+
+fn unusable() -> String {
+    format!(
+        "has a radiance that is no finite number or above {}",
+        limits::EMISSION.high
+    )
+}
+
+/// Colours as smooth spectra: each is a factor, twice its largest part, times a reflectance of at most a half, which makes it
+/// smoother than a brighter one would be.
+fn lifted(width: u32, rgb: &[[f32; 3]]) -> Option<Sphere> {
+    let is_sound = |value: &f32| value.is_finite() && f64::from(*value) <= limits::EMISSION.high;
+    if !rgb.iter().flatten().all(is_sound) {
+        return None;
+    }
+    let texel_of_row = |row: &[[f32; 3]]| {
+        let mut before = SigmoidReflectance::default();
+        let texel = |&colour: &[f32; 3]| {
+            let colour = colour.map(|value| f64::from(value.max(0.0)));
+            let scale = 2.0 * colour.into_iter().fold(0.0, f64::max);
+            if scale > 0.0 {
+                before = before.moved_to_linear_srgb(colour.map(|value| value / scale));
+            }
+            let [c0, c1, c2] = before.coefficients;
+            [c0, c1, c2, scale].map(|value| value as f32)
+        };
+        row.iter().map(texel).collect::<Vec<_>>()
+    };
+    let rows = rgb.par_chunks(width as usize);
+    let brightness = rgb.iter().map(|colour| {
+        let sum: f32 = colour.iter().map(|value| value.max(0.0)).sum();
+        sum / 3.0
+    });
+    Some(Sphere {
+        texels: Texels {
+            width,
+            height: (rgb.len() / width as usize) as u32,
+            per_pixel: 1,
+            values: rows.flat_map_iter(texel_of_row).collect(),
+        },
+        spectra: PictureSpectra::Smooth,
+        brightness: brightness.collect(),
+    })
+}
+
+/// Spectra as means over the bands of a grid.
+fn resampled(image: &SpectralImage, grid: &BandGrid) -> Result<Sphere, String> {
+    let own = image.bands();
+    let (low, high) = (own.min_nm(), own.max_nm());
+    if low > grid.min_nm() + 1e-6 || high < grid.max_nm() - 1e-6 {
+        return Err(format!(
+            "the spectra cover {low} to {high} nm, but the bands cover {} to {} nm",
+            grid.min_nm(),
+            grid.max_nm()
+        ));
+    }
+    let weights: Vec<Vec<(usize, f32)>> = (0..grid.count())
+        .map(|band| overlaps(own, grid, band))
+        .collect();
+    let count = own.count() as usize;
+    let pixels: Vec<Vec<f32>> = image
+        .radiance()
+        .par_chunks(count)
+        .map(|own| {
+            let mean = |weights: &Vec<(usize, f32)>| {
+                weights.iter().map(|&(i, w)| own[i].max(0.0) * w).sum()
+            };
+            weights.iter().map(mean).collect()
+        })
+        .collect();
+    let is_sound = |value: &f32| value.is_finite() && f64::from(*value) <= limits::EMISSION.high;
+    if !pixels.iter().flatten().all(is_sound) {
+        return Err(unusable());
+    }
+    Ok(banded(image.width(), image.height(), &pixels))
+}
+
+/// A picture of which each pixel has its bands.
+pub(super) fn banded(width: u32, height: u32, pixels: &[Vec<f32>]) -> Sphere {
+    let of_pixel = |bands: &Vec<f32>| {
+        let last = bands.last().copied().unwrap_or_default();
+        let groups = bands.chunks(4);
+        groups
+            .map(|group| std::array::from_fn(|lane| group.get(lane).copied().unwrap_or(last)))
+            .collect::<Vec<[f32; 4]>>()
+    };
+    let mean = |bands: &Vec<f32>| bands.iter().sum::<f32>() / bands.len().max(1) as f32;
+    Sphere {
+        texels: Texels {
+            width,
+            height,
+            per_pixel: pixels.first().map_or(0, |bands| bands.len().div_ceil(4)) as u32,
+            values: pixels.iter().flat_map(of_pixel).collect(),
+        },
+        spectra: PictureSpectra::Bands,
+        brightness: pixels.iter().map(mean).collect(),
+    }
+}
+
+/// The bands of `own` that a band of `grid` lies over, each with its share of it.
+fn overlaps(own: &BandGrid, grid: &BandGrid, band: u32) -> Vec<(usize, f32)> {
+    let ends =
+        |grid: &BandGrid, band: u32| (grid.wavelength_nm(band, 0.0), grid.wavelength_nm(band, 1.0));
+    let (low, high) = ends(grid, band);
+    let share = |index: u32| {
+        let (own_low, own_high) = ends(own, index);
+        let width = own_high.min(high) - own_low.max(low);
+        (width > 0.0).then_some((index as usize, (width / (high - low)) as f32))
+    };
+    (0..own.count()).filter_map(share).collect()
+}

@@ -1,0 +1,85 @@
+// Surroundings by a picture of all directions.
+
+/// The table of a picture, by which directions are drawn.
+struct DirectionTable {
+    columns: u32,
+    rows: u32,
+    /// First of the heights of the rows' edges, from the top.
+    heights: u32,
+    /// First of the running probabilities of the rows.
+    marginal: u32,
+    /// First of those of the cells of the first row.
+    conditional: u32,
+}
+
+fn direction_table(light: u32) -> DirectionTable {
+    let first = u32(texel_at(materials[objects[light].material].picture).w);
+    let columns = u32(number_at(first));
+    let rows = u32(number_at(first + 1u));
+    let heights = first + 2u;
+    return DirectionTable(columns, rows, heights, heights + rows + 1u, heights + 2u * (rows + 1u));
+}
+
+/// Place of a direction in the picture, from its upper left corner in its width and height.
+fn environment_place(light: u32, direction: vec3f) -> vec2f {
+    let aside = dot(direction, objects[light].tangent);
+    // Straight up and down every longitude is right.
+    let angle = polar_angle(dot(direction, objects[light].normal), max(abs(aside), 1e-30));
+    let longitude = select(angle, -angle, aside < 0.0) / (2.0 * PI);
+    return vec2f(0.5 + longitude, polar_angle(direction.y, length(direction.xz)) / PI);
+}
+
+/// The first texel of the pixel that a path takes for a direction, by a random number.
+fn environment_texel(light: u32, direction: vec3f, random: f32) -> u32 {
+    let head = materials[objects[light].material].picture;
+    let pixel = chosen_pixel(head, environment_place(light, direction), true, random);
+    return head + 1u + pixel * u32(texel_at(head).z);
+}
+
+/// The interval between `count` + 1 rising numbers from 0 to 1 that `u` falls into.
+fn interval_of(first: u32, count: u32, u: f32) -> u32 {
+    var low = 0u;
+    var high = count;
+    while (high - low > 1u) {
+        let middle = (low + high) / 2u;
+        if (number_at(first + middle) <= u) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+/// Where a number lies between the edges of its interval.
+fn place_in_interval(edge: u32, u: f32) -> f32 {
+    let low = number_at(edge);
+    return min((u - low) / (number_at(edge + 1u) - low), 1.0);
+}
+
+/// A direction drawn in proportion to the brightness of the cells of the picture's table.
+fn sample_environment_picture(light: u32, random: vec2f) -> vec3f {
+    let table = direction_table(light);
+    let row = interval_of(table.marginal, table.rows, random.x);
+    let top = number_at(table.heights + row);
+    let bottom = number_at(table.heights + row + 1u);
+    let height = top + (bottom - top) * place_in_interval(table.marginal + row, random.x);
+    let cells = table.conditional + row * (table.columns + 1u);
+    let column = interval_of(cells, table.columns, random.y);
+    let turn = (f32(column) + place_in_interval(cells + column, random.y)) / f32(table.columns) - 0.5;
+    let around = sqrt(max((1.0 - height) * (1.0 + height), 0.0)) * direction_of_turn(turn);
+    return around.y * objects[light].tangent + around.x * objects[light].normal + vec3f(0.0, height, 0.0);
+}
+
+/// Density of sample_environment_picture, sr⁻¹: the probability of the direction's cell over its solid angle.
+fn environment_picture_pdf(light: u32, direction: vec3f) -> f32 {
+    let table = direction_table(light);
+    let place = environment_place(light, direction);
+    let row = min(u32(place.y * f32(table.rows)), table.rows - 1u);
+    let column = min(u32(place.x * f32(table.columns)), table.columns - 1u);
+    let cell = table.conditional + row * (table.columns + 1u) + column;
+    let of_row = number_at(table.marginal + row + 1u) - number_at(table.marginal + row);
+    let of_cell = number_at(cell + 1u) - number_at(cell);
+    let drop = number_at(table.heights + row) - number_at(table.heights + row + 1u);
+    return of_row * of_cell * f32(table.columns) / (2.0 * PI * drop);
+}
