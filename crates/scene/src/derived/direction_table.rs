@@ -42,7 +42,9 @@ impl DirectionTable {
             .map(|(row, cells)| share(row) * cells.iter().sum::<f64>() / cells.len() as f64)
             .sum();
         let even = if mean > 0.0 { EVEN * mean } else { 1.0 };
-        cells.iter_mut().for_each(|cell| *cell += even);
+        for cell in &mut cells {
+            *cell += even;
+        }
         let in_rows = || cells.chunks(columns as usize).enumerate();
         let of_rows: Vec<f64> = in_rows()
             .map(|(row, cells)| share(row) * cells.iter().sum::<f64>())
