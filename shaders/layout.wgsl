@@ -163,35 +163,35 @@ const FACTOR_CONDUCTOR: u32 = 2u;
 /// Spectral factor: reflectance of layers on a conductor.
 const FACTOR_COATED: u32 = 3u;
 
+/// Spectral factor: a smooth reflectance, by the number of a texel.
+const FACTOR_SMOOTH: u32 = 4u;
+
 /// Spectral factor: reflectance of a film of one layer without absorption. Those of films are greater.
-const FACTOR_FILM_REFLECTS: u32 = 4u;
+const FACTOR_FILM_REFLECTS: u32 = 5u;
 
 /// Spectral factor: transmittance of a film of one layer without absorption.
-const FACTOR_FILM_TRANSMITS: u32 = 5u;
+const FACTOR_FILM_TRANSMITS: u32 = 6u;
 
 /// Spectral factor: reflectance of a film of one layer of any index.
-const FACTOR_LOSSY_FILM_REFLECTS: u32 = 6u;
+const FACTOR_LOSSY_FILM_REFLECTS: u32 = 7u;
 
 /// Spectral factor: transmittance of a film of one layer of any index.
-const FACTOR_LOSSY_FILM_TRANSMITS: u32 = 7u;
+const FACTOR_LOSSY_FILM_TRANSMITS: u32 = 8u;
 
 /// Spectral factor: reflectance of a film of several layers, seen from the first.
-const FACTOR_STACK_REFLECTS: u32 = 8u;
+const FACTOR_STACK_REFLECTS: u32 = 9u;
 
 /// Spectral factor: reflectance of a film of several layers, seen from the last.
-const FACTOR_STACK_REFLECTS_BACK: u32 = 9u;
+const FACTOR_STACK_REFLECTS_BACK: u32 = 10u;
 
 /// Spectral factor: transmittance of a film of several layers, the same from both sides.
-const FACTOR_STACK_TRANSMITS: u32 = 10u;
+const FACTOR_STACK_TRANSMITS: u32 = 11u;
 
 /// Spectral factor: reflectance of a film by two beams.
-const FACTOR_TWO_BEAM_REFLECTS: u32 = 11u;
+const FACTOR_TWO_BEAM_REFLECTS: u32 = 12u;
 
 /// Spectral factor: transmittance of a film without interference.
-const FACTOR_TWO_BEAM_TRANSMITS: u32 = 12u;
-
-/// Spectral factor: a smooth reflectance, by the number of a texel.
-const FACTOR_SMOOTH: u32 = 13u;
+const FACTOR_TWO_BEAM_TRANSMITS: u32 = 13u;
 
 /// Film: one layer without absorption and with n ≥ 1 everywhere, for which the short formula holds.
 const FILM_TRANSPARENT: u32 = 0u;

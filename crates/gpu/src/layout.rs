@@ -228,27 +228,27 @@ constants! { CONSTANTS;
     pub const FACTOR_CONDUCTOR = 2;
     /// Spectral factor: reflectance of layers on a conductor.
     pub const FACTOR_COATED = 3;
-    /// Spectral factor: reflectance of a film of one layer without absorption. Those of films are greater.
-    pub const FACTOR_FILM_REFLECTS = 4;
-    /// Spectral factor: transmittance of a film of one layer without absorption.
-    pub const FACTOR_FILM_TRANSMITS = 5;
-    /// Spectral factor: reflectance of a film of one layer of any index.
-    pub const FACTOR_LOSSY_FILM_REFLECTS = 6;
-    /// Spectral factor: transmittance of a film of one layer of any index.
-    pub const FACTOR_LOSSY_FILM_TRANSMITS = 7;
-    /// Spectral factor: reflectance of a film of several layers, seen from the first.
-    pub const FACTOR_STACK_REFLECTS = 8;
-    /// Spectral factor: reflectance of a film of several layers, seen from the last.
-    pub const FACTOR_STACK_REFLECTS_BACK = 9;
-    /// Spectral factor: transmittance of a film of several layers, the same from both sides.
-    pub const FACTOR_STACK_TRANSMITS = 10;
-    /// Spectral factor: reflectance of a film by two beams.
-    pub const FACTOR_TWO_BEAM_REFLECTS = 11;
-    /// Spectral factor: transmittance of a film without interference.
-    pub const FACTOR_TWO_BEAM_TRANSMITS = 12;
-
     /// Spectral factor: a smooth reflectance, by the number of a texel.
-    pub const FACTOR_SMOOTH = 13;
+    pub const FACTOR_SMOOTH = 4;
+    /// Spectral factor: reflectance of a film of one layer without absorption. Those of films are greater.
+    pub const FACTOR_FILM_REFLECTS = 5;
+    /// Spectral factor: transmittance of a film of one layer without absorption.
+    pub const FACTOR_FILM_TRANSMITS = 6;
+    /// Spectral factor: reflectance of a film of one layer of any index.
+    pub const FACTOR_LOSSY_FILM_REFLECTS = 7;
+    /// Spectral factor: transmittance of a film of one layer of any index.
+    pub const FACTOR_LOSSY_FILM_TRANSMITS = 8;
+    /// Spectral factor: reflectance of a film of several layers, seen from the first.
+    pub const FACTOR_STACK_REFLECTS = 9;
+    /// Spectral factor: reflectance of a film of several layers, seen from the last.
+    pub const FACTOR_STACK_REFLECTS_BACK = 10;
+    /// Spectral factor: transmittance of a film of several layers, the same from both sides.
+    pub const FACTOR_STACK_TRANSMITS = 11;
+    /// Spectral factor: reflectance of a film by two beams.
+    pub const FACTOR_TWO_BEAM_REFLECTS = 12;
+    /// Spectral factor: transmittance of a film without interference.
+    pub const FACTOR_TWO_BEAM_TRANSMITS = 13;
+
 
     /// Film: one layer without absorption and with n ≥ 1 everywhere, for which the short formula holds.
     pub const FILM_TRANSPARENT = 0;

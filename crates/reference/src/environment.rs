@@ -9,10 +9,9 @@ use std::f64::consts::{FRAC_1_PI, TAU};
 /// The share of a part's radiance that comes from a direction; a picture has its own.
 pub fn environment_share(part: EnvironmentShape<'_>, direction: DVec3) -> f64 {
     match part {
-        EnvironmentShape::Everywhere => 1.0,
+        EnvironmentShape::Everywhere | EnvironmentShape::Picture(_) => 1.0,
         EnvironmentShape::Horizon => (1.0 - direction.y.abs()).max(0.0),
         EnvironmentShape::Pole(pole) => direction.dot(pole).clamp(0.0, 1.0),
-        EnvironmentShape::Picture(_) => 1.0,
         EnvironmentShape::Disc { towards, height } => f64::from(u8::from(
             (direction - towards).length_squared() <= 2.0 * height,
         )),

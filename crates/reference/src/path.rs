@@ -592,8 +592,12 @@ impl<'a> Path<'a> {
             origin: point.position,
             direction,
         };
-        let films =
-            self.films_on_the_way(ray, object, light.kind, max_segments - self.walk.segment - 1)?;
+        let films = self.films_on_the_way(
+            ray,
+            object,
+            light.kind,
+            max_segments - self.walk.segment - 1,
+        )?;
         let pixel = match source {
             Source::Surrounding(EnvironmentShape::Picture(picture)) => {
                 Some((picture, environment_pixel(picture, direction, w)))

@@ -71,7 +71,7 @@ mod tests {
     /// Each facet takes its share: the sum of F (F (1 − E))ⁿ F E over n = 0, 1, …, and nothing is lost where F = 1.
     #[test]
     fn the_colour_is_that_of_a_series() {
-        for (f, e) in [(0.9, 0.7), (0.5, 0.4), (0.04, 0.9)] {
+        for (f, e) in [(0.9_f64, 0.7_f64), (0.5, 0.4), (0.04, 0.9)] {
             let series: f64 = (0..200).map(|n| f * (f * (1.0 - e)).powi(n) * f * e).sum();
             assert!((multiple_colour(f, e) - series).abs() < 1e-12);
         }

@@ -14,7 +14,7 @@ pub enum ConductorModel {
     /// Cook's model as Suzuki, Yokoi and Toriwaki print it.
     Cook {
         /// What the model leaves open.
-        cook1981: Cook1981,
+        cook1981: Box<Cook1981>,
     },
 }
 

@@ -1,6 +1,7 @@
 //! Conductors by Cook's model: slopes and constants to weights.
 
 use super::checks::Checks;
+use super::microsurface::Told;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
 use crate::description::{self, CookNormalisation, Roughness, Slope};
@@ -15,6 +16,7 @@ use std::f64::consts::PI;
 const WEIGHTS: f64 = 2e-3;
 
 /// What the material says beside the model.
+#[derive(Clone, Copy)]
 pub(super) struct Surface {
     pub(super) index: Option<(SpectrumId, SpectrumId)>,
     pub(super) roughness: Roughness,
@@ -43,7 +45,7 @@ pub(super) fn check(
         description::CookDistribution::Gaussian => CookDistribution::Gaussian,
     };
     let ((n, k), slopes, constant) = (surface.index?, slopes?, constant?);
-    let ((specular, diffuse), reflectance) = (shares?, reflectance?);
+    let ((specular, diffuse), reflectance) = (shares?, reflectance.ok()?);
     let facets = slopes.iter().map(|slope| {
         let constant = constant_of(distribution, written.normalisation, constant, slope.m);
         CookFacets {
@@ -184,7 +186,9 @@ fn check_list(checks: &mut Checks, field: &FieldPath, slopes: &[Slope]) -> Optio
         checks.report(Problem::new(ProblemKind::Inconsistent, field, message));
         return None;
     }
-    sound.iter_mut().for_each(|slope| slope.weight /= sum);
+    for slope in &mut sound {
+        slope.weight /= sum;
+    }
     Some(sound)
 }
 
@@ -240,12 +244,15 @@ fn check_diffuse(
     spectra: &mut SpectrumList<'_>,
     own: &FieldPath,
     written: &description::Cook1981,
-) -> Option<Option<SpectrumId>> {
+) -> Result<Option<SpectrumId>, Told> {
     let field = own.key("diffuse_reflectance");
     let is_diffuse = written.diffuse.is_some_and(|share| share > 0.0);
     match (&written.diffuse_reflectance, is_diffuse) {
-        (Some(reflectance), true) => spectra.reflectance(checks, &field, reflectance).map(Some),
-        (None, false) => Some(None),
+        (Some(reflectance), true) => {
+            let id = spectra.reflectance(checks, &field, reflectance);
+            Ok(Some(id.ok_or(Told)?))
+        }
+        (None, false) => Ok(None),
         (given, _) => {
             let (kind, message) = match given {
                 Some(_) => (
@@ -259,7 +266,7 @@ fn check_diffuse(
             };
             let problem = Problem::new(kind, &field, message);
             checks.report(problem.involving(own.key("diffuse")));
-            None
+            Err(Told)
         }
     }
 }

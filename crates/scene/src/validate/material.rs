@@ -39,58 +39,8 @@ fn check(
             let reflectance = pattern(checks, spectra, &field.key("reflectance"), reflectance)?;
             Some(Material::Diffuse { reflectance })
         }
-        description::Material::Conductor {
-            index,
-            roughness,
-            distribution,
-            brushed,
-            model,
-        } => {
-            let index = spectra.index(checks, &field.key("index"), index);
-            if let Some(model) = cook_model(model.as_ref()) {
-                let surface = cook::Surface {
-                    index,
-                    roughness: *roughness,
-                    has_distribution: distribution.is_some(),
-                    is_brushed: brushed.is_some(),
-                };
-                return cook::check(checks, spectra, field, surface, &model).map(Material::Cook);
-            }
-            let microsurface = microsurface::Written {
-                roughness: *roughness,
-                distribution: *distribution,
-                brushed: *brushed,
-            }
-            .check(checks, field);
-            let (n, k) = index?;
-            Some(Material::Conductor {
-                n,
-                k,
-                layers: Vec::new(),
-                microsurface: microsurface.ok()?,
-            })
-        }
-        description::Material::Dielectric {
-            index: written,
-            roughness,
-            distribution,
-            brushed,
-            base,
-        } => {
-            let index = spectra.index(checks, &field.key("index"), written);
-            let microsurface = microsurface::Written {
-                roughness: *roughness,
-                distribution: *distribution,
-                brushed: *brushed,
-            }
-            .check(checks, field);
-            let base = match base {
-                Some(base) => pattern(checks, spectra, &field.key("base"), base).map(Some),
-                None => Some(None),
-            };
-            let surface = (index?, microsurface.ok()?);
-            dielectric::check(checks, spectra, (field, written), surface, base?)
-        }
+        description::Material::Conductor { .. } => conductor(checks, spectra, field, material),
+        description::Material::Dielectric { .. } => dielectric(checks, spectra, field, material),
         description::Material::Film {
             index,
             thickness_nm,
@@ -163,12 +113,86 @@ fn check(
     }
 }
 
+/// A conductor: by its facets, or by Cook's model.
+fn conductor(
+    checks: &mut Checks,
+    spectra: &mut SpectrumList<'_>,
+    field: &FieldPath,
+    material: &description::Material,
+) -> Option<Material> {
+    let description::Material::Conductor {
+        index,
+        roughness,
+        distribution,
+        brushed,
+        model,
+    } = material
+    else {
+        return None;
+    };
+    let index = spectra.index(checks, &field.key("index"), index);
+    if let Some(model) = cook_model(model.as_ref()) {
+        let surface = cook::Surface {
+            index,
+            roughness: *roughness,
+            has_distribution: distribution.is_some(),
+            is_brushed: brushed.is_some(),
+        };
+        return cook::check(checks, spectra, field, surface, &model).map(Material::Cook);
+    }
+    let microsurface = microsurface::Written {
+        roughness: *roughness,
+        distribution: *distribution,
+        brushed: *brushed,
+    }
+    .check(checks, field);
+    let (n, k) = index?;
+    Some(Material::Conductor {
+        n,
+        k,
+        layers: Vec::new(),
+        microsurface: microsurface.ok()?,
+    })
+}
+
+/// A dielectric, opaque or a coat over a base.
+fn dielectric(
+    checks: &mut Checks,
+    spectra: &mut SpectrumList<'_>,
+    field: &FieldPath,
+    material: &description::Material,
+) -> Option<Material> {
+    let description::Material::Dielectric {
+        index: written,
+        roughness,
+        distribution,
+        brushed,
+        base,
+    } = material
+    else {
+        return None;
+    };
+    let index = spectra.index(checks, &field.key("index"), written);
+    let microsurface = microsurface::Written {
+        roughness: *roughness,
+        distribution: *distribution,
+        brushed: *brushed,
+    }
+    .check(checks, field);
+    let base = match base {
+        Some(base) => Some(pattern(checks, spectra, &field.key("base"), base)?),
+        None => None,
+    };
+    let surface = (index?, microsurface.ok()?);
+    dielectric::check(checks, spectra, (field, written), surface, base)
+}
+
 /// Cook's model, where it is asked for.
 fn cook_model(model: Option<&ConductorModel>) -> Option<Cook1981> {
     match model? {
         ConductorModel::Named(ConductorModelName::Microfacets) => None,
         ConductorModel::Named(ConductorModelName::Cook1981) => Some(Cook1981::default()),
-        ConductorModel::Cook { cook1981 } => Some(cook1981.clone()),
+        ConductorModel::Cook { cook1981 } => Some((**cook1981).clone()),
     }
 }
 
