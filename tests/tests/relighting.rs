@@ -47,6 +47,9 @@ fn lit_by(name: &str, lamp: &str) -> SceneFile {
                 replace(ground);
             }
         }
+        Some(Environment::Image { .. } | Environment::Sky { .. }) => {
+            panic!("{name} has surroundings without a lamp by name")
+        }
         None => {}
     }
     file

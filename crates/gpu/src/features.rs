@@ -13,134 +13,20 @@ pub struct Features(Vec<(&'static str, f64)>);
 impl Features {
     /// What a scene has.
     pub fn of(scene: &Scene) -> Self {
-        let sources = scene.light_sources();
-        let surroundings = scene.surroundings();
-        let shape = |wanted: fn(&Shape) -> bool| scene.objects().iter().any(|o| wanted(&o.shape));
-        let light = |wanted: fn(&Shape) -> bool| {
-            sources.iter().any(|source| match source.kind {
-                SourceKind::Object(index) => wanted(&scene.objects()[index].shape),
-                _ => false,
-            })
-        };
-        let is_delta = |source: &LightSource| matches!(source.kind, SourceKind::Light(_));
-        let is_disc = |part: &EnvironmentPart| matches!(part.shape, EnvironmentShape::Disc { .. });
-        let direct = scene.settings().direct_light;
         let used: Vec<&Material> = scene
             .objects()
             .iter()
             .map(|object| scene.material(object.material))
             .collect();
-        let material = |wanted: fn(&Material) -> bool| used.iter().any(|material| wanted(material));
-        let film = |wanted: fn(FilmForm) -> bool| {
-            let mut forms = used.iter().filter_map(|m| FilmForm::of(scene, m));
-            forms.any(wanted)
-        };
-        let facets = |wanted: fn(&Microsurface) -> bool| {
-            let mut rough = used.iter().filter_map(|material| material.microsurface());
-            rough.any(wanted)
-        };
-        let is_sphere = |shape: &Shape| matches!(shape, Shape::Sphere { .. });
-        let is_rectangle = |shape: &Shape| matches!(shape, Shape::Rectangle { .. });
-        let is_disk = |shape: &Shape| matches!(shape, Shape::Disk { .. });
-        let named = [
-            ("HAS_SPHERES", shape(is_sphere)),
-            ("HAS_RECTANGLES", shape(is_rectangle)),
-            ("HAS_DISKS", shape(is_disk)),
-            ("HAS_DIFFUSE", material(is_diffuse)),
-            ("HAS_CHECKERS", material(is_checker)),
-            ("HAS_TEXTURES", material(is_texture)),
-            (
-                "HAS_MIRRORS",
-                material(|m| {
-                    matches!(
-                        m,
-                        Material::Conductor {
-                            microsurface: None,
-                            ..
-                        }
-                    )
-                }),
-            ),
-            (
-                "HAS_ROUGH_CONDUCTORS",
-                material(|m| m.microsurface().is_some()),
-            ),
-            ("HAS_COOK", material(|m| matches!(m, Material::Cook(_)))),
-            ("HAS_BASES", material(has_base)),
-            (
-                "HAS_COATED_BODIES",
-                material(
-                    |m| matches!(m, Material::CoatedBody(body) if body.microsurface.is_none()),
-                ),
-            ),
-            (
-                "HAS_ROUGH_COATS",
-                material(
-                    |m| matches!(m, Material::CoatedBody(body) if body.microsurface.is_some()),
-                ),
-            ),
-            (
-                "HAS_BECKMANN",
-                facets(|m| m.distribution == Distribution::Beckmann),
-            ),
-            ("HAS_GGX", facets(|m| m.distribution == Distribution::Ggx)),
-            ("HAS_GRAIN", facets(Microsurface::is_brushed)),
-            ("HAS_FILMS", film(|_| true)),
-            ("HAS_LOSSY_FILMS", film(|form| form == FilmForm::Lossy)),
-            ("HAS_STACKS", film(|form| form == FilmForm::Stack)),
-            (
-                "HAS_TWO_BEAM_FILMS",
-                film(|form| matches!(form, FilmForm::TwoBeam(_))),
-            ),
-            (
-                "HAS_COATINGS",
-                material(|m| matches!(m, Material::Conductor { layers, .. } if !layers.is_empty())),
-            ),
-            ("HAS_SPHERE_LIGHTS", light(is_sphere)),
-            ("HAS_RECTANGLE_LIGHTS", light(is_rectangle)),
-            ("HAS_DISK_LIGHTS", light(is_disk)),
-            ("HAS_DELTA_LIGHTS", sources.iter().any(is_delta)),
-            ("HAS_DISCS", surroundings.iter().any(is_disc)),
-            ("HAS_LIGHTS", !sources.is_empty()),
-            ("HAS_LIGHT_CHOICE", sources.len() > 1),
-            (
-                "HAS_ENVIRONMENT",
-                surroundings.iter().any(|part| part.emission.scale > 0.0),
-            ),
-            ("SENDS_LIGHT", direct != DirectLight::Surfaces),
-            ("MEETS_LIGHT", direct != DirectLight::Lights),
-            (
-                "HAS_SPLITS",
-                film(|_| true) && scene.settings().film_splits > 0,
-            ),
-            ("HAS_LENS", scene.camera().lens.is_some()),
-            ("HAS_FILTER", scene.camera().filter.offsets().is_some()),
-            ("HAS_CLAMP", scene.settings().clamp.is_some()),
-            (
-                "HAS_ROULETTE",
-                scene.settings().roulette_after < scene.settings().max_path_segments,
-            ),
-            (
-                "HAS_ENVIRONMENT_PICTURE",
-                picture_of(scene.environment()).is_some(),
-            ),
-            (
-                "HAS_SPECTRAL_PICTURE",
-                picture_of(scene.environment()) == Some(PictureSpectra::Bands),
-            ),
-            (
-                "HAS_PANORAMA",
-                scene.camera().projection == Projection::Panorama,
-            ),
-            (
-                "HAS_SOBOL_SAMPLES",
-                scene.settings().sampler == Sampler::Sobol,
-            ),
-        ];
+        let named = of_shapes(scene)
+            .into_iter()
+            .chain(of_surfaces(&used))
+            .chain(of_films(scene, &used))
+            .chain(of_thicknesses(&used))
+            .chain(of_lights(scene))
+            .chain(of_paths(scene, &used));
         Self(
             named
-                .into_iter()
-                .chain(of_thicknesses(&used))
                 .map(|(name, has)| (name, f64::from(u8::from(has))))
                 .collect(),
         )
@@ -150,6 +36,160 @@ impl Features {
     pub fn constants(&self) -> &[(&'static str, f64)] {
         &self.0
     }
+}
+
+type Named = (&'static str, bool);
+
+fn is_sphere(shape: &Shape) -> bool {
+    matches!(shape, Shape::Sphere { .. })
+}
+
+fn is_rectangle(shape: &Shape) -> bool {
+    matches!(shape, Shape::Rectangle { .. })
+}
+
+fn is_disk(shape: &Shape) -> bool {
+    matches!(shape, Shape::Disk { .. })
+}
+
+fn of_shapes(scene: &Scene) -> Vec<Named> {
+    let shape = |wanted: fn(&Shape) -> bool| scene.objects().iter().any(|o| wanted(&o.shape));
+    vec![
+        ("HAS_SPHERES", shape(is_sphere)),
+        ("HAS_RECTANGLES", shape(is_rectangle)),
+        ("HAS_DISKS", shape(is_disk)),
+    ]
+}
+
+/// Whether any of the materials makes a film of a wanted form.
+fn has_film(scene: &Scene, used: &[&Material], wanted: fn(FilmForm) -> bool) -> bool {
+    let mut forms = used.iter().filter_map(|m| FilmForm::of(scene, m));
+    forms.any(wanted)
+}
+
+fn of_surfaces(used: &[&Material]) -> Vec<Named> {
+    let material = |wanted: fn(&Material) -> bool| used.iter().any(|material| wanted(material));
+    let facets = |wanted: fn(&Microsurface) -> bool| {
+        let mut rough = used.iter().filter_map(|material| material.microsurface());
+        rough.any(wanted)
+    };
+    vec![
+        ("HAS_DIFFUSE", material(is_diffuse)),
+        ("HAS_CHECKERS", material(is_checker)),
+        ("HAS_TEXTURES", material(is_texture)),
+        (
+            "HAS_MIRRORS",
+            material(|m| {
+                matches!(
+                    m,
+                    Material::Conductor {
+                        microsurface: None,
+                        ..
+                    }
+                )
+            }),
+        ),
+        (
+            "HAS_ROUGH_CONDUCTORS",
+            material(|m| m.microsurface().is_some()),
+        ),
+        ("HAS_COOK", material(|m| matches!(m, Material::Cook(_)))),
+        ("HAS_BASES", material(has_base)),
+        (
+            "HAS_COATED_BODIES",
+            material(|m| matches!(m, Material::CoatedBody(body) if body.microsurface.is_none())),
+        ),
+        (
+            "HAS_ROUGH_COATS",
+            material(|m| matches!(m, Material::CoatedBody(body) if body.microsurface.is_some())),
+        ),
+        (
+            "HAS_BECKMANN",
+            facets(|m| m.distribution == Distribution::Beckmann),
+        ),
+        ("HAS_GGX", facets(|m| m.distribution == Distribution::Ggx)),
+        ("HAS_GRAIN", facets(Microsurface::is_brushed)),
+    ]
+}
+
+fn of_films(scene: &Scene, used: &[&Material]) -> Vec<Named> {
+    let material = |wanted: fn(&Material) -> bool| used.iter().any(|material| wanted(material));
+    let film = |wanted| has_film(scene, used, wanted);
+    vec![
+        ("HAS_FILMS", film(|_| true)),
+        ("HAS_LOSSY_FILMS", film(|form| form == FilmForm::Lossy)),
+        ("HAS_STACKS", film(|form| form == FilmForm::Stack)),
+        (
+            "HAS_TWO_BEAM_FILMS",
+            film(|form| matches!(form, FilmForm::TwoBeam(_))),
+        ),
+        (
+            "HAS_COATINGS",
+            material(|m| matches!(m, Material::Conductor { layers, .. } if !layers.is_empty())),
+        ),
+    ]
+}
+
+fn of_lights(scene: &Scene) -> Vec<Named> {
+    let sources = scene.light_sources();
+    let surroundings = scene.surroundings();
+    let light = |wanted: fn(&Shape) -> bool| {
+        sources.iter().any(|source| match source.kind {
+            SourceKind::Object(index) => wanted(&scene.objects()[index].shape),
+            _ => false,
+        })
+    };
+    let is_delta = |source: &LightSource| matches!(source.kind, SourceKind::Light(_));
+    let is_disc = |part: &EnvironmentPart| matches!(part.shape, EnvironmentShape::Disc { .. });
+    let direct = scene.settings().direct_light;
+    vec![
+        ("HAS_SPHERE_LIGHTS", light(is_sphere)),
+        ("HAS_RECTANGLE_LIGHTS", light(is_rectangle)),
+        ("HAS_DISK_LIGHTS", light(is_disk)),
+        ("HAS_DELTA_LIGHTS", sources.iter().any(is_delta)),
+        ("HAS_DISCS", surroundings.iter().any(is_disc)),
+        ("HAS_LIGHTS", !sources.is_empty()),
+        ("HAS_LIGHT_CHOICE", sources.len() > 1),
+        (
+            "HAS_ENVIRONMENT",
+            surroundings.iter().any(|part| part.emission.scale > 0.0),
+        ),
+        ("SENDS_LIGHT", direct != DirectLight::Surfaces),
+        ("MEETS_LIGHT", direct != DirectLight::Lights),
+        (
+            "HAS_ENVIRONMENT_PICTURE",
+            picture_of(scene.environment()).is_some(),
+        ),
+        (
+            "HAS_SPECTRAL_PICTURE",
+            picture_of(scene.environment()) == Some(PictureSpectra::Bands),
+        ),
+    ]
+}
+
+/// How paths are drawn.
+fn of_paths(scene: &Scene, used: &[&Material]) -> Vec<Named> {
+    vec![
+        (
+            "HAS_SPLITS",
+            has_film(scene, used, |_| true) && scene.settings().film_splits > 0,
+        ),
+        ("HAS_LENS", scene.camera().lens.is_some()),
+        ("HAS_FILTER", scene.camera().filter.offsets().is_some()),
+        ("HAS_CLAMP", scene.settings().clamp.is_some()),
+        (
+            "HAS_ROULETTE",
+            scene.settings().roulette_after < scene.settings().max_path_segments,
+        ),
+        (
+            "HAS_PANORAMA",
+            scene.camera().projection == Projection::Panorama,
+        ),
+        (
+            "HAS_SOBOL_SAMPLES",
+            scene.settings().sampler == Sampler::Sobol,
+        ),
+    ]
 }
 
 /// What the thicknesses of layers are made of.

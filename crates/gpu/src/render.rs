@@ -215,12 +215,11 @@ impl SceneBindings {
             .iter()
             .map(|&binding| wgpu::BindGroupEntry {
                 binding,
-                resource: match self.buffers.get(binding as usize) {
-                    Some(buffer) => buffer.as_entire_binding(),
-                    None => {
-                        let texture = binding as usize - self.buffers.len();
-                        wgpu::BindingResource::TextureView(&self.textures[texture])
-                    }
+                resource: if let Some(buffer) = self.buffers.get(binding as usize) {
+                    buffer.as_entire_binding()
+                } else {
+                    let texture = binding as usize - self.buffers.len();
+                    wgpu::BindingResource::TextureView(&self.textures[texture])
                 },
             })
             .collect();

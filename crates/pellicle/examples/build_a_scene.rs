@@ -65,6 +65,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         roughness: Roughness::Even(0.0),
         distribution: None,
         brushed: None,
+        model: None,
     };
     description.materials.insert("black".to_owned(), black);
     for i in 0..COUNT {

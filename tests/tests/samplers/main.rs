@@ -389,6 +389,7 @@ fn disks_are_drawn_by_light_pdf() {
             draw: &draw,
             density: &pdf,
             outside: Some(0.0),
+            parts: 4,
         };
         right.holds(seed);
         let uneven = |x: f64, y: f64| pdf(x, y) * (0.85 + 0.3 * x);
@@ -431,6 +432,7 @@ fn surroundings_are_drawn_by_environment_pdf() {
             draw: &draw,
             density: &pdf,
             outside: Some(0.0),
+            parts: 4,
         };
         right.holds(seed);
         let uneven = |x: f64, y: f64| pdf(x, y) * (0.85 + 0.3 * y);
@@ -499,6 +501,7 @@ fn gaussian_facets(slope: f64, claimed: f64, check: impl Fn(&Experiment)) {
         draw: &draw,
         density: &density,
         outside: Some(0.0),
+        parts: 4,
     });
 }
 
