@@ -11,7 +11,9 @@ fn filter_offset(u: f32) -> f32 {
     if (!HAS_FILTER) {
         return u - 0.5;
     }
-    let place = u * f32(FILTER_KNOTS - 1u);
+    // Knots stand closely where the filter has little weight.
+    let t = 2.0 * u - 1.0;
+    let place = (0.5 + 0.5 * sign(t) * (1.0 - sqrt(1.0 - abs(t)))) * f32(FILTER_KNOTS - 1u);
     let knot = min(u32(place), FILTER_KNOTS - 2u);
     let first = frame.first_filter + knot;
     return mix(number_at(first), number_at(first + 1u), place - f32(knot));

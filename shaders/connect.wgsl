@@ -62,7 +62,7 @@ fn connect(
     vertex.end_crossing = crossing_count;
     var share = 1.0;
     if (MEETS_LIGHT && !is_single_direction(sent.light)) {
-        share = mis_share(sent.pdf, towards.pdf);
+        share = 1.0 - scattering_share(towards.pdf, sent.pdf);
     }
     let material = objects[sent.light].material;
     vertex.connection = materials[material].emission;

@@ -110,9 +110,15 @@ fn choice_probability(light: u32, point: vec3f, normal: vec3f, total: f32) -> f3
     return light_estimate(light, point, normal) / total;
 }
 
-/// Share of a way to find a direction with density `own` where another finds it with density `other`: the power heuristic
-/// (Veach 1997, section 9.2.2).
-fn mis_share(own: f32, other: f32) -> f32 {
-    let ratio = min(other / own, 1e18);
+/// Scattering is left out where its density is less than this part of the other's.
+const CUTOFF: f32 = 0.1875;
+
+/// Share of scattering in a direction that it finds with density `scattered` and sending with density `sent`, 1 less the share of
+/// sending: the power heuristic (Veach 1997, section 9.2.2), with a cutoff of scattering alone.
+fn scattering_share(scattered: f32, sent: f32) -> f32 {
+    if (scattered < CUTOFF * sent) {
+        return 0.0;
+    }
+    let ratio = sent / scattered;
     return 1.0 / (1.0 + ratio * ratio);
 }

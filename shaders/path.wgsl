@@ -113,7 +113,7 @@ fn emission_share(walk: Walk, light: u32) -> f32 {
         return select(0.0, 1.0, MEETS_LIGHT);
     }
     let chosen = choice_probability(light, walk.scattered_at, walk.scattered_normal, walk.estimates);
-    return mis_share(walk.scatter_pdf, chosen * light_pdf(light, walk.scattered_at, walk.ray.direction));
+    return scattering_share(walk.scatter_pdf, chosen * light_pdf(light, walk.scattered_at, walk.ray.direction));
 }
 
 /// A smooth conductor: the path is mirrored.

@@ -211,8 +211,14 @@ pub fn choose_light(probabilities: &[f64], random: f64) -> Option<Choice> {
     choice
 }
 
-/// Share of a way to find a direction with density `own` where another finds it with density `other`: the power heuristic
-/// (Veach 1997, section 9.2.2).
-pub fn mis_share(own: f64, other: f64) -> f64 {
-    own * own / (own * own + other * other)
+/// Scattering is left out where its density is less than this part of the other's.
+const CUTOFF: f64 = 0.1875;
+
+/// Share of scattering in a direction that it finds with density `scattered` and sending with density `sent`, 1 less the share of
+/// sending: the power heuristic (Veach 1997, section 9.2.2), with a cutoff of scattering alone.
+pub fn scattering_share(scattered: f64, sent: f64) -> f64 {
+    if scattered < CUTOFF * sent {
+        return 0.0;
+    }
+    scattered * scattered / (scattered * scattered + sent * sent)
 }

@@ -6,9 +6,8 @@ use crate::picture::smooth_value;
 use crate::scatter::{Conductor, Lobes, Scatterer, coat_share};
 use crate::{
     Facets, Hit, Ray, Reflectance, Source, SurfacePoint, chance_to_go_on, choice_probabilities,
-    choose_light, environment_pixel, environment_share, mis_share, nearest_hit,
-    pattern_reflectance, random4, reflected_share, sampled_camera_ray, sobol4, surface_frame,
-    surface_point,
+    choose_light, environment_pixel, environment_share, nearest_hit, pattern_reflectance, random4,
+    reflected_share, sampled_camera_ray, scattering_share, sobol4, surface_frame, surface_point,
 };
 use glam::DVec3;
 use optics::Complex64;
@@ -541,7 +540,7 @@ impl<'a> Path<'a> {
         let sent = source.pdf(scattered.position, self.walk.ray.direction);
         let sent = scattered.chances[number] * sent.unwrap_or(0.0);
         match self.scene.settings().direct_light {
-            DirectLight::Both => mis_share(scattered.pdf, sent),
+            DirectLight::Both => scattering_share(scattered.pdf, sent),
             DirectLight::Lights => 0.0,
             DirectLight::Surfaces => 1.0,
         }
@@ -550,7 +549,7 @@ impl<'a> Path<'a> {
     /// Share of a connection: the rest is what scattering brings that happens to meet the light.
     fn share_of_sending(&self, sent: &Sent<'_>, scattered: f64) -> f64 {
         match (self.scene.settings().direct_light, sent.pdf) {
-            (DirectLight::Both, Some(pdf)) => mis_share(pdf, scattered),
+            (DirectLight::Both, Some(pdf)) => 1.0 - scattering_share(scattered, pdf),
             _ => 1.0,
         }
     }

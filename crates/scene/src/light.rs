@@ -69,7 +69,7 @@ pub enum SourceKind {
 
 impl Scene {
     /// All that light is sent from: emitting objects with bounds, what surrounds them, and lights. What emits nothing is not
-    /// among them, nor are surroundings that are the same everywhere, unless sending is the only way to find light: scattered rays
+    /// among them, nor are constant surroundings and gradients, unless sending is the only way to find light: scattered rays
     /// find them with less noise. (The density of a light after compensation for those rays is then 0: Karlík et al., MIS
     /// Compensation, ACM Transactions on Graphics 38(6), 2019.)
     pub fn light_sources(&self) -> Vec<LightSource> {
@@ -82,8 +82,13 @@ impl Scene {
             });
         let parts = self.surroundings().into_iter().enumerate();
         let sends_only = self.settings().direct_light == DirectLight::Lights;
-        let parts =
-            parts.filter(|(_, part)| sends_only || part.shape != EnvironmentShape::Everywhere);
+        let is_uneven = |shape: &EnvironmentShape| {
+            matches!(
+                shape,
+                EnvironmentShape::Disc { .. } | EnvironmentShape::Picture(_)
+            )
+        };
+        let parts = parts.filter(|(_, part)| sends_only || is_uneven(&part.shape));
         let parts = parts.map(|(index, part)| {
             let mean = match part.shape {
                 EnvironmentShape::Picture(picture) => picture.mean,

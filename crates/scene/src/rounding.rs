@@ -191,7 +191,7 @@ impl RoundToF32 for Microsurface {
                 Grain::Along(direction) => Grain::Along(direction.rounded()),
                 Grain::Around(axis) => Grain::Around(axis.rounded()),
             },
-            energy: Arc::clone(&self.energy),
+            energy: Arc::new(self.energy.rounded()),
         }
     }
 }

@@ -269,7 +269,7 @@ fn a_value_that_fits_no_form_is_told_all_of_them() {
             "materials.x.reflectance",
             &[
                 "the boolean true",
-                "a number, a string, a table with `name`",
+                "a number, a string, a table with `srgb`, a table with `linear_srgb`, a table with `name`",
                 "`checker` and `size`",
             ],
         )],

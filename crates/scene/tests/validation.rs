@@ -411,11 +411,10 @@ horizon = {{ constant = 0.1 }}
         .filter_map(|word| word.parse().ok())
         .collect();
     assert!(floats.len() > 1000);
-    assert!(
-        floats
-            .iter()
-            .all(|&number| f64::from(number as f32) == number)
-    );
+    let double = floats
+        .iter()
+        .find(|&&number| f64::from(number as f32) != number);
+    assert_eq!(double, None);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use crate::scene_functions::{everything, rounded, rows, unit, vector};
 use crate::{Check, pure, table};
 use gpu::layout::NONE;
 use pellicle_tests::tolerances::{ARITHMETIC, LIGHT_ESTIMATE};
-use reference::{Source, choice_probabilities, choose_light, mis_share};
+use reference::{Source, choice_probabilities, choose_light, scattering_share};
 use scene::LightSource;
 use std::sync::OnceLock;
 
@@ -88,9 +88,9 @@ pub(crate) fn checks() -> Vec<Check> {
         },
         Check {
             probe: pure_mis(),
-            proves: &["mis_share"],
+            proves: &["scattering_share"],
             inputs: table(&[(0.01, 10.0), (0.0, 10.0)], &[&[1e-3, 1e3], &[5.0, 0.0]]),
-            twin: |a| vec![mis_share(a[0], a[1])],
+            twin: |a| vec![scattering_share(a[0], a[1])],
             tolerance: ARITHMETIC,
         },
     ]
@@ -100,7 +100,7 @@ fn pure_mis() -> pellicle_tests::probe::Probe<'static> {
     pure(
         &["light_choice"],
         (2, 1),
-        "put(0u, mis_share(a(0u), a(1u)));",
+        "put(0u, scattering_share(a(0u), a(1u)));",
     )
 }
 
@@ -114,10 +114,12 @@ fn choices() -> Vec<f32> {
     let is_clear = |row: &&[f32]| {
         let row: Vec<f64> = row.iter().map(|&x| f64::from(x)).collect();
         let mut sum = 0.0;
-        chances(&row).iter().all(|chance| {
+        let is_off = chances(&row).iter().all(|chance| {
             sum += chance;
             (sum - row[0]).abs() > 1e-4
-        })
+        });
+        // Where nothing can arrive, nothing is chosen.
+        is_off && sum > 0.0
     };
     let numbers = table(&[(0.0, 0.999)], &[]);
     let places = places();

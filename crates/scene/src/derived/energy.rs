@@ -22,6 +22,16 @@ pub struct Energy {
     mean: f64,
 }
 
+impl RoundToF32 for Energy {
+    fn rounded(&self) -> Self {
+        Self {
+            roughness: self.roughness.map(|alpha| alpha.rounded()),
+            values: self.values.rounded(),
+            mean: self.mean.rounded(),
+        }
+    }
+}
+
 impl Energy {
     /// Knots over the root of the cosine.
     pub const COSINES: usize = COSINES;

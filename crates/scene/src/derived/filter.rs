@@ -27,8 +27,8 @@ impl PixelFilter {
         }
     }
 
-    /// Offsets from a pixel's middle, in pixels, below which 0, 1, … of `KNOTS − 1` equal parts of its weight lie; `None` of a box,
-    /// where they are evenly spaced from −½ to ½.
+    /// Offsets from a pixel's middle, in pixels, at knots that are equal steps of [`warped`]; `None` of a box, where offsets are
+    /// uniform from −½ to ½.
     pub fn offsets(&self) -> Option<&[f64]> {
         self.0.as_deref()
     }
@@ -38,7 +38,7 @@ impl PixelFilter {
         let Some(offsets) = &self.0 else {
             return u - 0.5;
         };
-        let place = u * (Self::KNOTS - 1) as f64;
+        let place = warped(u) * (Self::KNOTS - 1) as f64;
         let knot = (place as usize).min(Self::KNOTS - 2);
         offsets[knot] + (place - knot as f64) * (offsets[knot + 1] - offsets[knot])
     }
@@ -50,6 +50,19 @@ impl RoundToF32 for PixelFilter {
     }
 }
 
+/// Places knots closely where a filter has little weight: t = 2u − 1 becomes ±(1 − √(1 − |t|)), from −1 to 1, and that a number
+/// from 0 to 1.
+fn warped(u: f64) -> f64 {
+    let t = 2.0 * u - 1.0;
+    0.5 + 0.5 * t.signum() * (1.0 - (1.0 - t.abs()).max(0.0).sqrt())
+}
+
+/// The number that is warped to another.
+fn unwarped(place: f64) -> f64 {
+    let s = 2.0 * place - 1.0;
+    0.5 + 0.5 * s.signum() * (1.0 - (1.0 - s.abs()).powi(2))
+}
+
 /// The minimum four-term window (Harris, On the Use of Windows for Harmonic Analysis with the Discrete Fourier Transform, Proc. IEEE
 /// 66(1), 1978, equation 33), 1 in the middle.
 fn blackman_harris(x: f64) -> f64 {
@@ -59,18 +72,18 @@ fn blackman_harris(x: f64) -> f64 {
     cosines.map(|(i, a)| a * (i as f64 * turn).cos()).sum()
 }
 
-/// Where the running integral of a filter reaches each part of the whole.
+/// Where the running integral of a filter reaches the knots.
 fn offsets(weight: impl Fn(f64) -> f64) -> Vec<f64> {
     let width = 2.0 * RADIUS / STEPS as f64;
     let middle = |step: usize| -RADIUS + (step as f64 + 0.5) * width;
     let whole: f64 = (0..STEPS).map(|step| weight(middle(step))).sum();
-    let parts = (PixelFilter::KNOTS - 1) as f64;
+    let part = |knot: usize| unwarped(knot as f64 / (PixelFilter::KNOTS - 1) as f64);
     let mut found = vec![-RADIUS];
     let mut sum = 0.0;
     for step in 0..STEPS {
-        let own = weight(middle(step)) * parts / whole;
-        while (found.len() as f64) <= sum + own && found.len() < PixelFilter::KNOTS - 1 {
-            let inside = (found.len() as f64 - sum) / own;
+        let own = weight(middle(step)) / whole;
+        while part(found.len()) <= sum + own && found.len() < PixelFilter::KNOTS - 1 {
+            let inside = (part(found.len()) - sum) / own;
             found.push(middle(step) + (inside - 0.5) * width);
         }
         sum += own;
