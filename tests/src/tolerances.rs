@@ -193,8 +193,8 @@ pub const NEAR_LIGHT: Tolerance = of(5e-4, 5e-4);
 pub const LIGHT_ESTIMATE: Tolerance = of(5e-5, 1e-5);
 /// Between two knots of a table of 33: the place is rounded by 2e-6 of a step, which near grazing changes R by up to a half.
 pub const ARITHMETIC_OF_TABLES: Tolerance = of(2e-6, 1e-6);
-/// A pixel filter's offset between two of 257 knots: the place is rounded by 1.5e-5 of a step, the last of which are a fifth of a
-/// pixel long.
+/// A pixel filter's offset between two of 257 knots: the place is rounded by some 2e-5 of a step, and the longest steps, at the ends, are
+/// a fraction of a pixel.
 pub const FILTER: Tolerance = of(5e-6, 1e-6);
 /// A knot and the place after it: offset times up to 32 steps is rounded by 1e-6.
 pub const KNOT: Tolerance = of(2e-6, 0.0);
