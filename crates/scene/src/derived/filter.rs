@@ -27,8 +27,8 @@ impl PixelFilter {
         }
     }
 
-    /// Offsets from a pixel's middle, in pixels, at knots that are equal steps of [`warped`]; `None` of a box, where offsets are
-    /// uniform from −½ to ½.
+    /// Offsets from a pixel's middle, in pixels, at knots that stand closer where the filter has little weight (equal steps of the
+    /// square root that `offset_at` takes); `None` of a box, where offsets are uniform from −½ to ½.
     pub fn offsets(&self) -> Option<&[f64]> {
         self.0.as_deref()
     }
