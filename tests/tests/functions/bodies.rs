@@ -1,6 +1,6 @@
 //! gaussian.wgsl, cook.wgsl and coat.wgsl.
 
-use crate::scene_functions::{World, pick, rows};
+use crate::world::{World, pick, rows};
 use crate::{Check, pure, table};
 use glam::DVec3;
 use pellicle_tests::tolerances::{ARITHMETIC, BECKMANN, DIRECTION, FACET, FRESNEL, TRIGONOMETRY};

@@ -1,7 +1,7 @@
 //! environment.wgsl: what surrounds a scene.
 
 use crate::Check;
-use crate::scene_functions::{World, everything, pick, pictured, rounded, rows, unit, vector};
+use crate::world::{World, everything, pick, pictured, rounded, rows, unit, vector};
 use glam::DVec3;
 use pellicle_tests::tolerances::{ARITHMETIC, DIRECTION, LIGHT_PDF, NEAR_POLE};
 use scene::EnvironmentShape;

@@ -1,8 +1,6 @@
 //! microsurface.wgsl, energy.wgsl, and the facets of scatter.wgsl.
 
-use crate::scene_functions::{
-    center_of, everything, objects_where, pick, point_on, rounded, rows, vector,
-};
+use crate::world::{center_of, everything, objects_where, pick, point_on, rounded, rows, vector};
 use crate::{Check, pure, table};
 use glam::DVec3;
 use optics::{Distribution, Microsurface};
