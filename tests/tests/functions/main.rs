@@ -14,6 +14,7 @@ mod shapes;
 mod spectra;
 mod splits;
 mod stacks;
+mod surface_functions;
 mod thicknesses;
 mod world;
 
@@ -103,6 +104,7 @@ fn checks() -> Vec<Check> {
         spectra::checks(),
         splits::checks(),
         stacks::checks(),
+        surface_functions::checks(),
         thicknesses::checks(),
     ]
     .into_iter()

@@ -1,9 +1,9 @@
 //! Connections of a path to the lights, and how they are weighed against paths that meet a light by chance.
 
-use super::spectra::Film;
 use super::{Path, Use};
 use crate::environment_picture::pixel_value;
 use crate::interference::LayersAt;
+use crate::spectra::{Film, Spectra};
 use crate::{
     Hit, Ray, Source, SurfacePoint, choice_probabilities, choose_light, environment_pixel,
     nearest_hit, scattering_share, surface_point,
@@ -136,19 +136,24 @@ impl<'a> Path<'a> {
         }
     }
 
-    pub(super) fn add_connection(&mut self, sent: &Sent<'_>, factor: impl Fn(&Self, usize) -> f64) {
+    pub(super) fn add_connection(
+        &mut self,
+        sent: &Sent<'_>,
+        factor: impl Fn(&Spectra<'_>, usize) -> f64,
+    ) {
         let emission = sent.emission;
         for band in self.bands() {
-            let mut arriving = emission.scale * self.spectrum(emission.spectrum, band);
+            let mut arriving = emission.scale * self.spectra.spectrum(emission.spectrum, band);
             if let Some((picture, pixel)) = sent.pixel {
-                arriving *= pixel_value(picture, pixel, band, self.light(band).wavelength_nm);
+                arriving *=
+                    pixel_value(picture, pixel, band, self.spectra.light(band).wavelength_nm);
             }
             for film in &sent.films {
-                arriving *= self.film(film, band).1;
+                arriving *= self.spectra.film(film, band).1;
             }
             let light_group = emission.light_group.index();
             self.radiance[light_group][band] +=
-                self.walk.throughput[band] * factor(self, band) * arriving;
+                self.walk.throughput[band] * factor(&self.spectra, band) * arriving;
         }
     }
 

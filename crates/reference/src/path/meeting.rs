@@ -1,16 +1,13 @@
 //! What a surface does with a path that meets it.
 
-use super::spectra::Film;
 use super::walk::{Scattered, mirrored};
 use super::{Path, Use};
 use crate::interference::LayersAt;
 use crate::scatter::{Conductor, Scatterer, coat_share};
-use crate::{
-    Facets, Hit, Ray, SurfacePoint, pattern_reflectance, reflected_share, surface_frame,
-    surface_point,
-};
+use crate::spectra::Film;
+use crate::{Hit, Ray, SurfacePoint, reflected_share, surface_frame, surface_point};
 use glam::DVec3;
-use scene::{CoatedBody, Material, Pattern, SourceKind};
+use scene::{Material, SourceKind};
 
 impl Path<'_> {
     /// Meets a surface; says whether the path goes on.
@@ -18,63 +15,45 @@ impl Path<'_> {
         let scene = self.scene;
         let object = &scene.objects()[hit.object];
         let point = surface_point(&object.shape, &self.walk.ray, hit.distance);
-        match *scene.material(object.material) {
-            Material::Diffuse { ref reflectance } => {
-                self.meet_diffuse(hit.object, point, reflectance)
+        match scene.material(object.material) {
+            Material::Emitter { emission, .. } => {
+                let share = self.share_of_scattering(SourceKind::Object(hit.object));
+                self.add(*emission, share);
             }
-            Material::Emitter {
-                emission,
-                reflectance,
-            } => {
-                self.add(
-                    emission,
-                    self.share_of_scattering(SourceKind::Object(hit.object)),
-                );
-                reflectance.is_some_and(|spectrum| {
-                    self.meet_diffuse(hit.object, point, &Pattern::Uniform(spectrum))
-                })
-            }
-            Material::Conductor {
-                n,
-                k,
-                ref layers,
-                ref microsurface,
-            } => {
-                let conductor = Conductor {
-                    index: (n, k),
-                    coating: LayersAt::new(layers, &object.shape, &point),
-                };
-                if let Some(microsurface) = microsurface {
-                    let rough = Scatterer::RoughConductor(conductor, Facets::new(microsurface));
-                    self.meet_scattering(hit.object, point, &rough, self.random(Use::Scattering))
-                } else {
-                    self.meet_mirror(hit.object, point, &conductor, 1.0)
-                }
-            }
-            Material::CoatedBody(ref body) => self.meet_coated_body(hit.object, point, body),
-            Material::Cook(ref cook) => {
+            Material::Cook(cook) => {
                 if let Some(ambient) = cook.ambient {
                     self.add(ambient, 1.0);
                 }
-                let conductor = Conductor {
-                    index: (cook.n, cook.k),
-                    coating: LayersAt::new(&[], &object.shape, &point),
-                };
-                let random = self.random(Use::Scattering);
-                self.meet_scattering(hit.object, point, &Scatterer::Cook(conductor, cook), random)
             }
             Material::Film {
-                ref layers,
+                layers,
                 interference,
                 ..
             } => {
                 let film = Film {
                     layers: LayersAt::new(layers, &object.shape, &point),
-                    interference,
+                    interference: *interference,
                 };
-                self.meet_film(hit.object, point, &film)
+                return self.meet_film(hit.object, point, &film);
             }
+            Material::Conductor {
+                n,
+                k,
+                layers,
+                microsurface: None,
+            } => {
+                let conductor = Conductor {
+                    index: (*n, *k),
+                    coating: LayersAt::new(layers, &object.shape, &point),
+                };
+                return self.meet_mirror(hit.object, point, &conductor, 1.0);
+            }
+            Material::Diffuse { .. } | Material::CoatedBody(_) | Material::Conductor { .. } => {}
         }
+        let random = self.random(Use::Scattering);
+        let scatterer = Scatterer::new(scene, hit.object, &point, random[3]);
+        scatterer
+            .is_some_and(|scatterer| self.meet_scattering(hit.object, point, &scatterer, random))
     }
 
     /// A mirror that was chosen with probability `chance`.
@@ -85,7 +64,7 @@ impl Path<'_> {
         conductor: &Conductor<'_>,
         chance: f64,
     ) -> bool {
-        self.attenuate(|path, band| path.reflectance(conductor, point.cosine, band) / chance);
+        self.attenuate(|spectra, band| spectra.reflectance(conductor, point.cosine, band) / chance);
         let direction = mirrored(self.walk.ray.direction, point.normal);
         self.leave(object, point.position, direction, None);
         self.walk.estimate *= self.albedo(object);
@@ -94,7 +73,10 @@ impl Path<'_> {
 
     /// A film: the path is mirrored or goes straight on, or does both.
     fn meet_film(&mut self, object: usize, point: SurfacePoint, film: &Film<'_>) -> bool {
-        let values: Vec<_> = self.bands().map(|band| self.film(film, band)).collect();
+        let values: Vec<_> = self
+            .bands()
+            .map(|band| self.spectra.film(film, band))
+            .collect();
         let estimate = self.scene.estimate(self.scene.objects()[object].material);
         let reflected = estimate.reflected_at(point.cosine);
         self.walk.estimate *= estimate.albedo;
@@ -122,32 +104,6 @@ impl Path<'_> {
         true
     }
 
-    fn meet_diffuse(&mut self, object: usize, point: SurfacePoint, pattern: &Pattern) -> bool {
-        let shape = &self.scene.objects()[object].shape;
-        let random = self.random(Use::Scattering);
-        let reflectance = pattern_reflectance(pattern, shape, point.position, random[3]);
-        self.meet_scattering(object, point, &Scatterer::Diffuse(reflectance), random)
-    }
-
-    /// A diffuse body under a coat.
-    fn meet_coated_body(&mut self, object: usize, point: SurfacePoint, body: &CoatedBody) -> bool {
-        let shape = &self.scene.objects()[object].shape;
-        let conductor = Conductor {
-            index: (body.n, body.k),
-            coating: LayersAt::new(&[], shape, &point),
-        };
-        let random = self.random(Use::Scattering);
-        let base = pattern_reflectance(&body.base, shape, point.position, random[3]);
-        let surface = match &body.microsurface {
-            None => Scatterer::CoatedBody(conductor, body, base),
-            Some(microsurface) => {
-                let facets = Facets::new(microsurface);
-                Scatterer::RoughCoatedBody(conductor, body, base, facets)
-            }
-        };
-        self.meet_scattering(object, point, &surface, random)
-    }
-
     /// A diffuse or rough surface: light is sent to it, and the path is scattered by `random` numbers.
     fn meet_scattering(
         &mut self,
@@ -164,8 +120,8 @@ impl Path<'_> {
         if let Some(sent) = self.send_to_light(object, &point, &chances) {
             let towards = scatterer.between(eye, local_from_world * sent.direction);
             let share = sent.factor * self.share_of_sending(&sent, towards.pdf);
-            self.add_connection(&sent, |path, band| {
-                share * path.scattered_value(scatterer, eye, &towards.lobes, band)
+            self.add_connection(&sent, |spectra, band| {
+                share * spectra.scattered_value(scatterer, eye, &towards.lobes, band)
             });
         }
         if let Scatterer::CoatedBody(coat, body, _) = scatterer {
@@ -179,8 +135,8 @@ impl Path<'_> {
         if onward.pdf <= 0.0 || !onward.lobes.is_lit() {
             return false;
         }
-        self.attenuate(|path, band| {
-            path.scattered_value(scatterer, eye, &onward.lobes, band) / onward.pdf
+        self.attenuate(|spectra, band| {
+            spectra.scattered_value(scatterer, eye, &onward.lobes, band) / onward.pdf
         });
         self.walk.splits = 0;
         let lobes = &onward.lobes;

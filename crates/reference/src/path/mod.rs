@@ -2,10 +2,10 @@
 
 mod connection;
 mod meeting;
-mod spectra;
 mod walk;
 
 use crate::environment_picture::pixel_value;
+use crate::spectra::Spectra;
 use crate::{
     chance_to_go_on, environment_pixel, environment_share, nearest_hit, random4,
     sampled_camera_ray, sobol4,
@@ -55,9 +55,12 @@ pub fn radiance(scene: &Scene, lights: &[LightSource], pixel: [u32; 2], sample: 
         lights,
         pixel,
         sample,
-        offset: match settings.sampling {
-            WavelengthSampling::Random => drawn,
-            WavelengthSampling::Centre => 0.5,
+        spectra: Spectra {
+            scene,
+            offset: match settings.sampling {
+                WavelengthSampling::Random => drawn,
+                WavelengthSampling::Centre => 0.5,
+            },
         },
         walk: Walk {
             ray: sampled_camera_ray(scene, pixel, [x, y], on_lens),
@@ -79,7 +82,7 @@ pub fn radiance(scene: &Scene, lights: &[LightSource], pixel: [u32; 2], sample: 
     }
     path.dim();
     PathSample {
-        offset: path.offset,
+        offset: path.spectra.offset,
         radiance: path.radiance,
     }
 }
@@ -98,7 +101,7 @@ struct Path<'a> {
     lights: &'a [LightSource],
     pixel: [u32; 2],
     sample: u32,
-    offset: f64,
+    spectra: Spectra<'a>,
     walk: Walk,
     /// Walks that begin where films split the path, to be followed when the present one has ended.
     waiting: Vec<Walk>,
@@ -117,9 +120,9 @@ impl Path<'_> {
         0..self.walk.throughput.len()
     }
 
-    fn attenuate(&mut self, factor: impl Fn(&Self, usize) -> f64) {
+    fn attenuate(&mut self, factor: impl Fn(&Spectra<'_>, usize) -> f64) {
         for band in self.bands() {
-            self.walk.throughput[band] *= factor(self, band);
+            self.walk.throughput[band] *= factor(&self.spectra, band);
         }
     }
 
@@ -159,7 +162,7 @@ impl Path<'_> {
     /// Light that joins the path here.
     fn add(&mut self, emission: Emission, weight: f64) {
         for band in self.bands() {
-            let light = emission.scale * self.spectrum(emission.spectrum, band);
+            let light = emission.scale * self.spectra.spectrum(emission.spectrum, band);
             let light_group = emission.light_group.index();
             self.radiance[light_group][band] += self.walk.throughput[band] * weight * light;
         }
@@ -173,8 +176,8 @@ impl Path<'_> {
         weight: f64,
     ) {
         for band in self.bands() {
-            let nm = self.light(band).wavelength_nm;
-            let lamp = emission.scale * self.spectrum(emission.spectrum, band);
+            let nm = self.spectra.light(band).wavelength_nm;
+            let lamp = emission.scale * self.spectra.spectrum(emission.spectrum, band);
             let light = lamp * pixel_value(picture, pixel, band, nm);
             let light_group = emission.light_group.index();
             self.radiance[light_group][band] += self.walk.throughput[band] * weight * light;

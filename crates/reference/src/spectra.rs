@@ -1,31 +1,38 @@
 //! Spectra of what a path meets, at its wavelengths.
 
-use super::Path;
 use crate::Reflectance;
 use crate::interference::{LayersAt, Light};
 use crate::picture::smooth_value;
 use crate::scatter::{Conductor, Lobes, Scatterer};
 use glam::DVec3;
 use optics::Complex64;
-use scene::{CoatedBody, Interference, SpectrumId};
+use scene::{CoatedBody, Interference, Scene, SpectrumId};
 
 /// A free film where a path meets it.
-pub(super) struct Film<'a> {
-    pub(super) layers: LayersAt<'a>,
-    pub(super) interference: Interference,
+pub(crate) struct Film<'a> {
+    pub(crate) layers: LayersAt<'a>,
+    pub(crate) interference: Interference,
 }
 
-impl Path<'_> {
-    pub(super) fn spectrum(&self, id: SpectrumId, band: usize) -> f64 {
+/// The spectra of a scene at one wavelength of each band.
+#[derive(Clone, Copy)]
+pub(crate) struct Spectra<'a> {
+    pub(crate) scene: &'a Scene,
+    /// Place of the wavelengths in their bands, in [0, 1).
+    pub(crate) offset: f64,
+}
+
+impl Spectra<'_> {
+    pub(crate) fn spectrum(&self, id: SpectrumId, band: usize) -> f64 {
         self.scene.spectrum(id).at(band as u32, self.offset)
     }
 
-    pub(super) fn index(&self, (n, k): (SpectrumId, SpectrumId), band: usize) -> Complex64 {
+    pub(crate) fn index(&self, (n, k): (SpectrumId, SpectrumId), band: usize) -> Complex64 {
         Complex64::new(self.spectrum(n, band), self.spectrum(k, band))
     }
 
     /// The light of a band, for what interferes.
-    pub(super) fn light(&self, band: usize) -> Light<impl Fn(SpectrumId, SpectrumId) -> Complex64> {
+    pub(crate) fn light(&self, band: usize) -> Light<impl Fn(SpectrumId, SpectrumId) -> Complex64> {
         let bands = &self.scene.settings().bands;
         Light {
             wavelength_nm: bands.wavelength_nm(band as u32, self.offset),
@@ -34,18 +41,18 @@ impl Path<'_> {
     }
 
     /// Reflectance and transmittance of a film.
-    pub(super) fn film(&self, film: &Film<'_>, band: usize) -> (f64, f64) {
+    pub(crate) fn film(&self, film: &Film<'_>, band: usize) -> (f64, f64) {
         film.layers.free(film.interference, &self.light(band))
     }
 
     /// Reflectance of a conductor with what lies on it.
-    pub(super) fn reflectance(&self, conductor: &Conductor<'_>, cosine: f64, band: usize) -> f64 {
+    pub(crate) fn reflectance(&self, conductor: &Conductor<'_>, cosine: f64, band: usize) -> f64 {
         let index = self.index(conductor.index, band);
         conductor.coating.on(index, cosine, &self.light(band))
     }
 
     /// A reflectance in a band.
-    pub(super) fn diffuse(&self, reflectance: Reflectance, band: usize) -> f64 {
+    pub(crate) fn diffuse(&self, reflectance: Reflectance, band: usize) -> f64 {
         match reflectance {
             Reflectance::Spectrum(spectrum) => self.spectrum(spectrum, band),
             Reflectance::Smooth(coefficients) => {
@@ -55,14 +62,14 @@ impl Path<'_> {
     }
 
     /// P of a body below a coat.
-    pub(super) fn below_coat(&self, body: &CoatedBody, base: Reflectance, band: usize) -> f64 {
+    pub(crate) fn below_coat(&self, body: &CoatedBody, base: Reflectance, band: usize) -> f64 {
         let base = self.diffuse(base, band);
         let outer = self.spectrum(body.mean_reflectance, band);
         base * optics::coated_albedo_factor(base, self.spectrum(body.n, band), outer)
     }
 
     /// The reflectance of a rough coat, from its table.
-    pub(super) fn rough_coat(&self, body: &CoatedBody, cosine: f64, band: usize) -> f64 {
+    pub(crate) fn rough_coat(&self, body: &CoatedBody, cosine: f64, band: usize) -> f64 {
         let place = cosine.clamp(0.0, 1.0).sqrt() * (CoatedBody::COSINES - 1) as f64;
         let knot = (place as usize).min(CoatedBody::COSINES - 2);
         let at = |knot| {
@@ -73,7 +80,7 @@ impl Path<'_> {
     }
 
     /// What lobes make of the spectra of a surface in a band.
-    pub(super) fn scattered_value(
+    pub(crate) fn scattered_value(
         &self,
         scatterer: &Scatterer<'_>,
         eye: DVec3,
