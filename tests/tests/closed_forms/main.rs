@@ -4,6 +4,7 @@ mod comparison;
 mod lamps;
 mod layers;
 mod metals;
+mod sky;
 mod views;
 mod wavelengths;
 
