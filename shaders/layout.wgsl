@@ -43,7 +43,7 @@ const SHAPE_DIRECTION: u32 = 25u;
 /// Shape that no ray meets: a point that shines to all sides. Those that lie at a place are greater.
 const SHAPE_POINT: u32 = 26u;
 
-/// Shape that no ray meets: a point that shines about `normal`, fully from the cosine `half_width` on, not below `half_height`.
+/// Shape that no ray meets: a point that shines about `normal`: fully up to the height 1 − cos `half_width`, not beyond `half_height`.
 const SHAPE_SPOT: u32 = 27u;
 
 /// Surface: Lambertian.

@@ -143,7 +143,7 @@ constants! { CONSTANTS;
     pub const SHAPE_DIRECTION = 25;
     /// Shape that no ray meets: a point that shines to all sides. Those that lie at a place are greater.
     pub const SHAPE_POINT = 26;
-    /// Shape that no ray meets: a point that shines about `normal`, fully from the cosine `half_width` on, not below `half_height`.
+    /// Shape that no ray meets: a point that shines about `normal`: fully up to the height 1 − cos `half_width`, not beyond `half_height`.
     pub const SHAPE_SPOT = 27;
 
     /// Surface: Lambertian.
