@@ -9,8 +9,8 @@ const SIDE: u32 = 20;
 const SAMPLES: u32 = 200;
 
 /// Standard errors by which two means may differ. For one comparison 3 would be exceeded once in 370 times; here all comparisons
-/// of the suite together, at most 200, are to fail as rarely, so that each has 0.0027 / 200 = 1.35e-5: 4.35 (Bonferroni).
-const Z: f64 = 4.35;
+/// of the suite together, at most 500, are to fail as rarely, so that each has 0.0027 / 500 = 5.4e-6: 4.55 (Bonferroni).
+const Z: f64 = 4.55;
 
 /// Most of the lower variance that both ways together may have.
 const MOST_VARIANCE: f64 = 1.2;
@@ -35,6 +35,15 @@ const LIGHTS: &[(&str, &str)] = &[
     (
         "gradient",
         "[environment]\ntype = \"gradient\"\nzenith = { constant = 2 }\nhorizon = { constant = 0.5 }\nground = { constant = 0.2 }\n",
+    ),
+    (
+        "picture",
+        "[environment]\ntype = \"image\"\nimage = \"tests/data/surroundings.hdr\"\n",
+    ),
+    (
+        // Its sun is so small that scattered rays hardly ever find it.
+        "sky without its sun",
+        "[environment]\ntype = \"sky\"\nsun_elevation_deg = 40\nsun_azimuth_deg = 10\nsun = false\n",
     ),
     ("several", SEVERAL),
 ];
@@ -82,13 +91,30 @@ const SURFACES: &[(&str, &str)] = &[
         "film on titanium",
         "type = \"coated\"\nsubstrate = \"titanium\"\nindex = 2.4\nthickness_nm = 80\nroughness = 0.15\n",
     ),
+    (
+        "turned aluminium",
+        "type = \"conductor\"\nindex = \"aluminium\"\nroughness = [0.1, 0.4]\nbrushed = { around = [0, 1, 0] }\ndistribution = \"ggx\"\n",
+    ),
+    (
+        "black lacquer",
+        "type = \"dielectric\"\nindex = 1.5\nroughness = 0.3\n",
+    ),
+    ("glazed", "type = \"dielectric\"\nindex = 1.5\nbase = 0.6\n"),
+    (
+        "varnished",
+        "type = \"dielectric\"\nindex = 1.5\nbase = 0.6\nroughness = 0.1\n",
+    ),
+    (
+        "Cook's copper",
+        "type = \"conductor\"\nindex = \"copper\"\nmodel = { cook1981 = { normalisation = \"normalised\", slopes = [{ m = 0.2, weight = 0.6 }, { m = 0.5, weight = 0.4 }] } }\n",
+    ),
 ];
 
 fn scene(light: &str, surface: &str, direct: DirectLight) -> Scene {
     let text = format!(
         "{light}\n{LAMP}\n[materials.floor]\n{surface}\n\
          [camera]\ntype = \"perspective\"\nposition = [0, 1.2, 2.5]\nlook_at = [0, 0, 0]\nfov_deg = 25\n\
-         [render]\nsize = [{SIDE}, {SIDE}]\nsamples = {SAMPLES}\nbands = 1\nwavelengths_nm = [545, 555]\nmax_path_segments = 2\nseed = {}\n\
+         [render]\nsize = [{SIDE}, {SIDE}]\nsamples = {SAMPLES}\nbands = 1\nwavelengths_nm = [545, 555]\nsampler = \"independent\"\nmax_path_segments = 2\nseed = {}\n\
          [[objects]]\ntype = \"rectangle\"\nmaterial = \"floor\"\ncenter = [0, 0, 0]\nnormal = [0, 1, 0]\nsize = [3, 3]\n",
         direct as u32
     );

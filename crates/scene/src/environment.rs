@@ -40,9 +40,9 @@ pub struct EnvironmentPicture {
     pub forward: DVec3,
     /// The direction of the middle of its right half, horizontal.
     pub right: DVec3,
-    /// Mean radiance over all directions and wavelengths.
-    pub mean: f64,
-    /// For drawing directions in proportion to its brightness.
+    /// Mean radiance, over all directions and wavelengths, of what light is sent for.
+    pub sent_mean: f64,
+    /// For drawing directions in proportion to that.
     pub table: DirectionTable,
 }
 

@@ -91,7 +91,7 @@ impl Scene {
         let parts = parts.filter(|(_, part)| sends_only || is_uneven(&part.shape));
         let parts = parts.map(|(index, part)| {
             let mean = match part.shape {
-                EnvironmentShape::Picture(picture) => picture.mean,
+                EnvironmentShape::Picture(picture) => picture.sent_mean,
                 _ => 1.0,
             };
             (SourceKind::Environment(index), part.emission, mean)

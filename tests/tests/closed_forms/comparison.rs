@@ -46,7 +46,7 @@ emission = { constant = 1 }
 
 pub(crate) fn render(samples: u32, segments: u32, sampling: &str) -> String {
     format!(
-        "[render]\nsize = [32, 32]\nsamples = {samples}\nbands = {BANDS}\nsampling = \"{sampling}\"\nseed = 7\n\
+        "[render]\nsize = [32, 32]\nsamples = {samples}\nbands = {BANDS}\nsampling = \"{sampling}\"\nsampler = \"independent\"\nseed = 7\n\
          max_path_segments = {segments}\n"
     )
 }

@@ -8,6 +8,7 @@ mod chi_square;
 mod facets;
 mod lights;
 mod mixtures;
+mod pictures;
 mod slopes;
 
 use chi_square::{Experiment, turns};
@@ -17,7 +18,9 @@ use std::f64::consts::{PI, TAU};
 /// Chance that any of the [`TESTS`] fails although every sampler is right.
 const FALSE_ALARM: f64 = 1e-3;
 /// How many chi-square tests there are, those that must fail left out: the hemisphere, four cones, and those of each file.
-const TESTS: f64 = (1 + 4 + lights::TESTS + slopes::TESTS + facets::TESTS + mixtures::TESTS) as f64;
+const TESTS: f64 =
+    (1 + 4 + lights::TESTS + slopes::TESTS + facets::TESTS + mixtures::TESTS + pictures::TESTS)
+        as f64;
 
 #[test]
 fn the_cosine_hemisphere_is_drawn_by_its_cosine() {

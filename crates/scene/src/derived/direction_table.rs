@@ -4,8 +4,10 @@ use std::f64::consts::PI;
 
 /// The most columns and rows of a table.
 const MOST: [u32; 2] = [1024, 512];
-/// Share of the directions that are drawn evenly, so that none is left out.
+/// Share of the directions that are drawn evenly where no scattered ray finds what is left out.
 const EVEN: f64 = 0.02;
+/// Of the mean brightness: what is brighter by no more than rounding is as bright as the mean.
+const NEARLY_EVEN: f64 = 1.0 + 1e-6;
 
 /// A density of directions that is constant within the cells of a grid of longitude and latitude.
 ///
@@ -24,9 +26,20 @@ pub struct DirectionTable {
     pub conditional: Vec<f32>,
 }
 
+/// For what of a picture's light rays are sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sent {
+    /// For all of it.
+    All,
+    /// For what is brighter than the mean: scattered rays find the rest with less noise (Karlík, Šik, Vévoda, Skřivan and
+    /// Křivánek, MIS Compensation, ACM Transactions on Graphics 38(6), 2019).
+    Excess,
+}
+
 impl DirectionTable {
-    /// The table of a picture by longitude and latitude, of which `brightness` has a number ≥ 0 for each pixel, row by row.
-    pub(crate) fn new(width: u32, height: u32, brightness: &[f32]) -> Self {
+    /// The table of a picture by longitude and latitude, of which `brightness` has a number ≥ 0 for each pixel, row by row; and
+    /// the mean over all directions of the brightness that rays are sent for.
+    pub(crate) fn new([width, height]: [u32; 2], brightness: &[f32], sent: Sent) -> (Self, f64) {
         let (columns, rows) = (width.min(MOST[0]), height.min(MOST[1]));
         let picture = Brightness {
             size: [width as usize, height as usize],
@@ -37,19 +50,28 @@ impl DirectionTable {
             .collect();
         let mut cells = picture.of_cells(columns as usize, rows as usize);
         let share = |row: usize| f64::from(heights[row] - heights[row + 1]) / 2.0;
-        let in_rows = || cells.chunks(columns as usize).enumerate();
-        let mean: f64 = in_rows()
-            .map(|(row, cells)| share(row) * cells.iter().sum::<f64>() / cells.len() as f64)
-            .sum();
-        let even = if mean > 0.0 { EVEN * mean } else { 1.0 };
+        let mean = |cells: &[f64]| -> f64 {
+            let rows = cells.chunks(columns as usize).enumerate();
+            let of_row = |(row, cells): (usize, &[f64])| share(row) * cells.iter().sum::<f64>();
+            rows.map(of_row).sum::<f64>() / f64::from(columns)
+        };
+        let whole = mean(&cells);
+        let (least, even) = match sent {
+            Sent::All => (0.0, EVEN * whole),
+            Sent::Excess => (NEARLY_EVEN * whole, 0.0),
+        };
         for cell in &mut cells {
-            *cell += even;
+            *cell = (*cell - least).max(0.0) + even;
+        }
+        let sent_mean = mean(&cells);
+        if sent_mean <= 0.0 {
+            cells.fill(1.0);
         }
         let in_rows = || cells.chunks(columns as usize).enumerate();
         let of_rows: Vec<f64> = in_rows()
             .map(|(row, cells)| share(row) * cells.iter().sum::<f64>())
             .collect();
-        Self {
+        let table = Self {
             columns,
             rows,
             heights,
@@ -57,16 +79,21 @@ impl DirectionTable {
             conditional: in_rows()
                 .flat_map(|(_, cells)| running_share(cells))
                 .collect(),
-        }
+        };
+        (table, sent_mean)
     }
 }
 
-/// The share of the sum before each number, from 0 to 1.
+/// The share of the sum before each number, from 0 to 1; even steps where all are 0.
 fn running_share(numbers: &[f64]) -> Vec<f32> {
     let total: f64 = numbers.iter().sum();
     let mut sum = 0.0;
-    let before = numbers.iter().map(|number| {
-        let share = sum / total;
+    let before = numbers.iter().enumerate().map(|(index, number)| {
+        let share = if total > 0.0 {
+            sum / total
+        } else {
+            index as f64 / numbers.len() as f64
+        };
         sum += number;
         share as f32
     });
@@ -115,5 +142,57 @@ impl Brightness<'_> {
             at(left) * (1.0 - part_x) + at(left + 1) * part_x
         };
         row(above) * (1.0 - part_y) + row(below) * part_y
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZE: [u32; 2] = [16, 8];
+
+    /// Probability of a cell.
+    fn probability(table: &DirectionTable, column: usize, row: usize) -> f32 {
+        let edges = table.columns as usize + 1;
+        let conditional = &table.conditional[row * edges..(row + 1) * edges];
+        (table.marginal[row + 1] - table.marginal[row])
+            * (conditional[column + 1] - conditional[column])
+    }
+
+    #[test]
+    fn rays_are_sent_for_what_is_brighter_than_the_mean() {
+        // The upper half is three times as bright as the lower.
+        let brightness: Vec<f32> = (0..16 * 8)
+            .map(|i| if i < 16 * 4 { 3.0 } else { 1.0 })
+            .collect();
+        let (all, mean) = DirectionTable::new(SIZE, &brightness, Sent::All);
+        assert!((mean - 2.0 * (1.0 + EVEN)).abs() < 1e-6, "{mean}");
+        // Three quarters, less what the row at the edge has of the lower half.
+        assert!(
+            (0.72..0.75).contains(&all.marginal[4]),
+            "{:?}",
+            all.marginal
+        );
+        let (excess, mean) = DirectionTable::new(SIZE, &brightness, Sent::Excess);
+        // Half of the directions, one above the mean of 2; rows between the halves have something of both.
+        assert!((0.4..=0.5).contains(&mean), "{mean}");
+        assert_eq!(probability(&excess, 3, 6), 0.0);
+        assert!(probability(&excess, 3, 1) > 1.3 * probability(&all, 3, 1));
+    }
+
+    #[test]
+    fn rays_are_not_sent_for_what_is_even() {
+        for value in [0.0, 1.0, 0.1] {
+            let (table, mean) = DirectionTable::new(SIZE, &[value; 16 * 8], Sent::Excess);
+            assert_eq!(mean, 0.0, "{value}");
+            // It is sound all the same.
+            assert!(
+                table
+                    .marginal
+                    .iter()
+                    .chain(&table.conditional)
+                    .all(|p| (0.0..=1.0).contains(p))
+            );
+        }
     }
 }

@@ -7,6 +7,7 @@ mod estimate;
 mod filter;
 
 pub use direction_table::DirectionTable;
+pub(crate) use direction_table::Sent;
 pub use energy::Energy;
 pub use estimate::Estimate;
 pub(crate) use estimate::estimates;

@@ -6,9 +6,10 @@ use super::light::Named;
 use super::sky::Sky;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
-use crate::description::{Emission, EmissionSpectrum, Extrapolate, Strength};
+use crate::derived::Sent;
+use crate::description::{Description, Emission, EmissionSpectrum, Extrapolate, Strength};
 use crate::problem::{Problem, ProblemKind};
-use crate::{Environment, FieldPath, Light, PictureSpectra, description, limits};
+use crate::{DirectLight, Environment, FieldPath, Light, PictureSpectra, description, limits};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -16,8 +17,13 @@ use std::sync::Arc;
 pub(crate) fn check<'a>(
     checks: &mut Checks,
     spectra: &mut SpectrumList<'_>,
-    environment: Option<&'a description::Environment>,
+    description: &'a Description,
 ) -> Option<(Environment, Option<Named<'a>>)> {
+    let environment = description.environment.as_ref();
+    let sent = match description.render.direct_light {
+        DirectLight::Lights => Sent::All,
+        DirectLight::Both | DirectLight::Surfaces => Sent::Excess,
+    };
     let top = FieldPath::root().key("environment");
     let radiator = match environment {
         Some(description::Environment::Gradient { .. }) => Radiator::PartOfSurroundings,
@@ -53,7 +59,7 @@ pub(crate) fn check<'a>(
                 turbidity: *turbidity,
                 ground,
             };
-            let (sky, sunlight) = check_sky(checks, spectra, &sky, (*scale, *sun))?;
+            let (sky, sunlight) = check_sky(checks, spectra, &sky, (*scale, *sun, sent))?;
             let name = sun_light_group.as_deref().or(light_group.as_deref());
             light = sunlight.map(|sunlight| (sunlight, name));
             Some(sky)
@@ -71,7 +77,7 @@ pub(crate) fn check<'a>(
                 illuminant: illuminant.as_deref(),
                 rotation_deg: *rotation_deg,
             };
-            written.check(checks, spectra)
+            written.check(checks, spectra, sent)
         }
         Some(description::Environment::Gradient {
             zenith,
@@ -100,14 +106,14 @@ fn check_sky(
     checks: &mut Checks,
     spectra: &mut SpectrumList<'_>,
     sky: &Sky<'_>,
-    (scale, has_sun): (f64, bool),
+    (scale, has_sun, sent): (f64, bool, Sent),
 ) -> Option<(Environment, Option<Light>)> {
     let top = FieldPath::root().key("environment");
     let checked = sky.check(checks, spectra);
     let factor = times(EmissionSpectrum::Constant { constant: 1.0 }, scale);
     let emission = spectra.emission(checks, &top, &factor, Radiator::Surroundings)?;
     let checked = checked?;
-    let picture = Arc::new(checked.sphere.turned(-sky.sun_azimuth_deg));
+    let picture = Arc::new(checked.sphere.turned(-sky.sun_azimuth_deg, sent));
     let sky = Environment::Picture { emission, picture };
     if !has_sun {
         return Some((sky, None));
@@ -141,7 +147,12 @@ struct Image<'a> {
 }
 
 impl Image<'_> {
-    fn check(&self, checks: &mut Checks, spectra: &mut SpectrumList<'_>) -> Option<Environment> {
+    fn check(
+        &self,
+        checks: &mut Checks,
+        spectra: &mut SpectrumList<'_>,
+        sent: Sent,
+    ) -> Option<Environment> {
         let top = FieldPath::root().key("environment");
         let turn = checks.number(
             &top.key("rotation_deg"),
@@ -173,7 +184,7 @@ impl Image<'_> {
         }
         Some(Environment::Picture {
             emission,
-            picture: Arc::new(sphere.turned(turn?)),
+            picture: Arc::new(sphere.turned(turn?, sent)),
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use super::checks::Checks;
 use super::picture_file::{LightFile, PictureFileError, read_light};
-use crate::derived::DirectionTable;
+use crate::derived::{DirectionTable, Sent};
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
 use crate::{EnvironmentPicture, FieldPath, PictureSpectra, Texels};
@@ -10,7 +10,6 @@ use colorimetry::lifting::SigmoidReflectance;
 use glam::DVec3;
 use rayon::prelude::*;
 use spectra::{BandGrid, SpectralImage};
-use std::f64::consts::PI;
 use std::path::Path;
 use thiserror::Error;
 
@@ -23,28 +22,17 @@ pub(super) struct Sphere {
 }
 
 impl Sphere {
-    /// Mean radiance over all directions and wavelengths.
-    fn mean(&self) -> f64 {
-        let rows = self.brightness.chunks(self.texels.width as usize);
-        let turn = PI / f64::from(self.texels.height);
-        let of_row = |(row, pixels): (u32, &[f32])| {
-            let share = ((f64::from(row) * turn).cos() - (f64::from(row + 1) * turn).cos()) / 2.0;
-            share * pixels.iter().map(|&b| f64::from(b)).sum::<f64>() / pixels.len() as f64
-        };
-        (0..).zip(rows).map(of_row).sum()
-    }
-
     /// The picture with its middle turned from −Z by an angle.
-    pub(super) fn turned(self, rotation_deg: f64) -> EnvironmentPicture {
+    pub(super) fn turned(self, rotation_deg: f64, sent: Sent) -> EnvironmentPicture {
         let (sine, cosine) = rotation_deg.to_radians().sin_cos();
-        let table = DirectionTable::new(self.texels.width, self.texels.height, &self.brightness);
-        let mean = self.mean();
+        let size = [self.texels.width, self.texels.height];
+        let (table, sent_mean) = DirectionTable::new(size, &self.brightness, sent);
         EnvironmentPicture {
             texels: self.texels,
             spectra: self.spectra,
             forward: DVec3::new(-sine, 0.0, -cosine),
             right: DVec3::new(cosine, 0.0, -sine),
-            mean,
+            sent_mean,
             table,
         }
     }
