@@ -175,6 +175,9 @@ pub const VARIANCES: VarianceTolerance = VarianceTolerance {
 /// Closed forms: relative error besides the noise. The view is some thousandths of the distances wide (squared: below
 /// 1e-5) and f32 geometry, optics and sums of a million samples add as much again.
 pub const CLOSED_FORM: f64 = 2e-5;
+/// Ground under a clear sky against integrals of its formulas: the sky is drawn as a picture with pixels of 1.4°, bilinear between
+/// their centres.
+pub const SKY_PICTURE: f64 = 3e-4;
 /// Albedo of rough metals: the tables of facets' energy are linear between 32 cosines and made by 48² facets.
 pub const ROUGH_FORM: f64 = 5e-4;
 /// White furnace of rough surfaces: what the tables of facets' energy promise, besides the noise; and the most noise that proves it.

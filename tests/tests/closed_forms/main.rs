@@ -5,6 +5,7 @@ mod furnace;
 mod lamps;
 mod layers;
 mod metals;
+mod sky;
 mod views;
 mod wavelengths;
 

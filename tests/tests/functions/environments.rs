@@ -39,7 +39,7 @@ pub(crate) fn checks() -> Vec<Check> {
 type Twin = fn(&[f64]) -> Vec<f64>;
 
 fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
-    let parts: Vec<usize> = (0..world.packed.frame.environment_count as usize)
+    let parts: Vec<usize> = (0..world.scene.surroundings().len())
         .map(|part| world.packed.frame.first_environment as usize + part)
         .collect();
     let others = parts.clone();

@@ -131,7 +131,8 @@ impl<'a> Path<'a> {
         }
         match (Source::of(self.scene, light).distance(ray.origin), hit) {
             (_, None) => true,
-            (Some(distance), Some(hit)) => hit.distance >= distance,
+            // A lamp may lie on a surface: what is hit just before it, within rounding, does not hide it.
+            (Some(distance), Some(hit)) => hit.distance >= 0.99999 * distance,
             (None, Some(_)) => false,
         }
     }

@@ -43,7 +43,7 @@ pub enum Environment {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         light_group: Option<String>,
     },
-    /// A clear sky by day over flat ground (Preetham, Shirley and Smits 1999), in W m⁻² sr⁻¹ nm⁻¹. The sun's disc is not in it.
+    /// A clear sky by day with its sun, over flat ground (Preetham, Shirley and Smits 1999), in W m⁻² sr⁻¹ nm⁻¹.
     Sky {
         /// Height of the sun over the horizon in degrees.
         #[schemars(range(min = limits::SUN_ELEVATION_DEG.low, max = limits::SUN_ELEVATION_DEG.high))]
@@ -56,7 +56,10 @@ pub enum Environment {
         #[serde(default = "clear")]
         #[schemars(range(min = limits::TURBIDITY.low, max = limits::TURBIDITY.high))]
         turbidity: f64,
-        /// Reflectance of the ground, which is lit by the sun and the sky; 0.2 when absent.
+        /// Whether the sun's disc is there, which is seen and lights objects. Without it objects have skylight alone.
+        #[serde(default = "yes")]
+        sun: bool,
+        /// Reflectance of the ground, which is lit by the sun, whether its disc is there or not, and by the sky; 0.2 when absent.
         #[serde(default = "ground")]
         ground: Reflectance,
         /// Factor of all radiance.
@@ -67,6 +70,9 @@ pub enum Environment {
         /// with this spectrum.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         light_group: Option<String>,
+        /// The light group of the sun's disc; that of the sky when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        sun_light_group: Option<String>,
     },
     /// A mixture by the height of the direction over the horizon.
     Gradient {
@@ -86,6 +92,10 @@ pub enum Environment {
 
 fn one() -> f64 {
     1.0
+}
+
+fn yes() -> bool {
+    true
 }
 
 fn clear() -> f64 {

@@ -128,6 +128,7 @@ impl Reader<'_> {
             (Shape::Integer { low, high }, DeValue::Integer(integer)) => {
                 self.integer(integer, (*low, *high), shape, place)
             }
+            (Shape::Boolean, &DeValue::Boolean(truth)) => Value::Boolean(truth),
             (Shape::Text, DeValue::String(text)) => Value::String(text.to_string()),
             (Shape::Choice(words), DeValue::String(text)) => self.choice(words, text, place),
             (Shape::List { item, length }, DeValue::Array(items)) => {
@@ -441,7 +442,8 @@ fn accepts(shape: &Shape, found: &DeValue<'_>) -> bool {
         DeValue::Float(_) => matches!(shape, Shape::Number),
         DeValue::String(_) => matches!(shape, Shape::Text | Shape::Choice(_)),
         DeValue::Array(_) => matches!(shape, Shape::List { .. }),
-        DeValue::Boolean(_) | DeValue::Datetime(_) | DeValue::Table(_) => false,
+        DeValue::Boolean(_) => matches!(shape, Shape::Boolean),
+        DeValue::Datetime(_) | DeValue::Table(_) => false,
     }
 }
 
@@ -465,6 +467,7 @@ fn any_value(shape: &Shape) -> Value {
     match shape.resolved() {
         Shape::Number => Value::Float(1.0),
         Shape::Integer { low, .. } => Value::Integer(*low),
+        Shape::Boolean => Value::Boolean(false),
         Shape::Text => Value::String(String::new()),
         Shape::Choice(words) => Value::String(words.first().cloned().unwrap_or_default()),
         Shape::List { item, length } => {

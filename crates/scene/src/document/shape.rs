@@ -15,6 +15,7 @@ pub(crate) enum Shape {
         low: i64,
         high: i64,
     },
+    Boolean,
     Text,
     /// One of these words.
     Choice(Vec<String>),
@@ -91,6 +92,7 @@ impl fmt::Display for Shape {
         match self {
             Self::Number => write!(f, "a number"),
             Self::Integer { low, high } => write!(f, "a whole number from {low} to {high}"),
+            Self::Boolean => write!(f, "true or false"),
             Self::Text => write!(f, "a string"),
             Self::Choice(words) => write!(f, "{}", quoted_choice(words)),
             Self::List { item, length } => {
@@ -194,6 +196,7 @@ impl<'a> Compiler<'a> {
                     .as_f64()
                     .map_or(i64::from(u32::MAX), |high| high as i64),
             },
+            Some("boolean") => Shape::Boolean,
             Some("string") => match schema["enum"].as_array() {
                 Some(words) => Shape::Choice(words.iter().map(word).collect()),
                 None => Shape::Text,

@@ -1,21 +1,23 @@
 //! The surroundings: from `[environment]` to emissions.
 
 use super::checks::Checks;
+use super::environment_picture;
+use super::light::Named;
+use super::sky::Sky;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
-use super::{environment_picture, sky};
 use crate::description::{Emission, EmissionSpectrum, Extrapolate, Strength};
 use crate::problem::{Problem, ProblemKind};
-use crate::{Environment, FieldPath, PictureSpectra, description, limits};
+use crate::{Environment, FieldPath, Light, PictureSpectra, description, limits};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Checks `[environment]`; without one it is black.
-pub(crate) fn check(
+/// Checks `[environment]`; without one it is black. A sky may come with the light of its sun.
+pub(crate) fn check<'a>(
     checks: &mut Checks,
     spectra: &mut SpectrumList<'_>,
-    environment: Option<&description::Environment>,
-) -> Option<Environment> {
+    environment: Option<&'a description::Environment>,
+) -> Option<(Environment, Option<Named<'a>>)> {
     let top = FieldPath::root().key("environment");
     let radiator = match environment {
         Some(description::Environment::Gradient { .. }) => Radiator::PartOfSurroundings,
@@ -23,7 +25,8 @@ pub(crate) fn check(
     };
     let mut emission =
         |name: &str, emission| spectra.emission(checks, &top.key(name), emission, radiator);
-    match environment {
+    let mut light = None;
+    let environment = match environment {
         None => {
             let black = description::Emission {
                 spectrum: description::EmissionSpectrum::Constant { constant: 0.0 },
@@ -40,16 +43,20 @@ pub(crate) fn check(
             turbidity,
             ground,
             scale,
-            ..
+            sun,
+            light_group,
+            sun_light_group,
         }) => {
-            let sun = [*sun_elevation_deg, *sun_azimuth_deg];
-            let sphere = sky::check(checks, spectra, (sun, *turbidity), ground);
-            let factor = times(EmissionSpectrum::Constant { constant: 1.0 }, *scale);
-            let emission = spectra.emission(checks, &top, &factor, Radiator::Surroundings);
-            Some(Environment::Picture {
-                emission: emission?,
-                picture: Arc::new(sphere?.turned(-*sun_azimuth_deg)),
-            })
+            let sky = Sky {
+                sun_elevation_deg: *sun_elevation_deg,
+                sun_azimuth_deg: *sun_azimuth_deg,
+                turbidity: *turbidity,
+                ground,
+            };
+            let (sky, sunlight) = check_sky(checks, spectra, &sky, (*scale, *sun))?;
+            let name = sun_light_group.as_deref().or(light_group.as_deref());
+            light = sunlight.map(|sunlight| (sunlight, name));
+            Some(sky)
         }
         Some(description::Environment::Image {
             image,
@@ -84,7 +91,34 @@ pub(crate) fn check(
                 ground: ground?,
             })
         }
+    };
+    Some((environment?, light))
+}
+
+/// A sky, and the light of its sun where that is there.
+fn check_sky(
+    checks: &mut Checks,
+    spectra: &mut SpectrumList<'_>,
+    sky: &Sky<'_>,
+    (scale, has_sun): (f64, bool),
+) -> Option<(Environment, Option<Light>)> {
+    let top = FieldPath::root().key("environment");
+    let checked = sky.check(checks, spectra);
+    let factor = times(EmissionSpectrum::Constant { constant: 1.0 }, scale);
+    let emission = spectra.emission(checks, &top, &factor, Radiator::Surroundings)?;
+    let checked = checked?;
+    let picture = Arc::new(checked.sphere.turned(-sky.sun_azimuth_deg));
+    let sky = Environment::Picture { emission, picture };
+    if !has_sun {
+        return Some((sky, None));
     }
+    let sunlight = ("sun".to_owned(), Some(checked.sunlight));
+    let strength = (&factor.strength, Radiator::Surroundings);
+    let sun = Light {
+        shape: checked.disc,
+        emission: spectra.emission_of(checks, &top, sunlight, strength)?,
+    };
+    Some((sky, Some(sun)))
 }
 
 /// A spectrum times a factor.

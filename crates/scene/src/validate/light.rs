@@ -8,32 +8,42 @@ use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, Light, LightShape, description};
 use std::f64::consts::{PI, TAU};
 
-/// A light and the place of its description.
-pub(crate) type Placed = (usize, Light);
+/// A light and the name of its light group, where one is written.
+pub(crate) type Named<'a> = (Light, Option<&'a str>);
 
-/// Checks `[[lights]]`. Discs come first.
-pub(crate) fn check_all(
+/// Checks `[[lights]]`.
+pub(crate) fn check_all<'a>(
     checks: &mut Checks,
     spectra: &mut SpectrumList<'_>,
-    lights: &[description::Light],
-) -> Option<Vec<Placed>> {
+    lights: &'a [description::Light],
+) -> Option<Vec<Named<'a>>> {
     let top = FieldPath::root().key("lights");
     let checked: Vec<_> = lights
         .iter()
         .enumerate()
         .map(|(index, light)| {
-            let light = check(checks, spectra, &top.index(index), light)?;
-            Some((index, light))
+            let checked = check(checks, spectra, &top.index(index), light)?;
+            Some((checked, light.light_group()))
         })
         .collect();
-    let mut lights = checked.into_iter().collect::<Option<Vec<_>>>()?;
-    lights.sort_by_key(|(_, light)| !is_disc(light));
-    let discs = lights.iter().filter(|(_, light)| is_disc(light)).count();
+    checked.into_iter().collect()
+}
+
+/// The same with the sun of a sky, discs first; no more discs than are possible.
+pub(crate) fn with_sun<'a>(
+    checks: &mut Checks,
+    mut lights: Vec<Named<'a>>,
+    sun: Option<Named<'a>>,
+) -> Option<Vec<Named<'a>>> {
+    lights.extend(sun);
+    lights.sort_by_key(|(light, _)| !is_disc(light));
+    let discs = lights.iter().filter(|(light, _)| is_disc(light)).count();
     if discs > limits::MAX_DISCS_OF_LIGHT {
         let message = format!(
-            "found {discs} distant lights with a diameter; at most {} are possible",
+            "found {discs} distant lights with a diameter, the sun of a sky counted; at most {} are possible",
             limits::MAX_DISCS_OF_LIGHT
         );
+        let top = FieldPath::root().key("lights");
         checks.report(Problem::new(ProblemKind::TooLarge, &top, message));
         return None;
     }
@@ -96,10 +106,10 @@ fn radiator(shape: LightShape) -> Radiator {
         LightShape::Point { .. } => Radiator::Point(2.0 * TAU),
         // The smooth edge is odd about its middle, so that half of it counts.
         LightShape::Spot {
-            full_cosine,
-            edge_cosine,
+            full_height,
+            edge_height,
             ..
-        } => Radiator::Point(TAU * (1.0 - 0.5 * (full_cosine + edge_cosine))),
+        } => Radiator::Point(0.5 * TAU * (full_height + edge_height)),
     }
 }
 
@@ -150,11 +160,11 @@ fn spot(
         checks.report(problem.involving(field.key("angle_deg")));
         return None;
     }
-    let cosine = |degrees: f64| (0.5 * degrees).to_radians().cos();
+    let height = |degrees: f64| 2.0 * (0.25 * degrees).to_radians().sin().powi(2);
     Some(LightShape::Spot {
         position: position?,
         axis: axis?,
-        full_cosine: cosine(full_angle),
-        edge_cosine: cosine(angle),
+        full_height: height(full_angle),
+        edge_height: height(angle),
     })
 }

@@ -1,7 +1,7 @@
 //! Light groups: which lights are kept apart.
 
 use super::checks::Checks;
-use super::light::Placed;
+use super::light::Named;
 use super::spectrum_list::Lamp;
 use crate::description::{self, Description, LightGroups};
 use crate::limits::MAX_LIGHT_GROUPS;
@@ -10,16 +10,16 @@ use crate::{Emission, Environment, FieldPath, LightGroupId, Material, Object};
 use spectra::LightGroup;
 
 /// The parts of a scene that know of light. Each emission has its lamp's number for a light group.
-pub(crate) struct Unlit {
+pub(crate) struct Unlit<'a> {
     pub(crate) materials: Vec<Material>,
     pub(crate) objects: Vec<Object>,
-    pub(crate) lights: Vec<Placed>,
+    pub(crate) lights: Vec<Named<'a>>,
     pub(crate) environment: Environment,
 }
 
 /// The same with light groups.
-pub(crate) struct Lit {
-    pub(crate) parts: Unlit,
+pub(crate) struct Lit<'a> {
+    pub(crate) parts: Unlit<'a>,
     pub(crate) light_groups: Vec<LightGroup>,
 }
 
@@ -30,10 +30,8 @@ pub(crate) fn check_names(checks: &mut Checks, description: &Description) {
         let field = root.key("materials").key(name);
         (field, name_of_material(material))
     });
-    let of_environment = (
-        root.key("environment"),
-        name_of_environment(description.environment.as_ref()),
-    );
+    let environment = description.environment.as_ref();
+    let of_environment = (root.key("environment"), name_of_environment(environment));
     let of_lights = description
         .lights
         .iter()
@@ -43,6 +41,17 @@ pub(crate) fn check_names(checks: &mut Checks, description: &Description) {
         if let Some(name) = name {
             check_name(checks, &field.key("light_group"), name);
         }
+    }
+    if let Some(description::Environment::Sky {
+        sun_light_group: Some(name),
+        ..
+    }) = environment
+    {
+        check_name(
+            checks,
+            &root.key("environment").key("sun_light_group"),
+            name,
+        );
     }
 }
 
@@ -77,12 +86,12 @@ fn check_name(checks: &mut Checks, field: &FieldPath, name: &str) {
 }
 
 /// Gives every emission its light group. Only what shines on objects that are there makes a group.
-pub(crate) fn assign(
+pub(crate) fn assign<'a>(
     checks: &mut Checks,
     lamps: &[Lamp],
     description: &Description,
-    mut parts: Unlit,
-) -> Option<Lit> {
+    mut parts: Unlit<'a>,
+) -> Option<Lit<'a>> {
     let mut lights = lights(description, &mut parts);
     let burning: Vec<(&Lamp, Option<&str>)> = lights
         .iter()
@@ -148,7 +157,7 @@ fn report_too_many(checks: &mut Checks) {
 /// The emissions of objects and surroundings, each with the name of a light group where one is written.
 fn lights<'a>(
     description: &'a Description,
-    parts: &'a mut Unlit,
+    parts: &'a mut Unlit<'_>,
 ) -> Vec<(&'a mut Emission, Option<&'a str>)> {
     let mut is_used = vec![false; parts.materials.len()];
     for object in &parts.objects {
@@ -168,10 +177,7 @@ fn lights<'a>(
         })
         .collect();
     let of_lights = parts.lights.iter_mut();
-    lights.extend(of_lights.map(|(index, light)| {
-        let name = description.lights[*index].light_group();
-        (&mut light.emission, name)
-    }));
+    lights.extend(of_lights.map(|(light, name)| (&mut light.emission, *name)));
     let name = name_of_environment(description.environment.as_ref());
     match &mut parts.environment {
         Environment::Constant(everywhere) => lights.push((everywhere, name)),

@@ -44,16 +44,17 @@ pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene
     let materials = material::check_all(&mut checks, &mut spectra, &description.materials);
     let objects = object::check_all(&mut checks, &description.materials, &description.objects);
     let lights = light::check_all(&mut checks, &mut spectra, &description.lights);
-    let environment =
+    let surroundings =
         environment::check(&mut checks, &mut spectra, description.environment.as_ref());
     let observer = spectra.observer(&mut checks);
     light_groups::check_names(&mut checks, description);
     let lit = (|| {
+        let (environment, sun) = surroundings?;
         let parts = light_groups::Unlit {
             materials: materials?,
             objects: objects?,
-            lights: lights?,
-            environment: environment?,
+            lights: light::with_sun(&mut checks, lights?, sun)?,
+            environment,
         };
         let mut lit = light_groups::assign(&mut checks, spectra.lamps(), description, parts)?;
         let peak = |id| spectra.peak(id);
@@ -78,7 +79,7 @@ pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene
                 .parts
                 .lights
                 .into_iter()
-                .map(|(_, light)| light)
+                .map(|(light, _)| light)
                 .collect(),
             environment: lit.parts.environment,
             estimates: Vec::new(),

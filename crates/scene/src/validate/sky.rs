@@ -1,41 +1,90 @@
-//! A clear sky: from the sun's height to a picture of all directions with the sun's azimuth in its middle.
+//! A clear sky: from the sun's height to a picture of all directions with the sun's azimuth in its middle, and the sun's disc.
 
 use super::checks::Checks;
 use super::environment_picture::{Sphere, banded};
 use super::spectrum_list::SpectrumList;
 use crate::description::Reflectance;
-use crate::{FieldPath, limits};
+use crate::{FieldPath, LightShape, limits};
+use glam::DVec3;
 use rayon::prelude::*;
 use spectra::sky::{ClearSky, SUN_DIAMETER_DEG, daylight_basis};
-use spectra::{BandGrid, BandTable};
+use spectra::{BandGrid, BandTable, Spectrum, Tabulated};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Pixels around and from top to bottom; the horizon lies between two rows.
 const SIZE: [u32; 2] = [256, 128];
 
-/// Checks a sky; `sun` is its elevation and azimuth in degrees.
-pub(super) fn check(
-    checks: &mut Checks,
-    spectra: &mut SpectrumList<'_>,
-    (sun, turbidity): ([f64; 2], f64),
-    ground: &Reflectance,
-) -> Option<Sphere> {
-    let top = FieldPath::root().key("environment");
-    let elevation = checks.number(
-        &top.key("sun_elevation_deg"),
-        sun[0],
-        &limits::SUN_ELEVATION_DEG,
-    );
-    let azimuth = checks.number(&top.key("sun_azimuth_deg"), sun[1], &limits::ROTATION_DEG);
-    let turbidity = checks.number(&top.key("turbidity"), turbidity, &limits::TURBIDITY);
-    let ground = spectra.reflectance(checks, &top.key("ground"), ground)?;
-    let (elevation, _) = (elevation?, azimuth?);
-    let grid = spectra.grid()?;
-    let sun_angle = FRAC_PI_2 - elevation.to_radians();
-    let sky = ClearSky::new(sun_angle, turbidity?);
-    let sky = BandedSky::new(&sky, sun_angle, &grid);
-    let ground = means(&grid, spectra.table(ground));
-    Some(sky.over(&ground))
+/// A sky as written.
+pub(super) struct Sky<'a> {
+    pub(super) sun_elevation_deg: f64,
+    pub(super) sun_azimuth_deg: f64,
+    pub(super) turbidity: f64,
+    pub(super) ground: &'a Reflectance,
+}
+
+/// A sky as it is.
+pub(super) struct Checked {
+    /// The sky over its ground.
+    pub(super) sphere: Sphere,
+    /// The radiance of the sun's disc.
+    pub(super) sunlight: Spectrum,
+    /// Where that is.
+    pub(super) disc: LightShape,
+}
+
+impl Sky<'_> {
+    pub(super) fn check(
+        &self,
+        checks: &mut Checks,
+        spectra: &mut SpectrumList<'_>,
+    ) -> Option<Checked> {
+        let top = FieldPath::root().key("environment");
+        let mut number = |name: &str, value, range| checks.number(&top.key(name), value, range);
+        let elevation = number(
+            "sun_elevation_deg",
+            self.sun_elevation_deg,
+            &limits::SUN_ELEVATION_DEG,
+        );
+        let azimuth = number(
+            "sun_azimuth_deg",
+            self.sun_azimuth_deg,
+            &limits::ROTATION_DEG,
+        );
+        let turbidity = number("turbidity", self.turbidity, &limits::TURBIDITY);
+        let ground = spectra.reflectance(checks, &top.key("ground"), self.ground)?;
+        let (elevation, azimuth) = (elevation?.to_radians(), azimuth?.to_radians());
+        let grid = spectra.grid()?;
+        let sun_angle = FRAC_PI_2 - elevation;
+        let sky = ClearSky::new(sun_angle, turbidity?);
+        let sunlight = sunlight(&sky);
+        let sky = BandedSky::new(&sky, sun_angle, &grid);
+        let of_sun = of_bands(&grid, &sunlight);
+        let ground = means(&grid, spectra.table(ground));
+        let (sin_a, cos_a) = azimuth.sin_cos();
+        let (height, radius) = elevation.sin_cos();
+        Some(Checked {
+            sphere: sky.over(&ground, &of_sun),
+            sunlight,
+            disc: LightShape::Disc {
+                towards: DVec3::new(radius * sin_a, height, -radius * cos_a),
+                height: 2.0 * (0.25 * SUN_DIAMETER_DEG.to_radians()).sin().powi(2),
+            },
+        })
+    }
+}
+
+/// Radiance of the sun's disc at every nm that bands may cover.
+fn sunlight(sky: &ClearSky) -> Spectrum {
+    let (first, last) = BandGrid::LIMITS_NM;
+    let points = (first as u32..=last as u32).map(f64::from);
+    let points = points.map(|nm| (nm, sky.sun_radiance(nm)));
+    Spectrum::Table(Tabulated::new(points.collect()).expect("its wavelengths rise"))
+}
+
+/// The mean of a spectrum over each band, which covers them all.
+fn of_bands(grid: &BandGrid, spectrum: &Spectrum) -> Vec<f64> {
+    let table = BandTable::new(grid, spectrum);
+    table.map_or_else(|_| vec![0.0; grid.count() as usize], |t| means(grid, &t))
 }
 
 /// The mean over each band.
@@ -53,38 +102,31 @@ fn means(grid: &BandGrid, table: &BandTable) -> Vec<f64> {
 struct BandedSky<'a> {
     sky: &'a ClearSky,
     sun_angle: f64,
-    grid: &'a BandGrid,
     /// The components of daylight in each band.
     components: Vec<[f64; 3]>,
 }
 
 impl<'a> BandedSky<'a> {
-    fn new(sky: &'a ClearSky, sun_angle: f64, grid: &'a BandGrid) -> Self {
+    fn new(sky: &'a ClearSky, sun_angle: f64, grid: &BandGrid) -> Self {
         // Daylight's components cover 300 to 830 nm, as bands do.
-        let tables = daylight_basis().map(|component| BandTable::new(grid, &component).ok());
-        let of_bands =
-            tables.map(|table| table.map(|table| means(grid, &table)).unwrap_or_default());
-        let components = (0..grid.count() as usize).map(|band| {
-            of_bands
-                .each_ref()
-                .map(|of| of.get(band).copied().unwrap_or(0.0))
-        });
+        let of_bands = daylight_basis().map(|component| of_bands(grid, &component));
+        let components =
+            (0..grid.count() as usize).map(|band| of_bands.each_ref().map(|of| of[band]));
         Self {
             sky,
             sun_angle,
-            grid,
             components: components.collect(),
         }
     }
 
-    /// The picture, with ground of a reflectance below.
-    fn over(&self, ground: &[f64]) -> Sphere {
+    /// The picture, with ground of a reflectance below that the sun's radiance lights too.
+    fn over(&self, ground: &[f64], sunlight: &[f64]) -> Sphere {
         let [width, height] = SIZE;
         let upper: Vec<Vec<f32>> = (0..width * height / 2)
             .into_par_iter()
             .map(|pixel| self.pixel(pixel % width, pixel / width))
             .collect();
-        let irradiance = self.irradiance(&upper);
+        let irradiance = self.irradiance(&upper, sunlight);
         let below = irradiance
             .iter()
             .zip(ground)
@@ -108,13 +150,10 @@ impl<'a> BandedSky<'a> {
     }
 
     /// Irradiance of flat ground in each band, by the sky and the sun.
-    fn irradiance(&self, upper: &[Vec<f32>]) -> Vec<f64> {
+    fn irradiance(&self, upper: &[Vec<f32>], sunlight: &[f64]) -> Vec<f64> {
         let half = (SUN_DIAMETER_DEG / 2.0).to_radians();
         let of_sun = PI * half.sin().powi(2) * self.sun_angle.cos();
-        let bands = 0..self.grid.count();
-        let mut sums: Vec<f64> = bands
-            .map(|band| of_sun * self.sky.sun_radiance(self.grid.centre_nm(band)))
-            .collect();
+        let mut sums: Vec<f64> = sunlight.iter().map(|radiance| of_sun * radiance).collect();
         for (index, pixel) in (0_u32..).zip(upper) {
             let angle = angle_of(index / SIZE[0]);
             let solid_angle = angle.sin() * PI / f64::from(SIZE[1]) * TAU / f64::from(SIZE[0]);

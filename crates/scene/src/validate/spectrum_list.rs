@@ -163,19 +163,36 @@ impl<'a> SpectrumList<'a> {
         radiator: Radiator,
     ) -> Option<Emission> {
         let spectrum = self.emission_spectrum(checks, field, &written.spectrum);
-        let amount = strength::check(checks, field, &written.strength, radiator);
+        let name = lamp_name(&written.spectrum);
+        self.emission_of(
+            checks,
+            field,
+            (name, spectrum),
+            (&written.strength, radiator),
+        )
+    }
+
+    /// The same of a spectrum that is not written, with the name of its lamp.
+    pub(crate) fn emission_of(
+        &mut self,
+        checks: &mut Checks,
+        field: &FieldPath,
+        (name, spectrum): (String, Option<Spectrum>),
+        (strength, radiator): (&description::Strength, Radiator),
+    ) -> Option<Emission> {
+        let amount = strength::check(checks, field, strength, radiator);
         let spectrum = spectrum?;
         let table = self.resampled(checks, field, &spectrum, Advice::Add)?;
         let (amount, grid) = (amount?, self.grid?);
         let scale = amount.scale(checks, &table, (&grid, self.sampling))?;
         let peak = table.extent().1;
         // What an emitter's power makes of its radiance depends on the object.
-        if written.strength.power_w.is_none() || radiator != Radiator::Emitter {
+        if strength.power_w.is_none() || radiator != Radiator::Emitter {
             check_brightness(checks, (field, &amount.field), peak, scale)?;
         }
         let light_group = LightGroupId(self.lamps.len() as u32);
         self.lamps.push(Lamp {
-            name: lamp_name(&written.spectrum),
+            name,
             spectrum: grid.lamp(&spectrum)?,
             shines: scale > 0.0 && peak > 0.0,
         });
