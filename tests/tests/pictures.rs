@@ -14,7 +14,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 const BLESS: &str = "PELLICLE_BLESS=1 cargo test -p pellicle-tests --test pictures";
-const SCENES: [(&str, [u32; 2]); 12] = [
+const SCENES: [(&str, [u32; 2]); 15] = [
     ("soap_bubble", [160, 120]),
     ("film_wedge", [160, 40]),
     ("metal_spheres", [160, 120]),
@@ -27,6 +27,9 @@ const SCENES: [(&str, [u32; 2]); 12] = [
     ("tempered_steel", [120, 75]),
     ("dichroic_ball", [80, 60]),
     ("gold_visor", [100, 75]),
+    ("bubble_in_room", [80, 60]),
+    ("bubble_under_sky", [80, 60]),
+    ("room", [80, 40]),
 ];
 
 /// A scene rendered small on the device and developed at its own exposure.
