@@ -33,7 +33,7 @@ fn camera_ray(pixel: vec2u, jitter: vec2f, on_lens: vec2f) -> Ray {
     let x = (2.0 * place.x - 1.0) * (size.x / size.y) * frame.half_height;
     let y = (1.0 - 2.0 * place.y) * frame.half_height;
     let aside = x * frame.camera_right + y * frame.camera_up;
-    if (frame.projection == PROJECTION_ORTHOGRAPHIC) {
+    if (HAS_ORTHOGRAPHIC) {
         return Ray(frame.camera_origin + aside, -frame.camera_back);
     }
     let ahead = aside - frame.camera_back;

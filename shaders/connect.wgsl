@@ -14,7 +14,7 @@ struct Sent {
 
 /// Chooses a light and a direction towards it.
 fn send_to_light(walk: Walk, sample: Sample, point: SurfacePoint) -> Sent {
-    if (!HAS_LIGHTS || walk.segment + 1u > frame.max_path_segments) {
+    if (!HAS_LIGHTS || walk.segment + 1u > MAX_PATH_SEGMENTS) {
         return Sent(NONE, point.normal, 0.0, 0.0, 0u);
     }
     let random = random_at(sample, walk, FOR_LIGHT);
@@ -53,7 +53,7 @@ fn connect(
     }
     vertex.first_crossing = crossing_count;
     let first_thickness = thickness_count;
-    let allowed = frame.max_path_segments - walk.segment - 1u;
+    let allowed = MAX_PATH_SEGMENTS - walk.segment - 1u;
     if (!arrives(Ray(point.position, sent.direction), object, sent.light, allowed)) {
         crossing_count = vertex.first_crossing;
         thickness_count = first_thickness;
@@ -98,11 +98,12 @@ fn arrives(ray_in: Ray, from_object: u32, light: u32, allowed: u32) -> bool {
 
 /// Whether a light that is no object lies before what the ray hits.
 fn is_before(ray: Ray, light: u32, hit: Hit) -> bool {
-    if (light < frame.object_count) {
+    if (light < OBJECT_COUNT) {
         return false;
     }
     if (HAS_DELTA_LIGHTS && objects[light].shape >= SHAPE_POINT) {
-        return hit.object == NONE || hit.distance >= length(objects[light].center - ray.origin);
+        // A lamp may lie on a surface: what is hit just before it, within rounding, does not hide it.
+        return hit.object == NONE || hit.distance >= 0.99999 * length(objects[light].center - ray.origin);
     }
     return hit.object == NONE;
 }

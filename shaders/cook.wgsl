@@ -1,15 +1,24 @@
 // Metals by the model of Cook and Torrance as Suzuki, Yokoi and Toriwaki print it (section 3-1). Directions are unit vectors in
 // a local frame whose z is the cosine with the macroscopic normal.
 
-/// G Σ wⱼ Dⱼ / ((N·L) (N·E)), with the density of sample_cook_facet and a mirror.
-fn cook_facets(material: u32, eye: vec3f, light: vec3f) -> Microfacet {
+struct CookFacets {
+    /// G Σ wⱼ Dⱼ / ((N·L) (N·E)): the reflection function without its Fresnel factor, sr⁻¹.
+    reflection: f32,
+    /// Density with which sample_cook_facet and a mirror give this direction, sr⁻¹.
+    pdf: f32,
+    /// E·H: the cosine at the facet.
+    cosine: f32,
+}
+
+/// From `light` to `eye`; black where either is below the surface.
+fn cook_facets(material: u32, eye: vec3f, light: vec3f) -> CookFacets {
     if (eye.z <= 0.0 || light.z <= 0.0) {
-        return Microfacet(0.0, 0.0, 1.0);
+        return CookFacets(0.0, 0.0, 1.0);
     }
     let facet = normalize(eye + light);
     let cosine = dot(eye, facet);
     if (cosine <= 0.0) {
-        return Microfacet(0.0, 0.0, 1.0);
+        return CookFacets(0.0, 0.0, 1.0);
     }
     let is_gaussian = materials[material].surface == SURFACE_COOK_D1;
     let first = materials[material].first_slope;
@@ -29,7 +38,7 @@ fn cook_facets(material: u32, eye: vec3f, light: vec3f) -> Microfacet {
         }
     }
     let g = v_groove_g(facet.z, eye.z, light.z, cosine);
-    return Microfacet(distribution * g / (eye.z * light.z), density / (4.0 * cosine), cosine);
+    return CookFacets(distribution * g / (eye.z * light.z), density / (4.0 * cosine), cosine);
 }
 
 /// A facet normal of one of the slopes, chosen by `pick`.

@@ -201,7 +201,7 @@ fn dimming(at: Wavelengths) -> f32 {
         return 1.0;
     }
     var brightest = vec4f(frame.clamp);
-    for (var group = 0u; group < frame.groups; group++) {
+    for (var group = 0u; group < GROUPS; group++) {
         let radiance = path_radiance(group, at);
         var total = vec4f(0.0);
         for (var i = 0u; i < LIGHT_GROUPS; i++) {

@@ -39,6 +39,7 @@ override HAS_ENVIRONMENT: bool = true;
 override HAS_ENVIRONMENT_PICTURE: bool = true;
 override HAS_SPECTRAL_PICTURE: bool = true;
 override HAS_PANORAMA: bool = true;
+override HAS_ORTHOGRAPHIC: bool = true;
 override HAS_SOBOL_SAMPLES: bool = true;
 override HAS_SPLITS: bool = true;
 override HAS_ROULETTE: bool = true;
@@ -48,3 +49,17 @@ override HAS_FILTER: bool = true;
 // How light is found: by sending rays to lights, by meeting them by chance, or both.
 override SENDS_LIGHT: bool = true;
 override MEETS_LIGHT: bool = true;
+// How much of it there is. Conditions depend on these, never on a constant place of a uniform buffer: llvmpipe takes what it finds
+// there for a constant and compiles the pipeline anew for each dispatch.
+/// Objects that rays meet.
+override OBJECT_COUNT: u32 = 1u;
+/// Lights that are chosen from.
+override LIGHT_COUNT: u32 = 1u;
+/// Parts of the surroundings, discs in the sky among them.
+override ENVIRONMENT_COUNT: u32 = 1u;
+/// Groups of four bands; the last may be padded with dark bands.
+override GROUPS: u32 = 1u;
+/// The most segments of a path.
+override MAX_PATH_SEGMENTS: u32 = 1u;
+/// Segments after which Russian roulette may end a path.
+override ROULETTE_AFTER: u32 = 1u;

@@ -32,7 +32,7 @@ fn distance_to(index: u32, ray: Ray, from_object: u32) -> f32 {
 /// The nearest object along a ray.
 fn nearest_hit(ray: Ray, from_object: u32) -> Hit {
     var nearest = Hit(NONE, 3.0e38);
-    for (var index = 0u; index < frame.object_count; index++) {
+    for (var index = 0u; index < OBJECT_COUNT; index++) {
         let distance = distance_to(index, ray, from_object);
         if (distance > 0.0 && distance < nearest.distance) {
             nearest = Hit(index, distance);

@@ -10,15 +10,6 @@ const NONE: u32 = 4294967295u;
 /// A light is the number of its spectrum, with its light group from this bit on.
 const LIGHT_GROUP_SHIFT: u32 = 24u;
 
-/// Projection: all rays start at the camera's origin.
-const PROJECTION_PERSPECTIVE: u32 = 0u;
-
-/// Projection: all rays run in parallel.
-const PROJECTION_ORTHOGRAPHIC: u32 = 1u;
-
-/// Projection: all directions from the camera's origin by longitude and latitude.
-const PROJECTION_PANORAMA: u32 = 2u;
-
 /// Shape: a sphere.
 const SHAPE_SPHERE: u32 = 0u;
 
@@ -52,7 +43,7 @@ const SHAPE_DIRECTION: u32 = 25u;
 /// Shape that no ray meets: a point that shines to all sides. Those that lie at a place are greater.
 const SHAPE_POINT: u32 = 26u;
 
-/// Shape that no ray meets: a point that shines about `normal`, fully from the cosine `half_width` on, not below `half_height`.
+/// Shape that no ray meets: a point that shines about `normal`: fully up to the height 1 − cos `half_width`, not beyond `half_height`.
 const SHAPE_SPOT: u32 = 27u;
 
 /// Surface: Lambertian.
@@ -212,8 +203,8 @@ const FILM_TWO_BEAM_AS_PRINTED: u32 = 4u;
 struct Frame {
     /// Where the camera stands.
     camera_origin: vec3f,
-    /// A `PROJECTION_` tag.
-    projection: u32,
+    /// Chooses the sequence of random numbers.
+    seed: u32,
     /// +X of camera space: to the right in the picture.
     camera_right: vec3f,
     /// Half the picture's height: at distance 1, or in scene units when orthographic.
@@ -228,30 +219,16 @@ struct Frame {
     band_width_nm: f32,
     /// Width and height of the picture in pixels.
     image_size: vec2u,
-    /// Chooses the sequence of random numbers.
-    seed: u32,
-    /// The most segments of a path.
-    max_path_segments: u32,
-    /// Groups of four bands; the last may be padded with dark bands.
-    groups: u32,
     /// Steps that a band is divided into by the spectra's knots.
     steps: u32,
     /// 1 where each sample draws its wavelengths, 0 where they lie at the bands' centres.
     draws_wavelengths: u32,
-    /// Number of objects.
-    object_count: u32,
-    /// Number of lights.
-    light_count: u32,
     /// First of the objects that are parts of the surroundings, discs in the sky among them.
     first_environment: u32,
-    /// Number of them.
-    environment_count: u32,
     /// First of the observer's three spectra.
     observer: u32,
     /// Film hits, the first of a path, at which it is split.
     film_splits: u32,
-    /// Segments after which Russian roulette may end a path.
-    roulette_after: u32,
     /// The largest radiance that a sample may bring in any band.
     clamp: f32,
     /// Number of bands.
@@ -262,8 +239,6 @@ struct Frame {
     focus_distance: f32,
     /// First of the numbers that spread a pixel's samples by its filter.
     first_filter: u32,
-    /// Fills the size up to a multiple of 16.
-    padding: u32,
 }
 
 /// What holds for one dispatch: a run of samples of one tile.

@@ -94,7 +94,9 @@ fn light_share(light: u32, point: vec3f, direction: vec3f) -> f32 {
 fn spot_share(light: u32, direction: vec3f) -> f32 {
     let full = objects[light].half_width;
     let edge = objects[light].half_height;
-    let t = clamp((-dot(direction, objects[light].normal) - edge) / (full - edge), 0.0, 1.0);
+    // 1 − cos in a form that keeps its digits where it is small.
+    let off = direction + objects[light].normal;
+    let t = clamp((edge - 0.5 * dot(off, off)) / (edge - full), 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
 }
 

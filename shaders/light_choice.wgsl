@@ -74,7 +74,7 @@ fn environment_estimate(light: u32, normal: vec3f) -> f32 {
 /// The sum of all lights' estimates.
 fn light_total(point: vec3f, normal: vec3f) -> f32 {
     var total = 0.0;
-    for (var i = 0u; i < frame.light_count; i++) {
+    for (var i = 0u; i < LIGHT_COUNT; i++) {
         total += light_estimate(objects[i].light, point, normal);
     }
     return total;
@@ -88,7 +88,7 @@ fn choose_light(point: vec3f, normal: vec3f, random: f32) -> LightChoice {
     let total = light_total(point, normal);
     var choice = LightChoice(NONE, 0.0, total);
     var left = random * total;
-    for (var i = 0u; i < frame.light_count && left >= 0.0; i++) {
+    for (var i = 0u; i < LIGHT_COUNT && left >= 0.0; i++) {
         let estimate = light_estimate(objects[i].light, point, normal);
         left -= estimate;
         if (estimate > 0.0) {

@@ -38,27 +38,3 @@ fn log_one_minus(u: f32) -> f32 {
     // −u − u²/2 − u³/3 …; the remainder after u⁵ is below 2e-8 of the whole.
     return -u * (1.0 + u * (0.5 + u * (1.0 / 3.0 + u * (0.25 + u * 0.2))));
 }
-
-struct Microfacet {
-    /// D G / (4 (N·E)(N·L)): the reflection function without its Fresnel factor, sr⁻¹.
-    reflection: f32,
-    /// Density with which sample_beckmann and a mirror give this direction, sr⁻¹.
-    pdf: f32,
-    /// E·H: the cosine at the facet.
-    cosine: f32,
-}
-
-/// The reflection function of a rough mirror from `light` to `eye`.
-fn cook_torrance(eye: vec3f, light: vec3f, slope: f32) -> Microfacet {
-    if (eye.z <= 0.0 || light.z <= 0.0) {
-        return Microfacet(0.0, 0.0, 1.0);
-    }
-    let facet = normalize(eye + light);
-    let cosine = dot(eye, facet);
-    if (cosine <= 0.0) {
-        return Microfacet(0.0, 0.0, 1.0);
-    }
-    let d = beckmann_d(facet.z, slope);
-    let g = v_groove_g(facet.z, eye.z, light.z, cosine);
-    return Microfacet(d * g / (4.0 * eye.z * light.z), d * facet.z / (4.0 * cosine), cosine);
-}

@@ -41,8 +41,8 @@ fn advance(walk: Walk, sample: Sample) -> Walk {
         return next;
     }
     next = meet_surface(walk, sample, hit);
-    next.alive = next.alive && walk.segment < frame.max_path_segments;
-    if (HAS_ROULETTE && next.alive && walk.segment >= frame.roulette_after) {
+    next.alive = next.alive && walk.segment < MAX_PATH_SEGMENTS;
+    if (HAS_ROULETTE && next.alive && walk.segment >= ROULETTE_AFTER) {
         next = play_roulette(next, sample);
     }
     next.segment += 1u;
@@ -51,7 +51,7 @@ fn advance(walk: Walk, sample: Sample) -> Walk {
 
 /// The radiance of the surroundings, part by part.
 fn record_environment(walk: Walk, sample: Sample) {
-    for (var i = 0u; i < frame.environment_count; i++) {
+    for (var i = 0u; i < ENVIRONMENT_COUNT; i++) {
         let part = frame.first_environment + i;
         let share = environment_share(part, walk.ray.direction);
         if (share > 0.0) {
@@ -135,7 +135,7 @@ fn meet_film(walk: Walk, sample: Sample, object: u32, point: SurfacePoint, verte
     var through = walk_through(walk, object, point);
     mirror.throughput *= materials[material].albedo * reflected;
     through.throughput *= materials[material].albedo * (1.0 - reflected);
-    if (HAS_SPLITS && walk.splits > 0u && walk.segment < frame.max_path_segments) {
+    if (HAS_SPLITS && walk.splits > 0u && walk.segment < MAX_PATH_SEGMENTS) {
         vertex.scatter = layered_factor(object, point, true);
         vertex.onward = single_lobe(1.0, vertex.scatter.cosine);
         mirror.splits -= 1u;

@@ -1,7 +1,9 @@
 // The renderer: one invocation per pixel of a tile takes a run of samples, one after another, so that
 // a pixel's bits do not depend on how the samples were divided among dispatches.
 
-@group(1) @binding(0) var<uniform> batch: Batch;
+/// The batch, twice. An invocation reads the one of its own layer, which is always the first: a place that is no constant. At a
+/// constant one llvmpipe takes what a condition depends on for a constant too, and compiles the pipeline anew for each batch.
+@group(1) @binding(0) var<uniform> batches: array<Batch, 2>;
 /// Mean radiance so far: [light group][group of four bands][pixel of the tile].
 @group(1) @binding(1) var<storage, read_write> means: array<vec4f>;
 /// Sum of squared differences of the light of all groups from its mean so far: [group of four bands][pixel of the tile].
@@ -10,11 +12,10 @@
 @group(1) @binding(3) var<storage, read_write> colors: array<vec4f>;
 
 /// Adds a path's spectrum to the running means (Welford 1962) and returns its X, Y, Z per nm of band width, by light group.
-fn accumulate(pixel: u32, count: f32, at: Wavelengths) -> array<vec3f, LIGHT_GROUPS> {
-    let pixels = batch.tile_size.x * batch.tile_size.y;
+fn accumulate(pixel: u32, pixels: u32, count: f32, at: Wavelengths) -> array<vec3f, LIGHT_GROUPS> {
     var color: array<vec3f, LIGHT_GROUPS>;
     let dimmed = dimming(at);
-    for (var group = 0u; group < frame.groups; group++) {
+    for (var group = 0u; group < GROUPS; group++) {
         let radiance = path_radiance(group, at);
         let x = spectrum_at(frame.observer, group, at);
         let y = spectrum_at(frame.observer + 1u, group, at);
@@ -24,7 +25,7 @@ fn accumulate(pixel: u32, count: f32, at: Wavelengths) -> array<vec3f, LIGHT_GRO
         var after = vec4f(0.0);
         for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
             let value = dimmed * radiance[light_group];
-            let place = (light_group * frame.groups + group) * pixels + pixel;
+            let place = (light_group * GROUPS + group) * pixels + pixel;
             let difference = value - means[place];
             let mean = means[place] + difference / count;
             means[place] = mean;
@@ -39,16 +40,17 @@ fn accumulate(pixel: u32, count: f32, at: Wavelengths) -> array<vec3f, LIGHT_GRO
 
 /// Whether loops still run to their end. Some drivers end every loop of an invocation that has made so many passes in all
 /// (llvmpipe: 65535), and say nothing. The samples of such an invocation must not count.
-fn loops_run() -> bool {
+fn loops_run(wanted: u32) -> bool {
     var passes = 0u;
-    for (var i = 0u; i < batch.passes; i++) {
+    for (var i = 0u; i < wanted; i++) {
         passes += 1u;
     }
-    return passes == batch.passes;
+    return passes == wanted;
 }
 
 @compute @workgroup_size(WORKGROUP_SIDE, WORKGROUP_SIDE)
 fn render(@builtin(global_invocation_id) id: vec3u) {
+    let batch = batches[min(id.z, 1u)];
     if (id.x >= batch.tile_size.x || id.y >= batch.tile_size.y) {
         return;
     }
@@ -62,12 +64,12 @@ fn render(@builtin(global_invocation_id) id: vec3u) {
         let index = batch.first_sample + i;
         let count = f32(index + 1u);
         let at = trace_path(Sample(batch.tile_origin + id.xy, index));
-        let xyz = accumulate(pixel, count, at);
+        let xyz = accumulate(pixel, pixels, count, at);
         for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
             color[light_group] += vec4f((xyz[light_group] - color[light_group].xyz) / count, 0.0);
         }
     }
-    if (loops_run()) {
+    if (loops_run(batch.passes)) {
         color[0].w += f32(batch.sample_count);
     }
     for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {

@@ -18,8 +18,8 @@ fn wavelengths_at(offset: f32) -> Wavelengths {
 
 /// Values of a spectrum in the four bands of a group.
 fn spectrum_at(spectrum: u32, group: u32, at: Wavelengths) -> vec4f {
-    let here = (spectrum * (frame.steps + 1u) + at.knot) * frame.groups + group;
-    return mix(spectra[here], spectra[here + frame.groups], at.fraction);
+    let here = (spectrum * (frame.steps + 1u) + at.knot) * GROUPS + group;
+    return mix(spectra[here], spectra[here + GROUPS], at.fraction);
 }
 
 /// 1/λ in the four bands of a group, 1/nm.

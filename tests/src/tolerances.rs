@@ -43,6 +43,10 @@ pub const ROUGH_INVERSE: Tolerance = of(3e-3, 3e-3);
 pub const LAMBDA: Tolerance = of(1e-6, 1e-5);
 /// Densities of facets of α from 0.1: a half vector's slope is off by 1e-6/α, its square in an exponent of up to −80 by 1e-4.
 pub const FACETS: Tolerance = of(2e-6, 2e-4);
+/// Reflection functions with their spectra: FACETS, and a film's reflectance at a facet whose cosine is off by 1e-7/c.
+pub const SURFACE_FUNCTIONS: Tolerance = of(2e-6, 3e-4);
+/// Reflection functions with eye and light changed over: the promise, and what has no digits left in f32.
+pub const RECIPROCITY: Tolerance = of(1e-9, 1e-5);
 /// Directions of facets drawn by numbers up to 0.999, where the slope's density has fallen to 1e-2 of its largest.
 pub const FACET_DIRECTION: Tolerance = of(3e-5, 0.0);
 /// A place in a table of 31 steps, off by 1e-6, and at the azimuth's width.

@@ -51,7 +51,7 @@ macro_rules! assert_layout {
 fn naga_sees_the_offsets_of_rust() {
     let structs = structs_of_naga();
     assert_eq!(structs.len(), 9);
-    assert_layout!(structs, Frame: camera_origin, projection, camera_back, image_size, groups, light_count, environment_count, observer);
+    assert_layout!(structs, Frame: camera_origin, seed, camera_back, image_size, first_environment, observer, first_filter);
     assert_layout!(structs, Batch: tile_origin, tile_size, first_sample, sample_count);
     assert_layout!(structs, Object: center, radius, normal, tangent, bitangent, half_height, material, is_light, light);
     assert_layout!(structs, Material: grain, grain_kind, alpha, facets, first_energy, surface, mean_energy, emission_scale, first_layer, layer_count, is_black);
@@ -66,8 +66,8 @@ fn naga_sees_the_offsets_of_rust() {
 #[test]
 fn a_shifted_member_is_noticed() {
     let shifted = gpu::layout::wgsl().replace(
-        "    projection: u32,",
-        "    other: vec4u,\n    projection: u32,",
+        "    half_height: f32,",
+        "    other: vec4u,\n    half_height: f32,",
     );
     let module = naga::front::wgsl::parse_str(&shifted).expect("still parses");
     let frame = module

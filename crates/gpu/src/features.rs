@@ -6,7 +6,7 @@ use scene::{
     Profile, Projection, Sampler, Scene, Shape, SourceKind, Thickness,
 };
 
-/// Constants of a pipeline by name: 1 where the scene has the thing, 0 where it has not.
+/// Constants of a pipeline by name: 1 where the scene has the thing, 0 where it has not; and how many it has.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Features(Vec<(&'static str, f64)>);
 
@@ -25,17 +25,28 @@ impl Features {
             .chain(of_thicknesses(&used))
             .chain(of_lights(scene))
             .chain(of_paths(scene, &used));
-        Self(
-            named
-                .map(|(name, has)| (name, f64::from(u8::from(has))))
-                .collect(),
-        )
+        let named = named.map(|(name, has)| (name, f64::from(u8::from(has))));
+        Self(named.chain(counts(scene)).collect())
     }
 
     /// The constants, for a pipeline.
     pub fn constants(&self) -> &[(&'static str, f64)] {
         &self.0
     }
+}
+
+/// How many passes the loops make that look at all of something.
+fn counts(scene: &Scene) -> [(&'static str, f64); 6] {
+    let settings = scene.settings();
+    let length = |count: usize| count as f64;
+    [
+        ("OBJECT_COUNT", length(scene.objects().len())),
+        ("LIGHT_COUNT", length(scene.light_sources().len())),
+        ("ENVIRONMENT_COUNT", length(scene.surroundings().len())),
+        ("GROUPS", f64::from(settings.bands.count().div_ceil(4))),
+        ("MAX_PATH_SEGMENTS", f64::from(settings.max_path_segments)),
+        ("ROULETTE_AFTER", f64::from(settings.roulette_after)),
+    ]
 }
 
 type Named = (&'static str, bool);
@@ -184,6 +195,10 @@ fn of_paths(scene: &Scene, used: &[&Material]) -> Vec<Named> {
         (
             "HAS_PANORAMA",
             scene.camera().projection == Projection::Panorama,
+        ),
+        (
+            "HAS_ORTHOGRAPHIC",
+            matches!(scene.camera().projection, Projection::Orthographic { .. }),
         ),
         (
             "HAS_SOBOL_SAMPLES",

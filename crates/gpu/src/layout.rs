@@ -120,12 +120,6 @@ constants! { CONSTANTS;
     /// A light is the number of its spectrum, with its light group from this bit on.
     pub const LIGHT_GROUP_SHIFT = 24;
 
-    /// Projection: all rays start at the camera's origin.
-    pub const PROJECTION_PERSPECTIVE = 0;
-    /// Projection: all rays run in parallel.
-    pub const PROJECTION_ORTHOGRAPHIC = 1;
-    /// Projection: all directions from the camera's origin by longitude and latitude.
-    pub const PROJECTION_PANORAMA = 2;
 
     /// Shape: a sphere.
     pub const SHAPE_SPHERE = 0;
@@ -149,7 +143,7 @@ constants! { CONSTANTS;
     pub const SHAPE_DIRECTION = 25;
     /// Shape that no ray meets: a point that shines to all sides. Those that lie at a place are greater.
     pub const SHAPE_POINT = 26;
-    /// Shape that no ray meets: a point that shines about `normal`, fully from the cosine `half_width` on, not below `half_height`.
+    /// Shape that no ray meets: a point that shines about `normal`: fully up to the height 1 − cos `half_width`, not beyond `half_height`.
     pub const SHAPE_SPOT = 27;
 
     /// Surface: Lambertian.
@@ -267,8 +261,8 @@ structs! { STRUCTS;
     pub struct Frame {
         /// Where the camera stands.
         pub camera_origin: [f32; 3],
-        /// A `PROJECTION_` tag.
-        pub projection: u32,
+        /// Chooses the sequence of random numbers.
+        pub seed: u32,
         /// +X of camera space: to the right in the picture.
         pub camera_right: [f32; 3],
         /// Half the picture's height: at distance 1, or in scene units when orthographic.
@@ -283,30 +277,16 @@ structs! { STRUCTS;
         pub band_width_nm: f32,
         /// Width and height of the picture in pixels.
         pub image_size: [u32; 2],
-        /// Chooses the sequence of random numbers.
-        pub seed: u32,
-        /// The most segments of a path.
-        pub max_path_segments: u32,
-        /// Groups of four bands; the last may be padded with dark bands.
-        pub groups: u32,
         /// Steps that a band is divided into by the spectra's knots.
         pub steps: u32,
         /// 1 where each sample draws its wavelengths, 0 where they lie at the bands' centres.
         pub draws_wavelengths: u32,
-        /// Number of objects.
-        pub object_count: u32,
-        /// Number of lights.
-        pub light_count: u32,
         /// First of the objects that are parts of the surroundings, discs in the sky among them.
         pub first_environment: u32,
-        /// Number of them.
-        pub environment_count: u32,
         /// First of the observer's three spectra.
         pub observer: u32,
         /// Film hits, the first of a path, at which it is split.
         pub film_splits: u32,
-        /// Segments after which Russian roulette may end a path.
-        pub roulette_after: u32,
         /// The largest radiance that a sample may bring in any band.
         pub clamp: f32,
         /// Number of bands.
@@ -317,8 +297,6 @@ structs! { STRUCTS;
         pub focus_distance: f32,
         /// First of the numbers that spread a pixel's samples by its filter.
         pub first_filter: u32,
-        /// Fills the size up to a multiple of 16.
-        pub padding: u32,
     }
 
     /// What holds for one dispatch: a run of samples of one tile.

@@ -51,7 +51,7 @@ pub const MODULES: &[Module] = modules! {
     "features": [];
     "numbers": ["bindings", "layout"];
     "texels": ["bindings", "layout"];
-    "spectrum": ["bindings"];
+    "spectrum": ["bindings", "features"];
     "lifting": ["bindings", "spectrum"];
     "camera": ["bindings", "features", "layout", "numbers", "trig"];
     "noise": ["bindings", "features", "layout", "random"];
@@ -80,7 +80,7 @@ pub const MODULES: &[Module] = modules! {
         "two_beam"
     ];
     "stack_batch": ["complex", "layout", "stack"];
-    "render": ["bindings", "evaluate", "layout", "limits", "path", "spectrum", "walk"];
+    "render": ["bindings", "evaluate", "features", "layout", "limits", "path", "spectrum", "walk"];
 };
 
 /// How long a path's record may become, and how many kinds of light it brings.

@@ -129,14 +129,14 @@ fn light(emission: Emission) -> u32 {
 
 fn pack_frame(scene: &Scene) -> Frame {
     let (camera, settings) = (scene.camera(), scene.settings());
-    let (projection, half_height) = match camera.projection {
-        Projection::Perspective { half_height } => (layout::PROJECTION_PERSPECTIVE, half_height),
-        Projection::Orthographic { half_height } => (layout::PROJECTION_ORTHOGRAPHIC, half_height),
-        Projection::Panorama => (layout::PROJECTION_PANORAMA, 0.0),
+    let half_height = match camera.projection {
+        Projection::Perspective { half_height } | Projection::Orthographic { half_height } => {
+            half_height
+        }
+        Projection::Panorama => 0.0,
     };
     Frame {
         camera_origin: vec3(camera.origin),
-        projection,
         camera_right: vec3(camera.right),
         half_height: half_height as f32,
         camera_up: vec3(camera.up),
@@ -145,17 +145,11 @@ fn pack_frame(scene: &Scene) -> Frame {
         band_width_nm: settings.bands.width_nm() as f32,
         image_size: [settings.width, settings.height],
         seed: settings.seed,
-        max_path_segments: settings.max_path_segments,
-        groups: settings.bands.count().div_ceil(4),
         steps: BandTable::steps_of(&settings.bands),
         draws_wavelengths: u32::from(settings.sampling == WavelengthSampling::Random),
-        object_count: scene.objects().len() as u32,
-        light_count: scene.light_sources().len() as u32,
         first_environment: scene.objects().len() as u32,
-        environment_count: scene.surroundings().len() as u32,
         observer: scene.spectra().len() as u32,
         film_splits: settings.film_splits,
-        roulette_after: settings.roulette_after,
         clamp: settings.clamp.unwrap_or(0.0) as f32,
         bands: settings.bands.count(),
         lens_radius: camera.lens.map_or(0.0, |lens| lens.radius as f32),

@@ -98,7 +98,7 @@ pub fn render_divided(
     let pipeline = compile(gpu, &shader, "render", packed.features.constants())?;
 
     let shape = PixelShape {
-        groups: u64::from(packed.frame.groups),
+        groups: u64::from(settings.bands.count().div_ceil(4)),
         light_groups: u64::from(packed.limits.light_groups),
     };
     let limits = gpu.limits();
@@ -411,7 +411,7 @@ impl TileBuffers {
         };
         let batch = buffer(
             "batch",
-            size_of::<Batch>() as u64,
+            2 * size_of::<Batch>() as u64,
             wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         );
         let sizes = shape.bytes().map(|bytes| bytes * pixels);
@@ -475,7 +475,7 @@ impl TileBuffers {
             ..Default::default()
         };
         gpu.queue
-            .write_buffer(&self.batch, 0, bytemuck::bytes_of(&batch));
+            .write_buffer(&self.batch, 0, bytemuck::cast_slice(&[batch; 2]));
         let scene = scene.group(gpu, pipeline, &[0, 1, 2, 3, 4, 5, 6, 7]);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {

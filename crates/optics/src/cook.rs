@@ -2,8 +2,8 @@
 //!
 //! I_r = I_a R_a + Σ I_l dω_l R_s with R_s = F D G / (π (N·E)); the cosine N·L of the irradiance is cancelled against that of
 //! the denominator already. G is [`v_groove_g`](crate::v_groove_g). Two forms of D are printed: [`gaussian_d1`] with an arbitrary
-//! constant, and [`beckmann_d2`], whose projected area is π and not 1: with the printed π in place of the 4 of
-//! [`cook_torrance`](crate::cook_torrance) and D₂ in place of D₂/π, R_s is four times as large.
+//! constant, and [`beckmann_d2`], whose projected area is π and not 1: with the printed π in place of the 4 of facets that mirror
+//! (Torrance and Sparrow 1967) and D₂ in place of D₂/π, R_s is four times as large.
 
 use crate::beckmann_d;
 use std::f64::consts::PI;

@@ -12,7 +12,7 @@
 //! | one boundary | [`fresnel`], [`reflectance_unpolarised`] |
 //! | Cook's model as printed in 1981 and after | [`gaussian_d1`], [`beckmann_d2`], [`index_from_normal_reflectance`] |
 //! | a diffuse body below a coat | [`hemispherical_reflectance`], [`coated_albedo_factor`] |
-//! | rough surfaces | [`cook_torrance`], [`sample_beckmann`] |
+//! | rough surfaces | [`Microsurface`], [`multiple_colour`] |
 //!
 //! Where the light of a coating goes, at one angle and wavelength:
 //!
@@ -61,9 +61,7 @@ pub use cook::{
     index_from_normal_reflectance, sample_gaussian,
 };
 pub use fresnel::{Amplitudes, cos_refracted, fresnel, reflectance_unpolarised};
-pub use microfacet::{
-    beckmann_d, cook_torrance, half_vector_pdf, reflected_pdf, sample_beckmann, v_groove_g,
-};
+pub use microfacet::{beckmann_d, half_vector_pdf, sample_beckmann, v_groove_g};
 pub use microsurface::{
     Distribution, MEAN_COSINES, Microsurface, mean_reflectance, multiple_colour,
 };

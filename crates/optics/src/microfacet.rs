@@ -1,4 +1,4 @@
-//! Rough surfaces as a distribution of small mirrors.
+//! What Cook and Torrance take a rough surface for: facets of Beckmann's distribution in grooves.
 //!
 //! Directions are unit vectors in a local frame whose third component is the cosine with the macroscopic normal.
 
@@ -27,18 +27,6 @@ pub fn v_groove_g(cos_facet: f64, cos_eye: f64, cos_light: f64, eye_dot_facet: f
     (groove * cos_eye).min(groove * cos_light).min(1.0)
 }
 
-/// The reflection function of a rough mirror without its Fresnel factor, sr⁻¹: D G / (4 (N·E)(N·L)).
-pub fn cook_torrance(eye: [f64; 3], light: [f64; 3], slope: f64) -> f64 {
-    let (cos_eye, cos_light) = (eye[2], light[2]);
-    if cos_eye <= 0.0 || cos_light <= 0.0 {
-        return 0.0;
-    }
-    let facet = half_vector(eye, light);
-    let eye_dot_facet = dot(eye, facet);
-    let g = v_groove_g(facet[2], cos_eye, cos_light, eye_dot_facet);
-    beckmann_d(facet[2], slope) * g / (4.0 * cos_eye * cos_light)
-}
-
 /// A facet normal drawn with density D cos α from two uniform numbers in [0, 1):
 /// tan²α = −m² ln(1 − u) (Walter et al. 2007, equation 28).
 pub fn sample_beckmann(u: f64, v: f64, slope: f64) -> [f64; 3] {
@@ -52,24 +40,6 @@ pub fn sample_beckmann(u: f64, v: f64, slope: f64) -> [f64; 3] {
 /// Density of a facet normal drawn by [`sample_beckmann`], sr⁻¹.
 pub fn half_vector_pdf(cos_facet: f64, slope: f64) -> f64 {
     beckmann_d(cos_facet, slope) * cos_facet.max(0.0)
-}
-
-/// Density of the direction mirrored at such a facet, sr⁻¹: D cos α / (4 E·H) (Torrance and Sparrow 1967; Walter et al. 2007, equation 14).
-pub fn reflected_pdf(cos_facet: f64, eye_dot_facet: f64, slope: f64) -> f64 {
-    if eye_dot_facet <= 0.0 {
-        return 0.0;
-    }
-    half_vector_pdf(cos_facet, slope) / (4.0 * eye_dot_facet)
-}
-
-fn half_vector(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    let sum = [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
-    let length = dot(sum, sum).sqrt();
-    sum.map(|x| x / length)
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[cfg(test)]
@@ -96,39 +66,5 @@ mod tests {
             let area = over_hemisphere(|w| half_vector_pdf(w[2], slope));
             assert!((area - 1.0).abs() < 5e-5, "{slope}: {area}");
         }
-    }
-
-    #[test]
-    fn reflection_is_reciprocal() {
-        let a = [0.3, 0.4, 0.866_025];
-        let b = [-0.6, 0.1, 0.793_725];
-        let there = cook_torrance(a, b, 0.3);
-        let back = cook_torrance(b, a, 0.3);
-        assert!(there > 0.0 && (there - back).abs() < 1e-14);
-    }
-
-    /// White furnace: a lossless rough mirror never returns more than it receives, and at a small slope
-    /// and a steep view all of it.
-    #[test]
-    fn a_lossless_surface_returns_at_most_everything() {
-        for slope in [0.1, 0.2, 0.5, 1.0] {
-            for eye_degrees in [0.0_f64, 30.0, 60.0, 80.0] {
-                let (sine, cosine) = eye_degrees.to_radians().sin_cos();
-                let eye = [sine, 0.0, cosine];
-                let albedo = over_hemisphere(|light| cook_torrance(eye, light, slope) * light[2]);
-                assert!(albedo < 1.005, "{slope} {eye_degrees}: {albedo}");
-                if slope <= 0.1 && eye_degrees == 0.0 {
-                    assert!(albedo > 0.99, "{slope} {eye_degrees}: {albedo}");
-                }
-            }
-        }
-    }
-
-    /// The integrator of these tests can tell a wrong constant: the printed 1/π instead of 1/4 is four times too much (over π).
-    #[test]
-    fn the_furnace_notices_a_wrong_constant() {
-        let eye = [0.0, 0.0, 1.0];
-        let wrong = over_hemisphere(|l| 4.0 / PI * cook_torrance(eye, l, 0.2) * l[2]);
-        assert!(wrong > 1.2);
     }
 }

@@ -1,16 +1,25 @@
 //! Cook's model between two directions of a local frame, from the crate `optics`.
 
-use crate::Microfacet;
 use glam::DVec3;
 use scene::{Cook1981, CookDistribution};
 
-/// G Σ wⱼ Dⱼ / ((N·L) (N·E)) from `light` to `eye`, and the density of [`sample_cook_facet`] and a mirror; black when either
-/// is below the surface.
-pub fn cook_facets(surface: &Cook1981, eye: DVec3, light: DVec3) -> Microfacet {
+/// How the facets of Cook's model reflect between two directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CookFacets {
+    /// G Σ wⱼ Dⱼ / ((N·L) (N·E)): the reflection function without its Fresnel factor, sr⁻¹.
+    pub reflection: f64,
+    /// Density with which a drawn facet mirrors `eye` to `light`, sr⁻¹.
+    pub pdf: f64,
+    /// Cosine at the facet.
+    pub cosine: f64,
+}
+
+/// From `light` to `eye`, with the density of [`sample_cook_facet`] and a mirror; black when either is below the surface.
+pub fn cook_facets(surface: &Cook1981, eye: DVec3, light: DVec3) -> CookFacets {
     let facet = (eye + light).normalize();
     let cosine = eye.dot(facet);
     if eye.z <= 0.0 || light.z <= 0.0 || cosine <= 0.0 {
-        return Microfacet {
+        return CookFacets {
             reflection: 0.0,
             pdf: 0.0,
             cosine: 1.0,
@@ -32,7 +41,7 @@ pub fn cook_facets(surface: &Cook1981, eye: DVec3, light: DVec3) -> Microfacet {
         density += facets.part * pdf;
     }
     let g = optics::v_groove_g(facet.z, eye.z, light.z, cosine);
-    Microfacet {
+    CookFacets {
         reflection: distribution * g / (eye.z * light.z),
         pdf: density / (4.0 * cosine),
         cosine,

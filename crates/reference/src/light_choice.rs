@@ -62,11 +62,11 @@ impl<'a> Source<'a> {
             Self::Single(LightShape::Spot {
                 position,
                 axis,
-                full_cosine,
-                edge_cosine,
+                full_height,
+                edge_height,
             }) => {
-                let cosine = -direction.dot(axis);
-                let t = ((cosine - edge_cosine) / (full_cosine - edge_cosine)).clamp(0.0, 1.0);
+                let height = 0.5 * (direction + axis).length_squared();
+                let t = ((edge_height - height) / (edge_height - full_height)).clamp(0.0, 1.0);
                 t * t * (3.0 - 2.0 * t) / point.distance_squared(position)
             }
         }

@@ -1,9 +1,12 @@
 //! How surfaces scatter light between two directions of their local frame, whose z is the normal on the ray's side.
 
 use crate::interference::LayersAt;
-use crate::{Facets, Reflectance, cook_facets, sample_cook_facet, sample_cosine_hemisphere};
+use crate::{
+    Facets, Reflectance, SurfacePoint, cook_facets, pattern_reflectance, sample_cook_facet,
+    sample_cosine_hemisphere,
+};
 use glam::DVec3;
-use scene::{CoatedBody, Cook1981, SpectrumId};
+use scene::{CoatedBody, Cook1981, Layer, Material, Pattern, Scene, SpectrumId};
 use std::f64::consts::PI;
 
 /// What scatters light.
@@ -66,7 +69,48 @@ impl Lobes {
     }
 }
 
-impl Scatterer<'_> {
+impl<'a> Scatterer<'a> {
+    /// That of an object at a point; none of films, smooth conductors and black lamps. `random` in [0, 1) chooses between the texels
+    /// of a picture.
+    pub(crate) fn new(
+        scene: &'a Scene,
+        object: usize,
+        point: &SurfacePoint,
+        random: f64,
+    ) -> Option<Self> {
+        let met = &scene.objects()[object];
+        let conductor = |n, k, layers: &'a [Layer]| Conductor {
+            index: (n, k),
+            coating: LayersAt::new(layers, &met.shape, point),
+        };
+        let at_point =
+            |pattern: &Pattern| pattern_reflectance(pattern, &met.shape, point.position, random);
+        match scene.material(met.material) {
+            Material::Film { .. } => None,
+            Material::Diffuse { reflectance } => Some(Self::Diffuse(at_point(reflectance))),
+            Material::Emitter { reflectance, .. } => {
+                reflectance.map(|spectrum| Self::Diffuse(Reflectance::Spectrum(spectrum)))
+            }
+            Material::Conductor {
+                n,
+                k,
+                layers,
+                microsurface,
+            } => {
+                let facets = Facets::new(microsurface.as_ref()?);
+                Some(Self::RoughConductor(conductor(*n, *k, layers), facets))
+            }
+            Material::CoatedBody(body) => {
+                let (coat, base) = (conductor(body.n, body.k, &[]), at_point(&body.base));
+                Some(match &body.microsurface {
+                    None => Self::CoatedBody(coat, body, base),
+                    Some(facets) => Self::RoughCoatedBody(coat, body, base, Facets::new(facets)),
+                })
+            }
+            Material::Cook(cook) => Some(Self::Cook(conductor(cook.n, cook.k, &[]), cook)),
+        }
+    }
+
     /// Scattering from `light` to `eye`, unit vectors.
     pub(crate) fn between(&self, eye: DVec3, light: DVec3) -> Scattering {
         match self {

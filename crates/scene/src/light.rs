@@ -38,10 +38,10 @@ pub enum LightShape {
         position: DVec3,
         /// Unit vector in which it shines.
         axis: DVec3,
-        /// Cosine with the axis from which on the intensity is full.
-        full_cosine: f64,
-        /// Cosine with the axis below which there is no light; less than `full_cosine`.
-        edge_cosine: f64,
+        /// 1 − cosine with the axis, up to which the intensity is full.
+        full_height: f64,
+        /// 1 − cosine with the axis, beyond which there is no light; more than `full_height`.
+        edge_height: f64,
     },
 }
 

@@ -315,13 +315,13 @@ impl RoundToF32 for LightShape {
             Self::Spot {
                 position,
                 axis,
-                full_cosine,
-                edge_cosine,
+                full_height,
+                edge_height,
             } => Self::Spot {
                 position: position.rounded(),
                 axis: axis.rounded(),
-                full_cosine: full_cosine.rounded(),
-                edge_cosine: edge_cosine.rounded(),
+                full_height: full_height.rounded(),
+                edge_height: edge_height.rounded(),
             },
         }
     }

@@ -1,8 +1,9 @@
 //! Films and coatings of several layers, and films by two beams.
 
-use super::{CLOSED_FORM, DOWN, WHITE, band_mean, check, render, scene};
+use crate::comparison::{DOWN, WHITE, band_mean, check, render, scene};
 use optics::{Complex64, Layer, PathDifference};
 use pellicle_tests::device::open;
+use pellicle_tests::tolerances::CLOSED_FORM;
 
 const GLASS: Layer = Layer {
     index: Complex64::new(1.5, 0.0),

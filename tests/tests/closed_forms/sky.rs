@@ -1,6 +1,6 @@
 //! The clear sky and its sun: what they bring to flat ground, and what the sun shows, against spectral sums of the model itself.
 
-use crate::{ALBEDO, BANDS, DOWN, FLOOR, LAMBERT, band_mean, check, render, scene};
+use crate::comparison::{ALBEDO, BANDS, DOWN, FLOOR, LAMBERT, band_mean, check, render, scene};
 use pellicle_tests::device::open;
 use pellicle_tests::tolerances::{CLOSED_FORM, SKY_PICTURE};
 use spectra::Spectrum;

@@ -1,7 +1,7 @@
 //! environment.wgsl: what surrounds a scene.
 
 use crate::Check;
-use crate::scene_functions::{World, everything, pick, pictured, rounded, rows, unit, vector};
+use crate::world::{World, everything, pick, pictured, rounded, rows, unit, vector};
 use glam::DVec3;
 use pellicle_tests::tolerances::{ARITHMETIC, DIRECTION, LIGHT_PDF, NEAR_POLE};
 use scene::EnvironmentShape;
@@ -39,7 +39,7 @@ pub(crate) fn checks() -> Vec<Check> {
 type Twin = fn(&[f64]) -> Vec<f64>;
 
 fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
-    let parts: Vec<usize> = (0..world.packed.frame.environment_count as usize)
+    let parts: Vec<usize> = (0..world.scene.surroundings().len())
         .map(|part| world.packed.frame.first_environment as usize + part)
         .collect();
     let others = parts.clone();

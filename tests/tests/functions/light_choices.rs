@@ -1,6 +1,6 @@
 //! light_choice.wgsl, and what light.wgsl says of lights that are no objects.
 
-use crate::scene_functions::{everything, rounded, rows, unit, vector};
+use crate::world::{everything, rounded, rows, unit, vector};
 use crate::{Check, pure, table};
 use gpu::layout::NONE;
 use pellicle_tests::tolerances::{ARITHMETIC, LIGHT_ESTIMATE};

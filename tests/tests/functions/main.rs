@@ -1,15 +1,22 @@
 //! Every WGSL function against its twin in Rust, on many inputs with the edges among them.
 
 mod bodies;
+mod cameras;
 mod environments;
 mod facets;
+mod factors;
 mod light_choices;
+mod lights;
 mod numbers;
 mod optics_functions;
-mod scene_functions;
+mod rays;
 mod shapes;
+mod spectra;
+mod splits;
 mod stacks;
+mod surface_functions;
 mod thicknesses;
+mod world;
 
 use gpu::Gpu;
 use gpu::modules::MODULES;
@@ -84,14 +91,20 @@ fn table(ranges: &[(f32, f32)], edges: &[&[f32]]) -> Vec<f32> {
 fn checks() -> Vec<Check> {
     [
         bodies::checks(),
+        cameras::checks(),
         environments::checks(),
         facets::checks(),
+        factors::checks(),
         light_choices::checks(),
+        lights::checks(),
         numbers::checks(),
         optics_functions::checks(),
-        scene_functions::checks(),
+        rays::checks(),
         shapes::checks(),
+        spectra::checks(),
+        splits::checks(),
         stacks::checks(),
+        surface_functions::checks(),
         thicknesses::checks(),
     ]
     .into_iter()

@@ -2,9 +2,7 @@
 
 use crate::{Check, pure, table};
 use num_complex::Complex64;
-use pellicle_tests::tolerances::{
-    DIRECTION, FACET, FILM, FILM_GRAZING, FILM_THICK, FRESNEL, PHASE,
-};
+use pellicle_tests::tolerances::{DIRECTION, FILM, FILM_GRAZING, FILM_THICK, FRESNEL, PHASE};
 use std::f64::consts::PI;
 
 pub(crate) fn checks() -> Vec<Check> {
@@ -174,15 +172,6 @@ fn film_parts() -> Vec<Check> {
     ]
 }
 
-fn facet(a: &[f64]) -> Vec<f64> {
-    let direction = |cosine: f64, turn: f64| {
-        let (sine, phi) = ((1.0 - cosine * cosine).sqrt(), std::f64::consts::TAU * turn);
-        glam::DVec3::new(sine * phi.cos(), sine * phi.sin(), cosine)
-    };
-    let found = reference::cook_torrance(direction(a[0], 0.0), direction(a[1], a[2]), a[3]);
-    vec![found.reflection, found.pdf, found.cosine]
-}
-
 fn facets() -> Vec<Check> {
     let slopes = (0.05, 1.0);
     vec![
@@ -237,27 +226,6 @@ fn facets() -> Vec<Check> {
             ),
             twin: |a| vec![(-a[0]).ln_1p()],
             tolerance: pellicle_tests::tolerances::LOGARITHM,
-        },
-        Check {
-            probe: pure(
-                &["microfacet", "trig"],
-                (4, 3),
-                "let eye = vec3f(sqrt(1.0 - a(0u) * a(0u)), 0.0, a(0u));
-                 let light = vec3f(sqrt(1.0 - a(1u) * a(1u)) * direction_of_turn(a(2u)), a(1u));
-                 let f = cook_torrance(eye, light, a(3u));
-                 put(0u, f.reflection); put(1u, f.pdf); put(2u, f.cosine);",
-            ),
-            proves: &["cook_torrance"],
-            inputs: table(
-                &[(0.05, 1.0), (0.05, 1.0), (0.0, 1.0), (0.3, 1.0)],
-                &[
-                    &[1.0, 1.0, 0.0, 0.3],
-                    &[-0.5, 0.5, 0.0, 0.3],
-                    &[0.5, -0.5, 0.0, 0.3],
-                ],
-            ),
-            twin: facet,
-            tolerance: FACET,
         },
     ]
 }

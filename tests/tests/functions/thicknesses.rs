@@ -1,8 +1,6 @@
 //! thickness.wgsl and noise.wgsl: how thick layers are over their surfaces.
 
-use crate::scene_functions::{
-    center_of, everything, objects_where, pick, point_on, rounded, rows, vector,
-};
+use crate::world::{center_of, everything, objects_where, pick, point_on, rounded, rows, vector};
 use crate::{Check, pure, table};
 use glam::DVec3;
 use pellicle_tests::agreement::Tolerance;

@@ -1,7 +1,7 @@
 //! Surroundings by a picture: by the angle from the top in half turns and the longitude in turns, in both of which the cells of the
 //! table are even.
 
-use crate::Experiment;
+use crate::chi_square::Experiment;
 use glam::DVec3;
 use image::{ImageBuffer, Rgb};
 use pellicle_tests::scenes::file;

@@ -86,12 +86,12 @@ fn single_direction(shape: LightShape) -> Option<layout::Object> {
         LightShape::Spot {
             position,
             axis,
-            full_cosine,
-            edge_cosine,
+            full_height,
+            edge_height,
         } => {
             packed.shape = layout::SHAPE_SPOT;
             (packed.center, packed.normal) = (vec3(position), vec3(axis));
-            (packed.half_width, packed.half_height) = (full_cosine as f32, edge_cosine as f32);
+            (packed.half_width, packed.half_height) = (full_height as f32, edge_height as f32);
         }
     }
     Some(packed)

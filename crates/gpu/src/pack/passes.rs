@@ -28,7 +28,9 @@ pub(super) fn of_sample(scene: &Scene, limits: RecordLimits) -> u64 {
     let trace = (2 * segments + crossings) * (1 + objects + surfaces) + facets;
     let factors =
         (2 * segments + crossings) * (1 + most(layer_passes)) + facets * (1 + most(layer_passes));
-    let spectrum = groups * (1 + segments + factors + 2 * light_groups);
+    // The clamp looks at the whole spectrum before it is added.
+    let times = 1 + u64::from(scene.settings().clamp.is_some());
+    let spectrum = times * groups * (1 + segments + factors + 2 * light_groups);
     let environment = scene.surroundings().len() as u64 + 1 + segments * SEARCHES;
     // The sum of the lights' estimates and the choice among them.
     let choices = segments * 2 * (1 + scene.light_sources().len() as u64);

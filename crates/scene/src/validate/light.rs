@@ -106,10 +106,10 @@ fn radiator(shape: LightShape) -> Radiator {
         LightShape::Point { .. } => Radiator::Point(2.0 * TAU),
         // The smooth edge is odd about its middle, so that half of it counts.
         LightShape::Spot {
-            full_cosine,
-            edge_cosine,
+            full_height,
+            edge_height,
             ..
-        } => Radiator::Point(TAU * (1.0 - 0.5 * (full_cosine + edge_cosine))),
+        } => Radiator::Point(0.5 * TAU * (full_height + edge_height)),
     }
 }
 
@@ -160,11 +160,11 @@ fn spot(
         checks.report(problem.involving(field.key("angle_deg")));
         return None;
     }
-    let cosine = |degrees: f64| (0.5 * degrees).to_radians().cos();
+    let height = |degrees: f64| 2.0 * (0.25 * degrees).to_radians().sin().powi(2);
     Some(LightShape::Spot {
         position: position?,
         axis: axis?,
-        full_cosine: cosine(full_angle),
-        edge_cosine: cosine(angle),
+        full_height: height(full_angle),
+        edge_height: height(angle),
     })
 }

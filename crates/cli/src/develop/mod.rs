@@ -1,0 +1,106 @@
+//! `pellicle develop`: a spectral image becomes a picture for a display; and the options by which `render` does the same.
+
+mod options;
+mod pictures;
+mod values;
+
+pub(crate) use options::Options;
+
+use crate::booth::{self, BoothLamp};
+use crate::image_file;
+use crate::output::check_place;
+use miette::IntoDiagnostic;
+use pellicle::color::develop::{Latent, SceneWhite};
+use pellicle::color::spectral_exr::{self, Metadata};
+use std::path::PathBuf;
+use values::{FOV_DEG, number};
+
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The spectral image (EXR), as `render` writes it
+    image: PathBuf,
+    /// What to write: .png for the display, .exr for its linear red, green and blue; can be repeated
+    #[arg(short, long, value_name = "PATH", required = true)]
+    output: Vec<PathBuf>,
+    /// A contact sheet (.png): the image with all its lights burning with each of these lamps in turn, like A,D65,F11,LED-B3,
+    /// each times a factor or not
+    #[arg(long, conflicts_with = "lights", value_name = "LAMP,LAMP,…", value_delimiter = ',', value_parser = booth::lamp)]
+    booth: Vec<BoothLamp>,
+    #[command(flatten)]
+    options: Options,
+}
+
+/// What an image says of itself that developing asks for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct OfImage {
+    /// The exposure that it was rendered with.
+    pub(crate) exposure_ev: f64,
+    /// Height of the camera's view, of a perspective camera.
+    pub(crate) fov_deg: Option<f64>,
+    /// The white of its brightest lamp.
+    pub(crate) lamp: Option<SceneWhite>,
+}
+
+/// The name under which a spectral image keeps the height of its camera's view.
+pub(crate) const FOV_SETTING: &str = "fov_deg";
+
+impl OfImage {
+    fn said_by(metadata: &Metadata) -> Self {
+        let fov = metadata.settings.get(FOV_SETTING);
+        Self {
+            exposure_ev: metadata.exposure_ev,
+            fov_deg: fov.and_then(|text| number(text, &FOV_DEG)),
+            lamp: None,
+        }
+    }
+}
+
+/// Reads, develops and writes.
+pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
+    let (path, options) = (&arguments.image, &arguments.options);
+    for output in &arguments.output {
+        options.format(output)?;
+        check_place("-o", output, path)?;
+    }
+    if !arguments.booth.is_empty() {
+        booth::check(&arguments.booth, &arguments.output)?;
+        options.check_booth()?;
+        let (image, metadata) = image_file::spectral(path)?;
+        let of_image = OfImage::said_by(&metadata);
+        options.check(&arguments.output, of_image)?;
+        return booth::write(
+            &image,
+            of_image,
+            &arguments.booth,
+            options,
+            &arguments.output,
+        );
+    }
+    if options.needs_spectra() {
+        let (mut image, metadata) = spectral_exr::read(path).into_diagnostic()?;
+        image_file::tell(path, &metadata);
+        let mut of_image = OfImage::said_by(&metadata);
+        options.relight(&mut image, &mut of_image)?;
+        write(arguments, &image, image.height(), of_image)
+    } else {
+        let (image, metadata) = spectral_exr::read_xyz(path).into_diagnostic()?;
+        image_file::tell(path, &metadata);
+        write(
+            arguments,
+            &image,
+            image.height(),
+            OfImage::said_by(&metadata),
+        )
+    }
+}
+
+fn write<'a>(
+    arguments: &Arguments,
+    image: impl Into<Latent<'a>>,
+    height: u32,
+    of_image: OfImage,
+) -> miette::Result<()> {
+    let (options, outputs) = (&arguments.options, &arguments.output);
+    options.check(outputs, of_image)?;
+    options.write(image, of_image, height, outputs)
+}

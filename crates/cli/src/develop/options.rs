@@ -1,0 +1,218 @@
+//! The options of developing, what cannot be, and the settings that they make.
+
+use super::OfImage;
+use super::values::{
+    ExposureOption, GamutName, GlareName, White, bits, display, exposure, fov, star_length, white,
+};
+use crate::print;
+use crate::relight::RelightArguments;
+use miette::{IntoDiagnostic, WrapErr, miette};
+use pellicle::color::develop::{
+    DevelopSettings, Exposure, EyeGlare, Glare, Latent, SceneWhite, StarGlare, WhiteAdaptation,
+};
+use pellicle::color::{RgbImage8, develop};
+use pellicle::colorimetry::{Adaptation, Display};
+use pellicle::spectra::{LightGroup, Observer, SpectralImage};
+use std::path::PathBuf;
+
+/// How a picture is developed.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Developing")]
+pub(crate) struct Options {
+    #[command(flatten)]
+    lamps: RelightArguments,
+    /// How much light becomes the display's white: stops (3), a luminance in the scene (250cd), that of the display (display), or
+    /// the one that a percentage of the pixels does not exceed (auto, which is auto:99) [default: the scene's stops]
+    #[arg(long, value_name = "STOPS|CDcd|display|auto[:PERCENT]", value_parser = exposure, allow_hyphen_values = true)]
+    exposure: Option<ExposureOption>,
+    /// The display, by its name or a file .toml; `pellicle display` lists the names
+    #[arg(long, value_name = "NAME|FILE", default_value = "srgb", value_parser = display)]
+    display: Display,
+    /// Adapt from the scene's white to the display's
+    #[arg(long, value_name = "none|bradford|cat16", default_value = "none")]
+    adapt: Adaptation,
+    /// The scene's white: that of its own brightest lamp, of another lamp, a chromaticity x,y, or the image's mean [default: its
+    /// own lamp]
+    #[arg(long, value_name = "LAMP|X,Y|mean", value_parser = white)]
+    adapt_from: Option<White>,
+    /// What bright light does to its surroundings: a star of what is too bright for the display, or the glare of an eye adapted to
+    /// light, to dusk or to dark
+    #[arg(long, value_enum, default_value_t = GlareName::Off)]
+    glare: GlareName,
+    /// For the glare of the eye: the height of the view [default: the scene's camera]
+    #[arg(long, value_name = "DEGREES", value_parser = fov)]
+    glare_fov: Option<f64>,
+    /// For the star: where its arms have fallen to 1/e, as a share of the picture's height [default: 0.05]
+    #[arg(long, value_name = "SHARE", value_parser = star_length)]
+    star_length: Option<f64>,
+    /// What becomes of colours that the display cannot show: chroma taken away at constant hue and lightness, mixed with white at
+    /// constant luminance, clipped, or kept, for .exr [default: perceptual, for .exr keep]
+    #[arg(long, value_enum)]
+    pub(super) gamut: Option<GamutName>,
+    /// Stripe the pixels that the display cannot show
+    #[arg(long)]
+    gamut_warning: bool,
+    /// Print which share of the pixels the display cannot show, and how far the mapping moves them
+    #[arg(long)]
+    pub(super) gamut_report: bool,
+    /// Bits of a channel: 8 or 16 in a .png, 16 or 32 in an .exr [default: 8 and 16]
+    #[arg(long, value_name = "8|16|32", value_parser = bits)]
+    pub(super) bits: Option<u8>,
+    /// Spread the rounding to codes over neighbouring pixels, so that gradients show no steps
+    #[arg(long)]
+    dither: bool,
+}
+
+fn unknown_lamp() -> miette::Report {
+    miette!(
+        help = "say with --adapt-from which lamp is white, or `mean` for the image's mean",
+        "--adapt: what the image's brightest lights burn with is not known"
+    )
+}
+
+fn without_effect(option: &str, needs: &str) -> miette::Report {
+    miette!(
+        help = format!("leave {option} out, or add {needs}"),
+        "{option} has no effect without {needs}"
+    )
+}
+
+impl Options {
+    /// Tells what cannot be before the work, not after it.
+    pub(crate) fn check(&self, pictures: &[PathBuf], of_image: OfImage) -> miette::Result<()> {
+        for path in pictures {
+            self.format(path)?;
+        }
+        if self.adapt_from.is_some() && self.adapt == Adaptation::None {
+            return Err(without_effect("--adapt-from", "--adapt"));
+        }
+        if self.glare_fov.is_some() && self.glare.vision().is_none() {
+            return Err(without_effect("--glare-fov", "--glare of an eye"));
+        }
+        if self.star_length.is_some() && self.glare != GlareName::Star {
+            return Err(without_effect("--star-length", "--glare star"));
+        }
+        if self.display.seen_by(self.observer()).is_none() {
+            print::note(format_args!(
+                "{}: its primaries are known for CIE 1931 alone, and take XYZ of {} as if they were that observer's",
+                self.display.name(),
+                self.observer()
+            ));
+        }
+        if self.glare.vision().is_some() && self.glare_fov.or(of_image.fov_deg).is_none() {
+            return Err(miette!(
+                help = "say how high the view is with --glare-fov DEGREES",
+                "--glare: the glare of an eye depends on the angle of view, which is not known for this image"
+            ));
+        }
+        Ok(())
+    }
+
+    /// Tells before a picture of these light groups is rendered if none of them will be its white.
+    pub(crate) fn check_lamps(&self, groups: &[LightGroup]) -> miette::Result<()> {
+        let needs_lamp = self.adapt != Adaptation::None && self.adapt_from.is_none();
+        if needs_lamp && groups.iter().any(|group| group.lamp.is_none()) {
+            return Err(unknown_lamp());
+        }
+        Ok(())
+    }
+
+    /// Tells which of these options a contact sheet does not have.
+    pub(crate) fn check_booth(&self) -> miette::Result<()> {
+        let asked = [
+            ("--bits", self.bits.is_some_and(|bits| bits != 8)),
+            ("--gamut-report", self.gamut_report),
+        ];
+        match asked.iter().find(|(_, is_asked)| *is_asked) {
+            Some((option, _)) => Err(miette!(
+                help =
+                    format!("leave {option} out, or develop under one lamp at a time with --light"),
+                "a contact sheet of --booth has 8 bits and no report: {option} has no effect"
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// Shows an image under the lamps and to the observer asked for, and keeps in mind by which lamp it then is.
+    pub(crate) fn relight(
+        &self,
+        image: &mut SpectralImage,
+        of_image: &mut OfImage,
+    ) -> miette::Result<()> {
+        self.lamps.apply(image)?;
+        of_image.lamp = SceneWhite::of_lamps(image, self.observer());
+        Ok(())
+    }
+
+    pub(crate) fn observer(&self) -> Observer {
+        self.lamps.observer()
+    }
+
+    /// Whether the spectra are needed, or colours are enough.
+    pub(super) fn needs_spectra(&self) -> bool {
+        let needs_lamp = self.adapt != Adaptation::None && self.adapt_from.is_none();
+        let needs_bands = matches!(self.glare, GlareName::Mesopic | GlareName::Scotopic);
+        needs_lamp || needs_bands || !self.lamps.is_nothing()
+    }
+
+    fn adaptation(&self, of_image: OfImage) -> miette::Result<Option<WhiteAdaptation>> {
+        if self.adapt == Adaptation::None {
+            return Ok(None);
+        }
+        let from = match &self.adapt_from {
+            Some(white) => white.seen_by(self.observer())?,
+            None => of_image.lamp.ok_or_else(unknown_lamp)?,
+        };
+        let method = self.adapt;
+        Ok(Some(WhiteAdaptation { method, from }))
+    }
+
+    pub(super) fn settings(
+        &self,
+        of_image: OfImage,
+        height: u32,
+    ) -> miette::Result<DevelopSettings> {
+        let exposure = match self.exposure {
+            None => Exposure::Stops(of_image.exposure_ev),
+            Some(ExposureOption::Fixed(exposure)) => exposure,
+            Some(ExposureOption::Display) => Exposure::White(self.display.white_luminance()),
+        };
+        let glare = match (self.glare, self.glare.vision()) {
+            (_, Some(vision)) => {
+                let fov_deg = self.glare_fov.or(of_image.fov_deg).unwrap_or_default();
+                Glare::Eye(EyeGlare::of_view(fov_deg, height, vision))
+            }
+            (GlareName::Star, None) => Glare::Star(StarGlare {
+                length: self.star_length.unwrap_or(StarGlare::default().length),
+            }),
+            _ => Glare::Off,
+        };
+        let seen = self.display.seen_by(self.observer());
+        Ok(DevelopSettings {
+            observer: self.observer(),
+            exposure,
+            adaptation: self.adaptation(of_image)?,
+            glare,
+            gamut: self.gamut.map(Into::into).unwrap_or_default(),
+            gamut_warning: self.gamut_warning,
+            dither: self.dither,
+            ..DevelopSettings::new(seen.unwrap_or_else(|| self.display.clone()))
+        })
+    }
+
+    /// The codes of a picture of 8 bits.
+    pub(crate) fn codes<'a>(
+        &self,
+        image: impl Into<Latent<'a>>,
+        of_image: OfImage,
+        height: u32,
+    ) -> miette::Result<RgbImage8> {
+        develop(image, &self.settings(of_image, height)?)
+            .into_diagnostic()
+            .wrap_err("the picture cannot be developed")
+    }
+
+    pub(crate) fn display(&self) -> &Display {
+        &self.display
+    }
+}

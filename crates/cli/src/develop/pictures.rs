@@ -1,0 +1,125 @@
+//! Pictures as files, in the format that their names ask for.
+
+use super::{OfImage, Options};
+use crate::print;
+use miette::{IntoDiagnostic, WrapErr, miette};
+use pellicle::color::develop::{
+    DevelopSettings, GamutMapping, GamutReport, Latent, LinearImage, expose, gamut, quantise,
+};
+use pellicle::color::rgb_exr::Samples;
+use pellicle::color::{png, rgb_exr};
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+/// What a picture is written as.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Format {
+    Png8,
+    Png16,
+    Exr(Samples),
+}
+
+impl Options {
+    pub(super) fn format(&self, path: &Path) -> miette::Result<Format> {
+        let extension = path.extension().map(OsStr::to_string_lossy);
+        let extension = extension.map(|name| name.to_lowercase());
+        match (extension.as_deref(), self.bits) {
+            (Some("png"), None | Some(8)) => Ok(Format::Png8),
+            (Some("png"), Some(16)) => Ok(Format::Png16),
+            (Some("exr"), None | Some(16)) => Ok(Format::Exr(Samples::Half)),
+            (Some("exr"), Some(32)) => Ok(Format::Exr(Samples::Float)),
+            (Some("png" | "exr"), Some(bits)) => Err(miette!(
+                help = "a .png has 8 or 16, an .exr 16 or 32",
+                "{}: a file of this kind has no channels of {bits} bits",
+                path.display()
+            )),
+            _ => Err(miette!(
+                help = "end it in .png (codes of the display) or .exr (linear red, green and blue)",
+                "-o {}: a picture with this ending cannot be written",
+                path.display()
+            )),
+        }
+    }
+
+    /// Develops an image and writes each picture of it.
+    pub(crate) fn write<'a>(
+        &self,
+        image: impl Into<Latent<'a>>,
+        of_image: OfImage,
+        height: u32,
+        pictures: &[PathBuf],
+    ) -> miette::Result<()> {
+        if pictures.is_empty() {
+            return Ok(());
+        }
+        let settings = self.settings(of_image, height)?;
+        let linear = expose(image, &settings)
+            .into_diagnostic()
+            .wrap_err("the picture cannot be developed")?;
+        let not_finite = linear.not_finite();
+        if not_finite > 0 {
+            print::note(format_args!(
+                "pixels that are no numbers: {not_finite}; they are shown black"
+            ));
+        }
+        if self.gamut_report {
+            report(&GamutReport::of(&linear, &settings), &settings)?;
+        }
+        for path in pictures {
+            self.write_one(path, &linear, &settings)
+                .wrap_err_with(|| format!("{} was not written", path.display()))?;
+            print::note(format_args!("wrote {}", path.display()));
+        }
+        Ok(())
+    }
+
+    fn write_one(
+        &self,
+        path: &Path,
+        linear: &LinearImage,
+        settings: &DevelopSettings,
+    ) -> miette::Result<()> {
+        let format = self.format(path)?;
+        let mut settings = settings.clone();
+        if self.gamut.is_none() && matches!(format, Format::Exr(_)) {
+            settings.gamut = GamutMapping::Keep;
+        }
+        let mut linear = linear.clone();
+        gamut::map(&mut linear, &settings);
+        let (display, dither) = (&settings.display, settings.dither);
+        match format {
+            Format::Png8 => {
+                let codes = quantise::codes::<u8>(&linear, display, dither);
+                png::write_for_display(path, &codes, display).into_diagnostic()
+            }
+            Format::Png16 => {
+                let codes = quantise::codes::<u16>(&linear, display, dither);
+                png::write_for_display(path, &codes, display).into_diagnostic()
+            }
+            Format::Exr(samples) => {
+                rgb_exr::write(path, &linear, display, samples).into_diagnostic()
+            }
+        }
+    }
+}
+
+fn report(report: &GamutReport, settings: &DevelopSettings) -> miette::Result<()> {
+    print::result(format_args!(
+        "{}: {:.2} % of the pixels cannot be shown ({} of {}), {:.2} % are brighter than its white",
+        settings.display.name(),
+        100.0 * report.share(),
+        report.outside,
+        report.pixels,
+        100.0 * report.too_bright as f64 / report.pixels.max(1) as f64,
+    ))?;
+    if report.not_finite > 0 {
+        print::result(format_args!("{} pixels are no numbers", report.not_finite))?;
+    }
+    if report.outside > report.not_finite {
+        print::result(format_args!(
+            "mapping moves those by ΔE2000 {:.2} on average, median {:.2}, 95 % below {:.2}, at most {:.2}",
+            report.mean, report.median, report.p95, report.max
+        ))?;
+    }
+    Ok(())
+}

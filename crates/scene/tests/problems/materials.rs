@@ -1,0 +1,223 @@
+//! Materials.
+
+use crate::{assert_problems, with_camera, with_material};
+use pellicle_scene::SceneFile;
+use std::path::Path;
+
+/// Each material alone has one problem: body, place, field within the material, phrases.
+fn assert_material_problems(cases: &[(String, &str, &str, &[&str])]) {
+    for (body, place, field, phrases) in cases {
+        assert_problems(
+            &with_material(body),
+            &[(*place, &format!("materials.x.{field}"), phrases)],
+        );
+    }
+}
+
+#[test]
+fn films_out_of_range_are_told() {
+    let film = |rest: &str| format!("type = 'film'\nindex = 1.33\nthickness_nm = {rest}");
+    let cases: &[(String, &str, &str, &[&str])] = &[
+        (film("nan"), "9:16", "thickness_nm", &["found NaN"]),
+        (film("100001"), "9:16", "thickness_nm", &["0 to 100000 nm"]),
+        (
+            film("{ pole = 700, equator = 300 }"),
+            "9:16",
+            "thickness_nm",
+            &[
+                "comes to -100 nm at the far pole",
+                "`equator` can be from 350 to",
+            ],
+        ),
+        (
+            film("{ pole = 0, equator = 60000 }"),
+            "9:16",
+            "thickness_nm",
+            &["comes to 120000 nm", "to 50000 nm"],
+        ),
+        (
+            film("{ pole = 3, equator = 3, axis = [0, 0, 0] }"),
+            "9:48",
+            "thickness_nm.axis",
+            &["has no direction"],
+        ),
+        (
+            film("{ start = 1, end = 2, from = [1, 0, 0], to = [1, 0, 0] }"),
+            "9:61",
+            "thickness_nm.to",
+            &["not far enough from `materials.x.thickness_nm.from`"],
+        ),
+    ];
+    assert_material_problems(cases);
+}
+
+#[test]
+fn roughness_out_of_range_is_told() {
+    let metal = |rest: &str| format!("type = 'conductor'\n{rest}");
+    let cases: &[(String, &str, &str, &[&str])] = &[
+        (
+            metal("index = 'gold'\nroughness = 0.01"),
+            "9:13",
+            "roughness",
+            &["0 (a smooth mirror)", "0.02 to 1"],
+        ),
+        (
+            metal("index = 'gold'\nroughness = [0.1, 2]\nbrushed = { along = [1, 0, 0] }"),
+            "9:19",
+            "roughness[1]",
+            &["found 2; it must be from 0.02 to 1"],
+        ),
+        (
+            metal("index = 'gold'\nroughness = [0.1, 0.2]"),
+            "9:13",
+            "roughness",
+            &["which way its grain runs", "brushed = { along"],
+        ),
+        (
+            metal("index = 'gold'\nroughness = 0.1\nbrushed = { around = [0, 1, 0] }"),
+            "10:11",
+            "brushed",
+            &["no grain", "along and across"],
+        ),
+        (
+            metal("index = 'gold'\nroughness = [0.1, 0.2]\nbrushed = { around = [0, 0, 0] }"),
+            "10:22",
+            "brushed.around",
+            &["no direction"],
+        ),
+        (
+            metal("index = 'gold'\ndistribution = 'ggx'"),
+            "9:16",
+            "distribution",
+            &["for a rough surface"],
+        ),
+        (
+            metal("index = 'gold'\nroughness = 0.1\ndistribution = 'phong'"),
+            "10:16",
+            "distribution",
+            &["\"beckmann\" or \"ggx\""],
+        ),
+    ];
+    assert_material_problems(cases);
+}
+
+#[test]
+fn other_materials_out_of_range_are_told() {
+    let metal = |rest: &str| format!("type = 'conductor'\n{rest}");
+    let cases: &[(String, &str, &str, &[&str])] = &[
+        (
+            metal("index = 0"),
+            "8:9",
+            "index",
+            &["found 0", "0.001 to 1000"],
+        ),
+        (
+            metal("index = [1, -0.5]"),
+            "8:13",
+            "index[1]",
+            &["found -0.5", "0 to 1000"],
+        ),
+        (
+            metal("index = [1, 2, 3]"),
+            "8:9",
+            "index",
+            &["an array of 3", "an array of 2 numbers"],
+        ),
+        (
+            metal("index = [1e4, 2]"),
+            "8:10",
+            "index[0]",
+            &["0.001 to 1000"],
+        ),
+        (
+            metal("index = { name = 'glod' }"),
+            "8:18",
+            "index.name",
+            &["did you mean \"gold\"?"],
+        ),
+        (
+            "type = 'diffuse'\nreflectance = 1.5".into(),
+            "8:15",
+            "reflectance",
+            &["0 to 1"],
+        ),
+        (
+            "type = 'diffuse'\nreflectance = { checker = [0.5, 2], size = 1 }".into(),
+            "8:33",
+            "reflectance.checker[1]",
+            &["0 to 1"],
+        ),
+        (
+            "type = 'diffuse'\nreflectance = { checker = [0.5, 1], size = 0 }".into(),
+            "8:44",
+            "reflectance.size",
+            &["0.000001 to 1000000"],
+        ),
+        (
+            "type = 'emitter'\nemission = { constant = -1 }".into(),
+            "8:25",
+            "emission.constant",
+            &["found -1", "0 to 1000000000"],
+        ),
+        (
+            "type = 'emitter'\nemission = { constant = 1e6, scale = 1e6 }".into(),
+            "8:38",
+            "emission.scale",
+            &["a radiance of 1000000000000", "at most 1000000000"],
+        ),
+        (
+            "type = 'emitter'\nemission = { illuminant = 'd65' }".into(),
+            "8:27",
+            "emission.illuminant",
+            &["no illuminant \"d65\"", "did you mean \"D65\"?"],
+        ),
+    ];
+    assert_material_problems(cases);
+}
+
+/// A material may be on several objects: the one that does not suit it is told.
+#[test]
+fn thicknesses_for_spheres_are_refused_on_planes() {
+    let scene = |thickness: &str, shape: &str| {
+        with_camera(&format!(
+            "[materials.x]\ntype = 'film'\nlayers = [{{ index = 1.5, thickness_nm = 9 }}, {{ index = 1.3, thickness_nm = {thickness} }}]\n\
+             [[objects]]\ntype = 'sphere'\nmaterial = 'x'\ncenter = [0, 0, 0]\nradius = 1\n\
+             [[objects]]\nmaterial = 'x'\n{shape}\n"
+        ))
+    };
+    let plane = "type = 'plane'\npoint = [0, 0, 0]\nnormal = [0, 0, 1]";
+    let rectangle = "type = 'rectangle'\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nsize = [1, 1]";
+    let polar = "{ product = [2, { pole = 3, equator = 4 }] }";
+    let bubble = "{ drainage = { initial = 500, radius_m = 0.01 } }";
+    for (thickness, shape, said) in [
+        (
+            polar,
+            plane,
+            [
+                "\"x\"",
+                "`pole` and `equator`",
+                "this is a plane",
+                "`start`, `end`",
+            ],
+        ),
+        (
+            bubble,
+            rectangle,
+            ["\"x\"", "`radius_m`", "this is a rectangle", "`height_m`"],
+        ),
+    ] {
+        assert_problems(
+            &scene(thickness, shape),
+            &[("15:12", "objects[1].material", &said)],
+        );
+    }
+    let sphere = "type = 'sphere'\ncenter = [0, 3, 0]\nradius = 1";
+    let film =
+        "{ drainage = { initial = 500, height_m = 0.01, from = [0, 1, 0], to = [0, 0, 0] } }";
+    for (thickness, shape) in [(polar, sphere), (bubble, sphere), (film, rectangle)] {
+        let file = SceneFile::parse("good.toml", &scene(thickness, shape), Path::new(""));
+        if let Err(problems) = file.and_then(|file| file.validate()) {
+            panic!("{problems:#}");
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! Numbers, tables and directions.
+
+use crate::{Expected, assert_problems, problems_of, with_camera, with_material};
+use pellicle_scene::SceneFile;
+use std::path::Path;
+
+#[test]
+fn numbers_out_of_range_are_told_with_the_range() {
+    let cases: &[(&str, &str, &[&str])] = &[
+        ("samples = 0", "samples", &["found 0", "1 to 16777216"]),
+        ("samples = 16777217", "samples", &["found 16777217"]),
+        (
+            "samples = 4.5",
+            "samples",
+            &["the number 4.5", "a whole number"],
+        ),
+        (
+            "samples = 99999999999999999999",
+            "samples",
+            &["1 to 16777216"],
+        ),
+        ("bands = 0", "bands", &["1 to 1024"]),
+        ("bands = 1025", "bands", &["1 to 1024"]),
+        ("size = [640, 32769]", "size[1]", &["1 to 32768"]),
+        (
+            "size = [640]",
+            "size",
+            &["an array of 1", "2 whole numbers"],
+        ),
+        ("max_path_segments = 33", "max_path_segments", &["1 to 32"]),
+        (
+            "exposure_ev = inf",
+            "exposure_ev",
+            &["found inf", "-32 to 32 stops"],
+        ),
+        ("exposure_ev = 1e999", "exposure_ev", &["-32 to 32 stops"]),
+        (
+            "wavelengths_nm = [380, 831]",
+            "wavelengths_nm[1]",
+            &["360 to 830 nm"],
+        ),
+        (
+            "wavelengths_nm = [700, 400]",
+            "wavelengths_nm",
+            &["700 to 400 nm", "above the first"],
+        ),
+        (
+            "wavelengths_nm = [500, 500.5]",
+            "wavelengths_nm",
+            &["at least 1 nm"],
+        ),
+        (
+            "sampling = 'center'",
+            "sampling",
+            &["\"center\"", "did you mean \"centre\"?"],
+        ),
+    ];
+    for (line, field, phrases) in cases {
+        let column = line.find('=').unwrap() + 3;
+        let inner = match *field {
+            "size[1]" | "wavelengths_nm[1]" => column + 6,
+            _ => column,
+        };
+        assert_problems(
+            &with_camera(&format!("[render]\n{line}\n")),
+            &[(&format!("7:{inner}"), &format!("render.{field}"), phrases)],
+        );
+    }
+}
+
+#[test]
+fn an_image_that_no_memory_holds_is_told_with_its_size() {
+    assert_problems(
+        &with_camera("[render]\nsize = [32768, 32768]\nbands = 1024\n"),
+        &[(
+            "7:8",
+            "render.size",
+            &[
+                "32768 × 32768",
+                "1024 bands",
+                "8208.0 GiB",
+                "at most 32 GiB",
+                "2 bands at this size",
+            ],
+        )],
+    );
+}
+
+#[test]
+fn tables_are_checked_point_by_point() {
+    let cases: &[(&str, &[Expected<'_>])] = &[
+        (
+            "{ nm = [380, 500, 500, 780], values = [0, 1, 0, 2] }",
+            &[
+                (
+                    "8:33",
+                    "reflectance.nm[2]",
+                    &["500 nm after 500 nm", "must rise"],
+                ),
+                ("8:63", "reflectance.values[3]", &["found 2", "0 to 1"]),
+            ],
+        ),
+        (
+            "{ nm = [380, 780], values = [0.5] }",
+            &[(
+                "8:43",
+                "reflectance.values",
+                &["1 values for 2 wavelengths"],
+            )],
+        ),
+        (
+            "{ nm = [], values = [] }",
+            &[("8:22", "reflectance.nm", &["no points"])],
+        ),
+        (
+            "{ nm = [400, 700], values = [0, 1] }",
+            &[(
+                "8:15",
+                "reflectance",
+                &["400 to 700 nm", "380 to 780 nm", "extrapolate = \"clamp\""],
+            )],
+        ),
+        (
+            "{ nm = [0.5, nan, inf], values = [0, 1, 1], extrapolate = 'claamp' }",
+            &[
+                (
+                    "8:23",
+                    "reflectance.nm[0]",
+                    &["found 0.5", "1 to 1000000 nm"],
+                ),
+                ("8:28", "reflectance.nm[1]", &["found NaN"]),
+                ("8:33", "reflectance.nm[2]", &["found inf"]),
+                (
+                    "8:73",
+                    "reflectance.extrapolate",
+                    &["did you mean \"clamp\"?"],
+                ),
+            ],
+        ),
+        (
+            "{ nm = [400, 700] }",
+            &[(
+                "8:15",
+                "reflectance.values",
+                &["is missing", "an array of numbers"],
+            )],
+        ),
+    ];
+    for (table, expected) in cases {
+        let expected: Vec<_> = expected
+            .iter()
+            .map(|(place, field, phrases)| (*place, format!("materials.x.{field}"), *phrases))
+            .collect();
+        let expected: Vec<Expected<'_>> = expected
+            .iter()
+            .map(|(place, field, phrases)| (*place, field.as_str(), *phrases))
+            .collect();
+        assert_problems(
+            &with_material(&format!("type = 'diffuse'\nreflectance = {table}")),
+            &expected,
+        );
+    }
+}
+
+#[test]
+fn a_named_spectrum_outside_its_table_says_how_to_go_on() {
+    let narrow = "{ nm = [400, 700], n = [1.3, 1.3] }";
+    let text = with_material(&format!("type = 'conductor'\nindex = {narrow}"));
+    // n and k come from one table, so its range is told once.
+    let problems = problems_of(&text);
+    assert_eq!(problems.iter().len(), 1, "{problems:#}");
+    let wide = with_camera(
+        "[render]\nwavelengths_nm = [360, 830]\n[environment]\ntype = 'constant'\nemission = { illuminant = 'FL2' }\n",
+    );
+    assert_problems(
+        &wide,
+        &[(
+            "10:12",
+            "environment.emission",
+            &["380 to 780 nm", "360 to 830 nm", "clamp"],
+        )],
+    );
+    let clamped = wide.replace("'FL2'", "'FL2', extrapolate = 'clamp'");
+    SceneFile::parse("good.toml", &clamped, Path::new(""))
+        .unwrap()
+        .validate()
+        .unwrap();
+}
+
+#[test]
+fn directions_that_span_no_plane_are_told() {
+    assert_problems(
+        "[camera]\ntype = 'perspective'\nposition = [0, 3, 0]\nlook_at = [0, 0, 0]\nfov_deg = 180\n",
+        &[
+            ("1:1", "camera.up", &["parallel to the direction of view"]),
+            ("5:11", "camera.fov_deg", &["0.001 to 179.9°"]),
+        ],
+    );
+    assert_problems(
+        &with_camera(
+            "[materials.x]\ntype = 'diffuse'\nreflectance = 0\n[[objects]]\ntype = 'rectangle'\nmaterial = 'x'\n\
+             center = [0, 0, 2e6]\nnormal = [0, 1, 0]\nsize = [1, 0]\nup = [0, -2, 0]\n\
+             [[objects]]\ntype = 'plane'\nmaterial = 'x'\npoint = [0, 0, 0]\nnormal = [0, 0, 0]",
+        ),
+        &[
+            ("12:17", "objects[0].center[2]", &["found 2000000"]),
+            ("14:12", "objects[0].size[1]", &["found 0"]),
+            (
+                "15:6",
+                "objects[0].up",
+                &["parallel to the normal", "[0, 1, 0]"],
+            ),
+            ("20:10", "objects[1].normal", &["[0, 0, 0]", "no direction"]),
+        ],
+    );
+}

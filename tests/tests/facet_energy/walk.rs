@@ -1,0 +1,119 @@
+//! A random walk on a surface of facets: Heitz, Hanika, d'Eon and Dachsbacher, Multiple-Scattering Microfacet BSDFs with the Smith
+//! Model, ACM TOG 35(4), 2016. Between two facets it moves in a medium of facets at all heights, that it meets by chance as Smith's
+//! masking has it; the heights of the facets that it meets one after another are independent but for that.
+//!
+//! A height stands here as the part of the surface that lies below it, so that no distribution of heights is needed.
+
+use optics::{Distribution, Microsurface};
+use reference::random4;
+use std::f64::consts::{PI, TAU};
+
+/// More facets than any walk meets.
+const MOST: u32 = 10_000;
+
+/// Where a walk leaves, and what it met.
+pub(crate) struct Walk {
+    /// The direction in which light leaves; none if it never did.
+    pub(crate) left: Option<[f64; 3]>,
+    /// Cosines at the facets.
+    pub(crate) cosines: Vec<f64>,
+}
+
+impl Walk {
+    /// Light from `eye`, its numbers named by `index` and `seed`.
+    pub(crate) fn new(surface: &Microsurface, eye: [f64; 3], index: u32, seed: u32) -> Self {
+        let mut walk = Self {
+            left: None,
+            cosines: Vec::new(),
+        };
+        let mut direction = eye.map(|x| -x);
+        let mut below = 1.0;
+        for step in 0..MOST {
+            let [height, u, v, _] = random4([index % 4096, index / 4096], step, 9, seed);
+            let Some(met) = next_height(surface, direction, below, height) else {
+                walk.left = Some(direction);
+                break;
+            };
+            below = met;
+            let back = direction.map(|x| -x);
+            let facet = visible_facet(surface, back, u, v);
+            let cosine = dot(back, facet);
+            walk.cosines.push(cosine);
+            direction = std::array::from_fn(|i| direction[i] + 2.0 * cosine * facet[i]);
+        }
+        walk
+    }
+}
+
+/// The height at which a ray meets a facet next, or none where it leaves: upwards it does so with the chance C^Λ(ω), and
+/// C' = C (1 − u)^(−1/Λ(ω)) (equations 15 to 19 and algorithm 3); downwards, Λ(−ω) = −1 − Λ(ω).
+fn next_height(surface: &Microsurface, direction: [f64; 3], below: f64, u: f64) -> Option<f64> {
+    let upwards = surface.lambda(direction);
+    let lambda = if direction[2] > 0.0 {
+        upwards
+    } else {
+        -1.0 - upwards
+    };
+    let leaves = direction[2] > 0.0 && u >= 1.0 - below.powf(lambda);
+    (!leaves).then(|| below * (1.0 - u).powf(-1.0 / lambda))
+}
+
+/// A facet as often as a direction sees it, from below the horizon too.
+fn visible_facet(surface: &Microsurface, eye: [f64; 3], u: f64, v: f64) -> [f64; 3] {
+    match surface.distribution {
+        // Spherical caps hold for all directions (Dupuy and Benyoub 2023).
+        Distribution::Ggx => surface.sample(eye, u, v),
+        Distribution::Beckmann => visible_beckmann_facet(surface.alpha, eye, u, v),
+    }
+}
+
+/// By the slope's cumulated distribution, F(x) = cos θ erfc(−x) + sin θ exp(−x²) / √π up to x = cot θ (Heitz and d'Eon 2014), halved
+/// down to rounding.
+fn visible_beckmann_facet([along, across]: [f64; 2], eye: [f64; 3], u: f64, v: f64) -> [f64; 3] {
+    let stretched = normalised([along * eye[0], across * eye[1], eye[2]]);
+    let sine = stretched[0].hypot(stretched[1]);
+    // Straight from above any azimuth will do.
+    let (x, y) = if sine > 0.0 {
+        (stretched[0] / sine, stretched[1] / sine)
+    } else {
+        (1.0, 0.0)
+    };
+    let below = |cosine: f64, sine: f64, share: f64| {
+        let f = |x: f64| cosine * libm::erfc(-x) + sine / PI.sqrt() * (-x * x).exp();
+        let steepest = (cosine / sine).min(7.0);
+        let (mut low, mut high) = ((-7.0_f64).min(steepest - 2.0), steepest);
+        let wanted = share * f(steepest);
+        for _ in 0..48 {
+            let middle = 0.5 * (low + high);
+            if f(middle) < wanted {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    };
+    let towards = below(stretched[2], sine, u);
+    let aside = below(1.0, 0.0, v);
+    normalised([
+        -along * (x * towards - y * aside),
+        -across * (y * towards + x * aside),
+        1.0,
+    ])
+}
+
+/// A unit vector of this cosine, in the azimuth of so many turns.
+pub(crate) fn direction(cosine: f64, turns: f64) -> [f64; 3] {
+    let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+    let (y, x) = (TAU * turns).sin_cos();
+    [sine * x, sine * y, cosine]
+}
+
+fn normalised(v: [f64; 3]) -> [f64; 3] {
+    let length = dot(v, v).sqrt();
+    v.map(|x| x / length)
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}

@@ -1,0 +1,101 @@
+//! spectrum.wgsl and lifting.wgsl: spectra at the wavelengths of a sample.
+
+use crate::Check;
+use crate::world::{BANDS, GROUPS, bands_of, everything, rows, value_of};
+use pellicle_tests::tolerances::{ARITHMETIC, KNOT, SMOOTH, SPECTRUM};
+
+fn steps() -> u32 {
+    everything().packed.frame.steps
+}
+
+/// A spectrum, or one of the observer's after them, which are 0 behind the last band.
+fn spectrum_twin(a: &[f64]) -> Vec<f64> {
+    let (scene, spectrum) = (&everything().scene, a[0] as usize);
+    let value = |band| match spectrum.checked_sub(scene.spectra().len()) {
+        None => value_of(spectrum, band, a[2]),
+        Some(_) if band >= BANDS => 0.0,
+        Some(of_three) => scene.observer()[of_three].at(band, a[2]),
+    };
+    bands_of(a[1]).map(value).to_vec()
+}
+
+fn world_bands() -> &'static spectra::BandGrid {
+    &everything().scene.settings().bands
+}
+
+pub(crate) fn checks() -> Vec<Check> {
+    let world = everything();
+    let count = (world.scene.spectra().len() + 3) as f64;
+    let mut offsets = rows(1, |u| {
+        let position = u[0] * f64::from(steps());
+        ((position - position.round()).abs() > 1e-5).then(|| u.to_vec())
+    });
+    offsets.extend([0.0, 0.5, 0.999_999_94]);
+    vec![
+        Check {
+            probe: world.probe(
+                &["spectrum"],
+                (1, 3),
+                "let w = wavelengths_at(a(0u)); put(0u, w.offset); put(1u, f32(w.knot)); put(2u, w.fraction);",
+            ),
+            proves: &["wavelengths_at"],
+            inputs: offsets,
+            twin: |a| {
+                let position = a[0] * f64::from(steps());
+                vec![a[0], position.floor(), position - position.floor()]
+            },
+            tolerance: KNOT,
+        },
+        Check {
+            probe: world.probe(
+                &["spectrum"],
+                (3, 4),
+                "put4(0u, spectrum_at(u32(a(0u)), u32(a(1u)), wavelengths_at(a(2u))));",
+            ),
+            proves: &["spectrum_at"],
+            inputs: rows(3, |u| {
+                let group = (u[1] * f64::from(GROUPS)).floor();
+                Some(vec![(u[0] * count).floor(), group, u[2]])
+            }),
+            twin: spectrum_twin,
+            tolerance: SPECTRUM,
+        },
+        Check {
+            probe: world.probe(
+                &["lifting"],
+                (5, 4),
+                "put4(0u, smooth_value(a3(0u), u32(a(3u)), wavelengths_at(a(4u))));",
+            ),
+            proves: &["smooth_value"],
+            inputs: rows(5, |u| {
+                let spread = |u: f64| 20.0 * (2.0 * u - 1.0).powi(3);
+                let group = (u[3] * f64::from(GROUPS)).floor();
+                Some(vec![spread(u[0]), spread(u[1]), spread(u[2]), group, u[4]])
+            }),
+            twin: |a| {
+                let bands = world_bands();
+                let value = |lane: u32| {
+                    let nm = bands.wavelength_nm(4 * a[3] as u32 + lane, a[4]);
+                    reference::smooth_value([a[0], a[1], a[2]], nm)
+                };
+                (0..4).map(value).collect()
+            },
+            tolerance: SMOOTH,
+        },
+        Check {
+            // In 1/µm, so that the numbers are of order one.
+            probe: world.probe(
+                &["spectrum"],
+                (2, 4),
+                "put4(0u, 1000.0 * inverse_wavelengths(u32(a(0u)), wavelengths_at(a(1u))));",
+            ),
+            proves: &["inverse_wavelengths"],
+            inputs: rows(2, |u| Some(vec![(u[0] * f64::from(GROUPS)).floor(), u[1]])),
+            twin: |a| {
+                let grid = &everything().scene.settings().bands;
+                bands_of(a[0]).map(|band| 1000.0 / grid.wavelength_nm(band, a[1])).to_vec()
+            },
+            tolerance: ARITHMETIC,
+        },
+    ]
+}

@@ -1,0 +1,174 @@
+//! The whole reflection function of every surface that scatters, with its spectrum: against the reference, and with eye and light
+//! changed over (Helmholtz's reciprocity). Smooth surfaces and films only mirror and let through, by a factor of the one cosine.
+
+use crate::Check;
+use crate::world::{BANDS, World, direction, pick, rows};
+use glam::DVec3;
+use gpu::PackedScene;
+use pellicle_tests::tolerances::{RECIPROCITY, SURFACE_FUNCTIONS};
+use reference::{SurfaceFunction, SurfacePoint};
+use scene::{SceneFile, Shape};
+use std::path::Path;
+use std::sync::OnceLock;
+
+const MATERIALS: &[&str] = &[
+    "type = 'diffuse', reflectance = 'red'",
+    "type = 'conductor', index = 'gold', roughness = 0.15",
+    "type = 'conductor', index = 'copper', roughness = 0.9, distribution = 'ggx'",
+    "type = 'conductor', index = 'silver', roughness = [0.15, 0.5], brushed = { along = [1, 0, 0] }",
+    "type = 'conductor', index = 'tungsten', roughness = [0.9, 0.3], distribution = 'ggx', brushed = { along = [1, 0, 0] }",
+    "type = 'coated', substrate = 'titanium', index = 2.4, thickness_nm = 150, roughness = 0.4",
+    "type = 'coated', substrate = 'gold', roughness = [0.5, 0.2], distribution = 'ggx', brushed = { along = [1, 0, 0] },
+     layers = [{ index = 1.46, thickness_nm = { pole = 80, equator = 250 } }, { index = [1.6, 0.05], thickness_nm = 60 }]",
+    "type = 'dielectric', index = 1.5, base = 'red'",
+    "type = 'dielectric', index = { cauchy = [1.5, 0.01] }, base = 'orange', roughness = 0.3",
+    "type = 'dielectric', index = 1.6, base = 0.9, roughness = [0.2, 0.6], distribution = 'ggx', brushed = { along = [1, 0, 0] }",
+    "type = 'dielectric', index = [1.5, 0.1], roughness = 0.3",
+    "type = 'conductor', index = 'gold', roughness = 0.3, model = 'cook1981'",
+    "type = 'conductor', index = { normal_reflectance = 0.7 }, model = { cook1981 = { distribution = 'gaussian',
+     slopes = [{ m = 0.2, weight = 0.4 }, { m = 0.6, weight = 0.6 }], specular = 0.7, diffuse = 0.3, diffuse_reflectance = 'red' } }",
+    "type = 'conductor', index = 'aluminium', model = { cook1981 = { normalisation = 'normalised',
+     slopes = [{ m = 0.2, weight = 0.5 }, { m = 0.9, weight = 0.5 }], specular = 0.9, diffuse = 0.1, diffuse_reflectance = 0.5 } }",
+];
+
+const RADIUS: f64 = 0.25;
+
+/// A sphere of each material.
+fn world() -> &'static World {
+    static WORLD: OnceLock<World> = OnceLock::new();
+    WORLD.get_or_init(|| {
+        let each = |f: fn(usize, &str) -> String| -> String {
+            MATERIALS.iter().enumerate().map(|(i, m)| f(i, m)).collect()
+        };
+        let materials = each(|i, m| format!("m{i} = {{ {} }}, ", m.replace('\n', " ")));
+        let objects = each(|i, _| {
+            format!(
+                "[[objects]]\ntype = 'sphere'\nmaterial = 'm{i}'\ncenter = [{i}, 0, 0]\nradius = {RADIUS}\n"
+            )
+        });
+        let text = format!(
+            "camera = {{ type = 'orthographic', position = [0, 0, 9], look_at = [0, 0, 0], height = 9 }}\n\
+             environment = {{ type = 'constant', emission = {{ constant = 1 }} }}\n\
+             render = {{ bands = {BANDS} }}\nmaterials = {{ {} }}\n{objects}",
+            materials.trim_end_matches(", ")
+        );
+        let scene = SceneFile::parse("surfaces", &text, Path::new(""))
+            .and_then(|file| file.validate())
+            .unwrap_or_else(|problems| panic!("{problems}"))
+            .rounded_to_f32();
+        let packed = PackedScene::new(&scene);
+        World { scene, packed }
+    })
+}
+
+/// The normal where a sphere is met.
+const NORMAL: DVec3 = DVec3::new(0.6, 0.8, 0.0);
+
+const BODY: &str = "
+    let object = u32(a(0u));
+    let material = objects[object].material;
+    let at = wavelengths_at(a(2u));
+    let group = u32(a(1u));
+    let normal = vec3f(0.6, 0.8, 0.0);
+    let position = objects[object].center + objects[object].radius * normal;
+    let directions = array<vec3f, 2>(a3(3u), a3(6u));
+    for (var i = 0u; i < 2u; i++) {
+        let eye = directions[i];
+        let light = directions[1u - i];
+        begin_record();
+        var vertex = plain_vertex();
+        let base = diffuse_factor(object, position, 0.5);
+        vertex.scatter = base;
+        if (materials[material].surface != SURFACE_DIFFUSE) {
+            vertex.scatter = layered_factor(object, SurfacePoint(position, normal, eye.z, true), true);
+            vertex.base = base.spectrum;
+            vertex.base_kind = base.kind;
+        }
+        vertex.material = material;
+        vertex.eye_cosine = eye.z;
+        let found = scattering(Scatterer(material, vertex.scatter.kind), eye, light);
+        let multiple = multiple_colour(vertex, group, at);
+        put4(4u * i, lobes_value(vertex, found.lobes, multiple, group, at) / light.z);
+    }";
+
+/// f(eye, light) in the four bands of a group, and f(light, eye).
+fn both_ways(a: &[f64]) -> Vec<f64> {
+    let (world, object) = (world(), a[0] as usize);
+    let Shape::Sphere { center, radius } = *world.shape(object) else {
+        panic!("only spheres are here");
+    };
+    let (first, second) = (DVec3::from_slice(&a[3..]), DVec3::from_slice(&a[6..]));
+    let one_way = |eye: DVec3, light: DVec3| {
+        let point = SurfacePoint {
+            position: center + radius * NORMAL,
+            normal: NORMAL,
+            cosine: eye.z,
+            is_front: true,
+        };
+        let surface = SurfaceFunction::new(&world.scene, object, &point, a[2], 0.5);
+        let surface = surface.expect("all scatter");
+        let bands = (0..4).map(|band| 4 * a[1] as usize + band);
+        bands
+            .map(|band| surface.value(eye, light, band) / light.z)
+            .collect::<Vec<_>>()
+    };
+    [one_way(first, second), one_way(second, first)].concat()
+}
+
+pub(crate) fn checks() -> Vec<Check> {
+    let inputs = rows(6, |u| {
+        let object = pick(&Vec::from_iter(0..MATERIALS.len()), u[0]) as f64;
+        let group = (f64::from(BANDS / 4) * u[1]).floor();
+        // Grazing light beyond 87° is left out: a film's phase is steep there.
+        let first = direction(0.05 + 0.95 * u[2], u[3]);
+        let second = direction(0.05 + 0.95 * u[4], u[5]);
+        // The offset is that of the azimuth, which tells as much.
+        Some(
+            [
+                &[object, group, u[3]][..],
+                &first.to_array(),
+                &second.to_array(),
+            ]
+            .concat(),
+        )
+    });
+    vec![Check {
+        probe: world().probe(&["path", "evaluate"], (9, 8), BODY),
+        proves: &["body_value", "lobes_value", "multiple_colour", "scattering"],
+        inputs,
+        twin: both_ways,
+        tolerance: SURFACE_FUNCTIONS,
+    }]
+}
+
+/// By how much what goes one way differs from what goes the other, relative to it; of the worst row.
+fn lopsidedness(values: &[f64], by_row: impl Fn(usize) -> f64) -> f64 {
+    let of_row = |(row, both): (usize, &[f64])| {
+        let (there, back) = both.split_at(4);
+        let pairs = there.iter().zip(back);
+        let off = |(f, g): (&f64, &f64)| (f - g * by_row(row)).abs() / (f + RECIPROCITY.absolute);
+        pairs.map(off).fold(0.0, f64::max)
+    };
+    values.chunks(8).enumerate().map(of_row).fold(0.0, f64::max)
+}
+
+/// Both renderers' functions, with their spectra, within 1e-5; times the cosine they are not.
+#[test]
+fn surfaces_are_reciprocal() {
+    let check = &checks()[0];
+    let found = check.probe.run(crate::device(), &check.inputs);
+    let on_gpu: Vec<f64> = found.iter().map(|&x| f64::from(x)).collect();
+    let rows: Vec<Vec<f64>> = check
+        .inputs
+        .chunks(9)
+        .map(|row| row.iter().map(|&x| f64::from(x)).collect())
+        .collect();
+    let on_cpu: Vec<f64> = rows.iter().flat_map(|row| both_ways(row)).collect();
+    for (who, values) in [("gpu", on_gpu), ("cpu", on_cpu)] {
+        let off = lopsidedness(&values, |_| 1.0);
+        println!("{who}: {off:.1e}");
+        assert!(off < RECIPROCITY.relative, "{who}: {off}");
+        let with_cosines = lopsidedness(&values, |row| rows[row][8] / rows[row][5]);
+        assert!(with_cosines > 0.1, "{who}: {with_cosines}");
+    }
+}
