@@ -22,6 +22,9 @@ pub const SHIPPED: &[&str] = &[
     "figure_5_exact",
     "metals",
     "brushed_disc",
+    "bubble_in_room",
+    "bubble_under_sky",
+    "room",
     "furnace",
 ];
 

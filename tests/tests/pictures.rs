@@ -14,7 +14,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 const BLESS: &str = "PELLICLE_BLESS=1 cargo test -p pellicle-tests --test pictures";
-const SCENES: [(&str, [u32; 2]); 16] = [
+const SCENES: [(&str, [u32; 2]); 19] = [
     ("soap_bubble", [160, 120]),
     ("film_wedge", [160, 40]),
     ("metal_spheres", [160, 120]),
@@ -31,6 +31,9 @@ const SCENES: [(&str, [u32; 2]); 16] = [
     ("figure_5_exact", [80, 40]),
     ("metals", [80, 60]),
     ("brushed_disc", [80, 60]),
+    ("bubble_in_room", [80, 60]),
+    ("bubble_under_sky", [80, 60]),
+    ("room", [80, 40]),
 ];
 
 /// A scene rendered small on the device and developed at its own exposure.

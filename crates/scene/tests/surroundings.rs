@@ -30,7 +30,9 @@ fn surrounded_by(folder: &Path, image: &str) -> Result<Scene, Problems> {
 
 /// There is one problem, at this field, that says all of it.
 fn assert_told(result: Result<Scene, Problems>, field: &str, phrases: &[&str]) {
-    let problems = result.err().expect("it is accepted");
+    let Err(problems) = result else {
+        panic!("it is accepted");
+    };
     let said = format!("{problems:#}");
     assert_eq!(problems.iter().count(), 1, "{said}");
     let problem = problems.iter().next().unwrap();
@@ -256,14 +258,14 @@ fn spectra_that_end_within_the_bands_are_told() {
     );
 }
 
-fn chromaticities(points: [[f32; 2]; 4]) -> Option<Chromaticities> {
+fn chromaticities(points: [[f32; 2]; 4]) -> Chromaticities {
     let [red, green, blue, white] = points.map(|[x, y]| Vec2(x, y));
-    Some(Chromaticities {
+    Chromaticities {
         red,
         green,
         blue,
         white,
-    })
+    }
 }
 
 /// ACES primaries AP1 (S-2014-004): the white stays the white of D60, and red is redder than that of sRGB.
@@ -281,7 +283,7 @@ fn the_primaries_of_a_file_are_honoured() {
         (2, 1),
         &["R", "G", "B"],
         &[1.0; 2],
-        ap1,
+        Some(ap1),
     );
     let scene = surrounded_by(directory.path(), "ap1.exr").unwrap_or_else(|p| panic!("{p:#}"));
     let Environment::Picture { picture, .. } = scene.environment() else {
@@ -298,7 +300,7 @@ fn the_primaries_of_a_file_are_honoured() {
         (2, 1),
         &["R", "G", "B"],
         &[1.0; 2],
-        line,
+        Some(line),
     );
     let phrases = ["line.exr", "`chromaticities`", "no three primaries"];
     assert_told(

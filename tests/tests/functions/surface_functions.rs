@@ -117,7 +117,7 @@ fn both_ways(a: &[f64]) -> Vec<f64> {
 
 pub(crate) fn checks() -> Vec<Check> {
     let inputs = rows(6, |u| {
-        let object = pick(&Vec::from_iter(0..MATERIALS.len()), u[0]) as f64;
+        let object = pick(&(0..MATERIALS.len()).collect::<Vec<_>>(), u[0]) as f64;
         let group = (f64::from(BANDS / 4) * u[1]).floor();
         // Grazing light beyond 87° is left out: a film's phase is steep there.
         let first = direction(0.05 + 0.95 * u[2], u[3]);
