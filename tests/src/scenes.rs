@@ -22,6 +22,7 @@ pub const SHIPPED: &[&str] = &[
     "figure_5_exact",
     "metals",
     "brushed_disc",
+    "studio",
     "furnace",
 ];
 

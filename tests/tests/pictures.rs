@@ -14,7 +14,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 const BLESS: &str = "PELLICLE_BLESS=1 cargo test -p pellicle-tests --test pictures";
-const SCENES: [(&str, [u32; 2]); 12] = [
+const SCENES: [(&str, [u32; 2]); 13] = [
     ("soap_bubble", [160, 120]),
     ("film_wedge", [160, 40]),
     ("metal_spheres", [160, 120]),
@@ -27,6 +27,7 @@ const SCENES: [(&str, [u32; 2]); 12] = [
     ("tempered_steel", [120, 75]),
     ("dichroic_ball", [80, 60]),
     ("gold_visor", [100, 75]),
+    ("studio", [96, 54]),
 ];
 
 /// A scene rendered small on the device and developed at its own exposure.
