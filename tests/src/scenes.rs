@@ -25,6 +25,7 @@ pub const SHIPPED: &[&str] = &[
     "bubble_in_room",
     "bubble_under_sky",
     "room",
+    "studio",
     "furnace",
 ];
 

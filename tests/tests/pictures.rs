@@ -14,7 +14,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 const BLESS: &str = "PELLICLE_BLESS=1 cargo test -p pellicle-tests --test pictures";
-const SCENES: [(&str, [u32; 2]); 19] = [
+const SCENES: [(&str, [u32; 2]); 20] = [
     ("soap_bubble", [160, 120]),
     ("film_wedge", [160, 40]),
     ("metal_spheres", [160, 120]),
@@ -34,6 +34,7 @@ const SCENES: [(&str, [u32; 2]); 19] = [
     ("bubble_in_room", [80, 60]),
     ("bubble_under_sky", [80, 60]),
     ("room", [80, 40]),
+    ("studio", [96, 54]),
 ];
 
 /// A scene rendered small on the device and developed at its own exposure.

@@ -1,5 +1,6 @@
 //! Finding an adapter and opening it.
 
+use crate::pipelines::RecentPipelines;
 use std::sync::{Arc, Mutex};
 use thiserror::Error;
 
@@ -97,6 +98,7 @@ pub struct Gpu {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
     trouble: Arc<Mutex<Option<DeviceError>>>,
+    pub(crate) pipelines: Mutex<RecentPipelines>,
 }
 
 /// All adapters, the best first.
@@ -198,6 +200,7 @@ impl Gpu {
             device,
             queue,
             trouble,
+            pipelines: Mutex::default(),
         })
     }
 

@@ -9,6 +9,7 @@ mod features;
 pub mod layout;
 pub mod modules;
 mod pack;
+mod pipelines;
 mod render;
 mod stacks;
 mod tiles;
@@ -19,6 +20,7 @@ pub use device::{
 pub use features::Features;
 pub use layout::RunStack;
 pub use pack::PackedScene;
-pub use render::{RenderError, SceneBindings, bind_scene, compile, render, render_divided};
+pub use pipelines::compile;
+pub use render::{RenderError, SceneBindings, bind_scene, render, render_divided};
 pub use stacks::{MAX_BATCH_LAYERS, StackBatch, StackError, StackPowers, evaluate_stacks};
 pub use tiles::Division;

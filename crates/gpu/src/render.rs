@@ -2,6 +2,7 @@
 
 use crate::layout::{self, Batch, Field, NUMBERS_WIDTH, TEXELS_WIDTH, WORKGROUP_SIDE};
 use crate::modules::Shader;
+use crate::pipelines::compile;
 use crate::tiles::{Division, Planner, Tile};
 use crate::{DeviceError, Gpu, PackedScene};
 use scene::Scene;
@@ -140,58 +141,6 @@ pub fn render_divided(
         tile_buffers.read_back(gpu, tile, settings.samples, &mut image)?;
     }
     Ok(image)
-}
-
-/// Compiles a shader and makes a pipeline of one of its entry points, with a layout deduced from the shader and the
-/// overridable `constants` as given.
-///
-/// # Errors
-/// When the shader or the pipeline is refused; the message names the module's own file and line.
-pub fn compile(
-    gpu: &Gpu,
-    shader: &Shader,
-    entry_point: &str,
-    constants: &[(&str, f64)],
-) -> Result<wgpu::ComputePipeline, DeviceError> {
-    let module = gpu
-        .device
-        .create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(entry_point),
-            source: wgpu::ShaderSource::Wgsl(shader.text().into()),
-        });
-    let info = pollster::block_on(module.get_compilation_info());
-    let mistakes: Vec<String> = info
-        .messages
-        .iter()
-        .filter(|message| message.message_type == wgpu::CompilationMessageType::Error)
-        .map(|message| match message.location {
-            Some(at) => {
-                let (file, line) = shader.origin_of_line(at.line_number as usize);
-                format!("{file}:{line}:{}: {}", at.line_position, message.message)
-            }
-            None => message.message.clone(),
-        })
-        .collect();
-    if !mistakes.is_empty() {
-        // The same mistake was also reported to the device; this report is the better one.
-        let _ = gpu.check();
-        return Err(DeviceError::Refused(mistakes.join("\n")));
-    }
-    let pipeline = gpu
-        .device
-        .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(entry_point),
-            layout: None,
-            module: &module,
-            entry_point: Some(entry_point),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants,
-                ..Default::default()
-            },
-            cache: None,
-        });
-    gpu.check()?;
-    Ok(pipeline)
 }
 
 /// A scene in the device's memory.
