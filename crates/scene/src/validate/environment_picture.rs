@@ -78,7 +78,7 @@ pub(super) fn read(
 fn unusable() -> String {
     format!(
         "has a radiance that is no finite number or above {}",
-        limits::EMISSION.high
+        limits::Shown(limits::EMISSION.high)
     )
 }
 
