@@ -29,7 +29,13 @@ impl Range {
 
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} to {}{}", Shown(self.low), Shown(self.high), self.unit)
+        write!(
+            f,
+            "{} to {}{}",
+            Shown(self.low),
+            Shown(self.high),
+            self.unit
+        )
     }
 }
 
@@ -185,3 +191,27 @@ pub const MAX_LIGHT_GROUPS: usize = 32;
 pub const MAX_IMAGE_BYTES: u128 = 32 << 30;
 /// The largest file that is read, of a scene or of figures that it names, in bytes.
 pub const MAX_FILE_BYTES: u64 = spectra::text_file::MAX_BYTES;
+
+#[cfg(test)]
+mod tests {
+    use super::Shown;
+
+    #[test]
+    fn long_rows_of_digits_are_shown_as_powers() {
+        for (number, shown) in [
+            (0.0, "0"),
+            (-1e6, "-1e6"),
+            (1e9, "1e9"),
+            (1e30, "1e30"),
+            (1e-9, "1e-9"),
+            (100_000.0, "100000"),
+            (16_777_216.0, "16777216"),
+            (0.001, "0.001"),
+            (0.25, "0.25"),
+            (f64::NAN, "NaN"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(Shown(number).to_string(), shown);
+        }
+    }
+}

@@ -12,12 +12,13 @@ impl Scene {
 
     /// How many objects and lights shine, the sun of a sky among them.
     pub fn lamps(&self) -> usize {
-        let of_objects = self.objects().iter().filter_map(|object| {
-            match self.material(object.material) {
-                Material::Cook(cook) => cook.ambient,
-                material => material.emission(),
-            }
-        });
+        let of_objects =
+            self.objects()
+                .iter()
+                .filter_map(|object| match self.material(object.material) {
+                    Material::Cook(cook) => cook.ambient,
+                    material => material.emission(),
+                });
         let of_lights = self.lights().iter().map(|light| light.emission);
         let all = of_objects.chain(of_lights);
         all.filter(|&emission| self.shines(emission)).count()
@@ -36,12 +37,13 @@ impl Scene {
     /// Light that grows from one surface to the next.
     fn note_on_gain(&self) -> Option<String> {
         let segments = self.settings().max_path_segments;
-        let gains = self.objects().iter().filter_map(|object| {
-            match self.material(object.material) {
-                Material::Cook(cook) => Some(cook.gain()),
-                _ => None,
-            }
-        });
+        let gains =
+            self.objects()
+                .iter()
+                .filter_map(|object| match self.material(object.material) {
+                    Material::Cook(cook) => Some(cook.gain()),
+                    _ => None,
+                });
         let gain = gains.fold(0.0, f64::max);
         // Rounding is no gain.
         (gain > 1.0 + 1e-6 && segments > 2).then(|| {

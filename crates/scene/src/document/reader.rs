@@ -276,7 +276,9 @@ impl Reader<'_> {
             _ => None,
         });
         let forms: Vec<_> = tables.collect();
-        let candidates = forms.iter().map(|fields| (likeness(fields, table), *fields));
+        let candidates = forms
+            .iter()
+            .map(|fields| (likeness(fields, table), *fields));
         // The first of equals, so that the order of the format's types decides.
         let best = candidates.reduce(|best, next| if next.0 > best.0 { next } else { best });
         let Some((_, fields)) = best.filter(|((required, _), _)| *required > 0) else {

@@ -150,7 +150,8 @@ impl fmt::Display for Forms<'_> {
                 .iter()
                 .filter(|(name, _)| !is_shared(&name.as_str()))
                 .partition(|(_, field)| field.is_required);
-            let names = |of: &[(&'_ String, &Field)]| listed(of.iter().map(|(name, _)| name.as_str()));
+            let names =
+                |of: &[(&'_ String, &Field)]| listed(of.iter().map(|(name, _)| name.as_str()));
             match (required.as_slice(), optional.as_slice()) {
                 (required, []) => names(required),
                 (required, optional) => format!("{} (and {})", names(required), names(optional)),

@@ -61,16 +61,13 @@ pub(super) fn check(
     }))
 }
 
-fn report_absorption(
-    checks: &mut Checks,
-    field: &FieldPath,
-    index: &Index,
-    (k, n): (f64, f64),
-) {
+fn report_absorption(checks: &mut Checks, field: &FieldPath, index: &Index, (k, n): (f64, f64)) {
     let found = match index {
-        Index::Name(name) | Index::Named { name, .. } => format!("{name:?}, whose k reaches {k:.1e}"),
+        Index::Name(name) | Index::Named { name, .. } => {
+            format!("{name:?}, whose k reaches {}", digits(k))
+        }
         Index::Complex(_) => format!("k = {}", Shown(k)),
-        _ => format!("an index whose k reaches {k:.1e}"),
+        _ => format!("an index whose k reaches {}", digits(k)),
     };
     let message = format!(
         "found {found}; a coat over a base must be clear (k at most {}), since its thickness is not known",
@@ -81,4 +78,10 @@ fn report_absorption(
     );
     let problem = Problem::new(ProblemKind::Inconsistent, field, message);
     checks.report(problem.help(help));
+}
+
+/// A number of a table by its first two digits.
+fn digits(number: f64) -> Shown {
+    let rounded = format!("{number:.1e}").parse();
+    Shown(rounded.unwrap_or(number))
 }

@@ -165,7 +165,11 @@ impl Image<'_> {
         let factor = times(lamp, self.scale);
         let emission = spectra.emission(checks, &top, &factor, Radiator::Surroundings);
         let (sphere, emission) = (sphere?, emission?);
-        self.check_brightest(checks, &sphere, emission.scale * spectra.peak(emission.spectrum))?;
+        self.check_brightest(
+            checks,
+            &sphere,
+            emission.scale * spectra.peak(emission.spectrum),
+        )?;
         if is_spectral && self.illuminant.is_some() {
             let message = "the picture has spectra of its own, which no illuminant changes";
             let field = top.key("illuminant");

@@ -39,7 +39,9 @@ pub(crate) fn check_way(checks: &mut Checks, description: &Description) {
         let what = match light {
             description::Light::Point { .. } => "a point",
             description::Light::Spot { .. } => "a spot",
-            description::Light::Distant { diameter_deg: 0.0, .. } => "light from a single direction",
+            description::Light::Distant {
+                diameter_deg: 0.0, ..
+            } => "light from a single direction",
             description::Light::Distant { .. } => continue,
         };
         let message = format!(
@@ -48,7 +50,9 @@ pub(crate) fn check_way(checks: &mut Checks, description: &Description) {
         let field = FieldPath::root().key("lights").index(index);
         let way = FieldPath::root().key("render").key("direct_light");
         let problem = Problem::new(ProblemKind::Inconsistent, &field, message).involving(way);
-        checks.report(problem.help("leave `render.direct_light` out, or write \"both\" or \"lights\""));
+        checks.report(
+            problem.help("leave `render.direct_light` out, or write \"both\" or \"lights\""),
+        );
     }
 }
 

@@ -31,7 +31,12 @@ pub(crate) fn check_all(
                 check_is_sphere(checks, &field, object, thickness);
             }
             if let (Some(MaterialId(position)), Some(shape)) = (material, &shape) {
-                check_grain(checks, (&field, shape), names[position as usize], grains[position as usize]);
+                check_grain(
+                    checks,
+                    (&field, shape),
+                    names[position as usize],
+                    grains[position as usize],
+                );
             }
             Some(Object {
                 shape: shape?,
@@ -143,7 +148,10 @@ fn check_grain(
         "the grain of the material {material:?} points along the normal of this surface, on which it has no direction"
     );
     let problem = Problem::new(ProblemKind::Inconsistent, &field.key("material"), message);
-    let brushed = FieldPath::root().key("materials").key(material).key("brushed");
+    let brushed = FieldPath::root()
+        .key("materials")
+        .key(material)
+        .key("brushed");
     let problem = problem.help(help).involving(field.key("normal"));
     checks.report(problem.involving(brushed.key(way)));
 }
@@ -173,9 +181,13 @@ fn check_sizes(
         let Some(DiffuseReflectance::Texture { size: Some(_), .. }) = pattern else {
             continue;
         };
-        let mut own = objects.iter().filter(|object| object.material() == name).peekable();
+        let mut own = objects
+            .iter()
+            .filter(|object| object.material() == name)
+            .peekable();
         let is_for_spheres = own.peek().is_some();
-        if is_for_spheres && own.all(|object| matches!(object, description::Object::Sphere { .. })) {
+        if is_for_spheres && own.all(|object| matches!(object, description::Object::Sphere { .. }))
+        {
             let material = FieldPath::root().key("materials").key(name);
             let message = "a picture always covers the whole of a sphere, and only spheres have this material";
             let field = material.key(place).key("size");

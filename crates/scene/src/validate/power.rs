@@ -25,8 +25,9 @@ pub(crate) fn spread(
         };
         let field = FieldPath::root().key("objects").index(index);
         let Some(area) = area(&object.shape) else {
-            let message =
-                format!("a plane has no bounds, so no radiance gives it the `{unit}` of its material");
+            let message = format!(
+                "a plane has no bounds, so no radiance gives it the `{unit}` of its material"
+            );
             let field = field.key("material");
             let problem = Problem::new(ProblemKind::Inconsistent, &field, message)
                 .help("give the material a `radiance` or `luminance_cd_m2`, or make the plane a rectangle");

@@ -449,7 +449,8 @@ fn check_brightness(
     let mut problem = Problem::new(ProblemKind::OutOfRange, &amount.field, message);
     let falls_from_small_disc = !matches!(amount.unit, "radiance" | "luminance_cd_m2");
     if matches!(radiator, Radiator::Distant(solid) if solid > 0.0) && falls_from_small_disc {
-        let help = "a larger `diameter_deg` allows more, and so does 0, light from a single direction";
+        let help =
+            "a larger `diameter_deg` allows more, and so does 0, light from a single direction";
         problem = problem.help(help);
     }
     checks.report(problem.involving(field.clone()));

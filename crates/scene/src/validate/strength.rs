@@ -90,7 +90,9 @@ impl Radiator {
             )
             | (Self::Emitter, "power_w" | "power_lm")
             | (Self::Point(_), "intensity_w_sr" | "intensity_cd") => Some(1.0),
-            (Self::Surroundings | Self::Ambient, "irradiance_w_m2" | "illuminance_lux") => Some(1.0 / PI),
+            (Self::Surroundings | Self::Ambient, "irradiance_w_m2" | "illuminance_lux") => {
+                Some(1.0 / PI)
+            }
             (Self::Point(solid), "power_w" | "power_lm") => Some(1.0 / solid),
             _ => None,
         }
@@ -152,7 +154,12 @@ pub(crate) fn check(
         [] => (&SCALE, 1.0),
         [only] => *only,
         several => {
-            report_several(checks, field, several.iter().map(|(unit, _)| unit.name), radiator);
+            report_several(
+                checks,
+                field,
+                several.iter().map(|(unit, _)| unit.name),
+                radiator,
+            );
             return None;
         }
     };
