@@ -12,7 +12,8 @@ const UNWRITTEN: f32 = -1.234_567_9e33;
 pub struct Probe<'a> {
     /// Modules that it uses.
     pub roots: &'a [&'a str],
-    /// WGSL statements: `a(0)`, `a4(1)` … read the row and `put(0, x)`, `put4(1, v)` … write results. An integer
+    /// WGSL statements: `a(0)`, `a4(1)` … read the row and `put(0, x)`, `put4(1, v)` … write results; `direction_at(0)` is the unit
+    /// vector of a cosine and an azimuth in turns, and needs the module `trig`. An integer
     /// travels as two halves of 16 bits (`integer`, `put_integer`), since a float's bits may be flushed on the way.
     pub body: &'a str,
     /// Numbers of a row, and results of a row.
@@ -32,6 +33,13 @@ const SMALL: RecordLimits = RecordLimits {
 impl Probe<'_> {
     fn shader(&self) -> Shader {
         let (arity, results) = self.shape;
+        let direction = if self.body.contains("direction_at(") {
+            "fn direction_at(i: u32) -> vec3f {
+                 return vec3f(sqrt(1.0 - a(i) * a(i)) * direction_of_turn(a(i + 1u)), a(i));
+             }\n"
+        } else {
+            ""
+        };
         let extra = format!(
             "@group(2) @binding(0) var<storage, read> probe_in: array<f32>;\n\
              @group(2) @binding(1) var<storage, read_write> probe_out: array<f32>;\n\
@@ -44,6 +52,7 @@ impl Probe<'_> {
              fn put_integer(i: u32, x: u32) {{ put(i, f32(x & 0xffffu)); put(i + 1u, f32(x >> 16u)); }}\n\
              fn put3(i: u32, v: vec3f) {{ put(i, v.x); put(i + 1u, v.y); put(i + 2u, v.z); }}\n\
              fn put4(i: u32, v: vec4f) {{ put3(i, v.xyz); put(i + 3u, v.w); }}\n\
+             {direction}\
              @compute @workgroup_size(64) fn probe(@builtin(global_invocation_id) id: vec3u) {{\n\
                  row = id.x + id.y * 65535u * 64u;\n\
                  if (row * {arity}u >= arrayLength(&probe_in)) {{ return; }}\n{}\n}}\n",

@@ -240,7 +240,8 @@ fn check_tells_what_a_scene_is() {
     );
     assert!(said.stderr.is_empty(), "{}", said.stderr);
     let dark = place.path("dark.toml");
-    let camera = "camera = { type = 'orthographic', position = [0, 0, 5], look_at = [0, 0, 0], height = 2 }";
+    let camera =
+        "camera = { type = 'orthographic', position = [0, 0, 5], look_at = [0, 0, 0], height = 2 }";
     std::fs::write(&dark, camera).unwrap();
     let said = place.run(&format!("check {}", dark.display())).succeeded();
     told(&said.stdout, &["0 objects, no light;"], "check");

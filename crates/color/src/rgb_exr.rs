@@ -17,6 +17,10 @@ use crate::develop::LinearImage;
 use crate::pending_file::PendingFile;
 use crate::spectral_exr::software;
 
+mod primaries;
+
+pub use primaries::{BadPrimaries, srgb_from_file};
+
 /// How a file holds a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Samples {
@@ -185,5 +189,26 @@ mod tests {
         let path = directory.path().join("light.exr");
         assert!(write(&path, &image, &display, Samples::Half).is_err());
         assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 0);
+    }
+
+    /// Display P3's red in sRGB, from its definition (SMPTE EG 432-1): 1.2249, −0.0421, −0.0196.
+    #[test]
+    fn primaries_of_a_file_are_known() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("p3.exr");
+        let (image, display) = image(2, 1);
+        write(&path, &image, &display, Samples::Float).unwrap();
+        let matrix = srgb_from_file(&std::fs::read(&path).unwrap())
+            .unwrap()
+            .unwrap();
+        for (row, expected) in matrix.iter().zip([1.2249, -0.0421, -0.0196]) {
+            assert!((row[0] - expected).abs() < 1e-4, "{matrix:?}");
+            // One white.
+            assert!((row.iter().sum::<f64>() - 1.0).abs() < 1e-4);
+        }
+        let srgb = Display::named("srgb").unwrap();
+        write(&path, &image, &srgb, Samples::Float).unwrap();
+        assert_eq!(srgb_from_file(&std::fs::read(&path).unwrap()), Ok(None));
+        assert_eq!(srgb_from_file(b"no such file"), Ok(None));
     }
 }

@@ -109,8 +109,9 @@ impl Primaries {
     }
 }
 
-/// M of primaries by their chromaticities and that of the white, the white's Y = 1.
-pub(crate) fn xyz_from_rgb_of(primaries: [[f64; 2]; 3], white: [f64; 2]) -> Matrix3 {
+/// M of primaries by their chromaticities and that of the white, the white's Y = 1 (SMPTE RP 177:1993). Of points that are no primaries
+/// of that white, numbers that are not finite.
+pub fn xyz_from_rgb_of(primaries: [[f64; 2]; 3], white: [f64; 2]) -> Matrix3 {
     let columns = of_columns(primaries.map(xyz_of_xy));
     mixed(&columns, times(&inverse(&columns), xyz_of_xy(white)))
 }

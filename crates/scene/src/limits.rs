@@ -88,6 +88,12 @@ pub const OCTAVES: Range = Range::new(1.0, 6.0, "");
 pub const MAX_PICTURE_SIDE: u32 = 8192;
 /// The most pixels of such a picture.
 pub const MAX_PICTURE_PIXELS: u64 = 1 << 24;
+/// The most pixels of a picture of spectra times the scene's bands, in whole fours: 512 MiB.
+pub const MAX_PICTURE_VALUES: u64 = 1 << 27;
+/// The largest file of a picture, in bytes: twice that of 2²⁴ pixels of four numbers.
+pub const MAX_PICTURE_BYTES: u64 = 512 << 20;
+/// How far the width of a picture of all directions may be from twice its height, as a part of it, and by how many pixels.
+pub const PANORAMA_ASIDE: (f64, u32) = (0.01, 2);
 /// Time, and the step of a sequence.
 pub const TIME_S: Range = Range::new(0.0, 1e9, " s");
 /// A viscosity.
@@ -189,7 +195,7 @@ pub const MAX_MATERIALS: usize = 4096;
 pub const MAX_LIGHT_GROUPS: usize = 32;
 /// The largest spectral image, in bytes.
 pub const MAX_IMAGE_BYTES: u128 = 32 << 30;
-/// The largest file that is read, of a scene or of figures that it names, in bytes.
+/// The largest file of text that is read, of a scene or of figures that it names, in bytes.
 pub const MAX_FILE_BYTES: u64 = spectra::text_file::MAX_BYTES;
 
 #[cfg(test)]

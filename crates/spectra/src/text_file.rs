@@ -5,7 +5,7 @@ use std::io::{self, Read};
 use std::path::Path;
 use thiserror::Error;
 
-/// The largest file that is read, in bytes.
+/// The largest file of text that is read, in bytes.
 pub const MAX_BYTES: u64 = 16 << 20;
 
 /// Why a file cannot be read.
@@ -21,9 +21,12 @@ pub enum TextFileError {
     /// It is a pipe, a device or the like.
     #[error("is not a regular file")]
     NotRegular,
-    /// It has more than [`MAX_BYTES`].
-    #[error("is larger than {} MiB", MAX_BYTES >> 20)]
-    TooLarge,
+    /// It has more bytes than are read.
+    #[error("is larger than {} MiB", most >> 20)]
+    TooLarge {
+        /// The most bytes that are read.
+        most: u64,
+    },
     /// It is not UTF-8.
     #[error("is not text: line {line} is not UTF-8")]
     NotText {
@@ -37,7 +40,7 @@ pub enum TextFileError {
 /// # Errors
 /// When it cannot be read, or is not UTF-8.
 pub fn read_text(path: &Path) -> Result<String, TextFileError> {
-    String::from_utf8(read_bytes(path)?).map_err(|error| {
+    String::from_utf8(read_bytes(path, MAX_BYTES)?).map_err(|error| {
         let sound = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         TextFileError::NotText {
             line: sound.split(|&b| b == b'\n').count(),
@@ -45,13 +48,25 @@ pub fn read_text(path: &Path) -> Result<String, TextFileError> {
     })
 }
 
-/// The bytes of a regular file of at most [`MAX_BYTES`].
+/// The bytes of a regular file of at most `most`.
+///
+/// # Errors
+/// When it cannot be read.
+pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, TextFileError> {
+    let bytes = read_start(path, most.saturating_add(1))?;
+    if bytes.len() as u64 > most {
+        return Err(TextFileError::TooLarge { most });
+    }
+    Ok(bytes)
+}
+
+/// The first bytes of a regular file, all of them where it has no more.
 ///
 /// What the path leads to is looked at before it is opened: to open a pipe would wait for its writer.
 ///
 /// # Errors
 /// When it cannot be read.
-pub fn read_bytes(path: &Path) -> Result<Vec<u8>, TextFileError> {
+pub fn read_start(path: &Path, most: u64) -> Result<Vec<u8>, TextFileError> {
     let metadata = fs::metadata(path)?;
     if metadata.is_dir() {
         return Err(TextFileError::Directory);
@@ -60,11 +75,6 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, TextFileError> {
         return Err(TextFileError::NotRegular);
     }
     let mut bytes = Vec::new();
-    File::open(path)?
-        .take(MAX_BYTES + 1)
-        .read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > MAX_BYTES {
-        return Err(TextFileError::TooLarge);
-    }
+    File::open(path)?.take(most).read_to_end(&mut bytes)?;
     Ok(bytes)
 }

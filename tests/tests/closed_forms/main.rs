@@ -1,6 +1,7 @@
 //! Pictures whose truth has a closed form: both renderers against formulas and optics, scene by scene.
 
 mod comparison;
+mod furnace;
 mod lamps;
 mod layers;
 mod metals;

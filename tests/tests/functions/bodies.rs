@@ -1,12 +1,10 @@
 //! gaussian.wgsl, cook.wgsl and coat.wgsl.
 
-use crate::world::{World, pick, rows};
+use crate::world::{World, direction, pick, rows};
 use crate::{Check, pure, table};
-use glam::DVec3;
 use pellicle_tests::tolerances::{ARITHMETIC, BECKMANN, DIRECTION, FACET, FRESNEL, TRIGONOMETRY};
 use reference::{coat_share, cook_facets, sample_cook_facet};
 use scene::{CoatedBody, Cook1981, Material};
-use std::f64::consts::TAU;
 use std::sync::OnceLock;
 
 pub(crate) fn checks() -> Vec<Check> {
@@ -104,10 +102,6 @@ fn cook(material: f64) -> &'static Cook1981 {
 }
 
 fn between(a: &[f64]) -> Vec<f64> {
-    let direction = |cosine: f64, turn: f64| {
-        let (sine, phi) = ((1.0 - cosine * cosine).sqrt(), TAU * turn);
-        DVec3::new(sine * phi.cos(), sine * phi.sin(), cosine)
-    };
     let found = cook_facets(cook(a[0]), direction(a[1], 0.0), direction(a[2], a[3]));
     vec![found.reflection, found.pdf, found.cosine]
 }
@@ -119,7 +113,7 @@ fn between_directions() -> Check {
             &["cook"],
             (4, 3),
             "let eye = vec3f(sqrt(1.0 - a(1u) * a(1u)), 0.0, a(1u));
-             let light = vec3f(sqrt(1.0 - a(2u) * a(2u)) * direction_of_turn(a(3u)), a(2u));
+             let light = direction_at(2u);
              let f = cook_facets(u32(a(0u)), eye, light);
              put(0u, f.reflection); put(1u, f.pdf); put(2u, f.cosine);",
         ),

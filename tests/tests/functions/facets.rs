@@ -1,26 +1,22 @@
 //! microsurface.wgsl, energy.wgsl, and the facets of scatter.wgsl.
 
-use crate::world::{center_of, everything, objects_where, pick, point_on, rounded, rows, vector};
+use crate::world::{
+    center_of, direction, everything, objects_where, pick, point_on, rounded, rows, vector,
+};
 use crate::{Check, pure, table};
-use glam::DVec3;
 use optics::{Distribution, Microsurface};
 use pellicle_tests::tolerances::{
     FACET_DIRECTION, FACET_ENERGY, FACETS, FRAME, LAMBDA, ROUGH_INVERSE, SCALED_ERFC,
 };
 use reference::Facets;
 use scene::{Grain, Shape};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 pub(crate) fn checks() -> Vec<Check> {
     [special_functions(), surfaces(), samplers(), of_materials()]
         .into_iter()
         .flatten()
         .collect()
-}
-
-fn direction(cosine: f64, turns: f64) -> DVec3 {
-    let (sine, phi) = ((1.0 - cosine * cosine).sqrt(), TAU * turns);
-    DVec3::new(sine * phi.cos(), sine * phi.sin(), cosine)
 }
 
 /// Of three numbers: a tag and two widths.
@@ -101,7 +97,7 @@ fn surfaces() -> Vec<Check> {
             probe: pure(
                 &["microsurface", "trig"],
                 (5, 1),
-                "let facet = vec3f(sqrt(1.0 - a(3u) * a(3u)) * direction_of_turn(a(4u)), a(3u));
+                "let facet = direction_at(3u);
                  put(0u, facet_density(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), facet));",
             ),
             proves: &["facet_density"],
@@ -116,7 +112,7 @@ fn surfaces() -> Vec<Check> {
             probe: pure(
                 &["microsurface", "trig"],
                 (5, 1),
-                "let w = vec3f(sqrt(1.0 - a(3u) * a(3u)) * direction_of_turn(a(4u)), a(3u));
+                "let w = direction_at(3u);
                  put(0u, smith_lambda(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), w));",
             ),
             proves: &["smith_lambda"],
@@ -132,7 +128,7 @@ fn surfaces() -> Vec<Check> {
                 &["microsurface", "trig"],
                 (6, 3),
                 "let eye = vec3f(sqrt(1.0 - a(3u) * a(3u)), 0.0, a(3u));
-                 let light = vec3f(sqrt(1.0 - a(4u) * a(4u)) * direction_of_turn(a(5u)), a(4u));
+                 let light = direction_at(4u);
                  let f = reflection_between(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), eye, light);
                  put(0u, f.value); put(1u, f.pdf); put(2u, f.cosine);",
             ),
@@ -176,7 +172,7 @@ fn samplers() -> Vec<Check> {
             probe: pure(
                 &["microsurface", "trig"],
                 (7, 3),
-                "let eye = vec3f(sqrt(1.0 - a(3u) * a(3u)) * direction_of_turn(a(4u)), a(3u));
+                "let eye = direction_at(3u);
                  put3(0u, sample_facet(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), eye, a(5u), a(6u)));",
             ),
             proves: &["sample_facet"],
@@ -188,7 +184,7 @@ fn samplers() -> Vec<Check> {
             probe: pure(
                 &["microsurface", "trig"],
                 (5, 3),
-                "let eye = vec3f(sqrt(1.0 - a(1u) * a(1u)) * direction_of_turn(a(2u)), a(1u));
+                "let eye = direction_at(1u);
                  put3(0u, normalize(sample_beckmann_facet(eye, a(3u), a(4u))));",
             ),
             proves: &["sample_beckmann_facet"],
@@ -200,7 +196,7 @@ fn samplers() -> Vec<Check> {
             probe: pure(
                 &["microsurface", "trig"],
                 (5, 3),
-                "let eye = vec3f(sqrt(1.0 - a(1u) * a(1u)) * direction_of_turn(a(2u)), a(1u));
+                "let eye = direction_at(1u);
                  let facet = normalize(sample_ggx_facet(eye, a(3u), a(4u)));
                  put3(0u, facet);",
             ),
@@ -268,7 +264,7 @@ fn of_materials() -> Vec<Check> {
             probe: world.probe(
                 &["energy", "trig"],
                 (8, 1),
-                "let eye = vec3f(sqrt(1.0 - a(1u) * a(1u)) * direction_of_turn(a(2u)), a(1u));
+                "let eye = direction_at(1u);
                  put(0u, facet_albedo(objects[u32(a(0u))].material, eye));",
             ),
             proves: &["facet_albedo"],
@@ -284,8 +280,8 @@ fn of_materials() -> Vec<Check> {
             probe: world.probe(
                 &["scatter", "trig"],
                 (8, 4),
-                "let eye = vec3f(sqrt(1.0 - a(1u) * a(1u)) * direction_of_turn(a(2u)), a(1u));
-                 let light = vec3f(sqrt(1.0 - a(3u) * a(3u)) * direction_of_turn(a(4u)), a(3u));
+                "let eye = direction_at(1u);
+                 let light = direction_at(3u);
                  let s = facet_scattering(objects[u32(a(0u))].material, eye, light);
                  put(0u, s.lobes.single); put(1u, s.lobes.multiple); put(2u, s.lobes.cosine); put(3u, s.pdf);",
             ),
@@ -302,7 +298,7 @@ fn of_materials() -> Vec<Check> {
             probe: world.probe(
                 &["scatter", "trig"],
                 (8, 3),
-                "let eye = vec3f(sqrt(1.0 - a(1u) * a(1u)) * direction_of_turn(a(2u)), a(1u));
+                "let eye = direction_at(1u);
                  let random = vec4f(a(5u), a(6u), a(7u), 0.0);
                  put3(0u, sample_facet_scattering(objects[u32(a(0u))].material, eye, random));",
             ),

@@ -2,13 +2,12 @@
 //! changed over (Helmholtz's reciprocity). Smooth surfaces and films only mirror and let through, by a factor of the one cosine.
 
 use crate::Check;
-use crate::world::{BANDS, World, pick, rows};
+use crate::world::{BANDS, World, direction, pick, rows};
 use glam::DVec3;
 use gpu::PackedScene;
 use pellicle_tests::tolerances::{RECIPROCITY, SURFACE_FUNCTIONS};
 use reference::{SurfaceFunction, SurfacePoint};
 use scene::{SceneFile, Shape};
-use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -117,10 +116,6 @@ fn both_ways(a: &[f64]) -> Vec<f64> {
 }
 
 pub(crate) fn checks() -> Vec<Check> {
-    let direction = |cosine: f64, turn: f64| {
-        let (sine, phi) = ((1.0 - cosine * cosine).sqrt(), TAU * turn);
-        [sine * phi.cos(), sine * phi.sin(), cosine]
-    };
     let inputs = rows(6, |u| {
         let object = pick(&Vec::from_iter(0..MATERIALS.len()), u[0]) as f64;
         let group = (f64::from(BANDS / 4) * u[1]).floor();
@@ -128,7 +123,14 @@ pub(crate) fn checks() -> Vec<Check> {
         let first = direction(0.05 + 0.95 * u[2], u[3]);
         let second = direction(0.05 + 0.95 * u[4], u[5]);
         // The offset is that of the azimuth, which tells as much.
-        Some([&[object, group, u[3]][..], &first, &second].concat())
+        Some(
+            [
+                &[object, group, u[3]][..],
+                &first.to_array(),
+                &second.to_array(),
+            ]
+            .concat(),
+        )
     });
     vec![Check {
         probe: world().probe(&["path", "evaluate"], (9, 8), BODY),

@@ -81,6 +81,12 @@ pub(crate) fn unit(u: f64, v: f64) -> DVec3 {
     DVec3::new(sine * phi.cos(), sine * phi.sin(), z)
 }
 
+/// A unit vector of this cosine with the third axis, in the azimuth of so many turns.
+pub(crate) fn direction(cosine: f64, turns: f64) -> DVec3 {
+    let (sine, phi) = ((1.0 - cosine * cosine).sqrt(), TAU * turns);
+    DVec3::new(sine * phi.cos(), sine * phi.sin(), cosine)
+}
+
 /// Rounded, so that both sides see the same numbers.
 pub(crate) fn rounded(v: DVec3) -> DVec3 {
     v.as_vec3().as_dvec3()

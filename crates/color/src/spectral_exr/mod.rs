@@ -47,5 +47,5 @@ mod write;
 
 pub use bands::BandLayoutError;
 pub use metadata::{Metadata, software};
-pub use read::{MAX_BYTES, ReadExrError, read, read_xyz};
+pub use read::{MAX_BYTES, ReadExrError, read, read_size, read_xyz};
 pub use write::{BATCH_BYTES, WriteExrError, WriteOptions, write};

@@ -10,7 +10,7 @@ use exr::block::chunk::Chunk;
 use exr::block::reader::Reader;
 use exr::meta::attribute::ChannelList;
 use rayon::prelude::*;
-use spectra::SpectralImage;
+use spectra::{BandGrid, SpectralImage};
 use thiserror::Error;
 
 use super::bands::BandLayoutError;
@@ -111,6 +111,17 @@ pub enum ReadExrError {
 pub fn read(path: &Path) -> Result<(SpectralImage, Metadata), ReadExrError> {
     let (reader, plan, metadata) = open(path)?;
     Ok((pixels(&Context { path }, reader, plan)?, metadata))
+}
+
+/// How large the image of a spectral file is: width and height in pixels, and its bands. Its pixels are not read.
+///
+/// # Errors
+/// As [`read`], but for what is wrong with pixels.
+pub fn read_size(path: &Path) -> Result<([u32; 2], BandGrid), ReadExrError> {
+    let (_, plan, _) = open(path)?;
+    // Sides that memory holds, which has been looked at.
+    let side = |side| u32::try_from(side).unwrap_or(u32::MAX);
+    Ok(([side(plan.size.0), side(plan.size.1)], plan.grid))
 }
 
 /// Reads the colours of a spectral file, without its spectra: the same XYZ as [`read`] gives, sooner.

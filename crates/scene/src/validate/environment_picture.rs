@@ -1,9 +1,9 @@
 //! Pictures of the surroundings: from files to texels and a table of directions.
 
 use super::checks::Checks;
-use super::picture_file::{LightFile, read_light};
+use super::picture_file::{LightFile, PictureFileError, read_light};
 use crate::derived::DirectionTable;
-use crate::limits;
+use crate::limits::{self, Shown};
 use crate::problem::{Problem, ProblemKind};
 use crate::{EnvironmentPicture, FieldPath, PictureSpectra, Texels};
 use colorimetry::lifting::SigmoidReflectance;
@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use spectra::{BandGrid, SpectralImage};
 use std::f64::consts::PI;
 use std::path::Path;
+use thiserror::Error;
 
 /// A picture of all directions as a file has it.
 pub(super) struct Sphere {
@@ -57,38 +58,58 @@ pub(super) fn read(
     grid: Option<BandGrid>,
 ) -> Option<Sphere> {
     let path = checks.directory.join(file);
-    let found = match read_light(&path) {
-        Ok(LightFile::Colours { width, rgb }) => lifted(width, &rgb).ok_or_else(unusable),
-        Ok(LightFile::Spectra(image)) => match grid {
-            Some(grid) => resampled(&image, &grid),
-            None => return None,
+    let grid = grid?;
+    let message = match read_light(&path, &grid) {
+        Ok(LightFile::Colours { width, rgb }) => match lifted(width, &rgb) {
+            Ok(sphere) => return Some(sphere),
+            Err(pixel) => format!("{}: {pixel}", path.display()),
         },
-        Err(error) => Err(error.to_string()),
+        Ok(LightFile::Spectra(image)) => match resampled(&image, &grid) {
+            Ok(sphere) => return Some(sphere),
+            Err(pixel) => format!("{}: {pixel}", path.display()),
+        },
+        // It names the file already.
+        Err(PictureFileError::Exr(message)) => message,
+        Err(error) => format!("{}: {error}", path.display()),
     };
-    match found {
-        Ok(sphere) => Some(sphere),
-        Err(reason) => {
-            let message = format!("{}: {reason}", path.display());
-            checks.report(Problem::new(ProblemKind::File, field, message));
-            None
-        }
-    }
+    checks.report(Problem::new(ProblemKind::File, field, message));
+    None
 }
 
-fn unusable() -> String {
-    format!(
-        "has a radiance that is no finite number or above {}",
-        limits::Shown(limits::EMISSION.high)
-    )
+/// A pixel that is no light.
+#[derive(Debug, Error)]
+#[error(
+    "the pixel in column {column} of row {row}, counted from 1, has a value of {}; it must be a number of at most {}",
+    Shown(shortest(*value)), Shown(limits::EMISSION.high)
+)]
+struct BadPixel {
+    column: usize,
+    row: usize,
+    value: f32,
+}
+
+/// The shortest decimal number that is this one in `f32`.
+fn shortest(value: f32) -> f64 {
+    value.to_string().parse().unwrap_or(f64::NAN)
+}
+
+/// Looks at all values, of which a pixel has so many.
+fn check_pixels(values: &[f32], per_pixel: usize, width: u32) -> Result<(), BadPixel> {
+    let is_sound = |value: f32| value.is_finite() && f64::from(value) <= limits::EMISSION.high;
+    match values.iter().position(|&value| !is_sound(value)) {
+        None => Ok(()),
+        Some(index) => Err(BadPixel {
+            column: index / per_pixel % width as usize + 1,
+            row: index / per_pixel / width as usize + 1,
+            value: values[index],
+        }),
+    }
 }
 
 /// Colours as smooth spectra: each is a factor, twice its largest part, times a reflectance of at most a half, which makes it
 /// smoother than a brighter one would be.
-fn lifted(width: u32, rgb: &[[f32; 3]]) -> Option<Sphere> {
-    let is_sound = |value: &f32| value.is_finite() && f64::from(*value) <= limits::EMISSION.high;
-    if !rgb.iter().flatten().all(is_sound) {
-        return None;
-    }
+fn lifted(width: u32, rgb: &[[f32; 3]]) -> Result<Sphere, BadPixel> {
+    check_pixels(rgb.as_flattened(), 3, width)?;
     let texel_of_row = |row: &[[f32; 3]]| {
         let mut before = SigmoidReflectance::default();
         let texel = |&colour: &[f32; 3]| {
@@ -107,7 +128,7 @@ fn lifted(width: u32, rgb: &[[f32; 3]]) -> Option<Sphere> {
         let sum: f32 = colour.iter().map(|value| value.max(0.0)).sum();
         sum / 3.0
     });
-    Some(Sphere {
+    Ok(Sphere {
         texels: Texels {
             width,
             height: (rgb.len() / width as usize) as u32,
@@ -119,17 +140,10 @@ fn lifted(width: u32, rgb: &[[f32; 3]]) -> Option<Sphere> {
     })
 }
 
-/// Spectra as means over the bands of a grid.
-fn resampled(image: &SpectralImage, grid: &BandGrid) -> Result<Sphere, String> {
+/// Spectra as means over the bands of a grid, which they cover.
+fn resampled(image: &SpectralImage, grid: &BandGrid) -> Result<Sphere, BadPixel> {
     let own = image.bands();
-    let (low, high) = (own.min_nm(), own.max_nm());
-    if low > grid.min_nm() + 1e-6 || high < grid.max_nm() - 1e-6 {
-        return Err(format!(
-            "the spectra cover {low} to {high} nm, but the bands cover {} to {} nm",
-            grid.min_nm(),
-            grid.max_nm()
-        ));
-    }
+    check_pixels(image.radiance(), own.count() as usize, image.width())?;
     let weights: Vec<Vec<(usize, f32)>> = (0..grid.count())
         .map(|band| overlaps(own, grid, band))
         .collect();
@@ -144,10 +158,6 @@ fn resampled(image: &SpectralImage, grid: &BandGrid) -> Result<Sphere, String> {
             weights.iter().map(mean).collect()
         })
         .collect();
-    let is_sound = |value: &f32| value.is_finite() && f64::from(*value) <= limits::EMISSION.high;
-    if !pixels.iter().flatten().all(is_sound) {
-        return Err(unusable());
-    }
     Ok(banded(image.width(), image.height(), &pixels))
 }
 

@@ -1,12 +1,17 @@
 //! Pictures as numbers.
 
 use crate::PictureFile;
-use crate::limits::{MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE};
+use crate::limits::{
+    MAX_PICTURE_BYTES, MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE, MAX_PICTURE_VALUES, PANORAMA_ASIDE,
+};
+use color::rgb_exr::BadPrimaries;
 use color::spectral_exr::ReadExrError;
+use colorimetry::matrix::times;
 use image::{DynamicImage, ImageBuffer, ImageFormat, ImageReader, Limits, Rgb};
-use spectra::SpectralImage;
-use spectra::text_file::{TextFileError, read_bytes};
+use spectra::text_file::{TextFileError, read_bytes, read_start};
+use spectra::{BandGrid, SpectralImage};
 use std::io::Cursor;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use thiserror::Error;
 
@@ -19,10 +24,28 @@ pub(crate) enum PictureFileError {
     NotPng(#[from] image::ImageError),
     #[error("is neither a Radiance picture (.hdr) nor an OpenEXR picture")]
     NotLight,
-    #[error("cannot be read: {0}")]
+    #[error("cannot be read, or is cut short: {0}")]
     BadLight(image::ImageError),
+    #[error("cannot be read; it is damaged")]
+    Damaged,
     #[error("{0}")]
     Exr(String),
+    #[error(
+        "is an OpenEXR file with neither channels R, G and B nor spectral ones (`S0.550,000000nm`)"
+    )]
+    NoColours,
+    #[error(transparent)]
+    Primaries(#[from] BadPrimaries),
+    #[error("its spectra cover {own:?} nm, but the bands cover {bands:?} nm")]
+    Bands { own: (f64, f64), bands: (f64, f64) },
+    #[error(
+        "has {width} × {height} pixels; a picture of all directions by longitude and latitude is twice as wide as high"
+    )]
+    NoPanorama { width: u32, height: u32 },
+    #[error(
+        "has {width} × {height} pixels, which for {bands} bands are too many: at most {} are possible", MAX_PICTURE_VALUES / bands.next_multiple_of(4)
+    )]
+    TooManyValues { width: u32, height: u32, bands: u64 },
     #[error(
         "has {width} × {height} pixels; at most {MAX_PICTURE_SIDE} on a side and {MAX_PICTURE_PIXELS} in all are possible"
     )]
@@ -57,29 +80,75 @@ pub(crate) enum LightFile {
     Spectra(Box<SpectralImage>),
 }
 
-/// Reads a Radiance file or an OpenEXR file, of colours or of spectra.
-pub(crate) fn read_light(path: &Path) -> Result<LightFile, PictureFileError> {
-    let bytes = read_bytes(path)?;
-    let format = image::guess_format(&bytes).ok();
-    let format = format.filter(|format| [ImageFormat::Hdr, ImageFormat::OpenExr].contains(format));
-    let format = format.ok_or(PictureFileError::NotLight)?;
-    if format == ImageFormat::OpenExr {
-        match color::spectral_exr::read(path) {
-            Ok((image, _)) => return Ok(LightFile::Spectra(Box::new(image))),
-            Err(ReadExrError::NoSpectrum { .. }) => {}
-            Err(error) => return Err(PictureFileError::Exr(chain(&error))),
-        }
+/// Reads a picture of all directions for these bands: a Radiance file or an OpenEXR file, of colours or of spectra.
+pub(crate) fn read_light(path: &Path, grid: &BandGrid) -> Result<LightFile, PictureFileError> {
+    let format = image::guess_format(&read_start(path, 64)?).ok();
+    match format {
+        Some(ImageFormat::Hdr) => read_colours_of_light(path, ImageFormat::Hdr),
+        Some(ImageFormat::OpenExr) => match color::spectral_exr::read_size(path) {
+            Ok(found) => read_spectra(path, found, grid),
+            Err(ReadExrError::NoSpectrum { .. }) => {
+                read_colours_of_light(path, ImageFormat::OpenExr)
+            }
+            Err(error) => Err(PictureFileError::Exr(chain(&error))),
+        },
+        _ => Err(PictureFileError::NotLight),
     }
-    let reader = || {
-        let mut reader = ImageReader::with_format(Cursor::new(&bytes), format);
-        reader.limits(Limits::default());
-        reader
-    };
-    let read = |error| PictureFileError::BadLight(error);
-    let (width, height) = reader().into_dimensions().map_err(read)?;
+}
+
+fn read_spectra(
+    path: &Path,
+    ([width, height], own): ([u32; 2], BandGrid),
+    grid: &BandGrid,
+) -> Result<LightFile, PictureFileError> {
     check_size(width, height)?;
-    let picture = reader().decode().map_err(read)?.into_rgb32f();
-    let rgb = picture.pixels().map(|pixel| pixel.0).collect();
+    check_panorama(width, height)?;
+    let bands = u64::from(grid.count());
+    if u64::from(width) * u64::from(height) * bands.next_multiple_of(4) > MAX_PICTURE_VALUES {
+        return Err(PictureFileError::TooManyValues {
+            width,
+            height,
+            bands,
+        });
+    }
+    if own.min_nm() > grid.min_nm() + 1e-6 || own.max_nm() < grid.max_nm() - 1e-6 {
+        return Err(PictureFileError::Bands {
+            own: (own.min_nm(), own.max_nm()),
+            bands: (grid.min_nm(), grid.max_nm()),
+        });
+    }
+    let read = color::spectral_exr::read(path);
+    let (image, _) = read.map_err(|error| PictureFileError::Exr(chain(&error)))?;
+    Ok(LightFile::Spectra(Box::new(image)))
+}
+
+fn read_colours_of_light(path: &Path, format: ImageFormat) -> Result<LightFile, PictureFileError> {
+    let bytes = read_bytes(path, MAX_PICTURE_BYTES)?;
+    // A header without colours is a sound one.
+    let bad_header = |error| match format {
+        ImageFormat::OpenExr => PictureFileError::NoColours,
+        _ => PictureFileError::BadLight(error),
+    };
+    let (width, height) = reader(&bytes, format)
+        .into_dimensions()
+        .map_err(bad_header)?;
+    check_size(width, height)?;
+    check_panorama(width, height)?;
+    // Some damage makes the decoder of OpenEXR panic.
+    let decoded = catch_unwind(AssertUnwindSafe(|| reader(&bytes, format).decode()));
+    let decoded = decoded.map_err(|_| PictureFileError::Damaged)?;
+    let picture = decoded.map_err(PictureFileError::BadLight)?.into_rgb32f();
+    let rgb = picture.pixels().map(|pixel| pixel.0);
+    let to_srgb = match format {
+        ImageFormat::OpenExr => color::rgb_exr::srgb_from_file(&bytes)?,
+        _ => None,
+    };
+    let rgb = match to_srgb {
+        Some(matrix) => rgb
+            .map(|rgb| times(&matrix, rgb.map(f64::from)).map(|value| value as f32))
+            .collect(),
+        None => rgb.collect(),
+    };
     Ok(LightFile::Colours { width, rgb })
 }
 
@@ -95,10 +164,10 @@ fn chain(error: &dyn std::error::Error) -> String {
 }
 
 fn decode(path: &Path) -> Result<DynamicImage, PictureFileError> {
-    let bytes = read_bytes(path)?;
-    let (width, height) = reader(&bytes).into_dimensions()?;
+    let bytes = read_bytes(path, MAX_PICTURE_BYTES)?;
+    let (width, height) = reader(&bytes, ImageFormat::Png).into_dimensions()?;
     check_size(width, height)?;
-    Ok(reader(&bytes).decode()?)
+    Ok(reader(&bytes, ImageFormat::Png).decode()?)
 }
 
 fn check_size(width: u32, height: u32) -> Result<(), PictureFileError> {
@@ -111,8 +180,19 @@ fn check_size(width: u32, height: u32) -> Result<(), PictureFileError> {
     }
 }
 
-fn reader(bytes: &[u8]) -> ImageReader<Cursor<&[u8]>> {
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
+/// Refuses pictures that see the directions in another way: of a mirror ball, of the sides of a cube.
+fn check_panorama(width: u32, height: u32) -> Result<(), PictureFileError> {
+    let (part, pixels) = PANORAMA_ASIDE;
+    let aside = width.abs_diff(2 * height);
+    if aside <= pixels || f64::from(aside) <= part * f64::from(width) {
+        Ok(())
+    } else {
+        Err(PictureFileError::NoPanorama { width, height })
+    }
+}
+
+fn reader(bytes: &[u8], format: ImageFormat) -> ImageReader<Cursor<&[u8]>> {
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(Limits::default());
     reader
 }

@@ -1,0 +1,79 @@
+//! The primaries that an `OpenEXR` file's red, green and blue are amounts of.
+
+use std::panic::catch_unwind;
+
+use colorimetry::Matrix3;
+use colorimetry::display::xyz_from_rgb_of;
+use colorimetry::matrix::product;
+use colorimetry::srgb;
+use exr::math::Vec2;
+use exr::meta::MetaData;
+use exr::meta::attribute::Chromaticities;
+use thiserror::Error;
+
+/// How far chromaticities may lie apart and be the same: writers round them to three decimals.
+const SAME: f32 = 6e-4;
+
+/// A file's chromaticities are those of no three primaries and a white.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error(
+    "its `chromaticities`, red {red:?}, green {green:?}, blue {blue:?} and white {white:?}, are no three primaries that mix to a white"
+)]
+pub struct BadPrimaries {
+    /// x, y of red.
+    pub red: [f32; 2],
+    /// x, y of green.
+    pub green: [f32; 2],
+    /// x, y of blue.
+    pub blue: [f32; 2],
+    /// x, y of the white.
+    pub white: [f32; 2],
+}
+
+/// The matrix from a file's red, green and blue to those of sRGB, without chromatic adaptation: colours stay what they are. `None`
+/// where the header says nothing (the format's default is the primaries of Rec. ITU-R BT.709, which are those of sRGB), where
+/// it says sRGB, and where it cannot be read.
+///
+/// # Errors
+/// When the header's chromaticities are no primaries.
+pub fn srgb_from_file(bytes: &[u8]) -> Result<Option<Matrix3>, BadPrimaries> {
+    // Some damage makes the decoder panic.
+    let read = catch_unwind(|| MetaData::read_from_buffered(bytes, false));
+    let Ok(Ok(metadata)) = read else {
+        return Ok(None);
+    };
+    let mut headers = metadata.headers.iter();
+    let Some(found) = headers.find_map(|header| header.shared_attributes.chromaticities) else {
+        return Ok(None);
+    };
+    if is_srgb(found) {
+        return Ok(None);
+    }
+    let point = |Vec2(x, y): Vec2<f32>| [f64::from(x), f64::from(y)];
+    let primaries = [found.red, found.green, found.blue].map(point);
+    let to_xyz = xyz_from_rgb_of(primaries, point(found.white));
+    let matrix = product(srgb::rgb_from_xyz(), &to_xyz);
+    let numbers = || to_xyz.iter().flatten();
+    // Points on one line, or nearly, have no such matrix.
+    let is_sound = numbers().all(|m| m.is_finite() && m.abs() < 100.0);
+    is_sound.then_some(Some(matrix)).ok_or(BadPrimaries {
+        red: [found.red.x(), found.red.y()],
+        green: [found.green.x(), found.green.y()],
+        blue: [found.blue.x(), found.blue.y()],
+        white: [found.white.x(), found.white.y()],
+    })
+}
+
+fn is_srgb(found: Chromaticities) -> bool {
+    let [red, green, blue] = srgb::PRIMARIES;
+    [
+        (found.red, red),
+        (found.green, green),
+        (found.blue, blue),
+        (found.white, srgb::WHITE),
+    ]
+    .iter()
+    .all(|(found, own)| {
+        (found.x() - own[0] as f32).abs() < SAME && (found.y() - own[1] as f32).abs() < SAME
+    })
+}

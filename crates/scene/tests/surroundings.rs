@@ -1,0 +1,421 @@
+//! Pictures as surroundings and as textures, and the sky: what cannot be used is told once, with the file and what would be right.
+
+use color::spectral_exr::{Metadata, WriteOptions};
+use exr::math::Vec2;
+use exr::meta::attribute::Chromaticities;
+use exr::prelude::{
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, WritableImage,
+};
+use image::{ImageBuffer, Rgb};
+use pellicle_scene::{Environment, LightShape, PictureSpectra, Problems, Scene, SceneFile};
+use spectra::{BandGrid, SpectralImage};
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+const CAMERA: &str =
+    "camera = { type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }\n";
+
+fn checked(folder: &Path, rest: &str) -> Result<Scene, Problems> {
+    let text = format!("{CAMERA}render = {{ bands = 8 }}\n{rest}\n");
+    SceneFile::parse("scene.toml", &text, folder)?.validate()
+}
+
+fn surrounded_by(folder: &Path, image: &str) -> Result<Scene, Problems> {
+    checked(
+        folder,
+        &format!("environment = {{ type = 'image', image = '{image}' }}"),
+    )
+}
+
+/// There is one problem, at this field, that says all of it.
+fn assert_told(result: Result<Scene, Problems>, field: &str, phrases: &[&str]) {
+    let problems = result.err().expect("it is accepted");
+    let said = format!("{problems:#}");
+    assert_eq!(problems.iter().count(), 1, "{said}");
+    let problem = problems.iter().next().unwrap();
+    assert_eq!(problem.field.to_string(), field, "{said}");
+    let said = format!(
+        "{} {}",
+        problem.message,
+        problem.help.clone().unwrap_or_default()
+    );
+    for phrase in phrases {
+        assert!(said.contains(phrase), "{said:?} lacks {phrase:?}");
+    }
+    let name = phrases[0];
+    assert_eq!(said.matches(name).count(), 1, "{said}");
+}
+
+/// An OpenEXR file with channels of these names.
+fn write_exr(
+    path: &Path,
+    size: (usize, usize),
+    names: &[&str],
+    values: &[f32],
+    of: Option<Chromaticities>,
+) {
+    let channel = |name: &&str| AnyChannel::new(*name, FlatSamples::F32(values.to_vec()));
+    let channels = AnyChannels::sort(names.iter().map(channel).collect());
+    let layer = Layer::new(
+        size,
+        LayerAttributes::default(),
+        Encoding::UNCOMPRESSED,
+        channels,
+    );
+    let mut image = Image::from_layer(layer);
+    image.attributes.chromaticities = of;
+    image.write().to_file(path).unwrap();
+}
+
+fn write_spectra(path: &Path, [width, height]: [u32; 2], bands: BandGrid, value: f32) {
+    let mut image = SpectralImage::new(width, height, bands);
+    let spectrum = vec![value; image.bands().count() as usize];
+    for y in 0..height {
+        for x in 0..width {
+            image.set_pixel((x, y), &spectrum, &spectrum, [1.0; 3], 1);
+        }
+    }
+    color::spectral_exr::write(path, &image, &Metadata::default(), WriteOptions::default())
+        .unwrap();
+}
+
+#[test]
+fn files_that_are_no_pictures_of_light_are_told() {
+    let directory = TempDir::new().unwrap();
+    let folder = directory.path();
+    let hdr = include_bytes!("../../../tests/data/surroundings.hdr");
+    fs::write(folder.join("cut.hdr"), &hdr[..hdr.len() / 2]).unwrap();
+    fs::write(folder.join("head.hdr"), &hdr[..20]).unwrap();
+    fs::write(folder.join("text.hdr"), "a picture").unwrap();
+    fs::create_dir(folder.join("folder.exr")).unwrap();
+    write_exr(&folder.join("depth.exr"), (2, 1), &["Z"], &[1.0; 2], None);
+    write_exr(&folder.join("grey.exr"), (2, 1), &["Y"], &[1.0; 2], None);
+    write_exr(
+        &folder.join("whole.exr"),
+        (8, 4),
+        &["R", "G", "B"],
+        &[1.0; 32],
+        None,
+    );
+    let whole = fs::read(folder.join("whole.exr")).unwrap();
+    fs::write(folder.join("cut.exr"), &whole[..whole.len() - 40]).unwrap();
+    fs::write(folder.join("head.exr"), &whole[..60]).unwrap();
+    write_spectra(
+        &folder.join("spectra.exr"),
+        [8, 4],
+        BandGrid::visible(8).unwrap(),
+        1.0,
+    );
+    let spectra = fs::read(folder.join("spectra.exr")).unwrap();
+    fs::write(folder.join("few.exr"), &spectra[..spectra.len() / 2]).unwrap();
+    let neither = "neither channels R, G and B nor spectral ones";
+    for (name, phrase) in [
+        ("none.hdr", "cannot be opened"),
+        ("cut.hdr", "cut short"),
+        ("head.hdr", "cut short"),
+        (
+            "text.hdr",
+            "neither a Radiance picture (.hdr) nor an OpenEXR picture",
+        ),
+        ("folder.exr", "is a directory"),
+        ("depth.exr", neither),
+        ("grey.exr", neither),
+        ("cut.exr", "cut short"),
+        ("head.exr", "cut short"),
+        ("few.exr", "cut short"),
+    ] {
+        assert_told(
+            surrounded_by(folder, name),
+            "environment.image",
+            &[name, phrase],
+        );
+    }
+}
+
+#[test]
+fn pictures_of_a_wrong_size_are_told() {
+    let directory = TempDir::new().unwrap();
+    let folder = directory.path();
+    let ball = ImageBuffer::from_pixel(64, 64, Rgb([1.0_f32; 3]));
+    ball.save(folder.join("ball.exr")).unwrap();
+    fs::write(
+        folder.join("wide.hdr"),
+        "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4097 +X 8194\n",
+    )
+    .unwrap();
+    write_spectra(
+        &folder.join("wide_spectra.exr"),
+        [8200, 1],
+        BandGrid::visible(1).unwrap(),
+        1.0,
+    );
+    write_spectra(
+        &folder.join("square.exr"),
+        [64, 64],
+        BandGrid::visible(8).unwrap(),
+        1.0,
+    );
+    write_spectra(
+        &folder.join("fine.exr"),
+        [520, 260],
+        BandGrid::visible(1).unwrap(),
+        1.0,
+    );
+    let told = |name: &str, phrases: &[&str]| {
+        let phrases = [&[name], phrases].concat();
+        assert_told(surrounded_by(folder, name), "environment.image", &phrases);
+    };
+    told("ball.exr", &["64 × 64", "twice as wide as high"]);
+    told("square.exr", &["64 × 64", "twice as wide as high"]);
+    told("wide.hdr", &["8194 × 4097", "at most 8192 on a side"]);
+    told("wide_spectra.exr", &["8200 × 1", "at most 8192 on a side"]);
+    // A picture with few bands takes all the bands of the scene.
+    let text = format!(
+        "{CAMERA}render = {{ bands = 1024, size = [8, 8] }}\nenvironment = {{ type = 'image', image = 'fine.exr' }}\n"
+    );
+    let file = SceneFile::parse("scene.toml", &text, folder).unwrap();
+    assert_told(
+        file.validate(),
+        "environment.image",
+        &["fine.exr", "520 × 260", "1024 bands", "at most 131072"],
+    );
+}
+
+#[test]
+fn pixels_that_are_no_light_are_told_by_their_place() {
+    let directory = TempDir::new().unwrap();
+    let folder = directory.path();
+    for (name, value, said) in [
+        ("nan.exr", f32::NAN, "a value of NaN"),
+        ("inf.exr", f32::INFINITY, "a value of inf"),
+        ("minus_inf.exr", f32::NEG_INFINITY, "a value of -inf"),
+        ("bright.exr", 2e9, "a value of 2000000000"),
+    ] {
+        let mut values = [1.0; 32];
+        values[2 * 8 + 5] = value;
+        write_exr(&folder.join(name), (8, 4), &["R", "G", "B"], &values, None);
+        let phrases = [name, "column 6 of row 3", said, "at most 1e9"];
+        assert_told(surrounded_by(folder, name), "environment.image", &phrases);
+    }
+    for (name, value) in [
+        ("nan_spectra.exr", f32::NAN),
+        ("inf_spectra.exr", f32::INFINITY),
+    ] {
+        write_spectra(
+            &folder.join(name),
+            [4, 2],
+            BandGrid::visible(8).unwrap(),
+            value,
+        );
+        let phrases = [name, "column 1 of row 1", "it must be a number"];
+        assert_told(surrounded_by(folder, name), "environment.image", &phrases);
+    }
+}
+
+/// Colours outside of sRGB have parts below 0, and so has the ringing of filters: they are cut off.
+#[test]
+fn what_is_below_0_counts_as_0() {
+    let directory = TempDir::new().unwrap();
+    write_exr(
+        &directory.path().join("a.exr"),
+        (2, 1),
+        &["R", "G", "B"],
+        &[-1.0, 2.0],
+        None,
+    );
+    let scene = surrounded_by(directory.path(), "a.exr").unwrap_or_else(|p| panic!("{p:#}"));
+    let Environment::Picture { picture, .. } = scene.environment() else {
+        panic!("it is no picture");
+    };
+    assert_eq!(picture.texels.at([0, 0])[0][3], 0.0);
+    assert_eq!(picture.texels.at([1, 0])[0][3], 4.0);
+    write_spectra(
+        &directory.path().join("b.exr"),
+        [2, 1],
+        BandGrid::visible(8).unwrap(),
+        -1.0,
+    );
+    let scene = surrounded_by(directory.path(), "b.exr").unwrap_or_else(|p| panic!("{p:#}"));
+    let Environment::Picture { picture, .. } = scene.environment() else {
+        panic!("it is no picture");
+    };
+    assert_eq!(picture.texels.at([1, 0]), [[0.0; 4]; 2]);
+}
+
+#[test]
+fn spectra_that_end_within_the_bands_are_told() {
+    let directory = TempDir::new().unwrap();
+    let narrow = BandGrid::new(400.0, 700.0, 6).unwrap();
+    write_spectra(&directory.path().join("narrow.exr"), [2, 1], narrow, 1.0);
+    let phrases = ["narrow.exr", "400", "700", "380", "780"];
+    assert_told(
+        surrounded_by(directory.path(), "narrow.exr"),
+        "environment.image",
+        &phrases,
+    );
+}
+
+fn chromaticities(points: [[f32; 2]; 4]) -> Option<Chromaticities> {
+    let [red, green, blue, white] = points.map(|[x, y]| Vec2(x, y));
+    Some(Chromaticities {
+        red,
+        green,
+        blue,
+        white,
+    })
+}
+
+/// ACES primaries AP1 (S-2014-004): the white stays the white of D60, and red is redder than that of sRGB.
+#[test]
+fn the_primaries_of_a_file_are_honoured() {
+    let directory = TempDir::new().unwrap();
+    let ap1 = chromaticities([
+        [0.713, 0.293],
+        [0.165, 0.830],
+        [0.128, 0.044],
+        [0.32168, 0.33767],
+    ]);
+    write_exr(
+        &directory.path().join("ap1.exr"),
+        (2, 1),
+        &["R", "G", "B"],
+        &[1.0; 2],
+        ap1,
+    );
+    let scene = surrounded_by(directory.path(), "ap1.exr").unwrap_or_else(|p| panic!("{p:#}"));
+    let Environment::Picture { picture, .. } = scene.environment() else {
+        panic!("it is no picture");
+    };
+    assert_eq!(picture.spectra, PictureSpectra::Smooth);
+    // XYZ of the white, Y = 1, by the matrix of IEC 61966-2-1 (its inverse to 4 decimals): R = 1.0415, G = 0.9963, B = 0.8987.
+    let red: f64 = 3.2406 * 0.952_646 - 1.5372 - 0.4986 * 1.008_825;
+    let scale = f64::from(picture.texels.at([0, 0])[0][3]);
+    assert!((scale / (2.0 * red) - 1.0).abs() < 1e-3, "{scale} {red}");
+    let line = chromaticities([[0.2, 0.2], [0.3, 0.3], [0.4, 0.4], [0.33, 0.33]]);
+    write_exr(
+        &directory.path().join("line.exr"),
+        (2, 1),
+        &["R", "G", "B"],
+        &[1.0; 2],
+        line,
+    );
+    let phrases = ["line.exr", "`chromaticities`", "no three primaries"];
+    assert_told(
+        surrounded_by(directory.path(), "line.exr"),
+        "environment.image",
+        &phrases,
+    );
+}
+
+#[test]
+fn textures_that_cannot_be_used_are_told() {
+    let directory = TempDir::new().unwrap();
+    let folder = directory.path();
+    let png = include_bytes!("../../../tests/data/colours.png");
+    fs::write(folder.join("cut.png"), &png[..png.len() / 2]).unwrap();
+    fs::write(
+        folder.join("other.png"),
+        include_bytes!("../../../tests/data/surroundings.hdr"),
+    )
+    .unwrap();
+    let texture = |name: &str| {
+        checked(
+            folder,
+            &format!(
+                "[materials.wall]\ntype = 'diffuse'\nreflectance = {{ texture = '{name}' }}\n\
+                 [[objects]]\ntype = 'sphere'\nmaterial = 'wall'\ncenter = [0, 0, 0]\nradius = 1"
+            ),
+        )
+    };
+    for (name, phrase) in [
+        ("none.png", "cannot be opened"),
+        ("cut.png", "is not a PNG picture that can be read"),
+        ("other.png", "is not a PNG picture that can be read"),
+    ] {
+        let field = "materials.wall.reflectance.texture";
+        assert_told(texture(name), field, &[name, phrase]);
+    }
+}
+
+fn sky(says: &str) -> Result<Scene, Problems> {
+    let sky = format!(
+        "environment = {{ type = 'sky', sun_elevation_deg = 30, sun_azimuth_deg = 90{says} }}"
+    );
+    checked(Path::new(""), &sky)
+}
+
+fn mean_of(scene: &Scene) -> f64 {
+    match scene.environment() {
+        Environment::Picture { picture, .. } => picture.mean,
+        _ => panic!("a sky is a picture"),
+    }
+}
+
+fn group_names(scene: &Scene) -> Vec<(&str, bool)> {
+    let groups = scene.light_groups().iter();
+    groups
+        .map(|group| (group.name.as_str(), group.lamp.is_some()))
+        .collect()
+}
+
+#[test]
+fn the_sun_is_there_unless_it_is_left_out() {
+    let with = sky("").unwrap();
+    let [sun] = with.lights() else {
+        panic!("{:?}", with.lights());
+    };
+    let LightShape::Disc { towards, .. } = sun.shape else {
+        panic!("{sun:?}");
+    };
+    // 90° is towards +X.
+    assert!((towards - glam::DVec3::new(0.75_f64.sqrt(), 0.5, 0.0)).length() < 1e-12);
+    let without = sky(", sun = false").unwrap();
+    assert!(without.lights().is_empty());
+    // The ground is lit by the sun all the same.
+    assert_eq!(mean_of(&with), mean_of(&without));
+    let twice = sky(", scale = 2").unwrap();
+    assert_eq!(twice.lights()[0].emission.scale, 2.0 * sun.emission.scale);
+    let said = [
+        ("", &[("sun", true), ("constant", true)][..]),
+        (", light_group = 'day'", &[("day", false)]),
+        (
+            ", light_group = 'sky', sun_light_group = 'key'",
+            &[("key", true), ("sky", true)],
+        ),
+        (
+            ", sun_light_group = 'key'",
+            &[("key", true), ("constant", true)],
+        ),
+        (", light_group = 'sky', sun = false", &[("sky", true)]),
+    ];
+    for (says, groups) in said {
+        let scene = sky(says).unwrap_or_else(|p| panic!("{p:#}"));
+        assert_eq!(group_names(&scene), groups, "{says}");
+    }
+}
+
+#[test]
+fn what_a_sky_cannot_be_is_told() {
+    for (says, field, phrase) in [
+        (", sun = 1", "environment.sun", "true or false"),
+        (
+            ", sun_light_group = 'a b'",
+            "environment.sun_light_group",
+            "cannot be the name",
+        ),
+        (", turbidity = 1", "environment.turbidity", "1.7 to 10"),
+        (", scale = -1", "environment.scale", "0 to 1e9"),
+        (", scale = 1e8", "environment.scale", "at most 1e9"),
+    ] {
+        let problems = sky(says).expect_err(says);
+        let said = format!("{problems:#}");
+        assert_eq!(problems.iter().count(), 1, "{said}");
+        assert_eq!(
+            problems.iter().next().unwrap().field.to_string(),
+            field,
+            "{said}"
+        );
+        assert!(said.contains(phrase), "{said}");
+    }
+}
