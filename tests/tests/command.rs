@@ -233,8 +233,20 @@ fn check_tells_what_a_scene_is() {
     let place = Place::default();
     let ran = place.run(&format!("check {}", scene("furnace.toml")));
     let said = ran.succeeded();
-    told(&said.stdout, &["furnace.toml: valid", "bands"], "check");
+    told(
+        &said.stdout,
+        &["furnace.toml: valid", "bands", "lit by its surroundings;"],
+        "check",
+    );
     assert!(said.stderr.is_empty(), "{}", said.stderr);
+    let dark = place.path("dark.toml");
+    let camera =
+        "camera = { type = 'orthographic', position = [0, 0, 5], look_at = [0, 0, 0], height = 2 }";
+    std::fs::write(&dark, camera).unwrap();
+    let said = place.run(&format!("check {}", dark.display())).succeeded();
+    told(&said.stdout, &["0 objects, no light;"], "check");
+    told(&said.stderr, &["note: nothing shines"], "check");
+    std::fs::remove_file(&dark).unwrap();
     assert!(place.names().is_empty());
 }
 

@@ -3,7 +3,7 @@
 
 use pellicle_tests::wgsl::root;
 use rayon::prelude::*;
-use scene::{DirectLight, Scene, SceneFile};
+use scene::{DirectLight, Problems, Scene, SceneFile};
 
 const SIDE: u32 = 20;
 const SAMPLES: u32 = 200;
@@ -111,6 +111,10 @@ const SURFACES: &[(&str, &str)] = &[
 ];
 
 fn scene(light: &str, surface: &str, direct: DirectLight) -> Scene {
+    read(light, surface, direct).unwrap_or_else(|e| panic!("{e:#}"))
+}
+
+fn read(light: &str, surface: &str, direct: DirectLight) -> Result<Scene, Problems> {
     let text = format!(
         "{light}\n{LAMP}\n[materials.floor]\n{surface}\n\
          [camera]\ntype = \"perspective\"\nposition = [0, 1.2, 2.5]\nlook_at = [0, 0, 0]\nfov_deg = 25\n\
@@ -118,10 +122,9 @@ fn scene(light: &str, surface: &str, direct: DirectLight) -> Scene {
          [[objects]]\ntype = \"rectangle\"\nmaterial = \"floor\"\ncenter = [0, 0, 0]\nnormal = [0, 1, 0]\nsize = [3, 3]\n",
         direct as u32
     );
-    let mut file =
-        SceneFile::parse("pair.toml", &text, &root()).unwrap_or_else(|e| panic!("{e:#}"));
+    let mut file = SceneFile::parse("pair.toml", &text, &root())?;
     file.description.render.direct_light = direct;
-    file.validate().unwrap_or_else(|e| panic!("{e:#}"))
+    file.validate()
 }
 
 /// Mean over the picture, the variance of that mean, both of direct light alone.
@@ -197,8 +200,17 @@ fn light_from_a_single_direction_is_found_by_sending_alone() {
                 both.0 > 0.0 && z(both, lights).abs() < Z,
                 "{name}: {both:?} {lights:?}"
             );
-            assert_eq!(of(DirectLight::Surfaces).0, 0.0, "{name}");
         }
+    }
+}
+
+/// By scattered rays alone such light would be dark, so that is refused.
+#[test]
+fn light_from_a_single_direction_is_refused_without_sending() {
+    for (name, light) in SINGLE_DIRECTIONS {
+        let problems = read(light, SURFACES[0].1, DirectLight::Surfaces).expect_err(name);
+        let fields: Vec<_> = problems.iter().map(|p| p.field.to_string()).collect();
+        assert_eq!(fields, ["lights[0]"], "{name}: {problems:#}");
     }
 }
 

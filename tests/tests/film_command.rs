@@ -401,7 +401,7 @@ fn bad_arguments_are_told_and_leave_no_file() {
             "--wavelengths 100:200:10",
             vec!["100 nm", "layer 1, silica", "210 to 6700 nm"],
         ),
-        ("--wavelengths 0", vec!["0 nm", "1 to 1000000 nm"]),
+        ("--wavelengths 0", vec!["0 nm", "1 to 1e6 nm"]),
         ("--wavelengths 380:780:0", vec!["a step of 0"]),
         (
             "--chart a.png --vary 2:0:100",

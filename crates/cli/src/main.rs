@@ -2,6 +2,7 @@
 
 mod bench;
 mod booth;
+mod check;
 mod color;
 mod compare;
 mod develop;
@@ -63,7 +64,7 @@ fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Develop(arguments) => develop::run(&arguments),
-        Command::Check { scene } => check(&scene),
+        Command::Check { scene } => check::run(&scene),
         Command::Film(arguments) => film::run(&arguments),
         Command::Color(arguments) => color::run(&arguments),
         Command::Display(arguments) => display::run(&arguments),
@@ -81,20 +82,4 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
-}
-
-fn check(scene: &std::path::Path) -> miette::Result<()> {
-    let validated = pellicle::scene::SceneFile::read(scene)?.validate()?;
-    let settings = validated.settings();
-    print::result(format_args!(
-        "{}: valid; {}×{} pixels, {} bands, {} samples, {} objects, {} lights; {}",
-        scene.display(),
-        settings.width,
-        settings.height,
-        settings.bands.count(),
-        settings.samples,
-        validated.objects().len(),
-        validated.light_sources().len(),
-        memory::of_picture(&validated),
-    ))
 }

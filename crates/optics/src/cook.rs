@@ -22,6 +22,8 @@ pub fn index_from_normal_reflectance(normal_reflectance: f64) -> f64 {
 ///
 /// The print has c = N·E and a garbled g. It is the same function as [`reflectance_unpolarised`](crate::reflectance_unpolarised)
 /// of an index without absorption.
+///
+/// Domain: 0 ≤ c ≤ 1, and not both n = 1 and c = 0, where g + c is 0 and the result is NaN.
 pub fn fresnel_by_g_and_c(n: f64, c: f64) -> f64 {
     let g = (n * n + c * c - 1.0).sqrt();
     let first = ((g - c) / (g + c)).powi(2);
@@ -30,6 +32,8 @@ pub fn fresnel_by_g_and_c(n: f64, c: f64) -> f64 {
 }
 
 /// D₁ = exp(−a² / m²), a the angle between facet and normal in radians, without its constant c: Gaussian in the angle (Blinn 1977).
+///
+/// Domain: `slope` m > 0, a root mean square slope without a unit; cosines of 0 and less give 0.
 pub fn gaussian_d1(cos_facet: f64, slope: f64) -> f64 {
     if cos_facet <= 0.0 {
         return 0.0;
@@ -40,6 +44,8 @@ pub fn gaussian_d1(cos_facet: f64, slope: f64) -> f64 {
 
 /// The constant c for which c D₁ covers the surface once: c ∫ exp(−a²/m²) cos a dω = 1, that is
 /// 1 / c = π ∫₀^{π/2} exp(−a²/m²) sin 2a da, by Simpson's rule.
+///
+/// Domain: `slope` m > 0.
 pub fn gaussian_constant(slope: f64) -> f64 {
     const STEPS: u32 = 2000;
     let end = (0.5 * PI).min(8.0 * slope);
@@ -54,12 +60,16 @@ pub fn gaussian_constant(slope: f64) -> f64 {
 }
 
 /// D₂ = exp(−tan²a / m²) / (m² cos⁴a), as printed: π times [`beckmann_d`].
+///
+/// Domain: `slope` m > 0; cosines of 0 and less give 0.
 pub fn beckmann_d2(cos_facet: f64, slope: f64) -> f64 {
     PI * beckmann_d(cos_facet, slope)
 }
 
 /// A facet normal drawn from two uniform numbers in [0, 1) so that the angle's square is as D₁ has it:
 /// a² = −m² ln(1 − u Z) with Z = 1 − exp(−π² / 4m²), which cuts it off at the horizon.
+///
+/// Domain: `slope` m > 0. The normal is a unit vector whose third component is the cosine with the surface's own.
 pub fn sample_gaussian(u: f64, v: f64, slope: f64) -> [f64; 3] {
     let angle = slope * (-(-u * gaussian_share(slope)).ln_1p()).sqrt();
     let (sine, cosine) = angle.min(0.5 * PI).sin_cos();
@@ -68,6 +78,8 @@ pub fn sample_gaussian(u: f64, v: f64, slope: f64) -> [f64; 3] {
 }
 
 /// Density of a facet normal drawn by [`sample_gaussian`], sr⁻¹: exp(−a²/m²) a / (π m² Z sin a).
+///
+/// Domain: `slope` m > 0; cosines of 0 and less give 0.
 pub fn gaussian_pdf(cos_facet: f64, slope: f64) -> f64 {
     if cos_facet <= 0.0 {
         return 0.0;

@@ -5,8 +5,8 @@
 use pellicle::color::{self, DevelopSettings};
 use pellicle::scene::Scene;
 use pellicle::scene::description::{
-    Camera, Description, Emission, EmissionSpectrum, Environment, Filter, Index, Material, Object,
-    Render, Roughness, Strength, Thickness,
+    Camera, Description, Emission, Environment, Filter, Index, Material, Object, Render, Strength,
+    Thickness,
 };
 use pellicle::{Backend, Renderer};
 use std::error::Error;
@@ -33,20 +33,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         render: Render {
             size: [8 * COUNT, 8],
             samples: 256,
-            exposure_ev: 3.5,
+            // White is what a surface sends back that keeps a tenth of the light: log2(72 983 / 100).
+            exposure_ev: (72_983.0_f64 / 100.0).log2(),
             ..Render::default()
         },
         materials: [].into(),
         objects: Vec::new(),
         lights: Vec::new(),
         environment: Some(Environment::Constant {
-            emission: Emission {
-                spectrum: EmissionSpectrum::Illuminant {
-                    illuminant: "D65".to_owned(),
-                    extrapolate: Default::default(),
-                },
-                strength: Strength::scale(1.0),
-            },
+            emission: Emission::illuminant("D65", Strength::luminance_cd_m2(1000.0)),
             light_group: None,
         }),
     };
@@ -60,13 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         description.objects.push(wall(&name, i, 0.0));
     }
     // Black sheets take what passes through the films.
-    let black = Material::Conductor {
-        index: Index::Real(1.0),
-        roughness: Roughness::Even(0.0),
-        distribution: None,
-        brushed: None,
-        model: None,
-    };
+    let black = Material::conductor(Index::Real(1.0));
     description.materials.insert("black".to_owned(), black);
     for i in 0..COUNT {
         description.objects.push(wall("black", i, -0.5));

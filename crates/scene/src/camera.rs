@@ -28,9 +28,9 @@ pub struct Camera {
 /// A thin lens: what lies at its distance of focus is sharp.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
-    /// Radius of its opening.
+    /// Radius of its opening, in scene units.
     pub radius: f64,
-    /// Distance of the plane that is sharp, along the direction of view.
+    /// Distance of the plane that is sharp, along the direction of view, in scene units.
     pub focus_distance: f64,
 }
 

@@ -1,6 +1,7 @@
 //! Cook's model in a validated scene.
 
 use crate::{Emission, SpectrumId};
+use std::f64::consts::PI;
 
 /// A surface by Cook's model (Cook and Torrance 1981; Suzuki, Yokoi and Toriwaki, section 3-1): towards the eye goes
 /// F(E·H) G / ((N·L) (N·E)) Σ wⱼ Dⱼ, and `diffuse` of the light evenly.
@@ -18,6 +19,21 @@ pub struct Cook1981 {
     pub diffuse: Option<DiffuseShare>,
     /// Ia Ra: what comes of the ambient light, the same in every direction.
     pub ambient: Option<Emission>,
+}
+
+impl Cook1981 {
+    /// How many times the light that falls along the normal a white metal's facets would send back, were nothing hidden: s with the
+    /// normalised constants, 4 s with the printed π and D₂.
+    pub fn gain(&self) -> f64 {
+        let gain = |facets: &CookFacets| {
+            let normalised = match self.distribution {
+                CookDistribution::Gaussian => optics::gaussian_constant(facets.slope),
+                CookDistribution::Beckmann => PI.recip(),
+            };
+            4.0 * facets.weight / normalised
+        };
+        self.facets.iter().map(gain).sum()
+    }
 }
 
 /// The form of a distribution of facets.

@@ -34,6 +34,7 @@ mod light;
 pub mod limits;
 mod material;
 mod microsurface;
+mod notes;
 mod object;
 mod problem;
 mod rounding;

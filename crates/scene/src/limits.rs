@@ -29,7 +29,30 @@ impl Range {
 
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} to {}{}", self.low, self.high, self.unit)
+        write!(
+            f,
+            "{} to {}{}",
+            Shown(self.low),
+            Shown(self.high),
+            self.unit
+        )
+    }
+}
+
+/// A number as messages show it: long rows of digits as a power of ten.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shown(pub f64);
+
+impl fmt::Display for Shown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (plain, power) = (self.0.to_string(), format!("{:e}", self.0));
+        let is_long = self.0 != 0.0 && !(1e-4..1e6).contains(&self.0.abs());
+        let shown = if is_long && power.len() < plain.len() {
+            power
+        } else {
+            plain
+        };
+        write!(f, "{shown}")
     }
 }
 
@@ -105,7 +128,7 @@ pub const MAX_FORMULA_TERMS: usize = 16;
 pub const REFLECTANCE: Range = Range::new(0.0, 1.0, "");
 /// Radiance, its scale and their product: the square, which the variance needs, times 2²⁴ samples fits in `f32`.
 pub const EMISSION: Range = Range::new(0.0, 1e9, "");
-/// Radiance, luminance, power, irradiance, illuminance or intensity of a light in its unit; what comes of it must lie in [`EMISSION`].
+/// Radiance, luminance, power in watts or lumens, irradiance, illuminance or intensity of a light in its unit; what comes of it must lie in [`EMISSION`].
 /// The sun's luminance is 1.6e9 cd/m².
 pub const STRENGTH: Range = Range::new(0.0, 1e12, "");
 /// Angular diameter of a distant light: up to half of the sky.
@@ -135,11 +158,18 @@ pub const TURBIDITY: Range = Range::new(
 pub const ROTATION_DEG: Range = Range::new(-360.0, 360.0, "°");
 /// The most slopes of a surface by Cook's model.
 pub const MAX_SLOPES: usize = 8;
-/// The constant c of Cook's Gaussian distribution.
+/// The constant c of Cook's Gaussian distribution; what comes of it must be at most [`MAX_COOK_GAIN`].
 pub const COOK_CONSTANT: Range = Range::new(0.0, 1e6, "");
+/// How many times the light may leave a white surface by Cook's model as printed: after the 31 reflections of the longest path
+/// 16³¹ = 2¹²⁴ is still a number in `f32`.
+pub const MAX_COOK_GAIN: f64 = 16.0;
+/// Imaginary part of an index up to which a coat over a base is taken for clear. A coat of thickness d takes 1 − exp(−8π k d / λ)
+/// of the light that goes in and out along the normal: at this k and 500 nm 1 % for 20 µm of lacquer, 5 % for 0.1 mm of glaze. The
+/// clear glasses, plastics and liquids have 1e-9 to 3e-6 in the visible.
+pub const CLEAR_COAT_K: f64 = 1e-5;
 /// A reflectance at normal incidence that is turned into an index: of 0.996 the index is 998.
 pub const NORMAL_REFLECTANCE: Range = Range::new(0.0, 0.996, "");
-/// The largest radiance of a sample, where it is bounded.
+/// The largest radiance of a sample in W m⁻² sr⁻¹ nm⁻¹, where it is bounded.
 pub const CLAMP: Range = Range::new(1e-9, 1e9, "");
 /// Exposure in stops.
 pub const EXPOSURE_EV: Range = Range::new(-32.0, 32.0, " stops");
@@ -167,3 +197,27 @@ pub const MAX_LIGHT_GROUPS: usize = 32;
 pub const MAX_IMAGE_BYTES: u128 = 32 << 30;
 /// The largest file of text that is read, of a scene or of figures that it names, in bytes.
 pub const MAX_FILE_BYTES: u64 = spectra::text_file::MAX_BYTES;
+
+#[cfg(test)]
+mod tests {
+    use super::Shown;
+
+    #[test]
+    fn long_rows_of_digits_are_shown_as_powers() {
+        for (number, shown) in [
+            (0.0, "0"),
+            (-1e6, "-1e6"),
+            (1e9, "1e9"),
+            (1e30, "1e30"),
+            (1e-9, "1e-9"),
+            (100_000.0, "100000"),
+            (16_777_216.0, "16777216"),
+            (0.001, "0.001"),
+            (0.25, "0.25"),
+            (f64::NAN, "NaN"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(Shown(number).to_string(), shown);
+        }
+    }
+}

@@ -110,7 +110,8 @@ pub enum Interference {
     TwoBeam(PathDifference),
 }
 
-/// A spectrum of radiance and its scale.
+/// A spectrum and its scale. Their product is a radiance in W m⁻² sr⁻¹ nm⁻¹; of a point or a spot it is an intensity in
+/// W sr⁻¹ nm⁻¹, of light from a single direction an irradiance in W m⁻² nm⁻¹.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
     /// Spectrum at scale 1, ≥ 0.
@@ -126,7 +127,7 @@ pub struct Emission {
 pub enum Pattern {
     /// The same everywhere.
     Uniform(SpectrumId),
-    /// Squares (on planes and rectangles, in the surface's two axes from its centre) or cubes (on
+    /// Squares (on planes, rectangles and disks, in the surface's two axes from its centre) or cubes (on
     /// spheres, from the centre) of two reflectances: `even` where the sum of ⌊coordinate / size⌋ is even.
     Checker {
         /// Reflectance of the square whose corner is the centre.
@@ -140,7 +141,8 @@ pub enum Pattern {
     Texture {
         /// The picture.
         texels: Arc<Texels>,
-        /// Width and height on planes and rectangles; `None` is the whole rectangle, or a square of side 1 on a plane.
+        /// Width and height on planes, rectangles and disks; `None` is the whole rectangle, the square about a disk, or a square of
+        /// side 1 on a plane.
         size: Option<[f64; 2]>,
     },
 }

@@ -32,9 +32,9 @@ pub struct RenderSettings {
     pub film_splits: u32,
     /// Segments after which Russian roulette may end a path.
     pub roulette_after: u32,
-    /// The largest radiance that a sample may bring in any band; brighter ones are dimmed to it.
+    /// The largest radiance that a sample may bring in any band, W m⁻² sr⁻¹ nm⁻¹; brighter ones are dimmed to it.
     pub clamp: Option<f64>,
-    /// Exposure of the developed picture in stops: 0 shows radiance 1 at every wavelength as white.
+    /// Exposure of the developed picture in stops: 0 shows radiance 1 at every wavelength, 72 983 cd/m², as white.
     pub exposure_ev: f64,
     /// Time of the picture, s. The thicknesses of the scene are those of this time already.
     pub time_s: f64,

@@ -66,6 +66,89 @@ fn a_dielectric_without_a_base_is_opaque() {
     assert!((enamel.spectrum(body.mean_reflectance).extent().0 - 0.0918).abs() < 5e-5);
 }
 
+/// Tables of clear media have a k that a coat shows nothing of.
+#[test]
+fn real_glasses_are_clear_coats() {
+    for name in ["bk7", "sf11", "soda_lime", "water_hale", "silica"] {
+        let scene = scene(&format!(
+            "{{ type = 'dielectric', index = '{name}', base = 0.5 }}"
+        ));
+        let scene = scene.unwrap_or_else(|problems| panic!("{name}: {problems:#}"));
+        let Material::CoatedBody(body) = &scene.materials()[0] else {
+            panic!("{name}: {:?}", scene.materials());
+        };
+        assert_eq!(scene.spectrum(body.k).extent(), (0.0, 0.0), "{name}");
+        assert_eq!(body.k, body.n.after(1), "{name}");
+    }
+    // 1 − exp(−8π k d / λ) at the bound: 1 % for 20 µm, 5 % for 0.1 mm.
+    let lost =
+        |d_nm: f64| 1.0 - (-8.0 * PI * pellicle_scene::limits::CLEAR_COAT_K * d_nm / 500.0).exp();
+    assert!((lost(20e3) - 0.01).abs() < 2e-4 && (lost(100e3) - 0.049).abs() < 1e-3);
+}
+
+/// The part of light from `degrees` that facets reflecting everything send back with the normalised constant: ∫ D̂ G (E·H) / (N·E)
+/// dω over the facets whose mirror image of E is above the surface.
+fn albedo(distribution: &str, slope: f64, degrees: f64) -> f64 {
+    let is_gaussian = distribution == "gaussian";
+    let steps = 400;
+    let (sine, cosine) = degrees.to_radians().sin_cos();
+    let constant = if is_gaussian {
+        optics::gaussian_constant(slope)
+    } else {
+        1.0 / PI
+    };
+    let mut sum = 0.0;
+    for (i, j) in (0..steps).flat_map(|i| (0..steps).map(move |j| (i, j))) {
+        let at = |index: i32| (f64::from(index) + 0.5) / f64::from(steps);
+        let ((facet_sine, facet_cosine), turn) = ((0.5 * PI * at(i)).sin_cos(), PI * at(j));
+        let seen = sine * facet_sine * turn.cos() + cosine * facet_cosine;
+        let light = 2.0 * seen * facet_cosine - cosine;
+        if seen > 0.0 && light > 0.0 {
+            let density = if is_gaussian {
+                optics::gaussian_d1(facet_cosine, slope)
+            } else {
+                optics::beckmann_d2(facet_cosine, slope)
+            };
+            let g = optics::v_groove_g(facet_cosine, cosine, light, seen);
+            sum += constant * density * g * seen / cosine * 2.0 * facet_sine;
+        }
+    }
+    sum * 0.5 * PI * PI / f64::from(steps * steps)
+}
+
+/// The figures of docs/metals.md.
+#[test]
+fn what_the_normalised_model_loses() {
+    for (distribution, slope, returned) in [
+        ("beckmann", 0.3, 0.984),
+        ("beckmann", 0.5, 0.878),
+        ("beckmann", 1.0, 0.514),
+        ("gaussian", 0.3, 0.979),
+        ("gaussian", 0.5, 0.857),
+        ("gaussian", 1.0, 0.589),
+    ] {
+        let found = albedo(distribution, slope, 27.0);
+        assert!(
+            (found - returned).abs() < 1e-3,
+            "{distribution} {slope}: {found}"
+        );
+    }
+}
+
+/// Of the printed constants; ∫ exp(−a²/m²) sin 2a da = m F(m) with Dawson's F(0.3) = 0.28263, so that D₁ with c = 1 has
+/// 4 m F(m) = 0.339 (Abramowitz and Stegun, table 7.5).
+#[test]
+fn the_gain_of_the_printed_constants() {
+    let gain = |model: &str| cook("'gold'", &format!("roughness = 0.3, model = {model}")).gain();
+    assert!((gain("'cook1981'") - 4.0).abs() < 1e-12);
+    assert!(
+        (gain("{ cook1981 = { normalisation = 'normalised', specular = 0.7 } }") - 0.7).abs()
+            < 1e-12
+    );
+    let printed = gain("{ cook1981 = { distribution = 'gaussian' } }");
+    assert!((printed - 4.0 * 0.3 * 0.28263).abs() < 1e-4, "{printed}");
+}
+
 #[test]
 fn what_does_not_fit_is_told() {
     let conductor = |rest: &str| format!("{{ type = 'conductor', index = 'gold', {rest} }}");
@@ -117,7 +200,46 @@ fn what_does_not_fit_is_told() {
         (
             "{ type = 'dielectric', index = 'gold', base = 0.5 }".to_owned(),
             "materials.a.index",
-            "must be clear",
+            "must be clear (k at most 1e-5)",
+        ),
+        (
+            "{ type = 'dielectric', index = [1.5, 1e-4], base = 0.5 }".to_owned(),
+            "materials.a.index",
+            "found k = 0.0001",
+        ),
+        (
+            "{ type = 'conductor', index = { normal_reflectance = 1.5 } }".to_owned(),
+            "materials.a.index.normal_reflectance",
+            "0 to 0.996",
+        ),
+        (
+            "{ type = 'conductor', index = { normal_reflectance = { nm = [380, 780], values = [0.5, 1.5] } } }".to_owned(),
+            "materials.a.index.normal_reflectance.values[1]",
+            "found 1.5; it must be from 0 to 0.996",
+        ),
+        (
+            "{ type = 'conductor', index = { normal_reflectance = { linear_srgb = [1, 1, 1] } } }".to_owned(),
+            "materials.a.index.normal_reflectance",
+            "nm; it must be from 0 to 0.996",
+        ),
+        (
+            "{ type = 'conductor', index = { normal_reflectance = 'gold' } }".to_owned(),
+            "materials.a.index.normal_reflectance",
+            "is the name of an index",
+        ),
+        (
+            conductor(
+                "roughness = 0.3, model = { cook1981 = { distribution = 'gaussian', constant = 1e6 } }",
+            ),
+            "materials.a.model.cook1981.constant",
+            "at most 16 times is possible, that is 4.718e1",
+        ),
+        (
+            conductor(
+                "roughness = 0.3, model = { cook1981 = { ambient = { constant = 1, power_w = 1 } } }",
+            ),
+            "materials.a.model.cook1981.ambient.power_w",
+            "ambient light has no `power_w`",
         ),
     ] {
         let problems = scene(&material).expect_err(&material);

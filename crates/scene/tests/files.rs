@@ -190,3 +190,81 @@ fn an_index_alone_is_read_and_its_mistakes_are_told() {
     assert!(misspelt.contains("did you mean \"gold\"?"), "{misspelt}");
     assert!(said(&Index::Complex([1.0, -1.0])).contains("[1]: found -1"));
 }
+
+/// A picture of one pixel beside a scene that names it as `picture`.
+fn with_picture(
+    file: &str,
+    pixel: image::DynamicImage,
+    scene: &str,
+) -> Result<pellicle_scene::Scene, Problems> {
+    let directory = TempDir::new().unwrap();
+    pixel.save(directory.path().join(file)).unwrap();
+    let text = format!(
+        "[camera]\ntype = 'perspective'\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nfov_deg = 40\n{}",
+        scene.replace("picture", file)
+    );
+    SceneFile::parse("scene.toml", &text, directory.path())?.validate()
+}
+
+#[test]
+fn the_brightest_pixel_of_surroundings_is_bounded_with_its_scale() {
+    let pixel = || {
+        image::DynamicImage::ImageRgb32F(image::Rgb32FImage::from_pixel(
+            2,
+            1,
+            image::Rgb([1e6, 1e6, 1e6]),
+        ))
+    };
+    let scene = |scale: &str| {
+        format!("[environment]\ntype = 'image'\nimage = 'picture'\nscale = {scale}\n")
+    };
+    with_picture("sky.hdr", pixel(), &scene("100")).unwrap_or_else(|p| panic!("{}", told(&p)));
+    let problems = with_picture("sky.hdr", pixel(), &scene("1e4")).unwrap_err();
+    let said = told(&problems);
+    assert!(
+        said.contains("environment.scale: found 10000, with which the picture's brightest pixel"),
+        "{said}"
+    );
+    assert!(said.contains("at most 1e9"), "{said}");
+}
+
+/// A picture covers a sphere whole, so that its size says something only where a flat object has the material too.
+#[test]
+fn the_size_of_a_picture_on_spheres_alone_is_refused() {
+    let pixel = || {
+        image::DynamicImage::ImageRgb8(image::RgbImage::from_pixel(
+            1,
+            1,
+            image::Rgb([200, 100, 50]),
+        ))
+    };
+    let scene = |material: &str, objects: &str| {
+        format!(
+            "[materials.x]\n{material}\n[[objects]]\ntype = 'sphere'\nmaterial = 'x'\ncenter = [0, 0, 0]\nradius = 1\n{objects}"
+        )
+    };
+    let disk = "[[objects]]\ntype = 'disk'\nmaterial = 'x'\ncenter = [0, 0, 3]\nnormal = [0, 0, 1]\nradius = 1\n";
+    for (material, field) in [
+        (
+            "type = 'diffuse'\nreflectance = { texture = 'picture', size = [1, 1] }",
+            "reflectance",
+        ),
+        (
+            "type = 'dielectric'\nindex = 1.5\nbase = { texture = 'picture', size = [1, 1] }",
+            "base",
+        ),
+    ] {
+        let said = told(&with_picture("map.png", pixel(), &scene(material, "")).unwrap_err());
+        assert!(
+            said.contains(&format!(
+                "materials.x.{field}.size: a picture always covers"
+            )),
+            "{said}"
+        );
+        with_picture("map.png", pixel(), &scene(material, disk))
+            .unwrap_or_else(|p| panic!("{}", told(&p)));
+        let plain = material.replace(", size = [1, 1]", "");
+        with_picture("map.png", pixel(), &scene(&plain, ""))
+            .unwrap_or_else(|p| panic!("{}", told(&p)));
+    }
+}

@@ -296,7 +296,7 @@ fn mistakes_in_an_index_are_told_where_they_are() {
         ),
         (
             "{ cauchy = [1, 1e20] }".to_owned(),
-            "index.cauchy[1]: found 100000000000000000000; it must be from",
+            "index.cauchy[1]: found 1e20; it must be from",
         ),
         (
             "{ cauchy = [-1] }".to_owned(),

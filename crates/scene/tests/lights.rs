@@ -86,8 +86,8 @@ fn a_plane_has_no_power() {
 fn a_light_has_one_unit_and_one_that_fits() {
     refused(
         &emitter("constant = 1, scale = 2, radiance = 3", SPHERE),
-        "materials.lamp.emission.radiance",
-        &["`scale` beside `radiance`", "one of them"],
+        "materials.lamp.emission",
+        &["`scale` and `radiance`", "one of them", "`power_lm`"],
     );
     refused(
         &emitter("constant = 1, illuminance_lux = 3", SPHERE),
@@ -119,8 +119,157 @@ fn a_light_has_one_unit_and_one_that_fits() {
     refused(
         &emitter("constant = 1, radiance = 1e12", SPHERE),
         "materials.lamp.emission.radiance",
-        &["at most 1000000000"],
+        &[
+            "found 1e12",
+            "a radiance of 2.500e9",
+            "at most 1e9 is possible, that is `radiance` = 4.000e11",
+        ],
     );
+    let distant =
+        |rest: &str| format!("[[lights]]\ntype = 'distant'\ndirection = [0, 1, 0]\n{rest}\n");
+    refused(
+        &distant("diameter_deg = 0\nemission = { constant = 1e3, scale = 1e7 }"),
+        "lights[0].emission.scale",
+        &["an irradiance of 1.000e10 W m⁻² nm⁻¹", "`scale` = 1.000e6"],
+    );
+    refused(
+        &distant("diameter_deg = 0.01\nemission = { constant = 1, illuminance_lux = 1e9 }"),
+        "lights[0].emission.illuminance_lux",
+        &["a radiance of", "a larger `diameter_deg`"],
+    );
+    refused(
+        "[[lights]]\ntype = 'point'\nposition = [0, 1, 0]\nemission = { constant = 1, intensity_w_sr = 1e12 }\n",
+        "lights[0].emission.intensity_w_sr",
+        &["an intensity of 2.500e9 W sr⁻¹ nm⁻¹"],
+    );
+    let sky =
+        |emission: &str| format!("[environment]\ntype = 'constant'\nemission = {{ {emission} }}\n");
+    refused(
+        &sky("constant = 1, power_w = 1"),
+        "environment.emission.power_w",
+        &["light from constant surroundings has no `power_w`"],
+    );
+}
+
+#[test]
+fn lumens_are_watts_by_the_eye() {
+    let of = |emission: &str| scale(&scene(&emitter(emission, SPHERE)));
+    // Φv = π A Lv with A = 4π r².
+    let lumens = 683.0 * PI * 4.0 * PI * 0.25;
+    let by_luminance = of("illuminant = 'A', luminance_cd_m2 = 683");
+    let by_power = of(&format!("illuminant = 'A', power_lm = {lumens}"));
+    assert!((by_power / by_luminance - 1.0).abs() < 1e-12);
+    let point = |emission: &str| {
+        scale(&scene(&format!(
+            "[[lights]]\ntype = 'point'\nposition = [0, 1, 0]\nemission = {{ {emission} }}\n"
+        )))
+    };
+    let by_intensity = point("illuminant = 'A', intensity_cd = 100");
+    let by_power = point(&format!("illuminant = 'A', power_lm = {}", 400.0 * PI));
+    assert!((by_power / by_intensity - 1.0).abs() < 1e-12);
+    refused(
+        &emitter("constant = 1, power_lm = 10", PLANE),
+        "objects[0].material",
+        &["no bounds", "`power_lm`"],
+    );
+}
+
+/// What the documents say: at 0 stops 72 983 cd/m² are white, the luminance of radiance 1 at every wavelength; and 1000 cd/m² of D65
+/// have a radiance of up to 0.0163, at 460 nm.
+#[test]
+fn white_at_no_exposure_and_what_d65_is_in_radiance() {
+    let white = scale(&scene(&emitter(
+        "constant = 1, luminance_cd_m2 = 72983",
+        SPHERE,
+    )));
+    assert!((white - 1.0).abs() < 1e-4, "{white}");
+    let panel = scene(&emitter(
+        "illuminant = 'D65', luminance_cd_m2 = 1000",
+        SPHERE,
+    ));
+    let emission = panel.light_sources()[0].emission;
+    let peak = emission.scale * panel.spectrum(emission.spectrum).extent().1;
+    assert!((peak - 0.0163).abs() < 5e-5, "{peak}");
+}
+
+#[test]
+fn lights_that_no_ray_meets_are_refused_where_rays_alone_look_for_them() {
+    let with = |way: &str, light: &str| {
+        format!(
+            "[render]\ndirect_light = '{way}'\n[[lights]]\nemission = {{ constant = 1 }}\n{light}\n"
+        )
+    };
+    let lights = [
+        ("type = 'point'\nposition = [0, 1, 0]", "a point"),
+        (
+            "type = 'spot'\nposition = [0, 1, 0]\ndirection = [0, -1, 0]\nangle_deg = 30",
+            "a spot",
+        ),
+        (
+            "type = 'distant'\ndirection = [0, 1, 0]\ndiameter_deg = 0",
+            "a single direction",
+        ),
+    ];
+    for (light, what) in lights {
+        refused(
+            &with("surfaces", light),
+            "lights[0]",
+            &[what, "\"surfaces\"", "would be dark"],
+        );
+        scene(&with("both", light));
+        scene(&with("lights", light));
+    }
+    scene(&with("surfaces", "type = 'distant'\ndirection = [0, 1, 0]"));
+}
+
+#[test]
+fn a_scene_that_may_not_be_meant_is_noted() {
+    let notes = |rest: &str| scene(rest).notes();
+    let dark = notes("");
+    assert!(
+        dark.len() == 1 && dark[0].contains("nothing shines"),
+        "{dark:?}"
+    );
+    assert_eq!(notes(&emitter("constant = 0", PLANE)).len(), 1);
+    for (lit, lamps) in [
+        (emitter("constant = 1", PLANE), 1),
+        (
+            "[environment]\ntype = 'constant'\nemission = { constant = 1 }\n".to_owned(),
+            0,
+        ),
+        (
+            "[environment]\ntype = 'sky'\nsun_elevation_deg = 30\n".to_owned(),
+            1,
+        ),
+    ] {
+        let scene = scene(&lit);
+        assert!(scene.notes().is_empty(), "{lit}: {:?}", scene.notes());
+        assert_eq!(scene.lamps(), lamps, "{lit}");
+        assert_eq!(scene.is_lit_by_surroundings(), lit.starts_with("[env"));
+    }
+    let printed = |rest: &str, segments: u32| {
+        notes(&format!(
+            "[render]\nmax_path_segments = {segments}\n[environment]\ntype = 'constant'\nemission = {{ constant = 1 }}\n\
+             [materials.x]\ntype = 'conductor'\nindex = 'gold'\nroughness = 0.3\nmodel = {{ cook1981 = {{ {rest} }} }}\n\
+             [[objects]]\nmaterial = 'x'\n{SPHERE}\n"
+        ))
+    };
+    let said = printed("", 12);
+    assert!(
+        said.len() == 1 && said[0].contains("4.0 times") && said[0].contains("(here 12)"),
+        "{said:?}"
+    );
+    for (rest, segments) in [
+        ("", 2),
+        ("normalisation = 'normalised'", 12),
+        ("specular = 0.25", 12),
+    ] {
+        assert_eq!(
+            printed(rest, segments),
+            Vec::<String>::new(),
+            "{rest} {segments}"
+        );
+    }
 }
 
 #[test]

@@ -197,7 +197,7 @@ fn pixels_that_are_no_light_are_told_by_their_place() {
         let mut values = [1.0; 32];
         values[2 * 8 + 5] = value;
         write_exr(&folder.join(name), (8, 4), &["R", "G", "B"], &values, None);
-        let phrases = [name, "column 6 of row 3", said, "at most 1000000000"];
+        let phrases = [name, "column 6 of row 3", said, "at most 1e9"];
         assert_told(surrounded_by(folder, name), "environment.image", &phrases);
     }
     for (name, value) in [
@@ -400,8 +400,8 @@ fn what_a_sky_cannot_be_is_told() {
             "cannot be the name",
         ),
         (", turbidity = 1", "environment.turbidity", "1.7 to 10"),
-        (", scale = -1", "environment.scale", "0 to 1000000000"),
-        (", scale = 1e8", "environment.scale", "at most 1000000000"),
+        (", scale = -1", "environment.scale", "0 to 1e9"),
+        (", scale = 1e8", "environment.scale", "at most 1e9"),
     ] {
         let problems = sky(says).expect_err(says);
         let said = format!("{problems:#}");

@@ -261,7 +261,7 @@ fn values_out_of_range_are_told_where_they_stand() {
             "{ drainage = { initial = 500, radius_m = 0 } }",
             57,
             ".drainage.radius_m",
-            &["0.000001 to 1000 m"],
+            &["1e-6 to 1000 m"],
         ),
         (
             "{ swirls = { amplitude = 5, scale = 1, octaves = 7 } }",

@@ -510,6 +510,6 @@ fn a_scene_can_be_built_in_code() {
     let problems = Scene::new(&described, Path::new("")).unwrap_err();
     assert_eq!(
         format!("{problems:#}"),
-        "objects[0].radius: found NaN; it must be from 0.000001 to 1000000"
+        "objects[0].radius: found NaN; it must be from 1e-6 to 1e6"
     );
 }

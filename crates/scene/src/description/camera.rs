@@ -66,7 +66,7 @@ pub struct Lens {
     /// Radius of its opening, in scene units: the larger, the less is sharp.
     #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
     pub radius: f64,
-    /// Distance of the plane that is sharp, along the direction of view; that of `look_at` where it is left out.
+    /// Distance of the plane that is sharp, along the direction of view, in scene units; that of `look_at` where it is left out.
     #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub focus_distance: Option<f64>,

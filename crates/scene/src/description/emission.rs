@@ -74,10 +74,16 @@ pub struct Strength {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
     pub luminance_cd_m2: Option<f64>,
-    /// Power in W that each object of an emitter (of plane ones both sides together), or that a point or spot sends out.
+    /// Power in W that each object of an emitter (of plane ones both sides together), or that a point or spot sends out as light
+    /// of the scene's wavelengths: less than what a lamp takes from the mains.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
     pub power_w: Option<f64>,
+    /// Power in lm that each object of an emitter (of plane ones both sides together), or that a point or spot sends out: what the
+    /// box of a lamp says.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
+    pub power_lm: Option<f64>,
     /// Irradiance in W m⁻² of a surface that faces a distant light, or under constant surroundings.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
@@ -96,12 +102,61 @@ pub struct Strength {
     pub intensity_cd: Option<f64>,
 }
 
-impl Strength {
+/// Constructors of all units.
+macro_rules! units {
+    ($($(#[$doc:meta])* $unit:ident,)*) => {
+        impl Strength {
+            $(
+                $(#[$doc])*
+                pub fn $unit($unit: f64) -> Self {
+                    Self {
+                        $unit: Some($unit),
+                        ..Self::default()
+                    }
+                }
+            )*
+        }
+    };
+}
+
+units! {
     /// A factor.
-    pub fn scale(scale: f64) -> Self {
+    scale,
+    /// A radiance in W m⁻² sr⁻¹.
+    radiance,
+    /// A luminance in cd m⁻².
+    luminance_cd_m2,
+    /// A power in W.
+    power_w,
+    /// A power in lm.
+    power_lm,
+    /// An irradiance in W m⁻².
+    irradiance_w_m2,
+    /// An illuminance in lux.
+    illuminance_lux,
+    /// An intensity in W sr⁻¹.
+    intensity_w_sr,
+    /// An intensity in cd.
+    intensity_cd,
+}
+
+impl Emission {
+    /// The light of an illuminant that Pellicle carries, such as "D65".
+    pub fn illuminant(name: impl Into<String>, strength: Strength) -> Self {
         Self {
-            scale: Some(scale),
-            ..Self::default()
+            spectrum: EmissionSpectrum::Illuminant {
+                illuminant: name.into(),
+                extrapolate: Extrapolate::Error,
+            },
+            strength,
+        }
+    }
+
+    /// The same light at every wavelength, 1 W m⁻² sr⁻¹ nm⁻¹ at scale 1.
+    pub fn even(strength: Strength) -> Self {
+        Self {
+            spectrum: EmissionSpectrum::Constant { constant: 1.0 },
+            strength,
         }
     }
 }

@@ -37,7 +37,7 @@ pub enum Material {
     },
     /// Glass, enamel, lacquer: a clear coat over a diffuse base, or without a base an opaque body, in which what enters is absorbed.
     Dielectric {
-        /// The index of the coat or body; above a base it must not absorb.
+        /// The index of the coat or body. Above a base it must be clear: k is taken for 0 up to 1e-5, more is refused.
         index: Index,
         /// Roughness; smooth when absent.
         #[serde(default)]
@@ -112,6 +112,33 @@ pub enum Material {
 }
 
 impl Material {
+    /// An even diffuse surface.
+    pub fn diffuse(reflectance: Reflectance) -> Self {
+        Self::Diffuse {
+            reflectance: DiffuseReflectance::Uniform(reflectance),
+        }
+    }
+
+    /// A smooth metal, or any smooth opaque medium.
+    pub fn conductor(index: Index) -> Self {
+        Self::Conductor {
+            index,
+            roughness: Roughness::Even(0.0),
+            distribution: None,
+            brushed: None,
+            model: None,
+        }
+    }
+
+    /// An emitter that reflects nothing.
+    pub fn emitter(emission: Emission) -> Self {
+        Self::Emitter {
+            emission,
+            reflectance: None,
+            light_group: None,
+        }
+    }
+
     /// A free film of one layer.
     pub fn film(index: Index, thickness_nm: Thickness) -> Self {
         Self::Film {
@@ -182,7 +209,7 @@ pub enum PathDifference {
 pub enum DiffuseReflectance {
     /// The same everywhere.
     Uniform(Reflectance),
-    /// Squares of two reflectances in the axes of a plane or rectangle, or cubes around a sphere's centre.
+    /// Squares of two reflectances in the axes of a plane, rectangle or disk, or cubes around a sphere's centre.
     Checker {
         /// The two reflectances; the square whose lower corner is the origin has the first.
         checker: [Reflectance; 2],
@@ -190,13 +217,13 @@ pub enum DiffuseReflectance {
         #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
         size: f64,
     },
-    /// A picture of colours in sRGB, each of which becomes a smooth reflectance with that colour under D65. On planes and rectangles
-    /// it lies upright in the middle; on spheres it lies like a map on a globe, with its middle towards +Z.
+    /// A picture of colours in sRGB, each of which becomes a smooth reflectance with that colour under D65. On planes, rectangles
+    /// and disks it lies upright in the middle; on spheres it lies like a map on a globe, with its middle towards +Z.
     Texture {
         /// A PNG file of 8 or 16 bits, in the codes of sRGB; relative to the scene file.
         texture: PathBuf,
-        /// Width and height on planes and rectangles; when absent the whole rectangle, or a square of side 1 on a plane. Beyond
-        /// it the picture's edge goes on.
+        /// Width and height on planes, rectangles and disks; when absent the whole rectangle, the square about a disk, or a square of
+        /// side 1 on a plane. Beyond it the picture's edge goes on. Not for spheres, which it always covers.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(inner(inner(range(min = limits::LENGTH.low, max = limits::LENGTH.high))))]
         size: Option<[f64; 2]>,

@@ -26,7 +26,8 @@ pub struct Render {
     pub light_groups: LightGroups,
     /// Where the numbers come from that paths are drawn by.
     pub sampler: Sampler,
-    /// How light that surfaces scatter is found: the picture is the same, its noise is not.
+    /// How light that surfaces scatter is found. What each way finds is the same, its noise is not; but "surfaces" never finds points,
+    /// spots and light from a single direction, and is refused with them.
     pub direct_light: DirectLight,
     /// Chooses the sequence of random numbers.
     pub seed: u32,
@@ -40,12 +41,13 @@ pub struct Render {
     /// Segments after which Russian roulette may end a path that carries little light. What is left of the light is right on average.
     #[schemars(range(min = 1, max = RenderSettings::MAX_PATH_SEGMENTS))]
     pub roulette_after: u32,
-    /// The largest radiance that a sample may bring in any band: brighter samples are dimmed to it, with their colour. That takes
+    /// The largest radiance that a sample may bring in any band, in W m⁻² sr⁻¹ nm⁻¹: brighter samples are dimmed to it, with their colour. That takes
     /// away rare bright dots, and some of the light with them. Without it the picture is right on average.
     #[schemars(range(min = limits::CLAMP.low, max = limits::CLAMP.high))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clamp: Option<f64>,
-    /// Exposure of the developed picture in stops: 0 shows radiance 1 at every wavelength as white.
+    /// Exposure of the developed picture in stops: 0 shows radiance 1 at every wavelength as white, which is 72 983 cd/m²; so
+    /// log2(72 983 / L) shows L cd/m² as white.
     #[schemars(range(min = limits::EXPOSURE_EV.low, max = limits::EXPOSURE_EV.high))]
     pub exposure_ev: f64,
     /// Time of the picture in seconds; thicknesses that change with time read it.

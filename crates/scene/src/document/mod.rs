@@ -5,6 +5,7 @@
 //! leaves a tree that is certain to fit the types; broken values are filled in, and remembered, so that
 //! the rest can still be checked.
 
+mod advice;
 mod reader;
 mod shape;
 mod source_file;

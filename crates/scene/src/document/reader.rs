@@ -1,7 +1,7 @@
 //! From a TOML tree to a description, with everything that does not fit.
 
-use super::Tree;
-use super::shape::{Field, Fields, Shape, TAG, quoted_choice};
+use super::shape::{Field, Fields, Forms, Shape, TAG, listed, quoted_choice};
+use super::{Tree, advice};
 use crate::problem::{Location, Problem, ProblemKind};
 use crate::{FieldPath, Problems};
 use schemars::JsonSchema;
@@ -102,12 +102,15 @@ struct Context<'a> {
     is_tagged: bool,
     /// Says where else an unknown field would be right.
     elsewhere: &'a dyn Fn(&str) -> Option<String>,
+    /// All forms that the table may have, where it may have several.
+    forms: &'a [&'a Fields],
 }
 
 impl Context<'_> {
     const PLAIN: Self = Self {
         is_tagged: false,
         elsewhere: &|_| None,
+        forms: &[],
     };
 }
 
@@ -252,6 +255,7 @@ impl Reader<'_> {
         let context = Context {
             is_tagged: true,
             elsewhere: &elsewhere,
+            forms: &[],
         };
         let mut values = self.fields(fields, table, place, &context);
         values.insert(TAG.to_owned(), Value::String(word.to_string()));
@@ -267,10 +271,14 @@ impl Reader<'_> {
         table: &DeTable<'_>,
         place: &Place,
     ) -> Value {
-        let candidates = shapes.iter().filter_map(|shape| match shape {
-            Shape::Table(fields) => Some((likeness(fields, table), fields)),
+        let tables = shapes.iter().filter_map(|shape| match shape {
+            Shape::Table(fields) => Some(fields),
             _ => None,
         });
+        let forms: Vec<_> = tables.collect();
+        let candidates = forms
+            .iter()
+            .map(|fields| (likeness(fields, table), *fields));
         // The first of equals, so that the order of the format's types decides.
         let best = candidates.reduce(|best, next| if next.0 > best.0 { next } else { best });
         let Some((_, fields)) = best.filter(|((required, _), _)| *required > 0) else {
@@ -287,6 +295,7 @@ impl Reader<'_> {
         let context = Context {
             is_tagged: false,
             elsewhere: &elsewhere,
+            forms: &forms,
         };
         Value::Table(self.fields(fields, table, place, &context))
     }
@@ -346,9 +355,12 @@ impl Reader<'_> {
             (None, Some(known)) => format!("unknown field; did you mean `{known}`?"),
             (None, None) => "unknown field".to_owned(),
         };
-        let known: Vec<_> = fields.names().map(|name| format!("`{name}`")).collect();
-        let problem = Problem::new(ProblemKind::UnknownField, &at.field, message)
-            .help(format!("the fields here are {}", known.join(", ")));
+        let help = match (advice::of_field(&at.field, name), context.forms) {
+            (Some(advice), _) => advice.to_owned(),
+            (None, [_, _, ..]) => format!("the fields here are {}", Forms(context.forms)),
+            (None, _) => format!("the fields here are {}", listed(fields.names())),
+        };
+        let problem = Problem::new(ProblemKind::UnknownField, &at.field, message).help(help);
         self.add(problem, at);
         suggestion
     }
@@ -381,7 +393,9 @@ impl Reader<'_> {
             shortened(&format!("{word:?}")),
             quoted_choice(words)
         );
-        self.report(ProblemKind::UnknownName, at, message);
+        let mut problem = Problem::new(ProblemKind::UnknownName, &at.field, message);
+        problem.help = advice::of_type(&at.field, word).map(str::to_owned);
+        self.add(problem, at);
     }
 
     fn mismatch(&mut self, shape: &Shape, found: &DeValue<'_>, place: &Place) -> Value {

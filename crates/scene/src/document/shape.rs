@@ -132,6 +132,42 @@ impl fmt::Display for Shape {
     }
 }
 
+/// `` `a`, `b`, `c` ``.
+pub(crate) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let names: Vec<_> = names.map(|name| format!("`{name}`")).collect();
+    names.join(", ")
+}
+
+/// The fields of a table that has one of several forms: what tells the forms apart, then what all of them have.
+pub(crate) struct Forms<'a>(pub(crate) &'a [&'a Fields]);
+
+impl fmt::Display for Forms<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let is_shared = |name: &&str| self.0.iter().all(|form| form.0.contains_key(*name));
+        let of_form = |form: &&Fields| {
+            let (required, optional): (Vec<_>, Vec<_>) = form
+                .0
+                .iter()
+                .filter(|(name, _)| !is_shared(&name.as_str()))
+                .partition(|(_, field)| field.is_required);
+            let names =
+                |of: &[(&'_ String, &Field)]| listed(of.iter().map(|(name, _)| name.as_str()));
+            match (required.as_slice(), optional.as_slice()) {
+                (required, []) => names(required),
+                (required, optional) => format!("{} (and {})", names(required), names(optional)),
+            }
+        };
+        let forms: Vec<_> = self.0.iter().map(of_form).collect();
+        write!(f, "either {}", forms.join("; or "))?;
+        let shared = self.0.first().into_iter().flat_map(|form| form.names());
+        let shared: Vec<_> = shared.filter(is_shared).collect();
+        if !shared.is_empty() {
+            write!(f, "; and with each {}", listed(shared.into_iter()))?;
+        }
+        Ok(())
+    }
+}
+
 /// `"a", "b" or "c"`.
 pub(crate) fn quoted_choice<S: AsRef<str>>(words: &[S]) -> String {
     let quoted: Vec<_> = words.iter().map(|w| format!("{:?}", w.as_ref())).collect();

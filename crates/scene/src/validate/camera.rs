@@ -2,6 +2,7 @@
 
 use super::checks::Checks;
 use crate::limits;
+use crate::problem::{Problem, ProblemKind};
 use crate::{Camera, FieldPath, Lens, PixelFilter, Projection, description};
 
 /// Checks `[camera]`.
@@ -71,7 +72,7 @@ fn check_lens(
     target_distance: f64,
 ) -> Option<Lens> {
     let field = top.key("lens");
-    let radius = checks.number(&field.key("radius"), lens.radius, &limits::LENGTH);
+    let radius = check_radius(checks, &field.key("radius"), lens.radius);
     let focus_distance = match lens.focus_distance {
         Some(distance) => checks.number(&field.key("focus_distance"), distance, &limits::LENGTH),
         None => Some(target_distance),
@@ -80,6 +81,16 @@ fn check_lens(
         radius: radius?,
         focus_distance: focus_distance?,
     })
+}
+
+fn check_radius(checks: &mut Checks, field: &FieldPath, radius: f64) -> Option<f64> {
+    if radius != 0.0 {
+        return checks.number(field, radius, &limits::LENGTH);
+    }
+    let message = format!("found 0; it must be from {}", limits::LENGTH);
+    let problem = Problem::new(ProblemKind::OutOfRange, field, message);
+    checks.report(problem.help("leave out `lens` to have everything sharp"));
+    None
 }
 
 fn projection(

@@ -1,6 +1,6 @@
 //! The checks that many fields share, and the list of what they found.
 
-use crate::limits::{self, Range};
+use crate::limits::{self, Range, Shown};
 use crate::problem::{Problem, ProblemKind};
 use crate::{Distribution, Energy, FieldPath};
 use glam::DVec3;
@@ -58,7 +58,7 @@ impl Checks {
             // −0 and 0 are the same number, and would be two entries of a list without duplicates.
             return Some(value + 0.0);
         }
-        let message = format!("found {value}; it must be from {range}");
+        let message = format!("found {}; it must be from {range}", Shown(value));
         self.report(Problem::new(ProblemKind::OutOfRange, field, message));
         None
     }
@@ -80,7 +80,7 @@ impl Checks {
             let message = format!(
                 "found {}, which has no direction; its length must be at least {}",
                 shown(vector),
-                limits::MIN_DISTANCE
+                Shown(limits::MIN_DISTANCE)
             );
             self.report(Problem::new(ProblemKind::OutOfRange, field, message));
             return None;
@@ -183,5 +183,6 @@ fn list_of_names(what: &str, known: &[&str]) -> String {
 
 /// A vector as TOML writes it.
 fn shown(vector: DVec3) -> String {
-    format!("[{}, {}, {}]", vector.x, vector.y, vector.z)
+    let [x, y, z] = vector.to_array().map(Shown);
+    format!("[{x}, {y}, {z}]")
 }

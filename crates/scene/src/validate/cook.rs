@@ -5,7 +5,7 @@ use super::microsurface::Told;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
 use crate::description::{self, CookNormalisation, Roughness, Slope};
-use crate::limits;
+use crate::limits::{self, Shown};
 use crate::problem::{Problem, ProblemKind};
 use crate::{
     Cook1981, CookDistribution, CookFacets, DiffuseShare, Emission, FieldPath, SpectrumId,
@@ -72,14 +72,32 @@ pub(super) fn check(
         }
         None => None,
     };
-    Some(Cook1981 {
+    let cook = Cook1981 {
         n,
         k,
         distribution,
         facets: facets.collect(),
         diffuse,
         ambient,
-    })
+    };
+    check_gain(checks, &own.key("constant"), constant, cook.gain())?;
+    Some(cook)
+}
+
+/// What a constant of D₁ makes of the light must stay a number over the longest path.
+fn check_gain(checks: &mut Checks, field: &FieldPath, constant: f64, gain: f64) -> Option<()> {
+    if gain <= limits::MAX_COOK_GAIN {
+        return Some(());
+    }
+    let message = format!(
+        "found {}, with which the surface sends back {gain:.3e} times the light that falls on it; at most {} times is possible, that is {:.3e}",
+        Shown(constant),
+        limits::MAX_COOK_GAIN,
+        constant * limits::MAX_COOK_GAIN / gain
+    );
+    let help = "raise `render.exposure_ev` for a brighter picture";
+    checks.report(Problem::new(ProblemKind::OutOfRange, field, message).help(help));
+    None
 }
 
 /// What stands before D with one slope: the printed 1 / π, with D₁ times c; or 1/4, with D made to cover the surface once.
@@ -279,7 +297,7 @@ fn ambient_light(
     written: &description::Emission,
     (specular, (n, k), diffuse): (f64, (SpectrumId, SpectrumId), Option<DiffuseShare>),
 ) -> Option<Emission> {
-    let light = spectra.emission(checks, field, written, Radiator::Surroundings)?;
+    let light = spectra.emission(checks, field, written, Radiator::Ambient)?;
     let normal = spectra.combined([n, k], |[n, k]| {
         specular * optics::reflectance_unpolarised(optics::Complex64::new(n, k), 1.0)
     });

@@ -4,6 +4,7 @@ use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
 use crate::derived::coats;
 use crate::description::Index;
+use crate::limits::{CLEAR_COAT_K, Shown};
 use crate::problem::{Problem, ProblemKind};
 use crate::{CoatEstimate, CoatedBody, FieldPath, Material, Microsurface, Pattern, SpectrumId};
 
@@ -23,10 +24,13 @@ pub(super) fn check(
             microsurface,
         });
     };
-    if !spectra.is_black(k) {
-        report_absorption(checks, &field.key("index"), index);
+    let absorption = spectra.peak(k);
+    if absorption > CLEAR_COAT_K {
+        let found = (absorption, spectra.mean(n));
+        report_absorption(checks, &field.key("index"), index, found);
         return None;
     }
+    let (n, k) = spectra.without_absorption(n);
     let (reflectances, mean_reflectance) = match &microsurface {
         None => {
             let mean =
@@ -57,15 +61,27 @@ pub(super) fn check(
     }))
 }
 
-fn report_absorption(checks: &mut Checks, field: &FieldPath, index: &Index) {
+fn report_absorption(checks: &mut Checks, field: &FieldPath, index: &Index, (k, n): (f64, f64)) {
     let found = match index {
-        Index::Name(name) | Index::Named { name, .. } => format!("{name:?}, which absorbs"),
-        Index::Complex([_, k]) => format!("k = {k}"),
-        _ => "an index with absorption".to_owned(),
+        Index::Name(name) | Index::Named { name, .. } => {
+            format!("{name:?}, whose k reaches {}", digits(k))
+        }
+        Index::Complex(_) => format!("k = {}", Shown(k)),
+        _ => format!("an index whose k reaches {}", digits(k)),
     };
     let message = format!(
-        "found {found}; a coat over a base must be clear (k = 0), since its thickness is not known"
+        "found {found}; a coat over a base must be clear (k at most {}), since its thickness is not known",
+        Shown(CLEAR_COAT_K)
+    );
+    let help = format!(
+        "leave out `base` for an opaque body of this index, or write the real part alone, such as index = {n:.3}, for a coat without colour"
     );
     let problem = Problem::new(ProblemKind::Inconsistent, field, message);
-    checks.report(problem.help("leave out `base` for an opaque body of this index"));
+    checks.report(problem.help(help));
+}
+
+/// A number of a table by its first two digits.
+fn digits(number: f64) -> Shown {
+    let rounded = format!("{number:.1e}").parse();
+    Shown(rounded.unwrap_or(number))
 }

@@ -1,13 +1,14 @@
 //! The surroundings: from `[environment]` to emissions.
 
 use super::checks::Checks;
-use super::environment_picture;
+use super::environment_picture::{self, Sphere};
 use super::light::Named;
 use super::sky::Sky;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
 use crate::derived::Sent;
 use crate::description::{Description, Emission, EmissionSpectrum, Extrapolate, Strength};
+use crate::limits::Shown;
 use crate::problem::{Problem, ProblemKind};
 use crate::{DirectLight, Environment, FieldPath, Light, PictureSpectra, description, limits};
 use std::path::Path;
@@ -175,6 +176,11 @@ impl Image<'_> {
         let factor = times(lamp, self.scale);
         let emission = spectra.emission(checks, &top, &factor, Radiator::Surroundings);
         let (sphere, emission) = (sphere?, emission?);
+        self.check_brightest(
+            checks,
+            &sphere,
+            emission.scale * spectra.peak(emission.spectrum),
+        )?;
         if is_spectral && self.illuminant.is_some() {
             let message = "the picture has spectra of its own, which no illuminant changes";
             let field = top.key("illuminant");
@@ -186,5 +192,29 @@ impl Image<'_> {
             emission,
             picture: Arc::new(sphere.turned(turn?, sent)),
         })
+    }
+
+    /// Checks what the brightest pixel comes to at most, times a factor.
+    fn check_brightest(&self, checks: &mut Checks, sphere: &Sphere, factor: f64) -> Option<()> {
+        let texels = sphere.texels.values.iter();
+        let largest = match sphere.spectra {
+            // The last number times a reflectance.
+            PictureSpectra::Smooth => texels.map(|texel| texel[3]).fold(0.0, f32::max),
+            PictureSpectra::Bands => texels.flatten().copied().fold(0.0, f32::max),
+        };
+        let (found, most) = (f64::from(largest) * factor, limits::EMISSION.high);
+        if found <= most {
+            return Some(());
+        }
+        let message = format!(
+            "found {}, with which the picture's brightest pixel may come to a radiance of {found:.3e} W m⁻² sr⁻¹ nm⁻¹; at most {} is possible, that is {:.3e}",
+            Shown(self.scale),
+            Shown(most),
+            self.scale * (most / found)
+        );
+        let top = FieldPath::root().key("environment");
+        let problem = Problem::new(ProblemKind::OutOfRange, &top.key("scale"), message);
+        checks.report(problem.involving(top.key("image")));
+        None
     }
 }

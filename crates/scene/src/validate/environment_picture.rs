@@ -3,7 +3,7 @@
 use super::checks::Checks;
 use super::picture_file::{LightFile, PictureFileError, read_light};
 use crate::derived::{DirectionTable, Sent};
-use crate::limits;
+use crate::limits::{self, Shown};
 use crate::problem::{Problem, ProblemKind};
 use crate::{EnvironmentPicture, FieldPath, PictureSpectra, Texels};
 use colorimetry::lifting::SigmoidReflectance;
@@ -67,13 +67,18 @@ pub(super) fn read(
 /// A pixel that is no light.
 #[derive(Debug, Error)]
 #[error(
-    "the pixel in column {column} of row {row}, counted from 1, has a value of {value}; it must be a number of at most {}",
-    limits::EMISSION.high
+    "the pixel in column {column} of row {row}, counted from 1, has a value of {}; it must be a number of at most {}",
+    Shown(shortest(*value)), Shown(limits::EMISSION.high)
 )]
 struct BadPixel {
     column: usize,
     row: usize,
     value: f32,
+}
+
+/// The shortest decimal number that is this one in `f32`.
+fn shortest(value: f32) -> f64 {
+    value.to_string().parse().unwrap_or(f64::NAN)
 }
 
 /// Looks at all values, of which a pixel has so many.

@@ -106,10 +106,23 @@ fn reflecting<'w>(
     field: &FieldPath,
     written: &'w Reflectance,
 ) -> Option<([Spectrum; 2], Advice<'w>)> {
-    let (reflectance, advice) = read_reflectance(checks, directory, field, written)?;
+    if let Reflectance::Name(name) | Reflectance::Named { name, .. } = written
+        && spectra::reflectance(name).is_none()
+        && spectra::optical_constants(name).is_some()
+    {
+        let message = format!("{name:?} is the name of an index, not of a reflectance");
+        let problem = Problem::new(ProblemKind::UnknownName, field, message);
+        checks.report(problem.help(format!("write index = {name:?} for its exact index")));
+        return None;
+    }
+    let range = &limits::NORMAL_REFLECTANCE;
+    let (reflectance, advice) = read_reflectance(checks, (directory, range), field, written)?;
     let points = points_of(&reflectance);
-    for value in points.iter().map(|&(_, value)| value) {
-        checks.number(field, value, &limits::NORMAL_REFLECTANCE)?;
+    if let Some((nm, value)) = points.iter().find(|(_, value)| !range.contains(*value)) {
+        // Numbers have been looked at where they are written: this is a name or a colour.
+        let message = format!("found {value:.4} at {nm} nm; it must be from {range}");
+        checks.report(Problem::new(ProblemKind::OutOfRange, field, message));
+        return None;
     }
     let index = |(nm, value)| (nm, optics::index_from_normal_reflectance(value));
     let n = match &reflectance {

@@ -3,9 +3,10 @@
 use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
+use crate::description::Description;
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
-use crate::{FieldPath, Light, LightShape, description};
+use crate::{DirectLight, FieldPath, Light, LightShape, description};
 use std::f64::consts::{PI, TAU};
 
 /// A light and the name of its light group, where one is written.
@@ -27,6 +28,32 @@ pub(crate) fn check_all<'a>(
         })
         .collect();
     checked.into_iter().collect()
+}
+
+/// Lights that no ray meets are found by sending to them alone.
+pub(crate) fn check_way(checks: &mut Checks, description: &Description) {
+    if description.render.direct_light != DirectLight::Surfaces {
+        return;
+    }
+    for (index, light) in description.lights.iter().enumerate() {
+        let what = match light {
+            description::Light::Point { .. } => "a point",
+            description::Light::Spot { .. } => "a spot",
+            description::Light::Distant {
+                diameter_deg: 0.0, ..
+            } => "light from a single direction",
+            description::Light::Distant { .. } => continue,
+        };
+        let message = format!(
+            "{what} is met by no scattered ray, and render.direct_light = \"surfaces\" looks for light by these alone: it would be dark"
+        );
+        let field = FieldPath::root().key("lights").index(index);
+        let way = FieldPath::root().key("render").key("direct_light");
+        let problem = Problem::new(ProblemKind::Inconsistent, &field, message).involving(way);
+        checks.report(
+            problem.help("leave `render.direct_light` out, or write \"both\" or \"lights\""),
+        );
+    }
 }
 
 /// The same with the sun of a sky, discs first; no more discs than are possible.

@@ -1,7 +1,7 @@
 //! Objects: materials by number, axes orthonormal.
 
 use super::checks::Checks;
-use crate::description::{self, Drainage, Material, Thickness};
+use crate::description::{self, Brushed, DiffuseReflectance, Drainage, Material, Thickness};
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, MaterialId, Object, Shape};
@@ -16,6 +16,7 @@ pub(crate) fn check_all(
 ) -> Option<Vec<Object>> {
     let names: Vec<&str> = materials.keys().map(String::as_str).collect();
     let for_spheres: Vec<_> = materials.values().map(only_on_spheres).collect();
+    let grains: Vec<_> = materials.values().map(grain).collect();
     let top = FieldPath::root().key("objects");
     let checked: Vec<_> = objects
         .iter()
@@ -29,12 +30,21 @@ pub(crate) fn check_all(
             {
                 check_is_sphere(checks, &field, object, thickness);
             }
+            if let (Some(MaterialId(position)), Some(shape)) = (material, &shape) {
+                check_grain(
+                    checks,
+                    (&field, shape),
+                    names[position as usize],
+                    grains[position as usize],
+                );
+            }
             Some(Object {
                 shape: shape?,
                 material: material?,
             })
         })
         .collect();
+    check_sizes(checks, materials, objects);
     checked.into_iter().collect()
 }
 
@@ -97,6 +107,94 @@ fn check_is_sphere(
     let problem = Problem::new(ProblemKind::Inconsistent, &field.key("material"), message);
     let material = FieldPath::root().key("materials").key(name);
     checks.report(problem.help(help).involving(material));
+}
+
+/// Which way the grain of a material runs.
+fn grain(material: &Material) -> Option<Brushed> {
+    match material {
+        Material::Conductor { brushed, .. }
+        | Material::Dielectric { brushed, .. }
+        | Material::Coated { brushed, .. } => *brushed,
+        _ => None,
+    }
+}
+
+/// Told of the object: on a flat one the grain must not point out of the surface everywhere.
+fn check_grain(
+    checks: &mut Checks,
+    (field, shape): (&FieldPath, &Shape),
+    material: &str,
+    grain: Option<Brushed>,
+) {
+    let (Some(grain), Some(normal)) = (grain, normal(shape)) else {
+        return;
+    };
+    let (sine, way, help) = match grain {
+        Brushed::Along { along } => {
+            let along = DVec3::from_array(along).normalize_or_zero();
+            let help = "give `along` a direction within the surface";
+            (along.cross(normal).length(), "along", help)
+        }
+        Brushed::Around { around } => {
+            let around = DVec3::from_array(around).normalize_or_zero();
+            let help = "give `around` the direction of the normal";
+            (around.dot(normal).abs(), "around", help)
+        }
+    };
+    if sine >= limits::MIN_SINE {
+        return;
+    }
+    let message = format!(
+        "the grain of the material {material:?} points along the normal of this surface, on which it has no direction"
+    );
+    let problem = Problem::new(ProblemKind::Inconsistent, &field.key("material"), message);
+    let brushed = FieldPath::root()
+        .key("materials")
+        .key(material)
+        .key("brushed");
+    let problem = problem.help(help).involving(field.key("normal"));
+    checks.report(problem.involving(brushed.key(way)));
+}
+
+/// The normal of a flat shape.
+fn normal(shape: &Shape) -> Option<DVec3> {
+    match *shape {
+        Shape::Plane { normal, .. }
+        | Shape::Rectangle { normal, .. }
+        | Shape::Disk { normal, .. } => Some(normal),
+        Shape::Sphere { .. } => None,
+    }
+}
+
+/// A picture covers a sphere whole: where a material has only spheres, the size of its picture says nothing.
+fn check_sizes(
+    checks: &mut Checks,
+    materials: &BTreeMap<String, Material>,
+    objects: &[description::Object],
+) {
+    for (name, material) in materials {
+        let (place, pattern) = match material {
+            Material::Diffuse { reflectance } => ("reflectance", Some(reflectance)),
+            Material::Dielectric { base, .. } => ("base", base.as_ref()),
+            _ => continue,
+        };
+        let Some(DiffuseReflectance::Texture { size: Some(_), .. }) = pattern else {
+            continue;
+        };
+        let mut own = objects
+            .iter()
+            .filter(|object| object.material() == name)
+            .peekable();
+        let is_for_spheres = own.peek().is_some();
+        if is_for_spheres && own.all(|object| matches!(object, description::Object::Sphere { .. }))
+        {
+            let material = FieldPath::root().key("materials").key(name);
+            let message = "a picture always covers the whole of a sphere, and only spheres have this material";
+            let field = material.key(place).key("size");
+            let problem = Problem::new(ProblemKind::Inconsistent, &field, message);
+            checks.report(problem.help("leave `size` out"));
+        }
+    }
 }
 
 fn shape(checks: &mut Checks, field: &FieldPath, object: &description::Object) -> Option<Shape> {

@@ -3,7 +3,7 @@
 use super::checks::Checks;
 use super::light_groups::Unlit;
 use crate::description::{self, Description};
-use crate::limits;
+use crate::limits::{self, Shown};
 use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, Material, MaterialId, Shape, SpectrumId};
 use std::collections::HashMap;
@@ -16,17 +16,18 @@ pub(crate) fn spread(
     parts: &mut Unlit,
     peak: impl Fn(SpectrumId) -> f64,
 ) {
-    let by_power: Vec<bool> = description.materials.values().map(has_power).collect();
+    let by_power: Vec<_> = description.materials.values().map(unit_of_power).collect();
     let mut made: HashMap<(u32, u64), MaterialId> = HashMap::new();
     for (index, object) in parts.objects.iter_mut().enumerate() {
         let written = object.material;
-        if !by_power[written.index()] {
+        let Some(unit) = by_power[written.index()] else {
             continue;
-        }
+        };
         let field = FieldPath::root().key("objects").index(index);
         let Some(area) = area(&object.shape) else {
-            let message =
-                "a plane has no bounds, so no radiance gives it the `power_w` of its material";
+            let message = format!(
+                "a plane has no bounds, so no radiance gives it the `{unit}` of its material"
+            );
             let field = field.key("material");
             let problem = Problem::new(ProblemKind::Inconsistent, &field, message)
                 .help("give the material a `radiance` or `luminance_cd_m2`, or make the plane a rectangle");
@@ -40,8 +41,8 @@ pub(crate) fn spread(
                 let radiance = peak(emission.spectrum) * emission.scale;
                 if !limits::EMISSION.contains(radiance) {
                     let message = format!(
-                        "the `power_w` of its material makes its radiance {radiance:.3e} at the spectrum's peak; at most {} is possible",
-                        limits::EMISSION.high
+                        "the `{unit}` of its material makes its radiance {radiance:.3e} W m⁻² sr⁻¹ nm⁻¹ at the spectrum's peak; at most {} is possible",
+                        Shown(limits::EMISSION.high)
                     );
                     checks.report(Problem::new(ProblemKind::OutOfRange, &field, message));
                 }
@@ -54,11 +55,14 @@ pub(crate) fn spread(
     }
 }
 
-fn has_power(material: &description::Material) -> bool {
-    match material {
-        description::Material::Emitter { emission, .. } => emission.strength.power_w.is_some(),
-        _ => false,
-    }
+/// The unit of an emitter by power.
+fn unit_of_power(material: &description::Material) -> Option<&'static str> {
+    let description::Material::Emitter { emission, .. } = material else {
+        return None;
+    };
+    let strength = &emission.strength;
+    let watts = strength.power_w.map(|_| "power_w");
+    watts.or(strength.power_lm.map(|_| "power_lm"))
 }
 
 /// The area that emits, both sides of plane shapes together.

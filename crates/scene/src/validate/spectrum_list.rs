@@ -4,11 +4,11 @@ use super::checks::Checks;
 use super::index;
 use super::lifted;
 use super::points::{self, Column};
-use super::strength::{self, Radiator};
+use super::strength::{self, Amount, Radiator};
 use crate::description::{
     self, EmissionSpectrum, Extrapolate, Index, Reflectance, WavelengthSampling,
 };
-use crate::limits;
+use crate::limits::{self, Shown};
 use crate::problem::{Problem, ProblemKind};
 use crate::{Emission, FieldPath, LightGroupId, SpectrumId};
 use colorimetry::srgb::decode;
@@ -38,8 +38,7 @@ pub(crate) struct Lamp {
     pub(crate) shines: bool,
 }
 
-/// What a spectrum is, for messages: the noun, and the range of its values.
-const REFLECTANCE: Column = Column::new("reflectance", "values", &limits::REFLECTANCE);
+/// What a light's spectrum is, for messages: the noun, and the range of its values.
 const EMISSION: Column = Column::new("radiance", "values", &limits::EMISSION);
 
 impl<'a> SpectrumList<'a> {
@@ -124,7 +123,12 @@ impl<'a> SpectrumList<'a> {
         field: &FieldPath,
         written: &Reflectance,
     ) -> Option<SpectrumId> {
-        let (spectrum, advice) = read_reflectance(checks, self.directory, field, written)?;
+        let (spectrum, advice) = read_reflectance(
+            checks,
+            (self.directory, &limits::REFLECTANCE),
+            field,
+            written,
+        )?;
         let table = self.resampled(checks, field, &spectrum, advice)?;
         Some(self.single(&table, limits::REFLECTANCE))
     }
@@ -139,6 +143,7 @@ impl<'a> SpectrumList<'a> {
         let table = a.combined(b, |a, b| f([a, b]));
         self.single(&table, limits::EMISSION)
     }
+
     /// The numbers of an index's n and k; that of k is one more than that of n.
     pub(crate) fn index(
         &mut self,
@@ -187,8 +192,9 @@ impl<'a> SpectrumList<'a> {
         let scale = amount.scale(checks, &table, (&grid, self.sampling))?;
         let peak = table.extent().1;
         // What an emitter's power makes of its radiance depends on the object.
-        if strength.power_w.is_none() || radiator != Radiator::Emitter {
-            check_brightness(checks, (field, &amount.field), peak, scale)?;
+        let is_by_area = radiator == Radiator::Emitter && amount.unit.starts_with("power");
+        if !is_by_area {
+            check_brightness(checks, (field, &amount), radiator, peak * scale)?;
         }
         let light_group = LightGroupId(self.lamps.len() as u32);
         self.lamps.push(Lamp {
@@ -201,6 +207,13 @@ impl<'a> SpectrumList<'a> {
             scale,
             light_group,
         })
+    }
+
+    /// The numbers of an index with the same n and k = 0.
+    pub(crate) fn without_absorption(&mut self, n: SpectrumId) -> (SpectrumId, SpectrumId) {
+        let n = self.tables[n.index()].clone();
+        let k = n.map(|_| 0.0);
+        self.pair(&n, &k)
     }
 
     fn emission_spectrum(
@@ -319,16 +332,18 @@ impl Advice<'_> {
     }
 }
 
-/// A reflectance over wavelength, and what to do where it does not reach far enough; files are looked for from `directory`.
+/// A reflectance over wavelength, and what to do where it does not reach far enough; files are looked for from `directory`, and
+/// what is written as a number must lie in `range`.
 pub(super) fn read_reflectance<'w>(
     checks: &mut Checks,
-    directory: &Path,
+    (directory, range): (&Path, &'static limits::Range),
     field: &FieldPath,
     written: &'w Reflectance,
 ) -> Option<(Spectrum, Advice<'w>)> {
+    let column = Column::new("reflectance", "values", range);
     Some(match written {
         Reflectance::Constant(value) => {
-            let value = checks.number(field, *value, &limits::REFLECTANCE)?;
+            let value = checks.number(field, *value, range)?;
             (Spectrum::Constant(value), Advice::None)
         }
         Reflectance::Name(name) => (
@@ -352,13 +367,13 @@ pub(super) fn read_reflectance<'w>(
             values,
             extrapolate,
         } => {
-            let columns = [(REFLECTANCE, values.as_slice())];
+            let columns = [(column, values.as_slice())];
             let [spectrum] = points::inline(checks, field, nm, columns, *extrapolate)?;
             (spectrum, Advice::Add)
         }
         Reflectance::File { csv, extrapolate } => {
             let path = directory.join(csv);
-            let [spectrum] = points::file(checks, field, &path, [REFLECTANCE], *extrapolate)?;
+            let [spectrum] = points::file(checks, field, &path, [column], *extrapolate)?;
             (spectrum, Advice::Add)
         }
     })
@@ -412,21 +427,32 @@ fn lamp_name(written: &EmissionSpectrum) -> String {
     }
 }
 
+/// Checks the largest value that a light of an amount comes to.
 fn check_brightness(
     checks: &mut Checks,
-    (field, amount): (&FieldPath, &FieldPath),
-    peak: f64,
-    scale: f64,
+    (field, amount): (&FieldPath, &Amount),
+    radiator: Radiator,
+    found: f64,
 ) -> Option<()> {
-    if limits::EMISSION.contains(peak * scale) {
+    let most = limits::EMISSION.high;
+    if limits::EMISSION.contains(found) {
         return Some(());
     }
+    let (quantity, unit) = radiator.quantity();
     let message = format!(
-        "found a factor of {scale}, which makes the spectrum's peak of {peak} a radiance of {}; at most {} is possible",
-        peak * scale,
-        limits::EMISSION.high
+        "found {}, which comes to {quantity} of {found:.3e} {unit} at the spectrum's peak; at most {} is possible, that is `{}` = {:.3e}",
+        Shown(amount.value),
+        Shown(most),
+        amount.unit,
+        amount.value * (most / found),
     );
-    let problem = Problem::new(ProblemKind::OutOfRange, amount, message);
+    let mut problem = Problem::new(ProblemKind::OutOfRange, &amount.field, message);
+    let falls_from_small_disc = !matches!(amount.unit, "radiance" | "luminance_cd_m2");
+    if matches!(radiator, Radiator::Distant(solid) if solid > 0.0) && falls_from_small_disc {
+        let help =
+            "a larger `diameter_deg` allows more, and so does 0, light from a single direction";
+        problem = problem.help(help);
+    }
     checks.report(problem.involving(field.clone()));
     None
 }

@@ -3,7 +3,7 @@
 use super::checks::Checks;
 use crate::FieldPath;
 use crate::description::{self, Strength};
-use crate::limits::{self, Range};
+use crate::limits::{self, Range, Shown};
 use crate::problem::{Problem, ProblemKind};
 use spectra::{BandGrid, BandTable, KM_LUMENS_PER_WATT, observer_1931};
 use std::f64::consts::PI;
@@ -17,6 +17,8 @@ pub(crate) enum Radiator {
     Surroundings,
     /// A part of surroundings that are brighter in some directions.
     PartOfSurroundings,
+    /// Light from everywhere that nothing hides.
+    Ambient,
     /// A distant light: ∫ cos dω over it; 0 where it comes from a single direction.
     Distant(f64),
     /// A point or spot: ∫ dω of its intensity relative to the largest.
@@ -33,13 +35,45 @@ enum Over {
     Lumens,
 }
 
-/// A unit that is written.
-struct Written {
+/// A unit in which a strength can be written.
+struct Unit {
     name: &'static str,
-    value: f64,
+    written: fn(&Strength) -> Option<f64>,
     range: Range,
     over: Over,
 }
+
+impl Unit {
+    const fn new(name: &'static str, written: fn(&Strength) -> Option<f64>, over: Over) -> Self {
+        let range = limits::STRENGTH;
+        Self {
+            name,
+            written,
+            range,
+            over,
+        }
+    }
+}
+
+/// A number alone: the factor of the spectrum itself.
+const SCALE: Unit = Unit {
+    name: "scale",
+    written: |strength| strength.scale,
+    range: limits::EMISSION,
+    over: Over::Nothing,
+};
+
+const UNITS: [Unit; 9] = [
+    SCALE,
+    Unit::new("radiance", |s| s.radiance, Over::Watts),
+    Unit::new("luminance_cd_m2", |s| s.luminance_cd_m2, Over::Lumens),
+    Unit::new("power_w", |s| s.power_w, Over::Watts),
+    Unit::new("power_lm", |s| s.power_lm, Over::Lumens),
+    Unit::new("irradiance_w_m2", |s| s.irradiance_w_m2, Over::Watts),
+    Unit::new("illuminance_lux", |s| s.illuminance_lux, Over::Lumens),
+    Unit::new("intensity_w_sr", |s| s.intensity_w_sr, Over::Watts),
+    Unit::new("intensity_cd", |s| s.intensity_cd, Over::Lumens),
+];
 
 impl Radiator {
     /// Factor from a unit to what the scene keeps; none where the unit does not fit.
@@ -51,13 +85,15 @@ impl Radiator {
             (Self::Distant(solid), "radiance" | "luminance_cd_m2") => (solid > 0.0).then_some(1.0),
             (_, "scale")
             | (
-                Self::Emitter | Self::Surroundings | Self::PartOfSurroundings,
+                Self::Emitter | Self::Surroundings | Self::PartOfSurroundings | Self::Ambient,
                 "radiance" | "luminance_cd_m2",
             )
-            | (Self::Emitter, "power_w")
+            | (Self::Emitter, "power_w" | "power_lm")
             | (Self::Point(_), "intensity_w_sr" | "intensity_cd") => Some(1.0),
-            (Self::Surroundings, "irradiance_w_m2" | "illuminance_lux") => Some(1.0 / PI),
-            (Self::Point(solid), "power_w") => Some(1.0 / solid),
+            (Self::Surroundings | Self::Ambient, "irradiance_w_m2" | "illuminance_lux") => {
+                Some(1.0 / PI)
+            }
+            (Self::Point(solid), "power_w" | "power_lm") => Some(1.0 / solid),
             _ => None,
         }
     }
@@ -65,65 +101,41 @@ impl Radiator {
     fn noun(self) -> &'static str {
         match self {
             Self::Emitter => "an emitter",
-            Self::Surroundings => "constant surroundings",
+            Self::Surroundings => "light from constant surroundings",
             Self::PartOfSurroundings => "a part of a gradient",
+            Self::Ambient => "ambient light",
             Self::Distant(0.0) => "a distant light without a diameter",
             Self::Distant(_) => "a distant light",
             Self::Point(_) => "a point or spot",
         }
     }
-}
 
-fn written(strength: &Strength) -> Vec<Written> {
-    let (emission, other) = (limits::EMISSION, limits::STRENGTH);
-    [
-        ("scale", strength.scale, emission, Over::Nothing),
-        ("radiance", strength.radiance, other, Over::Watts),
-        (
-            "luminance_cd_m2",
-            strength.luminance_cd_m2,
-            other,
-            Over::Lumens,
-        ),
-        ("power_w", strength.power_w, other, Over::Watts),
-        (
-            "irradiance_w_m2",
-            strength.irradiance_w_m2,
-            other,
-            Over::Watts,
-        ),
-        (
-            "illuminance_lux",
-            strength.illuminance_lux,
-            other,
-            Over::Lumens,
-        ),
-        (
-            "intensity_w_sr",
-            strength.intensity_w_sr,
-            other,
-            Over::Watts,
-        ),
-        ("intensity_cd", strength.intensity_cd, other, Over::Lumens),
-    ]
-    .into_iter()
-    .filter_map(|(name, value, range, over)| {
-        let value = value?;
-        Some(Written {
-            name,
-            value,
-            range,
-            over,
-        })
-    })
-    .collect()
+    /// What the spectrum times its factor is, and its unit.
+    pub(crate) fn quantity(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Distant(0.0) => ("an irradiance", "W m⁻² nm⁻¹"),
+            Self::Point(_) => ("an intensity", "W sr⁻¹ nm⁻¹"),
+            _ => ("a radiance", "W m⁻² sr⁻¹ nm⁻¹"),
+        }
+    }
+
+    /// The units that fit, as a list.
+    fn units(self) -> String {
+        let fits = UNITS.iter().map(|unit| unit.name);
+        let fits = fits.filter(|unit| self.factor(unit).is_some());
+        let fits: Vec<_> = fits.map(|unit| format!("`{unit}`")).collect();
+        fits.join(", ")
+    }
 }
 
 /// The unit of an emission and its number, checked.
 pub(crate) struct Amount {
     /// The field that says it.
     pub(crate) field: FieldPath,
-    value: f64,
+    /// Its unit, the last part of the field.
+    pub(crate) unit: &'static str,
+    /// The number as it is written.
+    pub(crate) value: f64,
     factor: f64,
     over: Over,
 }
@@ -135,63 +147,54 @@ pub(crate) fn check(
     strength: &Strength,
     radiator: Radiator,
 ) -> Option<Amount> {
-    let all = written(strength);
-    let plain = Written {
-        name: "scale",
-        value: 1.0,
-        range: limits::EMISSION,
-        over: Over::Nothing,
-    };
-    let unit = match all.as_slice() {
-        [] => &plain,
-        [only] => only,
-        [first, others @ ..] => {
-            let names: Vec<_> = others.iter().map(|u| format!("`{}`", u.name)).collect();
-            let message = format!(
-                "found `{}` beside {}; a light has one of them",
-                first.name,
-                names.join(", ")
+    let written = UNITS
+        .iter()
+        .filter_map(|unit| Some((unit, (unit.written)(strength)?)));
+    let (unit, value) = match written.collect::<Vec<_>>().as_slice() {
+        [] => (&SCALE, 1.0),
+        [only] => *only,
+        several => {
+            report_several(
+                checks,
+                field,
+                several.iter().map(|(unit, _)| unit.name),
+                radiator,
             );
-            let at = field.key(others[0].name);
-            checks.report(Problem::new(ProblemKind::Inconsistent, &at, message));
             return None;
         }
     };
     let at = field.key(unit.name);
-    let value = checks.number(&at, unit.value, &unit.range);
+    let value = checks.number(&at, value, &unit.range);
     let Some(factor) = radiator.factor(unit.name) else {
-        report_misfit(checks, &at, unit.name, radiator);
+        let message = format!("{} has no `{}`", radiator.noun(), unit.name);
+        let help = format!("what it can have is one of {}", radiator.units());
+        checks.report(Problem::new(ProblemKind::Inconsistent, &at, message).help(help));
         return None;
     };
     Some(Amount {
         field: at,
+        unit: unit.name,
         value: value?,
         factor,
         over: unit.over,
     })
 }
 
-fn report_misfit(checks: &mut Checks, field: &FieldPath, unit: &str, radiator: Radiator) {
-    let fits: Vec<_> = UNITS
-        .iter()
-        .filter(|unit| radiator.factor(unit).is_some())
-        .map(|unit| format!("`{unit}`"))
-        .collect();
-    let message = format!("{} has no `{unit}`", radiator.noun());
-    let help = format!("what it can have is one of {}", fits.join(", "));
+/// Told of the whole emission: none of its units is more wrong than the others.
+fn report_several(
+    checks: &mut Checks,
+    field: &FieldPath,
+    units: impl Iterator<Item = &'static str>,
+    radiator: Radiator,
+) {
+    let names: Vec<_> = units.map(|unit| format!("`{unit}`")).collect();
+    let message = format!(
+        "found {}, each of which says how bright it is; a light has one of them",
+        names.join(" and ")
+    );
+    let help = format!("{} can have one of {}", radiator.noun(), radiator.units());
     checks.report(Problem::new(ProblemKind::Inconsistent, field, message).help(help));
 }
-
-const UNITS: [&str; 8] = [
-    "scale",
-    "radiance",
-    "luminance_cd_m2",
-    "power_w",
-    "irradiance_w_m2",
-    "illuminance_lux",
-    "intensity_w_sr",
-    "intensity_cd",
-];
 
 impl Amount {
     /// The factor of a spectrum over the bands.
@@ -219,7 +222,7 @@ impl Amount {
         if total <= 0.0 {
             let message = format!(
                 "found {}, but the spectrum is 0 over the scene's wavelengths",
-                self.value
+                Shown(self.value)
             );
             checks.report(Problem::new(
                 ProblemKind::Inconsistent,

@@ -98,12 +98,12 @@ type = 'constant'
             (
                 "30:14",
                 "objects[1].center[1]",
-                &["found NaN", "-1000000 to 1000000"],
+                &["found NaN", "-1e6 to 1e6"],
             ),
             (
                 "31:10",
                 "objects[1].radius",
-                &["found -1", "from 0.000001 to 1000000"],
+                &["found -1", "from 1e-6 to 1e6"],
             ),
             ("33:2", "enviroment", &["did you mean `environment`?"]),
         ],
@@ -158,7 +158,57 @@ fn a_field_of_another_variant_says_where_it_belongs() {
         &[(
             "9:41",
             "materials.x.thickness_nm.from",
-            &["`from` belongs to another form, a table with `end` and `from` and `start` and `to`"],
+            &[
+                "`from` belongs to another form, a table with `end` and `from` and `start` and `to`",
+                "either `equator`, `pole` (and `axis`); or `end`, `from`, `start`, `to`; or",
+            ],
+        )],
+    );
+    assert_problems(
+        &with_material("type = 'emitter'\nemission = { illuminant = 'D65', skale = 2 }"),
+        &[(
+            "8:34",
+            "materials.x.emission.skale",
+            &[
+                "did you mean `scale`?",
+                "either `constant`; or `illuminant` (and `extrapolate`); or `nm`, `values` (and `extrapolate`); or `csv` (and \
+                 `extrapolate`); and with each `illuminance_lux`",
+            ],
+        )],
+    );
+}
+
+#[test]
+fn words_of_other_programs_are_advised_on() {
+    for word in ["sphere", "area"] {
+        assert_problems(
+            &with_camera(&format!(
+                "[[lights]]\ntype = '{word}'\nemission = {{ constant = 1 }}\n"
+            )),
+            &[(
+                "7:8",
+                "lights[0].type",
+                &[
+                    "\"distant\", \"point\" or \"spot\"",
+                    "an object whose material is `type = \"emitter\"`",
+                ],
+            )],
+        );
+    }
+    assert_problems(
+        &with_camera("lens = { f_number = 2.8, radius = 0.1 }\n"),
+        &[(
+            "6:10",
+            "camera.lens.f_number",
+            &["unknown field", "the focal length over 2 N"],
+        )],
+    );
+    assert_problems(
+        &with_camera("lens = { radius = 0 }\n"),
+        &[(
+            "6:19",
+            "camera.lens.radius",
+            &["found 0", "1e-6 to 1e6", "leave out `lens`"],
         )],
     );
 }

@@ -151,19 +151,23 @@ fn other_materials_out_of_range_are_told() {
             "type = 'diffuse'\nreflectance = { checker = [0.5, 1], size = 0 }".into(),
             "8:44",
             "reflectance.size",
-            &["0.000001 to 1000000"],
+            &["1e-6 to 1e6"],
         ),
         (
             "type = 'emitter'\nemission = { constant = -1 }".into(),
             "8:25",
             "emission.constant",
-            &["found -1", "0 to 1000000000"],
+            &["found -1", "0 to 1e9"],
         ),
         (
             "type = 'emitter'\nemission = { constant = 1e6, scale = 1e6 }".into(),
             "8:38",
             "emission.scale",
-            &["a radiance of 1000000000000", "at most 1000000000"],
+            &[
+                "found 1e6",
+                "a radiance of 1.000e12 W m⁻² sr⁻¹ nm⁻¹",
+                "at most 1e9 is possible, that is `scale` = 1.000e3",
+            ],
         ),
         (
             "type = 'emitter'\nemission = { illuminant = 'd65' }".into(),
@@ -173,6 +177,35 @@ fn other_materials_out_of_range_are_told() {
         ),
     ];
     assert_material_problems(cases);
+}
+
+/// Flat objects on which a grain has no direction.
+#[test]
+fn a_grain_along_the_normal_is_told_of_the_object() {
+    let scene = |brushed: &str, object: &str| {
+        with_camera(&format!(
+            "[materials.x]\ntype = 'conductor'\nindex = 'gold'\nroughness = [0.1, 0.2]\nbrushed = {{ {brushed} }}\n\
+             [[objects]]\nmaterial = 'x'\ncenter = [0, 0, 0]\nradius = 1\n{object}\n"
+        ))
+    };
+    let disk = "type = 'disk'\nnormal = [0, 0, 2]";
+    let said = ["\"x\"", "along the normal"];
+    for brushed in ["along = [0, 0, -1]", "around = [1, 0, 0]"] {
+        assert_problems(
+            &scene(brushed, disk),
+            &[("12:12", "objects[0].material", &said)],
+        );
+    }
+    for (brushed, object) in [
+        ("along = [1, 0, 1]", disk),
+        ("around = [0, 0, 1]", disk),
+        ("along = [0, 0, 1]", "type = 'sphere'"),
+    ] {
+        let file = SceneFile::parse("good.toml", &scene(brushed, object), Path::new(""));
+        if let Err(problems) = file.and_then(|file| file.validate()) {
+            panic!("{problems:#}");
+        }
+    }
 }
 
 /// A material may be on several objects: the one that does not suit it is told.

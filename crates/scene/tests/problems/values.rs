@@ -123,11 +123,7 @@ fn tables_are_checked_point_by_point() {
         (
             "{ nm = [0.5, nan, inf], values = [0, 1, 1], extrapolate = 'claamp' }",
             &[
-                (
-                    "8:23",
-                    "reflectance.nm[0]",
-                    &["found 0.5", "1 to 1000000 nm"],
-                ),
+                ("8:23", "reflectance.nm[0]", &["found 0.5", "1 to 1e6 nm"]),
                 ("8:28", "reflectance.nm[1]", &["found NaN"]),
                 ("8:33", "reflectance.nm[2]", &["found inf"]),
                 (
@@ -203,7 +199,7 @@ fn directions_that_span_no_plane_are_told() {
              [[objects]]\ntype = 'plane'\nmaterial = 'x'\npoint = [0, 0, 0]\nnormal = [0, 0, 0]",
         ),
         &[
-            ("12:17", "objects[0].center[2]", &["found 2000000"]),
+            ("12:17", "objects[0].center[2]", &["found 2e6"]),
             ("14:12", "objects[0].size[1]", &["found 0"]),
             (
                 "15:6",

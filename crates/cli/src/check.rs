@@ -1,0 +1,65 @@
+//! `pellicle check`.
+
+use crate::{memory, print};
+use pellicle::scene::{Scene, SceneFile};
+use std::path::Path;
+
+/// Validates a scene and says in a line what it is.
+pub(crate) fn run(path: &Path) -> miette::Result<()> {
+    let scene = SceneFile::read(path)?.validate()?;
+    tell_notes(&scene);
+    let settings = scene.settings();
+    print::result(format_args!(
+        "{}: valid; {}×{} pixels, {}, {}, {}, {}; {}",
+        path.display(),
+        settings.width,
+        settings.height,
+        counted(settings.bands.count(), "band"),
+        counted(settings.samples, "sample"),
+        counted(scene.objects().len(), "object"),
+        light(scene.lamps(), scene.is_lit_by_surroundings()),
+        memory::of_picture(&scene),
+    ))
+}
+
+/// Says what may not be meant.
+pub(crate) fn tell_notes(scene: &Scene) {
+    for note in scene.notes() {
+        print::note(format_args!("note: {note}"));
+    }
+}
+
+/// `1 object`, `2 objects`.
+fn counted(count: impl TryInto<u64>, what: &str) -> String {
+    let count = count.try_into().unwrap_or(u64::MAX);
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {what}{plural}")
+}
+
+/// Where light comes from.
+fn light(lamps: usize, is_lit_by_surroundings: bool) -> String {
+    match (lamps, is_lit_by_surroundings) {
+        (0, false) => "no light".to_owned(),
+        (0, true) => "lit by its surroundings".to_owned(),
+        (lamps, false) => counted(lamps, "light"),
+        (lamps, true) => format!("{}, and lit by its surroundings", counted(lamps, "light")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn light_is_told_in_words() {
+        for (lamps, surroundings, words) in [
+            (0, false, "no light"),
+            (0, true, "lit by its surroundings"),
+            (1, false, "1 light"),
+            (2, true, "2 lights, and lit by its surroundings"),
+        ] {
+            assert_eq!(light(lamps, surroundings), words);
+        }
+        assert_eq!(counted(1_u32, "object"), "1 object");
+    }
+}
