@@ -10,3 +10,4 @@ pub mod scenes;
 pub mod tables;
 pub mod tolerances;
 pub mod wgsl;
+pub mod workers;

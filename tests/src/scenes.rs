@@ -41,6 +41,15 @@ pub const EVERYTHING_PICTURED: &str = include_str!("everything_pictured.toml");
 /// The names of the scenes that are made for the suites.
 pub const MADE: &[&str] = &["everything", "everything_bodies", "everything_pictured"];
 
+/// All of both.
+pub fn all() -> Vec<&'static str> {
+    SHIPPED.iter().chain(MADE).copied().collect()
+}
+
+/// Bands of the suites that compare whole scenes: three groups, the last one half empty. All take the same number, so that a driver
+/// that keeps what it compiled compiles each scene once.
+pub const BANDS: u32 = 10;
+
 /// A scene of `scenes/`, or one of [`MADE`], as a file that can still be changed.
 ///
 /// # Panics

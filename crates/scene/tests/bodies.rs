@@ -149,49 +149,86 @@ fn the_gain_of_the_printed_constants() {
     assert!((printed - 4.0 * 0.3 * 0.28263).abs() < 1e-4, "{printed}");
 }
 
+/// A conductor of gold, and more of it.
+fn gold(rest: &str) -> String {
+    format!("{{ type = 'conductor', index = 'gold', {rest} }}")
+}
+
+/// Each material has one problem, at the field, of which the words tell.
+fn one_problem_each(cases: &[(String, &str, &str)]) {
+    for (material, field, words) in cases {
+        let problems = scene(material).expect_err(material);
+        let told: Vec<_> = problems.iter().collect();
+        assert_eq!(told.len(), 1, "{material}: {problems:#}");
+        assert_eq!(told[0].field.to_string(), *field, "{material}");
+        assert!(
+            told[0].message.contains(words),
+            "{material}: {}",
+            told[0].message
+        );
+    }
+}
+
 #[test]
-fn what_does_not_fit_is_told() {
-    let conductor = |rest: &str| format!("{{ type = 'conductor', index = 'gold', {rest} }}");
-    for (material, field, words) in [
+fn what_does_not_fit_cooks_model_is_told() {
+    one_problem_each(&[
         (
-            conductor("model = 'cook1981'"),
+            gold("model = 'cook1981'"),
             "materials.a",
             "give a `roughness`",
         ),
         (
-            conductor("roughness = 0.3, distribution = 'ggx', model = 'cook1981'"),
+            gold("roughness = 0.3, distribution = 'ggx', model = 'cook1981'"),
             "materials.a.distribution",
             "cannot use",
         ),
         (
-            conductor("roughness = 0.3, model = { cook1981 = { constant = 2 } }"),
+            gold("roughness = 0.3, model = { cook1981 = { constant = 2 } }"),
             "materials.a.model.cook1981.constant",
             "only D1",
         ),
         (
-            conductor("model = { cook1981 = { slopes = [{ m = 0.2, weight = 0.4 }] } }"),
+            gold("model = { cook1981 = { slopes = [{ m = 0.2, weight = 0.4 }] } }"),
             "materials.a.model.cook1981.slopes",
             "sum to 0.4",
         ),
         (
-            conductor(
-                "roughness = 0.3, model = { cook1981 = { slopes = [{ m = 0.2, weight = 1 }] } }",
-            ),
+            gold("roughness = 0.3, model = { cook1981 = { slopes = [{ m = 0.2, weight = 1 }] } }"),
             "materials.a.model.cook1981.slopes",
             "either",
         ),
         (
-            conductor(
+            gold(
                 "roughness = 0.3, model = { cook1981 = { diffuse = 0.4, diffuse_reflectance = 0.5 } }",
             ),
             "materials.a.model.cook1981.diffuse",
             "at most 1",
         ),
         (
-            conductor("roughness = 0.3, model = { cook1981 = { specular = 0.5, diffuse = 0.4 } }"),
+            gold("roughness = 0.3, model = { cook1981 = { specular = 0.5, diffuse = 0.4 } }"),
             "materials.a.model.cook1981.diffuse_reflectance",
             "needs",
         ),
+        (
+            gold(
+                "roughness = 0.3, model = { cook1981 = { distribution = 'gaussian', constant = 1e6 } }",
+            ),
+            "materials.a.model.cook1981.constant",
+            "at most 16 times is possible, that is 4.718e1",
+        ),
+        (
+            gold(
+                "roughness = 0.3, model = { cook1981 = { ambient = { constant = 1, power_w = 1 } } }",
+            ),
+            "materials.a.model.cook1981.ambient.power_w",
+            "ambient light has no `power_w`",
+        ),
+    ]);
+}
+
+#[test]
+fn what_does_not_fit_an_index_is_told() {
+    one_problem_each(&[
         (
             "{ type = 'conductor', index = { normal_reflectance = 0.999 } }".to_owned(),
             "materials.a.index.normal_reflectance",
@@ -227,29 +264,5 @@ fn what_does_not_fit_is_told() {
             "materials.a.index.normal_reflectance",
             "is the name of an index",
         ),
-        (
-            conductor(
-                "roughness = 0.3, model = { cook1981 = { distribution = 'gaussian', constant = 1e6 } }",
-            ),
-            "materials.a.model.cook1981.constant",
-            "at most 16 times is possible, that is 4.718e1",
-        ),
-        (
-            conductor(
-                "roughness = 0.3, model = { cook1981 = { ambient = { constant = 1, power_w = 1 } } }",
-            ),
-            "materials.a.model.cook1981.ambient.power_w",
-            "ambient light has no `power_w`",
-        ),
-    ] {
-        let problems = scene(&material).expect_err(&material);
-        let told: Vec<_> = problems.iter().collect();
-        assert_eq!(told.len(), 1, "{material}: {problems:#}");
-        assert_eq!(told[0].field.to_string(), field, "{material}");
-        assert!(
-            told[0].message.contains(words),
-            "{material}: {}",
-            told[0].message
-        );
-    }
+    ]);
 }

@@ -194,7 +194,7 @@ fn an_index_alone_is_read_and_its_mistakes_are_told() {
 /// A picture of one pixel beside a scene that names it as `picture`.
 fn with_picture(
     file: &str,
-    pixel: image::DynamicImage,
+    pixel: &image::DynamicImage,
     scene: &str,
 ) -> Result<pellicle_scene::Scene, Problems> {
     let directory = TempDir::new().unwrap();
@@ -208,18 +208,13 @@ fn with_picture(
 
 #[test]
 fn the_brightest_pixel_of_surroundings_is_bounded_with_its_scale() {
-    let pixel = || {
-        image::DynamicImage::ImageRgb32F(image::Rgb32FImage::from_pixel(
-            2,
-            1,
-            image::Rgb([1e6, 1e6, 1e6]),
-        ))
-    };
+    let bright = image::Rgb([1e6, 1e6, 1e6]);
+    let pixels = image::Rgb32FImage::from_pixel(2, 1, bright).into();
     let scene = |scale: &str| {
         format!("[environment]\ntype = 'image'\nimage = 'picture'\nscale = {scale}\n")
     };
-    with_picture("sky.hdr", pixel(), &scene("100")).unwrap_or_else(|p| panic!("{}", told(&p)));
-    let problems = with_picture("sky.hdr", pixel(), &scene("1e4")).unwrap_err();
+    with_picture("sky.hdr", &pixels, &scene("100")).unwrap_or_else(|p| panic!("{}", told(&p)));
+    let problems = with_picture("sky.hdr", &pixels, &scene("1e4")).unwrap_err();
     let said = told(&problems);
     assert!(
         said.contains("environment.scale: found 10000, with which the picture's brightest pixel"),
@@ -254,17 +249,17 @@ fn the_size_of_a_picture_on_spheres_alone_is_refused() {
             "base",
         ),
     ] {
-        let said = told(&with_picture("map.png", pixel(), &scene(material, "")).unwrap_err());
+        let said = told(&with_picture("map.png", &pixel(), &scene(material, "")).unwrap_err());
         assert!(
             said.contains(&format!(
                 "materials.x.{field}.size: a picture always covers"
             )),
             "{said}"
         );
-        with_picture("map.png", pixel(), &scene(material, disk))
+        with_picture("map.png", &pixel(), &scene(material, disk))
             .unwrap_or_else(|p| panic!("{}", told(&p)));
         let plain = material.replace(", size = [1, 1]", "");
-        with_picture("map.png", pixel(), &scene(&plain, ""))
+        with_picture("map.png", &pixel(), &scene(&plain, ""))
             .unwrap_or_else(|p| panic!("{}", told(&p)));
     }
 }

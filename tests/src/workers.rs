@@ -1,0 +1,39 @@
+//! Work on many scenes, divided among the cores: a driver compiles a pipeline on one of them.
+
+use crate::device::open;
+use gpu::Gpu;
+use std::num::NonZero;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Does the work for each name, each core with a device of its own, and returns what went wrong; what went well is printed.
+///
+/// # Panics
+/// Where there is no driver, or the work panics.
+pub fn failures_of(
+    names: &[&str],
+    work: impl Fn(&Gpu, &str) -> Vec<Result<String, String>> + Sync,
+) -> Vec<String> {
+    let next = AtomicUsize::new(0);
+    let failures = Mutex::new(Vec::new());
+    let workers = std::thread::available_parallelism().map_or(1, NonZero::get);
+    std::thread::scope(|scope| {
+        for _ in 0..workers.min(names.len()) {
+            scope.spawn(|| {
+                let gpu = open();
+                while let Some(name) = names.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    for result in work(&gpu, name) {
+                        match result {
+                            Ok(report) => println!("{name}: {report}"),
+                            Err(report) => failures
+                                .lock()
+                                .expect("no worker panicked")
+                                .push(format!("{name}: {report}")),
+                        }
+                    }
+                }
+            });
+        }
+    });
+    failures.into_inner().expect("no worker panicked")
+}
