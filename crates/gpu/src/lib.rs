@@ -4,7 +4,9 @@
 //! is put together from the [`modules`] of `shaders/`. A [`Gpu`] is an open adapter; [`render`] runs a
 //! scene on it, tile by tile and batch by batch, and reads back a [`spectra::SpectralImage`].
 
+mod bindings;
 mod device;
+mod error;
 mod features;
 pub mod layout;
 pub mod modules;
@@ -12,15 +14,18 @@ mod pack;
 mod pipelines;
 mod render;
 mod stacks;
+mod tile_buffers;
 mod tiles;
 
+pub use bindings::{SceneBindings, bind_scene};
 pub use device::{
     AdapterChoice, AdapterDescription, DeviceError, Gpu, INSTALL_HINT, OpenError, adapters,
 };
+pub use error::RenderError;
 pub use features::Features;
 pub use layout::RunStack;
 pub use pack::PackedScene;
 pub use pipelines::compile;
-pub use render::{RenderError, SceneBindings, bind_scene, render, render_divided};
+pub use render::{render, render_divided};
 pub use stacks::{MAX_BATCH_LAYERS, StackBatch, StackError, StackPowers, evaluate_stacks};
 pub use tiles::Division;

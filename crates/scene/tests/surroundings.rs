@@ -399,7 +399,7 @@ fn what_a_sky_cannot_be_is_told() {
             "environment.sun_light_group",
             "cannot be the name",
         ),
-        (", turbidity = 1", "environment.turbidity", "1.7 to 10"),
+        (", turbidity = 1", "environment.turbidity", "2 to 10"),
         (", scale = -1", "environment.scale", "0 to 1e9"),
         (", scale = 1e8", "environment.scale", "at most 1e9"),
     ] {

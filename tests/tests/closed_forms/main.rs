@@ -1,9 +1,11 @@
 //! Pictures whose truth has a closed form: both renderers against formulas and optics, scene by scene.
 
 mod comparison;
+mod delta_lights;
 mod furnace;
 mod lamps;
 mod layers;
+mod lenses;
 mod metals;
 mod sky;
 mod views;

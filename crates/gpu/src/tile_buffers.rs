@@ -1,0 +1,229 @@
+//! The running means of a tile: summed up on the device, and copied into the picture.
+
+use crate::layout::{Batch, WORKGROUP_SIDE};
+use crate::tiles::Tile;
+use crate::{DeviceError, Gpu, RenderError, SceneBindings};
+use spectra::{KM_LUMENS_PER_WATT, SpectralImage};
+
+/// What a pixel has of running means.
+#[derive(Clone, Copy)]
+pub(crate) struct PixelShape {
+    /// Groups of four bands.
+    pub(crate) groups: u64,
+    pub(crate) light_groups: u64,
+}
+
+impl PixelShape {
+    /// Bytes of means, deviations and colours. The means are the most.
+    pub(crate) fn bytes(self) -> [u64; 3] {
+        [
+            self.groups * self.light_groups,
+            self.groups,
+            self.light_groups,
+        ]
+        .map(|count| 16 * count)
+    }
+}
+
+/// The running means of one tile.
+pub(crate) struct TileBuffers {
+    batch: wgpu::Buffer,
+    /// Means, deviations, colours.
+    sums: [wgpu::Buffer; 3],
+    staging: [wgpu::Buffer; 3],
+    bind_group: wgpu::BindGroup,
+    shape: PixelShape,
+}
+
+impl TileBuffers {
+    pub(crate) fn new(
+        gpu: &Gpu,
+        pipeline: &wgpu::ComputePipeline,
+        pixels: u64,
+        shape: PixelShape,
+    ) -> Result<Self, DeviceError> {
+        let buffer = |label, size, usage| {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        let batch = buffer(
+            "batch",
+            2 * size_of::<Batch>() as u64,
+            wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        );
+        let sizes = shape.bytes().map(|bytes| bytes * pixels);
+        let on_device = wgpu::BufferUsages::STORAGE
+            | wgpu::BufferUsages::COPY_SRC
+            | wgpu::BufferUsages::COPY_DST;
+        let on_host = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
+        let sums = sizes.map(|size| buffer("sums", size, on_device));
+        let staging = sizes.map(|size| buffer("staging", size, on_host));
+        let entries: Vec<_> = std::iter::once(&batch)
+            .chain(&sums)
+            .zip(0..)
+            .map(|(buffer, binding)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("tile"),
+            layout: &pipeline.get_bind_group_layout(1),
+            entries: &entries,
+        });
+        gpu.check()?;
+        Ok(Self {
+            batch,
+            sums,
+            staging,
+            bind_group,
+            shape,
+        })
+    }
+
+    /// Bytes of means, deviations and colours of a tile.
+    fn bytes(&self, tile: Tile) -> [u64; 3] {
+        self.shape
+            .bytes()
+            .map(|bytes| bytes * u64::from(tile.pixels()))
+    }
+
+    pub(crate) fn clear(&self, gpu: &Gpu, tile: Tile) {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        for (buffer, bytes) in self.sums.iter().zip(self.bytes(tile)) {
+            encoder.clear_buffer(buffer, 0, Some(bytes));
+        }
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    pub(crate) fn dispatch(
+        &self,
+        gpu: &Gpu,
+        (pipeline, scene): (&wgpu::ComputePipeline, &SceneBindings),
+        tile: Tile,
+        (first_sample, sample_count): (u32, u32),
+    ) {
+        let batch = Batch {
+            tile_origin: tile.origin,
+            tile_size: tile.size,
+            first_sample,
+            sample_count,
+            passes: 2,
+            ..Default::default()
+        };
+        gpu.queue
+            .write_buffer(&self.batch, 0, bytemuck::cast_slice(&[batch; 2]));
+        let scene = scene.group(gpu, pipeline, &[0, 1, 2, 3, 4, 5, 6, 7]);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &scene, &[]);
+            pass.set_bind_group(1, &self.bind_group, &[]);
+            let [x, y] = tile.size.map(|side| side.div_ceil(WORKGROUP_SIDE));
+            pass.dispatch_workgroups(x, y, 1);
+        }
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Copies the finished tile into the picture.
+    pub(crate) fn read_back(
+        &self,
+        gpu: &Gpu,
+        tile: Tile,
+        samples: u32,
+        image: &mut SpectralImage,
+    ) -> Result<(), RenderError> {
+        let bytes = self.bytes(tile);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        for ((from, to), bytes) in self.sums.iter().zip(&self.staging).zip(bytes) {
+            encoder.copy_buffer_to_buffer(from, 0, to, 0, bytes);
+        }
+        gpu.queue.submit([encoder.finish()]);
+        for (buffer, bytes) in self.staging.iter().zip(bytes) {
+            // A failure to map shows as the device's error or as an unmapped range below.
+            buffer.slice(..bytes).map_async(wgpu::MapMode::Read, |_| {});
+        }
+        gpu.wait()?;
+        let mapped = |index: usize| {
+            self.staging[index]
+                .slice(..bytes[index])
+                .get_mapped_range()
+                .map_err(|error| DeviceError::Refused(error.to_string()))
+        };
+        {
+            let (means, deviations, colors) = (mapped(0)?, mapped(1)?, mapped(2)?);
+            check_count(tile, bytemuck::cast_slice(&colors), samples)?;
+            store(
+                tile,
+                (
+                    bytemuck::cast_slice(&means),
+                    bytemuck::cast_slice(&deviations),
+                ),
+                bytemuck::cast_slice(&colors),
+                samples,
+                image,
+            );
+        }
+        self.staging.iter().for_each(wgpu::Buffer::unmap);
+        Ok(())
+    }
+}
+
+/// Whether all samples of all pixels were taken, by the count that stands beside the first light group's colours.
+fn check_count(tile: Tile, colors: &[[f32; 4]], samples: u32) -> Result<(), RenderError> {
+    let counts = colors.iter().take(tile.pixels() as usize);
+    match counts.map(|color| color[3]).find(|&n| n != samples as f32) {
+        None => Ok(()),
+        Some(counted) => Err(RenderError::CutShort {
+            counted: counted as u32,
+            samples,
+        }),
+    }
+}
+
+/// Reorders a tile from `[light group][group][pixel]` to the picture's `[light group][pixel][band]`.
+fn store(
+    tile: Tile,
+    (means, deviations): (&[[f32; 4]], &[[f32; 4]]),
+    colors: &[[f32; 4]],
+    samples: u32,
+    image: &mut SpectralImage,
+) {
+    let bands = image.bands().count() as usize;
+    let light_groups = image.light_groups().len();
+    let pixels = tile.pixels() as usize;
+    let n = samples as f32;
+    let to_variance = if samples > 1 {
+        1.0 / (n * (n - 1.0))
+    } else {
+        0.0
+    };
+    let to_xyz = (KM_LUMENS_PER_WATT * image.bands().width_nm()) as f32;
+    let mut radiance = vec![0.0; light_groups * bands];
+    let (mut variance, mut xyz) = (vec![0.0; bands], vec![[0.0; 3]; light_groups]);
+    let value = |values: &[[f32; 4]], first: usize, band: usize, pixel: usize| {
+        values[(first + band / 4) * pixels + pixel][band % 4]
+    };
+    for y in 0..tile.size[1] {
+        for x in 0..tile.size[0] {
+            let pixel = (y * tile.size[0] + x) as usize;
+            for (light_group, radiance) in radiance.chunks_exact_mut(bands).enumerate() {
+                for (band, radiance) in radiance.iter_mut().enumerate() {
+                    *radiance = value(means, light_group * bands.div_ceil(4), band, pixel);
+                }
+                let [cx, cy, cz, _] = colors[light_group * pixels + pixel];
+                xyz[light_group] = [cx * to_xyz, cy * to_xyz, cz * to_xyz];
+            }
+            for (band, variance) in variance.iter_mut().enumerate() {
+                *variance = value(deviations, 0, band, pixel) * to_variance;
+            }
+            let at = (tile.origin[0] + x, tile.origin[1] + y);
+            image.set_pixel_by_light(at, &radiance, &variance, &xyz, samples);
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! What a small lamp becomes in the picture: by the lens, and by the filter of the pixels.
+
+use crate::comparison::{LAMBERT, pictures, scene};
+use pellicle_tests::device::open;
+use pellicle_tests::tolerances::{OUT_OF_FOCUS, PIXEL_FILTER};
+use spectra::SpectralImage;
+use std::f64::consts::{PI, TAU};
+
+/// Of the picture, in pixels; odd, so that one pixel is in the middle.
+const SIDE: u32 = 41;
+/// Distance of the plane of focus, and a pixel's side there.
+const FOCUS: f64 = 4.0;
+const PIXEL: f64 = 0.02;
+
+/// A perspective camera with more of its settings, and a lamp on its axis.
+fn lamp_on_the_axis(camera: &str, samples: u32, distance: f64, radius: f64) -> scene::Scene {
+    let fov = 2.0 * (f64::from(SIDE) * PIXEL / 2.0 / FOCUS).atan().to_degrees();
+    let text = format!(
+        "[camera]\ntype = \"perspective\"\nposition = [0, 0, 0]\nlook_at = [0, 0, -1]\nfov_deg = {fov}\n{camera}\n\
+         [render]\nsize = [{SIDE}, {SIDE}]\nsamples = {samples}\nbands = 1\nmax_path_segments = 1\n\
+         [[objects]]\ntype = \"sphere\"\nmaterial = \"lamp\"\ncenter = [0, 0, {:?}]\nradius = {radius:?}\n",
+        -distance
+    );
+    scene(&[&text, LAMBERT])
+}
+
+/// Pixels from the middle, and their light.
+fn lit(image: &SpectralImage) -> impl Iterator<Item = ([f64; 2], f64)> {
+    let pixels = (0..SIDE * SIDE).map(|i| [i % SIDE, i / SIDE]);
+    let middle = f64::from(SIDE / 2);
+    pixels.map(move |[x, y]| {
+        let from_middle = [x, y].map(|i| f64::from(i) - middle);
+        (from_middle, f64::from(image.pixel(x, y)[0]))
+    })
+}
+
+/// Similar triangles: at the plane of focus a point at distance z becomes the lens's disc times |1 − f/z|. Its mean r² is half of the
+/// radius squared; the lamp's own disc adds as much of its own, and sorting into pixels a twelfth of a pixel squared for each axis
+/// (Sheppard).
+#[test]
+fn out_of_focus_a_lamp_becomes_the_disc_of_the_lens() {
+    const LENS: f64 = 0.1;
+    const LAMP: f64 = 0.01;
+    let gpu = open();
+    for distance in [2.0, 2.5, 20.0] {
+        let lens = format!("lens = {{ radius = {LENS}, focus_distance = {FOCUS} }}");
+        let blurred = lamp_on_the_axis(&lens, 1024, distance, LAMP);
+        let disc = LENS * (1.0 - FOCUS / distance).abs() / PIXEL;
+        let own = LAMP * FOCUS / distance / PIXEL;
+        for (who, image) in pictures(&gpu, &blurred) {
+            let light: f64 = lit(&image).map(|(_, value)| value).sum();
+            let spread = lit(&image).map(|([x, y], value)| value * (x * x + y * y));
+            let (found, expected) = (
+                spread.sum::<f64>() / light,
+                (disc * disc + own * own) / 2.0 + 1.0 / 6.0,
+            );
+            println!(
+                "lamp at {distance}, {who}: mean r² {found:.4}, expected {expected:.4} pixels²; light {light:.4}"
+            );
+            assert!(
+                (found / expected - 1.0).abs() < OUT_OF_FOCUS,
+                "lamp at {distance}, {who}: {found} instead of {expected}"
+            );
+            // The lens takes no light and adds none: the lamp's own disc, spread.
+            let whole = PI * own * own;
+            assert!(
+                (light / whole - 1.0).abs() < OUT_OF_FOCUS,
+                "lamp at {distance}, {who}: {light} instead of {whole}"
+            );
+            let beyond = |([x, y], value): &([f64; 2], f64)| {
+                *value > 0.0 && x.hypot(*y) > disc + own + 0.5_f64.sqrt()
+            };
+            assert!(lit(&image).find(beyond).is_none(), "{distance}, {who}");
+        }
+    }
+}
+
+#[test]
+fn in_focus_a_lamp_is_a_point() {
+    let gpu = open();
+    let lens = format!("lens = {{ radius = 0.5, focus_distance = {FOCUS} }}");
+    // A lens so wide sees the lamp's front from aside, where it reaches beyond the plane by a little.
+    let sharp = lamp_on_the_axis(&lens, 256, FOCUS, 0.2 * PIXEL);
+    for (who, image) in pictures(&gpu, &sharp) {
+        let lit: Vec<_> = lit(&image).filter(|(_, value)| *value > 0.0).collect();
+        assert_eq!(lit.len(), 1, "{who}: {lit:?}");
+        assert_eq!(lit[0].0, [0.0; 2], "{who}");
+    }
+}
+
+/// Each pixel has of a small lamp what its filter weighs there, mean over the lamp's disc. Gaussian: exp(−x²/2σ²), σ half a pixel;
+/// Harris's window over 3 pixels (1978, equation 33).
+#[test]
+fn a_lamp_is_weighed_by_the_filter_of_the_pixels() {
+    const LAMP: f64 = 0.3;
+    let gaussian = |x: f64| (-2.0 * x * x).exp();
+    let window = |x: f64| {
+        let turn = PI * x / 1.5;
+        0.358_75
+            + 0.488_29 * turn.cos()
+            + 0.141_28 * (2.0 * turn).cos()
+            + 0.011_68 * (3.0 * turn).cos()
+    };
+    let gpu = open();
+    for (name, filter) in [
+        ("gaussian", &gaussian as &dyn Fn(f64) -> f64),
+        ("blackman_harris", &window),
+    ] {
+        let weight = |[x, y]: [f64; 2]| {
+            let on_disc = |i: u32| {
+                let (radius, angle) = (
+                    LAMP * (f64::from(i / 32) + 0.5).sqrt() / 32.0_f64.sqrt(),
+                    f64::from(i % 32) / 32.0 * TAU,
+                );
+                let [x, y] = [x + radius * angle.cos(), y + radius * angle.sin()];
+                if x.abs().max(y.abs()) < 1.5 {
+                    filter(x) * filter(y)
+                } else {
+                    0.0
+                }
+            };
+            (0..1024).map(on_disc).sum::<f64>() / 1024.0
+        };
+        let seen = lamp_on_the_axis(&format!("filter = \"{name}\""), 1024, FOCUS, LAMP * PIXEL);
+        for (who, image) in pictures(&gpu, &seen) {
+            let light: f64 = lit(&image).map(|(_, value)| value).sum();
+            let whole: f64 = lit(&image).map(|(at, _)| weight(at)).sum();
+            for (at, value) in lit(&image) {
+                let (found, expected) = (value / light, weight(at) / whole);
+                assert!(
+                    (found - expected).abs() < PIXEL_FILTER,
+                    "{name} at {at:?}, {who}: {found} instead of {expected}"
+                );
+            }
+        }
+    }
+}
