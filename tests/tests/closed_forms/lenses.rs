@@ -7,7 +7,7 @@ use spectra::SpectralImage;
 use std::f64::consts::{PI, TAU};
 
 /// Of the picture, in pixels; odd, so that one pixel is in the middle.
-const SIDE: u32 = 41;
+const SIDE: u32 = 15;
 /// Distance of the plane of focus, and a pixel's side there.
 const FOCUS: f64 = 4.0;
 const PIXEL: f64 = 0.02;
@@ -40,13 +40,13 @@ fn lit(image: &SpectralImage) -> impl Iterator<Item = ([f64; 2], f64)> {
 #[test]
 fn out_of_focus_a_lamp_becomes_the_disc_of_the_lens() {
     const LENS: f64 = 0.1;
-    const LAMP: f64 = 0.01;
     let gpu = open();
+    // The lamp's own disc there, in pixels.
+    let own = 1.0_f64;
     for distance in [2.0, 2.5, 20.0] {
         let lens = format!("lens = {{ radius = {LENS}, focus_distance = {FOCUS} }}");
-        let blurred = lamp_on_the_axis(&lens, 1024, distance, LAMP);
+        let blurred = lamp_on_the_axis(&lens, 16_384, distance, own * PIXEL * distance / FOCUS);
         let disc = LENS * (1.0 - FOCUS / distance).abs() / PIXEL;
-        let own = LAMP * FOCUS / distance / PIXEL;
         for (who, image) in pictures(&gpu, &blurred) {
             let light: f64 = lit(&image).map(|(_, value)| value).sum();
             let spread = lit(&image).map(|([x, y], value)| value * (x * x + y * y));
@@ -92,7 +92,7 @@ fn in_focus_a_lamp_is_a_point() {
 /// Harris's window over 3 pixels (1978, equation 33).
 #[test]
 fn a_lamp_is_weighed_by_the_filter_of_the_pixels() {
-    const LAMP: f64 = 0.3;
+    const LAMP: f64 = 0.45;
     let gaussian = |x: f64| (-2.0 * x * x).exp();
     let window = |x: f64| {
         let turn = PI * x / 1.5;
@@ -121,7 +121,7 @@ fn a_lamp_is_weighed_by_the_filter_of_the_pixels() {
             };
             (0..1024).map(on_disc).sum::<f64>() / 1024.0
         };
-        let seen = lamp_on_the_axis(&format!("filter = \"{name}\""), 1024, FOCUS, LAMP * PIXEL);
+        let seen = lamp_on_the_axis(&format!("filter = \"{name}\""), 16_384, FOCUS, LAMP * PIXEL);
         for (who, image) in pictures(&gpu, &seen) {
             let light: f64 = lit(&image).map(|(_, value)| value).sum();
             let whole: f64 = lit(&image).map(|(at, _)| weight(at)).sum();
