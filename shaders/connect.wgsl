@@ -3,9 +3,10 @@
 struct Sent {
     light: u32,
     direction: vec3f,
-    /// Density of the direction, the choice among the lights included, or the probability of that choice where light comes from a
-    /// single direction; 0 where nothing can arrive.
-    pdf: f32,
+    /// Probability of the choice among the lights; 0 where nothing can arrive.
+    probability: f32,
+    /// Density of the direction, 1 where light comes from a single one.
+    density: f32,
     /// The sum of all lights' estimates.
     total: f32,
     /// The texel of the light's picture, 0 where it has none.
@@ -15,26 +16,26 @@ struct Sent {
 /// Chooses a light and a direction towards it.
 fn send_to_light(walk: Walk, sample: Sample, point: SurfacePoint) -> Sent {
     if (!HAS_LIGHTS || walk.segment + 1u > MAX_PATH_SEGMENTS) {
-        return Sent(NONE, point.normal, 0.0, 0.0, 0u);
+        return Sent(NONE, point.normal, 0.0, 0.0, 0.0, 0u);
     }
     let random = random_at(sample, walk, FOR_LIGHT);
     let choice = choose_light(point.position, point.normal, random.x);
     if (choice.light == NONE) {
-        return Sent(NONE, point.normal, 0.0, choice.total, 0u);
+        return Sent(NONE, point.normal, 0.0, 0.0, choice.total, 0u);
     }
     let direction = sample_light(choice.light, point.position, random.y, random.z);
     if (!SENDS_LIGHT || dot(direction, point.normal) <= 0.0) {
-        return Sent(choice.light, direction, 0.0, choice.total, 0u);
+        return Sent(choice.light, direction, 0.0, 0.0, choice.total, 0u);
     }
-    var pdf = choice.probability;
+    var density = 1.0;
     if (!is_single_direction(choice.light)) {
-        pdf *= light_pdf(choice.light, point.position, direction);
+        density = light_pdf(choice.light, point.position, direction);
     }
     var texel = 0u;
     if (HAS_ENVIRONMENT_PICTURE && objects[choice.light].shape == SHAPE_PICTURE) {
         texel = environment_texel(choice.light, direction, random.w);
     }
-    return Sent(choice.light, direction, pdf, choice.total, texel);
+    return Sent(choice.light, direction, choice.probability, density, choice.total, texel);
 }
 
 /// Adds to the vertex what arrives from the light, by its share.
@@ -62,12 +63,12 @@ fn connect(
     vertex.end_crossing = crossing_count;
     var share = 1.0;
     if (MEETS_LIGHT && !is_single_direction(sent.light)) {
-        share = 1.0 - scattering_share(towards.pdf, sent.pdf);
+        share = sending_share(sent.light, towards.pdf, sent.probability, sent.density);
     }
     let material = objects[sent.light].material;
     vertex.connection = materials[material].emission;
     vertex.connection_texel = sent.texel;
-    vertex.connected = scaled(towards.lobes, share * strength * materials[material].emission_scale / sent.pdf);
+    vertex.connected = scaled(towards.lobes, share * strength * materials[material].emission_scale / (sent.probability * sent.density));
     return vertex;
 }
 

@@ -4,6 +4,8 @@
 struct DirectionTable {
     columns: u32,
     rows: u32,
+    /// The density that light as bright as the picture's mean would have beside the light that is sent for; 0 where that is all light.
+    even_density: f32,
     /// First of the heights of the rows' edges, from the top.
     heights: u32,
     /// First of the running probabilities of the rows.
@@ -16,8 +18,8 @@ fn direction_table(light: u32) -> DirectionTable {
     let first = u32(texel_at(materials[objects[light].material].picture).w);
     let columns = u32(number_at(first));
     let rows = u32(number_at(first + 1u));
-    let heights = first + 2u;
-    return DirectionTable(columns, rows, heights, heights + rows + 1u, heights + 2u * (rows + 1u));
+    let heights = first + 3u;
+    return DirectionTable(columns, rows, number_at(first + 2u), heights, heights + rows + 1u, heights + 2u * (rows + 1u));
 }
 
 /// Place of a direction in the picture, from its upper left corner in its width and height.

@@ -113,6 +113,23 @@ fn choice_probability(light: u32, point: vec3f, normal: vec3f, total: f32) -> f3
 /// Scattering is left out where its density is less than this part of the other's.
 const CUTOFF: f32 = 0.1875;
 
+/// Share of sending in a direction to a light that it finds with `probability` times `density`, and scattering with density `scattered`;
+/// scattering has the rest.
+///
+/// Of a picture only what is brighter than the mean is sent for (MIS compensation, Karlík et al. 2019), and no more of the light than
+/// that belongs to sending. Against scattering counts the density with which all of the picture's light would be sent for: a mirror
+/// that finds an even picture without noise shall not leave the rim of what it mirrors to a few rays.
+fn sending_share(light: u32, scattered: f32, probability: f32, density: f32) -> f32 {
+    if (HAS_ENVIRONMENT_PICTURE && objects[light].shape == SHAPE_PICTURE) {
+        let even = direction_table(light).even_density;
+        if (even > 0.0) {
+            let excess = density / even;
+            return excess / (1.0 + excess) * (1.0 - scattering_share(scattered, probability * excess * (0.25 / PI)));
+        }
+    }
+    return 1.0 - scattering_share(scattered, probability * density);
+}
+
 /// Share of scattering in a direction that it finds with density `scattered` and sending with density `sent`, 1 less the share of
 /// sending: the power heuristic (Veach 1997, section 9.2.2), with a cutoff of scattering alone.
 fn scattering_share(scattered: f32, sent: f32) -> f32 {

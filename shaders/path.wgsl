@@ -113,7 +113,8 @@ fn emission_share(walk: Walk, light: u32) -> f32 {
         return select(0.0, 1.0, MEETS_LIGHT);
     }
     let chosen = choice_probability(light, walk.scattered_at, walk.scattered_normal, walk.estimates);
-    return scattering_share(walk.scatter_pdf, chosen * light_pdf(light, walk.scattered_at, walk.ray.direction));
+    let density = light_pdf(light, walk.scattered_at, walk.ray.direction);
+    return 1.0 - sending_share(light, walk.scatter_pdf, chosen, density);
 }
 
 /// A smooth conductor: the path is mirrored.
@@ -170,7 +171,7 @@ fn meet_scattering(walk: Walk, sample: Sample, object: u32, point: SurfacePoint,
     vertex.eye_cosine = eye.z;
 
     let sent = send_to_light(walk, sample, point);
-    if (sent.pdf > 0.0) {
+    if (sent.probability * sent.density > 0.0) {
         vertex = connect(vertex, walk, object, point, sent, scattering(scatterer, eye, sent.direction * world_from_local));
     }
 

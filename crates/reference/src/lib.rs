@@ -34,7 +34,9 @@ pub use environment_picture::environment_pixel;
 pub use facets::{FacetScattering, Facets};
 pub use intersect::{Hit, intersect_plane, intersect_sphere, nearest_hit};
 pub use light::{light_pdf, sample_light};
-pub use light_choice::{Choice, Source, choice_probabilities, choose_light, scattering_share};
+pub use light_choice::{
+    Choice, Source, choice_probabilities, choose_light, scattering_share, sending_share,
+};
 pub use noise::{Noise, gradient_noise, swirls};
 pub use path::{PathSample, radiance};
 pub use picture::smooth_value;

@@ -214,6 +214,24 @@ pub fn choose_light(probabilities: &[f64], random: f64) -> Option<Choice> {
 /// Scattering is left out where its density is less than this part of the other's.
 const CUTOFF: f64 = 0.1875;
 
+/// Share of sending in a direction to a source that it finds with `probability` times `density`, and scattering with density `scattered`;
+/// scattering has the rest.
+///
+/// Of a picture only what is brighter than the mean is sent for (MIS compensation, Karlík et al. 2019), and no more of the light than
+/// that belongs to sending. Against scattering counts the density with which all of the picture's light would be sent for: a mirror
+/// that finds an even picture without noise shall not leave the rim of what it mirrors to a few rays.
+pub fn sending_share(source: Source<'_>, scattered: f64, probability: f64, density: f64) -> f64 {
+    if let Source::Surrounding(EnvironmentShape::Picture(picture)) = source {
+        let even = f64::from(picture.table.even_density);
+        if even > 0.0 {
+            let excess = density / even;
+            let sent = probability * excess / (4.0 * PI);
+            return excess / (1.0 + excess) * (1.0 - scattering_share(scattered, sent));
+        }
+    }
+    1.0 - scattering_share(scattered, probability * density)
+}
+
 /// Share of scattering in a direction that it finds with density `scattered` and sending with density `sent`, 1 less the share of
 /// sending: the power heuristic (Veach 1997, section 9.2.2), with a cutoff of scattering alone.
 pub fn scattering_share(scattered: f64, sent: f64) -> f64 {

@@ -1,10 +1,10 @@
 //! light_choice.wgsl, and what light.wgsl says of lights that are no objects.
 
-use crate::world::{everything, rounded, rows, unit, vector};
+use crate::world::{everything, pictured, rounded, rows, unit, vector};
 use crate::{Check, pure, table};
 use gpu::layout::NONE;
 use pellicle_tests::tolerances::{ARITHMETIC, LIGHT_ESTIMATE};
-use reference::{Source, choice_probabilities, choose_light, scattering_share};
+use reference::{Source, choice_probabilities, choose_light, scattering_share, sending_share};
 use scene::LightSource;
 use std::sync::OnceLock;
 
@@ -91,6 +91,25 @@ pub(crate) fn checks() -> Vec<Check> {
             proves: &["scattering_share"],
             inputs: table(&[(0.01, 10.0), (0.0, 10.0)], &[&[1e-3, 1e3], &[5.0, 0.0]]),
             twin: |a| vec![scattering_share(a[0], a[1])],
+            tolerance: ARITHMETIC,
+        },
+        Check {
+            probe: pictured().probe(
+                &["light_choice"],
+                (4, 1),
+                "put(0u, sending_share(objects[u32(a(0u))].light, a(1u), a(2u), a(3u)));",
+            ),
+            proves: &["sending_share"],
+            inputs: rows(4, |u| {
+                let number = (u[0] * pictured().scene.light_sources().len() as f64).floor();
+                let [scattered, density] = [u[1], u[3]].map(|u| 10.0_f64.powf(6.0 * u - 3.0));
+                Some(vec![number, scattered, u[2], density])
+            }),
+            twin: |a| {
+                let scene = &pictured().scene;
+                let source = Source::of(scene, scene.light_sources()[a[0] as usize].kind);
+                vec![sending_share(source, a[1], a[2], a[3])]
+            },
             tolerance: ARITHMETIC,
         },
     ]

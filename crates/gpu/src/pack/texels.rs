@@ -30,7 +30,7 @@ impl Pictures {
 
     /// The head of a picture of the surroundings: width and height in pixels, texels of a pixel, and the first of its table's numbers.
     ///
-    /// The table: columns, rows, heights of the rows' edges, running probability of the rows, and of the cells of each row.
+    /// The table: columns, rows, density of even light, heights of the rows' edges, running probability of the rows, and of the cells of each row.
     pub(super) fn add_environment(
         &mut self,
         picture: &EnvironmentPicture,
@@ -43,7 +43,8 @@ impl Pictures {
             .push([width, height, per_pixel, numbers.len() as f32]);
         self.texels.extend_from_slice(&texels.values);
         let table = &picture.table;
-        numbers.extend([table.columns as f32, table.rows as f32]);
+        let [columns, rows] = [table.columns, table.rows].map(|count| count as f32);
+        numbers.extend([columns, rows, table.even_density]);
         for list in [&table.heights, &table.marginal, &table.conditional] {
             numbers.extend_from_slice(list);
         }

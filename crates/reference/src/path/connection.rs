@@ -6,7 +6,7 @@ use crate::interference::LayersAt;
 use crate::spectra::{Film, Spectra};
 use crate::{
     Hit, Ray, Source, SurfacePoint, choice_probabilities, choose_light, environment_pixel,
-    nearest_hit, scattering_share, surface_point,
+    nearest_hit, sending_share, surface_point,
 };
 use glam::DVec3;
 use scene::{DirectLight, Emission, EnvironmentPicture, EnvironmentShape, Material, SourceKind};
@@ -17,8 +17,11 @@ pub(super) struct Sent<'a> {
     /// The pixel of the surroundings that it comes from.
     pixel: Option<(&'a EnvironmentPicture, [u32; 2])>,
     pub(super) direction: DVec3,
-    /// Density of the direction, the choice among the lights included; none for light from a single direction.
-    pdf: Option<f64>,
+    source: Source<'a>,
+    /// Probability of the choice among the lights.
+    probability: f64,
+    /// Density of the direction; none for light from a single direction.
+    density: Option<f64>,
     /// What the light's emission is multiplied by, besides what the surface does.
     pub(super) factor: f64,
     /// The films that it passes straight through.
@@ -49,12 +52,10 @@ impl<'a> Path<'a> {
         let light = &self.lights[choice.source];
         let source = Source::of(self.scene, light.kind);
         let direction = source.sample(point.position, u, v);
-        let pdf = source
-            .pdf(point.position, direction)
-            .map(|pdf| choice.probability * pdf);
+        let density = source.pdf(point.position, direction);
         let strength = source.share(point.position, direction);
         if direction.dot(point.normal) <= 0.0
-            || pdf.is_some_and(|pdf| pdf <= 0.0)
+            || density.is_some_and(|density| density <= 0.0)
             || strength <= 0.0
         {
             return None;
@@ -79,8 +80,10 @@ impl<'a> Path<'a> {
             emission: light.emission,
             pixel,
             direction,
-            pdf,
-            factor: strength / pdf.unwrap_or(choice.probability),
+            source,
+            probability: choice.probability,
+            density,
+            factor: strength / (choice.probability * density.unwrap_or(1.0)),
             films,
         })
     }
@@ -165,10 +168,10 @@ impl<'a> Path<'a> {
             return 1.0;
         };
         let source = Source::of(self.scene, kind);
-        let sent = source.pdf(scattered.position, self.walk.ray.direction);
-        let sent = scattered.chances[number] * sent.unwrap_or(0.0);
+        let density = source.pdf(scattered.position, self.walk.ray.direction);
+        let (chance, density) = (scattered.chances[number], density.unwrap_or(0.0));
         match self.scene.settings().direct_light {
-            DirectLight::Both => scattering_share(scattered.pdf, sent),
+            DirectLight::Both => 1.0 - sending_share(source, scattered.pdf, chance, density),
             DirectLight::Lights => 0.0,
             DirectLight::Surfaces => 1.0,
         }
@@ -176,8 +179,10 @@ impl<'a> Path<'a> {
 
     /// Share of a connection: the rest is what scattering brings that happens to meet the light.
     pub(super) fn share_of_sending(&self, sent: &Sent<'_>, scattered: f64) -> f64 {
-        match (self.scene.settings().direct_light, sent.pdf) {
-            (DirectLight::Both, Some(pdf)) => 1.0 - scattering_share(scattered, pdf),
+        match (self.scene.settings().direct_light, sent.density) {
+            (DirectLight::Both, Some(density)) => {
+                sending_share(sent.source, scattered, sent.probability, density)
+            }
             _ => 1.0,
         }
     }

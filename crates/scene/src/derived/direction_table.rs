@@ -24,6 +24,8 @@ pub struct DirectionTable {
     pub marginal: Vec<f32>,
     /// Within each row, probability of the cells to the left of each edge, from 0 to 1, one more than columns.
     pub conditional: Vec<f32>,
+    /// The density, sr⁻¹, that light as bright as the mean would have beside the light that the table is of; 0 where that is all light.
+    pub even_density: f32,
 }
 
 /// For what of a picture's light rays are sent.
@@ -71,6 +73,10 @@ impl DirectionTable {
         let of_rows: Vec<f64> = in_rows()
             .map(|(row, cells)| share(row) * cells.iter().sum::<f64>())
             .collect();
+        let even_density = match sent {
+            Sent::Excess if sent_mean > 0.0 => whole / (4.0 * PI * sent_mean),
+            _ => 0.0,
+        };
         let table = Self {
             columns,
             rows,
@@ -79,6 +85,7 @@ impl DirectionTable {
             conditional: in_rows()
                 .flat_map(|(_, cells)| running_share(cells))
                 .collect(),
+            even_density: even_density as f32,
         };
         (table, sent_mean)
     }
@@ -176,6 +183,9 @@ mod tests {
         let (excess, mean) = DirectionTable::new(SIZE, &brightness, Sent::Excess);
         // Half of the directions, one above the mean of 2; rows between the halves have something of both.
         assert!((0.4..=0.5).contains(&mean), "{mean}");
+        let even = 2.0 / (4.0 * PI * mean);
+        assert!((f64::from(excess.even_density) / even - 1.0).abs() < 1e-3);
+        assert_eq!(all.even_density, 0.0);
         assert_eq!(probability(&excess, 3, 6), 0.0);
         assert!(probability(&excess, 3, 1) > 1.3 * probability(&all, 3, 1));
     }
