@@ -99,6 +99,10 @@ fn a_white_base_below_a_coat_returns_everything() {
         "index = 1.5, roughness = 0.1",
         "index = 1.5, roughness = 0.5",
         "index = 2.0, roughness = 0.8, distribution = 'ggx'",
+        "index = 1.5, roughness = [0.02, 0.3], brushed = { along = [1, 0, 0] }",
+        "index = 1.5, roughness = [0.02, 0.3], brushed = { along = [0, 1, 0] }",
+        "index = 1.5, roughness = [0.05, 0.4], distribution = 'ggx', brushed = { along = [5, 1, 0] }",
+        "index = 2.4, roughness = [0.05, 1.0], brushed = { along = [1, 0, 0] }",
     ] {
         let material = format!("{{ type = 'dielectric', {coat}, base = 1 }}");
         for degrees in [0.0, 50.0, 75.0, 85.0] {
