@@ -88,11 +88,11 @@ const GRAIN_AROUND: u32 = 2u;
 /// Cosines for which a rough coat has its reflectance, even in their roots.
 const COAT_COSINES: u32 = 32u;
 
-/// Knots of a table of energy over the root of the cosine.
-const ENERGY_COSINES: u32 = 32u;
+/// Knots of a table over facets' directions over the root of the cosine.
+const FACET_COSINES: u32 = 32u;
 
-/// Knots of a table of energy over the width of the slopes, where that differs.
-const ENERGY_WIDTHS: u32 = 17u;
+/// Knots of a table over facets' directions over the width of the slopes, where that differs.
+const FACET_WIDTHS: u32 = 17u;
 
 /// Field: the same everywhere.
 const FIELD_CONSTANT: u32 = 0u;
@@ -343,8 +343,8 @@ struct Material {
     first_reflected: u32,
     /// About the part of the light that goes on from it.
     albedo: f32,
-    /// Fills the size up to a multiple of 16.
-    padding: u32,
+    /// First number of the table by which a brushed coat lets more through in some directions.
+    first_passage: u32,
 }
 
 /// A layer of a film or of a coating.

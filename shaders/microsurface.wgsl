@@ -91,11 +91,12 @@ fn sample_facet(surface: Microsurface, eye: vec3f, u: f32, v: f32) -> vec3f {
 /// A visible facet of a GGX surface of α = 1: the half of a point of the sphere's lit cap and the eye (Dupuy and Benyoub,
 /// Sampling Visible GGX Normals with Spherical Caps, 2023, listing 3).
 fn sample_ggx_facet(eye: vec3f, u: f32, v: f32) -> vec3f {
-    // From the cap's top, 1 − v of its height lies above: no digits are lost where it is flat.
-    let drop = v * (1.0 + eye.z);
-    let z = 1.0 - drop;
-    let sine = sqrt(max(drop * (2.0 - drop), 0.0));
-    return vec3f(sine * direction_of_turn(u), z) + eye;
+    // v of the cap's height lies above the point, the rest below, and 1 − cos θ of the sphere below the cap: no digits are lost where it is
+    // flat, at the top and at the bottom. The facet's height is what lies below.
+    let above = v * (1.0 + eye.z);
+    let below = (1.0 - v) * (1.0 + eye.z);
+    let sine = sqrt(above * (below + max(1.0 - eye.z, 0.0)));
+    return vec3f(sine * direction_of_turn(u) + eye.xy, below);
 }
 
 /// A visible facet of a Beckmann surface of α = 1: its slope towards the eye by visible_slope, that aside by the normal

@@ -25,7 +25,8 @@ fn scattering(scatterer: Scatterer, eye: vec3f, light: vec3f) -> Scattering {
     if (HAS_ROUGH_COATS && materials[scatterer.material].surface == SURFACE_ROUGH_COATED_BODY) {
         var both = facet_scattering(scatterer.material, eye, light);
         if (eye.z > 0.0 && light.z > 0.0) {
-            both.lobes.body = light.z / PI;
+            let passage = coat_passage(scatterer.material, eye) * coat_passage(scatterer.material, light);
+            both.lobes.body = passage * light.z / PI;
             both.pdf = mix(light.z / PI, both.pdf, coat_share(scatterer.material, eye.z));
         }
         return both;

@@ -49,6 +49,12 @@ pub const SURFACE_FUNCTIONS: Tolerance = of(2e-6, 3e-4);
 pub const RECIPROCITY: Tolerance = of(1e-9, 1e-5);
 /// Directions of facets drawn by numbers up to 0.999, where the slope's density has fallen to 1e-2 of its largest.
 pub const FACET_DIRECTION: Tolerance = of(3e-5, 0.0);
+/// Densities of facets of α from 0.02, also near the horizon: a half vector's slope is off by 1e-6/α and more where both cosines are small.
+pub const NARROW_FACETS: Tolerance = of(2e-6, 1e-3);
+/// Directions of facets drawn by the last number below 1, beside which one part in 2²⁴ is a slope of 0.06 of 3.7.
+pub const FACET_TAIL: Tolerance = of(2e-3, 0.0);
+/// Slopes drawn by that number.
+pub const SLOPE_TAIL: Tolerance = of(1e-2, 0.0);
 /// A place in a table of 31 steps, off by 1e-6, and at the azimuth's width.
 pub const FACET_ENERGY: Tolerance = of(2e-6, 0.0);
 /// A frame along a grain that stands at a sine of at least 0.1 from the normal.
@@ -180,8 +186,10 @@ pub const CLOSED_FORM: f64 = 2e-5;
 pub const SKY_PICTURE: f64 = 3e-4;
 /// Albedo of rough metals: the tables of facets' energy are linear between 32 cosines and made by 48² facets.
 pub const ROUGH_FORM: f64 = 5e-4;
-/// White furnace of rough surfaces: what the tables of facets' energy promise, besides the noise; and the most noise that proves it.
+/// White furnace of rough surfaces: what the tables of facets' energy promise, noise included.
 pub const FURNACE_ROUGH: f64 = 5e-3;
+/// The largest standard error of a mean that is to prove it.
+pub const FURNACE_ERROR: f64 = 2e-3;
 /// Closed forms that no random number touches: a Fresnel quotient or an interpolation, in f32.
 pub const CLOSED_FORM_EXACT: f64 = 5e-6;
 /// Films of some 30 half turns at fixed wavelengths: as FILM, relative to R of a tenth.

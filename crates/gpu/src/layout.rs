@@ -4,7 +4,7 @@
 //! where WGSL expects it, and give the text of `shaders/layout.wgsl`. That file is committed, and a test proves it fresh.
 
 use scene::limits::{MAX_FIELD_DEPTH, THICKNESS_NM};
-use scene::{CoatedBody, Energy, Estimate, PixelFilter};
+use scene::{CoatedBody, Estimate, FacetTable, PixelFilter};
 
 /// A type with the same bytes in Rust and in WGSL (WGSL specification, section 14.4.1).
 trait Shared {
@@ -175,10 +175,10 @@ constants! { CONSTANTS;
     pub const GRAIN_AROUND = 2;
     /// Cosines for which a rough coat has its reflectance, even in their roots.
     pub const COAT_COSINES = CoatedBody::COSINES as u32;
-    /// Knots of a table of energy over the root of the cosine.
-    pub const ENERGY_COSINES = Energy::COSINES as u32;
-    /// Knots of a table of energy over the width of the slopes, where that differs.
-    pub const ENERGY_WIDTHS = Energy::WIDTHS as u32;
+    /// Knots of a table over facets' directions over the root of the cosine.
+    pub const FACET_COSINES = FacetTable::COSINES as u32;
+    /// Knots of a table over facets' directions over the width of the slopes, where that differs.
+    pub const FACET_WIDTHS = FacetTable::WIDTHS as u32;
 
     /// Field: the same everywhere.
     pub const FIELD_CONSTANT = 0;
@@ -401,8 +401,8 @@ structs! { STRUCTS;
         pub first_reflected: u32,
         /// About the part of the light that goes on from it.
         pub albedo: f32,
-        /// Fills the size up to a multiple of 16.
-        pub padding: u32,
+        /// First number of the table by which a brushed coat lets more through in some directions.
+        pub first_passage: u32,
     }
 
     /// A layer of a film or of a coating.

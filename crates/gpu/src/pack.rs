@@ -268,6 +268,9 @@ fn pack_material(
             if let Some(microsurface) = &body.microsurface {
                 pack_microsurface(&mut packed, microsurface, fields);
             }
+            if let Some(passage) = &body.passage {
+                packed.first_passage = fields.look_up(passage.values());
+            }
             packed.coat_reflectances = body.reflectances.map_or(0, id);
             packed.coat = id(body.n);
             packed.mean_reflectance = id(body.mean_reflectance);
@@ -335,7 +338,7 @@ fn pack_microsurface(
         Distribution::Beckmann => layout::FACETS_BECKMANN,
         Distribution::Ggx => layout::FACETS_GGX,
     };
-    packed.first_energy = fields.look_up(microsurface.energy.values());
+    packed.first_energy = fields.look_up(microsurface.energy.table().values());
     packed.mean_energy = microsurface.energy.mean() as f32;
 }
 

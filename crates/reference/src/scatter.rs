@@ -139,10 +139,11 @@ impl<'a> Scatterer<'a> {
                 Some(found) => {
                     let share = coat_share(body, eye.z);
                     let lambert = light.z / PI;
+                    let passes = body.passage_at(eye) * body.passage_at(light);
                     Scattering {
                         lobes: Lobes {
                             multiple: found.multiple,
-                            body: lambert,
+                            body: passes * lambert,
                             ..Lobes::single(found.single, found.cosine, light)
                         },
                         pdf: share * found.pdf + (1.0 - share) * lambert,

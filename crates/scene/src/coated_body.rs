@@ -1,7 +1,8 @@
 //! A diffuse body below a clear coat, in a validated scene.
 
 use crate::derived::coats;
-use crate::{Microsurface, Pattern, SpectrumId};
+use crate::{FacetTable, Microsurface, Pattern, SpectrumId};
+use glam::DVec3;
 
 /// A diffuse body below a coat without absorption: what the coat reflects, and
 /// f = (1 − E(θᵢ)) (1 − E(θₒ)) P / π with P = ρ / (n² − ρ (n² − 1 + Ē)) of what enters it; see `optics::coated_albedo_factor`.
@@ -18,8 +19,11 @@ pub struct CoatedBody {
     /// Ē: the coat's reflectance of diffuse light from outside.
     pub mean_reflectance: SpectrumId,
     /// E of a rough coat: the first of [`Self::COSINES`] spectra, for cosines that are even in their roots from 0 to 1 and with straight
-    /// lines between. None where the coat is smooth, and E Fresnel's reflectance.
+    /// lines between. None where the coat is smooth, and E Fresnel's reflectance. Of a brushed coat about its mean about the normal.
     pub reflectances: Option<SpectrumId>,
+    /// By how much more a brushed coat lets through in a direction: 1 − E is this times what [`Self::reflectances`] leave. None where all
+    /// directions of the same cosine are alike.
+    pub passage: Option<FacetTable>,
     /// What steers which way paths go: an index of the coat, and a reflectance of the body.
     pub estimate: CoatEstimate,
 }
@@ -27,6 +31,12 @@ pub struct CoatedBody {
 impl CoatedBody {
     /// Number of cosines for which a rough coat has its reflectance.
     pub const COSINES: usize = coats::COSINES;
+
+    /// See [`Self::passage`]; 1 where there is none.
+    pub fn passage_at(&self, direction: DVec3) -> f64 {
+        let table = self.passage.as_ref();
+        table.map_or(1.0, |table| table.at(direction.to_array()))
+    }
 }
 
 /// Numbers that stand for the spectra of a coated body where a path chooses its way.

@@ -141,6 +141,7 @@ impl RoundToF32 for CoatedBody {
         Self {
             microsurface: self.microsurface.as_ref().map(RoundToF32::rounded),
             base: self.base.rounded(),
+            passage: self.passage.as_ref().map(RoundToF32::rounded),
             estimate: CoatEstimate {
                 n: self.estimate.n.rounded(),
                 base: self.estimate.base.rounded(),

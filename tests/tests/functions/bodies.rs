@@ -2,7 +2,9 @@
 
 use crate::world::{World, direction, pick, rows};
 use crate::{Check, pure, table};
-use pellicle_tests::tolerances::{ARITHMETIC, BECKMANN, DIRECTION, FACET, FRESNEL, TRIGONOMETRY};
+use pellicle_tests::tolerances::{
+    ARITHMETIC, BECKMANN, DIRECTION, FACET, FACET_ENERGY, FRESNEL, TRIGONOMETRY,
+};
 use reference::{coat_share, cook_facets, sample_cook_facet};
 use scene::{CoatedBody, Cook1981, Material};
 use std::sync::OnceLock;
@@ -11,7 +13,7 @@ pub(crate) fn checks() -> Vec<Check> {
     let mut all = gaussian();
     all.extend([between_directions(), facets()]);
     all.extend(coats());
-    all.push(rough_coats());
+    all.extend([rough_coats(), passages()]);
     all
 }
 
@@ -186,6 +188,29 @@ fn rough_coats() -> Check {
         }),
         twin: rough_coat,
         tolerance: FRESNEL,
+    }
+}
+
+/// By how much more rough coats let through in a direction; one of them is brushed.
+fn passages() -> Check {
+    let bodies: Vec<usize> = indices_of(
+        |material| matches!(material, Material::CoatedBody(body) if body.microsurface.is_some()),
+    );
+    Check {
+        probe: world().probe(
+            &["energy", "trig"],
+            (3, 1),
+            "put(0u, coat_passage(u32(a(0u)), direction_at(1u)));",
+        ),
+        proves: &["coat_passage", "over_facets"],
+        inputs: rows(3, |u| {
+            Some(vec![pick(&bodies, u[0]) as f64, 0.02 + 0.98 * u[1], u[2]])
+        }),
+        twin: |a| match &world().scene.materials()[a[0] as usize] {
+            Material::CoatedBody(body) => vec![body.passage_at(direction(a[1], a[2]))],
+            other => panic!("{other:?}"),
+        },
+        tolerance: FACET_ENERGY,
     }
 }
 

@@ -5,6 +5,7 @@ use crate::world::{
 };
 use crate::{Check, pure, table};
 use optics::{Distribution, Microsurface};
+use pellicle_tests::agreement::Tolerance;
 use pellicle_tests::tolerances::{
     FACET_DIRECTION, FACET_ENERGY, FACETS, FRAME, LAMBDA, ROUGH_INVERSE, SCALED_ERFC,
 };
@@ -91,61 +92,100 @@ fn inverse_erf(share: f64) -> f64 {
     low
 }
 
+/// Densities of a facet, from a surface and the facet's cosine and turn.
+pub(crate) fn densities(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
+    Check {
+        probe: pure(
+            &["microsurface", "trig"],
+            (5, 1),
+            "let facet = direction_at(3u);
+             put(0u, facet_density(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), facet));",
+        ),
+        proves: &["facet_density"],
+        inputs,
+        twin: |a| vec![surface_of(a).density(direction(a[3], a[4]).to_array())],
+        tolerance,
+    }
+}
+
+/// Smith's Λ, from a surface and a direction's cosine and turn.
+pub(crate) fn lambdas(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
+    Check {
+        probe: pure(
+            &["microsurface", "trig"],
+            (5, 1),
+            "let w = direction_at(3u);
+             put(0u, smith_lambda(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), w));",
+        ),
+        proves: &["smith_lambda"],
+        inputs,
+        twin: |a| vec![surface_of(a).lambda(direction(a[3], a[4]).to_array())],
+        tolerance,
+    }
+}
+
+/// What facets mirror, from a surface, the eye's cosine and the light's cosine and turn.
+pub(crate) fn reflections(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
+    Check {
+        probe: pure(
+            &["microsurface", "trig"],
+            (6, 3),
+            "let eye = vec3f(sqrt(1.0 - a(3u) * a(3u)), 0.0, a(3u));
+             let light = direction_at(4u);
+             let f = reflection_between(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), eye, light);
+             put(0u, f.value); put(1u, f.pdf); put(2u, f.cosine);",
+        ),
+        proves: &["reflection_between"],
+        inputs,
+        twin: |a| {
+            let (eye, light) = (direction(a[3], 0.0), direction(a[4], a[5]));
+            let (e, l) = (eye.to_array(), light.to_array());
+            let surface = surface_of(a);
+            let cosine = eye.dot((eye + light).normalize());
+            vec![
+                surface.reflection(e, l) * light.z,
+                surface.pdf(e, l),
+                cosine,
+            ]
+        },
+        tolerance,
+    }
+}
+
 fn surfaces() -> Vec<Check> {
     vec![
-        Check {
-            probe: pure(
-                &["microsurface", "trig"],
-                (5, 1),
-                "let facet = direction_at(3u);
-                 put(0u, facet_density(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), facet));",
-            ),
-            proves: &["facet_density"],
-            inputs: with_surface(
+        densities(
+            with_surface(
                 &[(0.0, 1.0), (0.0, 1.0)],
-                &[&[0.0, 0.1, 0.1, 1.0, 0.0], &[1.0, 0.1, 0.2, 1.0, 0.0], &[1.0, 0.1, 0.2, 0.0, 0.2]],
+                &[
+                    &[0.0, 0.1, 0.1, 1.0, 0.0],
+                    &[1.0, 0.1, 0.2, 1.0, 0.0],
+                    &[1.0, 0.1, 0.2, 0.0, 0.2],
+                ],
             ),
-            twin: |a| vec![surface_of(a).density(direction(a[3], a[4]).to_array())],
-            tolerance: FACETS,
-        },
-        Check {
-            probe: pure(
-                &["microsurface", "trig"],
-                (5, 1),
-                "let w = direction_at(3u);
-                 put(0u, smith_lambda(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), w));",
-            ),
-            proves: &["smith_lambda"],
-            inputs: with_surface(
+            FACETS,
+        ),
+        lambdas(
+            with_surface(
                 &[(0.001, 1.0), (0.0, 1.0)],
-                &[&[0.0, 0.1, 0.1, 1.0, 0.0], &[1.0, 0.1, 0.2, 1.0, 0.0], &[1.0, 0.1, 0.2, 1e-4, 0.2]],
+                &[
+                    &[0.0, 0.1, 0.1, 1.0, 0.0],
+                    &[1.0, 0.1, 0.2, 1.0, 0.0],
+                    &[1.0, 0.1, 0.2, 1e-4, 0.2],
+                ],
             ),
-            twin: |a| vec![surface_of(a).lambda(direction(a[3], a[4]).to_array())],
-            tolerance: LAMBDA,
-        },
-        Check {
-            probe: pure(
-                &["microsurface", "trig"],
-                (6, 3),
-                "let eye = vec3f(sqrt(1.0 - a(3u) * a(3u)), 0.0, a(3u));
-                 let light = direction_at(4u);
-                 let f = reflection_between(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), eye, light);
-                 put(0u, f.value); put(1u, f.pdf); put(2u, f.cosine);",
-            ),
-            proves: &["reflection_between"],
-            inputs: with_surface(
+            LAMBDA,
+        ),
+        reflections(
+            with_surface(
                 &[(0.02, 1.0), (0.02, 1.0), (0.0, 1.0)],
-                &[&[0.0, 0.1, 0.1, 1.0, 1.0, 0.0], &[1.0, 0.1, 0.2, 1.0, 0.01, 0.0]],
+                &[
+                    &[0.0, 0.1, 0.1, 1.0, 1.0, 0.0],
+                    &[1.0, 0.1, 0.2, 1.0, 0.01, 0.0],
+                ],
             ),
-            twin: |a| {
-                let (eye, light) = (direction(a[3], 0.0), direction(a[4], a[5]));
-                let (e, l) = (eye.to_array(), light.to_array());
-                let surface = surface_of(a);
-                let cosine = eye.dot((eye + light).normalize());
-                vec![surface.reflection(e, l) * light.z, surface.pdf(e, l), cosine]
-            },
-            tolerance: FACETS,
-        },
+            FACETS,
+        ),
     ]
 }
 
@@ -155,6 +195,42 @@ fn sampled(a: &[f64]) -> Vec<f64> {
 }
 
 const SAMPLED: [(f32, f32); 4] = [(0.001, 1.0), (0.0, 1.0), (1e-6, 0.999), (1e-6, 0.999)];
+
+/// Facets drawn, from a surface, the eye's cosine and turn and two numbers.
+pub(crate) fn facet_draws(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
+    Check {
+        probe: pure(
+            &["microsurface", "trig"],
+            (7, 3),
+            "let eye = direction_at(3u);
+             put3(0u, sample_facet(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), eye, a(5u), a(6u)));",
+        ),
+        proves: &["sample_facet"],
+        inputs,
+        twin: sampled,
+        tolerance,
+    }
+}
+
+/// Slopes drawn, from a cosine and a number.
+pub(crate) fn slopes(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
+    Check {
+        // The slope aside is 0 where its number is a half.
+        probe: pure(
+            &["microsurface"],
+            (2, 1),
+            "put(0u, visible_slope(a(0u), sqrt(1.0 - a(0u) * a(0u)), a(1u)));",
+        ),
+        proves: &["visible_slope"],
+        inputs,
+        twin: |a| {
+            let facet =
+                surface_of(&[0.0, 1.0, 1.0]).sample(direction(a[0], 0.0).to_array(), a[1], 0.5);
+            vec![-facet[0] / facet[2]]
+        },
+        tolerance,
+    }
+}
 
 fn samplers() -> Vec<Check> {
     let upright: fn(&[f64]) -> Vec<f64> = |a| {
@@ -168,18 +244,10 @@ fn samplers() -> Vec<Check> {
         table(&fixed, &[&[tag, 1.0, 0.0, 0.5, 0.5]])
     };
     vec![
-        Check {
-            probe: pure(
-                &["microsurface", "trig"],
-                (7, 3),
-                "let eye = direction_at(3u);
-                 put3(0u, sample_facet(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), eye, a(5u), a(6u)));",
-            ),
-            proves: &["sample_facet"],
-            inputs: with_surface(&SAMPLED, &[&[0.0, 0.5, 0.5, 1.0, 0.0, 0.5, 0.5]]),
-            twin: sampled,
-            tolerance: FACET_DIRECTION,
-        },
+        facet_draws(
+            with_surface(&SAMPLED, &[&[0.0, 0.5, 0.5, 1.0, 0.0, 0.5, 0.5]]),
+            FACET_DIRECTION,
+        ),
         Check {
             probe: pure(
                 &["microsurface", "trig"],
@@ -205,21 +273,13 @@ fn samplers() -> Vec<Check> {
             twin: upright,
             tolerance: FACET_DIRECTION,
         },
-        Check {
-            // The slope aside is 0 where its number is a half.
-            probe: pure(
-                &["microsurface"],
-                (2, 1),
-                "put(0u, visible_slope(a(0u), sqrt(1.0 - a(0u) * a(0u)), a(1u)));",
+        slopes(
+            table(
+                &[(0.0, 1.0), (1e-6, 0.999)],
+                &[&[1.0, 0.5], &[0.0, 0.1], &[1.0, 1e-7], &[0.0, 0.0]],
             ),
-            proves: &["visible_slope"],
-            inputs: table(&[(0.0, 1.0), (1e-6, 0.999)], &[&[1.0, 0.5], &[0.0, 0.1], &[1.0, 1e-7], &[0.0, 0.0]]),
-            twin: |a| {
-                let facet = surface_of(&[0.0, 1.0, 1.0]).sample(direction(a[0], 0.0).to_array(), a[1], 0.5);
-                vec![-facet[0] / facet[2]]
-            },
-            tolerance: FACET_DIRECTION,
-        },
+            FACET_DIRECTION,
+        ),
     ]
 }
 

@@ -3,6 +3,7 @@
 mod bodies;
 mod cameras;
 mod environments;
+mod facet_edges;
 mod facets;
 mod factors;
 mod light_choices;
@@ -93,6 +94,7 @@ fn checks() -> Vec<Check> {
         bodies::checks(),
         cameras::checks(),
         environments::checks(),
+        facet_edges::checks(),
         facets::checks(),
         factors::checks(),
         light_choices::checks(),

@@ -4,6 +4,7 @@ pub(crate) mod coats;
 mod direction_table;
 mod energy;
 mod estimate;
+mod facet_table;
 mod filter;
 
 pub use direction_table::DirectionTable;
@@ -11,4 +12,5 @@ pub(crate) use direction_table::Sent;
 pub use energy::Energy;
 pub use estimate::Estimate;
 pub(crate) use estimate::estimates;
+pub use facet_table::FacetTable;
 pub use filter::PixelFilter;

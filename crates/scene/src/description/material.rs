@@ -1,8 +1,6 @@
 //! Materials as written.
 
-use super::{
-    Brushed, ConductorModel, Distribution, Emission, Index, Reflectance, Roughness, Thickness,
-};
+use super::{ConductorModel, Emission, Finish, Index, Reflectance, Thickness};
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -22,15 +20,9 @@ pub enum Material {
     Conductor {
         /// The index.
         index: Index,
-        /// Roughness; smooth when absent.
-        #[serde(default)]
-        roughness: Roughness,
-        /// How the slopes of a rough surface are distributed; "beckmann" when absent.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        distribution: Option<Distribution>,
-        /// Which way the grain runs, where `roughness` is `[along, across]`.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        brushed: Option<Brushed>,
+        /// How rough it is.
+        #[serde(flatten)]
+        finish: Finish,
         /// How reflection is computed; "microfacets" when absent.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         model: Option<ConductorModel>,
@@ -39,15 +31,9 @@ pub enum Material {
     Dielectric {
         /// The index of the coat or body. Above a base it must be clear: k is taken for 0 up to 1e-5, more is refused.
         index: Index,
-        /// Roughness; smooth when absent.
-        #[serde(default)]
-        roughness: Roughness,
-        /// How the slopes of a rough surface are distributed; "beckmann" when absent.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        distribution: Option<Distribution>,
-        /// Which way the grain runs, where `roughness` is `[along, across]`.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        brushed: Option<Brushed>,
+        /// How rough it is.
+        #[serde(flatten)]
+        finish: Finish,
         /// What the base below the coat reflects, or a pattern of two; opaque when absent.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         base: Option<DiffuseReflectance>,
@@ -73,7 +59,8 @@ pub enum Material {
         path_difference: Option<PathDifference>,
     },
     /// A stack of thin films on a metal, or on any opaque medium: one layer (`index` and `thickness_nm`) or several
-    /// (`layers`). What enters the substrate is absorbed there.
+    /// (`layers`). What enters the substrate is absorbed there. Each facet of a rough one
+    /// reflects as the stack does at the facet's own angle.
     Coated {
         /// The index of what the layers lie on.
         substrate: Index,
@@ -87,15 +74,9 @@ pub enum Material {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(length(min = 1, max = limits::MAX_LAYERS))]
         layers: Option<Vec<Layer>>,
-        /// Roughness; smooth when absent. Each facet reflects as the stack does at the facet's own angle.
-        #[serde(default)]
-        roughness: Roughness,
-        /// How the slopes of a rough surface are distributed; "beckmann" when absent.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        distribution: Option<Distribution>,
-        /// Which way the grain runs, where `roughness` is `[along, across]`.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        brushed: Option<Brushed>,
+        /// How rough it is.
+        #[serde(flatten)]
+        finish: Finish,
     },
     /// Emits the same radiance from every point in every direction, on both sides.
     Emitter {
@@ -123,9 +104,7 @@ impl Material {
     pub fn conductor(index: Index) -> Self {
         Self::Conductor {
             index,
-            roughness: Roughness::Even(0.0),
-            distribution: None,
-            brushed: None,
+            finish: Finish::default(),
             model: None,
         }
     }

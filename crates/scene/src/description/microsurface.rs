@@ -4,6 +4,20 @@ use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+/// How rough a surface is; smooth when nothing is said.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Finish {
+    /// Roughness; smooth when absent.
+    #[serde(default)]
+    pub roughness: Roughness,
+    /// How the slopes of a rough surface are distributed; "beckmann" when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub distribution: Option<Distribution>,
+    /// Which way the grain runs, where `roughness` is `[along, across]`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub brushed: Option<Brushed>,
+}
+
 /// Roughness of a surface: the width α of its distribution of slopes. For Beckmann's distribution α is the root mean
 /// square slope. 0 is a smooth surface, otherwise it is from 0.02 to 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -25,7 +25,7 @@ pub use emission::{Emission, EmissionSpectrum, Strength};
 pub use environment::Environment;
 pub use light::Light;
 pub use material::{DiffuseReflectance, FilmModel, Layer, Material, PathDifference};
-pub use microsurface::{Brushed, Distribution, Roughness};
+pub use microsurface::{Brushed, Distribution, Finish, Roughness};
 pub use object::Object;
 pub use render::{LightGroups, Render, Sampler, WavelengthSampling};
 pub use spectrum::{Extrapolate, Index, MixtureRule, Reflectance, SellmeierTerms};

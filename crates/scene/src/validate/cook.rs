@@ -4,7 +4,7 @@ use super::checks::Checks;
 use super::microsurface::Told;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
-use crate::description::{self, CookNormalisation, Roughness, Slope};
+use crate::description::{self, CookNormalisation, Finish, Roughness, Slope};
 use crate::limits::{self, Shown};
 use crate::problem::{Problem, ProblemKind};
 use crate::{
@@ -19,9 +19,7 @@ const WEIGHTS: f64 = 2e-3;
 #[derive(Clone, Copy)]
 pub(super) struct Surface {
     pub(super) index: Option<(SpectrumId, SpectrumId)>,
-    pub(super) roughness: Roughness,
-    pub(super) has_distribution: bool,
-    pub(super) is_brushed: bool,
+    pub(super) finish: Finish,
 }
 
 /// The surface at `field` by the model at `field.model.cook1981`.
@@ -33,7 +31,7 @@ pub(super) fn check(
     written: &description::Cook1981,
 ) -> Option<Cook1981> {
     let own = field.key("model").key("cook1981");
-    let roughness = check_roughness(checks, field, &surface);
+    let roughness = check_roughness(checks, field, surface.finish);
     let slopes = roughness.and_then(|roughness| {
         check_slopes(checks, field, &own, roughness, written.slopes.as_deref())
     });
@@ -118,12 +116,12 @@ fn constant_of(
 }
 
 /// The model knows slopes that are the same in all directions, and brings its own distribution.
-fn check_roughness(checks: &mut Checks, field: &FieldPath, surface: &Surface) -> Option<f64> {
-    let is_even = matches!(surface.roughness, Roughness::Even(_));
+fn check_roughness(checks: &mut Checks, field: &FieldPath, finish: Finish) -> Option<f64> {
+    let is_even = matches!(finish.roughness, Roughness::Even(_));
     let wrong = [
-        ("distribution", surface.has_distribution),
-        ("brushed", surface.is_brushed),
-        ("roughness", !is_even && !surface.is_brushed),
+        ("distribution", finish.distribution.is_some()),
+        ("brushed", finish.brushed.is_some()),
+        ("roughness", !is_even && finish.brushed.is_none()),
     ];
     let mut is_sound = true;
     for (name, _) in wrong.iter().filter(|(_, is_wrong)| *is_wrong) {
@@ -135,7 +133,7 @@ fn check_roughness(checks: &mut Checks, field: &FieldPath, surface: &Surface) ->
         checks.report(problem.help(help).involving(field.key("model")));
         is_sound = false;
     }
-    match surface.roughness {
+    match finish.roughness {
         _ if !is_sound => None,
         Roughness::Even(0.0) => Some(0.0),
         Roughness::Even(even) => checks.number(&field.key("roughness"), even, &limits::ROUGHNESS),

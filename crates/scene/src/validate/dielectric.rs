@@ -2,7 +2,7 @@
 
 use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
-use crate::derived::coats;
+use crate::derived::coats::RoughCoat;
 use crate::description::Index;
 use crate::limits::{CLEAR_COAT_K, Shown};
 use crate::problem::{Problem, ProblemKind};
@@ -31,15 +31,16 @@ pub(super) fn check(
         return None;
     }
     let (n, k) = spectra.without_absorption(n);
-    let (reflectances, mean_reflectance) = match &microsurface {
+    let (reflectances, passage, mean_reflectance) = match &microsurface {
         None => {
             let mean =
                 |[n, k]: [f64; 2]| optics::hemispherical_reflectance(optics::Complex64::new(n, k));
-            (None, spectra.combined([n, k], mean))
+            (None, None, spectra.combined([n, k], mean))
         }
         Some(microsurface) => {
-            let (reflectances, mean) = coats::reflectances(microsurface, spectra.table(n));
-            (Some(spectra.run(reflectances)), spectra.run([mean]))
+            let coat = RoughCoat::new(microsurface, spectra.table(n), spectra.mean(n));
+            let first = spectra.run(coat.reflectances);
+            (Some(first), coat.passage, spectra.run([coat.mean]))
         }
     };
     let base_estimate = match base {
@@ -53,6 +54,7 @@ pub(super) fn check(
         microsurface,
         mean_reflectance,
         reflectances,
+        passage,
         estimate: CoatEstimate {
             n: spectra.mean(n),
             base: base_estimate,

@@ -6,7 +6,6 @@ use super::cook;
 use super::dielectric;
 use super::layers::{Written, check_interference};
 use super::lifted;
-use super::microsurface;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
 use crate::description::{self, ConductorModel, ConductorModelName, Cook1981, DiffuseReflectance};
@@ -66,9 +65,7 @@ fn check(
             index,
             thickness_nm,
             layers,
-            roughness,
-            distribution,
-            brushed,
+            finish,
         } => {
             let written = Written {
                 index: index.as_ref(),
@@ -77,12 +74,7 @@ fn check(
             };
             let substrate = spectra.index(checks, &field.key("substrate"), substrate);
             let layers = written.check(checks, spectra, field);
-            let microsurface = microsurface::Written {
-                roughness: *roughness,
-                distribution: *distribution,
-                brushed: *brushed,
-            }
-            .check(checks, field);
+            let microsurface = finish.check(checks, field);
             let (n, k) = substrate?;
             Some(Material::Conductor {
                 n,
@@ -122,9 +114,7 @@ fn conductor(
 ) -> Option<Material> {
     let description::Material::Conductor {
         index,
-        roughness,
-        distribution,
-        brushed,
+        finish,
         model,
     } = material
     else {
@@ -134,18 +124,11 @@ fn conductor(
     if let Some(model) = cook_model(model.as_ref()) {
         let surface = cook::Surface {
             index,
-            roughness: *roughness,
-            has_distribution: distribution.is_some(),
-            is_brushed: brushed.is_some(),
+            finish: *finish,
         };
         return cook::check(checks, spectra, field, surface, &model).map(Material::Cook);
     }
-    let microsurface = microsurface::Written {
-        roughness: *roughness,
-        distribution: *distribution,
-        brushed: *brushed,
-    }
-    .check(checks, field);
+    let microsurface = finish.check(checks, field);
     let (n, k) = index?;
     Some(Material::Conductor {
         n,
@@ -164,21 +147,14 @@ fn dielectric(
 ) -> Option<Material> {
     let description::Material::Dielectric {
         index: written,
-        roughness,
-        distribution,
-        brushed,
+        finish,
         base,
     } = material
     else {
         return None;
     };
     let index = spectra.index(checks, &field.key("index"), written);
-    let microsurface = microsurface::Written {
-        roughness: *roughness,
-        distribution: *distribution,
-        brushed: *brushed,
-    }
-    .check(checks, field);
+    let microsurface = finish.check(checks, field);
     let base = match base {
         Some(base) => Some(pattern(checks, spectra, &field.key("base"), base)?),
         None => None,

@@ -1,7 +1,7 @@
 //! Roughness: either smooth or rough enough, and a grain where directions differ.
 
 use super::checks::Checks;
-use crate::description::{Brushed, Distribution, Roughness};
+use crate::description::{Brushed, Finish, Roughness};
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, Grain, Microsurface};
@@ -10,15 +10,7 @@ use crate::{FieldPath, Grain, Microsurface};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Told;
 
-/// What a material says of its roughness.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Written {
-    pub(super) roughness: Roughness,
-    pub(super) distribution: Option<Distribution>,
-    pub(super) brushed: Option<Brushed>,
-}
-
-impl Written {
+impl Finish {
     /// The facets of the surface; none where it is smooth.
     pub(super) fn check(
         self,

@@ -112,9 +112,9 @@ fn check_is_sphere(
 /// Which way the grain of a material runs.
 fn grain(material: &Material) -> Option<Brushed> {
     match material {
-        Material::Conductor { brushed, .. }
-        | Material::Dielectric { brushed, .. }
-        | Material::Coated { brushed, .. } => *brushed,
+        Material::Conductor { finish, .. }
+        | Material::Dielectric { finish, .. }
+        | Material::Coated { finish, .. } => finish.brushed,
         _ => None,
     }
 }

@@ -1,0 +1,159 @@
+//! Tables over the directions from which facets are seen.
+
+use crate::rounding::RoundToF32;
+use std::f64::consts::FRAC_PI_2;
+
+/// Knots over the root of the cosine: close together near grazing, where masking changes fast.
+const COSINES: usize = 32;
+/// Knots over the width of the slopes in the direction's azimuth, where that differs.
+const WIDTHS: usize = 17;
+/// Azimuths of a mean about the normal, within a quarter turn.
+const AZIMUTHS: u32 = 64;
+
+/// A number for each direction above facets: a table over the cosine and, where the surface is brushed, over the width of the slopes in
+/// the direction's azimuth, linear between its knots; its numbers are `f32` numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FacetTable {
+    /// Width of the slopes along and across the grain.
+    roughness: [f64; 2],
+    /// `[width][cosine]`.
+    values: Vec<f64>,
+}
+
+impl RoundToF32 for FacetTable {
+    fn rounded(&self) -> Self {
+        Self {
+            roughness: self.roughness.map(|alpha| alpha.rounded()),
+            values: self.values.rounded(),
+        }
+    }
+}
+
+impl FacetTable {
+    /// Knots over the root of the cosine.
+    pub const COSINES: usize = COSINES;
+    /// Knots over the width of the slopes, where that differs with the azimuth.
+    pub const WIDTHS: usize = WIDTHS;
+
+    /// The table of what `of` is in the directions of the knots, unit vectors, on facets of these widths along and across the grain.
+    ///
+    /// Widths that are the same `f32` number are alike: the shader could not tell them apart.
+    pub(crate) fn new(roughness: [f64; 2], mut of: impl FnMut([f64; 3]) -> f64) -> Self {
+        let [along, across] = roughness.map(|alpha| alpha.rounded());
+        let columns = if along == across { 1 } else { WIDTHS };
+        let mut values = Vec::with_capacity(columns * COSINES);
+        for column in 0..columns {
+            let azimuth = match columns {
+                1 => 0.0,
+                _ => azimuth_of(roughness, column as f64 / (WIDTHS - 1) as f64),
+            };
+            for row in 0..COSINES {
+                let cosine = (row as f64 / (COSINES - 1) as f64).powi(2).max(1e-4);
+                values.push(of(direction(cosine, azimuth)).rounded());
+            }
+        }
+        Self { roughness, values }
+    }
+
+    /// The table's numbers: for each width, from that along the grain to that across it, those of [`Self::COSINES`] cosines; the
+    /// knots are even in the root of the cosine.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Number of widths: 1 where all directions of the same cosine are alike.
+    pub fn widths(&self) -> usize {
+        self.values.len() / COSINES
+    }
+
+    /// The number of a direction of the local frame, a unit vector whose z is the cosine with the normal and whose x runs along the grain.
+    pub fn at(&self, [x, y, cosine]: [f64; 3]) -> f64 {
+        let (row, down) = knot(cosine.clamp(0.0, 1.0).sqrt(), COSINES);
+        let of_column = |column: usize| {
+            let first = column * COSINES + row;
+            self.values[first] + (self.values[first + 1] - self.values[first]) * down
+        };
+        if self.widths() == 1 {
+            return of_column(0);
+        }
+        let [along, across] = self.roughness;
+        let width = (along * x).hypot(across * y) / x.hypot(y).max(1e-12);
+        let part = (width - along) / (across - along);
+        let (column, aside) = knot(part.clamp(0.0, 1.0), WIDTHS);
+        of_column(column) + (of_column(column + 1) - of_column(column)) * aside
+    }
+
+    /// The mean of the numbers about the normal.
+    pub(crate) fn around(&self, cosine: f64) -> f64 {
+        let azimuths = if self.widths() == 1 { 1 } else { AZIMUTHS };
+        let of_azimuth = |i| {
+            let azimuth = FRAC_PI_2 * (f64::from(i) + 0.5) / f64::from(azimuths);
+            self.at(direction(cosine, azimuth))
+        };
+        (0..azimuths).map(of_azimuth).sum::<f64>() / f64::from(azimuths)
+    }
+}
+
+/// A unit vector.
+pub(crate) fn direction(cosine: f64, azimuth: f64) -> [f64; 3] {
+    let sine = (1.0 - cosine * cosine).sqrt();
+    [sine * azimuth.cos(), sine * azimuth.sin(), cosine]
+}
+
+/// The knot before a place in [0, 1], and the part of the way to the next.
+fn knot(place: f64, knots: usize) -> (usize, f64) {
+    let place = place * (knots - 1) as f64;
+    let knot = (place as usize).min(knots - 2);
+    (knot, place - knot as f64)
+}
+
+/// The azimuth from the grain in which the width has come this part of the way from along to across, which differ:
+/// width² = along² cos² + across² sin².
+fn azimuth_of([along, across]: [f64; 2], part: f64) -> f64 {
+    let width = along + (across - along) * part;
+    let sin2 = (width * width - along * along) / (across * across - along * along);
+    sin2.clamp(0.0, 1.0).sqrt().asin()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Widths that only rounding tells apart have a number in every direction, rounded or not, and it is that of even ones.
+    #[test]
+    fn nearly_equal_widths_are_a_table_too() {
+        let even = FacetTable::new([0.3; 2], |[.., z]| z);
+        for roughness in [
+            [0.3, 0.3],
+            [0.3, 0.3 + 1e-9],
+            [0.3 + 1e-9, 0.3],
+            [0.02, 0.020_000_01],
+            [1.0, 1.0 - 6e-8],
+        ] {
+            let table = FacetTable::new(roughness, |[.., z]| z);
+            for table in [&table, &table.rounded()] {
+                for i in 0..=100 {
+                    let cosine = f64::from(i) / 100.0;
+                    let seen = direction(cosine, 0.37 * f64::from(i));
+                    let off = (table.at(seen) - even.at(seen)).abs();
+                    assert!(off < 1e-12, "{roughness:?} {seen:?}: {off}");
+                }
+                assert!((table.around(0.5) - even.around(0.5)).abs() < 1e-12);
+            }
+        }
+    }
+
+    /// Between its knots the table is linear in the width and in the root of the cosine; not at the normal, which has no azimuth.
+    #[test]
+    fn what_is_linear_is_exact() {
+        let roughness = [0.5, 0.1];
+        let width =
+            |[x, y, z]: [f64; 3]| (0.5 * x).hypot(0.1 * y) / (1.0 - z * z).sqrt().max(1e-12);
+        let of = |seen: [f64; 3]| width(seen) + (1.0 + width(seen)) * seen[2].sqrt();
+        let table = FacetTable::new(roughness, of);
+        for i in 0..100 {
+            let seen = direction(0.02 + 0.009 * f64::from(i), 0.37 * f64::from(i));
+            assert!((table.at(seen) - of(seen)).abs() < 1e-6, "{seen:?}");
+        }
+    }
+}
