@@ -141,15 +141,20 @@ pub(crate) fn checks() -> Vec<Check> {
     }]
 }
 
-/// By how much what goes one way differs from what goes the other, relative to it; of the worst row.
+/// By how much what goes one way differs from what goes the other, relative to it; of the worst row. NaN where either is.
 fn lopsidedness(values: &[f64], by_row: impl Fn(usize) -> f64) -> f64 {
     let of_row = |(row, both): (usize, &[f64])| {
         let (there, back) = both.split_at(4);
         let pairs = there.iter().zip(back);
         let off = |(f, g): (&f64, &f64)| (f - g * by_row(row)).abs() / (f + RECIPROCITY.absolute);
-        pairs.map(off).fold(0.0, f64::max)
+        pairs.map(off).fold(0.0, larger)
     };
-    values.chunks(8).enumerate().map(of_row).fold(0.0, f64::max)
+    values.chunks(8).enumerate().map(of_row).fold(0.0, larger)
+}
+
+/// The larger of two, or NaN: `f64::max` would drop it.
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
 }
 
 /// Both renderers' functions, with their spectra, within 1e-5; times the cosine they are not.
@@ -170,5 +175,10 @@ fn surfaces_are_reciprocal() {
         assert!(off < RECIPROCITY.relative, "{who}: {off}");
         let with_cosines = lopsidedness(&values, |row| rows[row][8] / rows[row][5]);
         assert!(with_cosines > 0.1, "{who}: {with_cosines}");
+        for broken in [0, values.len() / 2, values.len() - 1] {
+            let mut values = values.clone();
+            values[broken] = f64::NAN;
+            assert!(lopsidedness(&values, |_| 1.0).is_nan(), "{who}: {broken}");
+        }
     }
 }
