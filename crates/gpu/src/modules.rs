@@ -62,7 +62,7 @@ pub const MODULES: &[Module] = modules! {
     "environment_picture": ["bindings", "numbers", "picture", "texels", "trig"];
     "environment": ["bindings", "environment_picture", "features", "layout", "sampling", "trig"];
     "light": ["bindings", "environment", "features", "layout", "sampling", "trig"];
-    "light_choice": ["bindings", "features", "layout", "light", "sampling", "trig"];
+    "light_choice": ["bindings", "environment_picture", "features", "layout", "light", "sampling", "trig"];
     "record": ["layout", "limits"];
     "walk": ["bindings", "camera", "features", "random", "sobol", "surface"];
     "factor": ["bindings", "features", "layout", "picture", "record", "surface", "texels", "thickness"];
