@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 
 pub(crate) const TESTS: usize = 3;
 
-/// Surroundings of 48 × 24 pixels.
+/// Surroundings of 48 × 24 pixels, for all of which rays are sent: what is brighter than the mean are too few cells to judge.
 fn painted(colour: impl Fn(u32, u32) -> f32) -> Scene {
     let folder = tempfile::tempdir().expect("a folder");
     let picture = ImageBuffer::from_fn(48, 24, |x, y| Rgb([colour(x, y); 3]));
@@ -19,7 +19,8 @@ fn painted(colour: impl Fn(u32, u32) -> f32) -> Scene {
         .save(folder.path().join("sky.exr"))
         .expect("written");
     let text = "camera = { type = \"panorama\", position = [0, 0, 0] }\n\
-                environment = { type = \"image\", image = \"sky.exr\", rotation_deg = 20 }\n";
+                environment = { type = \"image\", image = \"sky.exr\", rotation_deg = 20 }\n\
+                render = { direct_light = \"lights\" }\n";
     let file = SceneFile::parse("painted.toml", text, folder.path());
     file.and_then(|file| file.validate())
         .unwrap_or_else(|e| panic!("{e:#}"))

@@ -15,8 +15,7 @@ use std::time::Instant;
 
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The scenes to render
-    #[arg(default_values = ["scenes/soap_bubble.toml", "scenes/film_wedge.toml", "scenes/metal_spheres.toml"])]
+    /// The scenes to render; by default soap_bubble, metal_spheres and film_wedge, or for --variance floating_bubble, in `scenes`
     scenes: Vec<PathBuf>,
     /// Only film stacks, no scenes
     #[arg(long)]
@@ -38,6 +37,28 @@ pub(crate) struct Arguments {
     seconds: f64,
 }
 
+impl Arguments {
+    /// The scenes that were named, or else these.
+    fn scenes(&self, otherwise: [&str; 3]) -> Vec<PathBuf> {
+        if self.scenes.is_empty() {
+            return otherwise.map(PathBuf::from).to_vec();
+        }
+        self.scenes.clone()
+    }
+}
+
+/// The scenes of samples per second.
+const SCENES: [&str; 3] = [
+    "scenes/soap_bubble.toml",
+    "scenes/film_wedge.toml",
+    "scenes/metal_spheres.toml",
+];
+/// The scenes of the variance: one side of a bubble, both sides of one, and metals.
+const NOISY_SCENES: [&str; 3] = [
+    "scenes/soap_bubble.toml",
+    "scenes/floating_bubble.toml",
+    "scenes/metal_spheres.toml",
+];
 /// The numbers of bands that are compared.
 const BANDS: [u32; 2] = [4, 40];
 /// Rounds of the measurement: machines are noisy, so the variants take turns and the best round of each counts.
@@ -51,7 +72,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     if arguments.variance {
         let renderer = Renderer::open(&Backend::Auto).into_diagnostic()?;
         let effort = (arguments.samples, arguments.seeds);
-        return variance::run(&arguments.scenes, &renderer, effort);
+        return variance::run(&arguments.scenes(NOISY_SCENES), &renderer, effort);
     }
     let mut renderers = Vec::new();
     for adapter in adapters() {
@@ -64,7 +85,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     }
     let seconds = arguments.seconds.clamp(0.1, 600.0);
     if !arguments.stacks {
-        scenes(&arguments.scenes, &renderers, seconds)?;
+        scenes(&arguments.scenes(SCENES), &renderers, seconds)?;
     }
     stacks::run(&renderers, seconds / 4.0)
 }

@@ -3,38 +3,79 @@
 use crate::print;
 use miette::IntoDiagnostic;
 use pellicle::Renderer;
+use pellicle::scene::SceneFile;
 use pellicle::scene::description::{Render, Sampler};
-use pellicle::scene::{Scene, SceneFile};
 use pellicle::seen::{Seen, seen};
 use pellicle::spectra::SpectralImage;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
-/// A way to draw paths: its name, and how it is set.
-type Variant = (&'static str, fn(&mut Render));
+/// A way to draw paths.
+type Way = fn(&mut Render);
 
-/// The first is what the others are compared with.
-const VARIANTS: [Variant; 6] = [
-    ("independent", |render| {
+/// The ways that are compared. Each starts from what the scene's file says, and is rendered once for each seed.
+const WAYS: [Way; 7] = [
+    |render| {
         render.sampler = Sampler::Independent;
-        render.film_splits = 0;
-        render.roulette_after = render.max_path_segments;
-    }),
-    ("sobol", |render| {
-        render.film_splits = 0;
-        render.roulette_after = render.max_path_segments;
-    }),
-    ("  and roulette", |render| render.film_splits = 0),
-    ("  and 1 split", |render| render.film_splits = 1),
-    ("  and 2 splits", |render| render.film_splits = 2),
-    ("  and 3 splits", |render| render.film_splits = 3),
+        plain(render);
+    },
+    plain,
+    |render| {
+        plain(render);
+        render.roulette_after = Render::default().roulette_after;
+    },
+    |render| {
+        plain(render);
+        render.film_splits = 1;
+    },
+    |render| {
+        plain(render);
+        render.film_splits = 2;
+    },
+    |render| render.sampler = Sampler::Independent,
+    |_| {},
+];
+
+/// Neither splits nor roulette; the sampler as it was.
+fn plain(render: &mut Render) {
+    render.film_splits = 0;
+    render.roulette_after = render.max_path_segments;
+}
+
+/// Two ways that differ in one setting.
+struct Change {
+    name: &'static str,
+    before: usize,
+    after: usize,
+    /// Whether it changes what a sample does at films, and what it costs: then both are also compared at equal time.
+    splits: bool,
+}
+
+const fn change(name: &'static str, before: usize, after: usize, splits: bool) -> Change {
+    Change {
+        name,
+        before,
+        after,
+        splits,
+    }
+}
+
+const CHANGES: [Change; 5] = [
+    change("independent to Sobol", 0, 1, false),
+    change("the same, as the file is", 5, 6, false),
+    change("no roulette to roulette", 1, 2, false),
+    change("no split to 1 split", 1, 3, true),
+    change("no split to 2 splits", 1, 4, true),
 ];
 
 /// The largest width of the pictures; a pixel's noise does not depend on how many there are.
 const WIDTH: u32 = 64;
 
-/// Prints, of each scene, the variance of each way over that of the first.
+/// The most samples of the renders that are given as much time as others took.
+const MOST_SAMPLES: f64 = 65_536.0;
+
+/// Prints, of each scene, what each change does to the variance.
 ///
 /// The variance of a pixel is that of its mean over renders with different seeds: what samples say of themselves holds only
 /// where they are independent.
@@ -44,13 +85,14 @@ pub(super) fn run(
     (samples, seeds): (u32, u32),
 ) -> miette::Result<()> {
     print::result(format_args!(
-        "\nvariance at {samples} samples, over {seeds} seeds, and time, of {}: first / this, so that more is better;\n\
-         of all pixels and of those that show a film: by the mean variance, and the median of the pixels' own quotients",
+        "\nvariance at {samples} samples, over {seeds} seeds, of {}: before / after the change, so that more is better;\n\
+         of all pixels and of those that show a film in their middle: by the mean variance, and the median of the pixels' own quotients;\n\
+         time of a sample, after / before; at equal time: before the change with as many samples more, rounded up to a power of two",
         renderer.description()
     ))?;
     print::result(format_args!(
-        "{:<16}{:<16}{:>8}{:>9}{:>8}{:>9}{:>8}{:>22}",
-        "scene", "samples", "mean", "median", "film", "median", "speed", "film, at equal time"
+        "{:<16}{:<26}{:>8}{:>9}{:>8}{:>9}{:>8}{:>9}{:>18}",
+        "scene", "change", "all", "median", "film", "median", "time", "samples", "film, equal time"
     ))?;
     for path in scenes {
         scene(path.as_ref(), renderer, samples, seeds)?;
@@ -64,40 +106,55 @@ fn scene(path: &Path, renderer: &Renderer, samples: u32, seeds: u32) -> miette::
     let narrow = width.min(WIDTH);
     file.description.render.size = [narrow, (narrow * height / width.max(1)).max(1)];
     file.description.render.samples = samples;
-    let original = file.description.render.clone();
     let shows_film = film_pixels(&file, path.parent().unwrap_or(Path::new(".")))?;
-    let mut sums: Vec<Spread> = VARIANTS.iter().map(|_| Spread::default()).collect();
-    for seed in 0..seeds {
-        for ((_, set), spread) in VARIANTS.iter().zip(&mut sums) {
-            file.description.render = original.clone();
-            file.description.render.seed = seed + 1;
-            set(&mut file.description.render);
-            spread.add(renderer, &file.validate()?)?;
+    let has_film = shows_film.contains(&true);
+    let changes = || CHANGES.iter().filter(|change| has_film || !change.splits);
+    let mut spreads: Vec<Spread> = WAYS.iter().map(|_| Spread::default()).collect();
+    for seed in 1..=seeds {
+        for (index, (way, spread)) in WAYS.iter().zip(&mut spreads).enumerate() {
+            if changes().any(|change| change.before == index || change.after == index) {
+                spread.add(renderer, &file, *way, seed)?;
+            }
         }
     }
-    let first = sums[0].variances();
-    for ((name, _), spread) in VARIANTS.iter().zip(&sums) {
-        let variances = spread.variances();
-        let all = gains(&first, &variances, &vec![true; first.len()]);
-        let film = gains(&first, &variances, &shows_film);
-        let mut speeds: Vec<f64> = sums[0]
-            .seconds
-            .iter()
-            .zip(&spread.seconds)
-            .map(|(a, b)| a / b)
-            .collect();
-        let speed = median(&mut speeds);
-        print::result(format_args!(
-            "{:<16}{name:<16}{:>8.2}{:>9.2}{:>8.2}{:>9.2}{speed:>8.2}{:>22.2}",
+    for change in changes() {
+        let (before, after) = (&spreads[change.before], &spreads[change.after]);
+        let time = after.time() / before.time();
+        let all = gains(before, after, &vec![true; shows_film.len()]);
+        let mut line = format!(
+            "{:<16}{:<26}{:>8.2}{:>9.2}",
             path.file_stem().unwrap_or_default().to_string_lossy(),
+            change.name,
             all.0,
             all.1,
-            film.0,
-            film.1,
-            film.0 * speed,
-        ))?;
+        );
+        if has_film {
+            let film = gains(before, after, &shows_film);
+            line += &format!("{:>8.2}{:>9.2}", film.0, film.1);
+        } else {
+            line += &format!("{:>8}{:>9}", "", "");
+        }
+        line += &format!("{time:>8.2}");
+        if change.splits {
+            let more = equal_time(&file, f64::from(samples) * time);
+            let mut longer = Spread::default();
+            for seed in 1..=seeds {
+                longer.add(renderer, &more, WAYS[change.before], seed)?;
+            }
+            let gain = gains(&longer, after, &shows_film).0;
+            line += &format!("{:>9}{gain:>18.2}", more.description.render.samples);
+        }
+        print::result(format_args!("{line}"))?;
     }
     Ok(())
+}
+
+/// The scene with so many samples or more: Sobol's points are at their best where their number is a power of two.
+fn equal_time(file: &SceneFile, samples: f64) -> SceneFile {
+    let mut more = file.clone();
+    more.description.render.samples =
+        (samples.clamp(1.0, MOST_SAMPLES).ceil() as u32).next_power_of_two();
+    more
 }
 
 /// Whether the middle of each pixel shows a film.
@@ -115,11 +172,13 @@ fn film_pixels(file: &SceneFile, directory: &Path) -> miette::Result<Vec<bool>> 
     Ok(found)
 }
 
-/// Mean variance of some pixels over that of others, and the median of their own quotients; NaN where there are none.
-fn gains(first: &[f64], other: &[f64], counts: &[bool]) -> (f64, f64) {
-    let pairs = first.iter().zip(other).zip(counts);
+/// Of the pixels that count, the mean variance before over that after, and the median of their own quotients; NaN where there
+/// are none.
+fn gains(before: &Spread, after: &Spread, counts: &[bool]) -> (f64, f64) {
+    let pairs = before.variances().into_iter().zip(after.variances());
     let counted: Vec<(f64, f64)> = pairs
-        .filter_map(|((&a, &b), &counts)| counts.then_some((a, b)))
+        .zip(counts)
+        .filter_map(|(pair, &counts)| counts.then_some(pair))
         .collect();
     let (a, b) = counted
         .iter()
@@ -146,12 +205,22 @@ struct Spread {
 }
 
 impl Spread {
-    fn add(&mut self, renderer: &Renderer, scene: &Scene) -> miette::Result<()> {
+    fn add(
+        &mut self,
+        renderer: &Renderer,
+        file: &SceneFile,
+        way: Way,
+        seed: u32,
+    ) -> miette::Result<()> {
+        let mut file = file.clone();
+        file.description.render.seed = seed;
+        way(&mut file.description.render);
+        let scene = file.validate()?;
         let mut started: Option<(Instant, u64)> = None;
         let mut last = 0;
         let begun = Instant::now();
         let image = renderer
-            .render(scene, &mut |done| {
+            .render(&scene, &mut |done| {
                 started.get_or_insert((Instant::now(), done));
                 last = done;
                 ControlFlow::Continue(())
@@ -174,6 +243,11 @@ impl Spread {
             *mean += before / count;
             *squares += before * (f64::from(value) - *mean);
         }
+    }
+
+    /// The median of the seconds that a sample took.
+    fn time(&self) -> f64 {
+        median(&mut self.seconds.clone())
     }
 
     /// Of each pixel the mean variance of its bands.
