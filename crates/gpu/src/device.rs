@@ -231,12 +231,12 @@ impl Gpu {
         trouble.take().map_or(Ok(()), Err)
     }
 
-    /// Waits for all submitted work.
+    /// Waits for all submitted work. A software driver may compile the pipeline within its first dispatch, on a busy machine for minutes.
     ///
     /// # Errors
     /// When the work failed, or does not end.
     pub fn wait(&self) -> Result<(), DeviceError> {
-        const SECONDS: u64 = 120;
+        const SECONDS: u64 = 600;
         let poll = wgpu::PollType::Wait {
             submission_index: None,
             timeout: Some(std::time::Duration::from_secs(SECONDS)),

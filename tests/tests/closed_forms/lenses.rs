@@ -52,7 +52,7 @@ fn out_of_focus_a_lamp_becomes_the_disc_of_the_lens() {
             let spread = lit(&image).map(|([x, y], value)| value * (x * x + y * y));
             let (found, expected) = (
                 spread.sum::<f64>() / light,
-                (disc * disc + own * own) / 2.0 + 1.0 / 6.0,
+                f64::midpoint(disc * disc, own * own) + 1.0 / 6.0,
             );
             println!(
                 "lamp at {distance}, {who}: mean r² {found:.4}, expected {expected:.4} pixels²; light {light:.4}"
