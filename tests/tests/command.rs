@@ -231,11 +231,15 @@ fn an_adapter_is_chosen_by_a_part_of_its_name() {
 #[test]
 fn check_tells_what_a_scene_is() {
     let place = Place::default();
-    let ran = place.run(&format!("check {}", scene("furnace.toml")));
+    let ran = place.run(&format!("check {}", scene("film_wedge.toml")));
     let said = ran.succeeded();
     told(
         &said.stdout,
-        &["furnace.toml: valid", "bands", "lit by its surroundings;"],
+        &[
+            "film_wedge.toml: valid",
+            "bands",
+            "lit by its surroundings;",
+        ],
         "check",
     );
     assert!(said.stderr.is_empty(), "{}", said.stderr);

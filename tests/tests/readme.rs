@@ -72,7 +72,7 @@ fn the_gallery_shows_what_there_is() {
         .skip(1)
         .filter_map(|rest| rest.split(".toml").next())
         .collect();
-    assert_eq!(rendered.len(), 11, "{rendered:?}");
+    assert_eq!(rendered.len(), 16, "{rendered:?}");
     for name in rendered {
         assert!(pellicle_tests::scenes::SHIPPED.contains(&name), "{name}");
     }
