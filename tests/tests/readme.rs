@@ -25,6 +25,54 @@ fn the_scene_is_valid() {
     assert_eq!(scene.objects().len(), 2);
 }
 
+/// The example of every kind of light, with a camera to look at it.
+#[test]
+fn the_lights_of_the_documentation_are_valid() {
+    let page = std::fs::read_to_string(root().join("docs/lights.md")).expect("there is a page");
+    let camera = "camera = { type = \"perspective\", position = [0, 1, 5], look_at = [0, 0, 0], fov_deg = 30 }\n";
+    let text = format!("{camera}{}", block(&page, "toml"));
+    let scene = SceneFile::parse("lights.md", &text, &root())
+        .and_then(|file| file.validate())
+        .unwrap_or_else(|problems| panic!("{problems:#}"));
+    assert_eq!((scene.objects().len(), scene.lights().len()), (1, 3));
+}
+
+#[test]
+fn the_commands_of_the_documentation_exist() {
+    let help = std::process::Command::new(pellicle_tests::command::program("pellicle"))
+        .arg("--help")
+        .output()
+        .expect("it runs");
+    let help = String::from_utf8(help.stdout).expect("UTF-8");
+    let known: Vec<&str> = help
+        .lines()
+        .filter_map(|line| line.strip_prefix("  "))
+        .filter_map(|line| line.split_whitespace().next())
+        .collect();
+    assert!(known.contains(&"render") && known.len() >= 10, "{known:?}");
+    let pages = std::fs::read_dir(root().join("docs")).expect("there are pages");
+    let pages = pages.map(|page| page.expect("readable").path());
+    let mut named = 0;
+    for page in pages.chain([root().join("README.md")]) {
+        if page.extension().is_none_or(|extension| extension != "md") {
+            continue;
+        }
+        let text = std::fs::read_to_string(&page).expect("readable");
+        // In a code span, at the start of a line of a block, or after cargo's two dashes.
+        let starts = ["`pellicle ", "\npellicle ", "run --release -- "];
+        for rest in starts.iter().flat_map(|start| text.split(start).skip(1)) {
+            let command: String = rest.chars().take_while(char::is_ascii_lowercase).collect();
+            assert!(
+                command.is_empty() || known.contains(&command.as_str()),
+                "{}: pellicle {command}",
+                page.display()
+            );
+            named += 1;
+        }
+    }
+    assert!(named > 30, "{named}");
+}
+
 #[test]
 fn the_files_that_it_names_exist() {
     let readme = readme();

@@ -6,6 +6,8 @@ use colorimetry::srgb;
 use glam::DVec3;
 use image::{ImageBuffer, Rgb};
 use pellicle_tests::device::open;
+use pellicle_tests::frames::{Values, same_numbers};
+use pellicle_tests::tolerances::FRAMES;
 use scene::{Scene, SceneFile};
 use spectra::{BandGrid, SpectralImage};
 use std::f64::consts::{PI, TAU};
@@ -87,10 +89,9 @@ fn spectrum_of(x: u32, y: u32) -> Vec<f32> {
         .collect()
 }
 
-#[test]
-fn spectra_come_back_as_they_are() {
+/// A folder with `a.exr`, a picture of spectra.
+fn folder_of_spectra(size: [u32; 2]) -> TempDir {
     let folder = TempDir::new().unwrap();
-    let size = [16, 8];
     let mut picture = SpectralImage::new(size[0], size[1], BandGrid::visible(BANDS).unwrap());
     for y in 0..size[1] {
         for x in 0..size[0] {
@@ -100,6 +101,35 @@ fn spectra_come_back_as_they_are() {
     }
     let (metadata, options) = (Metadata::default(), WriteOptions::default());
     color::spectral_exr::write(&folder.path().join("a.exr"), &picture, &metadata, options).unwrap();
+    folder
+}
+
+/// A rough metal, a floor and a film, lit by spectra: rays are sent for them, and escape to them.
+#[test]
+fn both_renderers_are_lit_by_spectra_alike() {
+    const LIT: &str = "camera = { type = 'perspective', position = [0, 1.5, 5], look_at = [0, 0.4, 0], fov_deg = 35 }\n\
+        environment = { type = 'image', image = 'a.exr', rotation_deg = 20 }\n\
+        render = { size = [48, 36], samples = 16, bands = 10 }\n\
+        [materials]\nfloor = { type = 'diffuse', reflectance = 0.5 }\n\
+        gold = { type = 'conductor', index = 'gold', roughness = 0.2 }\n\
+        soap = { type = 'film', index = 'water', thickness_nm = 400 }\n\
+        [[objects]]\ntype = 'rectangle'\nmaterial = 'floor'\ncenter = [0, 0, 0]\nnormal = [0, 1, 0]\nsize = [8, 8]\n\
+        [[objects]]\ntype = 'sphere'\nmaterial = 'gold'\ncenter = [-0.8, 0.6, 0]\nradius = 0.6\n\
+        [[objects]]\ntype = 'sphere'\nmaterial = 'soap'\ncenter = [0.8, 0.7, 0]\nradius = 0.6\n";
+    let folder = folder_of_spectra([16, 8]);
+    let scene = SceneFile::parse("lit.toml", LIT, folder.path())
+        .and_then(|file| file.validate())
+        .unwrap_or_else(|e| panic!("{e:#}"))
+        .rounded_to_f32();
+    let on_gpu = gpu::render(&open(), &scene, &mut |_| ControlFlow::Continue(())).unwrap();
+    let report = same_numbers(Values::of(&on_gpu), Values::of(&on_cpu(&scene)), &FRAMES);
+    println!("{}", report.unwrap_or_else(|report| panic!("{report}")));
+}
+
+#[test]
+fn spectra_come_back_as_they_are() {
+    let size = [16, 8];
+    let folder = folder_of_spectra(size);
     let gpu = open();
     for (pixel, rotation_deg) in [([3, 1], 0.0), ([8, 4], 90.0), ([15, 6], -35.0)] {
         let environment = format!(

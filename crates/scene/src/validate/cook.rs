@@ -246,7 +246,7 @@ fn check_shares(
         return Some((specular, diffuse));
     }
     let message = format!(
-        "found specular {specular} and diffuse {diffuse}, together {}; they must be at most 1 together",
+        "found specular {specular} and diffuse {diffuse}, together {:.6}; they must be at most 1 together",
         specular + diffuse
     );
     let problem = Problem::new(ProblemKind::Inconsistent, &own.key("diffuse"), message);

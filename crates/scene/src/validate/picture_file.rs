@@ -36,7 +36,7 @@ pub(crate) enum PictureFileError {
     NoColours,
     #[error(transparent)]
     Primaries(#[from] BadPrimaries),
-    #[error("its spectra cover {own:?} nm, but the bands cover {bands:?} nm")]
+    #[error("its spectra cover {} to {} nm, but the bands cover {} to {} nm; set `render.wavelengths_nm` within them", own.0, own.1, bands.0, bands.1)]
     Bands { own: (f64, f64), bands: (f64, f64) },
     #[error(
         "has {width} × {height} pixels; a picture of all directions by longitude and latitude is twice as wide as high"
