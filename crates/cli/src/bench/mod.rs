@@ -15,7 +15,7 @@ use std::time::Instant;
 
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The scenes to render; by default soap_bubble, metal_spheres and film_wedge, or for --variance floating_bubble, in `scenes`
+    /// The scenes to render; by default soap_bubble, film_wedge and metal_spheres in the folder `scenes` of where it is called, or for --variance floating_bubble in place of film_wedge
     scenes: Vec<PathBuf>,
     /// Only film stacks, no scenes
     #[arg(long)]
