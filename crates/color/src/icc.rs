@@ -3,7 +3,7 @@
 use colorimetry::matrix::product;
 use colorimetry::{Adaptation, Display};
 use moxcms::{
-    ColorDateTime, ColorProfile, DataColorSpace, LocalizableString, Matrix3d, ProfileClass,
+    ColorProfile, DataColorSpace, LocalizableString, Matrix3d, ProfileClass,
     ProfileText, RenderingIntent, ToneReprCurve, Xyzd,
 };
 use thiserror::Error;
@@ -19,6 +19,10 @@ pub enum IccError {
 
 /// XYZ of the profile connection space's white, D50 (ICC.1:2022, 6.3.4.3).
 const D50: [f64; 3] = [0.9642, 1.0, 0.8249];
+/// Where the header has the time of creation, six big-endian numbers of two bytes (ICC.1:2022, 7.2.8).
+const CREATION: std::ops::Range<usize> = 24..36;
+/// Year, month, day, hours, minutes and seconds.
+const CREATED: [u16; 6] = [2026, 1, 1, 0, 0, 0];
 /// Points of a response curve; between them readers interpolate.
 const CURVE_POINTS: u16 = 4096;
 
@@ -73,17 +77,13 @@ pub fn profile(display: &Display) -> Result<Vec<u8>, IccError> {
     profile.chromatic_adaptation = Some(Matrix3d { v: to_d50 });
     profile.description = Some(text(display.name()));
     profile.copyright = Some(text("no copyright, use freely"));
-    // The same display has the same profile, whenever it is written.
-    profile.creation_date_time = ColorDateTime {
-        year: 2026,
-        month: 1,
-        day_of_the_month: 1,
-        hours: 0,
-        minutes: 0,
-        seconds: 0,
-    };
     let encoded = profile.encode();
-    encoded.map_err(|source| IccError::Encode(display.name().to_owned(), source))
+    let mut bytes = encoded.map_err(|source| IccError::Encode(display.name().to_owned(), source))?;
+    // The encoder writes the time of day there: the same display has the same profile, whenever it is written.
+    for (field, number) in bytes[CREATION].chunks_exact_mut(2).zip(CREATED) {
+        field.copy_from_slice(&number.to_be_bytes());
+    }
+    Ok(bytes)
 }
 
 fn xyzd([x, y, z]: [f64; 3]) -> Xyzd {
@@ -100,6 +100,19 @@ fn text(value: &str) -> ProfileText {
 mod tests {
     use super::*;
     use colorimetry::matrix::times;
+    use std::time::Duration;
+
+    /// Every other byte is a function of the display: what is written a second later is the same.
+    #[test]
+    fn a_profile_is_the_same_at_any_time() {
+        let display = Display::named("display_p3").unwrap();
+        let first = profile(&display).unwrap();
+        std::thread::sleep(Duration::from_millis(1100));
+        assert_eq!(first, profile(&display).unwrap());
+        let created = first[CREATION].chunks_exact(2);
+        let created: Vec<u16> = created.map(|b| u16::from_be_bytes([b[0], b[1]])).collect();
+        assert_eq!(created, CREATED);
+    }
 
     /// What a reader makes of a profile: the display's own light, adapted to D50.
     #[test]
