@@ -27,6 +27,9 @@ pub const SHIPPED: &[&str] = &[
     "room",
     "studio",
     "furnace",
+    "bench/bubble",
+    "bench/metals",
+    "bench/wedge",
 ];
 
 /// A scene with every kind of surface, pattern, thickness, light and environment that there is.

@@ -134,6 +134,14 @@ pub const PATHS: FrameTolerance = FrameTolerance {
 /// R and T of stacks against independent f64 computations: those hold 5e-14, and a stack of seven layers loses two or three
 /// digits in either arithmetic.
 pub const ORACLE: Tolerance = of(1e-10, 0.0);
+/// A BSDF with its color of multiple scattering from a table, linear between knots of 1 nm, relative to its largest value: indices of
+/// metals bend most between their knots in the blue.
+pub const COLOR_TABLE: f64 = 2e-5;
+/// The benchmark's wedge against the integral, by 1024 of Sobol's points a pixel, relative to the mean: mostly what the points leave.
+pub const WEDGE: f64 = 1e-4;
+/// Pictures with and without fused multiply-add, relative to their brightest value. Values are stored as `f32` (6e-8); a rough metal's
+/// facets carry the last digits of an `f64` through a few ill-conditioned steps, far below that.
+pub const BASELINE: f64 = 1e-6;
 /// Identities of stacks in f64 (energy, both directions, layers split or absent): rounding of some ten layers, times the
 /// number of passes that light makes in a layer near grazing.
 pub const IDENTITY: f64 = 1e-12;

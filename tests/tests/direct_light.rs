@@ -130,14 +130,14 @@ fn read(light: &str, surface: &str, direct: DirectLight) -> Result<Scene, Proble
 /// Mean over the picture, the variance of that mean, both of direct light alone.
 fn mean_and_variance(light: &str, surface: &str, direct: DirectLight) -> (f64, f64) {
     let scene = scene(light, surface, direct);
-    let sources = scene.light_sources();
+    let prepared = reference::PreparedScene::new(&scene);
     let pixels: Vec<_> = (0..SIDE * SIDE).map(|i| [i % SIDE, i / SIDE]).collect();
     let (sum, variance) = pixels
         .into_par_iter()
         .map(|pixel| {
             let (mut sum, mut squares) = (0.0, 0.0);
             for sample in 0..SAMPLES {
-                let path = reference::radiance(&scene, &sources, pixel, sample);
+                let path = prepared.sample(pixel, sample);
                 let value: f64 = path.radiance.iter().map(|group| group[0]).sum();
                 (sum, squares) = (sum + value, squares + value * value);
             }

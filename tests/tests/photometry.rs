@@ -2,7 +2,7 @@
 
 use pellicle_tests::device::open;
 use pellicle_tests::wgsl::root;
-use reference::Source;
+use reference::Emitter;
 use scene::{LightShape, Scene, SceneFile};
 use spectra::{KM_LUMENS_PER_WATT, SpectralImage, observer_1931};
 use std::f64::consts::PI;
@@ -181,7 +181,7 @@ fn a_spot_sends_out_its_power() {
             let LightShape::Spot { position, .. } = light.shape else {
                 return f64::NAN;
             };
-            Source::Single(light.shape).share(position - direction, direction)
+            Emitter::Delta(light.shape).strength(position - direction, direction)
         })
         .sum();
     let watts = light.emission.scale * 400.0 * 2.0 * PI * sum / f64::from(steps);

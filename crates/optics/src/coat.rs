@@ -1,6 +1,7 @@
 //! A diffuse body below a coat without absorption.
 
 use crate::reflectance_unpolarised;
+use crate::wide::Real;
 use num_complex::Complex64;
 
 /// Reflectance of a smooth surface of `index` for diffuse unpolarised light from vacuum: ∫ F(θ) 2 cos θ sin θ dθ, by Gauss's rule of
@@ -42,9 +43,10 @@ const GAUSS_16: [(f64, f64); 8] = [
 /// Elias, Simonot and Menu 2001 for the angles). A body that loses nothing has (1 − Ē) P = 1 whatever its index.
 ///
 /// Domain: n > 0, 0 ≤ ρ ≤ 1, 0 ≤ Ē < 1.
-pub fn coated_albedo_factor(base: f64, n: f64, outer: f64) -> f64 {
+#[inline]
+pub fn coated_albedo_factor<T: Real>(base: T, n: T, outer: T) -> T {
     let n2 = n * n;
-    1.0 / (n2 - base * (n2 - 1.0 + outer))
+    (n2 - base * (n2 - outer.complement())).recip()
 }
 
 #[cfg(test)]

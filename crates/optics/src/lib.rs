@@ -8,11 +8,12 @@
 //! | how much each layer absorbs | [`absorptance`] |
 //! | how R and T change with each thickness | [`thickness_derivatives`] |
 //! | R and T of many stacks at many angles and wavelengths, fast | [`batch::evaluate`] |
+//! | the formulas of your own loop over wavelengths, in registers | [`wide`] |
 //! | a film by the two beams of Suzuki, Yokoi and Toriwaki | [`two_beam`] |
 //! | one boundary | [`fresnel`], [`reflectance_unpolarised`] |
 //! | Cook's model as printed in 1981 and after | [`gaussian_d1`], [`beckmann_d2`], [`index_from_normal_reflectance`] |
 //! | a diffuse body below a coat | [`hemispherical_reflectance`], [`coated_albedo_factor`] |
-//! | rough surfaces | [`Microsurface`], [`multiple_colour`] |
+//! | rough surfaces | [`Microsurface`], [`multiple_color`] |
 //!
 //! Where the light of a coating goes, at one angle and wavelength:
 //!
@@ -53,6 +54,7 @@ mod microfacet;
 mod microsurface;
 mod stack;
 mod two_beam;
+pub mod wide;
 
 use bytemuck::{Pod, Zeroable};
 pub use coat::{coated_albedo_factor, hemispherical_reflectance};
@@ -63,7 +65,7 @@ pub use cook::{
 pub use fresnel::{Amplitudes, cos_refracted, fresnel, reflectance_unpolarised};
 pub use microfacet::{beckmann_d, half_vector_pdf, sample_beckmann, v_groove_g};
 pub use microsurface::{
-    Distribution, MEAN_COSINES, Microsurface, mean_reflectance, multiple_colour,
+    Distribution, MEAN_COSINES, Microsurface, mean_reflectance, multiple_color,
 };
 pub use num_complex::Complex64;
 pub use stack::{

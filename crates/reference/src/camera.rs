@@ -1,8 +1,9 @@
 //! From a place in the picture to a ray.
 
 use glam::DVec3;
+use optics::wide::sin_cos_turns;
 use scene::{Projection, Scene};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A ray: an origin and a unit direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +45,7 @@ fn ray_off_middle(scene: &Scene, pixel: [u32; 2], offset: [f64; 2], [u, v]: [f64
     let (on_lens, focus) = match camera.lens {
         // Uniform over the lens.
         Some(lens) => {
-            let (sine, cosine) = (TAU * v).sin_cos();
+            let (sine, cosine) = sin_cos_turns(v);
             let at = camera.right * cosine + camera.up * sine;
             (at * (lens.radius * u.sqrt()), lens.focus_distance)
         }

@@ -3,6 +3,7 @@
 use crate::environment_picture::{picture_pdf, sample_picture};
 use crate::{frame_of, sample_cone, sample_cosine_hemisphere};
 use glam::DVec3;
+use optics::wide::sin_cos_turns;
 use scene::EnvironmentShape;
 use std::f64::consts::{FRAC_1_PI, TAU};
 
@@ -31,8 +32,8 @@ pub fn sample_environment(part: EnvironmentShape<'_>, u: f64, v: f64) -> DVec3 {
             };
             let height = 1.0 - (1.0 - t).sqrt();
             let sine = (1.0 - height * height).sqrt();
-            let phi = TAU * v;
-            DVec3::new(sine * phi.cos(), side * height, sine * phi.sin())
+            let (sin_phi, cos_phi) = sin_cos_turns(v);
+            DVec3::new(sine * cos_phi, side * height, sine * sin_phi)
         }
         EnvironmentShape::Picture(picture) => sample_picture(picture, u, v),
         EnvironmentShape::Pole(pole) => frame_of(pole) * sample_cosine_hemisphere(u, v),

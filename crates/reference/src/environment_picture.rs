@@ -1,8 +1,8 @@
 //! Surroundings by a picture of all directions.
 
-use crate::picture::{chosen_pixel, half_turns, smooth_value};
+use crate::picture::{chosen_pixel, half_turns};
 use glam::DVec3;
-use scene::{DirectionTable, EnvironmentPicture, PictureSpectra};
+use scene::{DirectionTable, EnvironmentPicture};
 use std::f64::consts::TAU;
 
 /// Place of a direction in the picture, from its upper left corner in its width and height.
@@ -16,23 +16,6 @@ pub(crate) fn place_of(picture: &EnvironmentPicture, direction: DVec3) -> [f64; 
 /// The pixel that a path takes for a direction, by a random number.
 pub fn environment_pixel(picture: &EnvironmentPicture, direction: DVec3, random: f64) -> [u32; 2] {
     chosen_pixel(&picture.texels, place_of(picture, direction), true, random)
-}
-
-/// What a pixel has in a band at a wavelength.
-pub(crate) fn pixel_value(
-    picture: &EnvironmentPicture,
-    pixel: [u32; 2],
-    band: usize,
-    nm: f64,
-) -> f64 {
-    let texels = picture.texels.at(pixel);
-    match picture.spectra {
-        PictureSpectra::Bands => f64::from(texels[band / 4][band % 4]),
-        PictureSpectra::Smooth => {
-            let [c0, c1, c2, scale] = texels[0].map(f64::from);
-            scale * smooth_value([c0, c1, c2], nm)
-        }
-    }
 }
 
 /// A direction drawn in proportion to the brightness of the cells of the picture's table.

@@ -2,7 +2,7 @@
 
 use crate::Ray;
 use glam::DVec3;
-use scene::{Scene, Shape};
+use scene::{Hierarchy, Node, Object, Scene, Shape};
 
 /// Distance to a sphere: the smaller positive root of |o + t d − c|² = r². A ray that starts on the
 /// sphere (`from_surface`) has one root at its start, which does not count; the other is −2 d·(o − c).
@@ -36,18 +36,100 @@ pub struct Hit {
     pub distance: f64,
 }
 
-/// The nearest object along a ray, which may start on `from_object`.
+/// The nearest object along a ray, which may start on `from_object`. Of two at the same distance the first counts.
 pub fn nearest_hit(scene: &Scene, ray: &Ray, from_object: Option<usize>) -> Option<Hit> {
-    let hits = (0..scene.objects().len()).filter_map(|object| {
-        let distance = distance_to(scene, ray, object, from_object == Some(object))?;
-        Some(Hit { object, distance })
-    });
-    // Of two at the same distance the first counts.
-    hits.reduce(|a, b| if b.distance < a.distance { b } else { a })
+    let mut nearest = Nearest {
+        objects: scene.objects(),
+        ray,
+        from: from_object.unwrap_or(usize::MAX),
+        hit: Hit {
+            object: usize::MAX,
+            distance: f64::INFINITY,
+        },
+    };
+    let hierarchy = scene.hierarchy();
+    nearest.of(&hierarchy.everywhere);
+    if !hierarchy.nodes.is_empty() {
+        nearest.within(hierarchy);
+    }
+    (nearest.hit.object != usize::MAX).then_some(nearest.hit)
 }
 
-fn distance_to(scene: &Scene, ray: &Ray, object: usize, starts_here: bool) -> Option<f64> {
-    match scene.objects()[object].shape {
+/// The nearest object so far.
+struct Nearest<'a> {
+    objects: &'a [Object],
+    ray: &'a Ray,
+    from: usize,
+    hit: Hit,
+}
+
+impl Nearest<'_> {
+    /// Tries some objects.
+    fn of(&mut self, objects: &[u32]) {
+        for &object in objects {
+            let object = object as usize;
+            let shape = &self.objects[object].shape;
+            if let Some(distance) = distance_to(shape, self.ray, object == self.from) {
+                let is_first = distance == self.hit.distance && object < self.hit.object;
+                if distance < self.hit.distance || is_first {
+                    self.hit = Hit { object, distance };
+                }
+            }
+        }
+    }
+
+    /// Tries the objects in the boxes that the ray meets, the nearer of two boxes first.
+    fn within(&mut self, hierarchy: &Hierarchy) {
+        let inverse = self
+            .ray
+            .direction
+            .map(|d| if d.abs() < 1e-300 { 1e300 } else { 1.0 / d });
+        let origin = self.ray.origin;
+        // Where the ray enters a box, if it does so before it meets the nearest object.
+        let entry = |node: &Node, before: f64| {
+            let (a, b) = (
+                (node.low - origin) * inverse,
+                (node.high - origin) * inverse,
+            );
+            let near = a.min(b).max_element().max(0.0);
+            (near <= a.max(b).min_element().min(before)).then_some(near)
+        };
+        let mut open = [(0.0, 0_u32); Hierarchy::DEPTH];
+        let mut count = usize::from(entry(&hierarchy.nodes[0], f64::INFINITY).is_some());
+        while count > 0 {
+            count -= 1;
+            let (enters, node) = open[count];
+            if enters > self.hit.distance {
+                continue;
+            }
+            let Node {
+                first,
+                count: objects,
+                ..
+            } = hierarchy.nodes[node as usize];
+            if objects > 0 {
+                self.of(&hierarchy.leaves[first as usize..(first + objects) as usize]);
+                continue;
+            }
+            let children = [first, first + 1];
+            let mut entries = children.map(|child| {
+                entry(&hierarchy.nodes[child as usize], self.hit.distance).map(|near| (near, child))
+            });
+            if let [Some((left, _)), Some((right, _))] = entries
+                && left < right
+            {
+                entries.swap(0, 1);
+            }
+            for (near, child) in entries.into_iter().flatten() {
+                open[count] = (near, child);
+                count += 1;
+            }
+        }
+    }
+}
+
+fn distance_to(shape: &Shape, ray: &Ray, starts_here: bool) -> Option<f64> {
+    match *shape {
         Shape::Sphere { center, radius } => intersect_sphere(ray, center, radius, starts_here),
         Shape::Plane { .. } | Shape::Rectangle { .. } | Shape::Disk { .. } if starts_here => None,
         Shape::Plane { point, normal, .. } => intersect_plane(ray, point, normal),
@@ -77,6 +159,10 @@ fn distance_to(scene: &Scene, ray: &Ray, object: usize, starts_here: bool) -> Op
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{random4, sample_cone};
+    use scene::SceneFile;
+    use std::fmt::Write as _;
+    use std::path::Path;
 
     const X: Ray = Ray {
         origin: DVec3::ZERO,
@@ -103,5 +189,83 @@ mod tests {
         assert_eq!(intersect_plane(&X, DVec3::NEG_X, DVec3::X), None);
         assert_eq!(intersect_plane(&X, DVec3::Y, DVec3::Y), None);
         assert_eq!(intersect_plane(&X, DVec3::ZERO, DVec3::X), None);
+    }
+
+    /// So many spheres of all sizes, some rectangles and disks, and a plane.
+    fn crowd(spheres: u32) -> Scene {
+        let mut text = String::from(
+            "camera = { type = 'orthographic', position = [0, 0, 9], look_at = [0, 0, 0], height = 9 }\n\
+             environment = { type = 'constant', emission = { constant = 1 } }\n\
+             render = { bands = 1 }\nmaterials = { gray = { type = 'diffuse', reflectance = 0.5 } }\n\
+             [[objects]]\ntype = 'plane'\nmaterial = 'gray'\npoint = [0, -6, 0]\nnormal = [0, 1, 0]\n",
+        );
+        for i in 0..spheres {
+            let [x, y, z, size] = random4([i, 0], 0, 0, 5);
+            let [nx, ny, nz, _] = random4([i, 0], 0, 1, 5).map(|u| u - 0.5);
+            let center = [x, y, z].map(|u| 10.0 * u - 5.0);
+            let size = 0.02 + 0.3 * size * size;
+            let shape = match i % 5 {
+                0 => {
+                    format!("type = 'rectangle'\nnormal = [{nx}, {ny}, {nz}]\nsize = [{size}, 0.4]")
+                }
+                1 => format!("type = 'disk'\nnormal = [{nx}, {ny}, {nz}]\nradius = {size}"),
+                _ => format!("type = 'sphere'\nradius = {size}"),
+            };
+            writeln!(
+                text,
+                "[[objects]]\nmaterial = 'gray'\ncenter = {center:?}\n{shape}"
+            )
+            .unwrap();
+        }
+        SceneFile::parse("crowd.toml", &text, Path::new(""))
+            .and_then(|file| file.validate())
+            .unwrap_or_else(|problems| panic!("{problems}"))
+    }
+
+    /// The nearest of some objects, each tried in turn.
+    fn one_by_one(
+        scene: &Scene,
+        objects: std::ops::RangeInclusive<usize>,
+        ray: &Ray,
+        from: Option<usize>,
+    ) -> Option<Hit> {
+        let hits = objects.filter_map(|object| {
+            let distance = distance_to(&scene.objects()[object].shape, ray, from == Some(object))?;
+            Some(Hit { object, distance })
+        });
+        hits.reduce(|a, b| if b.distance < a.distance { b } else { a })
+    }
+
+    /// The hierarchy of boxes finds what trying all objects finds, from outside, from within and from objects themselves.
+    #[test]
+    fn rays_meet_the_nearest_of_many_objects() {
+        let (many, mut hits) = (crowd(700), 0);
+        assert!(many.hierarchy().nodes.len() > 100);
+        for i in 0..4000 {
+            let [x, y, z, _] = random4([i, 1], 0, 0, 5).map(|u| 16.0 * u - 8.0);
+            let [u, v, pick, _] = random4([i, 1], 0, 1, 5);
+            let direction = match i % 7 {
+                0 => DVec3::X,
+                1 => DVec3::NEG_Y,
+                _ => sample_cone(u, v, 2.0),
+            };
+            let mut ray = Ray {
+                origin: DVec3::new(x, y, z),
+                direction,
+            };
+            let mut from = None;
+            if i % 3 == 0 {
+                let object = (pick * 701.0) as usize;
+                let towards = one_by_one(&many, 0..=object, &ray, None);
+                if let Some(hit) = towards {
+                    ray.origin += ray.direction * hit.distance;
+                    from = Some(hit.object);
+                }
+            }
+            let expected = one_by_one(&many, 0..=700, &ray, from);
+            assert_eq!(nearest_hit(&many, &ray, from), expected, "{ray:?}");
+            hits += u32::from(expected.is_some());
+        }
+        assert!((1000..3900).contains(&hits), "{hits}");
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::surface::center_of;
 use glam::DVec3;
+use optics::wide::Real;
 use scene::{Shape, Texels};
 use std::f64::consts::{PI, TAU};
 
@@ -48,8 +49,8 @@ pub(crate) fn picture_place(
     }
 }
 
-/// The pixel that a path takes at a place of a picture: one of the four whose centres are around it, with the weights that they
-/// have between the centres as odds (`random` in [0, 1)).
+/// The pixel that a path takes at a place of a picture: one of the four whose centers are around it, with the weights that they
+/// have between the centers as odds (`random` in [0, 1)).
 pub(crate) fn chosen_pixel(
     texels: &Texels,
     [across, down]: [f64; 2],
@@ -78,8 +79,13 @@ pub(crate) fn chosen_pixel(
 
 /// The smooth spectrum with these coefficients: (1 + x/√(1 + x²)) / 2 with x = c₀ t² + c₁ t + c₂ and
 /// t = (λ − 580 nm) / 200 nm (Jakob and Hanika 2019, equations 4 and 5).
-pub fn smooth_value([c0, c1, c2]: [f64; 3], wavelength_nm: f64) -> f64 {
-    let t = (wavelength_nm - 580.0) / 200.0;
-    let x = c0 * t * t + c1 * t + c2;
-    0.5 + 0.5 * x / x.hypot(1.0)
+#[inline(always)]
+pub fn smooth_value<T: Real>([c0, c1, c2]: [f64; 3], wavelength_nm: T) -> T {
+    let one = wavelength_nm.constant(1.0);
+    let t = (wavelength_nm - one.times(580.0)).times(1.0 / 200.0);
+    let x = one
+        .times(c0)
+        .mul_add(t, one.times(c1))
+        .mul_add(t, one.times(c2));
+    (x / x.mul_add(x, one).sqrt()).mul_add(one.times(0.5), one.times(0.5))
 }

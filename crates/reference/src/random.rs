@@ -16,7 +16,7 @@ fn stir([mut x, mut y, mut z, mut w]: [u32; 4]) -> [u32; 4] {
 }
 
 /// The upper 24 bits as a multiple of 2⁻²⁴ in [0, 1).
-pub fn unit_interval(bits: [u32; 4]) -> [f64; 4] {
+pub fn unit_interval<const N: usize>(bits: [u32; N]) -> [f64; N] {
     bits.map(|b| f64::from(b >> 8) * (0.5_f64).powi(24))
 }
 

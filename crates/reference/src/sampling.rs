@@ -1,7 +1,7 @@
 //! Directions drawn from uniform numbers.
 
 use glam::{DMat3, DVec3};
-use std::f64::consts::TAU;
+use optics::wide::sin_cos_turns;
 
 /// A right-handed orthonormal frame about a unit vector, its third column
 /// (Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017).
@@ -18,8 +18,8 @@ pub fn frame_of(normal: DVec3) -> DMat3 {
 }
 
 fn polar(sine: f64, cosine: f64, turn: f64) -> DVec3 {
-    let phi = TAU * turn;
-    DVec3::new(sine * phi.cos(), sine * phi.sin(), cosine)
+    let (sin_phi, cos_phi) = sin_cos_turns(turn);
+    DVec3::new(sine * cos_phi, sine * sin_phi, cosine)
 }
 
 /// A direction about +z with density cos θ / π.

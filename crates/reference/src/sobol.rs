@@ -52,13 +52,34 @@ pub fn sobol_point(index: u32) -> [u32; 4] {
     })
 }
 
-/// Owen's nested uniform scrambling: each digit is flipped by a hash of those before it (Laine and Karras, Comput. Graph.
-/// Forum 30, 2011, with the steps of Vegdahl, 2021).
-pub fn owen_scrambled(x: u32, seed: u32) -> u32 {
-    scrambled_reversed(x.reverse_bits(), seed).reverse_bits()
+/// Points of the indices that have one byte of digits alone, the byte's highest bit the lowest digit, with their bits reversed: a point
+/// is the sum (XOR) of those of its index's bytes.
+static REVERSED_BY_BYTE: [[[u32; 4]; 256]; DIGITS / 8] = reversed_by_byte();
+
+const fn reversed_by_byte() -> [[[u32; 4]; 256]; DIGITS / 8] {
+    let mut points = [[[0; 4]; 256]; DIGITS / 8];
+    let mut place = 0;
+    while place < DIGITS / 8 * 256 * 32 {
+        let (byte, value) = (place / 8192, place / 32 % 256);
+        let (dimension, digit) = (place % 4, place / 4 % 8);
+        if value >> (7 - digit) & 1 == 1 {
+            let number = DIRECTIONS[dimension][8 * byte + digit];
+            points[byte][value][dimension] ^= number.reverse_bits();
+        }
+        place += 1;
+    }
+    points
 }
 
-/// The same of a number with its bits reversed: a bit is flipped by a hash of those below it.
+/// [`sobol_point`] of an index with its bits reversed, with its bits reversed.
+fn sobol_point_reversed(index: u32) -> [u32; 4] {
+    let bytes = index.to_be_bytes();
+    let [a, b, c] = std::array::from_fn(|i| REVERSED_BY_BYTE[i][bytes[i] as usize]);
+    std::array::from_fn(|i| a[i] ^ b[i] ^ c[i])
+}
+
+/// Owen's nested uniform scrambling of a number with its bits reversed: a bit is flipped by a hash of those below it (Laine and Karras,
+/// Comput. Graph. Forum 30, 2011, with the steps of Vegdahl, 2021).
 pub fn scrambled_reversed(mut x: u32, seed: u32) -> u32 {
     x ^= x.wrapping_mul(0x3d20_adea);
     x = x.wrapping_add(seed);
@@ -67,12 +88,92 @@ pub fn scrambled_reversed(mut x: u32, seed: u32) -> u32 {
     x ^ x.wrapping_mul(0x53a2_2864)
 }
 
+/// How four dimensions of a pixel are scrambled.
+#[derive(Clone, Copy, Default)]
+struct Scrambling {
+    order: u32,
+    seeds: [u32; 4],
+}
+
+impl Scrambling {
+    fn new(pixel: [u32; 2], dimension: u32, seed: u32) -> Self {
+        let key = pcg4d([pixel[0] | (pixel[1] << 16), dimension, seed, 0x50b01]);
+        Self {
+            order: key[0],
+            seeds: pcg4d(key),
+        }
+    }
+
+    #[inline]
+    fn numbers(&self, sample: u32) -> SobolNumbers {
+        let index = scrambled_reversed(sample.reverse_bits(), self.order);
+        SobolNumbers {
+            point: sobol_point_reversed(index),
+            seeds: self.seeds,
+        }
+    }
+}
+
+/// Four numbers, each scrambled when it is asked for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SobolNumbers {
+    point: [u32; 4],
+    seeds: [u32; 4],
+}
+
+impl SobolNumbers {
+    #[inline]
+    pub(crate) fn get(&self, lane: usize) -> f64 {
+        let bits = scrambled_reversed(self.point[lane], self.seeds[lane]).reverse_bits();
+        unit_interval([bits])[0]
+    }
+}
+
 /// Four numbers in [0, 1) for a pixel of the whole picture, a sample and a dimension.
 pub fn sobol4(pixel: [u32; 2], sample: u32, dimension: u32, seed: u32) -> [f64; 4] {
-    let key = pcg4d([pixel[0] | (pixel[1] << 16), dimension, seed, 0x50b01]);
-    let seeds = pcg4d(key);
-    let point = sobol_point(owen_scrambled(sample, key[0]));
-    unit_interval(std::array::from_fn(|i| owen_scrambled(point[i], seeds[i])))
+    let numbers = Scrambling::new(pixel, dimension, seed).numbers(sample);
+    std::array::from_fn(|lane| numbers.get(lane))
+}
+
+/// [`sobol4`] for the samples of a pixel, which share what depends on the pixel.
+pub(crate) struct SobolPixel {
+    pixel: [u32; 2],
+    seed: u32,
+    /// Changes with the pixel.
+    epoch: u32,
+    /// By the last digits of the dimension: the epoch, the dimension and its scrambling.
+    known: Vec<(u32, u32, Scrambling)>,
+}
+
+impl SobolPixel {
+    const KNOWN: usize = 256;
+
+    pub(crate) fn new(seed: u32) -> Self {
+        Self {
+            pixel: [0; 2],
+            seed,
+            epoch: 1,
+            known: vec![Default::default(); Self::KNOWN],
+        }
+    }
+
+    /// The samples that follow are of this pixel.
+    pub(crate) fn begin(&mut self, pixel: [u32; 2]) {
+        if pixel != self.pixel {
+            self.pixel = pixel;
+            self.epoch = self.epoch.wrapping_add(1);
+        }
+    }
+
+    #[inline]
+    pub(crate) fn numbers(&mut self, sample: u32, dimension: u32) -> SobolNumbers {
+        let (epoch, of, scrambling) = &mut self.known[dimension as usize % Self::KNOWN];
+        if (*epoch, *of) != (self.epoch, dimension) {
+            *scrambling = Scrambling::new(self.pixel, dimension, self.seed);
+            (*epoch, *of) = (self.epoch, dimension);
+        }
+        scrambling.numbers(sample)
+    }
 }
 
 #[cfg(test)]
@@ -98,6 +199,28 @@ mod tests {
             .collect();
         for point in expected {
             assert!(found.contains(&point), "{point:?} is not in {found:?}");
+        }
+    }
+
+    #[test]
+    fn points_by_bytes_are_those_by_digits() {
+        for i in 0..100_000_u32 {
+            let index = i.wrapping_mul(0x9e37_79b9);
+            let found = sobol_point_reversed(index.reverse_bits());
+            assert_eq!(found.map(u32::reverse_bits), sobol_point(index));
+        }
+    }
+
+    #[test]
+    fn samples_of_a_pixel_are_those_of_any() {
+        let mut of_pixel = SobolPixel::new(7);
+        for i in 0..10_000_u32 {
+            let hash = pcg4d([i, 1, 2, 3]);
+            let (pixel, dimension) = ([hash[0] % 3, 5], hash[1] % 1024);
+            of_pixel.begin(pixel);
+            let found = of_pixel.numbers(hash[2] % 64, dimension);
+            let found = std::array::from_fn(|lane| found.get(lane));
+            assert_eq!(found, sobol4(pixel, hash[2] % 64, dimension, 7));
         }
     }
 

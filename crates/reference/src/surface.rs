@@ -56,7 +56,7 @@ pub fn surface_frame(material: &Material, shape: &Shape, point: &SurfacePoint) -
     DMat3::from_cols(tangent, normal.cross(tangent), normal)
 }
 
-/// A shape's centre, or the origin of a plane's axes.
+/// A shape's center, or the origin of a plane's axes.
 pub(crate) fn center_of(shape: &Shape) -> DVec3 {
     match *shape {
         Shape::Sphere { center, .. }
@@ -104,11 +104,8 @@ pub fn pattern_reflectance(
                     tangent, bitangent, ..
                 } => local.dot(tangent).floor() + local.dot(bitangent).floor(),
             };
-            Reflectance::Spectrum(if squares.rem_euclid(2.0) == 0.0 {
-                even
-            } else {
-                odd
-            })
+            let is_even = squares as i64 & 1 == 0;
+            Reflectance::Spectrum(if is_even { even } else { odd })
         }
     }
 }

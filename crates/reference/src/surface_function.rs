@@ -1,50 +1,103 @@
 //! How a surface scatters light, apart from any path.
 
-use crate::SurfacePoint;
-use crate::scatter::Scatterer;
-use crate::spectra::Spectra;
+use crate::bsdf::{Bsdf, Lobes};
+use crate::spectral::SpectralPath;
+use crate::transport::Transport;
+use crate::{PreparedScene, SimdLevel, SurfacePoint};
 use glam::DVec3;
-use scene::Scene;
 
-/// How the surface of an object scatters light at a point, as paths have it. Directions are unit vectors in the local frame whose z
-/// is the normal on the ray's side and, where the surface is brushed, whose x runs along the grain.
+/// The BSDF of an object at a point, as paths have it. `wo` points to the camera's side of a path, `wi` to the light's; both are unit
+/// vectors of the local frame whose z is the normal on the side of `wo` and, where the surface is brushed, whose x runs along the grain.
 pub struct SurfaceFunction<'a> {
-    spectra: Spectra<'a>,
-    scatterer: Scatterer<'a>,
+    prepared: &'a PreparedScene<'a>,
+    bsdf: Bsdf<'a>,
+    offset: f64,
 }
 
 impl<'a> SurfaceFunction<'a> {
-    /// That of an object of a scene; none of films, smooth conductors and black lamps, which scatter nothing. `offset` is the place of
-    /// the wavelengths in their bands, `random` chooses between the texels of a picture; both lie in [0, 1).
+    /// That of an object of a scene; none of films and of what is black. `offset` is the place of the wavelengths in their bands, `random`
+    /// chooses between the texels of a picture; both lie in [0, 1).
     pub fn new(
-        scene: &'a Scene,
+        prepared: &'a PreparedScene<'a>,
         object: usize,
         point: &SurfacePoint,
         offset: f64,
         random: f64,
     ) -> Option<Self> {
+        let object = &prepared.scene.objects()[object];
+        let surface = prepared.surface(object.material);
         Some(Self {
-            spectra: Spectra { scene, offset },
-            scatterer: Scatterer::new(scene, object, point, random)?,
+            prepared,
+            bsdf: surface.bsdf(&object.shape, point, || random)?,
+            offset,
         })
     }
 
-    /// The reflection function from `light` to `eye` times the light's cosine, sr⁻¹, in a band. What a smooth coat mirrors is
-    /// no part of it.
-    pub fn value(&self, eye: DVec3, light: DVec3, band: usize) -> f64 {
-        let lobes = self.scatterer.between(eye, light).lobes;
-        let Self { spectra, scatterer } = self;
-        spectra.scattered_value(scatterer, eye, &lobes, band)
+    /// The BSDF from `wi` to `wo` times cos θi in each band, sr⁻¹, without a specular part.
+    pub fn values(&self, wo: DVec3, wi: DVec3) -> Vec<f64> {
+        let mut path = SpectralPath::new(SimdLevel::best().0, &self.prepared.tables, 1);
+        path.begin(self.offset);
+        path.scatter(&self.bsdf, &self.bsdf.eval(wo, wi).lobes);
+        path.throughput().to_vec()
     }
 
-    /// Density with which [`Self::sample`] finds the light's direction, sr⁻¹. Below a smooth coat it integrates to the chance that
-    /// the path is not mirrored by the coat.
-    pub fn pdf(&self, eye: DVec3, light: DVec3) -> f64 {
-        self.scatterer.between(eye, light).pdf
+    /// Density with which [`Self::sample`] finds `wi`, sr⁻¹. Below a smooth coat it integrates to the chance that the path is not
+    /// mirrored by the coat.
+    pub fn pdf(&self, wo: DVec3, wi: DVec3) -> f64 {
+        self.bsdf.eval(wo, wi).pdf
     }
 
-    /// A direction towards which light is scattered from `eye`, by four numbers in [0, 1).
-    pub fn sample(&self, eye: DVec3, random: [f64; 4]) -> DVec3 {
-        self.scatterer.sample(eye, random)
+    /// A direction `wi` by four numbers in [0, 1).
+    pub fn sample(&self, wo: DVec3, random: [f64; 4]) -> DVec3 {
+        self.bsdf.sample(wo, |lane| random[lane])
+    }
+}
+
+impl PreparedScene<'_> {
+    /// Reflectance and transmittance of the film that an object is, for unpolarized light in each band, as paths have them. None of
+    /// other objects.
+    pub fn film_powers(
+        &self,
+        object: usize,
+        point: &SurfacePoint,
+        offset: f64,
+    ) -> Option<[Vec<f64>; 2]> {
+        let object = &self.scene.objects()[object];
+        let film = self
+            .surface(object.material)
+            .film()?
+            .at(&object.shape, point);
+        let mut path = SpectralPath::new(SimdLevel::best().0, &self.tables, 1);
+        path.begin(offset);
+        path.split(&film);
+        let reflectance = path.throughput().to_vec();
+        path.resume();
+        Some([reflectance, path.throughput().to_vec()])
+    }
+
+    /// Reflectance of the smooth surface that an object is, for unpolarized light in each band, as paths have it. None of what does not
+    /// only mirror.
+    pub fn mirror_reflectance(
+        &self,
+        object: usize,
+        point: &SurfacePoint,
+        offset: f64,
+    ) -> Option<Vec<f64>> {
+        let object = &self.scene.objects()[object];
+        let bsdf = self
+            .surface(object.material)
+            .bsdf(&object.shape, point, || 0.0)?;
+        let wo = DVec3::new(
+            (1.0 - point.cosine * point.cosine).sqrt(),
+            0.0,
+            point.cosine,
+        );
+        if bsdf.specular_probability(wo) < 1.0 {
+            return None;
+        }
+        let mut path = SpectralPath::new(SimdLevel::best().0, &self.tables, 1);
+        path.begin(offset);
+        path.scatter(&bsdf, &Lobes::specular(point.cosine));
+        Some(path.throughput().to_vec())
     }
 }

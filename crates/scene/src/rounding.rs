@@ -3,8 +3,8 @@
 use crate::EnvironmentPicture;
 use crate::{
     Camera, CoatEstimate, CoatedBody, Cook1981, CookFacets, DiffuseShare, Emission, Environment,
-    Grain, Layer, Lens, Light, LightShape, Material, Microsurface, Object, Pattern, Projection,
-    RenderSettings, Scene, Shape,
+    Grain, Hierarchy, Layer, Lens, Light, LightShape, Material, Microsurface, Object, Pattern,
+    Projection, RenderSettings, Scene, Shape,
 };
 use glam::DVec3;
 use std::sync::Arc;
@@ -40,6 +40,7 @@ impl RoundToF32 for spectra::BandTable {
 
 impl RoundToF32 for Scene {
     fn rounded(&self) -> Self {
+        let objects = self.objects.rounded();
         Self {
             settings: self.settings.rounded(),
             camera: self.camera.rounded(),
@@ -47,7 +48,8 @@ impl RoundToF32 for Scene {
             observer: self.observer.each_ref().map(RoundToF32::rounded),
             light_groups: self.light_groups.clone(),
             materials: self.materials.rounded(),
-            objects: self.objects.rounded(),
+            hierarchy: Hierarchy::new(&objects),
+            objects,
             lights: self.lights.rounded(),
             environment: self.environment.rounded(),
             estimates: self.estimates.rounded(),

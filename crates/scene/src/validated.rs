@@ -3,7 +3,8 @@
 use crate::description::Description;
 use crate::rounding::RoundToF32;
 use crate::{
-    Camera, Environment, Estimate, Light, Material, Object, Problems, RenderSettings, validate,
+    Camera, Environment, Estimate, Hierarchy, Light, Material, Object, Problems, RenderSettings,
+    validate,
 };
 use spectra::{BandTable, LightGroup, SpectralImage};
 use std::path::Path;
@@ -63,6 +64,7 @@ pub struct Scene {
     pub(crate) environment: Environment,
     /// Of each material.
     pub(crate) estimates: Vec<Estimate>,
+    pub(crate) hierarchy: Hierarchy,
 }
 
 impl Scene {
@@ -140,6 +142,11 @@ impl Scene {
     /// All objects.
     pub fn objects(&self) -> &[Object] {
         &self.objects
+    }
+
+    /// Boxes around the objects.
+    pub fn hierarchy(&self) -> &Hierarchy {
+        &self.hierarchy
     }
 
     /// Lights that are no objects, discs first. See [`Scene::light_sources`] for all that shines.

@@ -4,7 +4,7 @@ use crate::world::{everything, pictured, rounded, rows, unit, vector};
 use crate::{Check, pure, table};
 use gpu::layout::NONE;
 use pellicle_tests::tolerances::{ARITHMETIC, LIGHT_ESTIMATE};
-use reference::{Source, choice_probabilities, choose_light, scattering_share, sending_share};
+use reference::{Emitter, PreparedScene, choose_emitter, mis_weight_bsdf, mis_weight_emitter};
 use scene::LightSource;
 use std::sync::OnceLock;
 
@@ -13,8 +13,8 @@ fn sources() -> &'static [LightSource] {
     SOURCES.get_or_init(|| everything().scene.light_sources())
 }
 
-fn source_of(number: f64) -> Source<'static> {
-    Source::of(&everything().scene, sources()[number as usize].kind)
+fn emitter_of(number: f64) -> Emitter<'static> {
+    Emitter::of(&everything().scene, sources()[number as usize].kind)
 }
 
 /// Number of a source (a shader asks `objects[number].light`), a point and a unit vector.
@@ -39,7 +39,7 @@ pub(crate) fn checks() -> Vec<Check> {
             ),
             proves: &["light_share", "spot_share", "is_surrounding", "is_single_direction"],
             inputs: places(),
-            twin: |a| vec![source_of(a[0]).share(vector(&a[1..]), vector(&a[4..]))],
+            twin: |a| vec![emitter_of(a[0]).strength(vector(&a[1..]), vector(&a[4..]))],
             tolerance: LIGHT_ESTIMATE,
         },
         Check {
@@ -56,7 +56,7 @@ pub(crate) fn checks() -> Vec<Check> {
                 "most_cosine",
             ],
             inputs: places(),
-            twin: |a| vec![source_of(a[0]).estimate(vector(&a[1..]), vector(&a[4..]))],
+            twin: |a| vec![emitter_of(a[0]).weight(vector(&a[1..]), vector(&a[4..]))],
             tolerance: LIGHT_ESTIMATE,
         },
         Check {
@@ -79,10 +79,10 @@ pub(crate) fn checks() -> Vec<Check> {
             proves: &["choose_light"],
             inputs: choices(),
             twin: |a| {
-                let chosen = choose_light(&chances(a), a[0]).expect("one of them shines");
-                let light = everything().packed.objects[chosen.source].light;
+                let chosen = choose_emitter(chances(a).into_iter(), a[0]).expect("one of them shines");
+                let light = everything().packed.objects[chosen.emitter].light;
                 assert_ne!(light, NONE);
-                vec![f64::from(light), chosen.probability]
+                vec![f64::from(light), chosen.pmf]
             },
             tolerance: LIGHT_ESTIMATE,
         },
@@ -90,7 +90,7 @@ pub(crate) fn checks() -> Vec<Check> {
             probe: pure_mis(),
             proves: &["scattering_share"],
             inputs: table(&[(0.01, 10.0), (0.0, 10.0)], &[&[1e-3, 1e3], &[5.0, 0.0]]),
-            twin: |a| vec![scattering_share(a[0], a[1])],
+            twin: |a| vec![mis_weight_bsdf(a[0], a[1])],
             tolerance: ARITHMETIC,
         },
         Check {
@@ -107,8 +107,8 @@ pub(crate) fn checks() -> Vec<Check> {
             }),
             twin: |a| {
                 let scene = &pictured().scene;
-                let source = Source::of(scene, scene.light_sources()[a[0] as usize].kind);
-                vec![sending_share(source, a[1], a[2], a[3])]
+                let emitter = Emitter::of(scene, scene.light_sources()[a[0] as usize].kind);
+                vec![mis_weight_emitter(emitter, a[1], a[2], a[3])]
             },
             tolerance: ARITHMETIC,
         },
@@ -124,8 +124,9 @@ fn pure_mis() -> pellicle_tests::probe::Probe<'static> {
 }
 
 fn chances(a: &[f64]) -> Vec<f64> {
-    let (point, normal) = (vector(&a[1..]), vector(&a[4..]));
-    choice_probabilities(&everything().scene, sources(), point, normal)
+    static PREPARED: OnceLock<PreparedScene> = OnceLock::new();
+    let prepared = PREPARED.get_or_init(|| PreparedScene::new(&everything().scene));
+    prepared.emitter_pmfs(vector(&a[1..]), vector(&a[4..]))
 }
 
 /// Numbers with points and normals, without those that lie within a rounding of the border between two lights.

@@ -88,7 +88,7 @@ fn pdf_rows(points: &[f32]) -> Vec<f32> {
     let made = points.chunks(6).filter_map(|row| {
         let a: Vec<f64> = row.iter().map(|&x| f64::from(x)).collect();
         let shape = world.shape(a[0] as usize);
-        let direction = reference::sample_light(shape, vector(&a[1..]), a[4], a[5]).as_vec3();
+        let direction = reference::sample_shape(shape, vector(&a[1..]), a[4], a[5]).as_vec3();
         if let Shape::Rectangle { normal, .. } | Shape::Disk { normal, .. } = *shape
             && direction.as_dvec3().dot(normal).abs() < 0.1
         {
@@ -101,14 +101,14 @@ fn pdf_rows(points: &[f32]) -> Vec<f32> {
 
 fn sampled(a: &[f64]) -> Vec<f64> {
     let light = everything().shape(a[0] as usize);
-    reference::sample_light(light, vector(&a[1..]), a[4], a[5])
+    reference::sample_shape(light, vector(&a[1..]), a[4], a[5])
         .to_array()
         .to_vec()
 }
 
 fn density(a: &[f64]) -> Vec<f64> {
     let light = everything().shape(a[0] as usize);
-    vec![reference::light_pdf(
+    vec![reference::shape_pdf(
         light,
         vector(&a[1..]),
         vector(&a[4..]),

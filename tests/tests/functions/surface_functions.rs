@@ -6,7 +6,7 @@ use crate::world::{BANDS, World, direction, pick, rows};
 use glam::DVec3;
 use gpu::PackedScene;
 use pellicle_tests::tolerances::{RECIPROCITY, SURFACE_FUNCTIONS};
-use reference::{SurfaceFunction, SurfacePoint};
+use reference::{PreparedScene, SurfaceFunction, SurfacePoint};
 use scene::{SceneFile, Shape};
 use std::path::Path;
 use std::sync::OnceLock;
@@ -93,7 +93,9 @@ const BODY: &str = "
 
 /// f(eye, light) in the four bands of a group, and f(light, eye).
 fn both_ways(a: &[f64]) -> Vec<f64> {
+    static PREPARED: OnceLock<PreparedScene> = OnceLock::new();
     let (world, object) = (world(), a[0] as usize);
+    let prepared = PREPARED.get_or_init(|| PreparedScene::new(&world.scene));
     let Shape::Sphere { center, radius } = *world.shape(object) else {
         panic!("only spheres are here");
     };
@@ -105,12 +107,10 @@ fn both_ways(a: &[f64]) -> Vec<f64> {
             cosine: eye.z,
             is_front: true,
         };
-        let surface = SurfaceFunction::new(&world.scene, object, &point, a[2], 0.5);
-        let surface = surface.expect("all scatter");
+        let surface = SurfaceFunction::new(prepared, object, &point, a[2], 0.5);
+        let values = surface.expect("all scatter").values(eye, light);
         let bands = (0..4).map(|band| 4 * a[1] as usize + band);
-        bands
-            .map(|band| surface.value(eye, light, band) / light.z)
-            .collect::<Vec<_>>()
+        bands.map(|band| values[band] / light.z).collect::<Vec<_>>()
     };
     [one_way(first, second), one_way(second, first)].concat()
 }

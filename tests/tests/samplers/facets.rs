@@ -88,7 +88,7 @@ fn scattered(
     let draw = |u: f64, v: f64| {
         choice.set(choice.get() + 1);
         let [pick, ..] = random4([choice.get() % 4096, choice.get() / 4096], 3, 5, 77);
-        let light = facets.sample(eye, [u, v, pick, 0.0]);
+        let light = facets.sample(eye, [u, v, pick]);
         (light.z > 0.0).then(|| coordinates(surface, (eye + light).normalize()))
     };
     let density = |place: f64, turn: f64| {
@@ -98,7 +98,7 @@ fn scattered(
         if cosine <= 0.0 {
             return 0.0;
         }
-        let found = density_of.between(eye, light);
+        let found = density_of.eval(eye, light);
         found.map_or(0.0, |found| found.pdf * 4.0 * cosine * solid_angle)
     };
     check(&Experiment {
@@ -142,9 +142,9 @@ fn a_lossless_surface_returns_everything() {
         let mut count = 0.0;
         for (i, (u, v)) in (0..).zip(numbers(seed)) {
             let [pick, ..] = random4([i % 512, i / 512], 1, 5, seed);
-            let light = facets.sample(eye, [u, v, pick, 0.0]);
+            let light = facets.sample(eye, [u, v, pick]);
             count += 1.0;
-            if let Some(found) = facets.between(eye, light) {
+            if let Some(found) = facets.eval(eye, light) {
                 let weight = (found.single + found.multiple) / found.pdf;
                 sum += weight;
                 squares += weight * weight;
@@ -176,7 +176,7 @@ fn rough_surfaces_are_reciprocal() {
             for ((u1, v1), (u2, v2)) in numbers(71).zip(numbers(72)).take(2000) {
                 let a = sample_cosine_hemisphere(u1, v1);
                 let b = sample_cosine_hemisphere(u2, v2);
-                let (Some(there), Some(back)) = (facets.between(a, b), facets.between(b, a)) else {
+                let (Some(there), Some(back)) = (facets.eval(a, b), facets.eval(b, a)) else {
                     continue;
                 };
                 for (there, back) in [(there.single, back.single), (there.multiple, back.multiple)]

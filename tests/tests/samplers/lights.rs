@@ -3,7 +3,7 @@
 use crate::chi_square::{Experiment, direction, turns};
 use glam::DVec3;
 use reference::{
-    cone_height, environment_pdf, frame_of, light_pdf, sample_environment, sample_light,
+    cone_height, environment_pdf, frame_of, sample_environment, sample_shape, shape_pdf,
 };
 use scene::{EnvironmentShape, Shape};
 use std::f64::consts::{PI, TAU};
@@ -13,7 +13,7 @@ pub(crate) const TESTS: usize = 4 + 3 + 3 + 6;
 
 /// Spheres: the angle to the centre over the cone that holds them; from inside the whole sphere of directions.
 #[test]
-fn spheres_are_drawn_by_light_pdf() {
+fn spheres_are_drawn_by_shape_pdf() {
     let center = DVec3::new(0.3, -0.2, 1.5);
     let distance2 = center.length_squared();
     for (seed, radius) in [(11, 0.01), (12, 0.5), (13, 1.4), (14, 3.0)] {
@@ -26,13 +26,13 @@ fn spheres_are_drawn_by_light_pdf() {
         };
         let frame = frame_of(center.normalize());
         let draw = |u: f64, v: f64| {
-            let w = frame.transpose() * sample_light(&light, DVec3::ZERO, u, v);
+            let w = frame.transpose() * sample_shape(&light, DVec3::ZERO, u, v);
             let across = (1.0 - w.z) / height;
             (across <= 1.0 + 1e-9).then(|| [across, turns(w)])
         };
         let pdf = |across: f64, around: f64| {
             let w = frame * direction(1.0 - across * height, around);
-            light_pdf(&light, DVec3::ZERO, w) * TAU * height
+            shape_pdf(&light, DVec3::ZERO, w) * TAU * height
         };
         let right = Experiment {
             name: format!("sphere of radius {radius}"),
@@ -48,7 +48,7 @@ fn spheres_are_drawn_by_light_pdf() {
 
 /// Rectangles: where the direction meets their plane, with dω = |cos θ| dA / d².
 #[test]
-fn rectangles_are_drawn_by_light_pdf() {
+fn rectangles_are_drawn_by_shape_pdf() {
     let normal = DVec3::new(0.2, -0.5, 1.0).normalize();
     let frame = frame_of(normal);
     let (tangent, bitangent) = (frame.x_axis, frame.y_axis);
@@ -66,7 +66,7 @@ fn rectangles_are_drawn_by_light_pdf() {
             half_height,
         };
         let draw = |u: f64, v: f64| {
-            let w = sample_light(&light, DVec3::ZERO, u, v);
+            let w = sample_shape(&light, DVec3::ZERO, u, v);
             let distance = center.dot(normal) / w.dot(normal);
             let place = w * distance - center;
             let at = [
@@ -81,7 +81,7 @@ fn rectangles_are_drawn_by_light_pdf() {
             let place = to(x, y);
             let w = place.normalize();
             let solid_angle = w.dot(normal).abs() / place.length_squared();
-            light_pdf(&light, DVec3::ZERO, w) * solid_angle * half_width * half_height
+            shape_pdf(&light, DVec3::ZERO, w) * solid_angle * half_width * half_height
         };
         let right = Experiment {
             name: format!("rectangle at {center}"),
@@ -103,7 +103,7 @@ fn rectangles_are_drawn_by_light_pdf() {
 
 /// Disks: by the square of the distance from the centre and the azimuth, in which they are even.
 #[test]
-fn disks_are_drawn_by_light_pdf() {
+fn disks_are_drawn_by_shape_pdf() {
     let normal = DVec3::new(0.2, -0.5, 1.0).normalize();
     let frame = frame_of(normal);
     for (seed, center, radius) in [
@@ -119,7 +119,7 @@ fn disks_are_drawn_by_light_pdf() {
             radius,
         };
         let draw = |u: f64, v: f64| {
-            let w = sample_light(&light, DVec3::ZERO, u, v);
+            let w = sample_shape(&light, DVec3::ZERO, u, v);
             let distance = center.dot(normal) / w.dot(normal);
             let place = frame.transpose() * (w * distance - center) / radius;
             let out = place.x * place.x + place.y * place.y;
@@ -131,7 +131,7 @@ fn disks_are_drawn_by_light_pdf() {
             let w = place.normalize();
             let solid_angle = w.dot(normal).abs() / place.length_squared();
             // dA = ½ dr² dφ
-            light_pdf(&light, DVec3::ZERO, w) * solid_angle * PI * radius * radius
+            shape_pdf(&light, DVec3::ZERO, w) * solid_angle * PI * radius * radius
         };
         let right = Experiment {
             name: format!("disk at {center}"),

@@ -4,7 +4,7 @@
 use super::chi_square::{Experiment, direction, turns};
 use glam::DVec3;
 use rayon::prelude::*;
-use reference::{SurfaceFunction, SurfacePoint, random4};
+use reference::{PreparedScene, SurfaceFunction, SurfacePoint, random4};
 use scene::{Scene, SceneFile};
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -53,14 +53,14 @@ impl Kind {
     }
 }
 
-fn of(scene: &Scene) -> SurfaceFunction<'_> {
+fn of<'a>(prepared: &'a PreparedScene<'a>) -> SurfaceFunction<'a> {
     let point = SurfacePoint {
         position: DVec3::Z,
         normal: DVec3::Z,
         cosine: 1.0,
         is_front: true,
     };
-    SurfaceFunction::new(scene, 0, &point, 0.5, 0.5).expect("it scatters")
+    SurfaceFunction::new(prepared, 0, &point, 0.5, 0.5).expect("it scatters")
 }
 
 /// Directions of light, by the facets that would mirror them to the eye: the slope r of these, of facets of α = √`roughness`,
@@ -111,7 +111,8 @@ fn mixtures_are_drawn_by_their_density() {
     kinds.for_each(|i| {
         let (kind, roughness) = (KINDS[i / ROUGHNESS.len()], ROUGHNESS[i % ROUGHNESS.len()]);
         let scene = kind.scene(roughness);
-        let surface = of(&scene);
+        let prepared = PreparedScene::new(&scene);
+        let surface = of(&prepared);
         for (j, degrees) in (0..).zip(DEGREES) {
             let eye = direction(degrees.to_radians().cos(), 0.13);
             let name = format!("{kind:?} of {roughness} from {degrees}°");
@@ -127,7 +128,8 @@ fn mixtures_are_drawn_by_their_density() {
 fn mixtures_of_another_roughness_are_noticed() {
     for (seed, kind) in (950..).zip(KINDS) {
         let (scene, other) = (kind.scene(0.3), kind.scene(0.25));
-        let both = (&of(&scene), &of(&other));
+        let prepared = (PreparedScene::new(&scene), PreparedScene::new(&other));
+        let both = (&of(&prepared.0), &of(&prepared.1));
         let name = format!("{kind:?}");
         scattered(both, 0.3, direction(0.5, 0.13), name, |wrong| {
             wrong.is_refused(seed);

@@ -1,9 +1,7 @@
 //! Lanes filled with whatever results come next: for batches of few wavelengths.
 
-use super::kernel::{Index, Sweep, Wave};
-use super::lanes::{Lanes, MOST};
-use super::spectra::SCALED_AFTER;
 use super::{LayerOf, Powers, StackBatch, write};
+use crate::wide::{Index, Lanes, MOST, Real, SCALED_AFTER, Sweep, Wave};
 use num_complex::Complex64;
 use pulp::{Simd, WithSimd};
 
@@ -50,7 +48,7 @@ struct Light<S: Simd> {
 
 impl<S: Simd> Light<S> {
     #[inline(always)]
-    fn wave(&self, n: &[f64; MOST], k: &[f64; MOST]) -> Wave<S> {
+    fn wave(&self, n: &[f64; MOST], k: &[f64; MOST]) -> Wave<Lanes<S>> {
         let clear = k[..Lanes::<S>::COUNT].iter().all(|k| *k == 0.0);
         let (n, k) = (Lanes::load(self.simd, n), Lanes::load(self.simd, k));
         let index = Index::new(n, k, clear, self.incident);

@@ -37,9 +37,6 @@
 )]
 
 mod check;
-mod elementary;
-mod kernel;
-mod lanes;
 mod mixed;
 mod spectra;
 #[cfg(test)]
@@ -48,8 +45,8 @@ mod tests;
 pub use check::BatchError;
 
 use crate::Polarised;
+use crate::wide::{Lanes, MOST};
 use bytemuck::{Pod, Zeroable};
-use lanes::{Lanes, MOST};
 use num_complex::Complex64;
 use pulp::Arch;
 use rayon::prelude::*;

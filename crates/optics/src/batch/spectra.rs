@@ -1,8 +1,7 @@
 //! Lanes along the spectrum: what a medium needs is computed once for all layers of all stacks of a part.
 
-use super::kernel::{Index, Sweep, Wave};
-use super::lanes::{Lanes, MOST};
 use super::{Powers, StackBatch, write};
+use crate::wide::{Index, Lanes, MOST, SCALED_AFTER, Sweep, Wave};
 use pulp::{Simd, WithSimd};
 use std::ops::Range;
 
@@ -113,7 +112,7 @@ struct Band<S: Simd> {
     wavelengths: Range<usize>,
     half_waves_per_nm: Lanes<S>,
     /// By slot.
-    indices: Vec<Index<S>>,
+    indices: Vec<Index<Lanes<S>>>,
 }
 
 impl<S: Simd> Band<S> {
@@ -147,7 +146,7 @@ impl<S: Simd> Band<S> {
     }
 
     #[inline(always)]
-    fn waves(&self, simd: S, q0: f64, waves: &mut Vec<Wave<S>>) {
+    fn waves(&self, simd: S, q0: f64, waves: &mut Vec<Wave<Lanes<S>>>) {
         let q0_squared = Lanes::splat(simd, q0 * q0);
         waves.clear();
         for index in &self.indices {
@@ -192,17 +191,14 @@ impl WithSimd for Part<'_> {
     }
 }
 
-/// After so many layers a field is scaled, before it can have overflown: a layer multiplies it by less than some 10⁴.
-pub(super) const SCALED_AFTER: usize = 32;
-
 /// From the substrate up through all layers.
 #[inline(always)]
 fn climb<S: Simd>(
     simd: S,
-    substrate: &Wave<S>,
+    substrate: &Wave<Lanes<S>>,
     steps: &[(usize, f64)],
-    waves: &[Wave<S>],
-) -> Sweep<S> {
+    waves: &[Wave<Lanes<S>>],
+) -> Sweep<Lanes<S>> {
     let mut sweep = Sweep::new(substrate);
     for (place, group) in steps.chunks(SCALED_AFTER).enumerate() {
         if place > 0 {

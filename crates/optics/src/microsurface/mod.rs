@@ -7,11 +7,13 @@
 //! is (1 + Λ(w)) cos θ, with Λ of Smith (1967); heights of neighbouring facets are taken for independent, those of the facet
 //! seen and lit for the same (Heitz, Understanding the Masking-Shadowing Function, JCGT 3(2), 2014, equations 83, 86 and 99).
 
+mod erf;
 mod multiple;
 mod slopes;
 
-pub use multiple::{MEAN_COSINES, mean_reflectance, multiple_colour};
+pub use multiple::{MEAN_COSINES, mean_reflectance, multiple_color};
 
+use erf::erfc_and_gauss;
 use std::f64::consts::PI;
 
 /// How the slopes of facets are distributed.
@@ -63,7 +65,8 @@ impl Microsurface {
         let a = cosine.abs() / width;
         match self.distribution {
             Distribution::Beckmann => {
-                0.5 * ((-a * a).exp() / (a * PI.sqrt()) - libm::erfc(a)).max(0.0)
+                let (erfc, gauss) = erfc_and_gauss(a);
+                0.5 * (gauss / (a * PI.sqrt()) - erfc).max(0.0)
             }
             Distribution::Ggx => 0.5 * ((1.0 + 1.0 / (a * a)).sqrt() - 1.0),
         }
@@ -90,6 +93,17 @@ impl Microsurface {
             return 0.0;
         }
         self.density(facet) / (4.0 * eye[2] * (1.0 + self.lambda(eye)))
+    }
+
+    /// [`Self::reflection`] and [`Self::pdf`], which share most of their work; 0 where a direction is below the surface.
+    pub fn scattering(&self, wo: [f64; 3], wi: [f64; 3]) -> (f64, f64) {
+        let Some(facet) = facet_between(wo, wi) else {
+            return (0.0, 0.0);
+        };
+        let (density, hidden) = (self.density(facet), self.lambda(wo));
+        let seen = density / (4.0 * wo[2]);
+        let both = 1.0 + hidden + self.lambda(wi);
+        (seen / (both * wi[2]), seen / (1.0 + hidden))
     }
 
     /// A facet normal as often as `eye` sees it, from two uniform numbers in [0, 1).

@@ -1,5 +1,7 @@
 //! The colour of light that meets several facets.
 
+use crate::wide::Real;
+
 /// Cosines and weights of the mean over a hemisphere, Σ w F(cos θ) ≈ ∫ F 2 cos θ d(cos θ): Gauss's rule of three points for the
 /// weight x on [0, 1] (Abramowitz and Stegun, table 25.8, k = 1, doubled).
 pub const MEAN_COSINES: [(f64, f64); 3] = [
@@ -18,9 +20,10 @@ pub fn mean_reflectance(reflectance: impl Fn(f64) -> f64) -> f64 {
 /// each: F E F + F (1 − E) F E F + … without the first, which leaves at once, over the 1 − E that meets a second facet:
 /// F² E / (1 − F (1 − E)) (Kulla and Conty, Revisiting Physically Based Shading at Imageworks, 2017, with the F of the facet that
 /// the light meets first).
-pub fn multiple_colour(mean_reflectance: f64, mean_energy: f64) -> f64 {
-    let kept = mean_reflectance * (1.0 - mean_energy);
-    mean_reflectance * mean_reflectance * mean_energy / (1.0 - kept)
+#[inline]
+pub fn multiple_color<T: Real>(mean_reflectance: T, mean_energy: f64) -> T {
+    let kept = mean_reflectance.times(1.0 - mean_energy);
+    (mean_reflectance * mean_reflectance).times(mean_energy) / kept.complement()
 }
 
 #[cfg(test)]
@@ -73,8 +76,8 @@ mod tests {
     fn the_colour_is_that_of_a_series() {
         for (f, e) in [(0.9_f64, 0.7_f64), (0.5, 0.4), (0.04, 0.9)] {
             let series: f64 = (0..200).map(|n| f * (f * (1.0 - e)).powi(n) * f * e).sum();
-            assert!((multiple_colour(f, e) - series).abs() < 1e-12);
+            assert!((multiple_color(f, e) - series).abs() < 1e-12);
         }
-        assert!((multiple_colour(1.0, 0.3) - 1.0).abs() < 1e-15);
+        assert!((multiple_color(1.0, 0.3) - 1.0).abs() < 1e-15);
     }
 }

@@ -1,13 +1,19 @@
 //! Facets drawn as often as they are seen, on surfaces of α = 1.
 
-use std::f64::consts::{PI, TAU};
+use super::erf::{erfc_and_gauss, inverse_erf_of_share};
+use crate::wide::sin_cos_turns;
+use std::f64::consts::PI;
 
-/// Steps of Halley's rule by which a slope is found.
+/// The most steps of Halley's rule by which a slope is found.
 const STEPS: u32 = 4;
+/// A step so small is the last: the next would be smaller than a rounding, as its third power is.
+const LAST_STEP: f64 = 1e-6;
+/// The least share of the slopes that is drawn.
+const LEAST_SHARE: f64 = 1e-7;
 
 /// A visible facet of a GGX surface: the half of a point of the sphere's lit cap and the eye (Dupuy and Benyoub 2023, listing 3).
 pub(super) fn sample_ggx(eye: [f64; 3], u: f64, v: f64) -> [f64; 3] {
-    let (sin_phi, cos_phi) = (TAU * u).sin_cos();
+    let (sin_phi, cos_phi) = sin_cos_turns(u);
     let z = (1.0 - v) * (1.0 + eye[2]) - eye[2];
     let sine = (1.0 - z * z).max(0.0).sqrt();
     super::normalised([sine * cos_phi + eye[0], sine * sin_phi + eye[1], z + eye[2]])
@@ -24,7 +30,7 @@ pub(super) fn sample_beckmann(eye: [f64; 3], u: f64, v: f64) -> [f64; 3] {
         (1.0, 0.0)
     };
     let towards = visible_slope(eye[2], sine, u);
-    let aside = visible_slope(1.0, 0.0, v);
+    let aside = inverse_erf_of_share(v.max(LEAST_SHARE));
     let x = cos_phi * towards - sin_phi * aside;
     let y = sin_phi * towards + cos_phi * aside;
     super::normalised([-x, -y, 1.0])
@@ -33,26 +39,32 @@ pub(super) fn sample_beckmann(eye: [f64; 3], u: f64, v: f64) -> [f64; 3] {
 /// The slope x below which the share u of what is seen from θ lies: the density of x is that of exp(−x²) (cos θ − x sin θ) up to
 /// x = cot θ, so the share is F(x) / F(cot θ) with F(x) = cos θ erfc(−x) + sin θ exp(−x²) / √π.
 ///
-/// A guess (Jakob, An Improved Visible Normal Sampling Routine for the Beckmann Distribution, 2014) is improved by Halley's rule,
-/// always as often.
+/// A guess (Jakob, An Improved Visible Normal Sampling Routine for the Beckmann Distribution, 2014) is improved by Halley's rule until
+/// nothing changes.
 pub(super) fn visible_slope(cosine: f64, sine: f64, u: f64) -> f64 {
-    let u = u.max(1e-7);
+    let u = u.max(LEAST_SHARE);
     let steepest = if cosine < 6.0 * sine {
         cosine / sine
     } else {
         6.0
     };
-    let share = |x: f64| cosine * libm::erfc(-x) + sine / PI.sqrt() * (-x * x).exp();
-    let wanted = u * share(steepest);
+    let of = |(erfc, gauss): (f64, f64)| cosine * erfc + sine / PI.sqrt() * gauss;
+    let at_steepest = erfc_and_gauss(-steepest);
+    let wanted = u * of(at_steepest);
     let theta = sine.atan2(cosine);
     let power = 1.0 + theta * (-0.876 + theta * (0.4265 - 0.0594 * theta));
-    let guess = libm::erfc(-steepest) * (1.0 - (1.0 - u).powf(power));
+    let guess = at_steepest.0 * (1.0 - (1.0 - u).powf(power));
     let mut x = rough_inverse_erf(guess).min(steepest);
     for _ in 0..STEPS {
         let seen = (cosine - x * sine).max(1e-9);
-        let newton = (wanted - share(x)) * 0.5 * PI.sqrt() * (x * x).exp() / seen;
+        let at_x = erfc_and_gauss(-x);
+        let newton = (wanted - of(at_x)) * 0.5 * PI.sqrt() / (at_x.1 * seen);
         let bend = -x - 0.5 * sine / seen;
-        x = (x + newton / (1.0 + newton * bend)).min(steepest);
+        let step = newton / (1.0 + newton * bend);
+        x = (x + step).min(steepest);
+        if step.abs() < LAST_STEP {
+            break;
+        }
     }
     x
 }

@@ -1,20 +1,20 @@
-//! A path through the scene with its spectrum.
+//! Paths from the camera to light.
+//!
+//! A path is traced without its spectrum: what it meets it tells a [`Transport`].
 
-mod connection;
-mod meeting;
-mod walk;
+mod emitter_sampling;
+mod state;
 
-use crate::environment_picture::pixel_value;
-use crate::spectra::Spectra;
+use crate::bsdf::{Bsdf, Lobes};
+use crate::layers::FilmAt;
+use crate::sobol::{SobolNumbers, SobolPixel};
+use crate::transport::{Emitted, Side, Transport};
 use crate::{
-    chance_to_go_on, environment_pixel, environment_share, nearest_hit, random4,
-    sampled_camera_ray, sobol4,
+    Hit, PreparedScene, SurfacePoint, chance_to_go_on, environment_pixel, environment_share,
+    nearest_hit, random4, reflected_share, sampled_camera_ray, surface_frame, surface_point,
 };
-use scene::{
-    Emission, EnvironmentPicture, EnvironmentShape, LightSource, RenderSettings, Sampler, Scene,
-    SourceKind, WavelengthSampling,
-};
-use walk::Walk;
+use scene::{EnvironmentShape, Estimate, RenderSettings, Sampler, SourceKind, WavelengthSampling};
+use state::{PathState, Scattered};
 
 /// Dimensions of a branch of a path: more than three for each of its segments.
 const BRANCH_DIMENSIONS: u32 = 128;
@@ -24,189 +24,267 @@ const LENS_DIMENSION: u32 = 0xffff;
 /// What the random numbers of a vertex are for.
 #[derive(Clone, Copy)]
 enum Use {
-    Light,
-    Scattering,
+    Emitter,
+    Bsdf,
     Roulette,
 }
 
-/// What one sample of a pixel brings.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PathSample {
-    /// Place of the wavelengths in their bands, in [0, 1).
-    pub offset: f64,
-    /// Radiance of each light group at each band's wavelength: `[light group][band]`.
-    pub radiance: Vec<Vec<f64>>,
+/// Four numbers in [0, 1), worked out when they are asked for.
+#[derive(Clone, Copy)]
+enum Numbers {
+    Sobol(SobolNumbers),
+    Independent([f64; 4]),
 }
 
-/// Follows one sample of a pixel. `lights` is what light can be sent from ([`Scene::light_sources`]).
-pub fn radiance(scene: &Scene, lights: &[LightSource], pixel: [u32; 2], sample: u32) -> PathSample {
-    let settings = scene.settings();
-    let [x, y, drawn, _] = numbers_of(settings, pixel, sample, 0);
-    let bands = settings.bands.count() as usize;
-    let on_lens = match scene.camera().lens {
-        Some(_) => {
-            let [u, v, ..] = numbers_of(settings, pixel, sample, LENS_DIMENSION);
-            [u, v]
+impl Numbers {
+    #[inline]
+    fn get(&self, lane: usize) -> f64 {
+        match self {
+            Self::Sobol(numbers) => numbers.get(lane),
+            Self::Independent(numbers) => numbers[lane],
         }
-        None => [0.0; 2],
-    };
-    let mut path = Path {
-        scene,
-        lights,
-        pixel,
-        sample,
-        spectra: Spectra {
-            scene,
-            offset: match settings.sampling {
-                WavelengthSampling::Random => drawn,
-                WavelengthSampling::Centre => 0.5,
-            },
-        },
-        walk: Walk {
-            ray: sampled_camera_ray(scene, pixel, [x, y], on_lens),
-            from_object: None,
-            scattered: None,
-            segment: 1,
-            splits: settings.film_splits,
-            branch: 0,
-            estimate: 1.0,
-            throughput: vec![1.0; bands],
-        },
-        waiting: Vec::new(),
-        radiance: vec![vec![0.0; bands]; scene.light_groups().len()],
-    };
-    path.follow();
-    while let Some(walk) = path.waiting.pop() {
-        path.walk = walk;
-        path.follow();
-    }
-    path.dim();
-    PathSample {
-        offset: path.spectra.offset,
-        radiance: path.radiance,
     }
 }
 
-/// Four numbers in [0, 1) for a dimension of a sample.
-fn numbers_of(settings: &RenderSettings, pixel: [u32; 2], sample: u32, dimension: u32) -> [f64; 4] {
-    match settings.sampler {
-        Sampler::Sobol => sobol4(pixel, sample, dimension, settings.seed),
-        Sampler::Independent => random4(pixel, sample, dimension, settings.seed),
-    }
-}
-
-/// A path on its way.
-struct Path<'a> {
-    scene: &'a Scene,
-    lights: &'a [LightSource],
+/// Traces paths, one after the other.
+pub(crate) struct PathTracer<'a, T> {
+    prepared: &'a PreparedScene<'a>,
+    pub(crate) transport: T,
     pixel: [u32; 2],
     sample: u32,
-    spectra: Spectra<'a>,
-    walk: Walk,
-    /// Walks that begin where films split the path, to be followed when the present one has ended.
-    waiting: Vec<Walk>,
-    /// Of each light group.
-    radiance: Vec<Vec<f64>>,
+    sobol: SobolPixel,
+    path: PathState,
+    /// Paths that begin where films split the present one, to be followed when it has ended.
+    waiting: Vec<PathState>,
+    /// Of each emitter, where it is chosen.
+    emitter_weights: Vec<f64>,
+    /// The films between a surface and an emitter.
+    films: Vec<FilmAt<'a>>,
 }
 
-impl Path<'_> {
-    fn random(&self, use_of: Use) -> [f64; 4] {
-        let walk = &self.walk;
-        let dimension = BRANCH_DIMENSIONS * walk.branch + 3 * walk.segment - 2 + use_of as u32;
-        numbers_of(self.scene.settings(), self.pixel, self.sample, dimension)
-    }
-
-    fn bands(&self) -> std::ops::Range<usize> {
-        0..self.walk.throughput.len()
-    }
-
-    fn attenuate(&mut self, factor: impl Fn(&Spectra<'_>, usize) -> f64) {
-        for band in self.bands() {
-            self.walk.throughput[band] *= factor(&self.spectra, band);
+impl<'a, T: Transport> PathTracer<'a, T> {
+    pub(crate) fn new(prepared: &'a PreparedScene<'a>, transport: T) -> Self {
+        Self {
+            prepared,
+            transport,
+            pixel: [0; 2],
+            sample: 0,
+            sobol: SobolPixel::new(prepared.scene.settings().seed),
+            path: PathState::default(),
+            waiting: Vec::new(),
+            emitter_weights: Vec::new(),
+            films: Vec::new(),
         }
     }
 
-    /// Follows the present walk to its end.
-    fn follow(&mut self) {
-        let settings = self.scene.settings();
-        while self.walk.segment <= settings.max_path_segments {
-            let Some(hit) = nearest_hit(self.scene, &self.walk.ray, self.walk.from_object) else {
-                self.add_environment();
+    /// Traces one sample of a pixel.
+    pub(crate) fn trace(&mut self, pixel: [u32; 2], sample: u32) {
+        let scene = self.prepared.scene;
+        let settings = scene.settings();
+        (self.pixel, self.sample) = (pixel, sample);
+        self.sobol.begin(pixel);
+        let numbers = self.numbers(0);
+        let on_lens = match scene.camera().lens {
+            Some(_) => {
+                let numbers = self.numbers(LENS_DIMENSION);
+                [numbers.get(0), numbers.get(1)]
+            }
+            None => [0.0; 2],
+        };
+        self.transport.begin(match settings.sampling {
+            WavelengthSampling::Random => numbers.get(2),
+            WavelengthSampling::Centre => 0.5,
+        });
+        let ray = sampled_camera_ray(scene, pixel, [numbers.get(0), numbers.get(1)], on_lens);
+        self.path = PathState::new(ray, settings.film_splits);
+        self.extend_path();
+        while let Some(path) = self.waiting.pop() {
+            self.path = path;
+            self.transport.resume();
+            self.extend_path();
+        }
+    }
+
+    fn settings(&self) -> &'a RenderSettings {
+        self.prepared.scene.settings()
+    }
+
+    /// Four numbers in [0, 1) for a dimension of the sample.
+    #[inline]
+    fn numbers(&mut self, dimension: u32) -> Numbers {
+        let settings = self.settings();
+        match settings.sampler {
+            Sampler::Sobol => Numbers::Sobol(self.sobol.numbers(self.sample, dimension)),
+            Sampler::Independent => {
+                Numbers::Independent(random4(self.pixel, self.sample, dimension, settings.seed))
+            }
+        }
+    }
+
+    #[inline]
+    fn random(&mut self, use_of: Use) -> Numbers {
+        let path = &self.path;
+        self.numbers(BRANCH_DIMENSIONS * path.branch + 3 * path.segment - 2 + use_of as u32)
+    }
+
+    /// Follows the present path to its end.
+    fn extend_path(&mut self) {
+        let settings = self.settings();
+        while self.path.segment <= settings.max_path_segments {
+            let path = &self.path;
+            let Some(hit) = nearest_hit(self.prepared.scene, &path.ray, path.from_object) else {
+                self.shade_environment();
                 return;
             };
-            if !self.meet(hit) {
+            if !self.shade_object(hit) {
                 return;
             }
-            let is_last = self.walk.segment == settings.max_path_segments;
-            let plays = self.walk.segment >= settings.roulette_after && !is_last;
+            let is_last = self.path.segment == settings.max_path_segments;
+            let plays = self.path.segment >= settings.roulette_after && !is_last;
             if plays && !self.survives_roulette() {
                 return;
             }
-            self.walk.segment += 1;
+            self.path.segment += 1;
         }
     }
 
-    /// Russian roulette: ends the walk by chance, or lets it count for more.
+    /// Russian roulette: ends the path by chance, or lets it count for more.
     fn survives_roulette(&mut self) -> bool {
-        let chance = chance_to_go_on(self.walk.estimate);
+        let chance = chance_to_go_on(self.path.rr_throughput);
         if chance < 1.0 {
-            if self.random(Use::Roulette)[0] >= chance {
+            if self.random(Use::Roulette).get(0) >= chance {
                 return false;
             }
-            self.walk.estimate /= chance;
-            self.attenuate(|_, _| 1.0 / chance);
+            self.path.rr_throughput /= chance;
+            self.path.weight /= chance;
         }
         true
     }
 
-    /// Light that joins the path here.
-    fn add(&mut self, emission: Emission, weight: f64) {
-        for band in self.bands() {
-            let light = emission.scale * self.spectra.spectrum(emission.spectrum, band);
-            let light_group = emission.light_group.index();
-            self.radiance[light_group][band] += self.walk.throughput[band] * weight * light;
-        }
-    }
-
-    /// Light of a pixel of the surroundings that joins the path here.
-    fn add_picture(
-        &mut self,
-        emission: Emission,
-        (picture, pixel): (&EnvironmentPicture, [u32; 2]),
-        weight: f64,
-    ) {
-        for band in self.bands() {
-            let nm = self.spectra.light(band).wavelength_nm;
-            let lamp = emission.scale * self.spectra.spectrum(emission.spectrum, band);
-            let light = lamp * pixel_value(picture, pixel, band, nm);
-            let light_group = emission.light_group.index();
-            self.radiance[light_group][band] += self.walk.throughput[band] * weight * light;
-        }
-    }
-
-    fn add_environment(&mut self) {
-        for (index, part) in self.scene.surroundings().into_iter().enumerate() {
-            let direction = self.walk.ray.direction;
+    /// The path leaves the scene.
+    fn shade_environment(&mut self) {
+        for (index, part) in self.prepared.environment.iter().enumerate() {
+            let direction = self.path.ray.direction;
             let share = environment_share(part.shape, direction);
-            let met = self.share_of_scattering(SourceKind::Environment(index));
-            if let EnvironmentShape::Picture(picture) = part.shape {
-                let pixel = environment_pixel(picture, direction, self.random(Use::Light)[3]);
-                self.add_picture(part.emission, (picture, pixel), met);
-            } else {
-                self.add(part.emission, share * met);
-            }
+            let mis = self.mis_weight_of_meeting(SourceKind::Environment(index));
+            let pixel = match part.shape {
+                EnvironmentShape::Picture(picture) => {
+                    let random = self.random(Use::Emitter).get(3);
+                    Some((picture, environment_pixel(picture, direction, random)))
+                }
+                _ => None,
+            };
+            let emission = part.emission;
+            self.emit(&Emitted { emission, pixel }, share * mis);
         }
     }
 
-    /// Dims a sample that is brighter than the scene allows.
-    fn dim(&mut self) {
-        let Some(most) = self.scene.settings().clamp else {
-            return;
-        };
-        let of_band = |band: usize| self.radiance.iter().map(|group| group[band]).sum::<f64>();
-        let brightest = self.bands().map(of_band).fold(most, f64::max);
-        for value in self.radiance.iter_mut().flatten() {
-            *value *= most / brightest;
+    fn emit(&mut self, light: &Emitted<'_>, weight: f64) {
+        if weight > 0.0 {
+            self.transport.emit(light, self.path.weight * weight);
         }
+    }
+
+    /// The path meets an object; says whether it goes on.
+    fn shade_object(&mut self, hit: Hit) -> bool {
+        let prepared = self.prepared;
+        let object = &prepared.scene.objects()[hit.object];
+        let surface = prepared.surface(object.material);
+        let point = surface_point(&object.shape, &self.path.ray, hit.distance);
+        if let Some(emission) = surface.emission {
+            let mis = self.mis_weight_of_meeting(SourceKind::Object(hit.object));
+            let pixel = None;
+            self.emit(&Emitted { emission, pixel }, mis);
+        }
+        if let Some(film) = surface.film() {
+            let film = film.at(&object.shape, &point);
+            self.shade_film(hit.object, &point, &film, surface.estimate);
+            return true;
+        }
+        let random = || self.random(Use::Bsdf).get(3);
+        let bsdf = surface.bsdf(&object.shape, &point, random);
+        bsdf.is_some_and(|bsdf| self.shade_surface(hit.object, &point, &bsdf, surface.estimate))
+    }
+
+    /// A film: the path is mirrored or goes straight on, or does both.
+    fn shade_film(
+        &mut self,
+        object: usize,
+        point: &SurfacePoint,
+        film: &FilmAt<'_>,
+        estimate: &Estimate,
+    ) {
+        let reflected = estimate.reflected_at(point.cosine);
+        self.path.rr_throughput *= estimate.albedo;
+        if self.path.splits > 0 && self.path.segment < self.settings().max_path_segments {
+            self.path.splits -= 1;
+            let mut through = self.path;
+            through.branch += 1 << through.splits;
+            through.segment += 1;
+            through.rr_throughput *= 1.0 - reflected;
+            through.pass(object, point);
+            self.waiting.push(through);
+            self.transport.split(film);
+            self.path.rr_throughput *= reflected;
+            self.path.mirror(object, point);
+            return;
+        }
+        let share = reflected_share(reflected);
+        let (side, part, chance) = if self.random(Use::Bsdf).get(0) < share {
+            self.path.mirror(object, point);
+            (Side::Reflected, reflected, share)
+        } else {
+            self.path.pass(object, point);
+            (Side::Transmitted, 1.0 - reflected, 1.0 - share)
+        };
+        self.transport.film(film, side);
+        self.path.weight /= chance;
+        self.path.rr_throughput *= part / chance;
+    }
+
+    /// A surface that mirrors or scatters: an emitter is sampled, and the path goes on by a sample of the BSDF.
+    fn shade_surface(
+        &mut self,
+        object: usize,
+        point: &SurfacePoint,
+        bsdf: &Bsdf<'_>,
+        estimate: &Estimate,
+    ) -> bool {
+        let scene = self.prepared.scene;
+        let met = &scene.objects()[object];
+        let world_from_local = surface_frame(scene.material(met.material), &met.shape, point);
+        let local_from_world = world_from_local.transpose();
+        let wo = local_from_world * -self.path.ray.direction;
+        let specular = bsdf.specular_probability(wo);
+        let mut emitter_weight_sum = 0.0;
+        if specular < 1.0 {
+            emitter_weight_sum = self.connect(object, point, bsdf, (local_from_world, wo));
+        }
+        let random = self.random(Use::Bsdf);
+        if specular > 0.0 && (specular >= 1.0 || random.get(2) < specular) {
+            self.transport.scatter(bsdf, &Lobes::specular(point.cosine));
+            self.path.weight /= specular;
+            self.path.rr_throughput *= estimate.albedo;
+            self.path.mirror(object, point);
+            return true;
+        }
+        let wi = bsdf.sample(wo, |lane| random.get(lane));
+        let onward = bsdf.eval(wo, wi);
+        let weight = onward.lobes.sum() / onward.pdf;
+        if onward.pdf <= 0.0 || weight <= 0.0 {
+            return false;
+        }
+        self.transport.scatter(bsdf, &onward.lobes);
+        self.path.weight /= onward.pdf;
+        self.path.rr_throughput *= weight * estimate.albedo;
+        let direction = (world_from_local * wi).normalize();
+        let scattered = Scattered {
+            position: point.position,
+            normal: point.normal,
+            pdf: onward.pdf,
+            emitter_weight_sum,
+        };
+        self.path.scatter(object, direction, scattered);
+        true
     }
 }

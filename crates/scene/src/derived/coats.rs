@@ -26,7 +26,7 @@ pub(crate) struct RoughCoat {
 }
 
 impl RoughCoat {
-    /// A coat of index `n`. What met several facets is counted by `optics::multiple_colour`.
+    /// A coat of index `n`. What met several facets is counted by `optics::multiple_color`.
     ///
     /// How E of a brushed coat differs about the normal is taken from the one index `typical_n`: E is a product of a table over the
     /// direction and one over the cosine and the wavelength.
@@ -121,7 +121,7 @@ impl Seen {
             .map(|(facet, weight)| weight * fresnel(cosine_of(facet, FACET_COSINES)))
             .sum();
         let mean = optics::mean_reflectance(fresnel);
-        once + self.lost * optics::multiple_colour(mean, self.mean_energy)
+        once + self.lost * optics::multiple_color(mean, self.mean_energy)
     }
 }
 

@@ -6,6 +6,7 @@ mod energy;
 mod estimate;
 mod facet_table;
 mod filter;
+mod hierarchy;
 
 pub use direction_table::DirectionTable;
 pub(crate) use direction_table::Sent;
@@ -14,3 +15,4 @@ pub use estimate::Estimate;
 pub(crate) use estimate::estimates;
 pub use facet_table::FacetTable;
 pub use filter::PixelFilter;
+pub use hierarchy::{Hierarchy, Node};

@@ -28,7 +28,7 @@ mod thickness;
 use crate::description::{Description, Index};
 use crate::limits::{MAX_LIGHTS, MAX_MATERIALS, MAX_OBJECTS};
 use crate::problem::{Problem, ProblemKind};
-use crate::{FieldPath, Scene, derived};
+use crate::{FieldPath, Hierarchy, Scene, derived};
 use checks::Checks;
 use spectra::OpticalConstants;
 use spectrum_list::SpectrumList;
@@ -74,6 +74,7 @@ pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene
             observer: observer?,
             light_groups: lit.light_groups,
             materials: lit.parts.materials,
+            hierarchy: Hierarchy::new(&lit.parts.objects),
             objects: lit.parts.objects,
             lights: lit
                 .parts

@@ -2,19 +2,20 @@
 
 use crate::{cone_height, frame_of, sample_cone};
 use glam::DVec3;
+use optics::wide::sin_cos_turns;
 use scene::Shape;
 use std::f64::consts::PI;
 
 /// A point this close to a sphere's surface, relative to its squared radius, counts as inside.
-const INSIDE: f64 = 1.000_01;
+pub(crate) const INSIDE: f64 = 1.000_01;
 
-/// A direction from `point` towards a light: uniform in the solid angle of a sphere (over all directions from
+/// A direction from `point` towards a shape: uniform in the solid angle of a sphere (over all directions from
 /// inside it), uniform over the area of a rectangle or disk.
 ///
 /// # Panics
-/// For an unbounded plane, which is never a light.
-pub fn sample_light(light: &Shape, point: DVec3, u: f64, v: f64) -> DVec3 {
-    match *light {
+/// For an unbounded plane, which is never an emitter that is sampled.
+pub fn sample_shape(shape: &Shape, point: DVec3, u: f64, v: f64) -> DVec3 {
+    match *shape {
         Shape::Sphere { center, radius } => {
             let towards = center - point;
             let distance2 = towards.length_squared();
@@ -44,20 +45,20 @@ pub fn sample_light(light: &Shape, point: DVec3, u: f64, v: f64) -> DVec3 {
             radius,
             ..
         } => {
-            let (sine, cosine) = (2.0 * PI * v).sin_cos();
+            let (sine, cosine) = sin_cos_turns(v);
             let place = center + (tangent * cosine + bitangent * sine) * (radius * u.sqrt());
             (place - point).normalize()
         }
-        Shape::Plane { .. } => unreachable!("an unbounded plane is no light"),
+        Shape::Plane { .. } => unreachable!("an unbounded plane is not sampled"),
     }
 }
 
-/// Density with which [`sample_light`] draws a direction that hits the light, sr⁻¹.
+/// Density with which [`sample_shape`] draws a direction that hits the shape, sr⁻¹.
 ///
 /// # Panics
-/// For an unbounded plane, which is never a light.
-pub fn light_pdf(light: &Shape, point: DVec3, direction: DVec3) -> f64 {
-    match *light {
+/// For an unbounded plane, which is never an emitter that is sampled.
+pub fn shape_pdf(shape: &Shape, point: DVec3, direction: DVec3) -> f64 {
+    match *shape {
         Shape::Sphere { center, radius } => {
             let distance2 = (center - point).length_squared();
             if distance2 <= radius * radius * INSIDE {
@@ -83,7 +84,7 @@ pub fn light_pdf(light: &Shape, point: DVec3, direction: DVec3) -> f64 {
             radius,
             ..
         } => plane_pdf(center - point, normal, direction, PI * radius * radius),
-        Shape::Plane { .. } => unreachable!("an unbounded plane is no light"),
+        Shape::Plane { .. } => unreachable!("an unbounded plane is not sampled"),
     }
 }
 

@@ -1,7 +1,6 @@
-//! sin, cos and exp on lanes, as polynomials (interpolated at Chebyshev's nodes with 60 digits), without branches.
+//! sin, cos and exp as polynomials (interpolated at Chebyshev's nodes with 60 digits), without branches.
 
-use super::lanes::Lanes;
-use pulp::Simd;
+use super::Real;
 use std::f64::consts::{LN_2, PI, TAU};
 
 /// sin πx / x in powers of x², |x| ≤ 1/2: error below 1.3e-16.
@@ -46,23 +45,49 @@ const POWER: [f64; 12] = [
     2.572_932_417_736_230_5e-11,
 ];
 
-/// Horner's rule.
+/// Horner's rule for the even and the odd coefficients, so that half of the operations need not wait for the other half.
 #[inline(always)]
-fn polynomial<S: Simd, const N: usize>(coefficients: &[f64; N], x: Lanes<S>) -> Lanes<S> {
-    let mut sum = x.constant(coefficients[N - 1]);
-    for place in (0..N - 1).rev() {
-        sum = sum.mul_add(x, x.constant(coefficients[place]));
+fn polynomial<T: Real, const N: usize>(coefficients: &[f64; N], x: T) -> T {
+    let square = x * x;
+    let mut sums = [
+        x.constant(coefficients[N - 1]),
+        x.constant(coefficients[N - 2]),
+    ];
+    for place in (0..N - 2).rev() {
+        let which = (N - 1 - place) % 2;
+        sums[which] = sums[which].mul_add(square, x.constant(coefficients[place]));
     }
-    sum
+    let [even, odd] = if N % 2 == 1 { sums } else { [sums[1], sums[0]] };
+    odd.mul_add(x, even)
 }
 
 /// (sin πx, cos πx), both or neither with their signs changed: for a matrix of which only powers are asked, that is the same.
 /// To 4e-16, beside the rounding of x itself; sin keeps its relative precision at 0.
 #[inline(always)]
-pub(super) fn sin_cos_half_turns<S: Simd>(x: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
+pub fn sin_cos_half_turns<T: Real>(x: T) -> (T, T) {
     let x = x - x.round();
     let square = x * x;
     (x * polynomial(&SINE, square), polynomial(&COSINE, square))
+}
+
+/// sin πx, perhaps with its sign changed; see [`sin_cos_half_turns`].
+#[inline(always)]
+pub fn sin_half_turns<T: Real>(x: T) -> T {
+    let x = x - x.round();
+    x * polynomial(&SINE, x * x)
+}
+
+/// (sin 2πx, cos 2πx) for moderate x, as [`sin_cos_half_turns`] but with their signs.
+#[inline(always)]
+pub fn sin_cos_turns(x: f64) -> (f64, f64) {
+    let half_turns = 2.0 * x;
+    let whole = Real::round(half_turns);
+    let (sin, cos) = sin_cos_half_turns(half_turns);
+    if whole as i64 & 1 == 0 {
+        (sin, cos)
+    } else {
+        (-sin, -cos)
+    }
 }
 
 /// 2π / ln 2.
@@ -73,7 +98,7 @@ const DARKEST: f64 = 1020.0;
 
 /// (exp(−2πx), 1 − exp(−2πx)) for x ≥ 0, both to a few 1e-16 of themselves times 1 + x.
 #[inline(always)]
-pub(super) fn decay<S: Simd>(x: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
+pub fn decay<T: Real>(x: T) -> (T, T) {
     let halvings = (x * x.constant(TURN)).at_most(DARKEST);
     let whole = halvings.round();
     let rest = halvings - whole;
@@ -86,7 +111,8 @@ pub(super) fn decay<S: Simd>(x: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use pulp::{Arch, WithSimd};
+    use crate::wide::Lanes;
+    use pulp::{Arch, Simd, WithSimd};
 
     /// Applies both functions to numbers, eight at a time.
     struct Both<'a>(&'a [f64], &'a mut Vec<[f64; 4]>);
@@ -156,6 +182,17 @@ mod tests {
                 (less - true_less).abs() <= allowed * true_less,
                 "{x}: {less:e} {true_less:e}"
             );
+        }
+    }
+
+    #[test]
+    fn turns_have_their_signs() {
+        for i in -4000..=4000 {
+            let x = f64::from(i) / 1000.0 + 1e-7;
+            let (sin, cos) = sin_cos_turns(x);
+            let (true_sin, true_cos) = (TAU * (x - x.round())).sin_cos();
+            assert!((sin - true_sin).abs() < 1e-15, "{x}: {sin} {true_sin}");
+            assert!((cos - true_cos).abs() < 1e-15, "{x}: {cos} {true_cos}");
         }
     }
 

@@ -1,0 +1,134 @@
+//! A diffuse body below a clear coat, smooth or rough.
+
+use super::{BsdfEval, Lobes, Rough};
+use crate::layers::{Coating, GRAZING, Layers, Medium};
+use crate::sample_cosine_hemisphere;
+use crate::spectral::{At, BandValue, Bands, Row, Tables};
+use crate::surface::Reflectance;
+use glam::DVec3;
+use optics::wide::{Lanes, Real, interface_reflectance};
+use pulp::Simd;
+use scene::CoatedBody;
+use std::f64::consts::FRAC_1_PI;
+
+/// Such a surface, anywhere.
+pub(crate) struct Coated<'a> {
+    pub(crate) body: &'a CoatedBody,
+    coat: Coating<'a>,
+    /// Of a rough coat.
+    rough: Option<Rough<'a>>,
+}
+
+impl<'a> Coated<'a> {
+    pub(crate) fn new(tables: &mut Tables, body: &'a CoatedBody) -> Self {
+        let coat = Coating {
+            medium: Medium::new(tables, body.n, body.k),
+            layers: Layers::new(tables, &[]),
+        };
+        let rough = body.microsurface.as_ref();
+        let rough = rough.map(|of| Rough::new(tables, &coat, of));
+        Self { body, coat, rough }
+    }
+}
+
+/// Such a surface at a point.
+pub(crate) struct CoatedAt<'a> {
+    pub(crate) coated: &'a Coated<'a>,
+    pub(crate) base: Reflectance,
+}
+
+impl CoatedAt<'_> {
+    /// A smooth coat mirrors.
+    pub(super) fn specular_probability(&self, wo: DVec3) -> f64 {
+        match self.coated.rough {
+            None => coat_share(self.coated.body, wo.z),
+            Some(_) => 0.0,
+        }
+    }
+
+    pub(super) fn eval(&self, wo: DVec3, wi: DVec3) -> BsdfEval {
+        let Coated { body, rough, .. } = self.coated;
+        let share = coat_share(body, wo.z);
+        let lambert = wi.z.max(0.0) * FRAC_1_PI;
+        let mut eval = BsdfEval::dark(wo, wi);
+        let Some(Rough { facets, .. }) = rough else {
+            eval.lobes.body = lambert;
+            eval.pdf = (1.0 - share) * lambert;
+            return eval;
+        };
+        if let Some(found) = facets.eval(wo, wi) {
+            eval.lobes.single = found.single;
+            eval.lobes.multiple = found.multiple;
+            eval.lobes.cosine = found.cosine;
+            eval.lobes.body = body.passage_at(wo) * body.passage_at(wi) * lambert;
+            eval.pdf = share * found.pdf + (1.0 - share) * lambert;
+        }
+        eval
+    }
+
+    pub(super) fn sample(&self, wo: DVec3, random: impl Fn(usize) -> f64) -> DVec3 {
+        let (u, v) = (random(0), random(1));
+        let share = coat_share(self.coated.body, wo.z);
+        match &self.coated.rough {
+            Some(rough) if random(2) < share => rough.facets.sample(wo, [u, v, random(2) / share]),
+            _ => sample_cosine_hemisphere(u, v),
+        }
+    }
+
+    /// P of the body (see [`optics::coated_albedo_factor`]).
+    #[inline(always)]
+    fn below_coat<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> Lanes<S> {
+        let body = self.coated.body;
+        let base = self.base.at(bands, at);
+        let n = bands.spectrum(body.n.into(), at);
+        let outer = bands.spectrum(body.mean_reflectance.into(), at);
+        base * optics::coated_albedo_factor(base, n, outer)
+    }
+}
+
+impl BandValue for (&CoatedAt<'_>, Lobes) {
+    #[inline(always)]
+    fn value<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> Lanes<S> {
+        let (surface, lobes) = self;
+        let Coated { body, coat, rough } = surface.coated;
+        let inside = surface.below_coat(bands, at).times(lobes.body);
+        let once = coat
+            .medium
+            .reflectance(bands, at, lobes.cosine)
+            .times(lobes.single);
+        let Some(rough) = rough else {
+            let out = coat.medium.reflectance(bands, at, lobes.wo_cosine);
+            let into = coat.medium.reflectance(bands, at, lobes.wi_cosine);
+            return once + out.complement() * into.complement() * inside;
+        };
+        let several = rough.color(coat, (bands, at), &[]).times(lobes.multiple);
+        let out = rough_coat(body, bands, at, lobes.wo_cosine);
+        let into = rough_coat(body, bands, at, lobes.wi_cosine);
+        once + several + out.complement() * into.complement() * inside
+    }
+}
+
+/// The reflectance of a rough coat, from its table.
+#[inline(always)]
+fn rough_coat<S: Simd>(body: &CoatedBody, bands: &Bands<'_, S>, at: At, cosine: f64) -> Lanes<S> {
+    let Some(table) = body.reflectances else {
+        return bands.splat(0.0);
+    };
+    let place = cosine.clamp(0.0, 1.0).sqrt() * (CoatedBody::COSINES - 1) as f64;
+    let knot = (place as usize).min(CoatedBody::COSINES - 2);
+    let low = bands.spectrum(Row::from(table.after(knot)), at);
+    let high = bands.spectrum(Row::from(table.after(knot + 1)), at);
+    (high - low).mul_add(bands.splat(place - knot as f64), low)
+}
+
+/// Share of the paths that are mirrored by a smooth coat rather than sent on by the body below it: by an estimate of what either
+/// brings.
+pub fn coat_share(body: &CoatedBody, cosine: f64) -> f64 {
+    let reflected = interface_reflectance(body.estimate.n, 0.0, cosine.max(GRAZING));
+    let share = reflected / (reflected + (1.0 - reflected) * body.estimate.base).max(1e-6);
+    match body.microsurface {
+        // Near grazing it reflects less than a smooth one: both must stay within reach.
+        Some(_) => share.clamp(0.1, 0.9),
+        None => share,
+    }
+}

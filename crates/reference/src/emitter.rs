@@ -1,0 +1,219 @@
+//! Emitters that are sampled for direct light, and the choice among them by an estimate of what each brings to a point.
+
+use crate::emitter_shape::INSIDE;
+use crate::{
+    cone_height, environment_pdf, environment_share, sample_environment, sample_shape, shape_pdf,
+};
+use glam::DVec3;
+use scene::{EnvironmentShape, LightShape, Scene, Shape, SourceKind};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI, TAU};
+
+/// What emits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Emitter<'a> {
+    /// An object.
+    Shape(&'a Shape),
+    /// A part of the environment.
+    Environment(EnvironmentShape<'a>),
+    /// A light of a single direction at each place.
+    Delta(LightShape),
+}
+
+impl<'a> Emitter<'a> {
+    /// What an emitter of a scene is.
+    pub fn of(scene: &'a Scene, kind: SourceKind) -> Self {
+        match kind {
+            SourceKind::Object(index) => Self::Shape(&scene.objects()[index].shape),
+            SourceKind::Environment(index) => Self::Environment(scene.surroundings()[index].shape),
+            SourceKind::Light(index) => Self::Delta(scene.lights()[index].shape),
+        }
+    }
+
+    /// A direction from `point` towards it.
+    pub fn sample(&self, point: DVec3, u: f64, v: f64) -> DVec3 {
+        match *self {
+            Self::Shape(shape) => sample_shape(shape, point, u, v),
+            Self::Environment(part) => sample_environment(part, u, v),
+            Self::Delta(LightShape::Direction { towards } | LightShape::Disc { towards, .. }) => {
+                towards
+            }
+            Self::Delta(LightShape::Point { position } | LightShape::Spot { position, .. }) => {
+                (position - point).normalize()
+            }
+        }
+    }
+
+    /// Density with which [`Self::sample`] draws a direction, sr⁻¹; none for light from a single direction.
+    pub fn pdf(&self, point: DVec3, direction: DVec3) -> Option<f64> {
+        match *self {
+            Self::Shape(shape) => Some(shape_pdf(shape, point, direction)),
+            Self::Environment(part) => Some(environment_pdf(part, direction)),
+            Self::Delta(_) => None,
+        }
+    }
+
+    /// Factor of its emission towards `point`: the share of a part of the environment; of a point and of a spot what makes their
+    /// intensity an irradiance.
+    pub fn strength(&self, point: DVec3, direction: DVec3) -> f64 {
+        match *self {
+            Self::Shape(_)
+            | Self::Delta(LightShape::Direction { .. } | LightShape::Disc { .. }) => 1.0,
+            Self::Environment(part) => environment_share(part, direction),
+            Self::Delta(LightShape::Point { position }) => 1.0 / point.distance_squared(position),
+            Self::Delta(LightShape::Spot {
+                position,
+                axis,
+                full_height,
+                edge_height,
+            }) => {
+                let height = 0.5 * (direction + axis).length_squared();
+                let t = ((edge_height - height) / (edge_height - full_height)).clamp(0.0, 1.0);
+                t * t * (3.0 - 2.0 * t) / point.distance_squared(position)
+            }
+        }
+    }
+
+    /// How far away it is; none where it is no place.
+    pub(crate) fn distance(&self, point: DVec3) -> Option<f64> {
+        match *self {
+            Self::Delta(LightShape::Point { position } | LightShape::Spot { position, .. }) => {
+                Some(point.distance(position))
+            }
+            _ => None,
+        }
+    }
+
+    /// About the irradiance that it gives at radiance 1; 0 only where nothing of it can arrive.
+    pub fn weight(&self, point: DVec3, normal: DVec3) -> f64 {
+        match *self {
+            Self::Shape(shape) => shape_weight(shape, point, normal),
+            Self::Environment(part) => environment_weight(part, normal),
+            Self::Delta(_) => {
+                let direction = self.sample(point, 0.0, 0.0);
+                self.strength(point, direction) * direction.dot(normal).max(0.0)
+            }
+        }
+    }
+}
+
+/// Solid angle times the largest cosine in the cone that holds the shape.
+fn shape_weight(shape: &Shape, point: DVec3, normal: DVec3) -> f64 {
+    match *shape {
+        Shape::Sphere { center, radius } => {
+            let towards = center - point;
+            let distance2 = towards.length_squared();
+            if distance2 <= radius * radius * INSIDE {
+                return PI;
+            }
+            let largest = most_cosine(towards.normalize().dot(normal), radius / distance2.sqrt());
+            TAU * cone_height(radius, distance2) * largest
+        }
+        Shape::Rectangle {
+            center,
+            normal: across,
+            half_width,
+            half_height,
+            ..
+        } => {
+            let reach = half_width.hypot(half_height);
+            let area = 4.0 * half_width * half_height;
+            plane_weight(center - point, (across, normal), reach, area)
+        }
+        Shape::Disk {
+            center,
+            normal: across,
+            radius,
+            ..
+        } => plane_weight(
+            center - point,
+            (across, normal),
+            radius,
+            PI * radius * radius,
+        ),
+        Shape::Plane { .. } => 0.0,
+    }
+}
+
+fn plane_weight(towards: DVec3, (across, normal): (DVec3, DVec3), reach: f64, area: f64) -> f64 {
+    let distance = towards.length();
+    let distance2 = distance * distance;
+    let facing = (towards.dot(across).abs() * distance + reach * reach) / distance2.max(1e-20);
+    let solid_angle = area * facing.min(1.0) / (distance2 + area / TAU);
+    if distance <= reach {
+        return solid_angle;
+    }
+    solid_angle * most_cosine(towards.dot(normal) / distance, reach / distance)
+}
+
+fn environment_weight(part: EnvironmentShape<'_>, normal: DVec3) -> f64 {
+    match part {
+        EnvironmentShape::Everywhere | EnvironmentShape::Picture(_) => PI,
+        EnvironmentShape::Horizon => FRAC_PI_2,
+        EnvironmentShape::Pole(pole) => FRAC_PI_3 * (1.0 + pole.dot(normal)).max(0.0),
+        EnvironmentShape::Disc { towards, height } => {
+            let sine = (height * (2.0 - height)).sqrt();
+            TAU * height * most_cosine(towards.dot(normal), sine)
+        }
+    }
+}
+
+/// The largest cosine with a normal within a cone about an axis that has the cosine `axis` with it.
+fn most_cosine(axis: f64, sine_of_half_angle: f64) -> f64 {
+    let between = axis.clamp(-1.0, 1.0).acos() - sine_of_half_angle.min(1.0).asin();
+    between.max(0.0).cos().max(0.0)
+}
+
+/// An emitter and the probability with which it is chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EmitterChoice {
+    /// Its number.
+    pub emitter: usize,
+    /// The probability.
+    pub pmf: f64,
+}
+
+/// Chooses an emitter by its probability and a uniform number.
+pub fn choose_emitter(pmfs: impl Iterator<Item = f64>, random: f64) -> Option<EmitterChoice> {
+    let mut sum = 0.0;
+    let mut choice = None;
+    for (emitter, pmf) in pmfs.enumerate() {
+        if pmf > 0.0 {
+            choice = Some(EmitterChoice { emitter, pmf });
+        }
+        sum += pmf;
+        if random < sum {
+            break;
+        }
+    }
+    choice
+}
+
+/// BSDF sampling is left out where its density is less than this part of the other's.
+const CUTOFF: f64 = 0.1875;
+
+/// MIS weight of emitter sampling in a direction that it finds with `pmf` times `density`, and BSDF sampling with density `pdf_bsdf`,
+/// which has the rest.
+///
+/// Of a picture only what is brighter than the mean is sampled (MIS compensation, Karlík et al. 2019), and no more of the light than that
+/// belongs to emitter sampling. Against BSDF sampling counts the density with which all of the picture's light would be sampled: a mirror
+/// that finds an even picture without noise shall not leave the rim of what it mirrors to a few rays.
+pub fn mis_weight_emitter(emitter: Emitter<'_>, pdf_bsdf: f64, pmf: f64, density: f64) -> f64 {
+    if let Emitter::Environment(EnvironmentShape::Picture(picture)) = emitter {
+        let even = f64::from(picture.table.even_density);
+        if even > 0.0 {
+            let excess = density / even;
+            let pdf_emitter = pmf * excess / (4.0 * PI);
+            return excess / (1.0 + excess) * (1.0 - mis_weight_bsdf(pdf_bsdf, pdf_emitter));
+        }
+    }
+    1.0 - mis_weight_bsdf(pdf_bsdf, pmf * density)
+}
+
+/// MIS weight of BSDF sampling against emitter sampling: the power heuristic (Veach 1997, section 9.2.2), with a cutoff of BSDF sampling
+/// alone.
+pub fn mis_weight_bsdf(pdf_bsdf: f64, pdf_emitter: f64) -> f64 {
+    if pdf_bsdf < CUTOFF * pdf_emitter {
+        return 0.0;
+    }
+    pdf_bsdf * pdf_bsdf / (pdf_bsdf * pdf_bsdf + pdf_emitter * pdf_emitter)
+}

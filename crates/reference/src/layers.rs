@@ -1,0 +1,306 @@
+//! Thin layers, free or on a surface, where a path meets them.
+
+use crate::spectral::{At, BandPowers, Bands, Knots, Row, Tables, Through};
+use crate::{SurfacePoint, layer_thickness};
+use glam::DVec3;
+use optics::wide::{
+    Index, Lanes, Real, SCALED_AFTER, Sweep, clear_film_reflectance, interface_reflectance,
+    two_beam_powers,
+};
+use pulp::Simd;
+use scene::limits::MAX_LAYERS;
+use scene::{Interference, PathDifference, Shape, SpectrumId, Thickness};
+
+/// Nothing is seen at a smaller cosine; the bound keeps a grazing ray finite.
+pub(crate) const GRAZING: f64 = 1e-6;
+
+/// A medium of index n + ik.
+#[derive(Clone, Copy)]
+pub(crate) struct Medium {
+    n: Row,
+    k: Row,
+    /// k is 0 in every band.
+    is_clear: bool,
+}
+
+impl Medium {
+    pub(crate) fn new(tables: &Tables, n: SpectrumId, k: SpectrumId) -> Self {
+        let (n, k) = (n.into(), k.into());
+        let is_clear = tables.extent(k) == (0.0, 0.0);
+        Self { n, k, is_clear }
+    }
+
+    #[inline(always)]
+    fn n<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> Lanes<S> {
+        bands.spectrum(self.n, at)
+    }
+
+    /// Reflectance of unpolarized light that comes from air.
+    #[inline(always)]
+    pub(crate) fn reflectance<S: Simd>(
+        &self,
+        bands: &Bands<'_, S>,
+        at: At,
+        cosine: f64,
+    ) -> Lanes<S> {
+        let (n, k) = (self.n(bands, at), bands.spectrum(self.k, at));
+        interface_reflectance(n, k, cosine.max(GRAZING))
+    }
+
+    #[inline(always)]
+    fn index<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> Index<Lanes<S>> {
+        let (n, k) = (self.n(bands, at), bands.spectrum(self.k, at));
+        Index::new(n, k, self.is_clear, bands.splat(1.0))
+    }
+}
+
+/// The layers of a film or of a coating, the outermost first.
+pub(crate) struct Layers<'a>(Vec<(Medium, &'a Thickness)>);
+
+impl<'a> Layers<'a> {
+    pub(crate) fn new(tables: &Tables, layers: &'a [scene::Layer]) -> Self {
+        let layer =
+            |layer: &'a scene::Layer| (Medium::new(tables, layer.n, layer.k), &layer.thickness);
+        Self(layers.iter().map(layer).collect())
+    }
+
+    /// Their thicknesses at a point, nm, written to the front of `nm`.
+    pub(crate) fn thickness_nm<'b>(
+        &self,
+        surface: &SurfaceAt<'_>,
+        nm: &'b mut Nanometers,
+    ) -> &'b [f64] {
+        for (nm, (_, thickness)) in nm.iter_mut().zip(&self.0) {
+            *nm = layer_thickness(thickness, surface.shape, surface.position);
+        }
+        &nm[..self.0.len()]
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Their thicknesses where these are the same everywhere, nm, written to the front of `nm`.
+    pub(crate) fn even_thickness_nm<'b>(&self, nm: &'b mut Nanometers) -> Option<&'b [f64]> {
+        for (nm, (_, thickness)) in nm.iter_mut().zip(&self.0) {
+            let Thickness::Constant { nm: even } = thickness else {
+                return None;
+            };
+            *nm = *even;
+        }
+        Some(&nm[..self.0.len()])
+    }
+
+    /// The sum of the layers' thicknesses times their largest index, nm.
+    pub(crate) fn optical_thickness_nm(&self, tables: &Tables, nm: &[f64]) -> f64 {
+        let layers = self.0.iter().zip(nm);
+        let optical = |((medium, _), nm): (&(Medium, _), &f64)| tables.extent(medium.n).1 * nm;
+        layers.map(optical).sum()
+    }
+
+    /// R_s, R_p, T_s and T_p on a substrate in light from air, or from behind where they are free (then they are met in reverse).
+    #[inline(always)]
+    fn powers<S: Simd>(
+        &self,
+        (bands, at): (&Bands<'_, S>, At),
+        nm: &[f64],
+        substrate: &Index<Lanes<S>>,
+        (cosine, from_behind): (f64, bool),
+    ) -> [Lanes<S>; 4] {
+        let half_waves_per_nm = bands.inverse_wavelength(at).times(2.0);
+        let cos2 = cosine * cosine;
+        let q0_squared = bands.splat(cos2);
+        let mut sweep = Sweep::new(&substrate.wave(q0_squared, cos2, half_waves_per_nm));
+        let count = self.0.len();
+        for step in 0..count {
+            if step > 0 && step % SCALED_AFTER == 0 {
+                sweep.rescale();
+            }
+            let layer = if from_behind { step } else { count - 1 - step };
+            let index = self.0[layer].0.index(bands, at);
+            let wave = index.wave(q0_squared, cos2, half_waves_per_nm);
+            sweep.pass(&wave, bands.splat(nm[layer]));
+        }
+        let eta = bands.splat(cosine);
+        sweep.powers(eta, eta)
+    }
+}
+
+/// Thicknesses of as many layers as there can be, nm.
+pub(crate) type Nanometers = [f64; MAX_LAYERS];
+
+/// Where a path meets a surface.
+#[derive(Clone, Copy)]
+pub(crate) struct SurfaceAt<'a> {
+    pub(crate) shape: &'a Shape,
+    pub(crate) position: DVec3,
+}
+
+/// A free film in air.
+pub(crate) struct Film<'a> {
+    layers: Layers<'a>,
+    kind: FilmKind,
+}
+
+/// By which formula a film is computed.
+#[derive(Clone, Copy)]
+enum FilmKind {
+    /// One layer that does not absorb, n ≥ 1.
+    Clear,
+    /// One layer by two beams.
+    TwoBeam(optics::PathDifference),
+    /// Any layers.
+    Stack,
+}
+
+impl<'a> Film<'a> {
+    pub(crate) fn new(
+        tables: &Tables,
+        layers: &'a [scene::Layer],
+        interference: Interference,
+    ) -> Self {
+        let layers = Layers::new(tables, layers);
+        let kind = match (interference, &layers.0[..]) {
+            (Interference::TwoBeam(PathDifference::Optical), _) => {
+                FilmKind::TwoBeam(optics::PathDifference::Optical)
+            }
+            (Interference::TwoBeam(PathDifference::AsPrinted), _) => {
+                FilmKind::TwoBeam(optics::PathDifference::AsPrinted)
+            }
+            (Interference::Exact, [(medium, _)])
+                if medium.is_clear && tables.extent(medium.n).0 >= 1.0 =>
+            {
+                FilmKind::Clear
+            }
+            (Interference::Exact, _) => FilmKind::Stack,
+        };
+        Self { layers, kind }
+    }
+
+    /// Where a path meets it.
+    pub(crate) fn at(&'a self, shape: &'a Shape, point: &SurfacePoint) -> FilmAt<'a> {
+        FilmAt {
+            film: self,
+            surface: SurfaceAt {
+                shape,
+                position: point.position,
+            },
+            cosine: point.cosine.max(GRAZING),
+            is_front: point.is_front,
+        }
+    }
+}
+
+/// A free film where a path meets it.
+#[derive(Clone, Copy)]
+pub(crate) struct FilmAt<'a> {
+    film: &'a Film<'a>,
+    surface: SurfaceAt<'a>,
+    cosine: f64,
+    is_front: bool,
+}
+
+impl FilmAt<'_> {
+    /// Thicknesses of its layers, nm, written to the front of `nm`.
+    pub(crate) fn thickness_nm<'b>(&self, nm: &'b mut Nanometers) -> &'b [f64] {
+        self.film.layers.thickness_nm(&self.surface, nm)
+    }
+
+    /// Multiplies the light of each band by its reflectance or transmittance of unpolarized light, of layers so thick.
+    #[inline(always)]
+    pub(crate) fn pass<S: Simd>(&self, bands: &Bands<'_, S>, nm: &[f64], through: Through<'_>) {
+        let layers = &self.film.layers;
+        let one = || (bands.knots(layers.0[0].0.n), 2.0 * nm[0]);
+        match self.film.kind {
+            FilmKind::Clear => {
+                let (n, twice_nm) = one();
+                let cos2 = self.cosine * self.cosine;
+                bands.pass(&ClearFilm { n, twice_nm, cos2 }, through);
+            }
+            FilmKind::TwoBeam(path) => {
+                let ((n, twice_nm), cosine) = (one(), self.cosine);
+                let film = TwoBeamFilm {
+                    n,
+                    twice_nm,
+                    cosine,
+                    path,
+                };
+                bands.pass(&film, through);
+            }
+            FilmKind::Stack => bands.pass(&(self, nm), through),
+        }
+    }
+}
+
+/// A clear film of one layer.
+struct ClearFilm<'a> {
+    n: Knots<'a>,
+    twice_nm: f64,
+    cos2: f64,
+}
+
+impl BandPowers for ClearFilm<'_> {
+    #[inline(always)]
+    fn powers<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> (Lanes<S>, Lanes<S>) {
+        let n = self.n.value(bands, at);
+        let inverse_wavelength = bands.inverse_wavelength(at);
+        let r = clear_film_reflectance(n, self.twice_nm, inverse_wavelength, self.cos2);
+        (r, r.complement())
+    }
+}
+
+/// A film of one layer by two beams.
+struct TwoBeamFilm<'a> {
+    n: Knots<'a>,
+    twice_nm: f64,
+    cosine: f64,
+    path: optics::PathDifference,
+}
+
+impl BandPowers for TwoBeamFilm<'_> {
+    #[inline(always)]
+    fn powers<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> (Lanes<S>, Lanes<S>) {
+        let n = self.n.value(bands, at);
+        let inverse_wavelength = bands.inverse_wavelength(at);
+        two_beam_powers(n, self.twice_nm, inverse_wavelength, self.cosine, self.path)
+    }
+}
+
+/// A film of any layers, and their thicknesses.
+impl BandPowers for (&FilmAt<'_>, &[f64]) {
+    #[inline(always)]
+    fn powers<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> (Lanes<S>, Lanes<S>) {
+        let (film, nm) = self;
+        let (zero, one) = (bands.splat(0.0), bands.splat(1.0));
+        let air = Index::new(one, zero, true, one);
+        let met = (film.cosine, !film.is_front);
+        let [r_s, r_p, t_s, t_p] = film.film.layers.powers((bands, at), nm, &air, met);
+        ((r_s + r_p).times(0.5), (t_s + t_p).times(0.5))
+    }
+}
+
+/// The boundary between air and an opaque medium, bare or coated.
+pub(crate) struct Coating<'a> {
+    pub(crate) medium: Medium,
+    pub(crate) layers: Layers<'a>,
+}
+
+impl Coating<'_> {
+    /// Its reflectance of unpolarized light at a cosine; `nm` are its layers' thicknesses.
+    #[inline(always)]
+    pub(crate) fn reflectance<S: Simd>(
+        &self,
+        bands: &Bands<'_, S>,
+        at: At,
+        (nm, cosine): (&[f64], f64),
+    ) -> Lanes<S> {
+        if self.layers.0.is_empty() {
+            return self.medium.reflectance(bands, at, cosine);
+        }
+        let cosine = cosine.max(GRAZING);
+        let substrate = self.medium.index(bands, at);
+        let met = (cosine, false);
+        let [s, p, ..] = self.layers.powers((bands, at), nm, &substrate, met);
+        (s + p).times(0.5)
+    }
+}

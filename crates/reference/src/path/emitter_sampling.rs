@@ -1,0 +1,174 @@
+//! Next-event estimation, and how it is weighed against paths that meet an emitter by chance (multiple importance sampling).
+
+use super::{PathTracer, Use};
+use crate::bsdf::Bsdf;
+use crate::prepared::SceneEmitter;
+use crate::transport::{Emitted, Transport};
+use crate::{
+    Emitter, EmitterChoice, Hit, Ray, SurfacePoint, choose_emitter, environment_pixel,
+    mis_weight_emitter, nearest_hit, surface_point,
+};
+use glam::{DMat3, DVec3};
+use scene::{DirectLight, EnvironmentShape, SourceKind};
+
+/// A direction from which an emitter shines onto a surface, if nothing is in the way.
+struct EmitterSample<'a> {
+    emitter: SceneEmitter<'a>,
+    light: Emitted<'a>,
+    direction: DVec3,
+    /// Probability of the choice among the emitters.
+    pmf: f64,
+    /// Density of the direction, sr⁻¹; none for light from a single direction.
+    density: Option<f64>,
+    /// What the emission is multiplied by, besides what the surface does.
+    weight: f64,
+}
+
+impl<'a, T: Transport> PathTracer<'a, T> {
+    /// Connects the path to an emitter, if one shines on the surface. Returns the sum of the emitters' weights there.
+    pub(super) fn connect(
+        &mut self,
+        object: usize,
+        point: &SurfacePoint,
+        bsdf: &Bsdf<'_>,
+        (local_from_world, wo): (DMat3, DVec3),
+    ) -> f64 {
+        let settings = self.settings();
+        let samples = settings.direct_light != DirectLight::Surfaces;
+        if !samples || self.path.segment >= settings.max_path_segments {
+            return 0.0;
+        }
+        let prepared = self.prepared;
+        let weights = &mut self.emitter_weights;
+        let sum = prepared.emitter_weights(point.position, point.normal, weights);
+        let Some(sample) = self.sample_emitter(point, sum) else {
+            return sum;
+        };
+        let eval = bsdf.eval(wo, local_from_world * sample.direction);
+        if eval.lobes.sum() > 0.0 && self.is_visible(object, point, &sample) {
+            let mis = match (settings.direct_light, sample.density) {
+                (DirectLight::Both, Some(density)) => {
+                    mis_weight_emitter(sample.emitter.emitter, eval.pdf, sample.pmf, density)
+                }
+                _ => 1.0,
+            };
+            let weight = self.path.weight * sample.weight * mis;
+            let scattering = (bsdf, &eval.lobes);
+            self.transport
+                .connect(scattering, &sample.light, weight, &self.films);
+        }
+        sum
+    }
+
+    /// Chooses an emitter and a direction towards it.
+    fn sample_emitter(
+        &mut self,
+        point: &SurfacePoint,
+        weight_sum: f64,
+    ) -> Option<EmitterSample<'a>> {
+        let random = self.random(Use::Emitter);
+        let pmfs = self
+            .emitter_weights
+            .iter()
+            .map(|weight| weight / weight_sum);
+        let choice = match pmfs.len() {
+            1 => EmitterChoice {
+                emitter: 0,
+                pmf: 1.0,
+            },
+            _ => choose_emitter(pmfs, random.get(0))?,
+        };
+        let chosen = self.prepared.emitters[choice.emitter];
+        let emitter = chosen.emitter;
+        let direction = emitter.sample(point.position, random.get(1), random.get(2));
+        let density = emitter.pdf(point.position, direction);
+        let strength = emitter.strength(point.position, direction);
+        if direction.dot(point.normal) <= 0.0
+            || density.is_some_and(|density| density <= 0.0)
+            || strength <= 0.0
+        {
+            return None;
+        }
+        let pixel = match emitter {
+            Emitter::Environment(EnvironmentShape::Picture(picture)) => Some((
+                picture,
+                environment_pixel(picture, direction, random.get(3)),
+            )),
+            _ => None,
+        };
+        let emission = chosen.source.emission;
+        Some(EmitterSample {
+            emitter: chosen,
+            light: Emitted { emission, pixel },
+            direction,
+            pmf: choice.pmf,
+            density,
+            weight: strength / (choice.pmf * density.unwrap_or(1.0)),
+        })
+    }
+
+    /// Whether there is nothing but films before an emitter, and no more of them than the path may have segments; notes them.
+    fn is_visible(&mut self, object: usize, point: &SurfacePoint, sample: &EmitterSample) -> bool {
+        let prepared = self.prepared;
+        let allowed = self.settings().max_path_segments - self.path.segment - 1;
+        let mut ray = Ray {
+            origin: point.position,
+            direction: sample.direction,
+        };
+        let mut from = object;
+        self.films.clear();
+        loop {
+            let hit = nearest_hit(prepared.scene, &ray, Some(from));
+            if has_arrived(&ray, &sample.emitter, hit) {
+                return true;
+            }
+            let Some(hit) = hit else {
+                return false;
+            };
+            let met = &prepared.scene.objects()[hit.object];
+            let Some(film) = prepared.surface(met.material).film() else {
+                return false;
+            };
+            if self.films.len() == allowed as usize {
+                return false;
+            }
+            let point = surface_point(&met.shape, &ray, hit.distance);
+            self.films.push(film.at(&met.shape, &point));
+            ray.origin = point.position;
+            from = hit.object;
+        }
+    }
+
+    /// MIS weight of a path that happens to meet an emitter: the rest is what next-event estimation brings.
+    pub(super) fn mis_weight_of_meeting(&self, kind: SourceKind) -> f64 {
+        let number = self.prepared.emitter_number(kind);
+        let (Some(scattered), Some(number)) = (&self.path.scattered, number) else {
+            return 1.0;
+        };
+        match self.settings().direct_light {
+            DirectLight::Lights => 0.0,
+            DirectLight::Surfaces => 1.0,
+            DirectLight::Both => {
+                let (position, normal) = (scattered.position, scattered.normal);
+                let emitter = self.prepared.emitters[number].emitter;
+                let weight = self.prepared.emitter_weight(number, position, normal);
+                let pmf = weight / scattered.emitter_weight_sum;
+                let density = emitter.pdf(position, self.path.ray.direction);
+                1.0 - mis_weight_emitter(emitter, scattered.pdf, pmf, density.unwrap_or(0.0))
+            }
+        }
+    }
+}
+
+/// Whether a ray to an emitter meets nothing before it.
+fn has_arrived(ray: &Ray, emitter: &SceneEmitter<'_>, hit: Option<Hit>) -> bool {
+    if let SourceKind::Object(index) = emitter.source.kind {
+        return hit.is_some_and(|hit| hit.object == index);
+    }
+    match (emitter.emitter.distance(ray.origin), hit) {
+        (_, None) => true,
+        // A lamp may lie on a surface: what is hit just before it, within rounding, does not hide it.
+        (Some(distance), Some(hit)) => hit.distance >= 0.99999 * distance,
+        (None, Some(_)) => false,
+    }
+}

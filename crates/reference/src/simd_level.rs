@@ -1,0 +1,36 @@
+//! Which instructions spectra are computed with.
+
+use pulp::Arch;
+
+/// A level of a machine's instructions.
+///
+/// All that multiply and add with one rounding give the same bits: AVX2 with FMA, AVX-512 and NEON. The baseline rounds twice, and
+/// differs in the last digits of an `f64`.
+#[derive(Clone, Copy, Debug)]
+pub struct SimdLevel(pub(crate) Arch);
+
+impl SimdLevel {
+    /// The highest that the machine has.
+    pub fn best() -> Self {
+        Self(Arch::new())
+    }
+
+    /// What every machine has.
+    pub fn baseline() -> Self {
+        Self(Arch::Scalar)
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &'static str {
+        match self.0 {
+            Arch::Scalar => "baseline",
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Arch::V3(_) => "AVX2",
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Arch::V4(_) => "AVX-512",
+            #[cfg(target_arch = "aarch64")]
+            Arch::Neon(_) => "NEON",
+            _ => "other",
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! A scene's spectra, laid out for paths that have all bands at once.
+
+use super::{At, Bands, CHUNK, Chunk, Spectrum};
+use optics::wide::Lanes;
+use pulp::Scalar;
+use scene::{Scene, SpectrumId};
+use spectra::{BandGrid, BandTable};
+
+/// A spectrum in the [`Tables`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Row(usize);
+
+impl Row {
+    #[inline(always)]
+    pub(super) fn index(self) -> usize {
+        self.0
+    }
+}
+
+impl From<SpectrumId> for Row {
+    fn from(id: SpectrumId) -> Self {
+        Self(id.index())
+    }
+}
+
+/// Tables of spectra at the knots within each band, as `[spectrum][knot][band]`. Bands are filled up to whole chunks with the last one.
+pub(crate) struct Tables {
+    chunks: Vec<Chunk>,
+    /// Bands without those filled up.
+    bands: usize,
+    chunks_of_knot: usize,
+    knots: usize,
+    spectra: usize,
+    observer: [Row; 3],
+    grid: BandGrid,
+}
+
+impl Tables {
+    /// A scene's spectra, then its observer's.
+    pub(crate) fn new(scene: &Scene) -> Self {
+        let grid = &scene.settings().bands;
+        let mut tables = Self {
+            chunks: Vec::new(),
+            bands: grid.count() as usize,
+            chunks_of_knot: (grid.count() as usize).div_ceil(CHUNK),
+            knots: BandTable::steps_of(grid) as usize + 1,
+            spectra: 0,
+            observer: [Row(0); 3],
+            grid: *grid,
+        };
+        let mut push = |table: &BandTable| tables.push(|knot, band| table.row(knot as u32)[band]);
+        scene.spectra().iter().for_each(|table| {
+            push(table);
+        });
+        tables.observer = scene.observer().each_ref().map(push);
+        tables
+    }
+
+    /// Adds a spectrum by its values at a knot of a band.
+    pub(crate) fn push(&mut self, value: impl Fn(usize, usize) -> f64) -> Row {
+        for knot in 0..self.knots {
+            for first in (0..self.bands).step_by(CHUNK) {
+                let band = |lane: usize| (first + lane).min(self.bands - 1);
+                let values = std::array::from_fn(|lane| value(knot, band(lane)));
+                self.chunks.push(Chunk(values));
+            }
+        }
+        self.spectra += 1;
+        Row(self.spectra - 1)
+    }
+
+    /// Adds a spectrum that is worked out, band by band, from those that are there.
+    pub(crate) fn push_from(
+        &mut self,
+        value: impl Fn(&Bands<'_, Scalar>, At) -> Lanes<Scalar>,
+    ) -> Row {
+        let mut values = Vec::with_capacity(self.knots * self.bands);
+        for knot in 0..self.knots {
+            let offset = knot as f64 / (self.knots - 1) as f64;
+            let inverse = self.inverse_wavelengths(offset);
+            let bands = Bands::new(Scalar::new(), self, self.place(offset), &inverse);
+            for band in 0..self.bands {
+                let mut one = [0.0];
+                value(&bands, At(band / CHUNK, band % CHUNK)).store(&mut one);
+                values.push(one[0]);
+            }
+        }
+        let bands = self.bands;
+        self.push(|knot, band| values[knot * bands + band])
+    }
+
+    /// The observer's color-matching functions.
+    pub(super) fn observer(&self) -> [Row; 3] {
+        self.observer
+    }
+
+    /// The bands.
+    pub(super) fn grid(&self) -> &BandGrid {
+        &self.grid
+    }
+
+    /// Bands of a spectrum.
+    pub(crate) fn bands(&self) -> usize {
+        self.bands
+    }
+
+    /// Chunks of a value for each band.
+    pub(super) fn chunks(&self) -> usize {
+        self.chunks_of_knot
+    }
+
+    /// 1/λ at an offset in [0, 1] of each band, nm⁻¹.
+    fn inverse_wavelengths(&self, offset: f64) -> Spectrum {
+        let mut inverse = Spectrum::zero(self.chunks());
+        for (band, inverse) in inverse.values_mut().iter_mut().enumerate() {
+            *inverse = self.grid.wavelength_nm(band as u32, offset).recip();
+        }
+        inverse
+    }
+
+    /// Where an offset in [0, 1] lies: the knot before it and the part of the way to the next.
+    pub(super) fn place(&self, offset: f64) -> (usize, f64) {
+        let position = offset * (self.knots - 1) as f64;
+        let knot = (position as usize).min(self.knots - 2);
+        (knot, position - knot as f64)
+    }
+
+    /// All numbers from a knot of the first spectrum on.
+    #[inline(always)]
+    pub(super) fn at_knot(&self, knot: usize) -> &[Chunk] {
+        &self.chunks[knot * self.chunks_of_knot..]
+    }
+
+    /// Chunks of a knot, and of a spectrum.
+    #[inline(always)]
+    pub(super) fn strides(&self) -> (usize, usize) {
+        (self.chunks_of_knot, self.knots * self.chunks_of_knot)
+    }
+
+    /// The least and the largest value of a spectrum.
+    pub(crate) fn extent(&self, row: Row) -> (f64, f64) {
+        let chunks = self.strides().1;
+        let of_row = &self.chunks[row.0 * chunks..(row.0 + 1) * chunks];
+        let values = of_row.iter().flat_map(|chunk| chunk.0);
+        values.fold(
+            (f64::INFINITY, f64::NEG_INFINITY),
+            |(least, most), value| (least.min(value), most.max(value)),
+        )
+    }
+}
