@@ -171,19 +171,34 @@ fn without_a_driver_auto_renders_on_the_cpu_and_says_so() {
     let notes: Vec<_> = ran
         .stderr
         .lines()
-        .filter(|line| line.contains("driver"))
+        .filter(|line| line.contains("GPU"))
         .collect();
-    let [note] = notes[..] else {
-        panic!("one line should tell of the driver: {notes:?}")
-    };
-    assert!(note.starts_with("rendering on the CPU: "), "{note}");
-    assert!(note.contains("install mesa-vulkan-drivers"), "{note}");
+    assert_eq!(notes, ["rendering on the CPU: there is no GPU"]);
 
     let _ = place
         .run(&render(&format!("{SMALL} --backend cpu -o cpu")))
         .succeeded();
     assert!(exr(&place, "auto.exr") == exr(&place, "cpu.exr"));
     assert!(bytes(&place, "auto.png") == bytes(&place, "cpu.png"));
+}
+
+/// The CPU is faster than a software driver, and starts at once.
+#[test]
+fn auto_takes_a_gpu_but_no_software_driver() {
+    let place = Place::default();
+    let ran = place.run(&render(&format!("{SMALL} -o auto"))).succeeded();
+    let adapter = &gpu::adapters()[0];
+    if adapter.to_string().contains("(software") {
+        let reason = "rendering on the CPU: there is no GPU, only the software driver";
+        let name = &adapter.info.name;
+        assert!(
+            ran.stderr.contains(&format!("{reason} {name}\n")),
+            "{}",
+            ran.stderr
+        );
+    } else {
+        assert!(ran.stderr.contains(&adapter.to_string()), "{}", ran.stderr);
+    }
 }
 
 #[test]

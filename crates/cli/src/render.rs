@@ -9,7 +9,7 @@ use pellicle::color::spectral_exr::Metadata;
 use pellicle::gpu::AdapterChoice;
 use pellicle::scene::{RenderSettings, Scene, SceneFile};
 use pellicle::spectra::SpectralImage;
-use pellicle::{Backend, Renderer};
+use pellicle::{Backend, OpenError, Renderer};
 use std::ops::{ControlFlow, Range};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -22,7 +22,7 @@ pub(crate) struct Arguments {
     /// [default: both, named after the scene, in the current folder]
     #[arg(short, long, value_name = "PATH")]
     output: Vec<PathBuf>,
-    /// What renders: auto takes the best adapter, or the CPU where there is no driver
+    /// What renders: auto takes the best GPU, or the CPU where there is none
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     backend: BackendName,
     /// Render on the adapter whose name contains this
@@ -125,6 +125,10 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
         instead_of_gpu: Some(reason),
     } = &renderer
     {
+        let reason = match reason {
+            OpenError::NoAdapter => "there is no GPU".to_owned(),
+            other => other.to_string(),
+        };
         print::note(format_args!("rendering on the CPU: {reason}"));
     }
     print::note(format_args!("{}", renderer.description()));

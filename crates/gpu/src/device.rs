@@ -34,6 +34,8 @@ pub enum AdapterChoice {
     /// The best: discrete before integrated before virtual before software.
     #[default]
     Best,
+    /// The best that is hardware, no software driver.
+    Hardware,
     /// The best of those whose name contains this, whatever the case of its letters.
     Named(String),
 }
@@ -45,6 +47,12 @@ pub enum OpenError {
     /// There is no adapter at all.
     #[error("no Vulkan, Metal or DX12 driver found; {INSTALL_HINT}")]
     NoAdapter,
+    /// There are only software drivers.
+    #[error("there is no GPU, only the software driver {}", found.join(", "))]
+    NoHardware {
+        /// What there is.
+        found: Vec<String>,
+    },
     /// No adapter has the wanted name.
     #[error("no adapter is named like {wanted:?}; there {}", found_names(found))]
     NoSuchName {
@@ -160,8 +168,13 @@ impl Gpu {
         if found.is_empty() {
             return Err(OpenError::NoAdapter);
         }
+        let names = || found.iter().map(|a| a.get_info().name).collect();
         let position = match choice {
             AdapterChoice::Best => Some(0),
+            AdapterChoice::Hardware if found[0].get_info().device_type == wgpu::DeviceType::Cpu => {
+                return Err(OpenError::NoHardware { found: names() });
+            }
+            AdapterChoice::Hardware => Some(0),
             AdapterChoice::Named(wanted) => {
                 let wanted = wanted.to_lowercase();
                 found
@@ -172,7 +185,7 @@ impl Gpu {
         match (position, choice) {
             (None, AdapterChoice::Named(wanted)) => Err(OpenError::NoSuchName {
                 wanted: wanted.clone(),
-                found: found.iter().map(|a| a.get_info().name).collect(),
+                found: names(),
             }),
             (position, _) => Self::open_adapter(&found.swap_remove(position.unwrap_or(0))),
         }

@@ -9,7 +9,7 @@ use thiserror::Error;
 /// What is to render.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Backend {
-    /// The best adapter, and the CPU where there is no driver at all.
+    /// The best GPU, and the CPU where there is none: it is faster than a software driver, and needs none.
     #[default]
     Auto,
     /// An adapter.
@@ -41,7 +41,7 @@ pub enum Renderer {
     Gpu(Box<Gpu>),
     /// The CPU.
     Cpu {
-        /// Why, where an adapter was wanted but there is no driver.
+        /// Why, where a GPU was wanted but there is none.
         instead_of_gpu: Option<OpenError>,
     },
 }
@@ -57,11 +57,13 @@ impl Renderer {
                 instead_of_gpu: None,
             }),
             Backend::Gpu(choice) => Gpu::open(choice).map(|gpu| Self::Gpu(Box::new(gpu))),
-            Backend::Auto => match Gpu::open(&AdapterChoice::Best) {
+            Backend::Auto => match Gpu::open(&AdapterChoice::Hardware) {
                 Ok(gpu) => Ok(Self::Gpu(Box::new(gpu))),
-                Err(error @ OpenError::NoAdapter) => Ok(Self::Cpu {
-                    instead_of_gpu: Some(error),
-                }),
+                Err(error @ (OpenError::NoAdapter | OpenError::NoHardware { .. })) => {
+                    Ok(Self::Cpu {
+                        instead_of_gpu: Some(error),
+                    })
+                }
                 Err(error) => Err(error),
             },
         }
@@ -73,7 +75,8 @@ impl Renderer {
             Self::Gpu(gpu) => gpu.description().to_string(),
             Self::Cpu { .. } => {
                 let threads = std::thread::available_parallelism().map_or(1, usize::from);
-                format!("CPU reference in f64 ({threads} threads)")
+                let instructions = reference::SimdLevel::best().name();
+                format!("CPU, f64 ({threads} threads, {instructions})")
             }
         }
     }
