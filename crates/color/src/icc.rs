@@ -3,8 +3,8 @@
 use colorimetry::matrix::product;
 use colorimetry::{Adaptation, Display};
 use moxcms::{
-    ColorProfile, DataColorSpace, LocalizableString, Matrix3d, ProfileClass,
-    ProfileText, RenderingIntent, ToneReprCurve, Xyzd,
+    ColorProfile, DataColorSpace, LocalizableString, Matrix3d, ProfileClass, ProfileText,
+    RenderingIntent, ToneReprCurve, Xyzd,
 };
 use thiserror::Error;
 
@@ -78,7 +78,8 @@ pub fn profile(display: &Display) -> Result<Vec<u8>, IccError> {
     profile.description = Some(text(display.name()));
     profile.copyright = Some(text("no copyright, use freely"));
     let encoded = profile.encode();
-    let mut bytes = encoded.map_err(|source| IccError::Encode(display.name().to_owned(), source))?;
+    let mut bytes =
+        encoded.map_err(|source| IccError::Encode(display.name().to_owned(), source))?;
     // The encoder writes the time of day there: the same display has the same profile, whenever it is written.
     for (field, number) in bytes[CREATION].chunks_exact_mut(2).zip(CREATED) {
         field.copy_from_slice(&number.to_be_bytes());

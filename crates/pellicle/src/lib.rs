@@ -34,6 +34,7 @@
 //! The crates behind the modules can be used alone: [`coating`] and [`optics`] for those who design coatings, [`spectra`] for data over
 //! wavelength, [`gpu`] and [`mod@reference`] for the two renderers themselves.
 
+pub mod convergence;
 mod renderer;
 pub mod seen;
 pub mod stacks;

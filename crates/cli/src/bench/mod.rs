@@ -1,10 +1,13 @@
-//! `pellicle bench`: samples and stack evaluations per second on every adapter and on the CPU; seconds of developing.
+//! `pellicle bench`: samples and stack evaluations per second on every adapter and on the CPU; seconds to a good picture, and of
+//! developing.
 
 mod develop;
+mod error;
 mod stacks;
 mod variance;
 
 use crate::print;
+use clap::ValueEnum;
 use miette::IntoDiagnostic;
 use pellicle::gpu::{AdapterChoice, adapters};
 use pellicle::scene::{Scene, SceneFile};
@@ -15,7 +18,7 @@ use std::time::Instant;
 
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The scenes to render; by default soap_bubble, film_wedge and metal_spheres in the folder `scenes` of where it is called, or for --variance floating_bubble in place of film_wedge
+    /// The scenes to render; by default soap_bubble, film_wedge and metal_spheres in the folder `scenes` of where it is called; for --variance floating_bubble in place of film_wedge, for --error those of `scenes/bench`
     scenes: Vec<PathBuf>,
     /// Only film stacks, no scenes
     #[arg(long)]
@@ -23,15 +26,32 @@ pub(crate) struct Arguments {
     /// Only developing a picture from a spectral file
     #[arg(long, conflicts_with = "stacks")]
     develop: bool,
-    /// Only how much noise the ways to draw paths leave, on the best adapter
-    #[arg(long, conflicts_with_all = ["stacks", "develop"])]
+    /// Only how much noise the ways to draw paths leave, on the best GPU or, where there is none, on the CPU
+    #[arg(long, group = "repeated", conflicts_with_all = ["stacks", "develop"])]
     variance: bool,
+    /// Only seconds to a picture of 40 bands with this error in percent (docs/benchmark.md), on the CPU or the adapter named
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        num_args = 0..=1,
+        default_missing_value = "5",
+        value_parser = percent,
+        group = "repeated",
+        conflicts_with_all = ["stacks", "develop", "variance"]
+    )]
+    error: Option<f64>,
+    /// The adapter of --error, by a part of its name
+    #[arg(long, value_name = "NAME", requires = "error")]
+    adapter: Option<String>,
+    /// How --error prints
+    #[arg(long, value_enum, default_value_t = Format::Table, requires = "error")]
+    format: Format,
     /// Samples per pixel of --variance
     #[arg(long, default_value_t = 256, requires = "variance")]
     samples: u32,
-    /// Renders of each kind for --variance
-    #[arg(long, default_value_t = 8, requires = "variance", value_parser = clap::value_parser!(u32).range(2..))]
-    seeds: u32,
+    /// Renders of each kind for --variance (by default 8) and --error (3)
+    #[arg(long, requires = "repeated", value_parser = clap::value_parser!(u32).range(2..))]
+    seeds: Option<u32>,
     /// Seconds that each measurement takes, about
     #[arg(long, default_value_t = 4.0)]
     seconds: f64,
@@ -47,6 +67,19 @@ impl Arguments {
     }
 }
 
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Format {
+    Table,
+    Json,
+}
+
+fn percent(text: &str) -> Result<f64, String> {
+    let percent: Option<f64> = text.parse().ok();
+    let is_some_error = |p: &f64| *p > 0.0 && *p <= 100.0;
+    let percent = percent.filter(is_some_error);
+    percent.ok_or_else(|| "an error is a number of percent above 0, up to 100".to_owned())
+}
+
 /// The scenes of samples per second.
 const SCENES: [&str; 3] = [
     "scenes/soap_bubble.toml",
@@ -58,6 +91,12 @@ const NOISY_SCENES: [&str; 3] = [
     "scenes/soap_bubble.toml",
     "scenes/floating_bubble.toml",
     "scenes/metal_spheres.toml",
+];
+/// The scenes of --error, as docs/benchmark.md describes them.
+const COMPARED_SCENES: [&str; 3] = [
+    "scenes/bench/bubble.toml",
+    "scenes/bench/metals.toml",
+    "scenes/bench/wedge.toml",
 ];
 /// The numbers of bands that are compared.
 const BANDS: [u32; 2] = [4, 40];
@@ -71,8 +110,21 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     }
     if arguments.variance {
         let renderer = Renderer::open(&Backend::Auto).into_diagnostic()?;
-        let effort = (arguments.samples, arguments.seeds);
+        let effort = (arguments.samples, arguments.seeds.unwrap_or(8));
         return variance::run(&arguments.scenes(NOISY_SCENES), &renderer, effort);
+    }
+    if let Some(percent) = arguments.error {
+        let backend = match &arguments.adapter {
+            Some(name) => Backend::Gpu(AdapterChoice::Named(name.clone())),
+            None => Backend::Cpu,
+        };
+        let wanted = error::Wanted {
+            error: percent / 100.0,
+            seeds: arguments.seeds.unwrap_or(3),
+            as_json: arguments.format == Format::Json,
+        };
+        let renderer = Renderer::open(&backend).into_diagnostic()?;
+        return error::run(&arguments.scenes(COMPARED_SCENES), &renderer, &wanted);
     }
     let mut renderers = Vec::new();
     for adapter in adapters() {
