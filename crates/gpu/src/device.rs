@@ -170,11 +170,10 @@ impl Gpu {
         }
         let names = || found.iter().map(|a| a.get_info().name).collect();
         let position = match choice {
-            AdapterChoice::Best => Some(0),
             AdapterChoice::Hardware if found[0].get_info().device_type == wgpu::DeviceType::Cpu => {
                 return Err(OpenError::NoHardware { found: names() });
             }
-            AdapterChoice::Hardware => Some(0),
+            AdapterChoice::Best | AdapterChoice::Hardware => Some(0),
             AdapterChoice::Named(wanted) => {
                 let wanted = wanted.to_lowercase();
                 found

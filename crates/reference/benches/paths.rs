@@ -3,8 +3,6 @@
 //! The first group guards against a loop over bands that is not compiled for the instructions that were found: its two rows would then
 //! be alike.
 
-#![expect(missing_docs, reason = "criterion's macros make functions without")]
-
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use pellicle_reference::{SimdLevel, random4, render_at};
 use scene::{Scene, SceneFile};

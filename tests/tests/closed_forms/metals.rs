@@ -101,7 +101,7 @@ radius = 10
             };
             let once = TAU * (0..steps).map(at).sum::<f64>() * FRAC_PI_2 / f64::from(steps);
             let mean = optics::mean_reflectance(|c| optics::reflectance_unpolarised(index, c));
-            once + lost * optics::multiple_colour(mean, mean_energy)
+            once + lost * optics::multiple_color(mean, mean_energy)
         };
         for (where_, light) in [("environment", WHITE), ("shell", SHELL)] {
             let lit = scene(&[DOWN, &render(64, 2, "random"), &rough, METAL_FLOOR, light]);

@@ -284,7 +284,7 @@ fn returned(surface: &Microsurface, degrees: f64, tables: &[Table], seed: u32) -
         let metals = spectrum(|nm| optics::mean_reflectance(facet.bare(nm)));
         let luminous = seen(&films).0;
         let with = |more: &dyn Fn(usize) -> f64| std::array::from_fn(|j| none[j] + more(j));
-        let between = |f: f64| lost * optics::multiple_colour(f, mean);
+        let between = |f: f64| lost * optics::multiple_color(f, mean);
         Returned {
             walk: with(&|j| (1.0 - once).max(0.0) * several[i][j]),
             term: with(&|j| between(films[j])),
