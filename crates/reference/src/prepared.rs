@@ -44,8 +44,7 @@ pub(crate) struct Surface<'a> {
 enum SurfaceKind<'a> {
     Black,
     Film(Film<'a>),
-    Diffuse(&'a Pattern),
-    Uniform(Reflectance),
+    Diffuse(Pattern),
     Interface(Interface<'a>),
     Coated(Coated<'a>),
     Cook(Cook<'a>),
@@ -59,9 +58,9 @@ impl<'a> Surface<'a> {
                 interference,
                 ..
             } => SurfaceKind::Film(Film::new(tables, layers, *interference)),
-            Material::Diffuse { reflectance } => SurfaceKind::Diffuse(reflectance),
+            Material::Diffuse { reflectance } => SurfaceKind::Diffuse(reflectance.clone()),
             Material::Emitter { reflectance, .. } => match *reflectance {
-                Some(spectrum) => SurfaceKind::Uniform(Reflectance::Spectrum(spectrum)),
+                Some(spectrum) => SurfaceKind::Diffuse(Pattern::Uniform(spectrum)),
                 None => SurfaceKind::Black,
             },
             Material::Conductor {
@@ -110,7 +109,6 @@ impl<'a> Surface<'a> {
         };
         Some(match &self.kind {
             SurfaceKind::Black | SurfaceKind::Film(_) => return None,
-            SurfaceKind::Uniform(reflectance) => Bsdf::Diffuse(Diffuse(*reflectance)),
             SurfaceKind::Diffuse(pattern) => Bsdf::Diffuse(Diffuse(reflectance(pattern))),
             SurfaceKind::Interface(interface) => Bsdf::Interface(InterfaceAt {
                 interface,

@@ -4,8 +4,9 @@ use pulp::Arch;
 
 /// A level of a machine's instructions.
 ///
-/// All that multiply and add with one rounding give the same bits: AVX2 with FMA, AVX-512 and NEON. The baseline rounds twice, and
-/// differs in the last digits of an `f64`.
+/// All that multiply and add with one rounding (AVX2 with FMA, AVX-512, NEON) do the same operations in the same order, and give the same bits
+/// but in one case: layers with n < 1 at an angle at which only some of neighboring bands are totally reflected, where the number of lanes
+/// decides between two forms of the same matrix. There, and with the baseline, which rounds twice, the last digits of an `f64` differ.
 #[derive(Clone, Copy, Debug)]
 pub struct SimdLevel(pub(crate) Arch);
 

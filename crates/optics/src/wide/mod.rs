@@ -8,7 +8,8 @@
 //! written on complex amplitudes with the standard library's functions and are what this module is tested against.
 //!
 //! Where a machine multiplies and adds with one rounding, [`Real::mul_add`] does so: results on AVX2, AVX-512 and NEON are the same
-//! bits, and differ from those without such an instruction in the last digits.
+//! bits, and differ from those without such an instruction in the last digits. ([`Index::wave`] chooses one form of a layer for all lanes, so
+//! that the last digits also depend on the number of lanes where n < 1 and only some lanes are totally reflected.)
 
 #![expect(
     clippy::inline_always,

@@ -91,20 +91,24 @@ impl BandValue for (&CoatedAt<'_>, Lobes) {
     fn value<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> Lanes<S> {
         let (surface, lobes) = self;
         let Coated { body, coat, rough } = surface.coated;
-        let inside = surface.below_coat(bands, at).times(lobes.body);
-        let once = coat
-            .medium
-            .reflectance(bands, at, lobes.cosine)
-            .times(lobes.single);
         let Some(rough) = rough else {
+            // A smooth coat mirrors, or lets through.
+            if lobes.single > 0.0 {
+                let mirrored = coat.medium.reflectance(bands, at, lobes.cosine);
+                return mirrored.times(lobes.single);
+            }
             let out = coat.medium.reflectance(bands, at, lobes.wo_cosine);
             let into = coat.medium.reflectance(bands, at, lobes.wi_cosine);
-            return once + out.complement() * into.complement() * inside;
+            let inside = surface.below_coat(bands, at).times(lobes.body);
+            return out.complement() * into.complement() * inside;
         };
+        let once = coat.medium.reflectance(bands, at, lobes.cosine);
+        let inside = surface.below_coat(bands, at).times(lobes.body);
         let several = rough.color(coat, (bands, at), &[]).times(lobes.multiple);
         let out = rough_coat(body, bands, at, lobes.wo_cosine);
         let into = rough_coat(body, bands, at, lobes.wi_cosine);
-        once + several + out.complement() * into.complement() * inside
+        let body = out.complement() * into.complement() * inside;
+        once.times(lobes.single) + several + body
     }
 }
 

@@ -193,7 +193,7 @@ impl<'a, S: Simd> Bands<'a, S> {
         }
     }
 
-    /// A film multiplies a spectrum, or divides it.
+    /// A film multiplies a spectrum by its reflectance or transmittance, or splits it into both.
     #[inline(always)]
     pub(crate) fn pass(&self, film: &impl BandPowers, through: Through<'_>) {
         match through {

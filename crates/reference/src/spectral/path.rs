@@ -90,31 +90,22 @@ impl<'a> SpectralPath<'a> {
     }
 }
 
-/// What a pixel of the environment has in the bands.
-#[inline(always)]
-fn pixel_value<S: Simd>(
-    bands: &Bands<'_, S>,
-    at: At,
-    (picture, pixel): (&EnvironmentPicture, [u32; 2]),
-) -> Lanes<S> {
-    let texels = picture.texels.at(pixel);
-    match picture.spectra {
-        PictureSpectra::Bands => {
-            let last = texels.len() - 1;
-            bands.each(at, |band| f64::from(texels[(band / 4).min(last)][band % 4]))
-        }
-        PictureSpectra::Smooth => {
-            let [c0, c1, c2, scale] = texels[0].map(f64::from);
-            smooth_value([c0, c1, c2], bands.inverse_wavelength(at).recip()).times(scale)
-        }
-    }
-}
-
-/// What a pixel of the environment is.
+/// What a pixel of the environment has.
 impl BandValue for (&EnvironmentPicture, [u32; 2]) {
     #[inline(always)]
     fn value<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> Lanes<S> {
-        pixel_value(bands, at, *self)
+        let (picture, pixel) = *self;
+        let texels = picture.texels.at(pixel);
+        match picture.spectra {
+            PictureSpectra::Bands => {
+                let last = texels.len() - 1;
+                bands.each(at, |band| f64::from(texels[(band / 4).min(last)][band % 4]))
+            }
+            PictureSpectra::Smooth => {
+                let [c0, c1, c2, scale] = texels[0].map(f64::from);
+                smooth_value([c0, c1, c2], bands.inverse_wavelength(at).recip()).times(scale)
+            }
+        }
     }
 }
 
