@@ -4,12 +4,15 @@
 /// The batch, twice. An invocation reads the one of its own layer, which is always the first: a place that is no constant. At a
 /// constant one llvmpipe takes what a condition depends on for a constant too, and compiles the pipeline anew for each batch.
 @group(1) @binding(0) var<uniform> batches: array<Batch, 2>;
-/// Mean radiance so far: [light group][group of four bands][pixel of the tile].
-@group(1) @binding(1) var<storage, read_write> means: array<vec4f>;
-/// Sum of squared differences of the light of all groups from its mean so far: [group of four bands][pixel of the tile].
-@group(1) @binding(2) var<storage, read_write> deviations: array<vec4f>;
-/// Mean X, Y, Z so far; w of the first light group is the number of samples: [light group][pixel of the tile].
-@group(1) @binding(3) var<storage, read_write> colors: array<vec4f>;
+/// What is known of each pixel so far, one after the other:
+/// mean radiance, [light group][group of four bands][pixel of the tile];
+/// sum of squared differences of the light of all groups from its mean, [group of four bands][pixel of the tile];
+/// mean X, Y, Z, and as w of the first light group the number of samples, [light group][pixel of the tile].
+@group(1) @binding(1) var<storage, read_write> sums: array<vec4f>;
+
+/// The first of the deviations and of the colors, in sets of all pixels.
+const FIRST_DEVIATION: u32 = LIGHT_GROUPS * GROUPS;
+const FIRST_COLOR: u32 = FIRST_DEVIATION + GROUPS;
 
 /// Adds a path's spectrum to the running means (Welford 1962) and returns its X, Y, Z per nm of band width, by light group.
 fn accumulate(pixel: u32, pixels: u32, count: f32, at: Wavelengths) -> array<vec3f, LIGHT_GROUPS> {
@@ -26,14 +29,14 @@ fn accumulate(pixel: u32, pixels: u32, count: f32, at: Wavelengths) -> array<vec
         for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
             let value = dimmed * radiance[light_group];
             let place = (light_group * GROUPS + group) * pixels + pixel;
-            let difference = value - means[place];
-            let mean = means[place] + difference / count;
-            means[place] = mean;
+            let difference = value - sums[place];
+            let mean = sums[place] + difference / count;
+            sums[place] = mean;
             before += difference;
             after += value - mean;
             color[light_group] += vec3f(dot(value, x), dot(value, y), dot(value, z));
         }
-        deviations[group * pixels + pixel] += before * after;
+        sums[(FIRST_DEVIATION + group) * pixels + pixel] += before * after;
     }
     return color;
 }
@@ -58,7 +61,7 @@ fn render(@builtin(global_invocation_id) id: vec3u) {
     let pixels = batch.tile_size.x * batch.tile_size.y;
     var color: array<vec4f, LIGHT_GROUPS>;
     for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
-        color[light_group] = colors[light_group * pixels + pixel];
+        color[light_group] = sums[(FIRST_COLOR + light_group) * pixels + pixel];
     }
     for (var i = 0u; i < batch.sample_count; i++) {
         let index = batch.first_sample + i;
@@ -73,6 +76,6 @@ fn render(@builtin(global_invocation_id) id: vec3u) {
         color[0].w += f32(batch.sample_count);
     }
     for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
-        colors[light_group * pixels + pixel] = color[light_group];
+        sums[(FIRST_COLOR + light_group) * pixels + pixel] = color[light_group];
     }
 }

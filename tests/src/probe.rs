@@ -1,6 +1,6 @@
 //! Running single WGSL functions over tables of inputs.
 
-use gpu::modules::{RecordLimits, Shader};
+use gpu::modules::{RecordLimits, Shader, Specialization};
 use gpu::{Gpu, PackedScene};
 use std::collections::BTreeSet;
 use wgpu::util::DeviceExt;
@@ -31,7 +31,7 @@ const SMALL: RecordLimits = RecordLimits {
 };
 
 impl Probe<'_> {
-    fn shader(&self) -> Shader {
+    fn shader(&self, gpu: Option<&Gpu>) -> Shader {
         let (arity, results) = self.shape;
         let direction = if self.body.contains("direction_at(") {
             "fn direction_at(i: u32) -> vec3f {
@@ -58,54 +58,31 @@ impl Probe<'_> {
                  if (row * {arity}u >= arrayLength(&probe_in)) {{ return; }}\n{}\n}}\n",
             self.body
         );
-        let limits = self.scene.map_or(SMALL, |scene| scene.limits);
-        Shader::assemble(self.roots, limits, &extra)
+        let made_for = match (self.scene, gpu) {
+            (None, _) => Specialization::general(SMALL),
+            (Some(scene), Some(gpu)) => scene.specialization(gpu.prefers_uniform_tables()),
+            (Some(scene), None) => Specialization::general(scene.limits),
+        };
+        Shader::assemble(self.roots, &made_for, &extra)
     }
 
-    /// What the scene has, as far as the shader asks: the pipeline is then the one that renders it.
-    fn constants(&self, shader: &Shader) -> Vec<(&'static str, f64)> {
-        let all = self
-            .scene
-            .map_or(&[][..], |scene| scene.features.constants());
-        let is_asked =
-            |(name, _): &&(&str, f64)| shader.text().contains(&format!("override {name}:"));
-        all.iter().filter(is_asked).copied().collect()
-    }
-
-    /// The functions that the probe really calls, directly or through others, and the scene's bindings that it reads.
+    /// The functions that the probe can call, directly or through others, whatever a scene has.
     ///
     /// # Panics
     /// When the probe is not valid WGSL.
-    pub fn reach(&self) -> (BTreeSet<String>, Vec<u32>) {
-        let shader = self.shader();
-        let module = naga::front::wgsl::parse_str(shader.text())
-            .unwrap_or_else(|error| panic!("{}", error.emit_to_string(shader.text())));
-        let flags = naga::valid::ValidationFlags::all();
-        let info = naga::valid::Validator::new(flags, naga::valid::Capabilities::empty())
-            .validate(&module)
-            .unwrap_or_else(|error| panic!("{}", error.emit_to_string(shader.text())));
-        let probe = module
-            .entry_points
-            .iter()
-            .position(|e| e.name == "probe")
-            .expect("declared above");
-        let used = module
-            .global_variables
-            .iter()
-            .filter(|(handle, _)| !info.get_entry_point(probe)[*handle].is_empty());
-        let bindings = used
-            .filter_map(|(_, variable)| variable.binding)
-            .filter(|binding| binding.group == 0)
-            .map(|binding| binding.binding);
+    pub fn reach(&self) -> BTreeSet<String> {
+        let module = self.shader(None).parse();
+        let module = module.unwrap_or_else(|error| panic!("{error}"));
+        let probe = module.entry_points.iter().find(|e| e.name == "probe");
         let mut called = BTreeSet::new();
-        let mut open = calls_of(&module.entry_points[probe].function.body);
+        let mut open = calls_of(&probe.expect("declared above").function.body);
         while let Some(handle) = open.pop() {
             let function = &module.functions[handle];
             if called.insert(function.name.clone().unwrap_or_default()) {
                 open.extend(calls_of(&function.body));
             }
         }
-        (called, bindings.collect())
+        called
     }
 
     /// Runs the probe over a table of rows and returns the rows of results.
@@ -119,9 +96,9 @@ impl Probe<'_> {
             "the table has no whole rows"
         );
         let rows = table.len() / arity;
-        let shader = self.shader();
-        let pipeline = gpu::compile(gpu, &shader, "probe", &self.constants(&shader))
-            .unwrap_or_else(|error| panic!("{error}"));
+        let shader = self.shader(Some(gpu));
+        let pipeline =
+            gpu::compile(gpu, &shader, "probe").unwrap_or_else(|error| panic!("{error}"));
         let (device, queue) = gpu.device();
         let storage = |contents: &[f32], usage| {
             device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
@@ -143,7 +120,7 @@ impl Probe<'_> {
         });
         let tables = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,
-            layout: &pipeline.get_bind_group_layout(2),
+            layout: &pipeline.compute().get_bind_group_layout(2),
             entries: &[&input, &output]
                 .map(|b: &wgpu::Buffer| b.as_entire_binding())
                 .into_iter()
@@ -153,12 +130,12 @@ impl Probe<'_> {
         });
         let scene = self.scene.map(|packed| {
             let bindings = gpu::bind_scene(gpu, packed).unwrap_or_else(|error| panic!("{error}"));
-            bindings.group(gpu, &pipeline, &self.reach().1)
+            bindings.group(gpu, &pipeline)
         });
         let mut encoder = device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
-            pass.set_pipeline(&pipeline);
+            pass.set_pipeline(pipeline.compute());
             if let Some(scene) = &scene {
                 pass.set_bind_group(0, scene, &[]);
             }

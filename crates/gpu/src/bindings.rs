@@ -1,27 +1,103 @@
 //! A scene's buffers and textures on the device.
 
 use crate::layout::{self, Field, NUMBERS_WIDTH, TEXELS_WIDTH};
+use crate::modules::Specialization;
+use crate::pipelines::Pipeline;
 use crate::{Gpu, PackedScene, RenderError};
 use wgpu::util::DeviceExt;
+
+/// A list of a scene, as `shaders/bindings.wgsl` declares it.
+struct List<'a> {
+    /// Its variable.
+    name: &'static str,
+    /// What to call it.
+    what: &'static str,
+    bytes: &'a [u8],
+    /// Bytes of an element.
+    stride: usize,
+    /// What to do where there are too many.
+    advice: &'static str,
+}
+
+impl PackedScene {
+    /// The lists that stand in buffers, in the order of their bindings, from 1 on.
+    fn lists(&self) -> [List<'_>; 5] {
+        fn list<'a, T: bytemuck::Pod>(
+            [name, what]: [&'static str; 2],
+            elements: &'a [T],
+            advice: &'static str,
+        ) -> List<'a> {
+            List {
+                name,
+                what,
+                bytes: bytemuck::cast_slice(elements),
+                stride: size_of::<T>(),
+                advice,
+            }
+        }
+        let fewer = "use fewer of them";
+        let spectra = "use fewer materials and lights";
+        [
+            list(["objects", "objects"], &self.objects, fewer),
+            list(["materials", "materials"], &self.materials, fewer),
+            list(["layers", "layers"], &self.layers, fewer),
+            list(["spectra", "spectra"], &self.spectra, spectra),
+            list(["fields", "thickness fields"], &self.fields, fewer),
+        ]
+    }
+
+    /// What a shader for this scene is made for, on a device that has small tables in uniform buffers or not
+    /// ([`Gpu::prefers_uniform_tables`]).
+    pub fn specialization(&self, prefers_uniform: bool) -> Specialization {
+        let lists = self.lists();
+        let uniform = lists.iter().filter(|list| list.is_uniform(prefers_uniform));
+        Specialization {
+            limits: self.limits,
+            features: self.features.clone(),
+            uniform_tables: uniform.map(|list| list.name).collect(),
+        }
+    }
+}
+
+/// Bytes of a list in a uniform buffer: what every device binds. Shaders do not depend on how much of it is used.
+const UNIFORM_BYTES: usize = 65_536;
+
+/// A line of `shaders/bindings.wgsl` that declares one of the `uniform` lists, in its uniform form; none of another line.
+pub(crate) fn uniform_table(line: &str, uniform: &[&str]) -> Option<String> {
+    let (place, declared) = line.split_once("var<storage, read> ")?;
+    let (name, element) = declared.split_once(": array<")?;
+    let element = element.strip_suffix(">;")?;
+    uniform.contains(&name).then(|| {
+        let count = UNIFORM_BYTES / stride_of(element);
+        format!("{place}var<uniform> {name}: array<{element}, {count}>;")
+    })
+}
+
+/// Bytes of an element of a list, by its type in WGSL.
+fn stride_of(element: &str) -> usize {
+    match element {
+        "Object" => size_of::<layout::Object>(),
+        "Material" => size_of::<layout::Material>(),
+        "Layer" => size_of::<layout::Layer>(),
+        "Field" => size_of::<Field>(),
+        _ => 16,
+    }
+}
 
 /// A scene in the device's memory.
 #[derive(Debug)]
 pub struct SceneBindings {
-    buffers: [wgpu::Buffer; 6],
+    /// The frame and the lists.
+    buffers: Vec<wgpu::Buffer>,
     /// Numbers and texels.
     textures: [wgpu::TextureView; 2],
 }
 
 impl SceneBindings {
-    /// The bind group 0 of a pipeline that uses the bindings in `used` (0: frame, 1: objects, 2: materials, 3: layers, 4: spectra,
-    /// 5: fields, 6: numbers, 7: texels).
-    pub fn group(
-        &self,
-        gpu: &Gpu,
-        pipeline: &wgpu::ComputePipeline,
-        used: &[u32],
-    ) -> wgpu::BindGroup {
-        let entries: Vec<_> = used
+    /// The bind group 0 of a pipeline.
+    pub fn group(&self, gpu: &Gpu, pipeline: &Pipeline) -> wgpu::BindGroup {
+        let entries: Vec<_> = pipeline
+            .bindings
             .iter()
             .map(|&binding| wgpu::BindGroupEntry {
                 binding,
@@ -35,7 +111,7 @@ impl SceneBindings {
             .collect();
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("scene"),
-            layout: &pipeline.get_bind_group_layout(0),
+            layout: &pipeline.compute.get_bind_group_layout(0),
             entries: &entries,
         })
     }
@@ -46,27 +122,6 @@ impl SceneBindings {
 /// # Errors
 /// When a part of it is larger than what the device binds at once, or the device fails.
 pub fn bind_scene(gpu: &Gpu, packed: &PackedScene) -> Result<SceneBindings, RenderError> {
-    let limit = gpu.limits().max_storage_buffer_binding_size;
-    let storage = |what, bytes: &[u8], stride: usize, advice| {
-        if bytes.len() as u64 > limit {
-            let bytes = bytes.len() as u64;
-            return Err(RenderError::TooLarge {
-                what,
-                bytes,
-                limit,
-                advice,
-            });
-        }
-        // A binding may not be empty: a list without elements has one that nothing reads.
-        let padding = vec![0; stride];
-        Ok(gpu
-            .device
-            .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some(what),
-                contents: if bytes.is_empty() { &padding } else { bytes },
-                usage: wgpu::BufferUsages::STORAGE,
-            }))
-    };
     let frame = gpu
         .device
         .create_buffer_init(&wgpu::util::BufferInitDescriptor {
@@ -74,40 +129,10 @@ pub fn bind_scene(gpu: &Gpu, packed: &PackedScene) -> Result<SceneBindings, Rend
             contents: bytemuck::bytes_of(&packed.frame),
             usage: wgpu::BufferUsages::UNIFORM,
         });
-    let fewer = "use fewer of them";
-    let buffers = [
-        frame,
-        storage(
-            "objects",
-            bytemuck::cast_slice(&packed.objects),
-            size_of::<layout::Object>(),
-            fewer,
-        )?,
-        storage(
-            "materials",
-            bytemuck::cast_slice(&packed.materials),
-            size_of::<layout::Material>(),
-            fewer,
-        )?,
-        storage(
-            "layers",
-            bytemuck::cast_slice(&packed.layers),
-            size_of::<layout::Layer>(),
-            fewer,
-        )?,
-        storage(
-            "spectra",
-            bytemuck::cast_slice(&packed.spectra),
-            16,
-            "use fewer materials and lights",
-        )?,
-        storage(
-            "thickness fields",
-            bytemuck::cast_slice(&packed.fields),
-            size_of::<Field>(),
-            fewer,
-        )?,
-    ];
+    let mut buffers = vec![frame];
+    for list in packed.lists() {
+        buffers.push(list.upload(gpu)?);
+    }
     let numbers = Table {
         what: "tables of numbers",
         format: wgpu::TextureFormat::R32Float,
@@ -123,6 +148,40 @@ pub fn bind_scene(gpu: &Gpu, packed: &PackedScene) -> Result<SceneBindings, Rend
     let textures = [numbers.upload(gpu)?, texels.upload(gpu)?];
     gpu.check()?;
     Ok(SceneBindings { buffers, textures })
+}
+
+impl List<'_> {
+    /// Whether it stands in a uniform buffer.
+    fn is_uniform(&self, prefers_uniform: bool) -> bool {
+        prefers_uniform && self.bytes.len() <= UNIFORM_BYTES
+    }
+
+    fn upload(&self, gpu: &Gpu) -> Result<wgpu::Buffer, RenderError> {
+        let limit = gpu.limits().max_storage_buffer_binding_size;
+        if self.bytes.len() as u64 > limit {
+            return Err(RenderError::TooLarge {
+                what: self.what,
+                bytes: self.bytes.len() as u64,
+                limit,
+                advice: self.advice,
+            });
+        }
+        let (usage, least) = if self.is_uniform(gpu.prefers_uniform_tables()) {
+            (wgpu::BufferUsages::UNIFORM, UNIFORM_BYTES)
+        } else {
+            // A binding may not be empty: a list without elements has one that nothing reads.
+            (wgpu::BufferUsages::STORAGE, self.stride)
+        };
+        let mut contents = self.bytes.to_vec();
+        contents.resize(contents.len().max(least), 0);
+        Ok(gpu
+            .device
+            .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(self.what),
+                contents: &contents,
+                usage,
+            }))
+    }
 }
 
 /// A list as a texture, row by row: storage buffers are few.

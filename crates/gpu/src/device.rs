@@ -107,6 +107,7 @@ pub struct Gpu {
     pub(crate) queue: wgpu::Queue,
     trouble: Arc<Mutex<Option<DeviceError>>>,
     pub(crate) pipelines: Mutex<RecentPipelines>,
+    prefers_uniform_tables: bool,
 }
 
 /// All adapters, the best first.
@@ -205,6 +206,7 @@ impl Gpu {
                     source,
                 }
             })?;
+        let prefers_uniform_tables = description.info.device_type == wgpu::DeviceType::Cpu;
         let trouble = Arc::new(Mutex::new(None));
         listen(&device, &trouble);
         Ok(Self {
@@ -213,7 +215,21 @@ impl Gpu {
             queue,
             trouble,
             pipelines: Mutex::default(),
+            prefers_uniform_tables,
         })
+    }
+
+    /// Whether scenes have their small tables in uniform buffers rather than in storage buffers: on software drivers, which read uniform
+    /// buffers at many places at once and storage buffers at one after the other.
+    pub fn prefers_uniform_tables(&self) -> bool {
+        self.prefers_uniform_tables
+    }
+
+    /// The device with this choice made otherwise, for tests.
+    #[must_use]
+    pub fn with_uniform_tables(mut self, prefers: bool) -> Self {
+        self.prefers_uniform_tables = prefers;
+        self
     }
 
     /// What this adapter is.

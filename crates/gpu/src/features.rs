@@ -6,9 +6,9 @@ use scene::{
     Profile, Projection, Sampler, Scene, Shape, SourceKind, Thickness,
 };
 
-/// Constants of a pipeline by name: 1 where the scene has the thing, 0 where it has not; and how many it has.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Features(Vec<(&'static str, f64)>);
+/// Constants of a shader by name: 1 where the scene has the thing, 0 where it has not; and how many it has.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Features(Vec<(&'static str, u32)>);
 
 impl Features {
     /// What a scene has.
@@ -25,27 +25,51 @@ impl Features {
             .chain(of_thicknesses(&used))
             .chain(of_lights(scene))
             .chain(of_paths(scene, &used));
-        let named = named.map(|(name, has)| (name, f64::from(u8::from(has))));
+        let named = named.map(|(name, has)| (name, u32::from(has)));
         Self(named.chain(counts(scene)).collect())
     }
 
-    /// The constants, for a pipeline.
-    pub fn constants(&self) -> &[(&'static str, f64)] {
+    /// The constants by name.
+    pub fn constants(&self) -> &[(&'static str, u32)] {
         &self.0
+    }
+
+    /// The same with another value of one of them, for tests.
+    #[must_use]
+    pub fn with(mut self, name: &'static str, value: u32) -> Self {
+        self.0.retain(|(known, _)| *known != name);
+        self.0.push((name, value));
+        self
+    }
+
+    /// A line of `shaders/features.wgsl` that declares a constant, with its value; none of another line.
+    pub(crate) fn fill_in(&self, line: &str) -> Option<String> {
+        let declared = line.strip_prefix("override ")?;
+        let (name, rest) = declared.split_once(": ")?;
+        let (kind, default) = rest.strip_suffix(';')?.split_once(" = ")?;
+        let value = self.0.iter().find(|(known, _)| *known == name);
+        let value = value.map_or_else(
+            || default.to_owned(),
+            |&(_, value)| match kind {
+                "bool" => (value != 0).to_string(),
+                _ => format!("{value}u"),
+            },
+        );
+        Some(format!("const {name}: {kind} = {value};"))
     }
 }
 
 /// How many passes the loops make that look at all of something.
-fn counts(scene: &Scene) -> [(&'static str, f64); 6] {
+fn counts(scene: &Scene) -> [(&'static str, u32); 6] {
     let settings = scene.settings();
-    let length = |count: usize| count as f64;
+    let length = |count: usize| count as u32;
     [
         ("OBJECT_COUNT", length(scene.objects().len())),
         ("LIGHT_COUNT", length(scene.light_sources().len())),
         ("ENVIRONMENT_COUNT", length(scene.surroundings().len())),
-        ("GROUPS", f64::from(settings.bands.count().div_ceil(4))),
-        ("MAX_PATH_SEGMENTS", f64::from(settings.max_path_segments)),
-        ("ROULETTE_AFTER", f64::from(settings.roulette_after)),
+        ("GROUPS", settings.bands.count().div_ceil(4)),
+        ("MAX_PATH_SEGMENTS", settings.max_path_segments),
+        ("ROULETTE_AFTER", settings.roulette_after),
     ]
 }
 

@@ -1,7 +1,12 @@
 //! The WGSL modules and what each of them needs.
 //!
 //! Declarations of WGSL may come in any order, so a shader is the concatenation of a module and all
-//! that it requires. Tests prove that `requires` is true and minimal and that no module is missing from the table.
+//! that it requires, with what depends on the scene filled in. Tests prove that `requires` is true and minimal and that no module is
+//! missing from the table.
+
+use crate::bindings::uniform_table;
+use crate::specialize::specialize;
+use crate::{DeviceError, Features};
 
 /// One file of `shaders/`.
 #[derive(Clone, Copy, Debug)]
@@ -99,12 +104,55 @@ pub struct RecordLimits {
 }
 
 impl RecordLimits {
+    /// The least of each.
+    pub const LEAST: Self = Self {
+        vertices: 1,
+        crossings: 1,
+        thicknesses: 1,
+        light_groups: 1,
+        splits: 1,
+    };
+
     fn wgsl(self) -> String {
         format!(
             "const MAX_VERTICES: u32 = {}u;\nconst MAX_CROSSINGS: u32 = {}u;\nconst MAX_THICKNESSES: u32 = {}u;\n\
              const LIGHT_GROUPS: u32 = {}u;\nconst MAX_SPLITS: u32 = {}u;\n",
             self.vertices, self.crossings, self.thicknesses, self.light_groups, self.splits
         )
+    }
+}
+
+/// What a shader is made for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Specialization {
+    /// Sizes of the record.
+    pub limits: RecordLimits,
+    /// What the scene has; what is not named is as `shaders/features.wgsl` says.
+    pub features: Features,
+    /// The tables of `shaders/bindings.wgsl` that stand in uniform buffers; the others stand in storage buffers.
+    pub uniform_tables: Vec<&'static str>,
+}
+
+impl Specialization {
+    /// For any scene whose record is so long.
+    pub fn general(limits: RecordLimits) -> Self {
+        Self {
+            limits,
+            features: Features::default(),
+            uniform_tables: Vec::new(),
+        }
+    }
+
+    /// The text of a module, filled in. No line is added or taken away.
+    fn fill_in(&self, module: &Module) -> String {
+        let line = |line: &str| match module.name {
+            "features" => self.features.fill_in(line),
+            "bindings" => uniform_table(line, &self.uniform_tables),
+            _ => None,
+        };
+        let lines = module.source.lines();
+        let filled = lines.map(|text| line(text).unwrap_or_else(|| text.to_owned()));
+        filled.map(|text| text + "\n").collect()
     }
 }
 
@@ -121,7 +169,7 @@ impl Shader {
     ///
     /// # Panics
     /// When a module is not in the table: that is a fault of the program, found by any test.
-    pub fn assemble(roots: &[&str], limits: RecordLimits, extra: &str) -> Self {
+    pub fn assemble(roots: &[&str], made_for: &Specialization, extra: &str) -> Self {
         let mut names = Vec::new();
         for root in roots {
             collect(root, &mut names);
@@ -132,9 +180,10 @@ impl Shader {
         };
         for name in names {
             if name == LIMITS {
-                shader.push(LIMITS, &limits.wgsl());
+                shader.push(LIMITS, &made_for.limits.wgsl());
             } else {
-                shader.push(&format!("shaders/{name}.wgsl"), module(name).source);
+                let text = made_for.fill_in(module(name));
+                shader.push(&format!("shaders/{name}.wgsl"), &text);
             }
         }
         shader.push("(extra)", extra);
@@ -161,6 +210,51 @@ impl Shader {
         let part = self.parts.partition_point(|(first, _)| *first <= index);
         let (first, name) = &self.parts[part.saturating_sub(1)];
         (name, index - first + 1)
+    }
+
+    /// The whole text as a valid module.
+    ///
+    /// # Errors
+    /// The first mistake, with its file and line.
+    pub fn parse(&self) -> Result<naga::Module, DeviceError> {
+        let text = self.text();
+        let module = naga::front::wgsl::parse_str(text)
+            .map_err(|error| self.mistake(error.location(text), error.message()))?;
+        let flags = naga::valid::ValidationFlags::all();
+        naga::valid::Validator::new(flags, naga::valid::Capabilities::empty())
+            .validate(&module)
+            .map_err(|error| {
+                let causes =
+                    std::iter::successors(Some(error.as_inner() as &dyn std::error::Error), |e| {
+                        e.source()
+                    });
+                let message = causes
+                    .map(ToString::to_string)
+                    .collect::<Vec<_>>()
+                    .join(": ");
+                self.mistake(error.location(text), &message)
+            })?;
+        Ok(module)
+    }
+
+    /// What a driver gets: the entry point with what it reaches, and nothing else.
+    ///
+    /// # Errors
+    /// As [`Self::parse`].
+    pub fn specialized(&self, entry_point: &str) -> Result<naga::Module, DeviceError> {
+        let mut module = self.parse()?;
+        specialize(&mut module, entry_point);
+        Ok(module)
+    }
+
+    fn mistake(&self, at: Option<naga::SourceLocation>, message: &str) -> DeviceError {
+        DeviceError::Refused(match at {
+            Some(at) => {
+                let (file, line) = self.origin_of_line(at.line_number as usize);
+                format!("{file}:{line}:{}: {message}", at.line_position)
+            }
+            None => message.to_owned(),
+        })
     }
 }
 
@@ -191,14 +285,8 @@ mod tests {
 
     #[test]
     fn a_line_is_traced_back_to_its_file() {
-        let limits = RecordLimits {
-            vertices: 1,
-            crossings: 1,
-            thicknesses: 1,
-            light_groups: 1,
-            splits: 1,
-        };
-        let shader = Shader::assemble(&["fresnel"], limits, "fn extra() {}");
+        let made_for = Specialization::general(RecordLimits::LEAST);
+        let shader = Shader::assemble(&["fresnel"], &made_for, "fn extra() {}");
         let text: Vec<_> = shader.text().lines().collect();
         let line = text
             .iter()
@@ -209,5 +297,18 @@ mod tests {
         let source = module("fresnel").source.lines().nth(in_file - 1).unwrap();
         assert_eq!(source, text[line]);
         assert_eq!(shader.origin_of_line(text.len()), ("(extra)", 1));
+    }
+
+    #[test]
+    fn a_mistake_is_reported_with_its_file_and_line() {
+        let made_for = Specialization::general(RecordLimits::LEAST);
+        for (extra, told) in [
+            ("\nfn f() -> f32 { return 1u; }", "(extra):2:"),
+            ("fn f() {\n\n oops; }", "(extra):3:"),
+        ] {
+            let shader = Shader::assemble(&["fresnel"], &made_for, extra);
+            let error = shader.parse().unwrap_err().to_string();
+            assert!(error.contains(told), "{error}");
+        }
     }
 }

@@ -2,26 +2,42 @@
 
 use crate::modules::Shader;
 use crate::{DeviceError, Gpu};
+use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::sync::{MutexGuard, PoisonError};
 
 /// How many pipelines are kept.
 const KEPT: usize = 8;
 
+/// A shader on a device.
+#[derive(Clone, Debug)]
+pub struct Pipeline {
+    /// The pipeline, with a layout deduced from the shader.
+    pub(crate) compute: wgpu::ComputePipeline,
+    /// The numbers of the bindings in group 0 that it reads.
+    pub(crate) bindings: Vec<u32>,
+}
+
+impl Pipeline {
+    /// The pipeline itself, for tests that run shaders of their own.
+    pub fn compute(&self) -> &wgpu::ComputePipeline {
+        &self.compute
+    }
+}
+
 /// What a pipeline is made of.
 #[derive(Debug, PartialEq)]
 struct Key {
     text: String,
     entry_point: String,
-    constants: Vec<(String, f64)>,
 }
 
 /// The pipelines of a device that were made or used last, the latest at the end.
 #[derive(Debug, Default)]
-pub(crate) struct RecentPipelines(VecDeque<(Key, wgpu::ComputePipeline)>);
+pub(crate) struct RecentPipelines(VecDeque<(Key, Pipeline)>);
 
 impl RecentPipelines {
-    fn find(&mut self, key: &Key) -> Option<wgpu::ComputePipeline> {
+    fn find(&mut self, key: &Key) -> Option<Pipeline> {
         let place = self.0.iter().position(|(known, _)| known == key)?;
         let found = self.0.remove(place)?;
         let pipeline = found.1.clone();
@@ -29,7 +45,7 @@ impl RecentPipelines {
         Some(pipeline)
     }
 
-    fn keep(&mut self, key: Key, pipeline: wgpu::ComputePipeline) {
+    fn keep(&mut self, key: Key, pipeline: Pipeline) {
         self.0.push_back((key, pipeline));
         if self.0.len() > KEPT {
             self.0.pop_front();
@@ -37,29 +53,20 @@ impl RecentPipelines {
     }
 }
 
-/// Compiles a shader and makes a pipeline of one of its entry points, with a layout deduced from the shader and the
-/// overridable `constants` as given. The last few are kept: the pictures of a sequence are rendered by the same.
+/// Compiles a shader and makes a pipeline of one of its entry points and what that reaches. The last few are kept: the pictures of a
+/// sequence are rendered by the same.
 ///
 /// # Errors
 /// When the shader or the pipeline is refused; the message names the module's own file and line.
-pub fn compile(
-    gpu: &Gpu,
-    shader: &Shader,
-    entry_point: &str,
-    constants: &[(&str, f64)],
-) -> Result<wgpu::ComputePipeline, DeviceError> {
+pub fn compile(gpu: &Gpu, shader: &Shader, entry_point: &str) -> Result<Pipeline, DeviceError> {
     let key = Key {
         text: shader.text().to_owned(),
         entry_point: entry_point.to_owned(),
-        constants: constants
-            .iter()
-            .map(|&(name, value)| (name.to_owned(), value))
-            .collect(),
     };
     if let Some(pipeline) = recent(gpu).find(&key) {
         return Ok(pipeline);
     }
-    let pipeline = compile_anew(gpu, shader, entry_point, constants)?;
+    let pipeline = compile_anew(gpu, shader, entry_point)?;
     recent(gpu).keep(key, pipeline.clone());
     Ok(pipeline)
 }
@@ -68,49 +75,33 @@ fn recent(gpu: &Gpu) -> MutexGuard<'_, RecentPipelines> {
     gpu.pipelines.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn compile_anew(
-    gpu: &Gpu,
-    shader: &Shader,
-    entry_point: &str,
-    constants: &[(&str, f64)],
-) -> Result<wgpu::ComputePipeline, DeviceError> {
+fn compile_anew(gpu: &Gpu, shader: &Shader, entry_point: &str) -> Result<Pipeline, DeviceError> {
+    let module = shader.specialized(entry_point)?;
+    let bindings = bindings_of(&module);
     let module = gpu
         .device
         .create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(entry_point),
-            source: wgpu::ShaderSource::Wgsl(shader.text().into()),
+            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
         });
-    let info = pollster::block_on(module.get_compilation_info());
-    let mistakes: Vec<String> = info
-        .messages
-        .iter()
-        .filter(|message| message.message_type == wgpu::CompilationMessageType::Error)
-        .map(|message| match message.location {
-            Some(at) => {
-                let (file, line) = shader.origin_of_line(at.line_number as usize);
-                format!("{file}:{line}:{}: {}", at.line_position, message.message)
-            }
-            None => message.message.clone(),
-        })
-        .collect();
-    if !mistakes.is_empty() {
-        // The same mistake was also reported to the device; this report is the better one.
-        let _ = gpu.check();
-        return Err(DeviceError::Refused(mistakes.join("\n")));
-    }
-    let pipeline = gpu
+    let compute = gpu
         .device
         .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(entry_point),
             layout: None,
             module: &module,
             entry_point: Some(entry_point),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants,
-                ..Default::default()
-            },
+            compilation_options: Default::default(),
             cache: None,
         });
     gpu.check()?;
-    Ok(pipeline)
+    Ok(Pipeline { compute, bindings })
+}
+
+/// The bindings of group 0.
+fn bindings_of(module: &naga::Module) -> Vec<u32> {
+    let variables = module.global_variables.iter();
+    let bindings = variables.filter_map(|(_, variable)| variable.binding);
+    let scene = bindings.filter(|binding| binding.group == 0);
+    scene.map(|binding| binding.binding).collect()
 }

@@ -46,8 +46,9 @@ pub fn render_divided(
         return Err(RenderError::RecordTooLong { thicknesses });
     }
     let bindings = bind_scene(gpu, &packed)?;
-    let shader = Shader::assemble(&["render"], packed.limits, "");
-    let pipeline = compile(gpu, &shader, "render", packed.features.constants())?;
+    let made_for = packed.specialization(gpu.prefers_uniform_tables());
+    let shader = Shader::assemble(&["render"], &made_for, "");
+    let pipeline = compile(gpu, &shader, "render")?;
 
     let shape = PixelShape {
         groups: u64::from(settings.bands.count().div_ceil(4)),
@@ -60,7 +61,7 @@ pub fn render_divided(
     let size = [settings.width, settings.height];
     let mut planner = Planner::new(
         size,
-        (shape.bytes()[0], largest),
+        (shape.bytes(), largest),
         packed.passes_per_sample,
         division,
     );

@@ -1,7 +1,7 @@
 //! Many film stacks at many angles and wavelengths on a device, in `f32`.
 
 use crate::layout::{RunLayer, RunStack, StackRun};
-use crate::modules::{RecordLimits, Shader};
+use crate::modules::{RecordLimits, Shader, Specialization};
 use crate::{DeviceError, Gpu, compile};
 use std::time::{Duration, Instant};
 use thiserror::Error;
@@ -188,15 +188,9 @@ struct Evaluator {
 
 impl Evaluator {
     fn new(gpu: &Gpu, batch: &StackBatch<'_>, most_stacks: usize) -> Result<Self, StackError> {
-        const NONE: RecordLimits = RecordLimits {
-            vertices: 1,
-            crossings: 1,
-            thicknesses: 1,
-            light_groups: 1,
-            splits: 1,
-        };
-        let shader = Shader::assemble(&["stack_batch"], NONE, "");
-        let pipeline = compile(gpu, &shader, "evaluate_stacks", &[])?;
+        let made_for = Specialization::general(RecordLimits::LEAST);
+        let shader = Shader::assemble(&["stack_batch"], &made_for, "");
+        let pipeline = compile(gpu, &shader, "evaluate_stacks")?.compute;
         let wavelengths: Vec<f32> = batch.wavelengths_nm.iter().map(|&nm| nm as f32).collect();
         let cosines: Vec<f32> = batch.cosines.iter().map(|&c| c as f32).collect();
         let layers: Vec<RunLayer> = batch

@@ -2,7 +2,7 @@
 
 use crate::layout::{Batch, WORKGROUP_SIDE};
 use crate::tiles::Tile;
-use crate::{DeviceError, Gpu, RenderError, SceneBindings};
+use crate::{DeviceError, Gpu, Pipeline, RenderError, SceneBindings};
 use spectra::{KM_LUMENS_PER_WATT, SpectralImage};
 
 /// What a pixel has of running means.
@@ -14,23 +14,27 @@ pub(crate) struct PixelShape {
 }
 
 impl PixelShape {
-    /// Bytes of means, deviations and colours. The means are the most.
-    pub(crate) fn bytes(self) -> [u64; 3] {
+    /// Sets of four numbers: of means, deviations and colors, in this order.
+    fn counts(self) -> [u64; 3] {
         [
             self.groups * self.light_groups,
             self.groups,
             self.light_groups,
         ]
-        .map(|count| 16 * count)
+    }
+
+    /// Bytes of all of them.
+    pub(crate) fn bytes(self) -> u64 {
+        16 * self.counts().iter().sum::<u64>()
     }
 }
 
 /// The running means of one tile.
 pub(crate) struct TileBuffers {
     batch: wgpu::Buffer,
-    /// Means, deviations, colours.
-    sums: [wgpu::Buffer; 3],
-    staging: [wgpu::Buffer; 3],
+    /// Means, deviations, colors, of all pixels each.
+    sums: wgpu::Buffer,
+    staging: wgpu::Buffer,
     bind_group: wgpu::BindGroup,
     shape: PixelShape,
 }
@@ -38,7 +42,7 @@ pub(crate) struct TileBuffers {
 impl TileBuffers {
     pub(crate) fn new(
         gpu: &Gpu,
-        pipeline: &wgpu::ComputePipeline,
+        pipeline: &Pipeline,
         pixels: u64,
         shape: PixelShape,
     ) -> Result<Self, DeviceError> {
@@ -55,24 +59,20 @@ impl TileBuffers {
             2 * size_of::<Batch>() as u64,
             wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         );
-        let sizes = shape.bytes().map(|bytes| bytes * pixels);
+        let size = shape.bytes() * pixels;
         let on_device = wgpu::BufferUsages::STORAGE
             | wgpu::BufferUsages::COPY_SRC
             | wgpu::BufferUsages::COPY_DST;
         let on_host = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
-        let sums = sizes.map(|size| buffer("sums", size, on_device));
-        let staging = sizes.map(|size| buffer("staging", size, on_host));
-        let entries: Vec<_> = std::iter::once(&batch)
-            .chain(&sums)
-            .zip(0..)
-            .map(|(buffer, binding)| wgpu::BindGroupEntry {
-                binding,
-                resource: buffer.as_entire_binding(),
-            })
+        let sums = buffer("sums", size, on_device);
+        let staging = buffer("staging", size, on_host);
+        let resources = [&batch, &sums].map(wgpu::Buffer::as_entire_binding);
+        let entries: Vec<_> = std::iter::zip(0.., resources)
+            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
             .collect();
         let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("tile"),
-            layout: &pipeline.get_bind_group_layout(1),
+            layout: &pipeline.compute.get_bind_group_layout(1),
             entries: &entries,
         });
         gpu.check()?;
@@ -85,25 +85,21 @@ impl TileBuffers {
         })
     }
 
-    /// Bytes of means, deviations and colours of a tile.
-    fn bytes(&self, tile: Tile) -> [u64; 3] {
-        self.shape
-            .bytes()
-            .map(|bytes| bytes * u64::from(tile.pixels()))
+    /// Bytes of a tile's sums.
+    fn bytes(&self, tile: Tile) -> u64 {
+        self.shape.bytes() * u64::from(tile.pixels())
     }
 
     pub(crate) fn clear(&self, gpu: &Gpu, tile: Tile) {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        for (buffer, bytes) in self.sums.iter().zip(self.bytes(tile)) {
-            encoder.clear_buffer(buffer, 0, Some(bytes));
-        }
+        encoder.clear_buffer(&self.sums, 0, Some(self.bytes(tile)));
         gpu.queue.submit([encoder.finish()]);
     }
 
     pub(crate) fn dispatch(
         &self,
         gpu: &Gpu,
-        (pipeline, scene): (&wgpu::ComputePipeline, &SceneBindings),
+        (pipeline, scene): (&Pipeline, &SceneBindings),
         tile: Tile,
         (first_sample, sample_count): (u32, u32),
     ) {
@@ -117,11 +113,11 @@ impl TileBuffers {
         };
         gpu.queue
             .write_buffer(&self.batch, 0, bytemuck::cast_slice(&[batch; 2]));
-        let scene = scene.group(gpu, pipeline, &[0, 1, 2, 3, 4, 5, 6, 7]);
+        let scene = scene.group(gpu, pipeline);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
-            pass.set_pipeline(pipeline);
+            pass.set_pipeline(&pipeline.compute);
             pass.set_bind_group(0, &scene, &[]);
             pass.set_bind_group(1, &self.bind_group, &[]);
             let [x, y] = tile.size.map(|side| side.div_ceil(WORKGROUP_SIDE));
@@ -140,36 +136,25 @@ impl TileBuffers {
     ) -> Result<(), RenderError> {
         let bytes = self.bytes(tile);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        for ((from, to), bytes) in self.sums.iter().zip(&self.staging).zip(bytes) {
-            encoder.copy_buffer_to_buffer(from, 0, to, 0, bytes);
-        }
+        encoder.copy_buffer_to_buffer(&self.sums, 0, &self.staging, 0, bytes);
         gpu.queue.submit([encoder.finish()]);
-        for (buffer, bytes) in self.staging.iter().zip(bytes) {
-            // A failure to map shows as the device's error or as an unmapped range below.
-            buffer.slice(..bytes).map_async(wgpu::MapMode::Read, |_| {});
-        }
+        // A failure to map shows as the device's error or as an unmapped range below.
+        let slice = self.staging.slice(..bytes);
+        slice.map_async(wgpu::MapMode::Read, |_| {});
         gpu.wait()?;
-        let mapped = |index: usize| {
-            self.staging[index]
-                .slice(..bytes[index])
-                .get_mapped_range()
-                .map_err(|error| DeviceError::Refused(error.to_string()))
-        };
         {
-            let (means, deviations, colors) = (mapped(0)?, mapped(1)?, mapped(2)?);
-            check_count(tile, bytemuck::cast_slice(&colors), samples)?;
-            store(
-                tile,
-                (
-                    bytemuck::cast_slice(&means),
-                    bytemuck::cast_slice(&deviations),
-                ),
-                bytemuck::cast_slice(&colors),
-                samples,
-                image,
-            );
+            let mapped = slice
+                .get_mapped_range()
+                .map_err(|error| DeviceError::Refused(error.to_string()))?;
+            let sums: &[[f32; 4]] = bytemuck::cast_slice(&mapped);
+            let [means, deviations, _] = self.shape.counts();
+            let of = |count: u64| (count * u64::from(tile.pixels())) as usize;
+            let (means, rest) = sums.split_at(of(means));
+            let (deviations, colors) = rest.split_at(of(deviations));
+            check_count(tile, colors, samples)?;
+            store(tile, (means, deviations), colors, samples, image);
         }
-        self.staging.iter().for_each(wgpu::Buffer::unmap);
+        self.staging.unmap();
         Ok(())
     }
 }
