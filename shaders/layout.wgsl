@@ -22,53 +22,62 @@ const SHAPE_RECTANGLE: u32 = 2u;
 /// Shape: a plane bounded to a disk.
 const SHAPE_DISK: u32 = 3u;
 
-/// Shape that no ray meets: surroundings of the same radiance from everywhere. Those that no ray meets are greater.
-const SHAPE_EVERYWHERE: u32 = 16u;
+/// Emitter: a sphere.
+const EMITTER_SPHERE: u32 = 0u;
 
-/// Shape that no ray meets: surroundings by 1 − |h|, with h the height of the direction.
-const SHAPE_HORIZON: u32 = 17u;
+/// Emitter: a rectangle.
+const EMITTER_RECTANGLE: u32 = 1u;
 
-/// Shape that no ray meets: surroundings by the cosine with `normal`, where it is above 0.
-const SHAPE_POLE: u32 = 18u;
+/// Emitter: a disk.
+const EMITTER_DISK: u32 = 2u;
 
-/// Shape that no ray meets: surroundings by a picture, its middle towards `normal`, its right half towards `tangent`.
-const SHAPE_PICTURE: u32 = 19u;
+/// Emitter: surroundings of the same radiance from everywhere. Those of the surroundings are greater.
+const EMITTER_EVERYWHERE: u32 = 16u;
 
-/// Shape that no ray meets: a disc in the sky about `normal`, with 1 − cos of its half angle for `radius`.
-const SHAPE_DISC: u32 = 24u;
+/// Emitter: surroundings by 1 − |h|, with h the height of the direction.
+const EMITTER_HORIZON: u32 = 17u;
 
-/// Shape that no ray meets: light from the direction `normal` alone. Those of a single direction at each place are greater.
-const SHAPE_DIRECTION: u32 = 25u;
+/// Emitter: surroundings by the cosine with `axis`, where it is above 0.
+const EMITTER_POLE: u32 = 18u;
 
-/// Shape that no ray meets: a point that shines to all sides. Those that lie at a place are greater.
-const SHAPE_POINT: u32 = 26u;
+/// Emitter: surroundings by a picture, its middle towards `axis`, its right half towards `tangent`.
+const EMITTER_PICTURE: u32 = 19u;
 
-/// Shape that no ray meets: a point that shines about `normal`: fully up to the height 1 − cos `half_width`, not beyond `half_height`.
-const SHAPE_SPOT: u32 = 27u;
+/// Emitter: a disc in the sky about `axis`.
+const EMITTER_DISC: u32 = 24u;
 
-/// Surface: Lambertian.
-const SURFACE_DIFFUSE: u32 = 0u;
+/// Emitter: light from the direction `axis` alone. Those of a single direction at each place are greater.
+const EMITTER_DIRECTION: u32 = 25u;
 
-/// Surface: a smooth conductor, bare or coated.
-const SURFACE_MIRROR: u32 = 1u;
+/// Emitter: a point that shines to all sides. Those that lie at a place are greater.
+const EMITTER_POINT: u32 = 26u;
 
-/// Surface: a rough conductor, bare or coated.
-const SURFACE_ROUGH_CONDUCTOR: u32 = 2u;
+/// Emitter: a point that shines about `axis`.
+const EMITTER_SPOT: u32 = 27u;
+
+/// Surface: nothing is reflected.
+const SURFACE_BLACK: u32 = 0u;
 
 /// Surface: a free film.
-const SURFACE_FILM: u32 = 3u;
+const SURFACE_FILM: u32 = 1u;
 
-/// Surface: Cook's model with the distribution D1.
-const SURFACE_COOK_D1: u32 = 4u;
+/// Surface: Lambertian.
+const SURFACE_DIFFUSE: u32 = 2u;
 
-/// Surface: Cook's model with the distribution D2.
-const SURFACE_COOK_D2: u32 = 5u;
+/// Surface: a conductor, bare or coated, smooth or rough.
+const SURFACE_INTERFACE: u32 = 3u;
 
-/// Surface: a diffuse body below a smooth coat.
-const SURFACE_COATED_BODY: u32 = 6u;
+/// Surface: a diffuse body below a coat, smooth or rough.
+const SURFACE_COATED: u32 = 4u;
 
-/// Surface: a diffuse body below a rough coat.
-const SURFACE_ROUGH_COATED_BODY: u32 = 7u;
+/// Surface: the model of Cook and Torrance.
+const SURFACE_COOK: u32 = 5u;
+
+/// Distribution of Cook's facets: a Gaussian of their angle (D1).
+const COOK_GAUSSIAN: u32 = 0u;
+
+/// Distribution of Cook's facets: Beckmann's (D2).
+const COOK_BECKMANN: u32 = 1u;
 
 /// Facets: Beckmann's distribution of slopes.
 const FACETS_BECKMANN: u32 = 0u;
@@ -142,62 +151,47 @@ const FILTER_KNOTS: u32 = 257u;
 /// Numbers of a film's table of what it reflects, over the cosine.
 const REFLECTED_KNOTS: u32 = 33u;
 
-/// Spectral factor of a path's vertex: 1.
+/// A factor is a number (of a spectrum, a texel or a row), with its tag from this bit on.
+const FACTOR_SHIFT: u32 = 28u;
+
+/// Factor of a path's vertex: 1.
 const FACTOR_ONE: u32 = 0u;
 
-/// Spectral factor: a reflectance from a table.
-const FACTOR_REFLECTANCE: u32 = 1u;
+/// Factor: a diffuse reflectance, by the number of its spectrum.
+const FACTOR_DIFFUSE: u32 = 1u;
 
-/// Spectral factor: Fresnel reflectance of a conductor.
-const FACTOR_CONDUCTOR: u32 = 2u;
+/// Factor: a diffuse reflectance, by the number of the texel that has its coefficients.
+const FACTOR_TEXTURE: u32 = 2u;
 
-/// Spectral factor: reflectance of layers on a conductor.
-const FACTOR_COATED: u32 = 3u;
+/// Factor: a bare conductor, by the number of its n.
+const FACTOR_INTERFACE: u32 = 3u;
 
-/// Spectral factor: a smooth reflectance, by the number of a texel.
-const FACTOR_SMOOTH: u32 = 4u;
+/// Factor: layers on a conductor, by the row of the interface.
+const FACTOR_COATING: u32 = 4u;
 
-/// Spectral factor: reflectance of a film of one layer without absorption. Those of films are greater.
-const FACTOR_FILM_REFLECTS: u32 = 5u;
+/// Factor: a body below a coat, by the number of the coat's n.
+const FACTOR_COATED: u32 = 5u;
 
-/// Spectral factor: transmittance of a film of one layer without absorption.
-const FACTOR_FILM_TRANSMITS: u32 = 6u;
+/// Factor: Cook's model, by the number of the facets' n.
+const FACTOR_COOK: u32 = 6u;
 
-/// Spectral factor: reflectance of a film of one layer of any index.
-const FACTOR_LOSSY_FILM_REFLECTS: u32 = 7u;
+/// Factor: a film of one layer without absorption and with n ≥ 1, by the number of n. Those of films are greater.
+const FACTOR_FILM: u32 = 7u;
 
-/// Spectral factor: transmittance of a film of one layer of any index.
-const FACTOR_LOSSY_FILM_TRANSMITS: u32 = 8u;
+/// Factor: a film of one layer of any index, by the number of n.
+const FACTOR_LOSSY_FILM: u32 = 8u;
 
-/// Spectral factor: reflectance of a film of several layers, seen from the first.
-const FACTOR_STACK_REFLECTS: u32 = 9u;
+/// Factor: a film of one layer by two beams, by the number of n.
+const FACTOR_TWO_BEAM: u32 = 9u;
 
-/// Spectral factor: reflectance of a film of several layers, seen from the last.
-const FACTOR_STACK_REFLECTS_BACK: u32 = 10u;
+/// Factor: the same with the path difference that the paper prints.
+const FACTOR_TWO_BEAM_AS_PRINTED: u32 = 10u;
 
-/// Spectral factor: transmittance of a film of several layers, the same from both sides.
-const FACTOR_STACK_TRANSMITS: u32 = 11u;
+/// Factor: a film of several layers seen from the first, by the row of the film.
+const FACTOR_STACK: u32 = 11u;
 
-/// Spectral factor: reflectance of a film by two beams.
-const FACTOR_TWO_BEAM_REFLECTS: u32 = 12u;
-
-/// Spectral factor: transmittance of a film without interference.
-const FACTOR_TWO_BEAM_TRANSMITS: u32 = 13u;
-
-/// Film: one layer without absorption and with n ≥ 1 everywhere, for which the short formula holds.
-const FILM_TRANSPARENT: u32 = 0u;
-
-/// Film: one layer of any index.
-const FILM_LOSSY: u32 = 1u;
-
-/// Film: several layers.
-const FILM_STACK: u32 = 2u;
-
-/// Film: one layer, by two beams.
-const FILM_TWO_BEAM: u32 = 3u;
-
-/// Film: one layer, by two beams with the path difference that the paper prints.
-const FILM_TWO_BEAM_AS_PRINTED: u32 = 4u;
+/// Factor: a film of several layers seen from the last, by the row of the film.
+const FACTOR_STACK_BACK: u32 = 12u;
 
 /// What holds for a whole render.
 struct Frame {
@@ -223,7 +217,7 @@ struct Frame {
     steps: u32,
     /// 1 where each sample draws its wavelengths, 0 where they lie at the bands' centres.
     draws_wavelengths: u32,
-    /// First of the objects that are parts of the surroundings, discs in the sky among them.
+    /// First of the numbers of the emitters that are parts of the surroundings, discs in the sky among them.
     first_environment: u32,
     /// First of the observer's three spectra.
     observer: u32,
@@ -257,16 +251,16 @@ struct Batch {
     padding: u32,
 }
 
-/// A shape made of a material.
-struct Object {
-    /// Centre of a sphere, rectangle or disk, a point of a plane.
+/// What rays meet: a shape made of a material.
+struct Shape {
+    /// Center of a sphere, rectangle or disk, a point of a plane.
     center: vec3f,
     /// Radius of a sphere or disk.
     radius: f32,
     /// Unit normal of a plane, rectangle or disk.
     normal: vec3f,
     /// A `SHAPE_` tag.
-    shape: u32,
+    kind: u32,
     /// First axis of a plane, rectangle or disk.
     tangent: vec3f,
     /// Half the width of a rectangle, along `tangent`; a disk's radius.
@@ -275,122 +269,48 @@ struct Object {
     bitangent: vec3f,
     /// Half the height of a rectangle, along `bitangent`; a disk's radius.
     half_height: f32,
-    /// Index of its material.
+    /// Number of its material.
     material: u32,
-    /// Whether light can be sent from it: 1 or 0.
-    is_light: u32,
-    /// The light that has this object's number is the object `light`; NONE past the last light.
-    light: u32,
-    /// How bright its light is to the eye; steers the choice among lights.
-    brightness: f32,
+    /// Number of the emitter that it is, or NONE.
+    emitter: u32,
+    /// Fills the size up to that of its alignment.
+    padding: vec2u,
 }
 
-/// What a surface is made of.
-struct Material {
-    /// Direction of a surface's grain, or of the axis that it runs around.
-    grain: vec3f,
-    /// A `GRAIN_` tag.
-    grain_kind: u32,
-    /// Width of the distribution of slopes along and across the grain.
-    alpha: vec2f,
-    /// A `FACETS_` tag.
-    facets: u32,
-    /// First number of the table of energy of its facets.
-    first_energy: u32,
-    /// A `SURFACE_` tag.
-    surface: u32,
-    /// Spectrum: reflectance (even squares of a checker), or n of an index, whose k is the next one.
-    spectrum: u32,
-    /// Spectrum: reflectance of the odd squares; the same as `spectrum` without a checker.
-    odd_spectrum: u32,
-    /// Side of a checker's squares.
-    checker_size: f32,
-    /// Mean of that table over all directions.
-    mean_energy: f32,
-    /// A `FILM_` tag, of a film.
-    film: u32,
-    /// Light that it emits.
-    emission: u32,
-    /// Factor of what it emits; 0 where it emits nothing.
-    emission_scale: f32,
-    /// First of its layers, the outermost.
-    first_layer: u32,
-    /// Number of its layers.
-    layer_count: u32,
-    /// 1 where it reflects nothing, so that a path ends.
-    is_black: u32,
-    /// Number of its layers whose thickness varies over the surface.
-    varying_layers: u32,
-    /// The head of the picture of its reflectance; NONE where that is no picture.
-    picture: u32,
-    /// Spectrum: n of the index above a diffuse base, whose k is the next one.
-    coat: u32,
-    /// The part of the light that a base reflects beside the facets of Cook's model.
-    base_share: f32,
-    /// Share of the paths that follow what the base reflects; of a coated body, what stands for its reflectance there.
-    base_chance: f32,
-    /// First of the numbers of the slopes of Cook's model: m, weight and part of each.
-    first_slope: u32,
-    /// Number of these slopes.
-    slope_count: u32,
-    /// Spectrum: reflectance of a coat for diffuse light from outside.
-    mean_reflectance: u32,
-    /// What stands for the index of a coat where a path chooses its way.
-    coat_estimate: f32,
-    /// Spectra: the reflectance of a rough coat for COAT_COSINES cosines.
-    coat_reflectances: u32,
-    /// First of a film's numbers that tell what it reflects.
-    first_reflected: u32,
-    /// About the part of the light that goes on from it.
-    albedo: f32,
-    /// First number of the table by which a brushed coat lets more through in some directions.
-    first_passage: u32,
-}
-
-/// A layer of a film or of a coating.
-struct Layer {
-    /// Spectrum: n of its index, whose k is the next one.
-    spectrum: u32,
-    /// Thickness where it has no fields, nm.
-    thickness_nm: f32,
-    /// First of the fields that its thickness is made of.
-    first_field: u32,
-    /// Number of its fields; 0 where the thickness is the same everywhere.
-    field_count: u32,
-}
-
-/// A part of a thickness that varies.
-struct Field {
-    /// The pole's direction, or where a line starts.
-    origin: vec3f,
-    /// A `FIELD_` tag.
+/// What light is sampled from, or comes from where a path leaves the scene. Those that are sampled stand first.
+struct Emitter {
+    /// Center of a sphere, rectangle or disk; where a point or spot stands.
+    position: vec3f,
+    /// An `EMITTER_` tag.
     kind: u32,
-    /// From start to end of a line, over the square of its length.
-    along: vec3f,
-    /// An `ALONG_` tag.
-    runs_along: u32,
-    /// Value at 0: at the pole, at the start, of black, the mean of swirls; thickness of the black film of a profile.
-    base: f32,
-    /// Added to it at 1: at the other pole, at the end, of white, the amplitude of swirls; the largest value of a profile.
-    swing: f32,
-    /// A profile is a black film below it; cells of swirls per unit.
-    threshold: f32,
-    /// Distance by which swirls are carried, in cells.
-    warp: f32,
-    /// Width and height of a picture on a plane; 0 for its natural size.
-    size: vec2f,
-    /// Time of swirls within its cell.
-    phase: f32,
-    /// Cells that the time of swirls has passed through.
-    cells: u32,
-    /// Chooses the pattern of swirls.
-    seed: u32,
-    /// First of the numbers that it looks up.
-    first_number: u32,
-    /// Steps, knots of a profile, pixels of a row; octaves of swirls.
-    sample_count: u32,
-    /// Rows of a picture.
-    rows: u32,
+    /// Unit vector: normal of a rectangle or disk, towards a pole, a disc, a direction or a picture's middle, where a spot shines to.
+    axis: vec3f,
+    /// Radius of a sphere or disk.
+    radius: f32,
+    /// First axis of a rectangle or disk; towards a picture's right half.
+    tangent: vec3f,
+    /// Half the width of a rectangle, along `tangent`; a disk's radius.
+    half_width: f32,
+    /// Second axis of a rectangle or disk.
+    bitangent: vec3f,
+    /// Half the height of a rectangle, along `bitangent`; a disk's radius.
+    half_height: f32,
+    /// Its light: spectrum and light group.
+    light: u32,
+    /// Factor of its light.
+    scale: f32,
+    /// How bright it is to the eye, which steers the choice among emitters; 0 where it is not sampled.
+    brightness: f32,
+    /// The object that it is, or NONE.
+    object: u32,
+    /// 1 − cos of the half angle of a disc in the sky.
+    cap_height: f32,
+    /// 1 − cos of the angle within which a spot shines fully.
+    full_height: f32,
+    /// 1 − cos of the angle beyond which it does not shine.
+    edge_height: f32,
+    /// The head of a picture of the surroundings, or NONE.
+    picture: u32,
 }
 
 /// What holds for one run over a part of a batch of stacks.

@@ -32,14 +32,14 @@ fn gradient_noise(place: vec3f, cells: u32, seed: u32) -> vec4f {
 
 /// The value of swirls at a point of an object's surface.
 fn swirls(field: u32, object: u32, position: vec3f) -> f32 {
-    let size = fields[field].threshold;
-    let cells = fields[field].cells;
-    let seed = fields[field].seed;
-    let time = vec3f(0.0, 0.0, fields[field].phase);
-    let local = position - objects[object].center;
-    let is_sphere = HAS_SPHERES && objects[object].shape == SHAPE_SPHERE;
+    let size = load_field(field).threshold;
+    let cells = load_field(field).cells;
+    let seed = load_field(field).seed;
+    let time = vec3f(0.0, 0.0, load_field(field).phase);
+    let local = position - shapes[object].center;
+    let is_sphere = HAS_SPHERES && shapes[object].kind == SHAPE_SPHERE;
     var normal = vec3f(0.0, 0.0, 1.0);
-    var place = size * vec3f(dot(local, objects[object].tangent), dot(local, objects[object].bitangent), 0.0);
+    var place = size * vec3f(dot(local, shapes[object].tangent), dot(local, shapes[object].bitangent), 0.0);
     if (is_sphere) {
         normal = normalize(local);
         place = size * normal;
@@ -47,7 +47,7 @@ fn swirls(field: u32, object: u32, position: vec3f) -> f32 {
     for (var i = 0u; i < WARP_STEPS; i++) {
         let stream = gradient_noise(place + time, cells, seed ^ STREAM).xyz;
         // n × ∇ψ runs along the lines of equal ψ, so it has no sources on the surface.
-        place -= fields[field].warp / f32(WARP_STEPS) * cross(normal, stream);
+        place -= load_field(field).warp / f32(WARP_STEPS) * cross(normal, stream);
         if (is_sphere) {
             normal = normalize(place);
             place = size * normal;
@@ -55,11 +55,11 @@ fn swirls(field: u32, object: u32, position: vec3f) -> f32 {
     }
     var sum = 0.0;
     var finer = 1.0;
-    for (var octave = 0u; octave < fields[field].sample_count; octave++) {
+    for (var octave = 0u; octave < load_field(field).sample_count; octave++) {
         sum += gradient_noise(finer * place + time, cells, seed + octave).w / finer;
         finer *= 2.0;
     }
     // Bounded by ±1 and smooth.
     let x = NOISE_GAIN * sum;
-    return fields[field].base + fields[field].swing * (x / sqrt(1.0 + x * x));
+    return load_field(field).base + load_field(field).swing * (x / sqrt(1.0 + x * x));
 }

@@ -1,81 +1,112 @@
 // What a traced path remembers until its spectrum is evaluated.
-
-/// A factor that depends on wavelength.
-struct Factor {
-    /// A FACTOR_ tag.
-    kind: u32,
-    /// Its spectrum: a reflectance, or n of an index, whose k is the next one. Of layers, the material that has them.
-    spectrum: u32,
-    /// Cosine at the surface or facet.
-    cosine: f32,
-    /// Thickness of a film's only layer.
-    thickness_nm: f32,
-    /// Of several layers: the first of the thicknesses that vary over the surface.
-    first_thickness: u32,
-}
-
-/// How a surface scatters between two directions: weights of the spectra that it has.
-struct Lobes {
-    /// Of the vertex's factor at `cosine`: light that met the surface once.
-    single: f32,
-    /// Of the colour of light that met several facets of a rough surface.
-    multiple: f32,
-    /// Of the colour of the base below a coat.
-    body: f32,
-    /// Cosine at the facet, or at a smooth surface.
-    cosine: f32,
-    /// Cosine of the light with the surface's normal.
-    light_cosine: f32,
-}
+//
+// A vertex has what every path needs. What only some scenes need stands in arrays of its own, at the same place; where nothing reads one,
+// it is not there.
 
 /// A place where a path met a surface, or where it ended.
 struct Vertex {
-    /// What the path meets here; its cosine is that of `onward`.
-    scatter: Factor,
-    /// The material of what scatters.
-    material: u32,
-    /// Cosine of the path's arrival with the surface's normal.
-    eye_cosine: f32,
-    /// Reflectance of what lies below a coat or beside facets.
+    /// What the path is multiplied by: a FACTOR_ tag and a number.
+    factor: u32,
+    /// Its weight.
+    weight: f32,
+    /// The cosine for which it is taken: at the facet, or at a smooth surface.
+    cosine: f32,
+    /// Thickness of a film's only layer, nm.
+    thickness_nm: f32,
+    /// A light that joins the path here: its spectrum and its light group.
+    light: u32,
+    /// Its weight: 0 where there is none.
+    light_weight: f32,
+    /// The cosine for which the factor is taken where the surface scatters that light.
+    light_cosine: f32,
+    /// Films that the light passes through on its way: their number, and from bit 12 on the first of them.
+    crossings: u32,
+    /// Bits: SCATTERS_LIGHT, TRANSMITS; and the places of waiting light (`splits_to`, `resumes_from`).
+    marks: u32,
+}
+
+/// The light is scattered by the surface; else it joins before the factor.
+const SCATTERS_LIGHT: u32 = 1u;
+/// The path goes on through a film; else it is mirrored.
+const TRANSMITS: u32 = 2u;
+/// One more than the place where what a film transmits waits, from this bit on.
+const SPLITS_TO: u32 = 8u;
+/// One more than the place from which the path goes on, from this bit on.
+const RESUMES_FROM: u32 = 16u;
+/// The number of crossings has as many bits.
+const CROSSING_BITS: u32 = 12u;
+
+/// Light that met several facets of a rough surface.
+struct Sheen {
+    /// Weight of what goes on along the path.
+    weight: f32,
+    /// Weight of the light that joins here.
+    light_weight: f32,
+    /// Mean of the facets' albedo.
+    mean_energy: f32,
+}
+
+/// What lies below a coat or beside facets.
+struct Body {
+    /// Its reflectance: a FACTOR_ tag and a number.
     base: u32,
-    /// Its FACTOR_ tag.
-    base_kind: u32,
-    /// What the path is multiplied by here.
-    onward: Lobes,
-    /// Radiance that joins the path here, before the factor: a light, and its texel where it has a picture (0 where it has none).
-    emission: u32,
-    emission_texel: u32,
-    emission_weight: f32,
-    /// Radiance sent from a light, by `connected` and through the films in between.
-    connection: u32,
-    connection_texel: u32,
-    connected: Lobes,
-    first_crossing: u32,
-    end_crossing: u32,
-    /// Where a film splits the path, the place where the light that it transmits waits; of a vertex that does nothing, the
-    /// place from which the path goes on; NONE elsewhere.
-    waiting: u32,
+    /// The material.
+    material: u32,
+    /// Weights of what goes on along the path, and of the light that joins here.
+    weight: f32,
+    light_weight: f32,
+    /// Cosines with the normal: towards the camera, towards the path's next vertex, towards the light that joins here.
+    wo_cosine: f32,
+    wi_cosine: f32,
+    light_wi_cosine: f32,
 }
 
-const NO_LOBES: Lobes = Lobes(0.0, 0.0, 0.0, 1.0, 1.0);
-
-/// What only the factor scatters.
-fn single_lobe(weight: f32, cosine: f32) -> Lobes {
-    return Lobes(weight, 0.0, 0.0, cosine, 1.0);
+/// A film that light passes through on its way to a vertex.
+struct Crossing {
+    factor: u32,
+    cosine: f32,
+    thickness_nm: f32,
 }
 
-fn scaled(lobes: Lobes, factor: f32) -> Lobes {
-    return Lobes(lobes.single * factor, lobes.multiple * factor, lobes.body * factor, lobes.cosine, lobes.light_cosine);
+/// The path of this invocation. The sizes follow from the scene, so that none can overflow.
+var<private> vertices: array<Vertex, MAX_VERTICES>;
+var<private> vertex_count: u32;
+var<private> sheens: array<Sheen, MAX_VERTICES>;
+var<private> bodies: array<Body, MAX_VERTICES>;
+/// The texel of a vertex's light, 0 where it has none.
+var<private> light_texels: array<u32, MAX_VERTICES>;
+/// Of a vertex with layers whose thicknesses vary, the first of them.
+var<private> first_thicknesses: array<u32, MAX_VERTICES>;
+
+var<private> crossings: array<Crossing, MAX_CROSSINGS>;
+var<private> crossing_count: u32;
+var<private> crossing_thicknesses: array<u32, MAX_CROSSINGS>;
+
+/// Thicknesses of layers where they vary over a surface, at the points of the path, nm.
+var<private> thicknesses: array<f32, MAX_THICKNESSES>;
+var<private> thickness_count: u32;
+
+/// The vertex that is being made. All are written at one place in the code: a store at a place that differs between paths is long.
+var<private> pending: Vertex;
+var<private> pending_sheen: Sheen;
+var<private> pending_body: Body;
+var<private> pending_texel: u32;
+var<private> pending_thickness: u32;
+/// Whether it is worth being written.
+var<private> is_pending: bool;
+
+const HAS_SHEENS: bool = HAS_ROUGH_CONDUCTORS || HAS_ROUGH_COATS;
+
+fn factor_of(tag: u32, number: u32) -> u32 {
+    return (tag << FACTOR_SHIFT) | number;
 }
 
-/// Sum of the weights.
-fn weight_of(lobes: Lobes) -> f32 {
-    return lobes.single + lobes.multiple + lobes.body;
+fn factor_tag(factor: u32) -> u32 {
+    return factor >> FACTOR_SHIFT;
 }
 
-/// Whether anything is scattered.
-fn is_lit(lobes: Lobes) -> bool {
-    return lobes.single > 0.0 || lobes.multiple > 0.0 || lobes.body > 0.0;
+fn factor_number(factor: u32) -> u32 {
+    return factor & ((1u << FACTOR_SHIFT) - 1u);
 }
 
 /// The spectrum of a light. A light has its light group in the bits above it.
@@ -91,44 +122,71 @@ fn light_group_of(light: u32) -> u32 {
     return light >> LIGHT_GROUP_SHIFT;
 }
 
-/// The path of this invocation. MAX_VERTICES and MAX_CROSSINGS follow from the scene, so that neither can overflow.
-var<private> vertices: array<Vertex, MAX_VERTICES>;
-var<private> vertex_count: u32;
-/// Films that connections pass through.
-var<private> crossings: array<Factor, MAX_CROSSINGS>;
-var<private> crossing_count: u32;
-/// Thicknesses of layers where they vary over a surface, at the points of the path, nm.
-var<private> thicknesses: array<f32, MAX_THICKNESSES>;
-var<private> thickness_count: u32;
-
 fn begin_record() {
     vertex_count = 0u;
     crossing_count = 0u;
     thickness_count = 0u;
+    begin_vertex(0u);
+    // A path that meets nothing is evaluated as one that ends at once.
+    vertices[0] = pending;
 }
 
-/// A vertex that does nothing yet.
-fn plain_vertex() -> Vertex {
-    let one = Factor(FACTOR_ONE, 0u, 1.0, 0.0, 0u);
-    return Vertex(one, 0u, 1.0, 0u, FACTOR_ONE, NO_LOBES, 0u, 0u, 0.0, 0u, 0u, NO_LOBES, crossing_count, crossing_count, NONE);
+/// Begins a vertex that does nothing yet; `resumes` is its RESUMES_FROM.
+fn begin_vertex(resumes: u32) {
+    is_pending = false;
+    pending = Vertex(FACTOR_ONE, 1.0, 1.0, 0.0, 0u, 0.0, 1.0, 0u, resumes << RESUMES_FROM);
+    if (HAS_SHEENS) {
+        pending_sheen = Sheen(0.0, 0.0, 0.0);
+    }
+    if (HAS_BASES) {
+        pending_body = Body(FACTOR_ONE, 0u, 0.0, 0.0, 1.0, 1.0, 1.0);
+    }
+    if (HAS_ENVIRONMENT_PICTURE) {
+        pending_texel = 0u;
+    }
 }
 
-fn push_vertex(vertex: Vertex) {
-    vertices[vertex_count] = vertex;
+/// Puts the vertex that was begun behind the others, if it does anything.
+fn write_vertex() {
+    if (!is_pending) {
+        return;
+    }
+    vertices[vertex_count] = pending;
+    if (HAS_SHEENS) {
+        sheens[vertex_count] = pending_sheen;
+    }
+    if (HAS_BASES) {
+        bodies[vertex_count] = pending_body;
+    }
+    if (HAS_ENVIRONMENT_PICTURE) {
+        light_texels[vertex_count] = pending_texel;
+    }
+    if (RECORDS_THICKNESSES) {
+        first_thicknesses[vertex_count] = pending_thickness;
+    }
     vertex_count += 1u;
 }
 
-/// Records that the path goes on from where it was split.
-fn push_return(waiting: u32) {
-    var vertex = plain_vertex();
-    vertex.waiting = waiting;
-    push_vertex(vertex);
+/// Lets radiance `weight` × the spectrum of `light` join the path before the vertex that is being made; and of a texel of its picture, where
+/// that is not 0.
+fn add_emission(light: u32, texel: u32, weight: f32) {
+    if (weight > 0.0) {
+        pending.light = light;
+        pending.light_weight = weight;
+        is_pending = true;
+        if (HAS_ENVIRONMENT_PICTURE) {
+            pending_texel = texel;
+        }
+    }
 }
 
-fn push_crossing(crossing: Factor) {
+fn push_crossing(crossing: Crossing, first_thickness: u32) {
     // Rounding can make a ray meet the edge of two touching films once too often; that crossing is left out.
     if (crossing_count < MAX_CROSSINGS) {
         crossings[crossing_count] = crossing;
+        if (RECORDS_THICKNESSES) {
+            crossing_thicknesses[crossing_count] = first_thickness;
+        }
         crossing_count += 1u;
     }
 }
@@ -138,16 +196,4 @@ fn push_thickness(thickness_nm: f32) {
         thicknesses[thickness_count] = thickness_nm;
         thickness_count += 1u;
     }
-}
-
-/// Radiance `weight` × the spectrum of `light`, and of a texel of its picture where that is not 0, that joins at the path's end.
-fn push_emission(light: u32, texel: u32, weight: f32) {
-    if (weight <= 0.0) {
-        return;
-    }
-    var vertex = plain_vertex();
-    vertex.emission = light;
-    vertex.emission_texel = texel;
-    vertex.emission_weight = weight;
-    push_vertex(vertex);
 }

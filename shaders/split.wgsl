@@ -5,7 +5,7 @@ fn reflected_part(material: u32, cosine: f32) -> f32 {
     let steps = REFLECTED_KNOTS - 1u;
     let place = clamp(cosine, 0.0, 1.0) * f32(steps);
     let knot = min(u32(place), steps - 1u);
-    let first = materials[material].first_reflected + knot;
+    let first = load_film(material_at(material).record).first_reflected + knot;
     return mix(number_at(first), number_at(first + 1u), place - f32(knot));
 }
 
@@ -18,15 +18,21 @@ fn reflected_share(reflected: f32) -> f32 {
     return clamp(reflected, LEAST_SHARE, 1.0 - LEAST_SHARE);
 }
 
-/// Walks that wait for the present one to end.
-var<private> waiting_walks: array<Walk, MAX_SPLITS>;
+/// Paths that wait for the present one to end.
+var<private> waiting_paths: array<PathState, MAX_SPLITS>;
 var<private> waiting_count: u32;
 
-/// Puts a walk aside and returns its place.
-fn wait(walk: Walk) -> u32 {
-    waiting_walks[waiting_count] = walk;
+/// Puts a path aside and returns its place.
+fn wait(path: PathState) -> u32 {
+    waiting_paths[waiting_count] = path;
     waiting_count += 1u;
     return waiting_count - 1u;
+}
+
+/// The path that was put aside last.
+fn resume() -> PathState {
+    waiting_count -= 1u;
+    return waiting_paths[waiting_count];
 }
 
 /// The least chance that a path has to go on at Russian roulette, which bounds its weight.
@@ -37,15 +43,20 @@ fn chance_to_go_on(throughput: f32) -> f32 {
     return clamp(throughput, LEAST_CHANCE, 1.0);
 }
 
-/// Russian roulette: ends the walk by chance, or lets its last vertex count for more.
-fn play_roulette(walk: Walk, sample: Sample) -> Walk {
-    let chance = chance_to_go_on(walk.throughput);
-    var next = walk;
+/// Russian roulette: ends the path by chance, or lets the vertex that is being made count for more.
+fn play_roulette(path: PathState, sample: Sample) -> PathState {
+    let chance = chance_to_go_on(path.rr_throughput);
+    var next = path;
     if (chance < 1.0) {
-        next.alive = random_at(sample, walk, FOR_ROULETTE).x < chance;
-        next.throughput /= chance;
-        let last = vertex_count - 1u;
-        vertices[last].onward = scaled(vertices[last].onward, 1.0 / chance);
+        next.alive = random_at(sample, path, FOR_ROULETTE).x < chance;
+        next.rr_throughput /= chance;
+        pending.weight /= chance;
+        if (HAS_SHEENS) {
+            pending_sheen.weight /= chance;
+        }
+        if (HAS_BASES) {
+            pending_body.weight /= chance;
+        }
     }
     return next;
 }

@@ -2,16 +2,17 @@
 
 /// Whether a layer's thickness varies over its surface.
 fn layer_varies(layer: u32) -> bool {
-    return layers[layer].field_count > 0u;
+    return load_layer(layer).field_count > 0u;
 }
 
 /// Thickness of a layer at a point of an object's surface, nm.
 fn layer_thickness(layer: u32, object: u32, position: vec3f) -> f32 {
-    let count = layers[layer].field_count;
+    let even = load_layer(layer);
+    let count = even.field_count;
     if (!HAS_FIELDS || count == 0u) {
-        return layers[layer].thickness_nm;
+        return even.thickness_nm;
     }
-    let first = layers[layer].first_field;
+    let first = even.first_field;
     if (!HAS_COMBINED_FIELDS || count == 1u) {
         return clamp(field_value(first, object, position), 0.0, f32(MAX_THICKNESS_NM));
     }
@@ -22,8 +23,8 @@ fn layer_thickness(layer: u32, object: u32, position: vec3f) -> f32 {
 fn combined_fields(first: u32, count: u32, object: u32, position: vec3f) -> f32 {
     var stack: array<f32, FIELD_STACK>;
     var height = 0u;
-    for (var field = first; field < first + count; field++) {
-        let kind = fields[field].kind;
+    for (var field = first; field < first + count * FIELD_ROWS; field += FIELD_ROWS) {
+        let kind = load_field(field).kind;
         if (kind == FIELD_SUM || kind == FIELD_PRODUCT) {
             height -= 1u;
             let a = stack[height - 1u];
@@ -39,7 +40,7 @@ fn combined_fields(first: u32, count: u32, object: u32, position: vec3f) -> f32 
 
 /// The value of a field that is no sum or product.
 fn field_value(field: u32, object: u32, position: vec3f) -> f32 {
-    let kind = fields[field].kind;
+    let kind = load_field(field).kind;
     if (HAS_SWIRLS && kind == FIELD_SWIRLS) {
         return swirls(field, object, position);
     }
@@ -47,50 +48,50 @@ fn field_value(field: u32, object: u32, position: vec3f) -> f32 {
         return picture_value(field, object, position);
     }
     if (HAS_COMBINED_FIELDS && kind == FIELD_CONSTANT) {
-        return fields[field].base;
+        return load_field(field).base;
     }
     let along = field_coordinate(field, object, position);
     if (HAS_SAMPLED_FIELDS && kind == FIELD_STEPS) {
-        let count = fields[field].sample_count;
-        return number_at(fields[field].first_number + min(u32(along * f32(count)), count - 1u));
+        let count = load_field(field).sample_count;
+        return number_at(load_field(field).first_number + min(u32(along * f32(count)), count - 1u));
     }
     if (HAS_SAMPLED_FIELDS && kind == FIELD_PROFILE) {
         return profile_value(field, along);
     }
-    return fields[field].base + fields[field].swing * along;
+    return load_field(field).base + load_field(field).swing * along;
 }
 
 /// What a field runs along, from 0 to 1: the polar angle, or a line.
 fn field_coordinate(field: u32, object: u32, position: vec3f) -> f32 {
-    let origin = fields[field].origin;
-    if (HAS_POLAR_FIELDS && (!HAS_LINE_FIELDS || fields[field].runs_along == ALONG_POLAR_ANGLE)) {
-        let radial = position - objects[object].center;
+    let origin = load_field(field).origin;
+    if (HAS_POLAR_FIELDS && (!HAS_LINE_FIELDS || load_field(field).runs_along == ALONG_POLAR_ANGLE)) {
+        let radial = position - shapes[object].center;
         return polar_angle(dot(radial, origin), length(cross(radial, origin))) / PI;
     }
-    return clamp(dot(position - origin, fields[field].along), 0.0, 1.0);
+    return clamp(dot(position - origin, load_field(field).along), 0.0, 1.0);
 }
 
 /// The root of a table of squares, or a black film where it is thin.
 fn profile_value(field: u32, along: f32) -> f32 {
-    let steps = fields[field].sample_count - 1u;
+    let steps = load_field(field).sample_count - 1u;
     let place = along * f32(steps);
     let knot = min(u32(place), steps - 1u);
-    let first = fields[field].first_number + knot;
+    let first = load_field(field).first_number + knot;
     let square = mix(number_at(first), number_at(first + 1u), place - f32(knot));
-    let thickness = min(sqrt(square), fields[field].swing);
-    return select(thickness, fields[field].base, thickness < fields[field].threshold);
+    let thickness = min(sqrt(square), load_field(field).swing);
+    return select(thickness, load_field(field).base, thickness < load_field(field).threshold);
 }
 
 /// A picture by longitude and latitude on spheres, by the surface's two axes elsewhere.
 fn picture_value(field: u32, object: u32, position: vec3f) -> f32 {
-    let value = bilinear(field, picture_place(fields[field].size, object, position), objects[object].shape == SHAPE_SPHERE);
-    return fields[field].base + fields[field].swing * value;
+    let value = bilinear(field, picture_place(load_field(field).size, object, position), shapes[object].kind == SHAPE_SPHERE);
+    return load_field(field).base + load_field(field).swing * value;
 }
 
 /// The value of a picture, linear between the centres of its pixels.
 fn bilinear(field: u32, place: vec2f, wraps: bool) -> f32 {
-    let width = i32(fields[field].sample_count);
-    let height = i32(fields[field].rows);
+    let width = i32(load_field(field).sample_count);
+    let height = i32(load_field(field).rows);
     let x = clamp(place.x * f32(width) - 0.5, -1.0, f32(width));
     let y = clamp(place.y * f32(height) - 0.5, 0.0, f32(height - 1));
     let left = i32(floor(x));
@@ -99,7 +100,7 @@ fn bilinear(field: u32, place: vec2f, wraps: bool) -> f32 {
     let columns = vec2i(left, left + 1);
     let wrapped = (columns + width) % width;
     let inside = select(clamp(columns, vec2i(0), vec2i(width - 1)), wrapped, wraps);
-    let rows = fields[field].first_number + u32(width) * vec2u(vec2i(above, min(above + 1, height - 1)));
+    let rows = load_field(field).first_number + u32(width) * vec2u(vec2i(above, min(above + 1, height - 1)));
     let part = x - floor(x);
     let upper = mix(number_at(rows.x + u32(inside.x)), number_at(rows.x + u32(inside.y)), part);
     let lower = mix(number_at(rows.y + u32(inside.x)), number_at(rows.y + u32(inside.y)), part);

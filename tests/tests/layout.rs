@@ -4,17 +4,21 @@ use pellicle_tests::wgsl::root;
 use std::collections::BTreeMap;
 
 #[test]
-fn the_generated_file_is_fresh() {
-    let path = root().join("shaders/layout.wgsl");
-    let expected = gpu::layout::wgsl();
-    if std::env::var_os("PELLICLE_BLESS").is_some() {
-        std::fs::write(&path, &expected).expect("the file can be written");
+fn the_generated_files_are_fresh() {
+    for (name, expected) in [
+        ("layout", gpu::layout::wgsl()),
+        ("records", gpu::layout::records_wgsl()),
+    ] {
+        let path = root().join(format!("shaders/{name}.wgsl"));
+        if std::env::var_os("PELLICLE_BLESS").is_some() {
+            std::fs::write(&path, &expected).expect("the file can be written");
+        }
+        let found = std::fs::read_to_string(&path).expect("the file exists");
+        assert!(
+            found == expected,
+            "shaders/{name}.wgsl is stale; write it anew with PELLICLE_BLESS=1 cargo test -p pellicle-tests --test layout"
+        );
     }
-    let found = std::fs::read_to_string(&path).expect("shaders/layout.wgsl exists");
-    assert!(
-        found == expected,
-        "shaders/layout.wgsl is stale; write it anew with PELLICLE_BLESS=1 cargo test -p pellicle-tests --test layout"
-    );
 }
 
 /// Size and offset of every member of every struct, as naga lays them out.
@@ -50,16 +54,14 @@ macro_rules! assert_layout {
 #[test]
 fn naga_sees_the_offsets_of_rust() {
     let structs = structs_of_naga();
-    assert_eq!(structs.len(), 9);
+    assert_eq!(structs.len(), 7);
     assert_layout!(structs, Frame: camera_origin, seed, camera_back, image_size, first_environment, observer, first_filter);
     assert_layout!(structs, Batch: tile_origin, tile_size, first_sample, sample_count);
-    assert_layout!(structs, Object: center, radius, normal, tangent, bitangent, half_height, material, is_light, light);
-    assert_layout!(structs, Material: grain, grain_kind, alpha, facets, first_energy, surface, mean_energy, emission_scale, first_layer, layer_count, is_black);
+    assert_layout!(structs, Shape: center, radius, normal, kind, tangent, half_width, bitangent, half_height, material, emitter);
+    assert_layout!(structs, Emitter: position, kind, axis, radius, tangent, bitangent, light, scale, brightness, object, cap_height, edge_height, picture);
     assert_layout!(structs, StackRun: wavelength_count, stack_count, incident);
     assert_layout!(structs, RunLayer: medium, thickness_nm);
     assert_layout!(structs, RunStack: substrate, first_layer, layer_count);
-    assert_layout!(structs, Layer: spectrum, thickness_nm, first_field, field_count);
-    assert_layout!(structs, Field: origin, kind, along, runs_along, base, swing, size, phase, cells, seed, first_number, rows);
 }
 
 /// The comparison above can fail: a struct with a member more has another size.

@@ -49,7 +49,7 @@ fn the_probe_reaches_the_whole_path_tracer() {
         .iter()
         .flat_map(|name| {
             let scene = small(name, [SIDE, SIDE], 1, BANDS, 3);
-            probe(&PackedScene::new(&scene)).reach().0
+            probe(&PackedScene::new(&scene)).reach()
         })
         .collect();
     for name in PROVED {

@@ -184,7 +184,7 @@ fn what_another_scene_needs_can_run() {
     let wedge = made_for("film_wedge", false);
     let left = functions(&shader(&wedge).specialized("render").expect("valid"));
     assert!(!left.contains("stack_layer") && left.contains("film_reflectance"));
-    let features = wedge.features.with("HAS_STACKS", 1);
+    let features = wedge.features.with("HAS_STACKS", true);
     let with_stacks = Specialization { features, ..wedge };
     let reached = Walk::of(&shader(&with_stacks).parse().expect("valid"));
     assert!(reached.contains("stack_layer"));
@@ -195,7 +195,9 @@ fn what_another_scene_needs_can_run() {
 #[test]
 fn every_feature_of_a_scene_is_declared() {
     let declared = include_str!("../../shaders/features.wgsl");
-    for (name, _) in made_for("everything", false).features.constants() {
-        assert!(declared.contains(&format!("\noverride {name}: ")), "{name}");
+    for scene in all() {
+        for name in made_for(scene, false).features.names() {
+            assert!(declared.contains(&format!("\noverride {name}: ")), "{name}");
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! A scene's buffers and textures on the device.
 
-use crate::layout::{self, Field, NUMBERS_WIDTH, TEXELS_WIDTH};
+use crate::layout::{self, NUMBERS_WIDTH, TEXELS_WIDTH};
 use crate::modules::Specialization;
 use crate::pipelines::Pipeline;
 use crate::{Gpu, PackedScene, RenderError};
@@ -21,7 +21,7 @@ struct List<'a> {
 
 impl PackedScene {
     /// The lists that stand in buffers, in the order of their bindings, from 1 on.
-    fn lists(&self) -> [List<'_>; 5] {
+    fn lists(&self) -> [List<'_>; 4] {
         fn list<'a, T: bytemuck::Pod>(
             [name, what]: [&'static str; 2],
             elements: &'a [T],
@@ -36,13 +36,19 @@ impl PackedScene {
             }
         }
         let fewer = "use fewer of them";
-        let spectra = "use fewer materials and lights";
         [
-            list(["objects", "objects"], &self.objects, fewer),
-            list(["materials", "materials"], &self.materials, fewer),
-            list(["layers", "layers"], &self.layers, fewer),
-            list(["spectra", "spectra"], &self.spectra, spectra),
-            list(["fields", "thickness fields"], &self.fields, fewer),
+            list(["shapes", "objects"], &self.shapes, fewer),
+            list(["emitters", "lights"], &self.emitters, fewer),
+            list(
+                ["records", "materials"],
+                &self.records,
+                "use fewer of them, of fewer layers",
+            ),
+            list(
+                ["spectra", "spectra"],
+                &self.spectra,
+                "use fewer materials and lights",
+            ),
         ]
     }
 
@@ -76,10 +82,8 @@ pub(crate) fn uniform_table(line: &str, uniform: &[&str]) -> Option<String> {
 /// Bytes of an element of a list, by its type in WGSL.
 fn stride_of(element: &str) -> usize {
     match element {
-        "Object" => size_of::<layout::Object>(),
-        "Material" => size_of::<layout::Material>(),
-        "Layer" => size_of::<layout::Layer>(),
-        "Field" => size_of::<Field>(),
+        "Shape" => size_of::<layout::Shape>(),
+        "Emitter" => size_of::<layout::Emitter>(),
         _ => 16,
     }
 }
@@ -140,7 +144,7 @@ pub fn bind_scene(gpu: &Gpu, packed: &PackedScene) -> Result<SceneBindings, Rend
         bytes: bytemuck::cast_slice(&packed.numbers),
     };
     let texels = Table {
-        what: "pictures of colours",
+        what: "pictures of colors",
         format: wgpu::TextureFormat::Rgba32Float,
         width: TEXELS_WIDTH,
         bytes: bytemuck::cast_slice(&packed.texels),

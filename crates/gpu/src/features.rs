@@ -1,45 +1,52 @@
-//! What a scene has, so that its pipeline leaves out the rest: the values of `shaders/features.wgsl`.
+//! What a scene has, so that its shader leaves out the rest: the values of `shaders/features.wgsl`.
 
 use scene::{
-    Coordinate, DirectLight, Distribution, Environment, EnvironmentPart, EnvironmentShape,
-    Interference, LightSource, Material, Microsurface, PathDifference, Pattern, PictureSpectra,
-    Profile, Projection, Sampler, Scene, Shape, SourceKind, Thickness,
+    DirectLight, Environment, EnvironmentPart, EnvironmentShape, LightSource, Material,
+    PictureSpectra, Projection, Sampler, Scene, Shape, SourceKind,
 };
+use std::collections::{BTreeMap, BTreeSet};
 
-/// Constants of a shader by name: 1 where the scene has the thing, 0 where it has not; and how many it has.
+/// Values of the constants of a shader: those that say whether a scene has a thing, and those that say how many it has.
+///
+/// By default they are as the file says: everything is there.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Features(Vec<(&'static str, u32)>);
+pub struct Features {
+    has: Option<BTreeSet<&'static str>>,
+    counts: BTreeMap<&'static str, u32>,
+}
 
 impl Features {
-    /// What a scene has.
-    pub fn of(scene: &Scene) -> Self {
-        let used: Vec<&Material> = scene
-            .objects()
-            .iter()
-            .map(|object| scene.material(object.material))
-            .collect();
+    /// What a scene has besides what its materials need.
+    pub(crate) fn of(scene: &Scene) -> Self {
         let named = of_shapes(scene)
             .into_iter()
-            .chain(of_surfaces(&used))
-            .chain(of_films(scene, &used))
-            .chain(of_thicknesses(&used))
             .chain(of_lights(scene))
-            .chain(of_paths(scene, &used));
-        let named = named.map(|(name, has)| (name, u32::from(has)));
-        Self(named.chain(counts(scene)).collect())
+            .chain(of_paths(scene));
+        let has = named.filter_map(|(name, has)| has.then_some(name));
+        Self {
+            has: Some(has.collect()),
+            counts: counts(scene).into(),
+        }
     }
 
-    /// The constants by name.
-    pub fn constants(&self) -> &[(&'static str, u32)] {
-        &self.0
+    /// Adds what something needs.
+    pub(crate) fn add(&mut self, names: &[&'static str]) {
+        self.has.get_or_insert_default().extend(names);
     }
 
-    /// The same with another value of one of them, for tests.
+    /// The same with a thing more or less, for tests.
     #[must_use]
-    pub fn with(mut self, name: &'static str, value: u32) -> Self {
-        self.0.retain(|(known, _)| *known != name);
-        self.0.push((name, value));
+    pub fn with(mut self, name: &'static str, has: bool) -> Self {
+        let names = self.has.get_or_insert_default();
+        names.remove(name);
+        names.extend(has.then_some(name));
         self
+    }
+
+    /// The names of all constants that have a value here.
+    pub fn names(&self) -> impl Iterator<Item = &'static str> {
+        let counts = self.counts.keys();
+        self.has.iter().flatten().chain(counts).copied()
     }
 
     /// A line of `shaders/features.wgsl` that declares a constant, with its value; none of another line.
@@ -47,14 +54,11 @@ impl Features {
         let declared = line.strip_prefix("override ")?;
         let (name, rest) = declared.split_once(": ")?;
         let (kind, default) = rest.strip_suffix(';')?.split_once(" = ")?;
-        let value = self.0.iter().find(|(known, _)| *known == name);
-        let value = value.map_or_else(
-            || default.to_owned(),
-            |&(_, value)| match kind {
-                "bool" => (value != 0).to_string(),
-                _ => format!("{value}u"),
-            },
-        );
+        let value = match (kind, &self.has, self.counts.get(name)) {
+            ("bool", Some(has), _) => has.contains(name).to_string(),
+            ("u32", _, Some(count)) => format!("{count}u"),
+            _ => default.to_owned(),
+        };
         Some(format!("const {name}: {kind} = {value};"))
     }
 }
@@ -96,75 +100,6 @@ fn of_shapes(scene: &Scene) -> Vec<Named> {
     ]
 }
 
-/// Whether any of the materials makes a film of a wanted form.
-fn has_film(scene: &Scene, used: &[&Material], wanted: fn(FilmForm) -> bool) -> bool {
-    let mut forms = used.iter().filter_map(|m| FilmForm::of(scene, m));
-    forms.any(wanted)
-}
-
-fn of_surfaces(used: &[&Material]) -> Vec<Named> {
-    let material = |wanted: fn(&Material) -> bool| used.iter().any(|material| wanted(material));
-    let facets = |wanted: fn(&Microsurface) -> bool| {
-        let mut rough = used.iter().filter_map(|material| material.microsurface());
-        rough.any(wanted)
-    };
-    vec![
-        ("HAS_DIFFUSE", material(is_diffuse)),
-        ("HAS_CHECKERS", material(is_checker)),
-        ("HAS_TEXTURES", material(is_texture)),
-        (
-            "HAS_MIRRORS",
-            material(|m| {
-                matches!(
-                    m,
-                    Material::Conductor {
-                        microsurface: None,
-                        ..
-                    }
-                )
-            }),
-        ),
-        (
-            "HAS_ROUGH_CONDUCTORS",
-            material(|m| m.microsurface().is_some()),
-        ),
-        ("HAS_COOK", material(|m| matches!(m, Material::Cook(_)))),
-        ("HAS_BASES", material(has_base)),
-        (
-            "HAS_COATED_BODIES",
-            material(|m| matches!(m, Material::CoatedBody(body) if body.microsurface.is_none())),
-        ),
-        (
-            "HAS_ROUGH_COATS",
-            material(|m| matches!(m, Material::CoatedBody(body) if body.microsurface.is_some())),
-        ),
-        (
-            "HAS_BECKMANN",
-            facets(|m| m.distribution == Distribution::Beckmann),
-        ),
-        ("HAS_GGX", facets(|m| m.distribution == Distribution::Ggx)),
-        ("HAS_GRAIN", facets(Microsurface::is_brushed)),
-    ]
-}
-
-fn of_films(scene: &Scene, used: &[&Material]) -> Vec<Named> {
-    let material = |wanted: fn(&Material) -> bool| used.iter().any(|material| wanted(material));
-    let film = |wanted| has_film(scene, used, wanted);
-    vec![
-        ("HAS_FILMS", film(|_| true)),
-        ("HAS_LOSSY_FILMS", film(|form| form == FilmForm::Lossy)),
-        ("HAS_STACKS", film(|form| form == FilmForm::Stack)),
-        (
-            "HAS_TWO_BEAM_FILMS",
-            film(|form| matches!(form, FilmForm::TwoBeam(_))),
-        ),
-        (
-            "HAS_COATINGS",
-            material(|m| matches!(m, Material::Conductor { layers, .. } if !layers.is_empty())),
-        ),
-    ]
-}
-
 fn of_lights(scene: &Scene) -> Vec<Named> {
     let sources = scene.light_sources();
     let surroundings = scene.surroundings();
@@ -203,12 +138,11 @@ fn of_lights(scene: &Scene) -> Vec<Named> {
 }
 
 /// How paths are drawn.
-fn of_paths(scene: &Scene, used: &[&Material]) -> Vec<Named> {
+fn of_paths(scene: &Scene) -> Vec<Named> {
+    let mut materials = scene.objects().iter().map(|o| scene.material(o.material));
+    let has_films = materials.any(|material| matches!(material, Material::Film { .. }));
     vec![
-        (
-            "HAS_SPLITS",
-            has_film(scene, used, |_| true) && scene.settings().film_splits > 0,
-        ),
+        ("HAS_SPLITS", has_films && scene.settings().film_splits > 0),
         ("HAS_LENS", scene.camera().lens.is_some()),
         ("HAS_FILTER", scene.camera().filter.offsets().is_some()),
         ("HAS_CLAMP", scene.settings().clamp.is_some()),
@@ -229,136 +163,6 @@ fn of_paths(scene: &Scene, used: &[&Material]) -> Vec<Named> {
             scene.settings().sampler == Sampler::Sobol,
         ),
     ]
-}
-
-/// What the thicknesses of layers are made of.
-fn of_thicknesses(materials: &[&Material]) -> [(&'static str, bool); 7] {
-    let parts = || {
-        let thicknesses = materials.iter().flat_map(|m| m.thicknesses());
-        thicknesses.flat_map(Thickness::parts)
-    };
-    let has = |wanted: fn(&Thickness) -> bool| parts().any(wanted);
-    [
-        (
-            "HAS_FIELDS",
-            has(|part| !matches!(part, Thickness::Constant { .. })),
-        ),
-        (
-            "HAS_COMBINED_FIELDS",
-            has(|part| matches!(part, Thickness::Sum(_) | Thickness::Product(_))),
-        ),
-        ("HAS_POLAR_FIELDS", has(is_polar)),
-        ("HAS_LINE_FIELDS", has(runs_along_a_line)),
-        (
-            "HAS_SAMPLED_FIELDS",
-            has(|part| matches!(part, Thickness::Steps { .. } | Thickness::Profile(_))),
-        ),
-        (
-            "HAS_SWIRLS",
-            has(|part| matches!(part, Thickness::Swirls(_))),
-        ),
-        (
-            "HAS_PICTURES",
-            has(|part| matches!(part, Thickness::Picture(_))),
-        ),
-    ]
-}
-
-fn is_polar(part: &Thickness) -> bool {
-    matches!(
-        part,
-        Thickness::Polar { .. }
-            | Thickness::Profile(Profile {
-                coordinate: Coordinate::Polar { .. },
-                ..
-            })
-    )
-}
-
-fn runs_along_a_line(part: &Thickness) -> bool {
-    matches!(
-        part,
-        Thickness::Linear { .. }
-            | Thickness::Steps { .. }
-            | Thickness::Profile(Profile {
-                coordinate: Coordinate::Line { .. },
-                ..
-            })
-    )
-}
-
-fn is_diffuse(material: &Material) -> bool {
-    matches!(
-        material,
-        Material::Diffuse { .. }
-            | Material::Emitter {
-                reflectance: Some(_),
-                ..
-            }
-    )
-}
-
-/// Whether something diffuse lies below a coat or beside facets.
-fn has_base(material: &Material) -> bool {
-    match material {
-        Material::Cook(cook) => cook.diffuse.is_some(),
-        Material::CoatedBody(_) => true,
-        _ => false,
-    }
-}
-
-fn is_checker(material: &Material) -> bool {
-    matches!(pattern_of(material), Some(Pattern::Checker { .. }))
-}
-
-fn is_texture(material: &Material) -> bool {
-    matches!(pattern_of(material), Some(Pattern::Texture { .. }))
-}
-
-/// What a diffuse surface or base reflects, where it may vary.
-fn pattern_of(material: &Material) -> Option<&Pattern> {
-    match material {
-        Material::Diffuse { reflectance } => Some(reflectance),
-        Material::CoatedBody(body) => Some(&body.base),
-        _ => None,
-    }
-}
-
-/// The formula that serves a film.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum FilmForm {
-    /// One layer without absorption and with n ≥ 1 everywhere.
-    Transparent,
-    /// One layer of any index.
-    Lossy,
-    /// Several layers.
-    Stack,
-    /// One layer by two beams.
-    TwoBeam(PathDifference),
-}
-
-impl FilmForm {
-    /// The formula for a material; `None` where it is not a film.
-    pub(crate) fn of(scene: &Scene, material: &Material) -> Option<Self> {
-        let Material::Film {
-            layers,
-            transparent,
-            interference,
-        } = material
-        else {
-            return None;
-        };
-        Some(match (interference, layers.as_slice()) {
-            (Interference::TwoBeam(path_difference), _) => Self::TwoBeam(*path_difference),
-            (Interference::Exact, [only])
-                if *transparent && scene.spectrum(only.n).extent().0 >= 1.0 =>
-            {
-                Self::Transparent
-            }
-            (Interference::Exact, [_]) => Self::Lossy,
-            (Interference::Exact, _) => Self::Stack,
-        })
-    }
 }
 
 /// What the pixels of surroundings hold that are a picture.

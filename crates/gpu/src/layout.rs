@@ -1,7 +1,8 @@
 //! What lies in the buffers that host and shader share, written once.
 //!
 //! The macros below take documented Rust types, prove at compile time that Rust places every field
-//! where WGSL expects it, and give the text of `shaders/layout.wgsl`. That file is committed, and a test proves it fresh.
+//! where WGSL expects it, and give the text of `shaders/layout.wgsl` and `shaders/records.wgsl`. Those files are committed, and a test
+//! proves them fresh.
 
 use scene::limits::{MAX_FIELD_DEPTH, THICKNESS_NM};
 use scene::{CoatedBody, Estimate, FacetTable, PixelFilter};
@@ -11,25 +12,28 @@ trait Shared {
     const NAME: &'static str;
     const ALIGN: usize;
     const SIZE: usize;
+    /// Whether a record's loader turns the bits of its words into floats.
+    const IS_FLOAT: bool;
 }
 
 macro_rules! shared {
-    ($($rust:ty = $name:literal, $align:literal, $size:literal;)*) => {
+    ($($rust:ty = $name:literal, $align:literal, $size:literal, $is_float:literal;)*) => {
         $(impl Shared for $rust {
             const NAME: &'static str = $name;
             const ALIGN: usize = $align;
             const SIZE: usize = $size;
+            const IS_FLOAT: bool = $is_float;
         })*
     };
 }
 
 shared! {
-    u32 = "u32", 4, 4;
-    f32 = "f32", 4, 4;
-    [u32; 2] = "vec2u", 8, 8;
-    [f32; 2] = "vec2f", 8, 8;
-    [f32; 3] = "vec3f", 16, 12;
-    [f32; 4] = "vec4f", 16, 16;
+    u32 = "u32", 4, 4, false;
+    f32 = "f32", 4, 4, true;
+    [u32; 2] = "vec2u", 8, 8, false;
+    [f32; 2] = "vec2f", 8, 8, true;
+    [f32; 3] = "vec3f", 16, 12, true;
+    [f32; 4] = "vec4f", 16, 16, true;
 }
 
 /// A member of a struct as WGSL declares it.
@@ -37,6 +41,8 @@ struct Member {
     doc: &'static str,
     name: &'static str,
     wgsl_type: &'static str,
+    words: usize,
+    is_float: bool,
 }
 
 /// A declaration of `layout.wgsl`.
@@ -48,6 +54,8 @@ struct Declaration {
 
 enum Body {
     Struct(&'static [Member]),
+    /// A struct of whole rows of the list of records, with a function that reads it there.
+    Record(&'static [Member]),
     Constant(u32),
 }
 
@@ -56,7 +64,7 @@ const fn larger(a: usize, b: usize) -> usize {
 }
 
 macro_rules! structs {
-    ($list:ident; $(
+    ($list:ident, $body:ident; $(
         #[doc = $doc:literal]
         pub struct $name:ident {
             $(#[doc = $field_doc:literal] pub $field:ident: $type:ty,)*
@@ -91,10 +99,12 @@ macro_rules! structs {
         const $list: &[Declaration] = &[$(Declaration {
             doc: $doc,
             name: stringify!($name),
-            body: Body::Struct(&[$(Member {
+            body: Body::$body(&[$(Member {
                 doc: $field_doc,
                 name: stringify!($field),
                 wgsl_type: <$type as Shared>::NAME,
+                words: <$type as Shared>::SIZE / 4,
+                is_float: <$type as Shared>::IS_FLOAT,
             }),*]),
         }),*];
     };
@@ -129,39 +139,47 @@ constants! { CONSTANTS;
     pub const SHAPE_RECTANGLE = 2;
     /// Shape: a plane bounded to a disk.
     pub const SHAPE_DISK = 3;
-    /// Shape that no ray meets: surroundings of the same radiance from everywhere. Those that no ray meets are greater.
-    pub const SHAPE_EVERYWHERE = 16;
-    /// Shape that no ray meets: surroundings by 1 − |h|, with h the height of the direction.
-    pub const SHAPE_HORIZON = 17;
-    /// Shape that no ray meets: surroundings by the cosine with `normal`, where it is above 0.
-    pub const SHAPE_POLE = 18;
-    /// Shape that no ray meets: surroundings by a picture, its middle towards `normal`, its right half towards `tangent`.
-    pub const SHAPE_PICTURE = 19;
-    /// Shape that no ray meets: a disc in the sky about `normal`, with 1 − cos of its half angle for `radius`.
-    pub const SHAPE_DISC = 24;
-    /// Shape that no ray meets: light from the direction `normal` alone. Those of a single direction at each place are greater.
-    pub const SHAPE_DIRECTION = 25;
-    /// Shape that no ray meets: a point that shines to all sides. Those that lie at a place are greater.
-    pub const SHAPE_POINT = 26;
-    /// Shape that no ray meets: a point that shines about `normal`: fully up to the height 1 − cos `half_width`, not beyond `half_height`.
-    pub const SHAPE_SPOT = 27;
 
-    /// Surface: Lambertian.
-    pub const SURFACE_DIFFUSE = 0;
-    /// Surface: a smooth conductor, bare or coated.
-    pub const SURFACE_MIRROR = 1;
-    /// Surface: a rough conductor, bare or coated.
-    pub const SURFACE_ROUGH_CONDUCTOR = 2;
+    /// Emitter: a sphere.
+    pub const EMITTER_SPHERE = 0;
+    /// Emitter: a rectangle.
+    pub const EMITTER_RECTANGLE = 1;
+    /// Emitter: a disk.
+    pub const EMITTER_DISK = 2;
+    /// Emitter: surroundings of the same radiance from everywhere. Those of the surroundings are greater.
+    pub const EMITTER_EVERYWHERE = 16;
+    /// Emitter: surroundings by 1 − |h|, with h the height of the direction.
+    pub const EMITTER_HORIZON = 17;
+    /// Emitter: surroundings by the cosine with `axis`, where it is above 0.
+    pub const EMITTER_POLE = 18;
+    /// Emitter: surroundings by a picture, its middle towards `axis`, its right half towards `tangent`.
+    pub const EMITTER_PICTURE = 19;
+    /// Emitter: a disc in the sky about `axis`.
+    pub const EMITTER_DISC = 24;
+    /// Emitter: light from the direction `axis` alone. Those of a single direction at each place are greater.
+    pub const EMITTER_DIRECTION = 25;
+    /// Emitter: a point that shines to all sides. Those that lie at a place are greater.
+    pub const EMITTER_POINT = 26;
+    /// Emitter: a point that shines about `axis`.
+    pub const EMITTER_SPOT = 27;
+
+    /// Surface: nothing is reflected.
+    pub const SURFACE_BLACK = 0;
     /// Surface: a free film.
-    pub const SURFACE_FILM = 3;
-    /// Surface: Cook's model with the distribution D1.
-    pub const SURFACE_COOK_D1 = 4;
-    /// Surface: Cook's model with the distribution D2.
-    pub const SURFACE_COOK_D2 = 5;
-    /// Surface: a diffuse body below a smooth coat.
-    pub const SURFACE_COATED_BODY = 6;
-    /// Surface: a diffuse body below a rough coat.
-    pub const SURFACE_ROUGH_COATED_BODY = 7;
+    pub const SURFACE_FILM = 1;
+    /// Surface: Lambertian.
+    pub const SURFACE_DIFFUSE = 2;
+    /// Surface: a conductor, bare or coated, smooth or rough.
+    pub const SURFACE_INTERFACE = 3;
+    /// Surface: a diffuse body below a coat, smooth or rough.
+    pub const SURFACE_COATED = 4;
+    /// Surface: the model of Cook and Torrance.
+    pub const SURFACE_COOK = 5;
+
+    /// Distribution of Cook's facets: a Gaussian of their angle (D1).
+    pub const COOK_GAUSSIAN = 0;
+    /// Distribution of Cook's facets: Beckmann's (D2).
+    pub const COOK_BECKMANN = 1;
 
     /// Facets: Beckmann's distribution of slopes.
     pub const FACETS_BECKMANN = 0;
@@ -214,49 +232,37 @@ constants! { CONSTANTS;
     /// Numbers of a film's table of what it reflects, over the cosine.
     pub const REFLECTED_KNOTS = Estimate::KNOTS as u32;
 
-    /// Spectral factor of a path's vertex: 1.
+    /// A factor is a number (of a spectrum, a texel or a row), with its tag from this bit on.
+    pub const FACTOR_SHIFT = 28;
+    /// Factor of a path's vertex: 1.
     pub const FACTOR_ONE = 0;
-    /// Spectral factor: a reflectance from a table.
-    pub const FACTOR_REFLECTANCE = 1;
-    /// Spectral factor: Fresnel reflectance of a conductor.
-    pub const FACTOR_CONDUCTOR = 2;
-    /// Spectral factor: reflectance of layers on a conductor.
-    pub const FACTOR_COATED = 3;
-    /// Spectral factor: a smooth reflectance, by the number of a texel.
-    pub const FACTOR_SMOOTH = 4;
-    /// Spectral factor: reflectance of a film of one layer without absorption. Those of films are greater.
-    pub const FACTOR_FILM_REFLECTS = 5;
-    /// Spectral factor: transmittance of a film of one layer without absorption.
-    pub const FACTOR_FILM_TRANSMITS = 6;
-    /// Spectral factor: reflectance of a film of one layer of any index.
-    pub const FACTOR_LOSSY_FILM_REFLECTS = 7;
-    /// Spectral factor: transmittance of a film of one layer of any index.
-    pub const FACTOR_LOSSY_FILM_TRANSMITS = 8;
-    /// Spectral factor: reflectance of a film of several layers, seen from the first.
-    pub const FACTOR_STACK_REFLECTS = 9;
-    /// Spectral factor: reflectance of a film of several layers, seen from the last.
-    pub const FACTOR_STACK_REFLECTS_BACK = 10;
-    /// Spectral factor: transmittance of a film of several layers, the same from both sides.
-    pub const FACTOR_STACK_TRANSMITS = 11;
-    /// Spectral factor: reflectance of a film by two beams.
-    pub const FACTOR_TWO_BEAM_REFLECTS = 12;
-    /// Spectral factor: transmittance of a film without interference.
-    pub const FACTOR_TWO_BEAM_TRANSMITS = 13;
-
-
-    /// Film: one layer without absorption and with n ≥ 1 everywhere, for which the short formula holds.
-    pub const FILM_TRANSPARENT = 0;
-    /// Film: one layer of any index.
-    pub const FILM_LOSSY = 1;
-    /// Film: several layers.
-    pub const FILM_STACK = 2;
-    /// Film: one layer, by two beams.
-    pub const FILM_TWO_BEAM = 3;
-    /// Film: one layer, by two beams with the path difference that the paper prints.
-    pub const FILM_TWO_BEAM_AS_PRINTED = 4;
+    /// Factor: a diffuse reflectance, by the number of its spectrum.
+    pub const FACTOR_DIFFUSE = 1;
+    /// Factor: a diffuse reflectance, by the number of the texel that has its coefficients.
+    pub const FACTOR_TEXTURE = 2;
+    /// Factor: a bare conductor, by the number of its n.
+    pub const FACTOR_INTERFACE = 3;
+    /// Factor: layers on a conductor, by the row of the interface.
+    pub const FACTOR_COATING = 4;
+    /// Factor: a body below a coat, by the number of the coat's n.
+    pub const FACTOR_COATED = 5;
+    /// Factor: Cook's model, by the number of the facets' n.
+    pub const FACTOR_COOK = 6;
+    /// Factor: a film of one layer without absorption and with n ≥ 1, by the number of n. Those of films are greater.
+    pub const FACTOR_FILM = 7;
+    /// Factor: a film of one layer of any index, by the number of n.
+    pub const FACTOR_LOSSY_FILM = 8;
+    /// Factor: a film of one layer by two beams, by the number of n.
+    pub const FACTOR_TWO_BEAM = 9;
+    /// Factor: the same with the path difference that the paper prints.
+    pub const FACTOR_TWO_BEAM_AS_PRINTED = 10;
+    /// Factor: a film of several layers seen from the first, by the row of the film.
+    pub const FACTOR_STACK = 11;
+    /// Factor: a film of several layers seen from the last, by the row of the film.
+    pub const FACTOR_STACK_BACK = 12;
 }
 
-structs! { STRUCTS;
+structs! { STRUCTS, Struct;
     /// What holds for a whole render.
     pub struct Frame {
         /// Where the camera stands.
@@ -281,7 +287,7 @@ structs! { STRUCTS;
         pub steps: u32,
         /// 1 where each sample draws its wavelengths, 0 where they lie at the bands' centres.
         pub draws_wavelengths: u32,
-        /// First of the objects that are parts of the surroundings, discs in the sky among them.
+        /// First of the numbers of the emitters that are parts of the surroundings, discs in the sky among them.
         pub first_environment: u32,
         /// First of the observer's three spectra.
         pub observer: u32,
@@ -315,16 +321,16 @@ structs! { STRUCTS;
         pub padding: u32,
     }
 
-    /// A shape made of a material.
-    pub struct Object {
-        /// Centre of a sphere, rectangle or disk, a point of a plane.
+    /// What rays meet: a shape made of a material.
+    pub struct Shape {
+        /// Center of a sphere, rectangle or disk, a point of a plane.
         pub center: [f32; 3],
         /// Radius of a sphere or disk.
         pub radius: f32,
         /// Unit normal of a plane, rectangle or disk.
         pub normal: [f32; 3],
         /// A `SHAPE_` tag.
-        pub shape: u32,
+        pub kind: u32,
         /// First axis of a plane, rectangle or disk.
         pub tangent: [f32; 3],
         /// Half the width of a rectangle, along `tangent`; a disk's radius.
@@ -333,122 +339,48 @@ structs! { STRUCTS;
         pub bitangent: [f32; 3],
         /// Half the height of a rectangle, along `bitangent`; a disk's radius.
         pub half_height: f32,
-        /// Index of its material.
+        /// Number of its material.
         pub material: u32,
-        /// Whether light can be sent from it: 1 or 0.
-        pub is_light: u32,
-        /// The light that has this object's number is the object `light`; NONE past the last light.
-        pub light: u32,
-        /// How bright its light is to the eye; steers the choice among lights.
-        pub brightness: f32,
+        /// Number of the emitter that it is, or NONE.
+        pub emitter: u32,
+        /// Fills the size up to that of its alignment.
+        pub padding: [u32; 2],
     }
 
-    /// What a surface is made of.
-    pub struct Material {
-        /// Direction of a surface's grain, or of the axis that it runs around.
-        pub grain: [f32; 3],
-        /// A `GRAIN_` tag.
-        pub grain_kind: u32,
-        /// Width of the distribution of slopes along and across the grain.
-        pub alpha: [f32; 2],
-        /// A `FACETS_` tag.
-        pub facets: u32,
-        /// First number of the table of energy of its facets.
-        pub first_energy: u32,
-        /// A `SURFACE_` tag.
-        pub surface: u32,
-        /// Spectrum: reflectance (even squares of a checker), or n of an index, whose k is the next one.
-        pub spectrum: u32,
-        /// Spectrum: reflectance of the odd squares; the same as `spectrum` without a checker.
-        pub odd_spectrum: u32,
-        /// Side of a checker's squares.
-        pub checker_size: f32,
-        /// Mean of that table over all directions.
-        pub mean_energy: f32,
-        /// A `FILM_` tag, of a film.
-        pub film: u32,
-        /// Light that it emits.
-        pub emission: u32,
-        /// Factor of what it emits; 0 where it emits nothing.
-        pub emission_scale: f32,
-        /// First of its layers, the outermost.
-        pub first_layer: u32,
-        /// Number of its layers.
-        pub layer_count: u32,
-        /// 1 where it reflects nothing, so that a path ends.
-        pub is_black: u32,
-        /// Number of its layers whose thickness varies over the surface.
-        pub varying_layers: u32,
-        /// The head of the picture of its reflectance; NONE where that is no picture.
-        pub picture: u32,
-        /// Spectrum: n of the index above a diffuse base, whose k is the next one.
-        pub coat: u32,
-        /// The part of the light that a base reflects beside the facets of Cook's model.
-        pub base_share: f32,
-        /// Share of the paths that follow what the base reflects; of a coated body, what stands for its reflectance there.
-        pub base_chance: f32,
-        /// First of the numbers of the slopes of Cook's model: m, weight and part of each.
-        pub first_slope: u32,
-        /// Number of these slopes.
-        pub slope_count: u32,
-        /// Spectrum: reflectance of a coat for diffuse light from outside.
-        pub mean_reflectance: u32,
-        /// What stands for the index of a coat where a path chooses its way.
-        pub coat_estimate: f32,
-        /// Spectra: the reflectance of a rough coat for COAT_COSINES cosines.
-        pub coat_reflectances: u32,
-        /// First of a film's numbers that tell what it reflects.
-        pub first_reflected: u32,
-        /// About the part of the light that goes on from it.
-        pub albedo: f32,
-        /// First number of the table by which a brushed coat lets more through in some directions.
-        pub first_passage: u32,
-    }
-
-    /// A layer of a film or of a coating.
-    pub struct Layer {
-        /// Spectrum: n of its index, whose k is the next one.
-        pub spectrum: u32,
-        /// Thickness where it has no fields, nm.
-        pub thickness_nm: f32,
-        /// First of the fields that its thickness is made of.
-        pub first_field: u32,
-        /// Number of its fields; 0 where the thickness is the same everywhere.
-        pub field_count: u32,
-    }
-
-    /// A part of a thickness that varies.
-    pub struct Field {
-        /// The pole's direction, or where a line starts.
-        pub origin: [f32; 3],
-        /// A `FIELD_` tag.
+    /// What light is sampled from, or comes from where a path leaves the scene. Those that are sampled stand first.
+    pub struct Emitter {
+        /// Center of a sphere, rectangle or disk; where a point or spot stands.
+        pub position: [f32; 3],
+        /// An `EMITTER_` tag.
         pub kind: u32,
-        /// From start to end of a line, over the square of its length.
-        pub along: [f32; 3],
-        /// An `ALONG_` tag.
-        pub runs_along: u32,
-        /// Value at 0: at the pole, at the start, of black, the mean of swirls; thickness of the black film of a profile.
-        pub base: f32,
-        /// Added to it at 1: at the other pole, at the end, of white, the amplitude of swirls; the largest value of a profile.
-        pub swing: f32,
-        /// A profile is a black film below it; cells of swirls per unit.
-        pub threshold: f32,
-        /// Distance by which swirls are carried, in cells.
-        pub warp: f32,
-        /// Width and height of a picture on a plane; 0 for its natural size.
-        pub size: [f32; 2],
-        /// Time of swirls within its cell.
-        pub phase: f32,
-        /// Cells that the time of swirls has passed through.
-        pub cells: u32,
-        /// Chooses the pattern of swirls.
-        pub seed: u32,
-        /// First of the numbers that it looks up.
-        pub first_number: u32,
-        /// Steps, knots of a profile, pixels of a row; octaves of swirls.
-        pub sample_count: u32,
-        /// Rows of a picture.
-        pub rows: u32,
+        /// Unit vector: normal of a rectangle or disk, towards a pole, a disc, a direction or a picture's middle, where a spot shines to.
+        pub axis: [f32; 3],
+        /// Radius of a sphere or disk.
+        pub radius: f32,
+        /// First axis of a rectangle or disk; towards a picture's right half.
+        pub tangent: [f32; 3],
+        /// Half the width of a rectangle, along `tangent`; a disk's radius.
+        pub half_width: f32,
+        /// Second axis of a rectangle or disk.
+        pub bitangent: [f32; 3],
+        /// Half the height of a rectangle, along `bitangent`; a disk's radius.
+        pub half_height: f32,
+        /// Its light: spectrum and light group.
+        pub light: u32,
+        /// Factor of its light.
+        pub scale: f32,
+        /// How bright it is to the eye, which steers the choice among emitters; 0 where it is not sampled.
+        pub brightness: f32,
+        /// The object that it is, or NONE.
+        pub object: u32,
+        /// 1 − cos of the half angle of a disc in the sky.
+        pub cap_height: f32,
+        /// 1 − cos of the angle within which a spot shines fully.
+        pub full_height: f32,
+        /// 1 − cos of the angle beyond which it does not shine.
+        pub edge_height: f32,
+        /// The head of a picture of the surroundings, or NONE.
+        pub picture: u32,
     }
 
     /// What holds for one run over a part of a batch of stacks.
@@ -488,6 +420,186 @@ structs! { STRUCTS;
     }
 }
 
+/// What can stand in the list of records.
+pub trait Record: bytemuck::Pod {
+    /// Rows of four words that it takes.
+    const ROWS: u32 = (size_of::<Self>() / 16) as u32;
+}
+
+macro_rules! records {
+    ($($(#[doc = $doc:literal])* pub struct $name:ident $body:tt)*) => {
+        structs! { RECORDS, Record; $($(#[doc = $doc])* pub struct $name $body)* }
+        $(impl Record for $name {}
+        const _: () = assert!(size_of::<$name>().is_multiple_of(16), "a record takes whole rows");)*
+    };
+}
+
+records! {
+    /// What a surface is made of: those of all materials stand first among the records, in the materials' order.
+    pub struct Material {
+        /// A `SURFACE_` tag.
+        pub surface: u32,
+        /// The row of what that surface has: a [`Diffuse`], [`Interface`], [`Coated`], [`Cook`] or [`Film`].
+        pub record: u32,
+        /// The row of its facets; NONE where it is smooth.
+        pub facets: u32,
+        /// About the part of the light that goes on from it.
+        pub albedo: f32,
+        /// Light that it emits.
+        pub light: u32,
+        /// Factor of what it emits; 0 where it emits nothing.
+        pub light_scale: f32,
+        /// Fills the last row.
+        pub padding: [u32; 2],
+    }
+
+    /// A reflectance that may vary over a surface.
+    pub struct Diffuse {
+        /// Spectrum: the reflectance, of the even squares of a checker.
+        pub spectrum: u32,
+        /// Spectrum: the reflectance of the odd squares; the same as `spectrum` without a checker.
+        pub odd_spectrum: u32,
+        /// Side of a checker's squares.
+        pub checker_size: f32,
+        /// The head of the picture of the reflectance; NONE where that is no picture.
+        pub picture: u32,
+    }
+
+    /// The facets of a rough surface.
+    pub struct Facets {
+        /// Direction of the grain, or of the axis that it runs around.
+        pub grain: [f32; 3],
+        /// A `GRAIN_` tag.
+        pub grain_kind: u32,
+        /// Width of the distribution of slopes along and across the grain.
+        pub alpha: [f32; 2],
+        /// A `FACETS_` tag.
+        pub distribution: u32,
+        /// First number of the table of their directional albedo.
+        pub first_energy: u32,
+        /// Mean of that table over all directions.
+        pub mean_energy: f32,
+        /// First number of the table by which a brushed coat lets more through in some directions.
+        pub first_passage: u32,
+        /// Fills the last row.
+        pub padding: [u32; 2],
+    }
+
+    /// The boundary of a conductor, bare or below layers.
+    pub struct Interface {
+        /// Spectrum: n of the conductor, whose k is the next one.
+        pub spectrum: u32,
+        /// The row of its first layer, the outermost.
+        pub first_layer: u32,
+        /// Number of its layers.
+        pub layer_count: u32,
+        /// Number of those whose thickness varies over the surface.
+        pub varying_layers: u32,
+    }
+
+    /// A diffuse body below a clear coat.
+    pub struct Coated {
+        /// The row of the body's reflectance.
+        pub base: u32,
+        /// Spectrum: n of the coat, whose k is the next one.
+        pub spectrum: u32,
+        /// Spectrum: reflectance of the coat for diffuse light from outside.
+        pub mean_reflectance: u32,
+        /// Spectra: the reflectance of a rough coat for COAT_COSINES cosines.
+        pub coat_reflectances: u32,
+        /// What stands for the coat's index where a path chooses its way.
+        pub coat_estimate: f32,
+        /// What stands for the body's reflectance there.
+        pub base_estimate: f32,
+        /// Fills the last row.
+        pub padding: [u32; 2],
+    }
+
+    /// A surface by the model of Cook and Torrance.
+    pub struct Cook {
+        /// Spectrum: n of the facets, whose k is the next one.
+        pub spectrum: u32,
+        /// A `COOK_` tag.
+        pub distribution: u32,
+        /// First of the numbers of the slopes: m, weight and part of each.
+        pub first_slope: u32,
+        /// Number of slopes.
+        pub slope_count: u32,
+        /// Spectrum: what is reflected evenly.
+        pub base: u32,
+        /// The part of the light that is reflected so.
+        pub base_share: f32,
+        /// Probability with which a path is scattered so.
+        pub base_probability: f32,
+        /// Fills the last row.
+        pub padding: u32,
+    }
+
+    /// A free film.
+    pub struct Film {
+        /// The `FACTOR_` tag of what it does to light from the front.
+        pub factor: u32,
+        /// The row of its first layer, the outermost.
+        pub first_layer: u32,
+        /// Number of its layers.
+        pub layer_count: u32,
+        /// Number of those whose thickness varies over the surface.
+        pub varying_layers: u32,
+        /// First of the numbers that tell about what it reflects.
+        pub first_reflected: u32,
+        /// Fills the last row.
+        pub padding_1: u32,
+        /// Fills the last row.
+        pub padding_2: [u32; 2],
+    }
+
+    /// A layer of a film or of a coating.
+    pub struct Layer {
+        /// Spectrum: n of its index, whose k is the next one.
+        pub spectrum: u32,
+        /// Thickness where it has no fields, nm.
+        pub thickness_nm: f32,
+        /// The row of the first of the fields that its thickness is made of.
+        pub first_field: u32,
+        /// Number of its fields; 0 where the thickness is the same everywhere.
+        pub field_count: u32,
+    }
+
+    /// A part of a thickness that varies.
+    pub struct Field {
+        /// The pole's direction, or where a line starts.
+        pub origin: [f32; 3],
+        /// A `FIELD_` tag.
+        pub kind: u32,
+        /// From start to end of a line, over the square of its length.
+        pub along: [f32; 3],
+        /// An `ALONG_` tag.
+        pub runs_along: u32,
+        /// Value at 0: at the pole, at the start, of black, the mean of swirls; thickness of the black film of a profile.
+        pub base: f32,
+        /// Added to it at 1: at the other pole, at the end, of white, the amplitude of swirls; the largest value of a profile.
+        pub swing: f32,
+        /// A profile is a black film below it; cells of swirls per unit.
+        pub threshold: f32,
+        /// Distance by which swirls are carried, in cells.
+        pub warp: f32,
+        /// Width and height of a picture on a plane; 0 for its natural size.
+        pub size: [f32; 2],
+        /// Time of swirls within its cell.
+        pub phase: f32,
+        /// Cells that the time of swirls has passed through.
+        pub cells: u32,
+        /// Chooses the pattern of swirls.
+        pub seed: u32,
+        /// First of the numbers that it looks up.
+        pub first_number: u32,
+        /// Steps, knots of a profile, pixels of a row; octaves of swirls.
+        pub sample_count: u32,
+        /// Rows of a picture.
+        pub rows: u32,
+    }
+}
+
 /// The text of `shaders/layout.wgsl`.
 pub fn wgsl() -> String {
     let mut text = String::from(
@@ -495,22 +607,74 @@ pub fn wgsl() -> String {
          //     PELLICLE_BLESS=1 cargo test -p pellicle-tests --test layout\n",
     );
     for declaration in CONSTANTS.iter().chain(STRUCTS) {
-        text.push_str(&format!("\n///{}\n", declaration.doc));
-        match declaration.body {
-            Body::Constant(value) => {
-                text.push_str(&format!("const {}: u32 = {value}u;\n", declaration.name));
-            }
-            Body::Struct(fields) => {
-                text.push_str(&format!("struct {} {{\n", declaration.name));
-                for field in fields {
-                    text.push_str(&format!(
-                        "    ///{}\n    {}: {},\n",
-                        field.doc, field.name, field.wgsl_type
-                    ));
-                }
-                text.push_str("}\n");
-            }
+        text += &declare(declaration);
+    }
+    text
+}
+
+/// The text of `shaders/records.wgsl`.
+pub fn records_wgsl() -> String {
+    let mut text = String::from(
+        "// The records of a scene, and how they are read. Generated from crates/gpu/src/layout.rs: edit there, then run\n\
+         //     PELLICLE_BLESS=1 cargo test -p pellicle-tests --test layout\n",
+    );
+    for record in RECORDS {
+        text += &declare(record);
+    }
+    text + "\n/// A material by its number: those of all materials come first.\n\
+            fn material_at(material: u32) -> Material {\n    return load_material(material * MATERIAL_ROWS);\n}\n"
+}
+
+fn declare(declaration: &Declaration) -> String {
+    let (name, doc) = (declaration.name, declaration.doc.replace(['[', ']'], ""));
+    let mut text = format!("\n///{doc}\n");
+    match declaration.body {
+        Body::Constant(value) => text += &format!("const {name}: u32 = {value}u;\n"),
+        Body::Struct(members) => text += &declare_struct(name, members),
+        Body::Record(members) => {
+            text += &declare_struct(name, members);
+            text += &declare_loader(name, members);
         }
     }
     text
+}
+
+fn declare_struct(name: &str, members: &[Member]) -> String {
+    let mut text = format!("struct {name} {{\n");
+    for member in members {
+        let doc = member.doc.replace(['[', ']'], "");
+        text += &format!("    ///{doc}\n    {}: {},\n", member.name, member.wgsl_type);
+    }
+    text + "}\n"
+}
+
+/// A function that reads a record, word by word of its rows.
+fn declare_loader(name: &str, members: &[Member]) -> String {
+    let mut next = 0;
+    let values = members.iter().map(|member| {
+        let words = (next..next + member.words).map(|word| {
+            let word = format!("row_{}.{}", word / 4, ["x", "y", "z", "w"][word % 4]);
+            if member.is_float {
+                format!("bitcast<f32>({word})")
+            } else {
+                word
+            }
+        });
+        let words: Vec<_> = words.collect();
+        next += member.words;
+        match member.words {
+            1 => words.concat(),
+            _ => format!("{}({})", member.wgsl_type, words.join(", ")),
+        }
+    });
+    let values = values.collect::<Vec<_>>().join(",\n        ");
+    let rows: String = (0..next / 4)
+        .map(|row| format!("    let row_{row} = records[row + {row}u];\n"))
+        .collect();
+    format!(
+        "const {}_ROWS: u32 = {}u;\nfn load_{}(row: u32) -> {name} {{\n{rows}    return {name}(\n        {values},\n    );\n}}\n",
+        name.to_uppercase(),
+        next / 4,
+        name.to_lowercase(),
+    )
 }

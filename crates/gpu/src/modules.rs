@@ -35,6 +35,7 @@ pub const LIMITS: &str = "limits";
 /// All modules, from those that need nothing to the renderer.
 pub const MODULES: &[Module] = modules! {
     "layout": [];
+    "records": ["bindings"];
     "trig": [];
     "random": [];
     "sobol": ["random"];
@@ -48,10 +49,7 @@ pub const MODULES: &[Module] = modules! {
     "stack": ["complex", "phase", "trig"];
     "microfacet": ["trig"];
     "gaussian": ["microfacet", "trig"];
-    "cook": ["bindings", "gaussian", "layout", "microfacet", "numbers", "trig"];
-    "coat": ["bindings", "fresnel", "layout", "spectrum"];
     "microsurface": ["features", "layout", "trig"];
-    "energy": ["bindings", "features", "layout", "numbers"];
     "bindings": ["layout"];
     "features": [];
     "numbers": ["bindings", "layout"];
@@ -59,33 +57,56 @@ pub const MODULES: &[Module] = modules! {
     "spectrum": ["bindings", "features"];
     "lifting": ["bindings", "spectrum"];
     "camera": ["bindings", "features", "layout", "numbers", "trig"];
-    "noise": ["bindings", "features", "layout", "random"];
+    "noise": ["bindings", "features", "layout", "random", "records"];
     "picture": ["bindings", "features", "layout", "texels", "trig"];
-    "thickness": ["bindings", "features", "layout", "noise", "numbers", "picture", "trig"];
-    "surface": ["bindings", "camera", "features", "layout", "sampling"];
+    "thickness": ["bindings", "features", "layout", "noise", "numbers", "picture", "records", "trig"];
+    "surface": ["bindings", "camera", "features", "layout", "records", "sampling"];
     "hit": ["bindings", "camera", "features", "intersect", "layout"];
     "environment_picture": ["bindings", "numbers", "picture", "texels", "trig"];
-    "environment": ["bindings", "environment_picture", "features", "layout", "sampling", "trig"];
+    "environment": ["bindings", "environment_picture", "features", "layout", "numbers", "sampling", "trig"];
     "light": ["bindings", "environment", "features", "layout", "sampling", "trig"];
     "light_choice": ["bindings", "environment_picture", "features", "layout", "light", "sampling", "trig"];
-    "record": ["layout", "limits"];
-    "walk": ["bindings", "camera", "features", "random", "sobol", "surface"];
-    "factor": ["bindings", "features", "layout", "picture", "record", "surface", "texels", "thickness"];
-    "connect": ["bindings", "camera", "environment_picture", "factor", "features", "hit", "layout", "light", "light_choice", "record", "scatter", "surface", "walk"];
-    "scatter": [
-        "bindings", "coat", "cook", "energy", "factor", "features", "layout", "microsurface", "record", "sampling", "trig"
+    "record": ["features", "layout", "limits"];
+    "path_state": ["bindings", "camera", "features", "random", "sobol", "surface"];
+    "layers": [
+        "bindings", "bsdf/lobes", "features", "film", "layout", "limits", "record", "records", "spectrum", "stack", "surface",
+        "thickness", "two_beam"
     ];
-    "split": ["bindings", "layout", "limits", "numbers", "record", "walk"];
+    "bsdf/lobes": ["spectrum"];
+    "bsdf/facets": ["bsdf/lobes", "features", "layout", "microsurface", "numbers", "records", "sampling", "trig"];
+    "bsdf/diffuse": [
+        "bindings", "bsdf/lobes", "features", "layout", "lifting", "picture", "record", "records", "sampling", "texels", "trig"
+    ];
+    "bsdf/interface": [
+        "bindings", "bsdf/facets", "bsdf/lobes", "features", "fresnel", "layers", "layout", "limits", "record", "records", "spectrum",
+        "stack", "surface"
+    ];
+    "bsdf/coated": [
+        "bindings", "bsdf/diffuse", "bsdf/facets", "bsdf/interface", "bsdf/lobes", "features", "fresnel", "layout", "record", "records",
+        "sampling", "spectrum", "surface", "trig"
+    ];
+    "bsdf/cook": [
+        "bsdf/lobes", "features", "fresnel", "gaussian", "layout", "microfacet", "numbers", "record", "records", "sampling", "spectrum",
+        "trig"
+    ];
+    "bsdf/bsdf": [
+        "bindings", "bsdf/coated", "bsdf/cook", "bsdf/diffuse", "bsdf/interface", "bsdf/lobes", "features", "layout", "record",
+        "records", "surface"
+    ];
+    "emitter_sampling": [
+        "bindings", "bsdf/lobes", "camera", "environment_picture", "features", "hit", "layers", "layout", "light", "light_choice",
+        "path_state", "record", "records", "surface"
+    ];
+    "split": ["features", "layout", "limits", "numbers", "path_state", "record", "records"];
     "path": [
-        "bindings", "camera", "coat", "connect", "environment", "environment_picture", "factor", "features", "hit", "layout", "light",
-        "light_choice", "record", "scatter", "spectrum", "split", "surface", "walk"
+        "bindings", "bsdf/bsdf", "bsdf/lobes", "camera", "emitter_sampling", "environment", "environment_picture", "features", "hit",
+        "layers", "layout", "limits", "path_state", "record", "records", "spectrum", "split", "surface"
     ];
     "evaluate": [
-        "bindings", "coat", "features", "film", "fresnel", "layout", "lifting", "limits", "record", "spectrum", "stack", "texels", "thickness",
-        "two_beam"
+        "bindings", "bsdf/bsdf", "bsdf/lobes", "features", "layers", "layout", "lifting", "limits", "record", "spectrum", "texels"
     ];
     "stack_batch": ["complex", "layout", "stack"];
-    "render": ["bindings", "evaluate", "features", "layout", "limits", "path", "spectrum", "walk"];
+    "render": ["bindings", "evaluate", "features", "layout", "limits", "path", "path_state", "spectrum"];
 };
 
 /// How long a path's record may become, and how many kinds of light it brings.
@@ -116,8 +137,13 @@ impl RecordLimits {
     fn wgsl(self) -> String {
         format!(
             "const MAX_VERTICES: u32 = {}u;\nconst MAX_CROSSINGS: u32 = {}u;\nconst MAX_THICKNESSES: u32 = {}u;\n\
-             const LIGHT_GROUPS: u32 = {}u;\nconst MAX_SPLITS: u32 = {}u;\n",
-            self.vertices, self.crossings, self.thicknesses, self.light_groups, self.splits
+             const LIGHT_GROUPS: u32 = {}u;\nconst MAX_SPLITS: u32 = {}u;\nconst RECORDS_THICKNESSES: bool = {};\n",
+            self.vertices,
+            self.crossings,
+            self.thicknesses,
+            self.light_groups,
+            self.splits,
+            self.thicknesses > 1
         )
     }
 }

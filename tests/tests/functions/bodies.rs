@@ -1,4 +1,4 @@
-//! gaussian.wgsl, cook.wgsl and coat.wgsl.
+//! gaussian.wgsl, and Cook's model and coats of bsdf/.
 
 use crate::world::{World, direction, pick, rows};
 use crate::{Check, pure, table};
@@ -112,14 +112,14 @@ fn between_directions() -> Check {
     let materials = materials();
     Check {
         probe: world().probe(
-            &["cook"],
+            &["bsdf/cook"],
             (4, 3),
-            "let eye = vec3f(sqrt(1.0 - a(1u) * a(1u)), 0.0, a(1u));
-             let light = direction_at(2u);
-             let f = cook_facets(u32(a(0u)), eye, light);
+            "let wo = vec3f(sqrt(1.0 - a(1u) * a(1u)), 0.0, a(1u));
+             let wi = direction_at(2u);
+             let f = cook_facets(u32(a(0u)), wo, wi);
              put(0u, f.reflection); put(1u, f.pdf); put(2u, f.cosine);",
         ),
-        proves: &["cook_facets"],
+        proves: &["cook_facets", "cook_of"],
         inputs: rows(4, |u| {
             let cosine = |u: f64| if u < 0.02 { -u } else { 0.03 + 0.97 * u };
             let material = pick(&materials, u[0]) as f64;
@@ -134,7 +134,7 @@ fn facets() -> Check {
     let materials = materials();
     Check {
         probe: world().probe(
-            &["cook"],
+            &["bsdf/cook"],
             (4, 3),
             "put3(0u, sample_cook_facet(u32(a(0u)), a(1u), a(2u), a(3u)));",
         ),
@@ -177,11 +177,11 @@ fn rough_coats() -> Check {
     );
     Check {
         probe: world().probe(
-            &["coat"],
+            &["bsdf/coated"],
             (4, 1),
-            "put(0u, rough_coat_passes(u32(a(0u)), a(1u), 1u, wavelengths_at(a(3u)))[u32(a(2u))]);",
+            "put(0u, rough_coat_passes(coated_of(u32(a(0u))).coat_reflectances, a(1u), 1u, wavelengths_at(a(3u)))[u32(a(2u))]);",
         ),
-        proves: &["rough_coat_passes"],
+        proves: &["coated_of", "rough_coat_passes"],
         inputs: rows(4, |u| {
             let lane = (4.0 * u[2]).floor();
             Some(vec![pick(&bodies, u[0]) as f64, u[1], lane, u[3]])
@@ -198,9 +198,9 @@ fn passages() -> Check {
     );
     Check {
         probe: world().probe(
-            &["energy", "trig"],
+            &["bsdf/coated", "records", "trig"],
             (3, 1),
-            "put(0u, coat_passage(u32(a(0u)), direction_at(1u)));",
+            "put(0u, coat_passage(load_facets(material_at(u32(a(0u))).facets), direction_at(1u)));",
         ),
         proves: &["coat_passage", "over_facets"],
         inputs: rows(3, |u| {
@@ -218,7 +218,11 @@ fn coats() -> [Check; 3] {
     let bodies: Vec<usize> = indices_of(|material| matches!(material, Material::CoatedBody(_)));
     [
         Check {
-            probe: world().probe(&["coat"], (2, 1), "put(0u, coat_share(u32(a(0u)), a(1u)));"),
+            probe: world().probe(
+                &["bsdf/coated"],
+                (2, 1),
+                "put(0u, coat_share(u32(a(0u)), a(1u)));",
+            ),
             proves: &["coat_share"],
             inputs: rows(2, |u| Some(vec![pick(&bodies, u[0]) as f64, u[1]])),
             twin: |a| match &world().scene.materials()[a[0] as usize] {
@@ -229,7 +233,7 @@ fn coats() -> [Check; 3] {
         },
         Check {
             probe: pure(
-                &["coat"],
+                &["bsdf/coated"],
                 (2, 1),
                 "put(0u, coat_passes(vec4f(a(0u)), a(1u)).x);",
             ),
@@ -243,7 +247,7 @@ fn coats() -> [Check; 3] {
         },
         Check {
             probe: pure(
-                &["coat"],
+                &["bsdf/coated"],
                 (3, 1),
                 "put(0u, coated_albedo_factor(vec4f(a(0u)), vec4f(a(1u)), vec4f(a(2u))).x);",
             ),

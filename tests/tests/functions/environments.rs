@@ -39,9 +39,7 @@ pub(crate) fn checks() -> Vec<Check> {
 type Twin = fn(&[f64]) -> Vec<f64>;
 
 fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
-    let parts: Vec<usize> = (0..world.scene.surroundings().len())
-        .map(|part| world.packed.frame.first_environment as usize + part)
-        .collect();
+    let parts: Vec<usize> = (0..world.scene.surroundings().len()).collect();
     let others = parts.clone();
     // The density of a picture jumps from cell to cell.
     let is_picture = matches!(
@@ -70,7 +68,7 @@ fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
             probe: world.probe(
                 &["environment"],
                 (3, 3),
-                "put3(0u, sample_environment(u32(a(0u)), vec2f(a(1u), a(2u))));",
+                "put3(0u, sample_environment(environment_part(u32(a(0u))), vec2f(a(1u), a(2u))));",
             ),
             proves: if is_picture { OF_PICTURES } else { &["sample_environment"] },
             inputs: numbers,
@@ -81,12 +79,12 @@ fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
             probe: world.probe(
                 &["environment"],
                 (4, 2),
-                "put(0u, environment_pdf(u32(a(0u)), a3(1u))); put(1u, environment_share(u32(a(0u)), a3(1u)));",
+                "let e = environment_part(u32(a(0u))); put(0u, environment_pdf(e, a3(1u))); put(1u, environment_share(e, a3(1u)));",
             ),
             proves: if is_picture {
                 &["environment_picture_pdf", "environment_place"]
             } else {
-                &["environment_pdf", "environment_share"]
+                &["environment_part", "environment_pdf", "environment_share"]
             },
             inputs: directions,
             twin: density,
@@ -103,9 +101,8 @@ const OF_PICTURES: &[&str] = &[
     "sample_environment_picture",
 ];
 
-fn part_of(world: &World, object: f64) -> EnvironmentShape<'_> {
-    let part = object as usize - world.packed.frame.first_environment as usize;
-    world.scene.surroundings()[part].shape
+fn part_of(world: &World, part: f64) -> EnvironmentShape<'_> {
+    world.scene.surroundings()[part as usize].shape
 }
 
 fn sampled(world: &World, a: &[f64]) -> Vec<f64> {

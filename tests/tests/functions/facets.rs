@@ -1,4 +1,4 @@
-//! microsurface.wgsl, energy.wgsl, and the facets of scatter.wgsl.
+//! microsurface.wgsl, and the facets of bsdf/.
 
 use crate::world::{
     center_of, direction, everything, objects_where, pick, point_on, rounded, rows, vector,
@@ -322,10 +322,10 @@ fn of_materials() -> Vec<Check> {
     vec![
         Check {
             probe: world.probe(
-                &["energy", "trig"],
+                &["bsdf/facets", "bindings", "records", "trig"],
                 (8, 1),
                 "let eye = direction_at(1u);
-                 put(0u, facet_albedo(objects[u32(a(0u))].material, eye));",
+                 put(0u, facet_albedo(load_facets(material_at(shapes[u32(a(0u))].material).facets), eye));",
             ),
             proves: &["facet_albedo"],
             inputs: rough_rows(),
@@ -338,14 +338,14 @@ fn of_materials() -> Vec<Check> {
         },
         Check {
             probe: world.probe(
-                &["scatter", "trig"],
+                &["bsdf/facets", "bindings", "records", "trig"],
                 (8, 4),
                 "let eye = direction_at(1u);
                  let light = direction_at(3u);
-                 let s = facet_scattering(objects[u32(a(0u))].material, eye, light);
+                 let s = facets_eval(load_facets(material_at(shapes[u32(a(0u))].material).facets), eye, light);
                  put(0u, s.lobes.single); put(1u, s.lobes.multiple); put(2u, s.lobes.cosine); put(3u, s.pdf);",
             ),
-            proves: &["facet_scattering", "microsurface_of"],
+            proves: &["facets_eval", "load_facets", "load_material", "material_at", "microsurface_of"],
             inputs: rough_rows(),
             twin: |a| {
                 let (eye, light) = (direction(a[1], a[2]), direction(a[3], a[4]));
@@ -356,13 +356,13 @@ fn of_materials() -> Vec<Check> {
         },
         Check {
             probe: world.probe(
-                &["scatter", "trig"],
+                &["bsdf/facets", "bindings", "records", "trig"],
                 (8, 3),
                 "let eye = direction_at(1u);
                  let random = vec4f(a(5u), a(6u), a(7u), 0.0);
-                 put3(0u, sample_facet_scattering(objects[u32(a(0u))].material, eye, random));",
+                 put3(0u, facets_sample(load_facets(material_at(shapes[u32(a(0u))].material).facets), eye, random));",
             ),
-            proves: &["sample_facet_scattering"],
+            proves: &["facets_sample"],
             inputs: rough_rows(),
             twin: |a| {
                 let eye = direction(a[1], a[2]);

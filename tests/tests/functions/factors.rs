@@ -1,4 +1,4 @@
-//! factor.wgsl and the factors of evaluate.wgsl: what surfaces and films make of light.
+//! What surfaces and films make of light: bsdf/diffuse.wgsl, bsdf/interface.wgsl and layers.wgsl.
 
 use crate::Check;
 use crate::world::{
@@ -59,13 +59,19 @@ fn diffuse_factor() -> Check {
     });
     Check {
         probe: world.probe(
-            &["factor"],
+            &["bsdf/diffuse"],
             (5, 1),
-            "let factor = diffuse_factor(u32(a(0u)), a3(1u), a(4u)); put(0u, f32(1000u * factor.kind + factor.spectrum));",
+            "let o = u32(a(0u));
+             let f = diffuse_factor(material_at(shapes[o].material).record, o, a3(1u), a(4u));
+             put(0u, f32(1000u * factor_tag(f) + factor_number(f)));",
         ),
         proves: &[
             "chosen_pixel",
             "diffuse_factor",
+            "factor_number",
+            "factor_of",
+            "factor_tag",
+            "load_diffuse",
             "picture_place",
             "reflectance_spectrum",
             "texel_at",
@@ -87,41 +93,52 @@ fn factor_of_pattern(a: &[f64]) -> Vec<f64> {
         Reflectance::Spectrum(spectrum) => vec![1000.0 + spectrum.index() as f64],
         Reflectance::Smooth(coefficients) => {
             let material = world.scene.objects()[object].material.index();
-            let first = world.packed.materials[material].picture as usize + 1;
+            let record = world.packed.material(material).record;
+            let diffuse: gpu::layout::Diffuse = world.packed.record(record);
+            let first = diffuse.picture as usize + 1;
             let is_it = |texel: &[f32; 4]| (0..3).all(|i| f64::from(texel[i]) == coefficients[i]);
             let texels = &world.packed.texels[first..];
             let place = texels.iter().position(is_it).expect("one of its own");
-            vec![(4_000 + first + place) as f64]
+            vec![(2_000 + first + place) as f64]
         }
     }
 }
 
-const OF_SURFACE: &str = "put4(0u, surface_value(Factor(u32(a(0u)), u32(a(1u)), a(2u), a(3u), 0u), u32(a(4u)), wavelengths_at(a(5u))));";
-const OF_FILM: &str = "put4(0u, film_value(Factor(u32(a(0u)), u32(a(1u)), a(2u), a(3u), 0u), u32(a(4u)), wavelengths_at(a(5u))));";
+/// Of a vertex of weight 1, at its two cosines.
+const OF_SURFACE: &str = "
+    let f = factor_of(u32(a(0u)), u32(a(1u)));
+    let at = Place(0u, u32(a(4u)), wavelengths_at(a(5u)));
+    begin_record();
+    let v = Vertex(f, 1.0, a(2u), 0.0, 0u, 1.0, a(3u) / 2000.0, 0u, 0u);
+    let found = bsdf_spectrum(at, v, number_spectrum(f, at));
+    put4(0u, found.onward); put4(4u, found.lit);";
+const OF_FILM: &str = "
+    let f = factor_of(u32(a(0u)), u32(a(1u)));
+    let at = Place(0u, u32(a(4u)), wavelengths_at(a(5u)));
+    let found = film_spectrum(FilmAt(f, a(2u), a(3u), 0u), number_spectrum(f, at), at);
+    put4(0u, found.reflectance); put4(4u, found.transmittance);";
 
 fn factor_twin(a: &[f64]) -> Vec<f64> {
-    use gpu::layout::{
-        FACTOR_CONDUCTOR, FACTOR_FILM_REFLECTS, FACTOR_LOSSY_FILM_REFLECTS, FACTOR_REFLECTANCE,
-    };
+    use gpu::layout::{FACTOR_DIFFUSE, FACTOR_INTERFACE};
     let (kind, spectrum) = (a[0] as u32, a[1] as usize);
-    let value = |band| {
+    let index = |band| {
         let n = value_of(spectrum, band, a[5]);
-        if kind == FACTOR_REFLECTANCE {
-            return n;
+        Complex64::new(n, value_of(spectrum + 1, band, a[5]))
+    };
+    let values = |band| match kind {
+        FACTOR_DIFFUSE => [value_of(spectrum, band, a[5]); 2],
+        FACTOR_INTERFACE => {
+            [a[2], a[3] / 2000.0].map(|cosine| optics::reflectance_unpolarised(index(band), cosine))
         }
-        let index = Complex64::new(n, value_of(spectrum + 1, band, a[5]));
-        if kind == FACTOR_CONDUCTOR {
-            return optics::reflectance_unpolarised(index, a[2]);
-        }
-        let grid = &everything().scene.settings().bands;
-        let film = optics::film(index, a[3], grid.wavelength_nm(band, a[5]), a[2]);
-        if kind == FACTOR_FILM_REFLECTS || kind == FACTOR_LOSSY_FILM_REFLECTS {
-            film.reflectance.unpolarised()
-        } else {
-            film.transmittance.unpolarised()
+        _ => {
+            let grid = &everything().scene.settings().bands;
+            let film = optics::film(index(band), a[3], grid.wavelength_nm(band, a[5]), a[2]);
+            [film.reflectance, film.transmittance].map(|power| power.unpolarised())
         }
     };
-    bands_of(a[4]).map(value).to_vec()
+    let both = bands_of(a[4]).map(values);
+    let of = |which: usize| both.map(|values| values[which]);
+    [of(0), of(1)].concat()
 }
 
 /// Rows of a factor, a group and an offset: each of the kinds with each of its spectra.
@@ -134,7 +151,7 @@ fn factor_rows(choices: &[(u32, usize)]) -> Vec<f32> {
             f64::from(kind),
             spectrum as f64,
             cosine,
-            2000.0 * u[2],
+            70.0 + 1930.0 * u[2],
             group,
             u[4],
         ])
@@ -142,30 +159,25 @@ fn factor_rows(choices: &[(u32, usize)]) -> Vec<f32> {
 }
 
 fn factors() -> Vec<Check> {
-    use gpu::layout::{
-        FACTOR_CONDUCTOR, FACTOR_FILM_REFLECTS, FACTOR_FILM_TRANSMITS, FACTOR_LOSSY_FILM_REFLECTS,
-        FACTOR_LOSSY_FILM_TRANSMITS, FACTOR_REFLECTANCE,
-    };
+    use gpu::layout::{FACTOR_DIFFUSE, FACTOR_FILM, FACTOR_INTERFACE, FACTOR_LOSSY_FILM};
     let world = everything();
     let (mut surfaces, mut films) = (Vec::new(), Vec::new());
     for material in world.scene.materials() {
         match *material {
-            Material::Conductor { n, .. } => surfaces.push((FACTOR_CONDUCTOR, n.index())),
+            Material::Conductor { n, .. } => surfaces.push((FACTOR_INTERFACE, n.index())),
             Material::Diffuse {
                 reflectance:
                     scene::Pattern::Uniform(spectrum) | scene::Pattern::Checker { even: spectrum, .. },
-            } => surfaces.push((FACTOR_REFLECTANCE, spectrum.index())),
+            } => surfaces.push((FACTOR_DIFFUSE, spectrum.index())),
             Material::Film { ref layers, .. } => {
                 let (n, k) = (layers[0].n, layers[0].k);
                 let spectrum = n.index();
                 let is_clear = world.scene.spectrum(n).extent().0 >= 1.0
                     && world.scene.spectrum(k).extent().1 <= 0.0;
                 if is_clear {
-                    films.push((FACTOR_FILM_REFLECTS, spectrum));
-                    films.push((FACTOR_FILM_TRANSMITS, spectrum));
+                    films.push((FACTOR_FILM, spectrum));
                 }
-                films.push((FACTOR_LOSSY_FILM_REFLECTS, spectrum));
-                films.push((FACTOR_LOSSY_FILM_TRANSMITS, spectrum));
+                films.push((FACTOR_LOSSY_FILM, spectrum));
             }
             Material::Emitter { .. }
             | Material::Cook(_)
@@ -176,15 +188,27 @@ fn factors() -> Vec<Check> {
         }
     }
     let check = |proves, body, choices: &[(u32, usize)], tolerance| Check {
-        probe: world.probe(&["evaluate"], (6, 4), body),
+        probe: world.probe(&["evaluate", "bsdf/bsdf", "record"], (6, 8), body),
         proves,
         inputs: factor_rows(choices),
         twin: factor_twin,
         tolerance,
     };
     vec![
-        check(&["surface_value"], OF_SURFACE, &surfaces, FRESNEL),
-        check(&["film_value"], OF_FILM, &films, FILM),
+        check(
+            &[
+                "bsdf_spectrum",
+                "conductor_spectrum",
+                "diffuse_spectrum",
+                "interface_spectrum",
+                "number_spectrum",
+                "reflectance_value",
+            ],
+            OF_SURFACE,
+            &surfaces,
+            FRESNEL,
+        ),
+        check(&["film_spectrum"], OF_FILM, &films, FILM),
     ]
 }
 
@@ -202,7 +226,7 @@ fn every_factor_occurs() {
         .flat_map(|check| first_numbers(check, <[f64]>::to_vec))
         .collect();
     // Factors of several layers read what a path has put on record, and are proved there.
-    assert_eq!(kinds, [1, 2, 5, 6, 7, 8].into());
+    assert_eq!(kinds, [1, 3, 7, 8].into());
 }
 
 /// The comparison can fail: a checker with its colours changed over.

@@ -2,7 +2,6 @@
 
 use crate::world::{everything, pictured, rounded, rows, unit, vector};
 use crate::{Check, pure, table};
-use gpu::layout::NONE;
 use pellicle_tests::tolerances::{ARITHMETIC, LIGHT_ESTIMATE};
 use reference::{Emitter, PreparedScene, choose_emitter, mis_weight_bsdf, mis_weight_emitter};
 use scene::LightSource;
@@ -17,7 +16,7 @@ fn emitter_of(number: f64) -> Emitter<'static> {
     Emitter::of(&everything().scene, sources()[number as usize].kind)
 }
 
-/// Number of a source (a shader asks `objects[number].light`), a point and a unit vector.
+/// Number of a source, which is that of its emitter in a shader, a point and a unit vector.
 fn places() -> Vec<f32> {
     let count = sources().len() as f64;
     rows(6, |u| {
@@ -35,7 +34,7 @@ pub(crate) fn checks() -> Vec<Check> {
             probe: world.probe(
                 &["light"],
                 (7, 1),
-                "put(0u, light_share(objects[u32(a(0u))].light, a3(1u), a3(4u)));",
+                "put(0u, light_share(u32(a(0u)), a3(1u), a3(4u)));",
             ),
             proves: &["light_share", "spot_share", "is_surrounding", "is_single_direction"],
             inputs: places(),
@@ -46,7 +45,7 @@ pub(crate) fn checks() -> Vec<Check> {
             probe: world.probe(
                 &["light_choice"],
                 (7, 1),
-                "let l = objects[u32(a(0u))].light; put(0u, light_estimate(l, a3(1u), a3(4u)) / objects[l].brightness);",
+                "let l = u32(a(0u)); put(0u, light_estimate(l, a3(1u), a3(4u)) / emitters[l].brightness);",
             ),
             proves: &[
                 "light_estimate",
@@ -63,9 +62,9 @@ pub(crate) fn checks() -> Vec<Check> {
             probe: world.probe(
                 &["light_choice"],
                 (7, 1),
-                "put(0u, choice_probability(objects[u32(a(0u))].light, a3(1u), a3(4u), light_total(a3(1u), a3(4u))));",
+                "put(0u, emitter_pmf(u32(a(0u)), a3(1u), a3(4u), light_total(a3(1u), a3(4u))));",
             ),
-            proves: &["choice_probability", "light_total"],
+            proves: &["emitter_pmf", "light_total"],
             inputs: places(),
             twin: |a| vec![chances(a)[a[0] as usize]],
             tolerance: LIGHT_ESTIMATE,
@@ -74,21 +73,19 @@ pub(crate) fn checks() -> Vec<Check> {
             probe: world.probe(
                 &["light_choice"],
                 (7, 2),
-                "let c = choose_light(a3(1u), a3(4u), a(0u)); put(0u, f32(c.light)); put(1u, c.probability);",
+                "let c = choose_emitter(a3(1u), a3(4u), a(0u)); put(0u, f32(c.emitter)); put(1u, c.pmf);",
             ),
-            proves: &["choose_light"],
+            proves: &["choose_emitter"],
             inputs: choices(),
             twin: |a| {
                 let chosen = choose_emitter(chances(a).into_iter(), a[0]).expect("one of them shines");
-                let light = everything().packed.objects[chosen.emitter].light;
-                assert_ne!(light, NONE);
-                vec![f64::from(light), chosen.pmf]
+                vec![chosen.emitter as f64, chosen.pmf]
             },
             tolerance: LIGHT_ESTIMATE,
         },
         Check {
             probe: pure_mis(),
-            proves: &["scattering_share"],
+            proves: &["mis_weight_bsdf"],
             inputs: table(&[(0.01, 10.0), (0.0, 10.0)], &[&[1e-3, 1e3], &[5.0, 0.0]]),
             twin: |a| vec![mis_weight_bsdf(a[0], a[1])],
             tolerance: ARITHMETIC,
@@ -97,9 +94,9 @@ pub(crate) fn checks() -> Vec<Check> {
             probe: pictured().probe(
                 &["light_choice"],
                 (4, 1),
-                "put(0u, sending_share(objects[u32(a(0u))].light, a(1u), a(2u), a(3u)));",
+                "put(0u, mis_weight_emitter(u32(a(0u)), a(1u), a(2u), a(3u)));",
             ),
-            proves: &["sending_share"],
+            proves: &["mis_weight_emitter"],
             inputs: rows(4, |u| {
                 let number = (u[0] * pictured().scene.light_sources().len() as f64).floor();
                 let [scattered, density] = [u[1], u[3]].map(|u| 10.0_f64.powf(6.0 * u - 3.0));
@@ -119,7 +116,7 @@ fn pure_mis() -> pellicle_tests::probe::Probe<'static> {
     pure(
         &["light_choice"],
         (2, 1),
-        "put(0u, scattering_share(a(0u), a(1u)));",
+        "put(0u, mis_weight_bsdf(a(0u), a(1u)));",
     )
 }
 

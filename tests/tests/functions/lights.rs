@@ -1,7 +1,7 @@
 //! light.wgsl: directions towards the lights that are objects, and their densities.
 
 use crate::Check;
-use crate::world::{center_of, everything, objects_where, pick, rounded, rows, unit, vector};
+use crate::world::{center_of, everything, pick, rounded, rows, unit, vector};
 use glam::DVec3;
 use pellicle_tests::tolerances::{DIRECTION, EXACT, LIGHT_PDF, NEAR_LIGHT};
 use scene::{Shape, SourceKind};
@@ -123,7 +123,7 @@ pub(crate) fn checks() -> Vec<Check> {
         probe: world.probe(
             &["light"],
             (6, 3),
-            "put3(0u, sample_light(u32(a(0u)), a3(1u), a(4u), a(5u)));",
+            "put3(0u, sample_light(shapes[u32(a(0u))].emitter, a3(1u), a(4u), a(5u)));",
         ),
         proves: &["sample_light"],
         inputs,
@@ -134,7 +134,7 @@ pub(crate) fn checks() -> Vec<Check> {
         probe: world.probe(
             &["light"],
             (7, 1),
-            "put(0u, light_pdf(u32(a(0u)), a3(1u), a3(4u)));",
+            "put(0u, light_pdf(shapes[u32(a(0u))].emitter, a3(1u), a3(4u)));",
         ),
         proves: &["light_pdf"],
         inputs: pdf_rows(points),
@@ -150,7 +150,7 @@ pub(crate) fn checks() -> Vec<Check> {
             probe: world.probe(
                 &["light"],
                 (2, 1),
-                "put(0u, select(0.0, 1.0, sphere_surrounds(u32(a(0u)), a(1u))));",
+                "put(0u, select(0.0, 1.0, sphere_surrounds(shapes[u32(a(0u))].emitter, a(1u))));",
             ),
             proves: &["sphere_surrounds"],
             inputs: squared_distances(),
@@ -169,7 +169,7 @@ pub(crate) fn checks() -> Vec<Check> {
 /// rounding of a product.
 fn squared_distances() -> Vec<f32> {
     let world = everything();
-    let spheres = objects_where(|shape, _| matches!(shape, Shape::Sphere { .. }));
+    let spheres = lights_of(|shape| matches!(shape, Shape::Sphere { .. }));
     let radius_of = move |object: usize| match *world.shape(object) {
         Shape::Sphere { radius, .. } => radius,
         _ => 0.0,

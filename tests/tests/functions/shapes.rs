@@ -1,4 +1,4 @@
-//! sampling.wgsl, intersect.wgsl, and mirrored of path.wgsl.
+//! sampling.wgsl, intersect.wgsl, and mirrored of path_state.wgsl.
 
 use crate::{Check, pure, table};
 use glam::DVec3;
@@ -74,7 +74,11 @@ fn directions() -> Vec<Check> {
             tolerance: pellicle_tests::tolerances::CONE,
         },
         Check {
-            probe: pure(&["walk"], (6, 3), "put3(0u, mirrored(a3(0u), a3(3u)));"),
+            probe: pure(
+                &["path_state"],
+                (6, 3),
+                "put3(0u, mirrored(a3(0u), a3(3u)));",
+            ),
             proves: &["mirrored"],
             inputs: pairs_of_unit_vectors(),
             twin: |a| {

@@ -66,29 +66,25 @@ const NORMAL: DVec3 = DVec3::new(0.6, 0.8, 0.0);
 
 const BODY: &str = "
     let object = u32(a(0u));
-    let material = objects[object].material;
-    let at = wavelengths_at(a(2u));
-    let group = u32(a(1u));
+    let material = shapes[object].material;
+    let at = Place(0u, u32(a(1u)), wavelengths_at(a(2u)));
     let normal = vec3f(0.6, 0.8, 0.0);
-    let position = objects[object].center + objects[object].radius * normal;
+    let position = shapes[object].center + shapes[object].radius * normal;
     let directions = array<vec3f, 2>(a3(3u), a3(6u));
     for (var i = 0u; i < 2u; i++) {
-        let eye = directions[i];
-        let light = directions[1u - i];
+        let wo = directions[i];
+        let wi = directions[1u - i];
         begin_record();
-        var vertex = plain_vertex();
-        let base = diffuse_factor(object, position, 0.5);
-        vertex.scatter = base;
-        if (materials[material].surface != SURFACE_DIFFUSE) {
-            vertex.scatter = layered_factor(object, SurfacePoint(position, normal, eye.z, true), true);
-            vertex.base = base.spectrum;
-            vertex.base_kind = base.kind;
-        }
-        vertex.material = material;
-        vertex.eye_cosine = eye.z;
-        let found = scattering(Scatterer(material, vertex.scatter.kind), eye, light);
-        let multiple = multiple_colour(vertex, group, at);
-        put4(4u * i, lobes_value(vertex, found.lobes, multiple, group, at) / light.z);
+        pending.factor = bsdf_factor(object, SurfacePoint(position, normal, wo.z, true), 0.5);
+        pending_body.wo_cosine = wo.z;
+        let eval = bsdf_eval(material, wo, wi);
+        record_onward(eval.lobes, 1.0);
+        record_lit(eval.lobes, 2.0);
+        is_pending = true;
+        write_vertex();
+        let found = bsdf_spectrum(at, vertices[0], number_spectrum(vertices[0].factor, at));
+        // Both ways in which a vertex uses it.
+        put4(4u * i, 0.5 * (found.onward + 0.5 * found.lit) / wi.z);
     }";
 
 /// f(eye, light) in the four bands of a group, and f(light, eye).
@@ -133,8 +129,34 @@ pub(crate) fn checks() -> Vec<Check> {
         )
     });
     vec![Check {
-        probe: world().probe(&["path", "evaluate"], (9, 8), BODY),
-        proves: &["body_value", "lobes_value", "multiple_colour", "scattering"],
+        probe: world().probe(
+            &["path", "evaluate", "emitter_sampling", "bsdf/bsdf"],
+            (9, 8),
+            BODY,
+        ),
+        proves: &[
+            "begin_record",
+            "begin_vertex",
+            "bsdf_eval",
+            "bsdf_factor",
+            "coated_eval",
+            "coated_factor",
+            "coated_spectrum",
+            "coating_spectrum",
+            "cook_eval",
+            "cook_factor",
+            "cook_spectrum",
+            "dark",
+            "diffuse_eval",
+            "interface_eval",
+            "interface_factor",
+            "load_coated",
+            "load_cook",
+            "multiple_color",
+            "record_lit",
+            "record_onward",
+            "write_vertex",
+        ],
         inputs,
         twin: both_ways,
         tolerance: SURFACE_FUNCTIONS,

@@ -15,7 +15,15 @@ pub(crate) fn checks() -> Vec<Check> {
         thickness(
             is_plain,
             THICKNESS_NM,
-            &["layer_thickness", "field_value", "field_coordinate"],
+            &[
+                "layer_thickness",
+                "field_value",
+                "field_coordinate",
+                "load_field",
+                "load_film",
+                "load_interface",
+                "load_layer",
+            ],
         ),
         thickness(is_sampled, PROFILE_NM, &["profile_value", "number_at"]),
         thickness(is_swirls, SWIRLS_NM, &["swirls"]),
@@ -80,9 +88,12 @@ fn thickness(
     }
     Check {
         probe: world.probe(
-            &["thickness"],
+            &["thickness", "records", "bindings"],
             (4, 1),
-            "let i = u32(a(0u)); put(0u, layer_thickness(materials[objects[i].material].first_layer, i, a3(1u)));",
+            "let i = u32(a(0u)); let m = material_at(shapes[i].material);
+             var first = load_film(m.record).first_layer;
+             if (m.surface != SURFACE_FILM) { first = load_interface(m.record).first_layer; }
+             put(0u, layer_thickness(first, i, a3(1u)));",
         ),
         proves,
         inputs,

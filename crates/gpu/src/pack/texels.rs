@@ -1,7 +1,6 @@
 //! Pictures of four numbers in each place, in one list of texels. Before the texels of each stands its head.
 
-use crate::layout;
-use scene::{EnvironmentPicture, Material, Pattern, Texels};
+use scene::{EnvironmentPicture, Texels};
 use std::sync::Arc;
 
 /// The pictures of a scene.
@@ -13,21 +12,6 @@ pub(super) struct Pictures {
 }
 
 impl Pictures {
-    /// The head of a material's picture, or NONE.
-    pub(super) fn of_material(&mut self, material: &Material) -> u32 {
-        let pattern = match material {
-            Material::Diffuse { reflectance } => Some(reflectance),
-            Material::CoatedBody(body) => Some(&body.base),
-            _ => None,
-        };
-        match pattern {
-            Some(Pattern::Texture { texels, size }) => {
-                self.add(texels, size.unwrap_or_default().map(|side| side as f32))
-            }
-            _ => layout::NONE,
-        }
-    }
-
     /// The head of a picture of the surroundings: width and height in pixels, texels of a pixel, and the first of its table's numbers.
     ///
     /// The table: columns, rows, density of even light, heights of the rows' edges, running probability of the rows, and of the cells of each row.
@@ -52,7 +36,7 @@ impl Pictures {
     }
 
     /// The head of a picture: width and height in pixels, then the size on planes and rectangles, 0 for its natural one.
-    fn add(&mut self, texels: &Arc<Texels>, size: [f32; 2]) -> u32 {
+    pub(super) fn add(&mut self, texels: &Arc<Texels>, size: [f32; 2]) -> u32 {
         let known = self.known.iter();
         let mut same = known.filter(|(known, on_planes, _)| known == texels && *on_planes == size);
         if let Some(&(_, _, head)) = same.next() {

@@ -1,39 +1,78 @@
 //! Thicknesses: a layer whose thickness varies has a run of fields in postfix order.
 
-use super::vec3;
-use crate::layout::{self, Field};
+use super::tables::Tables;
+use super::{id, vec3};
+use crate::layout::{self, Field, NONE};
 use glam::DVec3;
-use scene::{Coordinate, Picture, PictureFile, Profile, Swirls, Thickness};
-use std::sync::Arc;
+use scene::{Coordinate, Layer, Picture, Profile, Swirls, Thickness};
 
-/// The fields of all layers.
-#[derive(Debug, Default)]
-pub(super) struct Fields {
-    pub(super) list: Vec<Field>,
-    /// Numbers that they look up.
-    pub(super) numbers: Vec<f32>,
-    /// Pictures that are among the samples already, and where.
-    pictures: Vec<(Arc<PictureFile>, u32)>,
+/// Passes of `gradient_noise` (eight corners) for each of the flow's steps and the streaks' octaves, at most.
+const SWIRLS: u64 = 9 * (3 + 6);
+
+/// Puts layers among the records, one after the other, and returns the row of the first.
+pub(super) fn layers(tables: &mut Tables, layers: &[Layer]) -> u32 {
+    let packed: Vec<_> = layers.iter().map(|of| tables.layer(of)).collect();
+    let rows = packed.iter().map(|layer| tables.push(layer));
+    rows.min().unwrap_or(NONE)
 }
 
-impl Fields {
+/// Number of layers whose thickness varies over the surface.
+pub(super) fn varying(layers: &[Layer]) -> u32 {
+    let varies = |layer: &&Layer| !matches!(layer.thickness, Thickness::Constant { .. });
+    layers.iter().filter(varies).count() as u32
+}
+
+/// Passes of working out the thicknesses of all layers.
+pub(super) fn passes(layers: &[Layer]) -> u64 {
+    let of_part = |part: &Thickness| match part {
+        Thickness::Swirls(_) => 1 + SWIRLS,
+        _ => 1,
+    };
+    let of_layer = |layer: &Layer| 1 + layer.thickness.parts().map(of_part).sum::<u64>();
+    1 + layers.iter().map(of_layer).sum::<u64>()
+}
+
+/// The features that the thicknesses of layers need.
+pub(super) fn features(layers: &[Layer]) -> Vec<&'static str> {
+    let parts = layers.iter().flat_map(|layer| layer.thickness.parts());
+    parts.flat_map(features_of_part).copied().collect()
+}
+
+fn features_of_part(part: &Thickness) -> &'static [&'static str] {
+    match part {
+        Thickness::Constant { .. } => &[],
+        Thickness::Polar { .. } => &["HAS_FIELDS", "HAS_POLAR_FIELDS"],
+        Thickness::Linear { .. } => &["HAS_FIELDS", "HAS_LINE_FIELDS"],
+        Thickness::Steps { .. } => &["HAS_FIELDS", "HAS_SAMPLED_FIELDS", "HAS_LINE_FIELDS"],
+        Thickness::Profile(Profile { coordinate, .. }) => match coordinate {
+            Coordinate::Polar { .. } => &["HAS_FIELDS", "HAS_SAMPLED_FIELDS", "HAS_POLAR_FIELDS"],
+            Coordinate::Line { .. } => &["HAS_FIELDS", "HAS_SAMPLED_FIELDS", "HAS_LINE_FIELDS"],
+        },
+        Thickness::Swirls(_) => &["HAS_FIELDS", "HAS_SWIRLS"],
+        Thickness::Picture(_) => &["HAS_FIELDS", "HAS_PICTURES"],
+        Thickness::Sum(_) | Thickness::Product(_) => &["HAS_FIELDS", "HAS_COMBINED_FIELDS"],
+    }
+}
+
+impl Tables {
     /// A layer, with the fields that its thickness is made of.
-    pub(super) fn layer(&mut self, spectrum: u32, thickness: &Thickness) -> layout::Layer {
-        let first_field = self.list.len() as u32;
+    fn layer(&mut self, layer: &Layer) -> layout::Layer {
+        let mut fields = Vec::new();
         let mut thickness_nm = 0.0;
-        match *thickness {
+        match layer.thickness {
             Thickness::Constant { nm } => thickness_nm = nm as f32,
-            ref varying => self.push(varying),
+            ref varying => self.fields(varying, &mut fields),
         }
+        let rows: Vec<_> = fields.iter().map(|field| self.push(field)).collect();
         layout::Layer {
-            spectrum,
+            spectrum: id(layer.n),
             thickness_nm,
-            first_field,
-            field_count: self.list.len() as u32 - first_field,
+            first_field: rows.first().copied().unwrap_or(NONE),
+            field_count: fields.len() as u32,
         }
     }
 
-    fn push(&mut self, thickness: &Thickness) {
+    fn fields(&mut self, thickness: &Thickness, fields: &mut Vec<Field>) {
         let field = match *thickness {
             Thickness::Constant { nm } => Field {
                 kind: layout::FIELD_CONSTANT,
@@ -65,18 +104,20 @@ impl Fields {
             Thickness::Profile(ref profile) => self.profile(profile),
             Thickness::Swirls(ref swirls) => pack_swirls(swirls),
             Thickness::Picture(ref picture) => self.picture(picture),
-            Thickness::Sum(ref parts) => return self.combine(parts, layout::FIELD_SUM),
-            Thickness::Product(ref parts) => return self.combine(parts, layout::FIELD_PRODUCT),
+            Thickness::Sum(ref parts) => return self.combine(parts, layout::FIELD_SUM, fields),
+            Thickness::Product(ref parts) => {
+                return self.combine(parts, layout::FIELD_PRODUCT, fields);
+            }
         };
-        self.list.push(field);
+        fields.push(field);
     }
 
     /// Each part but the first is combined with what comes before it, so that few values wait at a time.
-    fn combine(&mut self, parts: &[Thickness], kind: u32) {
+    fn combine(&mut self, parts: &[Thickness], kind: u32, fields: &mut Vec<Field>) {
         for (index, part) in parts.iter().enumerate() {
-            self.push(part);
+            self.fields(part, fields);
             if index > 0 {
-                self.list.push(Field {
+                fields.push(Field {
                     kind,
                     ..Default::default()
                 });
@@ -107,11 +148,15 @@ impl Fields {
 
     fn picture(&mut self, picture: &Picture) -> Field {
         let file = &picture.file;
-        let known = self.pictures.iter().find(|(known, _)| known == file);
+        let known = self
+            .thickness_pictures
+            .iter()
+            .find(|(known, _)| known == file);
         let first_number = known.map_or(self.numbers.len() as u32, |&(_, first)| first);
         if known.is_none() {
             self.numbers.extend_from_slice(&file.values);
-            self.pictures.push((Arc::clone(file), first_number));
+            self.thickness_pictures
+                .push((std::sync::Arc::clone(file), first_number));
         }
         Field {
             kind: layout::FIELD_PICTURE,
@@ -123,13 +168,6 @@ impl Fields {
             size: picture.size.unwrap_or_default().map(|side| side as f32),
             ..Default::default()
         }
-    }
-
-    /// Adds numbers to the tables, and says where they begin.
-    pub(super) fn look_up(&mut self, numbers: &[f64]) -> u32 {
-        let first = self.numbers.len() as u32;
-        self.numbers.extend(numbers.iter().map(|&x| x as f32));
-        first
     }
 }
 

@@ -1,15 +1,15 @@
-// A path on its way through the scene.
+// Where a path is, and what steers it.
 
 /// A path on its way.
-struct Walk {
+struct PathState {
     ray: Ray,
     /// The object that the ray starts on, or NONE.
     from_object: u32,
-    /// Where a surface last scattered it, and with what density; 0 after the camera or a mirror, where
-    /// no light could have been sent to. Films that are passed straight through change neither.
+    /// Where a surface last scattered it, and with what density; 0 after the camera or a mirror, where no light could have been sampled.
+    /// Films that are passed straight through change neither.
     scattered_at: vec3f,
     scatter_pdf: f32,
-    /// The normal there, and the sum of all lights' estimates.
+    /// The normal there, and the sum of all emitters' estimates.
     scattered_normal: vec3f,
     estimates: f32,
     /// Segments so far; the camera ray is the first.
@@ -19,8 +19,8 @@ struct Walk {
     splits: u32,
     /// Which of the ways that splits made of the path it is.
     branch: u32,
-    /// About what part of the light comes through, in the wavelength where it is largest.
-    throughput: f32,
+    /// About what part of the light comes through, in the wavelength where it is largest: steers Russian roulette.
+    rr_throughput: f32,
 }
 
 struct Sample {
@@ -39,18 +39,18 @@ fn numbers_of(sample: Sample, dimension: u32) -> vec4f {
 /// Dimensions of a branch of a path: more than three for each of its segments.
 const BRANCH_DIMENSIONS: u32 = 128u;
 /// What random numbers of a vertex are for.
-const FOR_LIGHT: u32 = 0u;
-const FOR_SCATTERING: u32 = 1u;
+const FOR_EMITTER: u32 = 0u;
+const FOR_BSDF: u32 = 1u;
 const FOR_ROULETTE: u32 = 2u;
 
-/// Four random numbers for one use (`FOR_…`) at the walk's present vertex.
-fn random_at(sample: Sample, walk: Walk, use_of: u32) -> vec4f {
-    return numbers_of(sample, BRANCH_DIMENSIONS * walk.branch + 3u * walk.segment - 2u + use_of);
+/// Four random numbers for one use (`FOR_…`) at the path's present vertex.
+fn random_at(sample: Sample, path: PathState, use_of: u32) -> vec4f {
+    return numbers_of(sample, BRANCH_DIMENSIONS * path.branch + 3u * path.segment - 2u + use_of);
 }
 
-/// The walk as it goes on from `point` in a new direction.
-fn walk_on(walk: Walk, object: u32, point: SurfacePoint, direction: vec3f, pdf: f32, estimates: f32) -> Walk {
-    var next = walk;
+/// The path as a surface sends it on in a new direction, drawn with density `pdf`, or mirrored, where that is 0.
+fn send_on(path: PathState, object: u32, point: SurfacePoint, direction: vec3f, pdf: f32, estimates: f32) -> PathState {
+    var next = path;
     next.ray = Ray(point.position, direction);
     next.from_object = object;
     next.scattered_at = point.position;
@@ -60,9 +60,9 @@ fn walk_on(walk: Walk, object: u32, point: SurfacePoint, direction: vec3f, pdf: 
     return next;
 }
 
-/// The walk as it goes straight on through a film.
-fn walk_through(walk: Walk, object: u32, point: SurfacePoint) -> Walk {
-    var through = walk;
+/// The path as it goes straight on through a film.
+fn pass_through(path: PathState, object: u32, point: SurfacePoint) -> PathState {
+    var through = path;
     through.ray.origin = point.position;
     through.from_object = object;
     return through;

@@ -1,0 +1,40 @@
+//! Diffuse bodies below clear coats.
+
+use super::surface::{PackedSurface, Passes};
+use super::tables::Tables;
+use super::{diffuse, facets, id};
+use crate::layout::{self, NONE};
+use scene::CoatedBody;
+
+pub(super) fn pack(tables: &mut Tables, body: &CoatedBody) -> PackedSurface {
+    let (base, mut features) = diffuse::pattern(tables, &body.base);
+    features.extend(["HAS_BSDFS", "HAS_BASES", "HAS_SCATTERING"]);
+    let mut facets_row = NONE;
+    let mut passes = Passes::default();
+    match &body.microsurface {
+        None => features.extend(["HAS_COATED_BODIES", "HAS_SPECULAR"]),
+        Some(microsurface) => {
+            let (row, needed) = facets::pack(tables, microsurface, body.passage.as_ref());
+            facets_row = row;
+            features.extend(needed);
+            features.push("HAS_ROUGH_COATS");
+            passes.shading = facets::SHADING;
+        }
+    }
+    let coated = layout::Coated {
+        base,
+        spectrum: id(body.n),
+        mean_reflectance: id(body.mean_reflectance),
+        coat_reflectances: body.reflectances.map_or(0, id),
+        coat_estimate: body.estimate.n as f32,
+        base_estimate: body.estimate.base as f32,
+        ..Default::default()
+    };
+    PackedSurface {
+        surface: layout::SURFACE_COATED,
+        record: tables.push(&coated),
+        facets: facets_row,
+        features,
+        passes,
+    }
+}

@@ -1,0 +1,54 @@
+//! Lambertian surfaces, and what lies below coats.
+
+use super::id;
+use super::surface::{PackedSurface, Passes};
+use super::tables::Tables;
+use crate::layout::{self, NONE};
+use scene::Pattern;
+
+pub(super) fn pack(tables: &mut Tables, reflectance: &Pattern) -> PackedSurface {
+    let (record, mut features) = pattern(tables, reflectance);
+    features.extend(["HAS_DIFFUSE", "HAS_BSDFS", "HAS_SCATTERING"]);
+    PackedSurface {
+        surface: layout::SURFACE_DIFFUSE,
+        record,
+        facets: NONE,
+        features,
+        passes: Passes::default(),
+    }
+}
+
+/// The row of a reflectance that may vary, and the features that it needs.
+pub(super) fn pattern(tables: &mut Tables, reflectance: &Pattern) -> (u32, Vec<&'static str>) {
+    let plain = layout::Diffuse {
+        checker_size: 1.0,
+        picture: NONE,
+        ..Default::default()
+    };
+    let (packed, features) = match *reflectance {
+        Pattern::Uniform(spectrum) => {
+            let (spectrum, odd_spectrum) = (id(spectrum), id(spectrum));
+            let uniform = layout::Diffuse {
+                spectrum,
+                odd_spectrum,
+                ..plain
+            };
+            (uniform, vec![])
+        }
+        Pattern::Checker { even, odd, size } => {
+            let checker = layout::Diffuse {
+                spectrum: id(even),
+                odd_spectrum: id(odd),
+                checker_size: size as f32,
+                ..plain
+            };
+            (checker, vec!["HAS_CHECKERS"])
+        }
+        Pattern::Texture { ref texels, size } => {
+            let size = size.unwrap_or_default().map(|side| side as f32);
+            let picture = tables.pictures.add(texels, size);
+            (layout::Diffuse { picture, ..plain }, vec!["HAS_TEXTURES"])
+        }
+    };
+    (tables.push(&packed), features)
+}

@@ -1,0 +1,163 @@
+//! Emitters: objects that emit, the surroundings part by part, and lights that are no objects.
+
+use super::tables::Tables;
+use super::{light, vec3};
+use crate::layout::{self, NONE};
+use scene::{Emission, EnvironmentShape, LightShape, LightSource, Scene, Shape, SourceKind};
+
+/// All emitters: those that are sampled, in the order of the scene's sources of light, then parts of the surroundings that are not. The
+/// numbers of the surroundings' parts are added to the tables; the first of them is returned as well.
+pub(super) fn pack(
+    scene: &Scene,
+    shapes: &mut [layout::Shape],
+    tables: &mut Tables,
+) -> (Vec<layout::Emitter>, u32) {
+    let surroundings = scene.surroundings();
+    let mut numbers = vec![None; surroundings.len()];
+    let mut emitters = Vec::new();
+    for source in scene.light_sources() {
+        let number = emitters.len() as u32;
+        match source.kind {
+            SourceKind::Object(index) => shapes[index].emitter = number,
+            SourceKind::Environment(index) => numbers[index] = Some(number),
+            SourceKind::Light(_) => {}
+        }
+        emitters.push(sampled(scene, source, tables));
+    }
+    let mut places = Vec::new();
+    for (part, number) in surroundings.iter().zip(numbers) {
+        let number = number.unwrap_or_else(|| {
+            emitters.push(emitter(surrounding(part.shape, tables), part.emission));
+            emitters.len() as u32 - 1
+        });
+        places.push(f64::from(number));
+    }
+    (emitters, tables.look_up(&places))
+}
+
+fn sampled(scene: &Scene, source: LightSource, tables: &mut Tables) -> layout::Emitter {
+    let shape = match source.kind {
+        SourceKind::Object(index) => layout::Emitter {
+            object: index as u32,
+            ..object(&scene.objects()[index].shape)
+        },
+        SourceKind::Environment(index) => surrounding(scene.surroundings()[index].shape, tables),
+        SourceKind::Light(index) => single_direction(scene.lights()[index].shape),
+    };
+    layout::Emitter {
+        brightness: source.brightness as f32,
+        ..emitter(shape, source.emission)
+    }
+}
+
+fn emitter(shape: layout::Emitter, emission: Emission) -> layout::Emitter {
+    layout::Emitter {
+        light: light(emission),
+        scale: emission.scale as f32,
+        ..shape
+    }
+}
+
+/// An emitter that is no object and has no picture.
+fn plain(kind: u32) -> layout::Emitter {
+    layout::Emitter {
+        kind,
+        object: NONE,
+        picture: NONE,
+        ..Default::default()
+    }
+}
+
+/// An object; an unbounded plane is none.
+fn object(shape: &Shape) -> layout::Emitter {
+    match *shape {
+        Shape::Sphere { center, radius } => layout::Emitter {
+            position: vec3(center),
+            radius: radius as f32,
+            ..plain(layout::EMITTER_SPHERE)
+        },
+        Shape::Rectangle {
+            center,
+            normal,
+            tangent,
+            bitangent,
+            half_width,
+            half_height,
+        } => layout::Emitter {
+            position: vec3(center),
+            axis: vec3(normal),
+            tangent: vec3(tangent),
+            half_width: half_width as f32,
+            bitangent: vec3(bitangent),
+            half_height: half_height as f32,
+            ..plain(layout::EMITTER_RECTANGLE)
+        },
+        Shape::Disk {
+            center,
+            normal,
+            tangent,
+            bitangent,
+            radius,
+        } => layout::Emitter {
+            position: vec3(center),
+            axis: vec3(normal),
+            radius: radius as f32,
+            tangent: vec3(tangent),
+            half_width: radius as f32,
+            bitangent: vec3(bitangent),
+            half_height: radius as f32,
+            ..plain(layout::EMITTER_DISK)
+        },
+        Shape::Plane { .. } => plain(NONE),
+    }
+}
+
+fn surrounding(shape: EnvironmentShape<'_>, tables: &mut Tables) -> layout::Emitter {
+    match shape {
+        EnvironmentShape::Everywhere => plain(layout::EMITTER_EVERYWHERE),
+        EnvironmentShape::Horizon => plain(layout::EMITTER_HORIZON),
+        EnvironmentShape::Pole(pole) => layout::Emitter {
+            axis: vec3(pole),
+            ..plain(layout::EMITTER_POLE)
+        },
+        EnvironmentShape::Picture(picture) => layout::Emitter {
+            axis: vec3(picture.forward),
+            tangent: vec3(picture.right),
+            picture: tables
+                .pictures
+                .add_environment(picture, &mut tables.numbers),
+            ..plain(layout::EMITTER_PICTURE)
+        },
+        EnvironmentShape::Disc { towards, height } => layout::Emitter {
+            axis: vec3(towards),
+            cap_height: height as f32,
+            ..plain(layout::EMITTER_DISC)
+        },
+    }
+}
+
+/// A light of a single direction at each place. A disc is a part of the surroundings.
+fn single_direction(shape: LightShape) -> layout::Emitter {
+    match shape {
+        LightShape::Disc { towards, .. } | LightShape::Direction { towards } => layout::Emitter {
+            axis: vec3(towards),
+            ..plain(layout::EMITTER_DIRECTION)
+        },
+        LightShape::Point { position } => layout::Emitter {
+            position: vec3(position),
+            ..plain(layout::EMITTER_POINT)
+        },
+        LightShape::Spot {
+            position,
+            axis,
+            full_height,
+            edge_height,
+        } => layout::Emitter {
+            position: vec3(position),
+            axis: vec3(axis),
+            full_height: full_height as f32,
+            edge_height: edge_height as f32,
+            ..plain(layout::EMITTER_SPOT)
+        },
+    }
+}

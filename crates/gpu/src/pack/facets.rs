@@ -1,0 +1,42 @@
+//! What makes a surface rough.
+
+use super::tables::Tables;
+use super::vec3;
+use crate::layout;
+use glam::DVec3;
+use scene::{Distribution, FacetTable, Grain, Microsurface};
+
+/// Passes of drawing a facet: two slopes.
+pub(super) const SHADING: u64 = 2 * (1 + 4);
+
+/// The row of facets, and the features that they need; `passage` is the table of what a brushed coat lets through.
+pub(super) fn pack(
+    tables: &mut Tables,
+    microsurface: &Microsurface,
+    passage: Option<&FacetTable>,
+) -> (u32, Vec<&'static str>) {
+    let (grain_kind, grain) = match microsurface.grain {
+        Grain::None => (layout::GRAIN_NONE, DVec3::ZERO),
+        Grain::Along(direction) => (layout::GRAIN_ALONG, direction),
+        Grain::Around(axis) => (layout::GRAIN_AROUND, axis),
+    };
+    let (distribution, feature) = match microsurface.distribution {
+        Distribution::Beckmann => (layout::FACETS_BECKMANN, "HAS_BECKMANN"),
+        Distribution::Ggx => (layout::FACETS_GGX, "HAS_GGX"),
+    };
+    let mut features = vec![feature];
+    if microsurface.is_brushed() {
+        features.push("HAS_GRAIN");
+    }
+    let facets = layout::Facets {
+        grain: vec3(grain),
+        grain_kind,
+        alpha: microsurface.roughness.map(|alpha| alpha as f32),
+        distribution,
+        first_energy: tables.look_up(microsurface.energy.table().values()),
+        mean_energy: microsurface.energy.mean() as f32,
+        first_passage: passage.map_or(0, |table| tables.look_up(table.values())),
+        ..Default::default()
+    };
+    (tables.push(&facets), features)
+}

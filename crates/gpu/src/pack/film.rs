@@ -1,0 +1,57 @@
+//! Free films.
+
+use super::surface::{PackedSurface, Passes};
+use super::tables::Tables;
+use super::thickness;
+use crate::layout::{self, NONE};
+use scene::{Estimate, Interference, Layer, PathDifference};
+
+/// Passes for a layer of a stack: its own, and those of the series for small thicknesses.
+pub(super) const LAYER: u64 = 1 + 8;
+
+/// A film; `is_clear` where it is one layer without absorption and with n ≥ 1.
+pub(super) fn pack(
+    tables: &mut Tables,
+    (layers, is_clear): (&[Layer], bool),
+    interference: Interference,
+    estimate: &Estimate,
+) -> PackedSurface {
+    let (factor, feature) = match interference {
+        Interference::TwoBeam(PathDifference::Optical) => {
+            (layout::FACTOR_TWO_BEAM, Some("HAS_TWO_BEAM_FILMS"))
+        }
+        Interference::TwoBeam(PathDifference::AsPrinted) => (
+            layout::FACTOR_TWO_BEAM_AS_PRINTED,
+            Some("HAS_TWO_BEAM_FILMS"),
+        ),
+        Interference::Exact if layers.len() > 1 => (layout::FACTOR_STACK, Some("HAS_STACKS")),
+        Interference::Exact if is_clear => (layout::FACTOR_FILM, None),
+        Interference::Exact => (layout::FACTOR_LOSSY_FILM, Some("HAS_LOSSY_FILMS")),
+    };
+    let mut features = thickness::features(layers);
+    features.push("HAS_FILMS");
+    features.extend(feature);
+    let stacked = match factor {
+        layout::FACTOR_STACK => 1 + LAYER * layers.len() as u64,
+        _ => 0,
+    };
+    let film = layout::Film {
+        factor,
+        first_layer: thickness::layers(tables, layers),
+        layer_count: layers.len() as u32,
+        varying_layers: thickness::varying(layers),
+        first_reflected: tables.look_up(&estimate.reflected),
+        ..Default::default()
+    };
+    PackedSurface {
+        surface: layout::SURFACE_FILM,
+        record: tables.push(&film),
+        facets: NONE,
+        features,
+        passes: Passes {
+            shading: thickness::passes(layers),
+            spectrum: stacked,
+            crossing: stacked,
+        },
+    }
+}

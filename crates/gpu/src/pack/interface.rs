@@ -1,0 +1,50 @@
+//! Conductors, bare or coated, smooth or rough.
+
+use super::surface::{PackedSurface, Passes};
+use super::tables::Tables;
+use super::{facets, film, thickness};
+use crate::layout::{self, NONE};
+use scene::{Layer, Microsurface};
+
+pub(super) fn pack(
+    tables: &mut Tables,
+    spectrum: u32,
+    layers: &[Layer],
+    microsurface: Option<&Microsurface>,
+) -> PackedSurface {
+    let mut features = thickness::features(layers);
+    features.extend(["HAS_BSDFS", "HAS_INTERFACES"]);
+    let mut facets_row = NONE;
+    let mut passes = Passes {
+        shading: thickness::passes(layers),
+        // At most five cosines.
+        spectrum: 6 + 5 * film::LAYER * layers.len() as u64,
+        crossing: 0,
+    };
+    match microsurface {
+        None => features.extend(["HAS_MIRRORS", "HAS_SPECULAR"]),
+        Some(microsurface) => {
+            let (row, needed) = facets::pack(tables, microsurface, None);
+            facets_row = row;
+            features.extend(needed);
+            features.extend(["HAS_ROUGH_CONDUCTORS", "HAS_SCATTERING"]);
+            passes.shading += facets::SHADING;
+        }
+    }
+    if !layers.is_empty() {
+        features.push("HAS_COATINGS");
+    }
+    let boundary = layout::Interface {
+        spectrum,
+        first_layer: thickness::layers(tables, layers),
+        layer_count: layers.len() as u32,
+        varying_layers: thickness::varying(layers),
+    };
+    PackedSurface {
+        surface: layout::SURFACE_INTERFACE,
+        record: tables.push(&boundary),
+        facets: facets_row,
+        features,
+        passes,
+    }
+}

@@ -1,0 +1,101 @@
+//! How long the record of a path becomes.
+
+use super::thickness;
+use crate::modules::RecordLimits;
+use scene::{EnvironmentPart, EnvironmentShape, Material, Object, Scene, Shape};
+
+/// How long the record of a path becomes at most.
+///
+/// A path has a vertex for each segment but the last, which may end in two terms of the environment. Where a film splits it, the
+/// record has the film, the path that goes on, and the other path.
+pub(super) fn of(scene: &Scene) -> RecordLimits {
+    let settings = scene.settings();
+    let has_films = scene
+        .objects()
+        .iter()
+        .any(|object| is_film(scene.material(object.material)));
+    let splits = if has_films { settings.film_splits } else { 0 };
+    let segments = settings.max_path_segments;
+    let crossings = crossings(scene, segments, splits);
+    // Of a gradient a direction sees two parts, of which one stands for the segment that escapes.
+    let own = if glows(scene) { 2 } else { 1 };
+    let vertices = own * vertices(segments, splits) + (discs(scene) << splits);
+    RecordLimits {
+        vertices,
+        crossings: u32::max(crossings, 1),
+        thicknesses: u32::max(
+            most_varying(scene, |_| true) * vertices + most_varying(scene, is_film) * crossings,
+            1,
+        ),
+        light_groups: scene.light_groups().len() as u32,
+        splits: u32::max(splits, 1),
+    }
+}
+
+/// Vertices of a path with so many segments left that can still be split.
+fn vertices(segments: u32, splits: u32) -> u32 {
+    if splits == 0 || segments < 2 {
+        return segments + 1;
+    }
+    1 + 2 * vertices(segments - 1, splits - 1)
+}
+
+/// Whether a surface both emits and reflects: what it emits has a vertex of its own.
+fn glows(scene: &Scene) -> bool {
+    let mut materials = scene.objects().iter().map(|o| scene.material(o.material));
+    materials.any(|material| match material {
+        Material::Cook(cook) => cook.ambient.is_some(),
+        Material::Emitter { reflectance, .. } => reflectance.is_some(),
+        _ => false,
+    })
+}
+
+/// Films that all connections of a path cross. One crosses a film's sphere at most twice and a film's plane once (and the edge where
+/// films touch once more), and never more often than segments are left. A path that connects is not split any more.
+fn crossings(scene: &Scene, segments: u32, splits: u32) -> u32 {
+    let films = scene.objects().iter().filter_map(|object| {
+        is_film(scene.material(object.material)).then_some(match object.shape {
+            Shape::Sphere { .. } => 2,
+            _ => 1,
+        })
+    });
+    let straight: u32 = films.sum();
+    let per_connection = if straight == 0 {
+        0
+    } else {
+        straight.saturating_add(2)
+    };
+    let of_path = |first: u32| -> u32 {
+        (first..segments)
+            .map(|segment| per_connection.min(segments - segment - 1))
+            .sum()
+    };
+    // With i splits there are 2ⁱ paths, each of which has come i segments further.
+    (0..=splits).map(|i| of_path(1 + i) << i).max().unwrap_or(0)
+}
+
+/// Number of discs in the sky.
+fn discs(scene: &Scene) -> u32 {
+    let parts = scene.surroundings();
+    let is_disc = |part: &&EnvironmentPart| matches!(part.shape, EnvironmentShape::Disc { .. });
+    parts.iter().filter(is_disc).count() as u32
+}
+
+fn is_film(material: &Material) -> bool {
+    matches!(material, Material::Film { .. })
+}
+
+/// The most thicknesses that one meeting with a material that is `wanted` puts on record. A film's only layer has its place
+/// in the factor.
+fn most_varying(scene: &Scene, wanted: fn(&Material) -> bool) -> u32 {
+    let of_object = |object: &Object| {
+        let material = scene.material(object.material);
+        let is_recorded = wanted(material) && !(is_film(material) && material.layers().len() == 1);
+        if is_recorded {
+            thickness::varying(material.layers())
+        } else {
+            0
+        }
+    };
+    scene.objects().iter().map(of_object).max().unwrap_or(0)
+}

@@ -1,0 +1,105 @@
+//! Materials: a head for each, and by its kind what it is made of, what the shader must be able to do for it, and how many passes its loops
+//! make.
+
+use super::tables::Tables;
+use super::{coated, cook, diffuse, film, id, interface, light};
+use crate::layout;
+use scene::{Estimate, Material, Pattern, Scene};
+
+/// What a material's surface is for the shader.
+#[derive(Debug)]
+pub(super) struct PackedSurface {
+    /// A `SURFACE_` tag.
+    pub(super) surface: u32,
+    /// The row of its record.
+    pub(super) record: u32,
+    /// The row of its facets, NONE where it is smooth.
+    pub(super) facets: u32,
+    /// The features of `shaders/features.wgsl` that it needs.
+    pub(super) features: Vec<&'static str>,
+    /// How many passes its loops make.
+    pub(super) passes: Passes,
+}
+
+/// How many passes loops make at most.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Passes {
+    /// Where a path meets the surface.
+    pub(super) shading: u64,
+    /// Where its spectrum is worked out, for each group of four bands.
+    pub(super) spectrum: u64,
+    /// Where its spectrum is worked out for light on its way to another surface.
+    pub(super) crossing: u64,
+}
+
+impl Passes {
+    /// The larger of each.
+    pub(super) fn max(self, other: Self) -> Self {
+        Self {
+            shading: self.shading.max(other.shading),
+            spectrum: self.spectrum.max(other.spectrum),
+            crossing: self.crossing.max(other.crossing),
+        }
+    }
+}
+
+/// Puts a material among the records.
+pub(super) fn pack(
+    scene: &Scene,
+    (number, material, estimate): (usize, &Material, &Estimate),
+    tables: &mut Tables,
+) -> PackedSurface {
+    let mut packed = match material {
+        Material::Diffuse { reflectance } => diffuse::pack(tables, reflectance),
+        Material::Emitter { reflectance, .. } => match *reflectance {
+            Some(spectrum) => diffuse::pack(tables, &Pattern::Uniform(spectrum)),
+            None => black(),
+        },
+        Material::Conductor {
+            n,
+            layers,
+            microsurface,
+            ..
+        } => interface::pack(tables, id(*n), layers, microsurface.as_ref()),
+        Material::CoatedBody(body) => coated::pack(tables, body),
+        Material::Cook(of) => cook::pack(tables, of),
+        Material::Film {
+            layers,
+            interference,
+            transparent,
+        } => {
+            let is_clear = *transparent
+                && matches!(layers.as_slice(), [only] if scene.spectrum(only.n).extent().0 >= 1.0);
+            film::pack(tables, (layers, is_clear), *interference, estimate)
+        }
+    };
+    let emission = match material {
+        Material::Cook(of) => of.ambient,
+        _ => material.emission(),
+    };
+    if emission.is_some() && packed.surface != layout::SURFACE_BLACK {
+        packed.features.push("HAS_GLOW");
+    }
+    let head = layout::Material {
+        surface: packed.surface,
+        record: packed.record,
+        facets: packed.facets,
+        albedo: estimate.albedo as f32,
+        light: emission.map_or(0, light),
+        light_scale: emission.map_or(0.0, |emission| emission.scale as f32),
+        ..Default::default()
+    };
+    tables.set_material(number, &head);
+    packed
+}
+
+/// What reflects nothing.
+fn black() -> PackedSurface {
+    PackedSurface {
+        surface: layout::SURFACE_BLACK,
+        record: 0,
+        facets: layout::NONE,
+        features: Vec::new(),
+        passes: Passes::default(),
+    }
+}

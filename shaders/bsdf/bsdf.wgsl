@@ -1,0 +1,79 @@
+// How surfaces scatter light: a file for each BSDF, with its geometry (`eval`, `sample`, a specular part) and its value over the spectrum
+// (`spectrum`). Here they are told apart by the tags of their materials.
+//
+// `wo` points to the camera's side of a path and `wi` to the light's. They are unit vectors of the surface's local frame, whose z is the
+// normal on the side of `wo` and whose x runs along the grain of a brushed surface. Values are those of the BSDF times |cos θi|.
+
+/// Probability with which a path takes the specular part: 1 of what only mirrors, 0 of what has none.
+fn bsdf_specular_probability(material: u32, wo: vec3f) -> f32 {
+    let head = material_at(material);
+    if (HAS_MIRRORS && head.surface == SURFACE_INTERFACE) {
+        return interface_specular_probability(head);
+    }
+    if (HAS_COATED_BODIES && head.surface == SURFACE_COATED) {
+        return coated_specular_probability(material, wo);
+    }
+    return 0.0;
+}
+
+/// The value from `wi` to `wo` without the specular part, and the density of bsdf_sample.
+fn bsdf_eval(material: u32, wo: vec3f, wi: vec3f) -> BsdfEval {
+    let surface = material_at(material).surface;
+    if (HAS_COOK && surface == SURFACE_COOK) {
+        return cook_eval(material, wo, wi);
+    }
+    if ((HAS_COATED_BODIES || HAS_ROUGH_COATS) && surface == SURFACE_COATED) {
+        return coated_eval(material, wo, wi);
+    }
+    if (HAS_ROUGH_CONDUCTORS && surface == SURFACE_INTERFACE) {
+        return interface_eval(material, wo, wi);
+    }
+    return diffuse_eval(wi);
+}
+
+/// A direction `wi` by numbers in [0, 1): the first two make the direction, the third and the fourth choose between parts.
+fn bsdf_sample(material: u32, wo: vec3f, random: vec4f) -> vec3f {
+    let surface = material_at(material).surface;
+    if (HAS_COOK && surface == SURFACE_COOK) {
+        return cook_sample(material, wo, random);
+    }
+    if ((HAS_COATED_BODIES || HAS_ROUGH_COATS) && surface == SURFACE_COATED) {
+        return coated_sample(material, wo, random);
+    }
+    if (HAS_ROUGH_CONDUCTORS && surface == SURFACE_INTERFACE) {
+        return interface_sample(material, wo, random);
+    }
+    return diffuse_sample(random);
+}
+
+/// The factor of a surface at a point; what else its spectrum needs goes into the vertex that is being made. `random` in [0, 1) chooses
+/// between the texels of a picture.
+fn bsdf_factor(object: u32, point: SurfacePoint, random: f32) -> u32 {
+    let material = shapes[object].material;
+    let head = material_at(material);
+    if ((HAS_COATED_BODIES || HAS_ROUGH_COATS) && head.surface == SURFACE_COATED) {
+        return coated_factor(object, point, random);
+    }
+    if (HAS_COOK && head.surface == SURFACE_COOK) {
+        return cook_factor(material);
+    }
+    if (HAS_INTERFACES && head.surface == SURFACE_INTERFACE) {
+        return interface_factor(object, point);
+    }
+    return diffuse_factor(head.record, object, point.position, random);
+}
+
+/// The spectrum at a vertex in four bands; `first` is that of the factor's number.
+fn bsdf_spectrum(at: Place, vertex: Vertex, first: vec4f) -> Values {
+    let tag = factor_tag(vertex.factor);
+    if ((HAS_COATED_BODIES || HAS_ROUGH_COATS) && tag == FACTOR_COATED) {
+        return coated_spectrum(at, vertex, first);
+    }
+    if (HAS_COOK && tag == FACTOR_COOK) {
+        return cook_spectrum(at, vertex, first);
+    }
+    if (HAS_INTERFACES && (tag == FACTOR_INTERFACE || tag == FACTOR_COATING)) {
+        return interface_spectrum(at, vertex, first);
+    }
+    return diffuse_spectrum(at, vertex, first);
+}

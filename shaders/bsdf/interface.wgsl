@@ -1,0 +1,96 @@
+// The boundary of a conductor, bare or below thin layers: a mirror, or facets that mirror.
+
+fn interface_specular_probability(head: Material) -> f32 {
+    return select(0.0, 1.0, head.facets == NONE);
+}
+
+fn interface_eval(material: u32, wo: vec3f, wi: vec3f) -> BsdfEval {
+    return facets_eval(load_facets(material_at(material).facets), wo, wi);
+}
+
+fn interface_sample(material: u32, wo: vec3f, random: vec4f) -> vec3f {
+    return facets_sample(load_facets(material_at(material).facets), wo, random);
+}
+
+fn interface_factor(object: u32, point: SurfacePoint) -> u32 {
+    let head = material_at(shapes[object].material);
+    let boundary = load_interface(head.record);
+    if (HAS_SHEENS && head.facets != NONE) {
+        pending_sheen.mean_energy = load_facets(head.facets).mean_energy;
+    }
+    if (HAS_COATINGS && boundary.layer_count > 0u) {
+        pending_thickness = record_layers(boundary.first_layer, boundary.layer_count, object, point.position);
+        return factor_of(FACTOR_COATING, head.record);
+    }
+    return factor_of(FACTOR_INTERFACE, boundary.spectrum);
+}
+
+fn interface_spectrum(at: Place, vertex: Vertex, first: vec4f) -> Values {
+    if (HAS_COATINGS && factor_tag(vertex.factor) == FACTOR_COATING) {
+        return coating_spectrum(at, vertex);
+    }
+    return conductor_spectrum(at, vertex, first, spectrum_at(factor_number(vertex.factor) + 1u, at.group, at.wavelengths));
+}
+
+/// A bare conductor of index n + ik.
+fn conductor_spectrum(at: Place, vertex: Vertex, n: vec4f, k: vec4f) -> Values {
+    var values = Values(vertex.weight * reflectance_unpolarised(n, k, vertex.cosine), vec4f(0.0));
+    if (HAS_SCATTERING) {
+        values.lit = vertex.light_weight * reflectance_unpolarised(n, k, vertex.light_cosine);
+    }
+    if (HAS_SHEENS) {
+        let sheen = sheens[at.vertex];
+        var mean = MEAN_WEIGHTS.x * reflectance_unpolarised(n, k, MEAN_COSINES.x);
+        mean += MEAN_WEIGHTS.y * reflectance_unpolarised(n, k, MEAN_COSINES.y);
+        mean += MEAN_WEIGHTS.z * reflectance_unpolarised(n, k, MEAN_COSINES.z);
+        let several = multiple_color(mean, sheen.mean_energy);
+        values.onward += sheen.weight * several;
+        values.lit += sheen.light_weight * several;
+    }
+    return values;
+}
+
+/// Layers on a conductor, at one cosine after the other, so that their code is there once.
+fn coating_spectrum(at: Place, vertex: Vertex) -> Values {
+    let boundary = load_interface(factor_number(vertex.factor));
+    let n = spectrum_at(boundary.spectrum, at.group, at.wavelengths);
+    let k = spectrum_at(boundary.spectrum + 1u, at.group, at.wavelengths);
+    var first_thickness = 0u;
+    if (RECORDS_THICKNESSES) {
+        first_thickness = first_thicknesses[at.vertex];
+    }
+    let layers = Layers(boundary.first_layer, boundary.layer_count, boundary.varying_layers, first_thickness);
+    var values = Values(vec4f(0.0), vec4f(0.0));
+    var mean = vec4f(0.0);
+    let count = select(1u, select(2u, 5u, HAS_SHEENS), HAS_SCATTERING);
+    var i = 0u;
+    loop {
+        var cosine = select(vertex.light_cosine, vertex.cosine, i == 0u);
+        if (HAS_SHEENS && i >= 2u) {
+            cosine = MEAN_COSINES[i - 2u];
+        }
+        let incident = air_above(cosine);
+        let substrate = substrate_admittances(n, k, incident);
+        let stack = with_layers(stack_on(substrate), layers, incident, true, at);
+        let powers = stack_powers(stack, substrate, incident);
+        let reflectance = 0.5 * (powers.reflectance_s + powers.reflectance_p);
+        if (i == 0u) {
+            values.onward = vertex.weight * reflectance;
+        } else if (i == 1u) {
+            values.lit = vertex.light_weight * reflectance;
+        } else if (HAS_SHEENS) {
+            mean += MEAN_WEIGHTS[i - 2u] * reflectance;
+        }
+        continuing {
+            i++;
+            break if i >= count;
+        }
+    }
+    if (HAS_SHEENS) {
+        let sheen = sheens[at.vertex];
+        let several = multiple_color(mean, sheen.mean_energy);
+        values.onward += sheen.weight * several;
+        values.lit += sheen.light_weight * several;
+    }
+    return values;
+}

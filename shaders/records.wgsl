@@ -1,0 +1,299 @@
+// The records of a scene, and how they are read. Generated from crates/gpu/src/layout.rs: edit there, then run
+//     PELLICLE_BLESS=1 cargo test -p pellicle-tests --test layout
+
+/// What a surface is made of: those of all materials stand first among the records, in the materials' order.
+struct Material {
+    /// A `SURFACE_` tag.
+    surface: u32,
+    /// The row of what that surface has: a `Diffuse`, `Interface`, `Coated`, `Cook` or `Film`.
+    record: u32,
+    /// The row of its facets; NONE where it is smooth.
+    facets: u32,
+    /// About the part of the light that goes on from it.
+    albedo: f32,
+    /// Light that it emits.
+    light: u32,
+    /// Factor of what it emits; 0 where it emits nothing.
+    light_scale: f32,
+    /// Fills the last row.
+    padding: vec2u,
+}
+const MATERIAL_ROWS: u32 = 2u;
+fn load_material(row: u32) -> Material {
+    let row_0 = records[row + 0u];
+    let row_1 = records[row + 1u];
+    return Material(
+        row_0.x,
+        row_0.y,
+        row_0.z,
+        bitcast<f32>(row_0.w),
+        row_1.x,
+        bitcast<f32>(row_1.y),
+        vec2u(row_1.z, row_1.w),
+    );
+}
+
+/// A reflectance that may vary over a surface.
+struct Diffuse {
+    /// Spectrum: the reflectance, of the even squares of a checker.
+    spectrum: u32,
+    /// Spectrum: the reflectance of the odd squares; the same as `spectrum` without a checker.
+    odd_spectrum: u32,
+    /// Side of a checker's squares.
+    checker_size: f32,
+    /// The head of the picture of the reflectance; NONE where that is no picture.
+    picture: u32,
+}
+const DIFFUSE_ROWS: u32 = 1u;
+fn load_diffuse(row: u32) -> Diffuse {
+    let row_0 = records[row + 0u];
+    return Diffuse(
+        row_0.x,
+        row_0.y,
+        bitcast<f32>(row_0.z),
+        row_0.w,
+    );
+}
+
+/// The facets of a rough surface.
+struct Facets {
+    /// Direction of the grain, or of the axis that it runs around.
+    grain: vec3f,
+    /// A `GRAIN_` tag.
+    grain_kind: u32,
+    /// Width of the distribution of slopes along and across the grain.
+    alpha: vec2f,
+    /// A `FACETS_` tag.
+    distribution: u32,
+    /// First number of the table of their directional albedo.
+    first_energy: u32,
+    /// Mean of that table over all directions.
+    mean_energy: f32,
+    /// First number of the table by which a brushed coat lets more through in some directions.
+    first_passage: u32,
+    /// Fills the last row.
+    padding: vec2u,
+}
+const FACETS_ROWS: u32 = 3u;
+fn load_facets(row: u32) -> Facets {
+    let row_0 = records[row + 0u];
+    let row_1 = records[row + 1u];
+    let row_2 = records[row + 2u];
+    return Facets(
+        vec3f(bitcast<f32>(row_0.x), bitcast<f32>(row_0.y), bitcast<f32>(row_0.z)),
+        row_0.w,
+        vec2f(bitcast<f32>(row_1.x), bitcast<f32>(row_1.y)),
+        row_1.z,
+        row_1.w,
+        bitcast<f32>(row_2.x),
+        row_2.y,
+        vec2u(row_2.z, row_2.w),
+    );
+}
+
+/// The boundary of a conductor, bare or below layers.
+struct Interface {
+    /// Spectrum: n of the conductor, whose k is the next one.
+    spectrum: u32,
+    /// The row of its first layer, the outermost.
+    first_layer: u32,
+    /// Number of its layers.
+    layer_count: u32,
+    /// Number of those whose thickness varies over the surface.
+    varying_layers: u32,
+}
+const INTERFACE_ROWS: u32 = 1u;
+fn load_interface(row: u32) -> Interface {
+    let row_0 = records[row + 0u];
+    return Interface(
+        row_0.x,
+        row_0.y,
+        row_0.z,
+        row_0.w,
+    );
+}
+
+/// A diffuse body below a clear coat.
+struct Coated {
+    /// The row of the body's reflectance.
+    base: u32,
+    /// Spectrum: n of the coat, whose k is the next one.
+    spectrum: u32,
+    /// Spectrum: reflectance of the coat for diffuse light from outside.
+    mean_reflectance: u32,
+    /// Spectra: the reflectance of a rough coat for COAT_COSINES cosines.
+    coat_reflectances: u32,
+    /// What stands for the coat's index where a path chooses its way.
+    coat_estimate: f32,
+    /// What stands for the body's reflectance there.
+    base_estimate: f32,
+    /// Fills the last row.
+    padding: vec2u,
+}
+const COATED_ROWS: u32 = 2u;
+fn load_coated(row: u32) -> Coated {
+    let row_0 = records[row + 0u];
+    let row_1 = records[row + 1u];
+    return Coated(
+        row_0.x,
+        row_0.y,
+        row_0.z,
+        row_0.w,
+        bitcast<f32>(row_1.x),
+        bitcast<f32>(row_1.y),
+        vec2u(row_1.z, row_1.w),
+    );
+}
+
+/// A surface by the model of Cook and Torrance.
+struct Cook {
+    /// Spectrum: n of the facets, whose k is the next one.
+    spectrum: u32,
+    /// A `COOK_` tag.
+    distribution: u32,
+    /// First of the numbers of the slopes: m, weight and part of each.
+    first_slope: u32,
+    /// Number of slopes.
+    slope_count: u32,
+    /// Spectrum: what is reflected evenly.
+    base: u32,
+    /// The part of the light that is reflected so.
+    base_share: f32,
+    /// Probability with which a path is scattered so.
+    base_probability: f32,
+    /// Fills the last row.
+    padding: u32,
+}
+const COOK_ROWS: u32 = 2u;
+fn load_cook(row: u32) -> Cook {
+    let row_0 = records[row + 0u];
+    let row_1 = records[row + 1u];
+    return Cook(
+        row_0.x,
+        row_0.y,
+        row_0.z,
+        row_0.w,
+        row_1.x,
+        bitcast<f32>(row_1.y),
+        bitcast<f32>(row_1.z),
+        row_1.w,
+    );
+}
+
+/// A free film.
+struct Film {
+    /// The `FACTOR_` tag of what it does to light from the front.
+    factor: u32,
+    /// The row of its first layer, the outermost.
+    first_layer: u32,
+    /// Number of its layers.
+    layer_count: u32,
+    /// Number of those whose thickness varies over the surface.
+    varying_layers: u32,
+    /// First of the numbers that tell about what it reflects.
+    first_reflected: u32,
+    /// Fills the last row.
+    padding_1: u32,
+    /// Fills the last row.
+    padding_2: vec2u,
+}
+const FILM_ROWS: u32 = 2u;
+fn load_film(row: u32) -> Film {
+    let row_0 = records[row + 0u];
+    let row_1 = records[row + 1u];
+    return Film(
+        row_0.x,
+        row_0.y,
+        row_0.z,
+        row_0.w,
+        row_1.x,
+        row_1.y,
+        vec2u(row_1.z, row_1.w),
+    );
+}
+
+/// A layer of a film or of a coating.
+struct Layer {
+    /// Spectrum: n of its index, whose k is the next one.
+    spectrum: u32,
+    /// Thickness where it has no fields, nm.
+    thickness_nm: f32,
+    /// The row of the first of the fields that its thickness is made of.
+    first_field: u32,
+    /// Number of its fields; 0 where the thickness is the same everywhere.
+    field_count: u32,
+}
+const LAYER_ROWS: u32 = 1u;
+fn load_layer(row: u32) -> Layer {
+    let row_0 = records[row + 0u];
+    return Layer(
+        row_0.x,
+        bitcast<f32>(row_0.y),
+        row_0.z,
+        row_0.w,
+    );
+}
+
+/// A part of a thickness that varies.
+struct Field {
+    /// The pole's direction, or where a line starts.
+    origin: vec3f,
+    /// A `FIELD_` tag.
+    kind: u32,
+    /// From start to end of a line, over the square of its length.
+    along: vec3f,
+    /// An `ALONG_` tag.
+    runs_along: u32,
+    /// Value at 0: at the pole, at the start, of black, the mean of swirls; thickness of the black film of a profile.
+    base: f32,
+    /// Added to it at 1: at the other pole, at the end, of white, the amplitude of swirls; the largest value of a profile.
+    swing: f32,
+    /// A profile is a black film below it; cells of swirls per unit.
+    threshold: f32,
+    /// Distance by which swirls are carried, in cells.
+    warp: f32,
+    /// Width and height of a picture on a plane; 0 for its natural size.
+    size: vec2f,
+    /// Time of swirls within its cell.
+    phase: f32,
+    /// Cells that the time of swirls has passed through.
+    cells: u32,
+    /// Chooses the pattern of swirls.
+    seed: u32,
+    /// First of the numbers that it looks up.
+    first_number: u32,
+    /// Steps, knots of a profile, pixels of a row; octaves of swirls.
+    sample_count: u32,
+    /// Rows of a picture.
+    rows: u32,
+}
+const FIELD_ROWS: u32 = 5u;
+fn load_field(row: u32) -> Field {
+    let row_0 = records[row + 0u];
+    let row_1 = records[row + 1u];
+    let row_2 = records[row + 2u];
+    let row_3 = records[row + 3u];
+    let row_4 = records[row + 4u];
+    return Field(
+        vec3f(bitcast<f32>(row_0.x), bitcast<f32>(row_0.y), bitcast<f32>(row_0.z)),
+        row_0.w,
+        vec3f(bitcast<f32>(row_1.x), bitcast<f32>(row_1.y), bitcast<f32>(row_1.z)),
+        row_1.w,
+        bitcast<f32>(row_2.x),
+        bitcast<f32>(row_2.y),
+        bitcast<f32>(row_2.z),
+        bitcast<f32>(row_2.w),
+        vec2f(bitcast<f32>(row_3.x), bitcast<f32>(row_3.y)),
+        bitcast<f32>(row_3.z),
+        row_3.w,
+        row_4.x,
+        row_4.y,
+        row_4.z,
+        row_4.w,
+    );
+}
+
+/// A material by its number: those of all materials come first.
+fn material_at(material: u32) -> Material {
+    return load_material(material * MATERIAL_ROWS);
+}
