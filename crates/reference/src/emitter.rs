@@ -172,22 +172,6 @@ pub struct EmitterChoice {
     pub pmf: f64,
 }
 
-/// Chooses an emitter by its probability and a uniform number.
-pub fn choose_emitter(pmfs: impl Iterator<Item = f64>, random: f64) -> Option<EmitterChoice> {
-    let mut sum = 0.0;
-    let mut choice = None;
-    for (emitter, pmf) in pmfs.enumerate() {
-        if pmf > 0.0 {
-            choice = Some(EmitterChoice { emitter, pmf });
-        }
-        sum += pmf;
-        if random < sum {
-            break;
-        }
-    }
-    choice
-}
-
 /// BSDF sampling is left out where its density is less than this part of the other's.
 const CUTOFF: f64 = 0.1875;
 

@@ -21,6 +21,7 @@
 mod bsdf;
 mod camera;
 mod emitter;
+mod emitter_choice;
 mod emitter_shape;
 mod environment;
 mod environment_picture;
@@ -44,7 +45,8 @@ mod transport;
 
 pub use bsdf::{CookFacets, FacetScattering, Facets, coat_share, cook_facets, sample_cook_facet};
 pub use camera::{Ray, camera_ray, sampled_camera_ray};
-pub use emitter::{Emitter, EmitterChoice, choose_emitter, mis_weight_bsdf, mis_weight_emitter};
+pub use emitter::{Emitter, EmitterChoice, mis_weight_bsdf, mis_weight_emitter};
+pub use emitter_choice::choose_emitter;
 pub use emitter_shape::{sample_shape, shape_pdf};
 pub use environment::{environment_pdf, environment_share, sample_environment};
 pub use environment_picture::environment_pixel;

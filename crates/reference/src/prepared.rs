@@ -5,7 +5,6 @@ use crate::layers::{Film, SurfaceAt};
 use crate::spectral::Tables;
 use crate::surface::{Reflectance, pattern_reflectance};
 use crate::{Emitter, SurfacePoint};
-use glam::DVec3;
 use scene::{
     Emission, EnvironmentPart, Estimate, LightSource, Material, MaterialId, Pattern, Scene, Shape,
     SourceKind,
@@ -154,35 +153,6 @@ impl<'a> PreparedScene<'a> {
             emitters: sources.iter().map(emitter).collect(),
             environment,
         }
-    }
-
-    /// Probability with which each emitter is chosen at a point of a surface; all 0 where none can shine there.
-    pub fn emitter_pmfs(&self, point: DVec3, normal: DVec3) -> Vec<f64> {
-        let mut weights = Vec::new();
-        let sum = self.emitter_weights(point, normal, &mut weights);
-        weights.iter().map(|weight| weight / sum).collect()
-    }
-
-    /// Weights of the emitters at a point of a surface, and their sum, or 1 where that is 0.
-    pub(crate) fn emitter_weights(
-        &self,
-        point: DVec3,
-        normal: DVec3,
-        weights: &mut Vec<f64>,
-    ) -> f64 {
-        weights.clear();
-        weights.extend((0..self.emitters.len()).map(|i| self.emitter_weight(i, point, normal)));
-        let sum = weights.iter().sum();
-        if sum > 0.0 { sum } else { 1.0 }
-    }
-
-    /// About what an emitter brings to a point of a surface. Where there is only one, it is always chosen.
-    pub(crate) fn emitter_weight(&self, emitter: usize, point: DVec3, normal: DVec3) -> f64 {
-        if self.emitters.len() == 1 {
-            return 1.0;
-        }
-        let SceneEmitter { source, emitter } = &self.emitters[emitter];
-        source.brightness * emitter.weight(point, normal)
     }
 
     /// The material of an object.

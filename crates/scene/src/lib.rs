@@ -48,7 +48,10 @@ mod validated;
 pub use camera::{Camera, Lens, Projection};
 pub use coated_body::{CoatEstimate, CoatedBody};
 pub use cook::{Cook1981, CookDistribution, CookFacets, DiffuseShare};
-pub use derived::{DirectionTable, Energy, Estimate, FacetTable, Hierarchy, Node, PixelFilter};
+pub use derived::{
+    DirectionTable, Energy, Estimate, FacetTable, Hierarchy, LightNode, LightTree, Node,
+    PixelFilter,
+};
 pub use description::{Distribution, PathDifference, Sampler};
 pub use document::SourceFile;
 pub use environment::{

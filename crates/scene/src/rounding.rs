@@ -3,8 +3,8 @@
 use crate::EnvironmentPicture;
 use crate::{
     Camera, CoatEstimate, CoatedBody, Cook1981, CookFacets, DiffuseShare, Emission, Environment,
-    Grain, Hierarchy, Layer, Lens, Light, LightShape, Material, Microsurface, Object, Pattern,
-    Projection, RenderSettings, Scene, Shape,
+    Grain, Hierarchy, Layer, Lens, Light, LightNode, LightShape, LightTree, Material, Microsurface,
+    Object, Pattern, Projection, RenderSettings, Scene, Shape,
 };
 use glam::DVec3;
 use std::sync::Arc;
@@ -41,7 +41,7 @@ impl RoundToF32 for spectra::BandTable {
 impl RoundToF32 for Scene {
     fn rounded(&self) -> Self {
         let objects = self.objects.rounded();
-        Self {
+        let mut scene = Self {
             settings: self.settings.rounded(),
             camera: self.camera.rounded(),
             spectra: self.spectra.rounded(),
@@ -53,7 +53,10 @@ impl RoundToF32 for Scene {
             lights: self.lights.rounded(),
             environment: self.environment.rounded(),
             estimates: self.estimates.rounded(),
-        }
+            light_tree: LightTree::default(),
+        };
+        scene.light_tree = LightTree::new(&scene).rounded();
+        scene
     }
 }
 
@@ -326,6 +329,32 @@ impl RoundToF32 for LightShape {
                 full_height: full_height.rounded(),
                 edge_height: edge_height.rounded(),
             },
+        }
+    }
+}
+
+impl RoundToF32 for LightTree {
+    fn rounded(&self) -> Self {
+        Self {
+            nodes: self.nodes.rounded(),
+            leaves: self.leaves.clone(),
+        }
+    }
+}
+
+impl RoundToF32 for LightNode {
+    fn rounded(&self) -> Self {
+        Self {
+            center: self.center.rounded(),
+            reach: self.reach.rounded(),
+            axis: self.axis.rounded(),
+            cone: self.cone.rounded(),
+            power: self.power.rounded(),
+            variance: self.variance.rounded(),
+            even: self.even.rounded(),
+            along: self.along.rounded(),
+            near: self.near.rounded(),
+            ..*self
         }
     }
 }

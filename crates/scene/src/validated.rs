@@ -3,8 +3,8 @@
 use crate::description::Description;
 use crate::rounding::RoundToF32;
 use crate::{
-    Camera, Environment, Estimate, Hierarchy, Light, Material, Object, Problems, RenderSettings,
-    validate,
+    Camera, Environment, Estimate, Hierarchy, Light, LightTree, Material, Object, Problems,
+    RenderSettings, validate,
 };
 use spectra::{BandTable, LightGroup, SpectralImage};
 use std::path::Path;
@@ -65,6 +65,7 @@ pub struct Scene {
     /// Of each material.
     pub(crate) estimates: Vec<Estimate>,
     pub(crate) hierarchy: Hierarchy,
+    pub(crate) light_tree: LightTree,
 }
 
 impl Scene {
@@ -147,6 +148,11 @@ impl Scene {
     /// Boxes around the objects.
     pub fn hierarchy(&self) -> &Hierarchy {
         &self.hierarchy
+    }
+
+    /// Groups of what light is sent from.
+    pub fn light_tree(&self) -> &LightTree {
+        &self.light_tree
     }
 
     /// Lights that are no objects, discs first. See [`Scene::light_sources`] for all that shines.

@@ -2,11 +2,12 @@
 
 use super::{PathTracer, Use};
 use crate::bsdf::Bsdf;
+use crate::emitter_choice::Place;
 use crate::prepared::SceneEmitter;
 use crate::transport::{Emitted, Transport};
 use crate::{
-    Emitter, EmitterChoice, Hit, Ray, SurfacePoint, choose_emitter, environment_pixel,
-    mis_weight_emitter, nearest_hit, surface_point,
+    Emitter, Hit, Ray, SurfacePoint, environment_pixel, mis_weight_emitter, nearest_hit,
+    surface_point,
 };
 use glam::{DMat3, DVec3};
 use scene::{DirectLight, EnvironmentShape, SourceKind};
@@ -39,9 +40,12 @@ impl<'a, T: Transport> PathTracer<'a, T> {
             return 0.0;
         }
         let prepared = self.prepared;
-        let weights = &mut self.emitter_weights;
-        let sum = prepared.emitter_weights(point.position, point.normal, weights);
-        let Some(sample) = self.sample_emitter(point, sum) else {
+        let place = Place {
+            position: point.position,
+            normal: point.normal,
+        };
+        let sum = prepared.weigh_emitters(place, &mut self.weighed);
+        let Some(sample) = self.sample_emitter(place, sum) else {
             return sum;
         };
         let eval = bsdf.eval(wo, local_from_world * sample.direction);
@@ -61,29 +65,18 @@ impl<'a, T: Transport> PathTracer<'a, T> {
     }
 
     /// Chooses an emitter and a direction towards it.
-    fn sample_emitter(
-        &mut self,
-        point: &SurfacePoint,
-        weight_sum: f64,
-    ) -> Option<EmitterSample<'a>> {
+    fn sample_emitter(&mut self, place: Place, weight_sum: f64) -> Option<EmitterSample<'a>> {
         let random = self.random(Use::Emitter);
-        let pmfs = self
-            .emitter_weights
-            .iter()
-            .map(|weight| weight / weight_sum);
-        let choice = match pmfs.len() {
-            1 => EmitterChoice {
-                emitter: 0,
-                pmf: 1.0,
-            },
-            _ => choose_emitter(pmfs, random.get(0))?,
-        };
+        let weighed = (&self.weighed[..], weight_sum);
+        let choice = self
+            .prepared
+            .choose_weighed(place, weighed, random.get(0))?;
         let chosen = self.prepared.emitters[choice.emitter];
         let emitter = chosen.emitter;
-        let direction = emitter.sample(point.position, random.get(1), random.get(2));
-        let density = emitter.pdf(point.position, direction);
-        let strength = emitter.strength(point.position, direction);
-        if direction.dot(point.normal) <= 0.0
+        let direction = emitter.sample(place.position, random.get(1), random.get(2));
+        let density = emitter.pdf(place.position, direction);
+        let strength = emitter.strength(place.position, direction);
+        if direction.dot(place.normal) <= 0.0
             || density.is_some_and(|density| density <= 0.0)
             || strength <= 0.0
         {
@@ -149,11 +142,14 @@ impl<'a, T: Transport> PathTracer<'a, T> {
             DirectLight::Lights => 0.0,
             DirectLight::Surfaces => 1.0,
             DirectLight::Both => {
-                let (position, normal) = (scattered.position, scattered.normal);
+                let place = Place {
+                    position: scattered.position,
+                    normal: scattered.normal,
+                };
                 let emitter = self.prepared.emitters[number].emitter;
-                let weight = self.prepared.emitter_weight(number, position, normal);
-                let pmf = weight / scattered.emitter_weight_sum;
-                let density = emitter.pdf(position, self.path.ray.direction);
+                let sum = scattered.emitter_weight_sum;
+                let pmf = self.prepared.emitter_pmf(number, place, sum);
+                let density = emitter.pdf(scattered.position, self.path.ray.direction);
                 1.0 - mis_weight_emitter(emitter, scattered.pdf, pmf, density.unwrap_or(0.0))
             }
         }

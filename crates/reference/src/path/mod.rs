@@ -6,6 +6,7 @@ mod emitter_sampling;
 mod state;
 
 use crate::bsdf::{Bsdf, Lobes};
+use crate::emitter_choice::Weighed;
 use crate::layers::FilmAt;
 use crate::sobol::{SobolNumbers, SobolPixel};
 use crate::transport::{Emitted, Side, Transport};
@@ -56,8 +57,8 @@ pub(crate) struct PathTracer<'a, T> {
     path: PathState,
     /// Paths that begin where films split the present one, to be followed when it has ended.
     waiting: Vec<PathState>,
-    /// Of each emitter, where it is chosen.
-    emitter_weights: Vec<f64>,
+    /// Emitters and groups of them, where one is chosen.
+    weighed: Vec<Weighed>,
     /// The films between a surface and an emitter.
     films: Vec<FilmAt<'a>>,
 }
@@ -72,7 +73,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
             sobol: SobolPixel::new(prepared.scene.settings().seed),
             path: PathState::default(),
             waiting: Vec::new(),
-            emitter_weights: Vec::new(),
+            weighed: Vec::new(),
             films: Vec::new(),
         }
     }

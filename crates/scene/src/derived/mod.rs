@@ -7,6 +7,7 @@ mod estimate;
 mod facet_table;
 mod filter;
 mod hierarchy;
+mod light_tree;
 
 pub use direction_table::DirectionTable;
 pub(crate) use direction_table::Sent;
@@ -16,3 +17,4 @@ pub(crate) use estimate::estimates;
 pub use facet_table::FacetTable;
 pub use filter::PixelFilter;
 pub use hierarchy::{Hierarchy, Node};
+pub use light_tree::{LightNode, LightTree};

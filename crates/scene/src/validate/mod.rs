@@ -28,7 +28,7 @@ mod thickness;
 use crate::description::{Description, Index};
 use crate::limits::{MAX_LIGHTS, MAX_MATERIALS, MAX_OBJECTS};
 use crate::problem::{Problem, ProblemKind};
-use crate::{FieldPath, Hierarchy, Scene, derived};
+use crate::{FieldPath, Hierarchy, LightTree, Scene, derived};
 use checks::Checks;
 use spectra::OpticalConstants;
 use spectrum_list::SpectrumList;
@@ -84,11 +84,13 @@ pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene
                 .collect(),
             environment: lit.parts.environment,
             estimates: Vec::new(),
+            light_tree: LightTree::default(),
         })
     };
     match assemble() {
         Some(mut scene) if checks.problems.is_empty() => {
             scene.estimates = derived::estimates(&scene);
+            scene.light_tree = LightTree::new(&scene);
             Ok(scene)
         }
         _ => Err(checks.problems),
