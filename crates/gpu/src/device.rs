@@ -1,6 +1,6 @@
 //! Finding an adapter and opening it.
 
-use crate::pipelines::RecentPipelines;
+use crate::pipelines::{DriverCache, RecentPipelines};
 use std::sync::{Arc, Mutex};
 use thiserror::Error;
 
@@ -107,6 +107,7 @@ pub struct Gpu {
     pub(crate) queue: wgpu::Queue,
     trouble: Arc<Mutex<Option<DeviceError>>>,
     pub(crate) pipelines: Mutex<RecentPipelines>,
+    pub(crate) driver_cache: Option<DriverCache>,
     prefers_uniform_tables: bool,
 }
 
@@ -162,6 +163,9 @@ fn rank(kind: wgpu::DeviceType) -> u8 {
 impl Gpu {
     /// Opens an adapter.
     ///
+    /// Where the driver gives out what it compiled (Vulkan), that is kept in the user's folder for caches, or in the one that the
+    /// environment variable `PELLICLE_CACHE_DIR` names; an empty one keeps nothing.
+    ///
     /// # Errors
     /// When there is none, none of the wanted name, or it refuses.
     pub fn open(choice: &AdapterChoice) -> Result<Self, OpenError> {
@@ -195,6 +199,8 @@ impl Gpu {
         let description = describe_adapter(adapter);
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("pellicle"),
+            // It is no more than a way to keep what was compiled; no shader needs it.
+            required_features: adapter.features() & wgpu::Features::PIPELINE_CACHE,
             // The limits that every WebGPU device has, so that what runs here runs elsewhere.
             required_limits: wgpu::Limits::default().or_worse_values_from(&description.limits),
             ..Default::default()
@@ -209,14 +215,21 @@ impl Gpu {
         let prefers_uniform_tables = description.info.device_type == wgpu::DeviceType::Cpu;
         let trouble = Arc::new(Mutex::new(None));
         listen(&device, &trouble);
-        Ok(Self {
+        let mut gpu = Self {
             description,
             device,
             queue,
             trouble,
             pipelines: Mutex::default(),
+            driver_cache: None,
             prefers_uniform_tables,
-        })
+        };
+        let cache = DriverCache::open(&gpu.device, &gpu.description.info);
+        // A cache that the driver refuses is done without.
+        if gpu.check().is_ok() {
+            gpu.driver_cache = cache;
+        }
+        Ok(gpu)
     }
 
     /// Whether scenes have their small tables in uniform buffers rather than in storage buffers: on software drivers, which read uniform

@@ -1,10 +1,16 @@
-//! Making pipelines of shaders, and keeping the last ones.
+//! Making pipelines of shaders, and keeping the last ones; what the driver made of them is kept on disk.
 
 use crate::modules::Shader;
 use crate::{DeviceError, Gpu};
 use std::borrow::Cow;
 use std::collections::VecDeque;
-use std::sync::{MutexGuard, PoisonError};
+use std::ffi::OsString;
+use std::fs::{self, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 /// How many pipelines are kept.
 const KEPT: usize = 8;
@@ -30,6 +36,15 @@ impl Pipeline {
 struct Key {
     text: String,
     entry_point: String,
+}
+
+impl Key {
+    fn new(shader: &Shader, entry_point: &str) -> Self {
+        Self {
+            text: shader.text().to_owned(),
+            entry_point: entry_point.to_owned(),
+        }
+    }
 }
 
 /// The pipelines of a device that were made or used last, the latest at the end.
@@ -59,10 +74,7 @@ impl RecentPipelines {
 /// # Errors
 /// When the shader or the pipeline is refused; the message names the module's own file and line.
 pub fn compile(gpu: &Gpu, shader: &Shader, entry_point: &str) -> Result<Pipeline, DeviceError> {
-    let key = Key {
-        text: shader.text().to_owned(),
-        entry_point: entry_point.to_owned(),
-    };
+    let key = Key::new(shader, entry_point);
     if let Some(pipeline) = recent(gpu).find(&key) {
         return Ok(pipeline);
     }
@@ -92,9 +104,12 @@ fn compile_anew(gpu: &Gpu, shader: &Shader, entry_point: &str) -> Result<Pipelin
             module: &module,
             entry_point: Some(entry_point),
             compilation_options: Default::default(),
-            cache: None,
+            cache: gpu.driver_cache.as_ref().map(|kept| &kept.cache),
         });
     gpu.check()?;
+    if let Some(kept) = &gpu.driver_cache {
+        kept.save_now_and_then();
+    }
     Ok(Pipeline { compute, bindings })
 }
 
@@ -104,4 +119,289 @@ fn bindings_of(module: &naga::Module) -> Vec<u32> {
     let bindings = variables.filter_map(|(_, variable)| variable.binding);
     let scene = bindings.filter(|binding| binding.group == 0);
     scene.map(|binding| binding.binding).collect()
+}
+
+/// The folder of the driver's caches; empty for none.
+const FOLDER_VARIABLE: &str = "PELLICLE_CACHE_DIR";
+
+/// A cache that has grown larger is thrown away.
+const MAX_BYTES: usize = 64 << 20;
+
+/// How long a device waits before it writes its cache again: one that makes many pipelines writes them together.
+const PAUSE: Duration = Duration::from_secs(10);
+
+/// What the driver made of this and earlier runs' shaders, in a file of the adapter's. A file that cannot be read or written is no
+/// trouble: the driver compiles again.
+#[derive(Debug)]
+pub(crate) struct DriverCache {
+    cache: wgpu::PipelineCache,
+    file: PathBuf,
+    written: Mutex<Written>,
+}
+
+/// What a device knows of its file.
+#[derive(Debug, Default)]
+struct Written {
+    /// The checksum of the data that it read or wrote last.
+    checksum: Option<u64>,
+    /// When it last looked for something new to write.
+    at: Option<Instant>,
+}
+
+impl DriverCache {
+    /// The cache of an adapter, where its driver gives out what it made and the user has a folder for caches.
+    pub(crate) fn open(device: &wgpu::Device, info: &wgpu::AdapterInfo) -> Option<Self> {
+        if !device.features().contains(wgpu::Features::PIPELINE_CACHE) {
+            return None;
+        }
+        let folder = cache_folder(|variable| std::env::var_os(variable))?;
+        let file = folder.join(wgpu::util::pipeline_cache_key(info)?);
+        let content = read_at_most(&file, MAX_BYTES);
+        let data = content.as_deref().and_then(data_of);
+        Some(Self {
+            cache: cache_of(device, data),
+            file,
+            written: Mutex::new(Written {
+                checksum: data.map(checksum),
+                at: None,
+            }),
+        })
+    }
+
+    fn save_now_and_then(&self) {
+        let mut written = self.written.lock().unwrap_or_else(PoisonError::into_inner);
+        if written.at.is_none_or(|at| at.elapsed() > PAUSE) {
+            self.save(&mut written);
+        }
+    }
+
+    /// Writes what is new.
+    fn save(&self, written: &mut Written) {
+        // A folder that cannot be written now is not tried at every pipeline.
+        written.at = Some(Instant::now());
+        let Some(data) = self.cache.get_data() else {
+            return;
+        };
+        let sum = checksum(&data);
+        if written.checksum == Some(sum) {
+            return;
+        }
+        let done = if data.len() > MAX_BYTES {
+            fs::remove_file(&self.file)
+        } else {
+            replace(&self.file, &[header(&data).as_bytes(), &data])
+        };
+        written.checksum = done.ok().map(|()| sum);
+    }
+}
+
+impl Drop for DriverCache {
+    fn drop(&mut self) {
+        let written = self.written.get_mut();
+        let mut written = std::mem::take(written.unwrap_or_else(PoisonError::into_inner));
+        // Without a pipeline there is nothing new.
+        if written.at.is_some() {
+            self.save(&mut written);
+        }
+    }
+}
+
+/// A cache that starts with this data, or empty.
+#[allow(unsafe_code)] // wgpu has no other way to make one.
+fn cache_of(device: &wgpu::Device, data: Option<&[u8]>) -> wgpu::PipelineCache {
+    let descriptor = wgpu::PipelineCacheDescriptor {
+        label: Some("pipelines"),
+        data,
+        fallback: true,
+    };
+    // SAFETY: data must come from `PipelineCache::get_data`. `data_of` lets through only what `save`, of the same version, wrote down
+    // from there: the length and the checksum are those of that time. wgpu itself compares the adapter and its driver with those
+    // that the data is of, and starts with nothing where they differ.
+    unsafe { device.create_pipeline_cache(&descriptor) }
+}
+
+/// The line before the data: what wrote it, the data's length and checksum.
+fn header(data: &[u8]) -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    let length = data.len();
+    let sum = checksum(data);
+    format!("pellicle pipelines {version} {length} {sum:016x}\n")
+}
+
+/// The data of a file that is whole and of this version.
+fn data_of(content: &[u8]) -> Option<&[u8]> {
+    let line = content.iter().position(|&byte| byte == b'\n')? + 1;
+    let (line, data) = content.split_at(line);
+    (line == header(data).as_bytes()).then_some(data)
+}
+
+/// FNV-1a of 64 bits (Fowler, Noll and Vo; RFC 9923): against damage, not against intent.
+fn checksum(data: &[u8]) -> u64 {
+    data.iter().fold(0xcbf2_9ce4_8422_2325, |sum, &byte| {
+        (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+/// Where caches are kept: as `PELLICLE_CACHE_DIR` says, or in the user's folder for caches (on Unix by the XDG Base Directory
+/// Specification, 0.8).
+fn cache_folder(variable: impl Fn(&str) -> Option<OsString>) -> Option<PathBuf> {
+    if let Some(folder) = variable(FOLDER_VARIABLE) {
+        return (!folder.is_empty()).then(|| folder.into());
+    }
+    // The specification has relative paths ignored.
+    let absolute = |name| {
+        let path = variable(name).map(PathBuf::from);
+        path.filter(|path| path.is_absolute())
+    };
+    let of_user = if cfg!(windows) {
+        absolute("LOCALAPPDATA")
+    } else if cfg!(target_os = "macos") {
+        absolute("HOME").map(|home| home.join("Library/Caches"))
+    } else {
+        absolute("XDG_CACHE_HOME").or_else(|| absolute("HOME").map(|home| home.join(".cache")))
+    };
+    of_user.map(|folder| folder.join("pellicle"))
+}
+
+/// A file of no more than so many bytes and a header.
+fn read_at_most(file: &Path, bytes: usize) -> Option<Vec<u8>> {
+    let most = bytes + header(&[]).len() + usize::MAX.to_string().len();
+    let length = fs::metadata(file).ok()?.len();
+    if length > most as u64 {
+        return None;
+    }
+    fs::read(file).ok()
+}
+
+/// Writes a file beside and puts it in the other's place: whoever reads sees the one or the other, whoever else writes.
+fn replace(file: &Path, parts: &[&[u8]]) -> io::Result<()> {
+    static WRITES: AtomicU64 = AtomicU64::new(0);
+    if let Some(folder) = file.parent() {
+        create_private_folder(folder)?;
+    }
+    let number = WRITES.fetch_add(1, Ordering::Relaxed);
+    let beside = file.with_added_extension(format!("{}.{number}.new", std::process::id()));
+    let written = write_new(&beside, parts).and_then(|()| fs::rename(&beside, file));
+    if written.is_err() {
+        // It may not be there.
+        let _ = fs::remove_file(&beside);
+    }
+    written
+}
+
+fn write_new(file: &Path, parts: &[&[u8]]) -> io::Result<()> {
+    let mut opened = OpenOptions::new().write(true).create_new(true).open(file)?;
+    parts.iter().try_for_each(|part| opened.write_all(part))
+}
+
+/// A folder that others may not write to, which drivers' code will be read from.
+fn create_private_folder(folder: &Path) -> io::Result<()> {
+    let mut builder = fs::DirBuilder::new();
+    builder.recursive(true);
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder.create(folder)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn kept(data: &[u8]) -> Vec<u8> {
+        [header(data).as_bytes(), data].concat()
+    }
+
+    #[test]
+    fn what_was_written_is_read() {
+        for data in [&b""[..], b"\n", b"data of a driver\n\0\xff"] {
+            assert_eq!(data_of(&kept(data)), Some(data));
+        }
+    }
+
+    #[test]
+    fn a_damaged_file_is_ignored() {
+        let whole = kept(b"data of a driver");
+        for byte in 0..whole.len() {
+            for bit in 0..8 {
+                let mut damaged = whole.clone();
+                damaged[byte] ^= 1 << bit;
+                assert_eq!(data_of(&damaged), None, "bit {bit} of byte {byte}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_file_of_another_length_is_ignored() {
+        let mut whole = kept(b"data of a driver");
+        for length in 0..whole.len() {
+            assert_eq!(data_of(&whole[..length]), None, "{length} bytes");
+        }
+        whole.push(0);
+        assert_eq!(data_of(&whole), None);
+    }
+
+    #[test]
+    fn a_file_of_another_version_is_ignored() {
+        let text = String::from_utf8(kept(b"data")).unwrap();
+        let version = env!("CARGO_PKG_VERSION");
+        assert!(text.contains(version));
+        let other = text.replacen(version, "0.0.0", 1);
+        assert_eq!(data_of(other.as_bytes()), None);
+    }
+
+    /// The values of the authors' test vectors.
+    #[test]
+    fn the_checksum_is_fnv_1a() {
+        assert_eq!(checksum(b""), 0xcbf2_9ce4_8422_2325);
+        assert_eq!(checksum(b"a"), 0xaf63_dc4c_8601_ec8c);
+        assert_eq!(checksum(b"foobar"), 0x8594_4171_f739_67e8);
+    }
+
+    fn folder(variables: &[(&str, &str)]) -> Option<PathBuf> {
+        cache_folder(|name| {
+            let found = variables.iter().find(|(known, _)| *known == name);
+            found.map(|(_, value)| value.into())
+        })
+    }
+
+    #[test]
+    fn the_variable_sets_the_folder_or_none() {
+        let home = ("HOME", "/home/x");
+        assert_eq!(
+            folder(&[(FOLDER_VARIABLE, "here"), home]),
+            Some("here".into())
+        );
+        assert_eq!(folder(&[(FOLDER_VARIABLE, ""), home]), None);
+        assert_eq!(folder(&[]), None);
+    }
+
+    #[cfg(all(unix, not(target_os = "macos")))]
+    #[test]
+    fn the_folder_is_where_the_specification_has_it() {
+        let home = ("HOME", "/home/x");
+        let in_home = Some("/home/x/.cache/pellicle".into());
+        assert_eq!(folder(&[home]), in_home);
+        assert_eq!(folder(&[("XDG_CACHE_HOME", "relative"), home]), in_home);
+        assert_eq!(folder(&[("XDG_CACHE_HOME", ""), home]), in_home);
+        assert_eq!(
+            folder(&[("XDG_CACHE_HOME", "/c"), home]),
+            Some("/c/pellicle".into())
+        );
+    }
+
+    #[test]
+    fn a_file_takes_the_place_of_another_and_leaves_nothing_beside() {
+        let name = format!("pellicle-pipelines-{}", std::process::id());
+        let folder = std::env::temp_dir().join(name).join("deeper");
+        let file = folder.join("file");
+        for content in [&b"first"[..], b"second"] {
+            replace(&file, &[content, b"."]).unwrap();
+            assert_eq!(fs::read(&file).unwrap(), [content, b"."].concat());
+        }
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        assert_eq!(read_at_most(&file, 7).as_deref(), Some(&b"second."[..]));
+        fs::write(&file, vec![0; 200]).unwrap();
+        assert_eq!(read_at_most(&file, 7), None);
+        fs::remove_dir_all(folder.parent().unwrap()).unwrap();
+    }
 }
