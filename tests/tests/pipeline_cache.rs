@@ -1,8 +1,11 @@
-//! The driver's cache on disk: a second start gives the same picture, and what cannot be used does no harm.
+//! The driver's cache on disk: a second start gives the same picture, and what cannot be used does no harm. A compile is told before the
+//! first samples.
 
 use pellicle_tests::command::Place;
 use pellicle_tests::device::open;
+use pellicle_tests::scenes::small;
 use pellicle_tests::wgsl::root;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// Renders with the cache in a folder, on the adapter of the suites; the spectral image's bytes.
@@ -62,4 +65,27 @@ fn a_folder_that_cannot_be_written_is_no_error() {
     std::fs::write(&file, "a file").unwrap();
     assert!(picture(&place, &file, adapter) == without);
     assert_eq!(std::fs::read_to_string(&file).unwrap(), "a file");
+}
+
+#[test]
+fn a_compile_is_told_as_no_samples() {
+    let gpu = open();
+    let scene = small("film_wedge", [16, 8], 2, 4, 0);
+    let stopped = gpu::render(&gpu, &scene, &mut |_| ControlFlow::Break(()));
+    assert!(matches!(stopped, Err(gpu::RenderError::Stopped)));
+    let told = || {
+        let mut told = Vec::new();
+        let image = gpu::render(&gpu, &scene, &mut |done| {
+            told.push(done);
+            ControlFlow::Continue(())
+        });
+        assert!(image.is_ok());
+        told
+    };
+    let first = told();
+    assert_eq!((first[0], first.last()), (0, Some(&(16 * 8 * 2))));
+    assert!(first.is_sorted_by(|a, b| a < b), "{first:?}");
+    // The pipeline is kept: nothing is compiled.
+    let second = told();
+    assert!(second[0] > 0, "{second:?}");
 }

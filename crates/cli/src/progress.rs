@@ -1,18 +1,206 @@
 //! How far a render is: on a terminal a line that is redrawn, elsewhere nothing.
 
-use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
+use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 use std::fmt::Write;
 
-/// A bar over `total` samples, after `heading`, with samples per second and time left, on standard error when that is a terminal.
-pub(crate) fn bar(total: u64, heading: &str) -> ProgressBar {
-    let bar = ProgressBar::new(total).with_prefix(heading.to_owned());
-    let rate = |state: &ProgressState, out: &mut dyn Write| {
-        // The width of the number is bounded, so a failure to write can only come from the terminal itself.
-        let _ = write!(out, "{}", HumanCount(state.per_sec() as u64));
-    };
-    let template = "{prefix}{bar:32} {percent:>3} %  {rate} samples/s  {eta} left";
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style.with_key("rate", rate));
+const COMPILING: &str = "{prefix}compiling shaders …";
+const RENDERING: &str = "{prefix}{bar:32} {percent:>3} %{pace}";
+
+/// The line, on standard error where that is a terminal.
+pub(crate) struct Progress {
+    bar: ProgressBar,
+    is_compiling: bool,
+}
+
+impl Progress {
+    /// Of `total` samples, after `heading`.
+    pub(crate) fn new(total: u64, heading: &str) -> Self {
+        Self::on(ProgressBar::new(total), heading)
     }
-    bar
+
+    fn on(bar: ProgressBar, heading: &str) -> Self {
+        let bar = bar.with_style(style(RENDERING));
+        Self {
+            bar: bar.with_prefix(heading.to_owned()),
+            is_compiling: false,
+        }
+    }
+
+    /// Shows how many samples are done; none while shaders are compiled.
+    pub(crate) fn tell(&mut self, done: u64) {
+        if done == 0 {
+            self.is_compiling = true;
+            self.bar.set_style(style(COMPILING));
+            self.bar.tick();
+        } else {
+            self.bar.set_position(done);
+            if self.is_compiling {
+                self.is_compiling = false;
+                self.start_bar();
+            }
+        }
+    }
+
+    /// The first batch may have waited for the driver: the pace is that of the others.
+    fn start_bar(&self) {
+        // The estimate notes where it is when it is told, and starts anew from there.
+        self.bar.tick();
+        self.bar.reset_eta();
+        self.bar.set_style(style(RENDERING));
+        self.bar.force_draw();
+    }
+
+    pub(crate) fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+fn style(template: &str) -> ProgressStyle {
+    let style = ProgressStyle::with_template(template);
+    let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
+    style.with_key("pace", write_pace)
+}
+
+/// Samples per second and time left, once they are known.
+fn write_pace(state: &ProgressState, out: &mut dyn Write) {
+    let per_second = state.per_sec() as u64;
+    if per_second > 0 {
+        // The width of the numbers is bounded, so a failure to write can only come from the terminal itself.
+        let _ = write!(
+            out,
+            "  {} samples/s  {:#} left",
+            HumanCount(per_second),
+            HumanDuration(state.eta())
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use indicatif::{ProgressDrawTarget, TermLike};
+    use std::io;
+    use std::sync::{Arc, Mutex};
+    use std::time::{Duration, Instant};
+
+    /// A terminal that keeps all that its one line was.
+    #[derive(Clone, Debug, Default)]
+    struct Screen(Arc<Mutex<Vec<String>>>);
+
+    impl Screen {
+        fn lines(&self) -> Vec<String> {
+            let lines = self.0.lock().unwrap();
+            lines.iter().map(|line| line.trim().to_owned()).collect()
+        }
+
+        fn line(&self) -> String {
+            self.lines().pop().unwrap_or_default()
+        }
+    }
+
+    impl TermLike for Screen {
+        fn width(&self) -> u16 {
+            100
+        }
+        fn move_cursor_up(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_down(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_right(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_left(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn write_line(&self, text: &str) -> io::Result<()> {
+            self.write_str(text)
+        }
+        fn write_str(&self, text: &str) -> io::Result<()> {
+            let mut lines = self.0.lock().unwrap();
+            match lines.last_mut() {
+                Some(line) => line.push_str(text),
+                None => lines.push(text.to_owned()),
+            }
+            Ok(())
+        }
+        fn clear_line(&self) -> io::Result<()> {
+            self.0.lock().unwrap().push(String::new());
+            Ok(())
+        }
+        fn flush(&self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    fn on_a_screen() -> (Progress, Screen) {
+        let screen = Screen::default();
+        let target = ProgressDrawTarget::term_like_with_hz(Box::new(screen.clone()), 255);
+        let bar = ProgressBar::with_draw_target(Some(1000), target);
+        (Progress::on(bar, "frame 3, "), screen)
+    }
+
+    fn wait() {
+        std::thread::sleep(Duration::from_millis(50));
+    }
+
+    #[test]
+    fn a_compile_shows_until_the_first_batch_is_done() {
+        let (mut progress, screen) = on_a_screen();
+        progress.tell(0);
+        assert_eq!(screen.line(), "frame 3, compiling shaders …");
+        wait();
+        progress.tell(100);
+        let line = screen.line();
+        assert!(
+            line.starts_with("frame 3, █") && line.ends_with("10 %"),
+            "{line}"
+        );
+        for line in screen.lines() {
+            let is_blank = line.is_empty();
+            let is_compiling = line.ends_with("compiling shaders …");
+            assert!(is_blank || is_compiling || line.ends_with("10 %"), "{line}");
+        }
+        wait();
+        progress.tell(200);
+        wait();
+        progress.bar.force_draw();
+        let line = screen.line();
+        assert!(line.contains("20 %") && line.ends_with("left"), "{line}");
+    }
+
+    #[test]
+    fn the_time_left_does_not_count_the_compile() {
+        let (mut progress, _) = on_a_screen();
+        progress.tell(0);
+        std::thread::sleep(Duration::from_millis(600));
+        progress.tell(1);
+        let started = Instant::now();
+        for done in 2..12 {
+            std::thread::sleep(Duration::from_millis(5));
+            progress.tell(done);
+        }
+        progress.bar.tick();
+        let (pace, seconds) = (progress.bar.per_sec(), started.elapsed().as_secs_f64());
+        assert!(
+            pace > 0.5 * 10.0 / seconds,
+            "{pace} samples/s in {seconds} s"
+        );
+    }
+
+    #[test]
+    fn without_a_compile_there_is_the_bar_at_once() {
+        let (mut progress, screen) = on_a_screen();
+        wait();
+        progress.tell(500);
+        progress.bar.force_draw();
+        let line = screen.line();
+        assert!(
+            line.contains("50 %") && !line.contains("compiling"),
+            "{line}"
+        );
+        progress.clear();
+        assert_eq!(screen.line(), "");
+    }
 }

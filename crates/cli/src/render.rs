@@ -2,7 +2,8 @@
 
 use crate::develop::{self, FOV_SETTING, OfImage};
 use crate::output::Outputs;
-use crate::{check, memory, print, progress};
+use crate::progress::Progress;
+use crate::{check, memory, print};
 use clap::ValueEnum;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::color::spectral_exr::Metadata;
@@ -198,15 +199,15 @@ fn render_one(
 ) -> miette::Result<()> {
     let settings = scene.settings();
     let total = samples_of(settings);
-    let bar = progress::bar(total, heading);
+    let mut progress = Progress::new(total, heading);
     let started = Instant::now();
     let mut image = renderer
         .render(scene, &mut |done| {
-            bar.set_position(done);
+            progress.tell(done);
             ControlFlow::Continue(())
         })
         .into_diagnostic()?;
-    bar.finish_and_clear();
+    progress.clear();
     let seconds = started.elapsed().as_secs_f64();
     print::note(format_args!(
         "{heading}{}×{}, {} bands, {} samples per pixel: {seconds:.1} s, {:.3} million samples/s",

@@ -83,6 +83,12 @@ pub fn compile(gpu: &Gpu, shader: &Shader, entry_point: &str) -> Result<Pipeline
     Ok(pipeline)
 }
 
+/// Whether [`compile`] would give a pipeline that was kept.
+pub(crate) fn is_kept(gpu: &Gpu, shader: &Shader, entry_point: &str) -> bool {
+    let key = Key::new(shader, entry_point);
+    recent(gpu).0.iter().any(|(known, _)| *known == key)
+}
+
 fn recent(gpu: &Gpu) -> MutexGuard<'_, RecentPipelines> {
     gpu.pipelines.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -3,7 +3,7 @@
 use crate::bindings::bind_scene;
 use crate::error::{MAX_THICKNESSES, RenderError};
 use crate::modules::Shader;
-use crate::pipelines::compile;
+use crate::pipelines::{compile, is_kept};
 use crate::tile_buffers::{PixelShape, TileBuffers};
 use crate::tiles::{Division, Planner};
 use crate::{Gpu, PackedScene};
@@ -15,7 +15,8 @@ use std::time::Instant;
 /// Renders a scene.
 ///
 /// `on_progress` is told the samples taken so far (of width × height × samples per pixel) after each
-/// batch, and may stop the render.
+/// batch, and may stop the render. Where the shader must be compiled first, it is told 0 before that: a
+/// driver may take seconds, some of them in the first batch.
 ///
 /// The same scene on the same adapter and driver gives the same bits, however the work was divided.
 ///
@@ -48,6 +49,9 @@ pub fn render_divided(
     let bindings = bind_scene(gpu, &packed)?;
     let made_for = packed.specialization(gpu.prefers_uniform_tables());
     let shader = Shader::assemble(&["render"], &made_for, "");
+    if !is_kept(gpu, &shader, "render") && on_progress(0).is_break() {
+        return Err(RenderError::Stopped);
+    }
     let pipeline = compile(gpu, &shader, "render")?;
 
     let shape = PixelShape {

@@ -82,7 +82,9 @@ impl Renderer {
     }
 
     /// Renders a scene. `on_progress` is told the samples taken so far, of width × height × samples per pixel, and may
-    /// stop the render.
+    /// stop the render. It is told 0 before a driver compiles the scene's shader, which may take seconds and last into the first
+    /// batch of samples: from 0 to the next number the render is compiling. On the CPU, and where the shader was compiled for a
+    /// picture before, there is no 0.
     ///
     /// # Errors
     /// When the device fails, the scene is too large for it, or the caller stops the render.

@@ -199,7 +199,9 @@ fn timed(renderer: &Renderer, scene: &Scene) -> miette::Result<f64> {
     let mut total = 0;
     renderer
         .render(scene, &mut |done| {
-            first.get_or_insert((Instant::now(), done));
+            if done > 0 {
+                first.get_or_insert((Instant::now(), done));
+            }
             total = done;
             ControlFlow::Continue(())
         })

@@ -221,7 +221,9 @@ impl Spread {
         let begun = Instant::now();
         let image = renderer
             .render(&scene, &mut |done| {
-                started.get_or_insert((Instant::now(), done));
+                if done > 0 {
+                    started.get_or_insert((Instant::now(), done));
+                }
                 last = done;
                 ControlFlow::Continue(())
             })
