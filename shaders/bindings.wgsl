@@ -1,15 +1,41 @@
 // What the host uploads for a scene.
+//
+// Each list is a run of rows of four words, read by a function of its own. It stands in a storage buffer, as it is written here; or in a
+// uniform buffer or a texture, where the host writes these lines anew.
 
 @group(0) @binding(0) var<uniform> frame: Frame;
+
 /// What rays meet.
-@group(0) @binding(1) var<storage, read> shapes: array<Shape>;
+@group(0) @binding(1) var<storage, read> shapes: array<vec4u>;
+fn shapes_row(row: u32) -> vec4u {
+    return shapes[row];
+}
+
 /// What light is sent from.
-@group(0) @binding(2) var<storage, read> emitters: array<Emitter>;
-/// Materials, and what they are made of; each a whole number of rows.
+@group(0) @binding(2) var<storage, read> emitters: array<vec4u>;
+fn emitters_row(row: u32) -> vec4u {
+    return emitters[row];
+}
+
+/// Materials, and what they are made of.
 @group(0) @binding(3) var<storage, read> records: array<vec4u>;
+fn records_row(row: u32) -> vec4u {
+    return records[row];
+}
+
+/// The hierarchy of boxes around objects, then the tree of emitters.
+@group(0) @binding(4) var<storage, read> trees: array<vec4u>;
+fn trees_row(row: u32) -> vec4u {
+    return trees[row];
+}
+
 /// Spectra as the host resampled them: [spectrum][knot within a band][group of four bands].
-@group(0) @binding(4) var<storage, read> spectra: array<vec4f>;
+@group(0) @binding(5) var<storage, read> spectra: array<vec4f>;
+fn spectra_row(row: u32) -> vec4f {
+    return spectra[row];
+}
+
 /// Tables that anything looks numbers up in, row by row.
-@group(0) @binding(5) var numbers: texture_2d<f32>;
+@group(0) @binding(6) var numbers: texture_2d<f32>;
 /// Pictures with four numbers in each place, a head before each, row by row.
-@group(0) @binding(6) var texels: texture_2d<f32>;
+@group(0) @binding(7) var texels: texture_2d<f32>;

@@ -16,7 +16,7 @@ struct EmitterSample {
 
 /// Chooses an emitter and a direction towards it.
 fn sample_emitter(path: PathState, sample: Sample, point: SurfacePoint) -> EmitterSample {
-    if (!HAS_LIGHTS || path.segment + 1u > MAX_PATH_SEGMENTS) {
+    if (!HAS_LIGHTS || !SENDS_LIGHT || path.segment + 1u > MAX_PATH_SEGMENTS) {
         return EmitterSample(NONE, point.normal, 0.0, 0.0, 0.0, 0u);
     }
     let random = random_at(sample, path, FOR_EMITTER);
@@ -25,7 +25,7 @@ fn sample_emitter(path: PathState, sample: Sample, point: SurfacePoint) -> Emitt
         return EmitterSample(NONE, point.normal, 0.0, 0.0, choice.total, 0u);
     }
     let direction = sample_light(choice.emitter, point.position, random.y, random.z);
-    if (!SENDS_LIGHT || dot(direction, point.normal) <= 0.0) {
+    if (dot(direction, point.normal) <= 0.0) {
         return EmitterSample(choice.emitter, direction, 0.0, 0.0, choice.total, 0u);
     }
     var density = 1.0;
@@ -33,7 +33,7 @@ fn sample_emitter(path: PathState, sample: Sample, point: SurfacePoint) -> Emitt
         density = light_pdf(choice.emitter, point.position, direction);
     }
     var texel = 0u;
-    if (HAS_ENVIRONMENT_PICTURE && emitters[choice.emitter].kind == EMITTER_PICTURE) {
+    if (HAS_ENVIRONMENT_PICTURE && emitter_at(choice.emitter).kind == EMITTER_PICTURE) {
         texel = environment_texel(choice.emitter, direction, random.w);
     }
     return EmitterSample(choice.emitter, direction, choice.pmf, density, choice.total, texel);
@@ -59,12 +59,12 @@ fn connect(path: PathState, object: u32, point: SurfacePoint, sampled: EmitterSa
         mis = mis_weight_emitter(emitter, towards.pdf, sampled.pmf, sampled.density);
     }
     pending.crossings = (first_crossing << CROSSING_BITS) | (crossing_count - first_crossing);
-    pending.light = emitters[emitter].light;
+    pending.light = emitter_at(emitter).light;
     pending.marks |= SCATTERS_LIGHT;
     if (HAS_ENVIRONMENT_PICTURE) {
         pending_texel = sampled.texel;
     }
-    record_lit(towards.lobes, mis * strength * emitters[emitter].scale / (sampled.pmf * sampled.density));
+    record_lit(towards.lobes, mis * strength * emitter_at(emitter).scale / (sampled.pmf * sampled.density));
 }
 
 /// Puts how a surface scatters the light that joins it into the vertex that is being made.
@@ -96,7 +96,7 @@ fn arrives(ray_in: Ray, from_object: u32, emitter: u32, allowed: u32) -> bool {
         if (hit.object == NONE || crossed == allowed) {
             return false;
         }
-        if (material_at(shapes[hit.object].material).surface != SURFACE_FILM) {
+        if (material_at(shape_at(hit.object).material).surface != SURFACE_FILM) {
             return false;
         }
         let point = surface_point(hit.object, ray, hit.distance);
@@ -110,19 +110,19 @@ fn arrives(ray_in: Ray, from_object: u32, emitter: u32, allowed: u32) -> bool {
 
 /// Whether nothing lies before an emitter, by what the ray towards it hits.
 fn is_reached(ray: Ray, emitter: u32, hit: Hit) -> bool {
-    if (emitters[emitter].object != NONE) {
-        return hit.object == emitters[emitter].object;
+    if (emitter_at(emitter).object != NONE) {
+        return hit.object == emitter_at(emitter).object;
     }
-    if (HAS_DELTA_LIGHTS && emitters[emitter].kind >= EMITTER_POINT) {
+    if (HAS_DELTA_LIGHTS && emitter_at(emitter).kind >= EMITTER_POINT) {
         // A lamp may lie on a surface: what is hit just before it, within rounding, does not hide it.
-        return hit.object == NONE || hit.distance >= 0.99999 * length(emitters[emitter].position - ray.origin);
+        return hit.object == NONE || hit.distance >= 0.99999 * length(emitter_at(emitter).position - ray.origin);
     }
     return hit.object == NONE;
 }
 
 /// Weight of an emitter that a path happens to meet: the rest is what emitter sampling brings.
 fn mis_weight_of_meeting(path: PathState, emitter: u32) -> f32 {
-    if (!HAS_LIGHTS || path.scatter_pdf <= 0.0 || emitters[emitter].brightness <= 0.0) {
+    if (!HAS_LIGHTS || path.scatter_pdf <= 0.0 || emitter_at(emitter).brightness <= 0.0) {
         return 1.0;
     }
     if (!MEETS_LIGHT || !SENDS_LIGHT) {

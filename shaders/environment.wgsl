@@ -8,28 +8,28 @@ fn environment_part(part: u32) -> u32 {
 
 /// The share of a part's radiance that comes from a direction; a picture has its own.
 fn environment_share(light: u32, direction: vec3f) -> f32 {
-    if (emitters[light].kind == EMITTER_EVERYWHERE || (HAS_ENVIRONMENT_PICTURE && emitters[light].kind == EMITTER_PICTURE)) {
+    if (emitter_at(light).kind == EMITTER_EVERYWHERE || (HAS_ENVIRONMENT_PICTURE && emitter_at(light).kind == EMITTER_PICTURE)) {
         return 1.0;
     }
-    if (emitters[light].kind == EMITTER_HORIZON) {
+    if (emitter_at(light).kind == EMITTER_HORIZON) {
         return max(1.0 - abs(direction.y), 0.0);
     }
-    if (HAS_DISCS && emitters[light].kind == EMITTER_DISC) {
-        let aside = direction - emitters[light].axis;
-        return select(0.0, 1.0, dot(aside, aside) <= 2.0 * emitters[light].cap_height);
+    if (HAS_DISCS && emitter_at(light).kind == EMITTER_DISC) {
+        let aside = direction - emitter_at(light).axis;
+        return select(0.0, 1.0, dot(aside, aside) <= 2.0 * emitter_at(light).edge_height);
     }
-    return clamp(dot(direction, emitters[light].axis), 0.0, 1.0);
+    return clamp(dot(direction, emitter_at(light).axis), 0.0, 1.0);
 }
 
 /// A direction towards a part of the surroundings, by the density of environment_pdf.
 fn sample_environment(light: u32, random: vec2f) -> vec3f {
-    if (HAS_ENVIRONMENT_PICTURE && emitters[light].kind == EMITTER_PICTURE) {
+    if (HAS_ENVIRONMENT_PICTURE && emitter_at(light).kind == EMITTER_PICTURE) {
         return sample_environment_picture(light, random);
     }
-    if (emitters[light].kind == EMITTER_EVERYWHERE) {
+    if (emitter_at(light).kind == EMITTER_EVERYWHERE) {
         return sample_cone(random.x, random.y, 2.0);
     }
-    if (emitters[light].kind == EMITTER_HORIZON) {
+    if (emitter_at(light).kind == EMITTER_HORIZON) {
         // |h| with density 2 (1 − |h|), above the horizon by the first half of the numbers.
         let upwards = random.x < 0.5;
         let t = 2.0 * random.x - select(1.0, 0.0, upwards);
@@ -37,26 +37,26 @@ fn sample_environment(light: u32, random: vec2f) -> vec3f {
         let around = sqrt((1.0 - height) * (1.0 + height)) * direction_of_turn(random.y);
         return vec3f(around.x, select(-height, height, upwards), around.y);
     }
-    if (HAS_DISCS && emitters[light].kind == EMITTER_DISC) {
-        return normalize(frame_of(emitters[light].axis) * sample_cone(random.x, random.y, emitters[light].cap_height));
+    if (HAS_DISCS && emitter_at(light).kind == EMITTER_DISC) {
+        return normalize(frame_of(emitter_at(light).axis) * sample_cone(random.x, random.y, emitter_at(light).edge_height));
     }
-    return frame_of(emitters[light].axis) * sample_cosine_hemisphere(random.x, random.y);
+    return frame_of(emitter_at(light).axis) * sample_cosine_hemisphere(random.x, random.y);
 }
 
 /// Density with which sample_environment draws a direction, sr⁻¹: in proportion to environment_share.
 fn environment_pdf(light: u32, direction: vec3f) -> f32 {
-    if (HAS_ENVIRONMENT_PICTURE && emitters[light].kind == EMITTER_PICTURE) {
+    if (HAS_ENVIRONMENT_PICTURE && emitter_at(light).kind == EMITTER_PICTURE) {
         return environment_picture_pdf(light, direction);
     }
     let share = environment_share(light, direction);
-    if (emitters[light].kind == EMITTER_EVERYWHERE) {
+    if (emitter_at(light).kind == EMITTER_EVERYWHERE) {
         return share * (0.25 / PI);
     }
-    if (emitters[light].kind == EMITTER_HORIZON) {
+    if (emitter_at(light).kind == EMITTER_HORIZON) {
         return share * (0.5 / PI);
     }
-    if (HAS_DISCS && emitters[light].kind == EMITTER_DISC) {
-        return share * (0.5 / PI) / emitters[light].cap_height;
+    if (HAS_DISCS && emitter_at(light).kind == EMITTER_DISC) {
+        return share * (0.5 / PI) / emitter_at(light).edge_height;
     }
     return share / PI;
 }

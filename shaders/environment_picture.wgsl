@@ -15,7 +15,7 @@ struct DirectionTable {
 }
 
 fn direction_table(light: u32) -> DirectionTable {
-    let first = u32(texel_at(emitters[light].picture).w);
+    let first = u32(texel_at(emitter_at(light).picture).w);
     let columns = u32(number_at(first));
     let rows = u32(number_at(first + 1u));
     let heights = first + 3u;
@@ -24,16 +24,16 @@ fn direction_table(light: u32) -> DirectionTable {
 
 /// Place of a direction in the picture, from its upper left corner in its width and height.
 fn environment_place(light: u32, direction: vec3f) -> vec2f {
-    let aside = dot(direction, emitters[light].tangent);
+    let aside = dot(direction, emitter_at(light).tangent);
     // Straight up and down every longitude is right.
-    let angle = polar_angle(dot(direction, emitters[light].axis), max(abs(aside), 1e-30));
+    let angle = polar_angle(dot(direction, emitter_at(light).axis), max(abs(aside), 1e-30));
     let longitude = select(angle, -angle, aside < 0.0) / (2.0 * PI);
     return vec2f(0.5 + longitude, polar_angle(direction.y, length(direction.xz)) / PI);
 }
 
 /// The first texel of the pixel that a path takes for a direction, by a random number.
 fn environment_texel(light: u32, direction: vec3f, random: f32) -> u32 {
-    let head = emitters[light].picture;
+    let head = emitter_at(light).picture;
     let pixel = chosen_pixel(head, environment_place(light, direction), true, random);
     return head + 1u + pixel * u32(texel_at(head).z);
 }
@@ -70,7 +70,7 @@ fn sample_environment_picture(light: u32, random: vec2f) -> vec3f {
     let column = interval_of(cells, table.columns, random.y);
     let turn = (f32(column) + place_in_interval(cells + column, random.y)) / f32(table.columns) - 0.5;
     let around = sqrt(max((1.0 - height) * (1.0 + height), 0.0)) * direction_of_turn(turn);
-    return around.y * emitters[light].tangent + around.x * emitters[light].axis + vec3f(0.0, height, 0.0);
+    return around.y * emitter_at(light).tangent + around.x * emitter_at(light).axis + vec3f(0.0, height, 0.0);
 }
 
 /// Density of sample_environment_picture, sr⁻¹: the probability of the direction's cell over its solid angle.

@@ -4,6 +4,8 @@
 override HAS_SPHERES: bool = true;
 override HAS_RECTANGLES: bool = true;
 override HAS_DISKS: bool = true;
+override HAS_HIERARCHY: bool = true;
+override HAS_LIGHT_TREE: bool = true;
 override HAS_DIFFUSE: bool = true;
 override HAS_BSDFS: bool = true;
 override HAS_SCATTERING: bool = true;
@@ -58,6 +60,8 @@ override MEETS_LIGHT: bool = true;
 // there for a constant and compiles the pipeline anew for each dispatch.
 /// Objects that rays meet.
 override OBJECT_COUNT: u32 = 1u;
+/// Rows of the hierarchy of boxes around them.
+override HIERARCHY_ROWS: u32 = 1u;
 /// Lights that are chosen from.
 override LIGHT_COUNT: u32 = 1u;
 /// Parts of the surroundings, discs in the sky among them.

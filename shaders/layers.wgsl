@@ -35,7 +35,7 @@ fn record_layers(first: u32, count: u32, object: u32, position: vec3f) -> u32 {
 
 /// A film at a point.
 fn film_at(object: u32, point: SurfacePoint) -> FilmAt {
-    let record = material_at(shapes[object].material).record;
+    let record = material_at(shape_at(object).material).record;
     let film = load_film(record);
     if (HAS_STACKS && film.factor == FACTOR_STACK) {
         let tag = select(FACTOR_STACK_BACK, FACTOR_STACK, point.is_front);

@@ -136,6 +136,9 @@ const ALONG_LINE: u32 = 1u;
 /// The most values that wait for a sum or product.
 const FIELD_STACK: u32 = 5u;
 
+/// Rows of a list that stand side by side in a texture.
+const LIST_WIDTH: u32 = 4096u;
+
 /// Numbers in a row of the texture of tables.
 const NUMBERS_WIDTH: u32 = 4096u;
 
@@ -233,6 +236,12 @@ struct Frame {
     focus_distance: f32,
     /// First of the numbers that spread a pixel's samples by its filter.
     first_filter: u32,
+    /// The row of the first node of the tree of emitters.
+    first_light_node: u32,
+    /// The row after its last one.
+    end_light_node: u32,
+    /// Fills the size up to that of its alignment.
+    padding: vec2u,
 }
 
 /// What holds for one dispatch: a run of samples of one tile.
@@ -249,68 +258,6 @@ struct Batch {
     passes: u32,
     /// Fills the size up to what a uniform buffer asks for.
     padding: u32,
-}
-
-/// What rays meet: a shape made of a material.
-struct Shape {
-    /// Center of a sphere, rectangle or disk, a point of a plane.
-    center: vec3f,
-    /// Radius of a sphere or disk.
-    radius: f32,
-    /// Unit normal of a plane, rectangle or disk.
-    normal: vec3f,
-    /// A `SHAPE_` tag.
-    kind: u32,
-    /// First axis of a plane, rectangle or disk.
-    tangent: vec3f,
-    /// Half the width of a rectangle, along `tangent`; a disk's radius.
-    half_width: f32,
-    /// Second axis of a plane, rectangle or disk.
-    bitangent: vec3f,
-    /// Half the height of a rectangle, along `bitangent`; a disk's radius.
-    half_height: f32,
-    /// Number of its material.
-    material: u32,
-    /// Number of the emitter that it is, or NONE.
-    emitter: u32,
-    /// Fills the size up to that of its alignment.
-    padding: vec2u,
-}
-
-/// What light is sampled from, or comes from where a path leaves the scene. Those that are sampled stand first.
-struct Emitter {
-    /// Center of a sphere, rectangle or disk; where a point or spot stands.
-    position: vec3f,
-    /// An `EMITTER_` tag.
-    kind: u32,
-    /// Unit vector: normal of a rectangle or disk, towards a pole, a disc, a direction or a picture's middle, where a spot shines to.
-    axis: vec3f,
-    /// Radius of a sphere or disk.
-    radius: f32,
-    /// First axis of a rectangle or disk; towards a picture's right half.
-    tangent: vec3f,
-    /// Half the width of a rectangle, along `tangent`; a disk's radius.
-    half_width: f32,
-    /// Second axis of a rectangle or disk.
-    bitangent: vec3f,
-    /// Half the height of a rectangle, along `bitangent`; a disk's radius.
-    half_height: f32,
-    /// Its light: spectrum and light group.
-    light: u32,
-    /// Factor of its light.
-    scale: f32,
-    /// How bright it is to the eye, which steers the choice among emitters; 0 where it is not sampled.
-    brightness: f32,
-    /// The object that it is, or NONE.
-    object: u32,
-    /// 1 − cos of the half angle of a disc in the sky.
-    cap_height: f32,
-    /// 1 − cos of the angle within which a spot shines fully.
-    full_height: f32,
-    /// 1 − cos of the angle beyond which it does not shine.
-    edge_height: f32,
-    /// The head of a picture of the surroundings, or NONE.
-    picture: u32,
 }
 
 /// What holds for one run over a part of a batch of stacks.

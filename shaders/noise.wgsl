@@ -36,10 +36,10 @@ fn swirls(field: u32, object: u32, position: vec3f) -> f32 {
     let cells = load_field(field).cells;
     let seed = load_field(field).seed;
     let time = vec3f(0.0, 0.0, load_field(field).phase);
-    let local = position - shapes[object].center;
-    let is_sphere = HAS_SPHERES && shapes[object].kind == SHAPE_SPHERE;
+    let local = position - shape_at(object).center;
+    let is_sphere = HAS_SPHERES && shape_at(object).kind == SHAPE_SPHERE;
     var normal = vec3f(0.0, 0.0, 1.0);
-    var place = size * vec3f(dot(local, shapes[object].tangent), dot(local, shapes[object].bitangent), 0.0);
+    var place = size * vec3f(dot(local, shape_at(object).tangent), dot(local, shape_at(object).bitangent), 0.0);
     if (is_sphere) {
         normal = normalize(local);
         place = size * normal;

@@ -65,23 +65,23 @@ fn shade_environment(path: PathState, sample: Sample) {
                 begin_vertex(0u);
             }
             var texel = 0u;
-            if (HAS_ENVIRONMENT_PICTURE && emitters[part].kind == EMITTER_PICTURE) {
+            if (HAS_ENVIRONMENT_PICTURE && emitter_at(part).kind == EMITTER_PICTURE) {
                 texel = environment_texel(part, path.ray.direction, random_at(sample, path, FOR_EMITTER).w);
             }
-            add_emission(emitters[part].light, texel, emitters[part].scale * share * mis_weight_of_meeting(path, part));
+            add_emission(emitter_at(part).light, texel, emitter_at(part).scale * share * mis_weight_of_meeting(path, part));
         }
     }
 }
 
 /// The path meets an object.
 fn shade_object(path: PathState, sample: Sample, hit: Hit) -> PathState {
-    let material = shapes[hit.object].material;
+    let material = shape_at(hit.object).material;
     let head = material_at(material);
     let point = surface_point(hit.object, path.ray, hit.distance);
     if (head.light_scale > 0.0) {
         var mis = 1.0;
-        if (HAS_LIGHTS && shapes[hit.object].emitter != NONE) {
-            mis = mis_weight_of_meeting(path, shapes[hit.object].emitter);
+        if (HAS_LIGHTS && shape_at(hit.object).emitter != NONE) {
+            mis = mis_weight_of_meeting(path, shape_at(hit.object).emitter);
         }
         add_emission(head.light, 0u, head.light_scale * mis);
     }
@@ -110,7 +110,7 @@ fn shade_object(path: PathState, sample: Sample, hit: Hit) -> PathState {
 
 /// A film: the path is mirrored or goes straight on, or does both.
 fn shade_film(path: PathState, object: u32, point: SurfacePoint, random: vec4f) -> PathState {
-    let material = shapes[object].material;
+    let material = shape_at(object).material;
     let albedo = material_at(material).albedo;
     let reflected = reflected_part(material, point.cosine);
     var mirror = send_on(path, object, point, mirrored(path.ray.direction, point.normal), 0.0, 0.0);
@@ -147,7 +147,7 @@ fn shade_film(path: PathState, object: u32, point: SurfacePoint, random: vec4f) 
 
 /// A surface that mirrors or scatters: an emitter is sampled, and the path goes on by a sample of the BSDF.
 fn shade_surface(path: PathState, sample: Sample, object: u32, point: SurfacePoint, random: vec4f) -> PathState {
-    let material = shapes[object].material;
+    let material = shape_at(object).material;
     pending.factor = bsdf_factor(object, point, random.w);
     pending.cosine = point.cosine;
     let world_from_local = surface_frame(object, point);

@@ -2,8 +2,8 @@
 
 /// Place in a picture, from its upper left corner in its width and height; `size_in` is its size on planes, 0 for that of the surface.
 fn picture_place(size_in: vec2f, object: u32, position: vec3f) -> vec2f {
-    let local = position - shapes[object].center;
-    if (HAS_SPHERES && shapes[object].kind == SHAPE_SPHERE) {
+    let local = position - shape_at(object).center;
+    if (HAS_SPHERES && shape_at(object).kind == SHAPE_SPHERE) {
         let aside = length(local.xz);
         // At the poles every longitude is right.
         let angle = polar_angle(local.z, max(abs(local.x), 1e-30));
@@ -12,10 +12,10 @@ fn picture_place(size_in: vec2f, object: u32, position: vec3f) -> vec2f {
     }
     var size = size_in;
     if (size.x == 0.0) {
-        let whole = 2.0 * vec2f(shapes[object].half_width, shapes[object].half_height);
-        size = select(whole, vec2f(1.0), shapes[object].kind == SHAPE_PLANE);
+        let whole = 2.0 * vec2f(shape_at(object).half_width, shape_at(object).half_height);
+        size = select(whole, vec2f(1.0), shape_at(object).kind == SHAPE_PLANE);
     }
-    let place = vec2f(dot(local, shapes[object].tangent), -dot(local, shapes[object].bitangent));
+    let place = vec2f(dot(local, shape_at(object).tangent), -dot(local, shape_at(object).bitangent));
     return 0.5 + place / size;
 }
 

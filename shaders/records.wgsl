@@ -1,6 +1,116 @@
 // The records of a scene, and how they are read. Generated from crates/gpu/src/layout.rs: edit there, then run
 //     PELLICLE_BLESS=1 cargo test -p pellicle-tests --test layout
 
+/// What rays meet: a shape made of a material.
+struct Shape {
+    /// Center of a sphere, rectangle or disk, a point of a plane.
+    center: vec3f,
+    /// Radius of a sphere or disk.
+    radius: f32,
+    /// Unit normal of a plane, rectangle or disk.
+    normal: vec3f,
+    /// A `SHAPE_` tag.
+    kind: u32,
+    /// First axis of a plane, rectangle or disk.
+    tangent: vec3f,
+    /// Half the width of a rectangle, along `tangent`; a disk's radius.
+    half_width: f32,
+    /// Second axis of a plane, rectangle or disk.
+    bitangent: vec3f,
+    /// Half the height of a rectangle, along `bitangent`; a disk's radius.
+    half_height: f32,
+    /// Number of its material.
+    material: u32,
+    /// Number of the emitter that it is, or NONE.
+    emitter: u32,
+    /// Fills the size up to that of its alignment.
+    padding: vec2u,
+}
+const SHAPE_ROWS: u32 = 5u;
+fn load_shape(row: u32) -> Shape {
+    let row_0 = shapes_row(row + 0u);
+    let row_1 = shapes_row(row + 1u);
+    let row_2 = shapes_row(row + 2u);
+    let row_3 = shapes_row(row + 3u);
+    let row_4 = shapes_row(row + 4u);
+    return Shape(
+        vec3f(bitcast<f32>(row_0.x), bitcast<f32>(row_0.y), bitcast<f32>(row_0.z)),
+        bitcast<f32>(row_0.w),
+        vec3f(bitcast<f32>(row_1.x), bitcast<f32>(row_1.y), bitcast<f32>(row_1.z)),
+        row_1.w,
+        vec3f(bitcast<f32>(row_2.x), bitcast<f32>(row_2.y), bitcast<f32>(row_2.z)),
+        bitcast<f32>(row_2.w),
+        vec3f(bitcast<f32>(row_3.x), bitcast<f32>(row_3.y), bitcast<f32>(row_3.z)),
+        bitcast<f32>(row_3.w),
+        row_4.x,
+        row_4.y,
+        vec2u(row_4.z, row_4.w),
+    );
+}
+
+/// What light is sampled from, or comes from where a path leaves the scene. Those that are sampled stand first.
+struct Emitter {
+    /// Center of a sphere, rectangle or disk; where a point or spot stands.
+    position: vec3f,
+    /// An `EMITTER_` tag.
+    kind: u32,
+    /// Unit vector: normal of a rectangle or disk, towards a pole, a disc, a direction or a picture's middle, where a spot shines to.
+    axis: vec3f,
+    /// Radius of a sphere or disk.
+    radius: f32,
+    /// First axis of a rectangle or disk; towards a picture's right half.
+    tangent: vec3f,
+    /// Half the width of a rectangle, along `tangent`; a disk's radius.
+    half_width: f32,
+    /// Second axis of a rectangle or disk.
+    bitangent: vec3f,
+    /// Half the height of a rectangle, along `bitangent`; a disk's radius.
+    half_height: f32,
+    /// Its light: spectrum and light group.
+    light: u32,
+    /// Factor of its light.
+    scale: f32,
+    /// How bright it is to the eye, which steers the choice among emitters; 0 where it is not sampled.
+    brightness: f32,
+    /// The object that it is, or NONE.
+    object: u32,
+    /// 1 − cos of the angle with `axis` within which a spot shines fully.
+    full_height: f32,
+    /// 1 − cos of the angle with `axis` beyond which a spot does not shine, or a disc in the sky ends.
+    edge_height: f32,
+    /// The row of its node in the tree of emitters.
+    node: u32,
+    /// The head of a picture of the surroundings, or NONE.
+    picture: u32,
+}
+const EMITTER_ROWS: u32 = 6u;
+fn load_emitter(row: u32) -> Emitter {
+    let row_0 = emitters_row(row + 0u);
+    let row_1 = emitters_row(row + 1u);
+    let row_2 = emitters_row(row + 2u);
+    let row_3 = emitters_row(row + 3u);
+    let row_4 = emitters_row(row + 4u);
+    let row_5 = emitters_row(row + 5u);
+    return Emitter(
+        vec3f(bitcast<f32>(row_0.x), bitcast<f32>(row_0.y), bitcast<f32>(row_0.z)),
+        row_0.w,
+        vec3f(bitcast<f32>(row_1.x), bitcast<f32>(row_1.y), bitcast<f32>(row_1.z)),
+        bitcast<f32>(row_1.w),
+        vec3f(bitcast<f32>(row_2.x), bitcast<f32>(row_2.y), bitcast<f32>(row_2.z)),
+        bitcast<f32>(row_2.w),
+        vec3f(bitcast<f32>(row_3.x), bitcast<f32>(row_3.y), bitcast<f32>(row_3.z)),
+        bitcast<f32>(row_3.w),
+        row_4.x,
+        bitcast<f32>(row_4.y),
+        bitcast<f32>(row_4.z),
+        row_4.w,
+        bitcast<f32>(row_5.x),
+        bitcast<f32>(row_5.y),
+        row_5.z,
+        row_5.w,
+    );
+}
+
 /// What a surface is made of: those of all materials stand first among the records, in the materials' order.
 struct Material {
     /// A `SURFACE_` tag.
@@ -20,8 +130,8 @@ struct Material {
 }
 const MATERIAL_ROWS: u32 = 2u;
 fn load_material(row: u32) -> Material {
-    let row_0 = records[row + 0u];
-    let row_1 = records[row + 1u];
+    let row_0 = records_row(row + 0u);
+    let row_1 = records_row(row + 1u);
     return Material(
         row_0.x,
         row_0.y,
@@ -46,7 +156,7 @@ struct Diffuse {
 }
 const DIFFUSE_ROWS: u32 = 1u;
 fn load_diffuse(row: u32) -> Diffuse {
-    let row_0 = records[row + 0u];
+    let row_0 = records_row(row + 0u);
     return Diffuse(
         row_0.x,
         row_0.y,
@@ -76,9 +186,9 @@ struct Facets {
 }
 const FACETS_ROWS: u32 = 3u;
 fn load_facets(row: u32) -> Facets {
-    let row_0 = records[row + 0u];
-    let row_1 = records[row + 1u];
-    let row_2 = records[row + 2u];
+    let row_0 = records_row(row + 0u);
+    let row_1 = records_row(row + 1u);
+    let row_2 = records_row(row + 2u);
     return Facets(
         vec3f(bitcast<f32>(row_0.x), bitcast<f32>(row_0.y), bitcast<f32>(row_0.z)),
         row_0.w,
@@ -104,7 +214,7 @@ struct Interface {
 }
 const INTERFACE_ROWS: u32 = 1u;
 fn load_interface(row: u32) -> Interface {
-    let row_0 = records[row + 0u];
+    let row_0 = records_row(row + 0u);
     return Interface(
         row_0.x,
         row_0.y,
@@ -132,8 +242,8 @@ struct Coated {
 }
 const COATED_ROWS: u32 = 2u;
 fn load_coated(row: u32) -> Coated {
-    let row_0 = records[row + 0u];
-    let row_1 = records[row + 1u];
+    let row_0 = records_row(row + 0u);
+    let row_1 = records_row(row + 1u);
     return Coated(
         row_0.x,
         row_0.y,
@@ -166,8 +276,8 @@ struct Cook {
 }
 const COOK_ROWS: u32 = 2u;
 fn load_cook(row: u32) -> Cook {
-    let row_0 = records[row + 0u];
-    let row_1 = records[row + 1u];
+    let row_0 = records_row(row + 0u);
+    let row_1 = records_row(row + 1u);
     return Cook(
         row_0.x,
         row_0.y,
@@ -199,8 +309,8 @@ struct Film {
 }
 const FILM_ROWS: u32 = 2u;
 fn load_film(row: u32) -> Film {
-    let row_0 = records[row + 0u];
-    let row_1 = records[row + 1u];
+    let row_0 = records_row(row + 0u);
+    let row_1 = records_row(row + 1u);
     return Film(
         row_0.x,
         row_0.y,
@@ -225,7 +335,7 @@ struct Layer {
 }
 const LAYER_ROWS: u32 = 1u;
 fn load_layer(row: u32) -> Layer {
-    let row_0 = records[row + 0u];
+    let row_0 = records_row(row + 0u);
     return Layer(
         row_0.x,
         bitcast<f32>(row_0.y),
@@ -269,11 +379,11 @@ struct Field {
 }
 const FIELD_ROWS: u32 = 5u;
 fn load_field(row: u32) -> Field {
-    let row_0 = records[row + 0u];
-    let row_1 = records[row + 1u];
-    let row_2 = records[row + 2u];
-    let row_3 = records[row + 3u];
-    let row_4 = records[row + 4u];
+    let row_0 = records_row(row + 0u);
+    let row_1 = records_row(row + 1u);
+    let row_2 = records_row(row + 2u);
+    let row_3 = records_row(row + 3u);
+    let row_4 = records_row(row + 4u);
     return Field(
         vec3f(bitcast<f32>(row_0.x), bitcast<f32>(row_0.y), bitcast<f32>(row_0.z)),
         row_0.w,
@@ -293,7 +403,89 @@ fn load_field(row: u32) -> Field {
     );
 }
 
-/// A material by its number: those of all materials come first.
-fn material_at(material: u32) -> Material {
-    return load_material(material * MATERIAL_ROWS);
+/// A node of the hierarchy of boxes around objects. Nodes stand depth first: what a box holds follows it.
+struct Node {
+    /// The box's corner with the smallest coordinates.
+    low: vec3f,
+    /// The row of the node after all that the box holds.
+    next: u32,
+    /// The box's corner with the largest coordinates.
+    high: vec3f,
+    /// The object that it holds; NONE where that is other nodes.
+    object: u32,
+}
+const NODE_ROWS: u32 = 2u;
+fn load_node(row: u32) -> Node {
+    let row_0 = trees_row(row + 0u);
+    let row_1 = trees_row(row + 1u);
+    return Node(
+        vec3f(bitcast<f32>(row_0.x), bitcast<f32>(row_0.y), bitcast<f32>(row_0.z)),
+        row_0.w,
+        vec3f(bitcast<f32>(row_1.x), bitcast<f32>(row_1.y), bitcast<f32>(row_1.z)),
+        row_1.w,
+    );
+}
+
+/// A node of the tree of emitters, depth first: a group as seen from afar; or an emitter, of which only the last three are meant.
+struct LightNode {
+    /// Mean of the places of what the group holds.
+    center: vec3f,
+    /// All that the group holds is within this distance of the center.
+    reach: f32,
+    /// Unit vector about which the group shines.
+    axis: vec3f,
+    /// Cosine of the angle with `axis` beyond which nothing shines; −1 where the group shines to all sides.
+    cone: f32,
+    /// What the group sends into one of the directions in `cone`.
+    power: f32,
+    /// Mean square of the distance from the center.
+    variance: f32,
+    /// The share of the power that is sent into a direction is √(`even` + `along` c²), where c is its cosine with `axis`.
+    even: f32,
+    /// See `even`.
+    along: f32,
+    /// From points nearer to the center than this the group is looked into; 0 of an emitter.
+    near: f32,
+    /// The row of the node after all that the group holds.
+    next: u32,
+    /// The row of the group that holds it, or NONE.
+    parent: u32,
+    /// The emitter, or NONE of a group.
+    emitter: u32,
+}
+const LIGHTNODE_ROWS: u32 = 4u;
+fn load_lightnode(row: u32) -> LightNode {
+    let row_0 = trees_row(row + 0u);
+    let row_1 = trees_row(row + 1u);
+    let row_2 = trees_row(row + 2u);
+    let row_3 = trees_row(row + 3u);
+    return LightNode(
+        vec3f(bitcast<f32>(row_0.x), bitcast<f32>(row_0.y), bitcast<f32>(row_0.z)),
+        bitcast<f32>(row_0.w),
+        vec3f(bitcast<f32>(row_1.x), bitcast<f32>(row_1.y), bitcast<f32>(row_1.z)),
+        bitcast<f32>(row_1.w),
+        bitcast<f32>(row_2.x),
+        bitcast<f32>(row_2.y),
+        bitcast<f32>(row_2.z),
+        bitcast<f32>(row_2.w),
+        bitcast<f32>(row_3.x),
+        row_3.y,
+        row_3.z,
+        row_3.w,
+    );
+}
+
+/// What rays meet, by its number.
+fn shape_at(number: u32) -> Shape {
+    return load_shape(number * SHAPE_ROWS);
+}
+
+/// An emitter by its number.
+fn emitter_at(number: u32) -> Emitter {
+    return load_emitter(number * EMITTER_ROWS);
+}
+
+/// A material by its number: they come first among the records.
+fn material_at(number: u32) -> Material {
+    return load_material(number * MATERIAL_ROWS);
 }

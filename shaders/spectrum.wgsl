@@ -19,7 +19,7 @@ fn wavelengths_at(offset: f32) -> Wavelengths {
 /// Values of a spectrum in the four bands of a group.
 fn spectrum_at(spectrum: u32, group: u32, at: Wavelengths) -> vec4f {
     let here = (spectrum * (frame.steps + 1u) + at.knot) * GROUPS + group;
-    return mix(spectra[here], spectra[here + GROUPS], at.fraction);
+    return mix(spectra_row(here), spectra_row(here + GROUPS), at.fraction);
 }
 
 /// 1/λ in the four bands of a group, 1/nm.

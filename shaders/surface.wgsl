@@ -11,13 +11,13 @@ struct SurfacePoint {
 }
 
 fn surface_point(index: u32, ray: Ray, distance: f32) -> SurfacePoint {
-    let center = shapes[index].center;
+    let center = shape_at(index).center;
     var position = ray.origin + distance * ray.direction;
-    var normal = shapes[index].normal;
-    if (HAS_SPHERES && shapes[index].kind == SHAPE_SPHERE) {
+    var normal = shape_at(index).normal;
+    if (HAS_SPHERES && shape_at(index).kind == SHAPE_SPHERE) {
         // Put back onto the sphere: what the distance lost does not add up along a path.
         normal = normalize(position - center);
-        position = center + shapes[index].radius * normal;
+        position = center + shape_at(index).radius * normal;
     }
     let cosine = dot(normal, ray.direction);
     return SurfacePoint(position, select(normal, -normal, cosine > 0.0), abs(cosine), cosine <= 0.0);
@@ -26,7 +26,7 @@ fn surface_point(index: u32, ray: Ray, distance: f32) -> SurfacePoint {
 /// The frame of a surface at a point, its third column the normal on the ray's side: where the surface is brushed the first runs
 /// along the grain.
 fn surface_frame(object: u32, point: SurfacePoint) -> mat3x3f {
-    let row = material_at(shapes[object].material).facets;
+    let row = material_at(shape_at(object).material).facets;
     if (!HAS_GRAIN || row == NONE) {
         return frame_of(point.normal);
     }
@@ -36,7 +36,7 @@ fn surface_frame(object: u32, point: SurfacePoint) -> mat3x3f {
     }
     var grain = facets.grain;
     if (facets.grain_kind == GRAIN_AROUND) {
-        grain = cross(grain, point.position - shapes[object].center);
+        grain = cross(grain, point.position - shape_at(object).center);
     }
     let along = grain - dot(grain, point.normal) * point.normal;
     let length2 = dot(along, along);

@@ -65,7 +65,7 @@ fn field_value(field: u32, object: u32, position: vec3f) -> f32 {
 fn field_coordinate(field: u32, object: u32, position: vec3f) -> f32 {
     let origin = load_field(field).origin;
     if (HAS_POLAR_FIELDS && (!HAS_LINE_FIELDS || load_field(field).runs_along == ALONG_POLAR_ANGLE)) {
-        let radial = position - shapes[object].center;
+        let radial = position - shape_at(object).center;
         return polar_angle(dot(radial, origin), length(cross(radial, origin))) / PI;
     }
     return clamp(dot(position - origin, load_field(field).along), 0.0, 1.0);
@@ -84,7 +84,7 @@ fn profile_value(field: u32, along: f32) -> f32 {
 
 /// A picture by longitude and latitude on spheres, by the surface's two axes elsewhere.
 fn picture_value(field: u32, object: u32, position: vec3f) -> f32 {
-    let value = bilinear(field, picture_place(load_field(field).size, object, position), shapes[object].kind == SHAPE_SPHERE);
+    let value = bilinear(field, picture_place(load_field(field).size, object, position), shape_at(object).kind == SHAPE_SPHERE);
     return load_field(field).base + load_field(field).swing * value;
 }
 

@@ -49,7 +49,7 @@ fn bsdf_sample(material: u32, wo: vec3f, random: vec4f) -> vec3f {
 /// The factor of a surface at a point; what else its spectrum needs goes into the vertex that is being made. `random` in [0, 1) chooses
 /// between the texels of a picture.
 fn bsdf_factor(object: u32, point: SurfacePoint, random: f32) -> u32 {
-    let material = shapes[object].material;
+    let material = shape_at(object).material;
     let head = material_at(material);
     if ((HAS_COATED_BODIES || HAS_ROUGH_COATS) && head.surface == SURFACE_COATED) {
         return coated_factor(object, point, random);

@@ -59,7 +59,7 @@ fn coat_passage(facets: Facets, direction: vec3f) -> f32 {
 }
 
 fn coated_factor(object: u32, point: SurfacePoint, random: f32) -> u32 {
-    let material = shapes[object].material;
+    let material = shape_at(object).material;
     let coated = coated_of(material);
     pending_body.material = material;
     pending_body.base = diffuse_factor(coated.base, object, point.position, random);

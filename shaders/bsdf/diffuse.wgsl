@@ -15,7 +15,7 @@ fn diffuse_factor(record: u32, object: u32, position: vec3f, random: f32) -> u32
     if (HAS_TEXTURES && reflectance.picture != NONE) {
         let head = reflectance.picture;
         let place = picture_place(texel_at(head).zw, object, position);
-        let pixel = chosen_pixel(head, place, shapes[object].kind == SHAPE_SPHERE, random);
+        let pixel = chosen_pixel(head, place, shape_at(object).kind == SHAPE_SPHERE, random);
         return factor_of(FACTOR_TEXTURE, head + 1u + pixel);
     }
     return factor_of(FACTOR_DIFFUSE, reflectance_spectrum(reflectance, object, position));
@@ -26,10 +26,10 @@ fn reflectance_spectrum(reflectance: Diffuse, object: u32, position: vec3f) -> u
     if (!HAS_CHECKERS || reflectance.spectrum == reflectance.odd_spectrum) {
         return reflectance.spectrum;
     }
-    let local = (position - shapes[object].center) / reflectance.checker_size;
+    let local = (position - shape_at(object).center) / reflectance.checker_size;
     var squares = floor(local);
-    if (shapes[object].kind != SHAPE_SPHERE) {
-        let axes = vec2f(dot(local, shapes[object].tangent), dot(local, shapes[object].bitangent));
+    if (shape_at(object).kind != SHAPE_SPHERE) {
+        let axes = vec2f(dot(local, shape_at(object).tangent), dot(local, shape_at(object).bitangent));
         squares = vec3f(floor(axes), 0.0);
     }
     let half = 0.5 * (squares.x + squares.y + squares.z);

@@ -13,7 +13,7 @@ fn interface_sample(material: u32, wo: vec3f, random: vec4f) -> vec3f {
 }
 
 fn interface_factor(object: u32, point: SurfacePoint) -> u32 {
-    let head = material_at(shapes[object].material);
+    let head = material_at(shape_at(object).material);
     let boundary = load_interface(head.record);
     if (HAS_SHEENS && head.facets != NONE) {
         pending_sheen.mean_energy = load_facets(head.facets).mean_energy;

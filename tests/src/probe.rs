@@ -60,7 +60,7 @@ impl Probe<'_> {
         );
         let made_for = match (self.scene, gpu) {
             (None, _) => Specialization::general(SMALL),
-            (Some(scene), Some(gpu)) => scene.specialization(gpu.prefers_uniform_tables()),
+            (Some(scene), Some(gpu)) => scene.specialization(gpu.is_software()),
             (Some(scene), None) => Specialization::general(scene.limits),
         };
         Shader::assemble(self.roots, &made_for, &extra)

@@ -219,6 +219,9 @@ pub const NEAR_LIGHT: Tolerance = of(5e-4, 5e-4);
 /// What lights bring: points keep 3e-7 of coordinates of some units, which a squared distance of a tenth makes 1e-5, and the edges of
 /// cones a little more.
 pub const LIGHT_ESTIMATE: Tolerance = of(5e-5, 1e-5);
+/// The probability of one of many lights: a product of some eight quotients of sums, each rounded a few times. The estimates' own roundings
+/// cancel in quotients but for points very close to a group.
+pub const LIGHT_TREE: Tolerance = of(2e-5, 1e-7);
 /// Between two knots of a table of 33: the place is rounded by 2e-6 of a step, which near grazing changes R by up to a half.
 pub const ARITHMETIC_OF_TABLES: Tolerance = of(2e-6, 1e-6);
 /// A pixel filter's offset between two of 257 knots: the place is rounded by some 2e-5 of a step, and the longest steps, at the ends, are

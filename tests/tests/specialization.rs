@@ -6,8 +6,8 @@ use naga::{Block, Expression, Function, Handle, Literal, Module, Statement};
 use pellicle_tests::scenes::{BANDS, all, small};
 use std::collections::{BTreeMap, BTreeSet};
 
-fn made_for(name: &str, prefers_uniform: bool) -> Specialization {
-    PackedScene::new(&small(name, [96, 72], 16, BANDS, 1)).specialization(prefers_uniform)
+fn made_for(name: &str, is_software: bool) -> Specialization {
+    PackedScene::new(&small(name, [96, 72], 16, BANDS, 1)).specialization(is_software)
 }
 
 fn shader(made_for: &Specialization) -> Shader {
@@ -22,8 +22,8 @@ fn functions(module: &Module) -> BTreeSet<String> {
 #[test]
 fn what_is_left_is_valid_and_binds_few_buffers() {
     for name in all() {
-        for prefers_uniform in [false, true] {
-            let module = shader(&made_for(name, prefers_uniform)).specialized("render");
+        for is_software in [false, true] {
+            let module = shader(&made_for(name, is_software)).specialized("render");
             let module = module.unwrap_or_else(|error| panic!("{name}: {error}"));
             let flags = naga::valid::ValidationFlags::all();
             naga::valid::Validator::new(flags, naga::valid::Capabilities::empty())
@@ -41,7 +41,7 @@ fn what_is_left_is_valid_and_binds_few_buffers() {
             );
             assert!(storage <= 6, "{name}: {storage} storage buffers");
             assert!(uniform <= 12, "{name}: {uniform} uniform buffers");
-            assert!(!prefers_uniform || storage < 3, "{name}: {storage}");
+            assert!(!is_software || storage < 3, "{name}: {storage}");
         }
     }
 }
@@ -199,5 +199,32 @@ fn every_feature_of_a_scene_is_declared() {
         for name in made_for(scene, false).features.names() {
             assert!(declared.contains(&format!("\noverride {name}: ")), "{name}");
         }
+    }
+}
+
+/// Bytes of an invocation's own memory: the path's record, the paths that wait, and what lies between the two halves of a sample.
+fn private_bytes(name: &str) -> u32 {
+    let module = shader(&made_for(name, false)).specialized("render");
+    let module = module.unwrap_or_else(|error| panic!("{name}: {error}"));
+    let mut layouter = naga::proc::Layouter::default();
+    layouter.update(module.to_ctx()).expect("all have a size");
+    let variables = module.global_variables.iter();
+    let private = variables.filter(|(_, v)| v.space == naga::AddressSpace::Private);
+    private.map(|(_, v)| layouter[v.ty].size).sum()
+}
+
+/// The numbers are told in docs/performance.md: what a GPU must keep of a path decides how many it follows at a time.
+#[test]
+fn a_path_takes_little_memory() {
+    for (name, most) in [
+        ("bench/bubble", 1536),
+        ("bench/metals", 1024),
+        ("bench/wedge", 256),
+        ("everything", 8192),
+    ] {
+        let bytes = private_bytes(name);
+        println!("{name}: {bytes} bytes");
+        assert!(bytes <= most, "{name}: {bytes} bytes");
+        assert!(bytes > most / 8, "{name}: {bytes} bytes: not what it was");
     }
 }

@@ -1,116 +1,38 @@
 //! A scene's buffers and textures on the device.
 
-use crate::layout::{self, NUMBERS_WIDTH, TEXELS_WIDTH};
-use crate::modules::Specialization;
+use crate::layout::{LIST_WIDTH, NUMBERS_WIDTH, TEXELS_WIDTH};
+use crate::lists::{List, ListForm, UNIFORM_BYTES};
 use crate::pipelines::Pipeline;
 use crate::{Gpu, PackedScene, RenderError};
 use wgpu::util::DeviceExt;
 
-/// A list of a scene, as `shaders/bindings.wgsl` declares it.
-struct List<'a> {
-    /// Its variable.
-    name: &'static str,
-    /// What to call it.
-    what: &'static str,
-    bytes: &'a [u8],
-    /// Bytes of an element.
-    stride: usize,
-    /// What to do where there are too many.
-    advice: &'static str,
-}
-
-impl PackedScene {
-    /// The lists that stand in buffers, in the order of their bindings, from 1 on.
-    fn lists(&self) -> [List<'_>; 4] {
-        fn list<'a, T: bytemuck::Pod>(
-            [name, what]: [&'static str; 2],
-            elements: &'a [T],
-            advice: &'static str,
-        ) -> List<'a> {
-            List {
-                name,
-                what,
-                bytes: bytemuck::cast_slice(elements),
-                stride: size_of::<T>(),
-                advice,
-            }
-        }
-        let fewer = "use fewer of them";
-        [
-            list(["shapes", "objects"], &self.shapes, fewer),
-            list(["emitters", "lights"], &self.emitters, fewer),
-            list(
-                ["records", "materials"],
-                &self.records,
-                "use fewer of them, of fewer layers",
-            ),
-            list(
-                ["spectra", "spectra"],
-                &self.spectra,
-                "use fewer materials and lights",
-            ),
-        ]
-    }
-
-    /// What a shader for this scene is made for, on a device that has small tables in uniform buffers or not
-    /// ([`Gpu::prefers_uniform_tables`]).
-    pub fn specialization(&self, prefers_uniform: bool) -> Specialization {
-        let lists = self.lists();
-        let uniform = lists.iter().filter(|list| list.is_uniform(prefers_uniform));
-        Specialization {
-            limits: self.limits,
-            features: self.features.clone(),
-            uniform_tables: uniform.map(|list| list.name).collect(),
-        }
-    }
-}
-
-/// Bytes of a list in a uniform buffer: what every device binds. Shaders do not depend on how much of it is used.
-const UNIFORM_BYTES: usize = 65_536;
-
-/// A line of `shaders/bindings.wgsl` that declares one of the `uniform` lists, in its uniform form; none of another line.
-pub(crate) fn uniform_table(line: &str, uniform: &[&str]) -> Option<String> {
-    let (place, declared) = line.split_once("var<storage, read> ")?;
-    let (name, element) = declared.split_once(": array<")?;
-    let element = element.strip_suffix(">;")?;
-    uniform.contains(&name).then(|| {
-        let count = UNIFORM_BYTES / stride_of(element);
-        format!("{place}var<uniform> {name}: array<{element}, {count}>;")
-    })
-}
-
-/// Bytes of an element of a list, by its type in WGSL.
-fn stride_of(element: &str) -> usize {
-    match element {
-        "Shape" => size_of::<layout::Shape>(),
-        "Emitter" => size_of::<layout::Emitter>(),
-        _ => 16,
-    }
-}
-
-/// A scene in the device's memory.
+/// A scene in the device's memory: by the number of its binding, what is bound there.
 #[derive(Debug)]
-pub struct SceneBindings {
-    /// The frame and the lists.
-    buffers: Vec<wgpu::Buffer>,
-    /// Numbers and texels.
-    textures: [wgpu::TextureView; 2],
+pub struct SceneBindings(Vec<Resource>);
+
+#[derive(Debug)]
+enum Resource {
+    Buffer(wgpu::Buffer),
+    Texture(wgpu::TextureView),
+}
+
+impl Resource {
+    fn binding(&self) -> wgpu::BindingResource<'_> {
+        match self {
+            Self::Buffer(buffer) => buffer.as_entire_binding(),
+            Self::Texture(view) => wgpu::BindingResource::TextureView(view),
+        }
+    }
 }
 
 impl SceneBindings {
     /// The bind group 0 of a pipeline.
     pub fn group(&self, gpu: &Gpu, pipeline: &Pipeline) -> wgpu::BindGroup {
-        let entries: Vec<_> = pipeline
-            .bindings
-            .iter()
+        let used = pipeline.bindings.iter();
+        let entries: Vec<_> = used
             .map(|&binding| wgpu::BindGroupEntry {
                 binding,
-                resource: if let Some(buffer) = self.buffers.get(binding as usize) {
-                    buffer.as_entire_binding()
-                } else {
-                    let texture = binding as usize - self.buffers.len();
-                    wgpu::BindingResource::TextureView(&self.textures[texture])
-                },
+                resource: self.0[binding as usize].binding(),
             })
             .collect();
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -126,41 +48,45 @@ impl SceneBindings {
 /// # Errors
 /// When a part of it is larger than what the device binds at once, or the device fails.
 pub fn bind_scene(gpu: &Gpu, packed: &PackedScene) -> Result<SceneBindings, RenderError> {
-    let frame = gpu
-        .device
-        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("frame"),
-            contents: bytemuck::bytes_of(&packed.frame),
-            usage: wgpu::BufferUsages::UNIFORM,
-        });
-    let mut buffers = vec![frame];
+    let frame = bytemuck::bytes_of(&packed.frame);
+    let frame = buffer(gpu, "frame", frame, wgpu::BufferUsages::UNIFORM);
+    let mut resources = vec![Resource::Buffer(frame)];
     for list in packed.lists() {
-        buffers.push(list.upload(gpu)?);
+        resources.push(list.upload(gpu)?);
     }
     let numbers = Table {
         what: "tables of numbers",
         format: wgpu::TextureFormat::R32Float,
         width: NUMBERS_WIDTH,
         bytes: bytemuck::cast_slice(&packed.numbers),
+        advice: "use fewer or smaller pictures",
     };
     let texels = Table {
         what: "pictures of colors",
         format: wgpu::TextureFormat::Rgba32Float,
         width: TEXELS_WIDTH,
         bytes: bytemuck::cast_slice(&packed.texels),
+        advice: "use fewer or smaller pictures",
     };
-    let textures = [numbers.upload(gpu)?, texels.upload(gpu)?];
+    for table in [numbers, texels] {
+        resources.push(Resource::Texture(table.upload(gpu)?));
+    }
     gpu.check()?;
-    Ok(SceneBindings { buffers, textures })
+    Ok(SceneBindings(resources))
+}
+
+fn buffer(gpu: &Gpu, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    gpu.device
+        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some(label),
+            contents,
+            usage,
+        })
 }
 
 impl List<'_> {
-    /// Whether it stands in a uniform buffer.
-    fn is_uniform(&self, prefers_uniform: bool) -> bool {
-        prefers_uniform && self.bytes.len() <= UNIFORM_BYTES
-    }
-
-    fn upload(&self, gpu: &Gpu) -> Result<wgpu::Buffer, RenderError> {
+    fn upload(&self, gpu: &Gpu) -> Result<Resource, RenderError> {
+        // Of storage buffers, but as good for all forms.
         let limit = gpu.limits().max_storage_buffer_binding_size;
         if self.bytes.len() as u64 > limit {
             return Err(RenderError::TooLarge {
@@ -170,31 +96,44 @@ impl List<'_> {
                 advice: self.advice,
             });
         }
-        let (usage, least) = if self.is_uniform(gpu.prefers_uniform_tables()) {
-            (wgpu::BufferUsages::UNIFORM, UNIFORM_BYTES)
-        } else {
-            // A binding may not be empty: a list without elements has one that nothing reads.
-            (wgpu::BufferUsages::STORAGE, self.stride)
+        let filled = |least: usize| {
+            let mut contents = self.bytes.to_vec();
+            contents.resize(contents.len().max(least), 0);
+            contents
         };
-        let mut contents = self.bytes.to_vec();
-        contents.resize(contents.len().max(least), 0);
-        Ok(gpu
-            .device
-            .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some(self.what),
-                contents: &contents,
-                usage,
-            }))
+        let uniform = wgpu::BufferUsages::UNIFORM;
+        Ok(match self.form(gpu.is_software()) {
+            ListForm::Uniform => {
+                Resource::Buffer(buffer(gpu, self.what, &filled(UNIFORM_BYTES), uniform))
+            }
+            // A binding may not be empty: a list without rows has one that nothing reads.
+            ListForm::Storage => {
+                let storage = wgpu::BufferUsages::STORAGE;
+                Resource::Buffer(buffer(gpu, self.what, &filled(16), storage))
+            }
+            ListForm::Texture => {
+                let table = Table {
+                    what: self.what,
+                    format: self.texture_format(),
+                    width: LIST_WIDTH,
+                    bytes: self.bytes,
+                    advice: self.advice,
+                };
+                Resource::Texture(table.upload(gpu)?)
+            }
+        })
     }
 }
 
-/// A list as a texture, row by row: storage buffers are few.
+/// What stands in a texture, row by row.
 struct Table<'a> {
     what: &'static str,
     format: wgpu::TextureFormat,
     /// Elements of a row.
     width: u32,
     bytes: &'a [u8],
+    /// What to do where it is too large.
+    advice: &'static str,
 }
 
 impl Table<'_> {
@@ -208,7 +147,7 @@ impl Table<'_> {
                 what: self.what,
                 bytes: self.bytes.len() as u64,
                 limit: most * u64::from(self.width * size),
-                advice: "use fewer or smaller pictures",
+                advice: self.advice,
             });
         }
         let extent = wgpu::Extent3d {

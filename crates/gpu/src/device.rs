@@ -108,7 +108,7 @@ pub struct Gpu {
     trouble: Arc<Mutex<Option<DeviceError>>>,
     pub(crate) pipelines: Mutex<RecentPipelines>,
     pub(crate) driver_cache: Option<DriverCache>,
-    prefers_uniform_tables: bool,
+    is_software: bool,
 }
 
 /// All adapters, the best first.
@@ -212,7 +212,7 @@ impl Gpu {
                     source,
                 }
             })?;
-        let prefers_uniform_tables = description.info.device_type == wgpu::DeviceType::Cpu;
+        let is_software = description.info.device_type == wgpu::DeviceType::Cpu;
         let trouble = Arc::new(Mutex::new(None));
         listen(&device, &trouble);
         let mut gpu = Self {
@@ -222,7 +222,7 @@ impl Gpu {
             trouble,
             pipelines: Mutex::default(),
             driver_cache: None,
-            prefers_uniform_tables,
+            is_software,
         };
         let cache = DriverCache::open(&gpu.device, &gpu.description.info);
         // A cache that the driver refuses is done without.
@@ -232,16 +232,15 @@ impl Gpu {
         Ok(gpu)
     }
 
-    /// Whether scenes have their small tables in uniform buffers rather than in storage buffers: on software drivers, which read uniform
-    /// buffers at many places at once and storage buffers at one after the other.
-    pub fn prefers_uniform_tables(&self) -> bool {
-        self.prefers_uniform_tables
+    /// Whether it is a software driver, which takes the lists of a scene in other forms than hardware does.
+    pub fn is_software(&self) -> bool {
+        self.is_software
     }
 
-    /// The device with this choice made otherwise, for tests.
+    /// The device with this said otherwise, so that tests see the lists in the other forms.
     #[must_use]
-    pub fn with_uniform_tables(mut self, prefers: bool) -> Self {
-        self.prefers_uniform_tables = prefers;
+    pub fn taken_for_software(mut self, is_software: bool) -> Self {
+        self.is_software = is_software;
         self
     }
 

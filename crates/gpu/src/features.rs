@@ -1,7 +1,7 @@
 //! What a scene has, so that its shader leaves out the rest: the values of `shaders/features.wgsl`.
 
 use scene::{
-    DirectLight, Environment, EnvironmentPart, EnvironmentShape, LightSource, Material,
+    DirectLight, Environment, EnvironmentPart, EnvironmentShape, LightSource, LightTree, Material,
     PictureSpectra, Projection, Sampler, Scene, Shape, SourceKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -32,6 +32,18 @@ impl Features {
     /// Adds what something needs.
     pub(crate) fn add(&mut self, names: &[&'static str]) {
         self.has.get_or_insert_default().extend(names);
+    }
+
+    /// Adds what the trees of a scene are; `hierarchy_rows` is 0 where there is no hierarchy of objects.
+    pub(crate) fn set_trees(&mut self, scene: &Scene, hierarchy_rows: u32) {
+        if hierarchy_rows > 0 {
+            self.add(&["HAS_HIERARCHY"]);
+            self.counts.insert("HIERARCHY_ROWS", hierarchy_rows);
+        }
+        let mut nodes = scene.light_tree().nodes.iter();
+        if nodes.any(|node| node.source == LightTree::NONE) {
+            self.add(&["HAS_LIGHT_TREE"]);
+        }
     }
 
     /// The same with a thing more or less, for tests.

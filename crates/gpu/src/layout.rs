@@ -220,6 +220,8 @@ constants! { CONSTANTS;
     pub const ALONG_LINE = 1;
     /// The most values that wait for a sum or product.
     pub const FIELD_STACK = MAX_FIELD_DEPTH as u32 + 1;
+    /// Rows of a list that stand side by side in a texture.
+    pub const LIST_WIDTH = 4096;
     /// Numbers in a row of the texture of tables.
     pub const NUMBERS_WIDTH = 4096;
     /// Texels in a row of the texture of pictures.
@@ -303,6 +305,12 @@ structs! { STRUCTS, Struct;
         pub focus_distance: f32,
         /// First of the numbers that spread a pixel's samples by its filter.
         pub first_filter: u32,
+        /// The row of the first node of the tree of emitters.
+        pub first_light_node: u32,
+        /// The row after its last one.
+        pub end_light_node: u32,
+        /// Fills the size up to that of its alignment.
+        pub padding: [u32; 2],
     }
 
     /// What holds for one dispatch: a run of samples of one tile.
@@ -319,68 +327,6 @@ structs! { STRUCTS, Struct;
         pub passes: u32,
         /// Fills the size up to what a uniform buffer asks for.
         pub padding: u32,
-    }
-
-    /// What rays meet: a shape made of a material.
-    pub struct Shape {
-        /// Center of a sphere, rectangle or disk, a point of a plane.
-        pub center: [f32; 3],
-        /// Radius of a sphere or disk.
-        pub radius: f32,
-        /// Unit normal of a plane, rectangle or disk.
-        pub normal: [f32; 3],
-        /// A `SHAPE_` tag.
-        pub kind: u32,
-        /// First axis of a plane, rectangle or disk.
-        pub tangent: [f32; 3],
-        /// Half the width of a rectangle, along `tangent`; a disk's radius.
-        pub half_width: f32,
-        /// Second axis of a plane, rectangle or disk.
-        pub bitangent: [f32; 3],
-        /// Half the height of a rectangle, along `bitangent`; a disk's radius.
-        pub half_height: f32,
-        /// Number of its material.
-        pub material: u32,
-        /// Number of the emitter that it is, or NONE.
-        pub emitter: u32,
-        /// Fills the size up to that of its alignment.
-        pub padding: [u32; 2],
-    }
-
-    /// What light is sampled from, or comes from where a path leaves the scene. Those that are sampled stand first.
-    pub struct Emitter {
-        /// Center of a sphere, rectangle or disk; where a point or spot stands.
-        pub position: [f32; 3],
-        /// An `EMITTER_` tag.
-        pub kind: u32,
-        /// Unit vector: normal of a rectangle or disk, towards a pole, a disc, a direction or a picture's middle, where a spot shines to.
-        pub axis: [f32; 3],
-        /// Radius of a sphere or disk.
-        pub radius: f32,
-        /// First axis of a rectangle or disk; towards a picture's right half.
-        pub tangent: [f32; 3],
-        /// Half the width of a rectangle, along `tangent`; a disk's radius.
-        pub half_width: f32,
-        /// Second axis of a rectangle or disk.
-        pub bitangent: [f32; 3],
-        /// Half the height of a rectangle, along `bitangent`; a disk's radius.
-        pub half_height: f32,
-        /// Its light: spectrum and light group.
-        pub light: u32,
-        /// Factor of its light.
-        pub scale: f32,
-        /// How bright it is to the eye, which steers the choice among emitters; 0 where it is not sampled.
-        pub brightness: f32,
-        /// The object that it is, or NONE.
-        pub object: u32,
-        /// 1 − cos of the half angle of a disc in the sky.
-        pub cap_height: f32,
-        /// 1 − cos of the angle within which a spot shines fully.
-        pub full_height: f32,
-        /// 1 − cos of the angle beyond which it does not shine.
-        pub edge_height: f32,
-        /// The head of a picture of the surroundings, or NONE.
-        pub picture: u32,
     }
 
     /// What holds for one run over a part of a batch of stacks.
@@ -427,14 +373,80 @@ pub trait Record: bytemuck::Pod {
 }
 
 macro_rules! records {
-    ($($(#[doc = $doc:literal])* pub struct $name:ident $body:tt)*) => {
-        structs! { RECORDS, Record; $($(#[doc = $doc])* pub struct $name $body)* }
+    ($list:ident; $($(#[doc = $doc:literal])* pub struct $name:ident $body:tt)*) => {
+        structs! { $list, Record; $($(#[doc = $doc])* pub struct $name $body)* }
         $(impl Record for $name {}
         const _: () = assert!(size_of::<$name>().is_multiple_of(16), "a record takes whole rows");)*
     };
 }
 
-records! {
+records! { SHAPES;
+    /// What rays meet: a shape made of a material.
+    pub struct Shape {
+        /// Center of a sphere, rectangle or disk, a point of a plane.
+        pub center: [f32; 3],
+        /// Radius of a sphere or disk.
+        pub radius: f32,
+        /// Unit normal of a plane, rectangle or disk.
+        pub normal: [f32; 3],
+        /// A `SHAPE_` tag.
+        pub kind: u32,
+        /// First axis of a plane, rectangle or disk.
+        pub tangent: [f32; 3],
+        /// Half the width of a rectangle, along `tangent`; a disk's radius.
+        pub half_width: f32,
+        /// Second axis of a plane, rectangle or disk.
+        pub bitangent: [f32; 3],
+        /// Half the height of a rectangle, along `bitangent`; a disk's radius.
+        pub half_height: f32,
+        /// Number of its material.
+        pub material: u32,
+        /// Number of the emitter that it is, or NONE.
+        pub emitter: u32,
+        /// Fills the size up to that of its alignment.
+        pub padding: [u32; 2],
+    }
+}
+
+records! { EMITTERS;
+    /// What light is sampled from, or comes from where a path leaves the scene. Those that are sampled stand first.
+    pub struct Emitter {
+        /// Center of a sphere, rectangle or disk; where a point or spot stands.
+        pub position: [f32; 3],
+        /// An `EMITTER_` tag.
+        pub kind: u32,
+        /// Unit vector: normal of a rectangle or disk, towards a pole, a disc, a direction or a picture's middle, where a spot shines to.
+        pub axis: [f32; 3],
+        /// Radius of a sphere or disk.
+        pub radius: f32,
+        /// First axis of a rectangle or disk; towards a picture's right half.
+        pub tangent: [f32; 3],
+        /// Half the width of a rectangle, along `tangent`; a disk's radius.
+        pub half_width: f32,
+        /// Second axis of a rectangle or disk.
+        pub bitangent: [f32; 3],
+        /// Half the height of a rectangle, along `bitangent`; a disk's radius.
+        pub half_height: f32,
+        /// Its light: spectrum and light group.
+        pub light: u32,
+        /// Factor of its light.
+        pub scale: f32,
+        /// How bright it is to the eye, which steers the choice among emitters; 0 where it is not sampled.
+        pub brightness: f32,
+        /// The object that it is, or NONE.
+        pub object: u32,
+        /// 1 − cos of the angle with `axis` within which a spot shines fully.
+        pub full_height: f32,
+        /// 1 − cos of the angle with `axis` beyond which a spot does not shine, or a disc in the sky ends.
+        pub edge_height: f32,
+        /// The row of its node in the tree of emitters.
+        pub node: u32,
+        /// The head of a picture of the surroundings, or NONE.
+        pub picture: u32,
+    }
+}
+
+records! { RECORDS;
     /// What a surface is made of: those of all materials stand first among the records, in the materials' order.
     pub struct Material {
         /// A `SURFACE_` tag.
@@ -600,6 +612,48 @@ records! {
     }
 }
 
+records! { TREES;
+    /// A node of the hierarchy of boxes around objects. Nodes stand depth first: what a box holds follows it.
+    pub struct Node {
+        /// The box's corner with the smallest coordinates.
+        pub low: [f32; 3],
+        /// The row of the node after all that the box holds.
+        pub next: u32,
+        /// The box's corner with the largest coordinates.
+        pub high: [f32; 3],
+        /// The object that it holds; NONE where that is other nodes.
+        pub object: u32,
+    }
+
+    /// A node of the tree of emitters, depth first: a group as seen from afar; or an emitter, of which only the last three are meant.
+    pub struct LightNode {
+        /// Mean of the places of what the group holds.
+        pub center: [f32; 3],
+        /// All that the group holds is within this distance of the center.
+        pub reach: f32,
+        /// Unit vector about which the group shines.
+        pub axis: [f32; 3],
+        /// Cosine of the angle with `axis` beyond which nothing shines; −1 where the group shines to all sides.
+        pub cone: f32,
+        /// What the group sends into one of the directions in `cone`.
+        pub power: f32,
+        /// Mean square of the distance from the center.
+        pub variance: f32,
+        /// The share of the power that is sent into a direction is √(`even` + `along` c²), where c is its cosine with `axis`.
+        pub even: f32,
+        /// See `even`.
+        pub along: f32,
+        /// From points nearer to the center than this the group is looked into; 0 of an emitter.
+        pub near: f32,
+        /// The row of the node after all that the group holds.
+        pub next: u32,
+        /// The row of the group that holds it, or NONE.
+        pub parent: u32,
+        /// The emitter, or NONE of a group.
+        pub emitter: u32,
+    }
+}
+
 /// The text of `shaders/layout.wgsl`.
 pub fn wgsl() -> String {
     let mut text = String::from(
@@ -618,11 +672,32 @@ pub fn records_wgsl() -> String {
         "// The records of a scene, and how they are read. Generated from crates/gpu/src/layout.rs: edit there, then run\n\
          //     PELLICLE_BLESS=1 cargo test -p pellicle-tests --test layout\n",
     );
-    for record in RECORDS {
-        text += &declare(record);
+    let lists = [
+        ("shapes", SHAPES),
+        ("emitters", EMITTERS),
+        ("records", RECORDS),
+        ("trees", TREES),
+    ];
+    for (list, records) in lists {
+        for record in records {
+            text += &declare(record).replace("LIST", list);
+        }
     }
-    text + "\n/// A material by its number: those of all materials come first.\n\
-            fn material_at(material: u32) -> Material {\n    return load_material(material * MATERIAL_ROWS);\n}\n"
+    for (function, record, what) in [
+        ("shape_at", "Shape", "What rays meet, by its number"),
+        ("emitter_at", "Emitter", "An emitter by its number"),
+        (
+            "material_at",
+            "Material",
+            "A material by its number: they come first among the records",
+        ),
+    ] {
+        let [lower, upper] = [record.to_lowercase(), record.to_uppercase()];
+        text += &format!(
+            "\n/// {what}.\nfn {function}(number: u32) -> {record} {{\n    return load_{lower}(number * {upper}_ROWS);\n}}\n"
+        );
+    }
+    text
 }
 
 fn declare(declaration: &Declaration) -> String {
@@ -669,7 +744,7 @@ fn declare_loader(name: &str, members: &[Member]) -> String {
     });
     let values = values.collect::<Vec<_>>().join(",\n        ");
     let rows: String = (0..next / 4)
-        .map(|row| format!("    let row_{row} = records[row + {row}u];\n"))
+        .map(|row| format!("    let row_{row} = LIST_row(row + {row}u);\n"))
         .collect();
     format!(
         "const {}_ROWS: u32 = {}u;\nfn load_{}(row: u32) -> {name} {{\n{rows}    return {name}(\n        {values},\n    );\n}}\n",

@@ -9,6 +9,7 @@ mod device;
 mod error;
 mod features;
 pub mod layout;
+mod lists;
 pub mod modules;
 mod pack;
 mod pipelines;
@@ -25,6 +26,7 @@ pub use device::{
 pub use error::RenderError;
 pub use features::Features;
 pub use layout::RunStack;
+pub use lists::ListForm;
 pub use pack::PackedScene;
 pub use pipelines::{Pipeline, compile};
 pub use render::{render, render_divided};

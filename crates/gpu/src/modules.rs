@@ -4,7 +4,7 @@
 //! that it requires, with what depends on the scene filled in. Tests prove that `requires` is true and minimal and that no module is
 //! missing from the table.
 
-use crate::bindings::uniform_table;
+use crate::lists::ListForm;
 use crate::specialize::specialize;
 use crate::{DeviceError, Features};
 
@@ -57,45 +57,42 @@ pub const MODULES: &[Module] = modules! {
     "spectrum": ["bindings", "features"];
     "lifting": ["bindings", "spectrum"];
     "camera": ["bindings", "features", "layout", "numbers", "trig"];
-    "noise": ["bindings", "features", "layout", "random", "records"];
-    "picture": ["bindings", "features", "layout", "texels", "trig"];
-    "thickness": ["bindings", "features", "layout", "noise", "numbers", "picture", "records", "trig"];
-    "surface": ["bindings", "camera", "features", "layout", "records", "sampling"];
-    "hit": ["bindings", "camera", "features", "intersect", "layout"];
-    "environment_picture": ["bindings", "numbers", "picture", "texels", "trig"];
-    "environment": ["bindings", "environment_picture", "features", "layout", "numbers", "sampling", "trig"];
-    "light": ["bindings", "environment", "features", "layout", "sampling", "trig"];
-    "light_choice": ["bindings", "environment_picture", "features", "layout", "light", "sampling", "trig"];
+    "noise": ["features", "layout", "random", "records"];
+    "picture": ["features", "layout", "records", "texels", "trig"];
+    "thickness": ["features", "layout", "noise", "numbers", "picture", "records", "trig"];
+    "surface": ["camera", "features", "layout", "records", "sampling"];
+    "hit": ["camera", "features", "intersect", "layout", "records"];
+    "environment_picture": ["numbers", "picture", "records", "texels", "trig"];
+    "environment": ["bindings", "environment_picture", "features", "layout", "numbers", "records", "sampling", "trig"];
+    "light": ["environment", "features", "layout", "records", "sampling", "trig"];
+    "light_choice": ["bindings", "environment_picture", "features", "layout", "light", "records", "sampling", "trig"];
     "record": ["features", "layout", "limits"];
     "path_state": ["bindings", "camera", "features", "random", "sobol", "surface"];
     "layers": [
-        "bindings", "bsdf/lobes", "features", "film", "layout", "limits", "record", "records", "spectrum", "stack", "surface",
-        "thickness", "two_beam"
+        "bsdf/lobes", "features", "film", "layout", "limits", "record", "records", "spectrum", "stack", "surface", "thickness",
+        "two_beam"
     ];
     "bsdf/lobes": ["spectrum"];
     "bsdf/facets": ["bsdf/lobes", "features", "layout", "microsurface", "numbers", "records", "sampling", "trig"];
-    "bsdf/diffuse": [
-        "bindings", "bsdf/lobes", "features", "layout", "lifting", "picture", "record", "records", "sampling", "texels", "trig"
-    ];
+    "bsdf/diffuse": ["bsdf/lobes", "features", "layout", "lifting", "picture", "record", "records", "sampling", "texels", "trig"];
     "bsdf/interface": [
-        "bindings", "bsdf/facets", "bsdf/lobes", "features", "fresnel", "layers", "layout", "limits", "record", "records", "spectrum",
-        "stack", "surface"
+        "bsdf/facets", "bsdf/lobes", "features", "fresnel", "layers", "layout", "limits", "record", "records", "spectrum", "stack",
+        "surface"
     ];
     "bsdf/coated": [
-        "bindings", "bsdf/diffuse", "bsdf/facets", "bsdf/interface", "bsdf/lobes", "features", "fresnel", "layout", "record", "records",
-        "sampling", "spectrum", "surface", "trig"
+        "bsdf/diffuse", "bsdf/facets", "bsdf/interface", "bsdf/lobes", "features", "fresnel", "layout", "record", "records", "sampling",
+        "spectrum", "surface", "trig"
     ];
     "bsdf/cook": [
         "bsdf/lobes", "features", "fresnel", "gaussian", "layout", "microfacet", "numbers", "record", "records", "sampling", "spectrum",
         "trig"
     ];
     "bsdf/bsdf": [
-        "bindings", "bsdf/coated", "bsdf/cook", "bsdf/diffuse", "bsdf/interface", "bsdf/lobes", "features", "layout", "record",
-        "records", "surface"
+        "bsdf/coated", "bsdf/cook", "bsdf/diffuse", "bsdf/interface", "bsdf/lobes", "features", "layout", "record", "records", "surface"
     ];
     "emitter_sampling": [
-        "bindings", "bsdf/lobes", "camera", "environment_picture", "features", "hit", "layers", "layout", "light", "light_choice",
-        "path_state", "record", "records", "surface"
+        "bsdf/lobes", "camera", "environment_picture", "features", "hit", "layers", "layout", "light", "light_choice", "path_state",
+        "record", "records", "surface"
     ];
     "split": ["features", "layout", "limits", "numbers", "path_state", "record", "records"];
     "path": [
@@ -155,8 +152,8 @@ pub struct Specialization {
     pub limits: RecordLimits,
     /// What the scene has; what is not named is as `shaders/features.wgsl` says.
     pub features: Features,
-    /// The tables of `shaders/bindings.wgsl` that stand in uniform buffers; the others stand in storage buffers.
-    pub uniform_tables: Vec<&'static str>,
+    /// The forms of the lists of `shaders/bindings.wgsl`; those not named stand in storage buffers.
+    pub forms: Vec<(&'static str, ListForm)>,
 }
 
 impl Specialization {
@@ -165,7 +162,7 @@ impl Specialization {
         Self {
             limits,
             features: Features::default(),
-            uniform_tables: Vec::new(),
+            forms: Vec::new(),
         }
     }
 
@@ -173,7 +170,7 @@ impl Specialization {
     fn fill_in(&self, module: &Module) -> String {
         let line = |line: &str| match module.name {
             "features" => self.features.fill_in(line),
-            "bindings" => uniform_table(line, &self.uniform_tables),
+            "bindings" => ListForm::fill_in(&self.forms, line),
             _ => None,
         };
         let lines = module.source.lines();

@@ -17,6 +17,7 @@ mod surface;
 mod tables;
 mod texels;
 mod thickness;
+mod trees;
 
 use crate::features::Features;
 use crate::layout::{self, Frame, Record};
@@ -27,6 +28,7 @@ use scene::{Emission, Projection, Scene, SpectrumId, WavelengthSampling};
 use spectra::BandTable;
 use surface::Passes;
 use tables::Tables;
+use trees::Trees;
 
 /// A scene as the shader reads it.
 #[derive(Clone, Debug)]
@@ -39,6 +41,8 @@ pub struct PackedScene {
     pub emitters: Vec<layout::Emitter>,
     /// Materials and what they are made of, each a whole number of rows.
     pub records: Vec<[u32; 4]>,
+    /// The hierarchy of objects and the tree of emitters.
+    pub trees: Vec<[u32; 4]>,
     /// Tables that are looked up.
     pub numbers: Vec<f32>,
     /// Pictures with four numbers in each place, a head before each.
@@ -70,9 +74,16 @@ impl PackedScene {
             }
         }
         let mut shapes: Vec<_> = scene.objects().iter().map(shapes::pack).collect();
-        let (emitters, first_environment) = emitters::pack(scene, &mut shapes, &mut tables);
+        let (mut emitters, first_environment) = emitters::pack(scene, &mut shapes, &mut tables);
+        let trees = Trees::new(scene.hierarchy(), scene.light_tree());
+        for (emitter, &node) in emitters.iter_mut().zip(&trees.light_nodes) {
+            emitter.node = node;
+        }
+        features.set_trees(scene, trees.hierarchy_rows);
         let mut frame = Frame {
             first_environment,
+            first_light_node: trees.first_light_node,
+            end_light_node: trees.rows.len() as u32,
             ..pack_frame(scene)
         };
         if let Some(offsets) = scene.camera().filter.offsets() {
@@ -91,6 +102,7 @@ impl PackedScene {
             shapes,
             emitters,
             records: tables.records,
+            trees: trees.rows,
             numbers: tables.numbers,
             texels: tables.pictures.texels,
             spectra: spectra.chain(observer).collect(),

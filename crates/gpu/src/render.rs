@@ -47,7 +47,7 @@ pub fn render_divided(
         return Err(RenderError::RecordTooLong { thicknesses });
     }
     let bindings = bind_scene(gpu, &packed)?;
-    let made_for = packed.specialization(gpu.prefers_uniform_tables());
+    let made_for = packed.specialization(gpu.is_software());
     let shader = Shader::assemble(&["render"], &made_for, "");
     if !is_kept(gpu, &shader, "render") && on_progress(0).is_break() {
         return Err(RenderError::Stopped);

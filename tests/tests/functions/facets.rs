@@ -325,7 +325,7 @@ fn of_materials() -> Vec<Check> {
                 &["bsdf/facets", "bindings", "records", "trig"],
                 (8, 1),
                 "let eye = direction_at(1u);
-                 put(0u, facet_albedo(load_facets(material_at(shapes[u32(a(0u))].material).facets), eye));",
+                 put(0u, facet_albedo(load_facets(material_at(shape_at(u32(a(0u))).material).facets), eye));",
             ),
             proves: &["facet_albedo"],
             inputs: rough_rows(),
@@ -342,10 +342,10 @@ fn of_materials() -> Vec<Check> {
                 (8, 4),
                 "let eye = direction_at(1u);
                  let light = direction_at(3u);
-                 let s = facets_eval(load_facets(material_at(shapes[u32(a(0u))].material).facets), eye, light);
+                 let s = facets_eval(load_facets(material_at(shape_at(u32(a(0u))).material).facets), eye, light);
                  put(0u, s.lobes.single); put(1u, s.lobes.multiple); put(2u, s.lobes.cosine); put(3u, s.pdf);",
             ),
-            proves: &["facets_eval", "load_facets", "load_material", "material_at", "microsurface_of"],
+            proves: &["facets_eval", "load_facets", "load_material", "material_at", "microsurface_of", "records_row"],
             inputs: rough_rows(),
             twin: |a| {
                 let (eye, light) = (direction(a[1], a[2]), direction(a[3], a[4]));
@@ -360,7 +360,7 @@ fn of_materials() -> Vec<Check> {
                 (8, 3),
                 "let eye = direction_at(1u);
                  let random = vec4f(a(5u), a(6u), a(7u), 0.0);
-                 put3(0u, facets_sample(load_facets(material_at(shapes[u32(a(0u))].material).facets), eye, random));",
+                 put3(0u, facets_sample(load_facets(material_at(shape_at(u32(a(0u))).material).facets), eye, random));",
             ),
             proves: &["facets_sample"],
             inputs: rough_rows(),

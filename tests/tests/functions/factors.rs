@@ -62,7 +62,7 @@ fn diffuse_factor() -> Check {
             &["bsdf/diffuse"],
             (5, 1),
             "let o = u32(a(0u));
-             let f = diffuse_factor(material_at(shapes[o].material).record, o, a3(1u), a(4u));
+             let f = diffuse_factor(material_at(shape_at(o).material).record, o, a3(1u), a(4u));
              put(0u, f32(1000u * factor_tag(f) + factor_number(f)));",
         ),
         proves: &[

@@ -36,7 +36,15 @@ pub(crate) fn checks() -> Vec<Check> {
                 (7, 1),
                 "put(0u, light_share(u32(a(0u)), a3(1u), a3(4u)));",
             ),
-            proves: &["light_share", "spot_share", "is_surrounding", "is_single_direction"],
+            proves: &[
+                "emitter_at",
+                "emitters_row",
+                "is_single_direction",
+                "is_surrounding",
+                "light_share",
+                "load_emitter",
+                "spot_share",
+            ],
             inputs: places(),
             twin: |a| vec![emitter_of(a[0]).strength(vector(&a[1..]), vector(&a[4..]))],
             tolerance: LIGHT_ESTIMATE,
@@ -45,7 +53,7 @@ pub(crate) fn checks() -> Vec<Check> {
             probe: world.probe(
                 &["light_choice"],
                 (7, 1),
-                "let l = u32(a(0u)); put(0u, light_estimate(l, a3(1u), a3(4u)) / emitters[l].brightness);",
+                "let l = u32(a(0u)); put(0u, light_estimate(l, a3(1u), a3(4u)) / emitter_at(l).brightness);",
             ),
             proves: &[
                 "light_estimate",

@@ -123,7 +123,7 @@ pub(crate) fn checks() -> Vec<Check> {
         probe: world.probe(
             &["light"],
             (6, 3),
-            "put3(0u, sample_light(shapes[u32(a(0u))].emitter, a3(1u), a(4u), a(5u)));",
+            "put3(0u, sample_light(shape_at(u32(a(0u))).emitter, a3(1u), a(4u), a(5u)));",
         ),
         proves: &["sample_light"],
         inputs,
@@ -134,7 +134,7 @@ pub(crate) fn checks() -> Vec<Check> {
         probe: world.probe(
             &["light"],
             (7, 1),
-            "put(0u, light_pdf(shapes[u32(a(0u))].emitter, a3(1u), a3(4u)));",
+            "put(0u, light_pdf(shape_at(u32(a(0u))).emitter, a3(1u), a3(4u)));",
         ),
         proves: &["light_pdf"],
         inputs: pdf_rows(points),
@@ -150,7 +150,7 @@ pub(crate) fn checks() -> Vec<Check> {
             probe: world.probe(
                 &["light"],
                 (2, 1),
-                "put(0u, select(0.0, 1.0, sphere_surrounds(shapes[u32(a(0u))].emitter, a(1u))));",
+                "put(0u, select(0.0, 1.0, sphere_surrounds(shape_at(u32(a(0u))).emitter, a(1u))));",
             ),
             proves: &["sphere_surrounds"],
             inputs: squared_distances(),

@@ -8,6 +8,7 @@ mod facets;
 mod factors;
 mod light_choices;
 mod lights;
+mod many_lights;
 mod numbers;
 mod optics_functions;
 mod rays;
@@ -99,6 +100,7 @@ fn checks() -> Vec<Check> {
         factors::checks(),
         light_choices::checks(),
         lights::checks(),
+        many_lights::checks(),
         numbers::checks(),
         optics_functions::checks(),
         rays::checks(),

@@ -160,7 +160,7 @@ fn nearest_hit() -> Check {
              let hits = h.object != NONE;
              put(0u, select(-1.0, f32(h.object), hits)); put(1u, select(-1.0, h.distance, hits));",
         ),
-        proves: &["nearest_hit"],
+        proves: &["load_node", "load_shape", "meets_box", "nearest_hit", "nearest_in_hierarchy", "shape_at", "shapes_row"],
         inputs: rows(9, |u| {
             let (from, ray) = ray_of(u);
             let shapes = || world.scene.objects().iter().map(|object| &object.shape).enumerate();

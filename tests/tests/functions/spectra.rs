@@ -52,7 +52,7 @@ pub(crate) fn checks() -> Vec<Check> {
                 (3, 4),
                 "put4(0u, spectrum_at(u32(a(0u)), u32(a(1u)), wavelengths_at(a(2u))));",
             ),
-            proves: &["spectrum_at"],
+            proves: &["spectra_row", "spectrum_at"],
             inputs: rows(3, |u| {
                 let group = (u[1] * f64::from(GROUPS)).floor();
                 Some(vec![(u[0] * count).floor(), group, u[2]])

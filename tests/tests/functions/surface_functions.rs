@@ -66,10 +66,10 @@ const NORMAL: DVec3 = DVec3::new(0.6, 0.8, 0.0);
 
 const BODY: &str = "
     let object = u32(a(0u));
-    let material = shapes[object].material;
+    let material = shape_at(object).material;
     let at = Place(0u, u32(a(1u)), wavelengths_at(a(2u)));
     let normal = vec3f(0.6, 0.8, 0.0);
-    let position = shapes[object].center + shapes[object].radius * normal;
+    let position = shape_at(object).center + shape_at(object).radius * normal;
     let directions = array<vec3f, 2>(a3(3u), a3(6u));
     for (var i = 0u; i < 2u; i++) {
         let wo = directions[i];

@@ -90,7 +90,7 @@ fn thickness(
         probe: world.probe(
             &["thickness", "records", "bindings"],
             (4, 1),
-            "let i = u32(a(0u)); let m = material_at(shapes[i].material);
+            "let i = u32(a(0u)); let m = material_at(shape_at(i).material);
              var first = load_film(m.record).first_layer;
              if (m.surface != SURFACE_FILM) { first = load_interface(m.record).first_layer; }
              put(0u, layer_thickness(first, i, a3(1u)));",

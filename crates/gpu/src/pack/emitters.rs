@@ -130,7 +130,7 @@ fn surrounding(shape: EnvironmentShape<'_>, tables: &mut Tables) -> layout::Emit
         },
         EnvironmentShape::Disc { towards, height } => layout::Emitter {
             axis: vec3(towards),
-            cap_height: height as f32,
+            edge_height: height as f32,
             ..plain(layout::EMITTER_DISC)
         },
     }

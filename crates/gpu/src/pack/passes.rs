@@ -11,7 +11,11 @@ const SEARCHES: u64 = 1 + 10 + 1 + 9;
 /// at every object, and works out thicknesses), and those of its spectrum (every group of four bands looks at every vertex and at every
 /// crossing).
 pub(super) fn of_sample(scene: &Scene, limits: RecordLimits, surfaces: Passes) -> u64 {
-    let objects = scene.objects().len() as u64 + 1;
+    // A hierarchy has fewer boxes than twice its objects.
+    let objects = match scene.hierarchy().nodes.len() as u64 {
+        0 => scene.objects().len() as u64 + 1,
+        nodes => scene.objects().len() as u64 + nodes + 1,
+    };
     let segments = u64::from(limits.vertices);
     let crossings = u64::from(limits.crossings);
     let light_groups = u64::from(limits.light_groups) + 1;
@@ -23,7 +27,7 @@ pub(super) fn of_sample(scene: &Scene, limits: RecordLimits, surfaces: Passes) -
     let times = 1 + u64::from(scene.settings().clamp.is_some());
     let spectrum = times * groups * (1 + 2 * segments + factors + 2 * light_groups);
     let environment = scene.surroundings().len() as u64 + 1 + segments * SEARCHES;
-    // The sum of the lights' estimates and the choice among them.
-    let choices = segments * 2 * (1 + scene.light_sources().len() as u64);
+    // The sum of the emitters' estimates and the choice among them, and the probability of one that is met.
+    let choices = segments * 3 * (2 + scene.light_tree().nodes.len() as u64);
     1 + trace + choices + environment + spectrum + 3 * light_groups
 }

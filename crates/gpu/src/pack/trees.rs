@@ -1,0 +1,109 @@
+//! The hierarchy of boxes around objects and the tree of emitters, depth first, as loops without a stack walk through them.
+
+use super::vec3;
+use crate::layout::{self, NONE, Record};
+use scene::{Hierarchy, LightTree};
+
+/// The rows of both trees.
+#[derive(Debug, Default)]
+pub(super) struct Trees {
+    pub(super) rows: Vec<[u32; 4]>,
+    /// Rows of the hierarchy, which stands first; 0 where objects are few.
+    pub(super) hierarchy_rows: u32,
+    /// The row of the first node of the tree of emitters.
+    pub(super) first_light_node: u32,
+    /// The row of the node of each emitter.
+    pub(super) light_nodes: Vec<u32>,
+}
+
+impl Trees {
+    pub(super) fn new(hierarchy: &Hierarchy, lights: &LightTree) -> Self {
+        let mut trees = Self::default();
+        if !hierarchy.nodes.is_empty() {
+            for &object in &hierarchy.everywhere {
+                trees.object(object);
+            }
+            trees.node(hierarchy, 0);
+        }
+        trees.hierarchy_rows = trees.rows.len() as u32;
+        trees.first_light_node = trees.hierarchy_rows;
+        trees.lights(lights);
+        trees
+    }
+
+    fn push<R: Record>(&mut self, record: R) {
+        self.rows.extend_from_slice(bytemuck::cast_slice(&[record]));
+    }
+
+    /// An object that is met by every ray that gets here.
+    fn object(&mut self, object: u32) {
+        self.push(layout::Node {
+            low: [f32::MIN; 3],
+            next: self.rows.len() as u32 + layout::Node::ROWS,
+            high: [f32::MAX; 3],
+            object,
+        });
+    }
+
+    /// A box with all that it holds.
+    fn node(&mut self, hierarchy: &Hierarchy, node: usize) {
+        let of = &hierarchy.nodes[node];
+        let place = self.rows.len();
+        self.push(layout::Node::default());
+        let (first, count) = (of.first as usize, of.count as usize);
+        let objects = &hierarchy.leaves[first..first + count];
+        let only = match *objects {
+            [only] => Some(only),
+            _ => None,
+        };
+        if count == 0 {
+            self.node(hierarchy, first);
+            self.node(hierarchy, first + 1);
+        } else if only.is_none() {
+            for &object in objects {
+                self.object(object);
+            }
+        }
+        let packed = layout::Node {
+            low: vec3(of.low),
+            next: self.rows.len() as u32,
+            high: vec3(of.high),
+            object: only.unwrap_or(NONE),
+        };
+        let rows: [[u32; 4]; layout::Node::ROWS as usize] = bytemuck::cast(packed);
+        self.rows[place..place + rows.len()].copy_from_slice(&rows);
+    }
+
+    fn lights(&mut self, lights: &LightTree) {
+        let first = self.first_light_node;
+        let row = |node: u32| first + node * layout::LightNode::ROWS;
+        let row_or_none = |node: u32| {
+            if node == LightTree::NONE {
+                NONE
+            } else {
+                row(node)
+            }
+        };
+        for node in &lights.nodes {
+            self.push(layout::LightNode {
+                center: vec3(node.center),
+                reach: node.reach as f32,
+                axis: vec3(node.axis),
+                cone: node.cone as f32,
+                power: node.power as f32,
+                variance: node.variance as f32,
+                even: node.even as f32,
+                along: node.along as f32,
+                near: node.near as f32,
+                next: row(node.next),
+                parent: row_or_none(node.parent),
+                emitter: if node.source == LightTree::NONE {
+                    NONE
+                } else {
+                    node.source
+                },
+            });
+        }
+        self.light_nodes = lights.leaves.iter().map(|&node| row(node)).collect();
+    }
+}
