@@ -1,25 +1,18 @@
 // What a scene has. A pipeline is made for each scene with these set, so that code for what it lacks falls away: a
 // processor that runs eight or more paths in step pays for every branch that any of them might take.
+//
+// What only one kind of surface needs is declared in its own file.
 
 override HAS_SPHERES: bool = true;
 override HAS_RECTANGLES: bool = true;
 override HAS_DISKS: bool = true;
 override HAS_HIERARCHY: bool = true;
 override HAS_LIGHT_TREE: bool = true;
-override HAS_DIFFUSE: bool = true;
 override HAS_BSDFS: bool = true;
 override HAS_SCATTERING: bool = true;
 override HAS_SPECULAR: bool = true;
-override HAS_INTERFACES: bool = true;
 override HAS_GLOW: bool = true;
-override HAS_CHECKERS: bool = true;
-override HAS_TEXTURES: bool = true;
-override HAS_MIRRORS: bool = true;
-override HAS_ROUGH_CONDUCTORS: bool = true;
-override HAS_COOK: bool = true;
 override HAS_BASES: bool = true;
-override HAS_COATED_BODIES: bool = true;
-override HAS_ROUGH_COATS: bool = true;
 override HAS_BECKMANN: bool = true;
 override HAS_GGX: bool = true;
 override HAS_GRAIN: bool = true;
@@ -27,7 +20,6 @@ override HAS_FILMS: bool = true;
 override HAS_LOSSY_FILMS: bool = true;
 override HAS_STACKS: bool = true;
 override HAS_TWO_BEAM_FILMS: bool = true;
-override HAS_COATINGS: bool = true;
 override HAS_FIELDS: bool = true;
 override HAS_COMBINED_FIELDS: bool = true;
 override HAS_POLAR_FIELDS: bool = true;

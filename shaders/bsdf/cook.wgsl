@@ -1,6 +1,8 @@
 // Metals by the model of Cook and Torrance as Suzuki, Yokoi and Toriwaki print it (section 3-1). Directions are unit vectors in
 // a local frame whose z is the cosine with the macroscopic normal.
 
+override HAS_COOK: bool = true;
+
 struct CookFacets {
     /// G Σ wⱼ Dⱼ / (cos θi cos θo): the reflection function without its Fresnel factor, sr⁻¹.
     reflection: f32,

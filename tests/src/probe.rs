@@ -10,10 +10,8 @@ const UNWRITTEN: f32 = -1.234_567_9e33;
 
 /// A shader that calls functions under test for each row of a table.
 pub struct Probe<'a> {
-    /// Modules that it uses.
-    pub roots: &'a [&'a str],
     /// WGSL statements: `a(0)`, `a4(1)` … read the row and `put(0, x)`, `put4(1, v)` … write results; `direction_at(0)` is the unit
-    /// vector of a cosine and an azimuth in turns, and needs the module `trig`. An integer
+    /// vector of a cosine and an azimuth in turns. An integer
     /// travels as two halves of 16 bits (`integer`, `put_integer`), since a float's bits may be flushed on the way.
     pub body: &'a str,
     /// Numbers of a row, and results of a row.
@@ -63,7 +61,7 @@ impl Probe<'_> {
             (Some(scene), Some(gpu)) => scene.specialization(gpu.is_software()),
             (Some(scene), None) => Specialization::general(scene.limits),
         };
-        Shader::assemble(self.roots, &made_for, &extra)
+        Shader::assemble(&made_for, &extra)
     }
 
     /// The functions that the probe can call, directly or through others, whatever a scene has.

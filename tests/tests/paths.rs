@@ -32,7 +32,6 @@ fn every_path_agrees_with_the_reference() {
 /// What the renderer does for each sample.
 fn probe(packed: &PackedScene) -> Probe<'_> {
     Probe {
-        roots: &["path", "evaluate"],
         body: "let at = trace_path(Sample(vec2u(u32(a(0u)), u32(a(1u))), u32(a(2u))));
             let dimmed = dimming(at);
             let radiance = path_radiance(0u, at);

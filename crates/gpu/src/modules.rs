@@ -1,8 +1,7 @@
-//! The WGSL modules and what each of them needs.
+//! The WGSL modules.
 //!
-//! Declarations of WGSL may come in any order, so a shader is the concatenation of a module and all
-//! that it requires, with what depends on the scene filled in. Tests prove that `requires` is true and minimal and that no module is
-//! missing from the table.
+//! Declarations of WGSL may come in any order, so a shader is the concatenation of all modules, with what depends on the scene filled in.
+//! What its entry point does not reach is removed before a driver sees it.
 
 use crate::lists::ListForm;
 use crate::specialize::specialize;
@@ -11,100 +10,17 @@ use crate::{DeviceError, Features};
 /// One file of `shaders/`.
 #[derive(Clone, Copy, Debug)]
 pub struct Module {
-    /// The file's stem.
+    /// The file's path within `shaders/`, without its ending.
     pub name: &'static str,
     /// Its text.
     pub source: &'static str,
-    /// Modules whose declarations it uses.
-    pub requires: &'static [&'static str],
-}
-
-macro_rules! modules {
-    ($($name:literal: [$($requires:literal),*];)*) => {
-        &[$(Module {
-            name: $name,
-            source: include_str!(concat!("../../../shaders/", $name, ".wgsl")),
-            requires: &[$($requires),*],
-        }),*]
-    };
 }
 
 /// Name of the module that is made for each scene: sizes of the arrays that hold a path and its light.
 pub const LIMITS: &str = "limits";
 
-/// All modules, from those that need nothing to the renderer.
-pub const MODULES: &[Module] = modules! {
-    "layout": [];
-    "records": ["bindings"];
-    "trig": [];
-    "random": [];
-    "sobol": ["random"];
-    "complex": [];
-    "sampling": ["trig"];
-    "intersect": [];
-    "fresnel": ["complex"];
-    "phase": ["complex", "trig"];
-    "film": ["complex", "phase", "trig"];
-    "two_beam": ["film", "trig"];
-    "stack": ["complex", "phase", "trig"];
-    "microfacet": ["trig"];
-    "gaussian": ["microfacet", "trig"];
-    "microsurface": ["features", "layout", "trig"];
-    "bindings": ["layout"];
-    "features": [];
-    "numbers": ["bindings", "layout"];
-    "texels": ["bindings", "layout"];
-    "spectrum": ["bindings", "features"];
-    "lifting": ["bindings", "spectrum"];
-    "camera": ["bindings", "features", "layout", "numbers", "trig"];
-    "noise": ["features", "layout", "random", "records"];
-    "picture": ["features", "layout", "records", "texels", "trig"];
-    "thickness": ["features", "layout", "noise", "numbers", "picture", "records", "trig"];
-    "surface": ["camera", "features", "layout", "records", "sampling"];
-    "hit": ["camera", "features", "intersect", "layout", "records"];
-    "environment_picture": ["numbers", "picture", "records", "texels", "trig"];
-    "environment": ["bindings", "environment_picture", "features", "layout", "numbers", "records", "sampling", "trig"];
-    "light": ["environment", "features", "layout", "records", "sampling", "trig"];
-    "light_choice": ["bindings", "environment_picture", "features", "layout", "light", "records", "sampling", "trig"];
-    "record": ["features", "layout", "limits"];
-    "path_state": ["bindings", "camera", "features", "random", "sobol", "surface"];
-    "layers": [
-        "bsdf/lobes", "features", "film", "layout", "limits", "record", "records", "spectrum", "stack", "surface", "thickness",
-        "two_beam"
-    ];
-    "bsdf/lobes": ["spectrum"];
-    "bsdf/facets": ["bsdf/lobes", "features", "layout", "microsurface", "numbers", "records", "sampling", "trig"];
-    "bsdf/diffuse": ["bsdf/lobes", "features", "layout", "lifting", "picture", "record", "records", "sampling", "texels", "trig"];
-    "bsdf/interface": [
-        "bsdf/facets", "bsdf/lobes", "features", "fresnel", "layers", "layout", "limits", "record", "records", "spectrum", "stack",
-        "surface"
-    ];
-    "bsdf/coated": [
-        "bsdf/diffuse", "bsdf/facets", "bsdf/interface", "bsdf/lobes", "features", "fresnel", "layout", "record", "records", "sampling",
-        "spectrum", "surface", "trig"
-    ];
-    "bsdf/cook": [
-        "bsdf/lobes", "features", "fresnel", "gaussian", "layout", "microfacet", "numbers", "record", "records", "sampling", "spectrum",
-        "trig"
-    ];
-    "bsdf/bsdf": [
-        "bsdf/coated", "bsdf/cook", "bsdf/diffuse", "bsdf/interface", "bsdf/lobes", "features", "layout", "record", "records", "surface"
-    ];
-    "emitter_sampling": [
-        "bsdf/lobes", "camera", "environment_picture", "features", "hit", "layers", "layout", "light", "light_choice", "path_state",
-        "record", "records", "surface"
-    ];
-    "split": ["features", "layout", "limits", "numbers", "path_state", "record", "records"];
-    "path": [
-        "bindings", "bsdf/bsdf", "bsdf/lobes", "camera", "emitter_sampling", "environment", "environment_picture", "features", "hit",
-        "layers", "layout", "limits", "path_state", "record", "records", "spectrum", "split", "surface"
-    ];
-    "evaluate": [
-        "bindings", "bsdf/bsdf", "bsdf/lobes", "features", "layers", "layout", "lifting", "limits", "record", "spectrum", "texels"
-    ];
-    "stack_batch": ["complex", "layout", "stack"];
-    "render": ["bindings", "evaluate", "features", "layout", "limits", "path", "path_state", "spectrum"];
-};
+/// All modules, by name.
+pub const MODULES: &[Module] = include!(concat!(env!("OUT_DIR"), "/modules.rs"));
 
 /// How long a path's record may become, and how many kinds of light it brings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -150,7 +66,7 @@ impl RecordLimits {
 pub struct Specialization {
     /// Sizes of the record.
     pub limits: RecordLimits,
-    /// What the scene has; what is not named is as `shaders/features.wgsl` says.
+    /// What the scene has; what is not named is as its declaration says.
     pub features: Features,
     /// The forms of the lists of `shaders/bindings.wgsl`; those not named stand in storage buffers.
     pub forms: Vec<(&'static str, ListForm)>,
@@ -169,9 +85,8 @@ impl Specialization {
     /// The text of a module, filled in. No line is added or taken away.
     fn fill_in(&self, module: &Module) -> String {
         let line = |line: &str| match module.name {
-            "features" => self.features.fill_in(line),
             "bindings" => ListForm::fill_in(&self.forms, line),
-            _ => None,
+            _ => self.features.fill_in(line),
         };
         let lines = module.source.lines();
         let filled = lines.map(|text| line(text).unwrap_or_else(|| text.to_owned()));
@@ -188,26 +103,16 @@ pub struct Shader {
 }
 
 impl Shader {
-    /// The modules in `roots` and all that they require, each once, then `extra` (an entry point of a test, or nothing).
-    ///
-    /// # Panics
-    /// When a module is not in the table: that is a fault of the program, found by any test.
-    pub fn assemble(roots: &[&str], made_for: &Specialization, extra: &str) -> Self {
-        let mut names = Vec::new();
-        for root in roots {
-            collect(root, &mut names);
-        }
+    /// All modules, then `extra` (an entry point of a test, or nothing).
+    pub fn assemble(made_for: &Specialization, extra: &str) -> Self {
         let mut shader = Self {
             text: String::new(),
             parts: Vec::new(),
         };
-        for name in names {
-            if name == LIMITS {
-                shader.push(LIMITS, &made_for.limits.wgsl());
-            } else {
-                let text = made_for.fill_in(module(name));
-                shader.push(&format!("shaders/{name}.wgsl"), &text);
-            }
+        shader.push(LIMITS, &made_for.limits.wgsl());
+        for module in MODULES {
+            let text = made_for.fill_in(module);
+            shader.push(&format!("shaders/{}.wgsl", module.name), &text);
         }
         shader.push("(extra)", extra);
         shader
@@ -281,27 +186,6 @@ impl Shader {
     }
 }
 
-/// Looks a module up.
-fn module(name: &str) -> &'static Module {
-    MODULES
-        .iter()
-        .find(|module| module.name == name)
-        .unwrap_or_else(|| panic!("no module {name} in the table"))
-}
-
-/// Adds what `name` requires, then `name`.
-fn collect<'a>(name: &'a str, names: &mut Vec<&'a str>) {
-    if names.contains(&name) {
-        return;
-    }
-    if name != LIMITS {
-        for required in module(name).requires {
-            collect(required, names);
-        }
-    }
-    names.push(name);
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -309,7 +193,7 @@ mod tests {
     #[test]
     fn a_line_is_traced_back_to_its_file() {
         let made_for = Specialization::general(RecordLimits::LEAST);
-        let shader = Shader::assemble(&["fresnel"], &made_for, "fn extra() {}");
+        let shader = Shader::assemble(&made_for, "fn extra() {}");
         let text: Vec<_> = shader.text().lines().collect();
         let line = text
             .iter()
@@ -317,7 +201,8 @@ mod tests {
             .unwrap();
         let (file, in_file) = shader.origin_of_line(line + 1);
         assert_eq!(file, "shaders/fresnel.wgsl");
-        let source = module("fresnel").source.lines().nth(in_file - 1).unwrap();
+        let module = MODULES.iter().find(|m| m.name == "fresnel").unwrap();
+        let source = module.source.lines().nth(in_file - 1).unwrap();
         assert_eq!(source, text[line]);
         assert_eq!(shader.origin_of_line(text.len()), ("(extra)", 1));
     }
@@ -329,7 +214,7 @@ mod tests {
             ("\nfn f() -> f32 { return 1u; }", "(extra):2:"),
             ("fn f() {\n\n oops; }", "(extra):3:"),
         ] {
-            let shader = Shader::assemble(&["fresnel"], &made_for, extra);
+            let shader = Shader::assemble(&made_for, extra);
             let error = shader.parse().unwrap_err().to_string();
             assert!(error.contains(told), "{error}");
         }

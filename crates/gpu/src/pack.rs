@@ -3,13 +3,7 @@
 //! What a material is made of is packed by a file for each kind of surface: its record, the features that the shader needs for it, and how
 //! many passes its loops make.
 
-mod coated;
-mod cook;
-mod diffuse;
 mod emitters;
-mod facets;
-mod film;
-mod interface;
 mod limits;
 mod passes;
 mod shapes;

@@ -48,7 +48,7 @@ pub fn render_divided(
     }
     let bindings = bind_scene(gpu, &packed)?;
     let made_for = packed.specialization(gpu.is_software());
-    let shader = Shader::assemble(&["render"], &made_for, "");
+    let shader = Shader::assemble(&made_for, "");
     if !is_kept(gpu, &shader, "render") && on_progress(0).is_break() {
         return Err(RenderError::Stopped);
     }

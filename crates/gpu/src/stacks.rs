@@ -189,7 +189,7 @@ struct Evaluator {
 impl Evaluator {
     fn new(gpu: &Gpu, batch: &StackBatch<'_>, most_stacks: usize) -> Result<Self, StackError> {
         let made_for = Specialization::general(RecordLimits::LEAST);
-        let shader = Shader::assemble(&["stack_batch"], &made_for, "");
+        let shader = Shader::assemble(&made_for, "");
         let pipeline = compile(gpu, &shader, "evaluate_stacks")?.compute;
         let wavelengths: Vec<f32> = batch.wavelengths_nm.iter().map(|&nm| nm as f32).collect();
         let cosines: Vec<f32> = batch.cosines.iter().map(|&c| c as f32).collect();

@@ -25,7 +25,7 @@ fn world() -> &'static World {
 fn gaussian() -> Vec<Check> {
     let slopes = (0.05, 1.0);
     let of_facet = |proves, body, twin, tolerance| Check {
-        probe: pure(&["gaussian"], (2, 1), body),
+        probe: pure((2, 1), body),
         proves,
         inputs: table(
             &[(0.02, 1.0), slopes],
@@ -53,25 +53,21 @@ fn gaussian() -> Vec<Check> {
             BECKMANN,
         ),
         Check {
-            probe: pure(&["gaussian"], (1, 1), "put(0u, facet_angle(a(0u)));"),
+            probe: pure((1, 1), "put(0u, facet_angle(a(0u)));"),
             proves: &["facet_angle"],
             inputs: table(&[(0.0, 1.0)], &[&[0.0], &[1.0], &[0.999_999_9]]),
             twin: |a| vec![((1.0 - a[0]) * (1.0 + a[0])).sqrt().atan2(a[0])],
             tolerance: TRIGONOMETRY,
         },
         Check {
-            probe: pure(&["gaussian"], (1, 1), "put(0u, gaussian_share(a(0u)));"),
+            probe: pure((1, 1), "put(0u, gaussian_share(a(0u)));"),
             proves: &["gaussian_share"],
             inputs: table(&[slopes], &[&[0.02], &[1.0]]),
             twin: |a| vec![optics::gaussian_share(a[0])],
             tolerance: ARITHMETIC,
         },
         Check {
-            probe: pure(
-                &["gaussian"],
-                (3, 3),
-                "put3(0u, sample_gaussian(a(0u), a(1u), a(2u)));",
-            ),
+            probe: pure((3, 3), "put3(0u, sample_gaussian(a(0u), a(1u), a(2u)));"),
             proves: &["sample_gaussian"],
             inputs: table(
                 &[(0.0, 0.999_999), (0.0, 0.999_999), slopes],
@@ -112,7 +108,6 @@ fn between_directions() -> Check {
     let materials = materials();
     Check {
         probe: world().probe(
-            &["bsdf/cook"],
             (4, 3),
             "let wo = vec3f(sqrt(1.0 - a(1u) * a(1u)), 0.0, a(1u));
              let wi = direction_at(2u);
@@ -134,7 +129,6 @@ fn facets() -> Check {
     let materials = materials();
     Check {
         probe: world().probe(
-            &["bsdf/cook"],
             (4, 3),
             "put3(0u, sample_cook_facet(u32(a(0u)), a(1u), a(2u), a(3u)));",
         ),
@@ -176,9 +170,7 @@ fn rough_coats() -> Check {
         |material| matches!(material, Material::CoatedBody(body) if body.microsurface.is_some()),
     );
     Check {
-        probe: world().probe(
-            &["bsdf/coated"],
-            (4, 1),
+        probe: world().probe((4, 1),
             "put(0u, rough_coat_passes(coated_of(u32(a(0u))).coat_reflectances, a(1u), 1u, wavelengths_at(a(3u)))[u32(a(2u))]);",
         ),
         proves: &["coated_of", "rough_coat_passes"],
@@ -198,7 +190,6 @@ fn passages() -> Check {
     );
     Check {
         probe: world().probe(
-            &["bsdf/coated", "records", "trig"],
             (3, 1),
             "put(0u, coat_passage(load_facets(material_at(u32(a(0u))).facets), direction_at(1u)));",
         ),
@@ -218,11 +209,7 @@ fn coats() -> [Check; 3] {
     let bodies: Vec<usize> = indices_of(|material| matches!(material, Material::CoatedBody(_)));
     [
         Check {
-            probe: world().probe(
-                &["bsdf/coated"],
-                (2, 1),
-                "put(0u, coat_share(u32(a(0u)), a(1u)));",
-            ),
+            probe: world().probe((2, 1), "put(0u, coat_share(u32(a(0u)), a(1u)));"),
             proves: &["coat_share"],
             inputs: rows(2, |u| Some(vec![pick(&bodies, u[0]) as f64, u[1]])),
             twin: |a| match &world().scene.materials()[a[0] as usize] {
@@ -232,11 +219,7 @@ fn coats() -> [Check; 3] {
             tolerance: FRESNEL,
         },
         Check {
-            probe: pure(
-                &["bsdf/coated"],
-                (2, 1),
-                "put(0u, coat_passes(vec4f(a(0u)), a(1u)).x);",
-            ),
+            probe: pure((2, 1), "put(0u, coat_passes(vec4f(a(0u)), a(1u)).x);"),
             proves: &["coat_passes"],
             inputs: table(
                 &[(1.0, 3.0), (0.0, 1.0)],
@@ -247,7 +230,6 @@ fn coats() -> [Check; 3] {
         },
         Check {
             probe: pure(
-                &["bsdf/coated"],
                 (3, 1),
                 "put(0u, coated_albedo_factor(vec4f(a(0u)), vec4f(a(1u)), vec4f(a(2u))).x);",
             ),

@@ -52,7 +52,7 @@ pub(crate) fn checks() -> Vec<Check> {
         pixels
     };
     let check = |world: &'static World, twin| Check {
-        probe: world.probe(&["camera"], (6, 6), CAMERA),
+        probe: world.probe((6, 6), CAMERA),
         proves: &["camera_ray"],
         inputs: pixels(),
         twin,
@@ -63,7 +63,7 @@ pub(crate) fn checks() -> Vec<Check> {
         check(wedge(), |a| camera_twin(wedge(), a)),
         check(pictured(), |a| camera_twin(pictured(), a)),
         Check {
-            probe: everything().probe(&["camera"], (1, 1), "put(0u, filter_offset(a(0u)));"),
+            probe: everything().probe((1, 1), "put(0u, filter_offset(a(0u)));"),
             proves: &["filter_offset"],
             inputs: table(&[(0.0, 1.0)], &[&[0.0], &[0.5], &[0.999_999_94]]),
             twin: |a| vec![everything().scene.camera().filter.offset_at(a[0])],

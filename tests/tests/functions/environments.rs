@@ -65,9 +65,7 @@ fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
     });
     vec![
         Check {
-            probe: world.probe(
-                &["environment"],
-                (3, 3),
+            probe: world.probe((3, 3),
                 "put3(0u, sample_environment(environment_part(u32(a(0u))), vec2f(a(1u), a(2u))));",
             ),
             proves: if is_picture { OF_PICTURES } else { &["sample_environment"] },
@@ -76,9 +74,7 @@ fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
             tolerance: if is_picture { NEAR_POLE } else { DIRECTION },
         },
         Check {
-            probe: world.probe(
-                &["environment"],
-                (4, 2),
+            probe: world.probe((4, 2),
                 "let e = environment_part(u32(a(0u))); put(0u, environment_pdf(e, a3(1u))); put(1u, environment_share(e, a3(1u)));",
             ),
             proves: if is_picture {

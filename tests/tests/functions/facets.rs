@@ -43,7 +43,7 @@ fn with_surface(others: &[(f32, f32)], edges: &[&[f32]]) -> Vec<f32> {
 fn special_functions() -> Vec<Check> {
     vec![
         Check {
-            probe: pure(&["microsurface"], (1, 1), "put(0u, scaled_erfc(a(0u)));"),
+            probe: pure((1, 1), "put(0u, scaled_erfc(a(0u)));"),
             proves: &["scaled_erfc"],
             inputs: table(&[(0.0, 6.0)], &[&[0.0], &[6.0]]),
             twin: |a| vec![(a[0] * a[0]).exp() * libm::erfc(a[0])],
@@ -51,7 +51,6 @@ fn special_functions() -> Vec<Check> {
         },
         Check {
             probe: pure(
-                &["microsurface"],
                 (2, 1),
                 "put(0u, seen_below(a(0u), sqrt(1.0 - a(0u) * a(0u)), a(1u)) * exp(a(1u) * a(1u)));",
             ),
@@ -65,11 +64,7 @@ fn special_functions() -> Vec<Check> {
         },
         Check {
             // Winitzki's formula is off by 2e-3 itself.
-            probe: pure(
-                &["microsurface"],
-                (1, 1),
-                "put(0u, rough_inverse_erf(a(0u)));",
-            ),
+            probe: pure((1, 1), "put(0u, rough_inverse_erf(a(0u)));"),
             proves: &["rough_inverse_erf"],
             inputs: table(&[(0.001, 1.999)], &[&[1.0], &[0.5], &[1e-4]]),
             twin: |a| vec![inverse_erf(a[0])],
@@ -96,7 +91,6 @@ fn inverse_erf(share: f64) -> f64 {
 pub(crate) fn densities(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
     Check {
         probe: pure(
-            &["microsurface", "trig"],
             (5, 1),
             "let facet = direction_at(3u);
              put(0u, facet_density(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), facet));",
@@ -112,7 +106,6 @@ pub(crate) fn densities(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
 pub(crate) fn lambdas(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
     Check {
         probe: pure(
-            &["microsurface", "trig"],
             (5, 1),
             "let w = direction_at(3u);
              put(0u, smith_lambda(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), w));",
@@ -128,7 +121,6 @@ pub(crate) fn lambdas(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
 pub(crate) fn reflections(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
     Check {
         probe: pure(
-            &["microsurface", "trig"],
             (6, 3),
             "let eye = vec3f(sqrt(1.0 - a(3u) * a(3u)), 0.0, a(3u));
              let light = direction_at(4u);
@@ -199,9 +191,7 @@ const SAMPLED: [(f32, f32); 4] = [(0.001, 1.0), (0.0, 1.0), (1e-6, 0.999), (1e-6
 /// Facets drawn, from a surface, the eye's cosine and turn and two numbers.
 pub(crate) fn facet_draws(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
     Check {
-        probe: pure(
-            &["microsurface", "trig"],
-            (7, 3),
+        probe: pure((7, 3),
             "let eye = direction_at(3u);
              put3(0u, sample_facet(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), eye, a(5u), a(6u)));",
         ),
@@ -217,7 +207,6 @@ pub(crate) fn slopes(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
     Check {
         // The slope aside is 0 where its number is a half.
         probe: pure(
-            &["microsurface"],
             (2, 1),
             "put(0u, visible_slope(a(0u), sqrt(1.0 - a(0u) * a(0u)), a(1u)));",
         ),
@@ -250,7 +239,6 @@ fn samplers() -> Vec<Check> {
         ),
         Check {
             probe: pure(
-                &["microsurface", "trig"],
                 (5, 3),
                 "let eye = direction_at(1u);
                  put3(0u, normalize(sample_beckmann_facet(eye, a(3u), a(4u))));",
@@ -262,7 +250,6 @@ fn samplers() -> Vec<Check> {
         },
         Check {
             probe: pure(
-                &["microsurface", "trig"],
                 (5, 3),
                 "let eye = direction_at(1u);
                  let facet = normalize(sample_ggx_facet(eye, a(3u), a(4u)));
@@ -321,9 +308,7 @@ fn of_materials() -> Vec<Check> {
     let world = everything();
     vec![
         Check {
-            probe: world.probe(
-                &["bsdf/facets", "bindings", "records", "trig"],
-                (8, 1),
+            probe: world.probe((8, 1),
                 "let eye = direction_at(1u);
                  put(0u, facet_albedo(load_facets(material_at(shape_at(u32(a(0u))).material).facets), eye));",
             ),
@@ -337,9 +322,7 @@ fn of_materials() -> Vec<Check> {
             tolerance: FACET_ENERGY,
         },
         Check {
-            probe: world.probe(
-                &["bsdf/facets", "bindings", "records", "trig"],
-                (8, 4),
+            probe: world.probe((8, 4),
                 "let eye = direction_at(1u);
                  let light = direction_at(3u);
                  let s = facets_eval(load_facets(material_at(shape_at(u32(a(0u))).material).facets), eye, light);
@@ -355,9 +338,7 @@ fn of_materials() -> Vec<Check> {
             tolerance: FACETS,
         },
         Check {
-            probe: world.probe(
-                &["bsdf/facets", "bindings", "records", "trig"],
-                (8, 3),
+            probe: world.probe((8, 3),
                 "let eye = direction_at(1u);
                  let random = vec4f(a(5u), a(6u), a(7u), 0.0);
                  put3(0u, facets_sample(load_facets(material_at(shape_at(u32(a(0u))).material).facets), eye, random));",
@@ -381,7 +362,6 @@ fn surface_frames() -> Check {
     objects.push(0);
     Check {
         probe: world.probe(
-            &["surface"],
             (7, 9),
             "let p = SurfacePoint(a3(1u), a3(4u), 1.0, true);
              let f = surface_frame(u32(a(0u)), p); put3(0u, f[0]); put3(3u, f[1]); put3(6u, f[2]);",

@@ -59,7 +59,6 @@ fn diffuse_factor() -> Check {
     });
     Check {
         probe: world.probe(
-            &["bsdf/diffuse"],
             (5, 1),
             "let o = u32(a(0u));
              let f = diffuse_factor(material_at(shape_at(o).material).record, o, a3(1u), a(4u));
@@ -188,7 +187,7 @@ fn factors() -> Vec<Check> {
         }
     }
     let check = |proves, body, choices: &[(u32, usize)], tolerance| Check {
-        probe: world.probe(&["evaluate", "bsdf/bsdf", "record"], (6, 8), body),
+        probe: world.probe((6, 8), body),
         proves,
         inputs: factor_rows(choices),
         twin: factor_twin,

@@ -31,9 +31,7 @@ pub(crate) fn checks() -> Vec<Check> {
     let world = everything();
     vec![
         Check {
-            probe: world.probe(
-                &["light"],
-                (7, 1),
+            probe: world.probe((7, 1),
                 "put(0u, light_share(u32(a(0u)), a3(1u), a3(4u)));",
             ),
             proves: &[
@@ -50,9 +48,7 @@ pub(crate) fn checks() -> Vec<Check> {
             tolerance: LIGHT_ESTIMATE,
         },
         Check {
-            probe: world.probe(
-                &["light_choice"],
-                (7, 1),
+            probe: world.probe((7, 1),
                 "let l = u32(a(0u)); put(0u, light_estimate(l, a3(1u), a3(4u)) / emitter_at(l).brightness);",
             ),
             proves: &[
@@ -67,9 +63,7 @@ pub(crate) fn checks() -> Vec<Check> {
             tolerance: LIGHT_ESTIMATE,
         },
         Check {
-            probe: world.probe(
-                &["light_choice"],
-                (7, 1),
+            probe: world.probe((7, 1),
                 "put(0u, emitter_pmf(u32(a(0u)), a3(1u), a3(4u), light_total(a3(1u), a3(4u))));",
             ),
             proves: &["emitter_pmf", "light_total"],
@@ -78,9 +72,7 @@ pub(crate) fn checks() -> Vec<Check> {
             tolerance: LIGHT_ESTIMATE,
         },
         Check {
-            probe: world.probe(
-                &["light_choice"],
-                (7, 2),
+            probe: world.probe((7, 2),
                 "let c = choose_emitter(a3(1u), a3(4u), a(0u)); put(0u, f32(c.emitter)); put(1u, c.pmf);",
             ),
             proves: &["choose_emitter"],
@@ -99,9 +91,7 @@ pub(crate) fn checks() -> Vec<Check> {
             tolerance: ARITHMETIC,
         },
         Check {
-            probe: pictured().probe(
-                &["light_choice"],
-                (4, 1),
+            probe: pictured().probe((4, 1),
                 "put(0u, mis_weight_emitter(u32(a(0u)), a(1u), a(2u), a(3u)));",
             ),
             proves: &["mis_weight_emitter"],
@@ -121,11 +111,7 @@ pub(crate) fn checks() -> Vec<Check> {
 }
 
 fn pure_mis() -> pellicle_tests::probe::Probe<'static> {
-    pure(
-        &["light_choice"],
-        (2, 1),
-        "put(0u, mis_weight_bsdf(a(0u), a(1u)));",
-    )
+    pure((2, 1), "put(0u, mis_weight_bsdf(a(0u), a(1u)));")
 }
 
 fn chances(a: &[f64]) -> Vec<f64> {

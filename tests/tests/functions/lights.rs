@@ -121,7 +121,6 @@ pub(crate) fn checks() -> Vec<Check> {
     let world = everything();
     let sample = |inputs, tolerance| Check {
         probe: world.probe(
-            &["light"],
             (6, 3),
             "put3(0u, sample_light(shape_at(u32(a(0u))).emitter, a3(1u), a(4u), a(5u)));",
         ),
@@ -132,7 +131,6 @@ pub(crate) fn checks() -> Vec<Check> {
     };
     let pdf = |points: &[f32], tolerance| Check {
         probe: world.probe(
-            &["light"],
             (7, 1),
             "put(0u, light_pdf(shape_at(u32(a(0u))).emitter, a3(1u), a3(4u)));",
         ),
@@ -148,7 +146,6 @@ pub(crate) fn checks() -> Vec<Check> {
         pdf(&close_points(), NEAR_LIGHT),
         Check {
             probe: world.probe(
-                &["light"],
                 (2, 1),
                 "put(0u, select(0.0, 1.0, sphere_surrounds(shape_at(u32(a(0u))).emitter, a(1u))));",
             ),

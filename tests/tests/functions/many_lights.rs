@@ -73,9 +73,7 @@ fn is_clear(row: &[f64]) -> bool {
 
 pub(crate) fn checks() -> Vec<Check> {
     vec![Check {
-        probe: world().probe(
-            &["light_choice"],
-            (7, 3),
+        probe: world().probe((7, 3),
             "let c = choose_emitter(a3(1u), a3(4u), a(0u));
              put(0u, f32(c.emitter)); put(1u, c.pmf); put(2u, emitter_pmf(c.emitter, a3(1u), a3(4u), c.total));",
         ),

@@ -15,14 +15,14 @@ pub(crate) fn checks() -> Vec<Check> {
 fn trig() -> Vec<Check> {
     vec![
         Check {
-            probe: pure(&["trig"], (1, 1), "put(0u, sin_pi4(vec4f(a(0u))).x);"),
+            probe: pure((1, 1), "put(0u, sin_pi4(vec4f(a(0u))).x);"),
             proves: &["sin_pi4"],
             inputs: table(&[(-0.5, 0.5)], &[&[0.0], &[0.5], &[-0.5], &[1e-20]]),
             twin: |a| vec![(PI * a[0]).sin()],
             tolerance: TRIGONOMETRY,
         },
         Check {
-            probe: pure(&["trig"], (1, 1), "put(0u, sine_of_half_turns(a(0u)));"),
+            probe: pure((1, 1), "put(0u, sine_of_half_turns(a(0u)));"),
             proves: &["sine_of_half_turns"],
             inputs: table(&[(-8.0, 8.0)], &[&[0.0], &[0.5], &[1.0], &[-3.0], &[2.5]]),
             twin: |a| vec![(PI * a[0]).sin()],
@@ -30,7 +30,6 @@ fn trig() -> Vec<Check> {
         },
         Check {
             probe: pure(
-                &["trig"],
                 (1, 2),
                 "let d = direction_of_turn(a(0u)); put(0u, d.x); put(1u, d.y);",
             ),
@@ -43,7 +42,7 @@ fn trig() -> Vec<Check> {
             tolerance: TRIGONOMETRY,
         },
         Check {
-            probe: pure(&["trig"], (2, 1), "put(0u, polar_angle(a(0u), a(1u)));"),
+            probe: pure((2, 1), "put(0u, polar_angle(a(0u), a(1u)));"),
             proves: &["polar_angle"],
             inputs: table(
                 &[(-1.0, 1.0), (0.0, 1.0)],
@@ -92,9 +91,7 @@ fn integer_table_of(halves: usize) -> Vec<f32> {
 fn random() -> Vec<Check> {
     vec![
         Check {
-            probe: pure(
-                &["random"],
-                (8, 8),
+            probe: pure((8, 8),
                 "let r = pcg4d(vec4u(integer(0u), integer(2u), integer(4u), integer(6u)));
                  put_integer(0u, r.x); put_integer(2u, r.y); put_integer(4u, r.z); put_integer(6u, r.w);",
             ),
@@ -104,9 +101,7 @@ fn random() -> Vec<Check> {
             tolerance: EXACT,
         },
         Check {
-            probe: pure(
-                &["random"],
-                (8, 4),
+            probe: pure((8, 4),
                 "put4(0u, unit_interval(vec4u(integer(0u), integer(2u), integer(4u), integer(6u))));",
             ),
             proves: &["unit_interval"],
@@ -115,9 +110,7 @@ fn random() -> Vec<Check> {
             tolerance: EXACT,
         },
         Check {
-            probe: pure(
-                &["random"],
-                (8, 4),
+            probe: pure((8, 4),
                 "put4(0u, random4(vec2u(integer(0u) & 0xffffu, integer(2u) & 0xffffu), integer(4u), integer(6u), 5u));",
             ),
             proves: &["random4"],
@@ -134,9 +127,7 @@ fn random() -> Vec<Check> {
 fn sobol() -> Vec<Check> {
     vec![
         Check {
-            probe: pure(
-                &["sobol"],
-                (4, 2),
+            probe: pure((4, 2),
                 "put_integer(0u, scrambled(vec4u(integer(0u)), vec4u(integer(2u))).z);",
             ),
             proves: &["scrambled"],
@@ -145,9 +136,7 @@ fn sobol() -> Vec<Check> {
             tolerance: EXACT,
         },
         Check {
-            probe: pure(
-                &["sobol"],
-                (2, 8),
+            probe: pure((2, 8),
                 "let p = sobol_point(integer(0u));
                  put_integer(0u, p.x); put_integer(2u, p.y); put_integer(4u, p.z); put_integer(6u, p.w);",
             ),
@@ -160,9 +149,7 @@ fn sobol() -> Vec<Check> {
             tolerance: EXACT,
         },
         Check {
-            probe: pure(
-                &["sobol"],
-                (8, 4),
+            probe: pure((8, 4),
                 "put4(0u, sobol4(vec2u(integer(0u) & 0xffffu, integer(2u) & 0xffffu), integer(4u), integer(6u), 5u));",
             ),
             proves: &["sobol4"],
@@ -214,9 +201,7 @@ fn complex() -> Vec<Check> {
     macro_rules! binary {
         ($name:literal, $inputs:expr, $twin:expr) => {
             Check {
-                probe: pure(
-                    &["complex"],
-                    (4, 2),
+                probe: pure((4, 2),
                     concat!(
                         "let z = ", $name, "(Complex4(vec4f(a(0u)), vec4f(a(1u))), Complex4(vec4f(a(2u)), vec4f(a(3u))));",
                         "put(0u, z.re.y); put(1u, z.im.z);"
@@ -236,7 +221,6 @@ fn complex() -> Vec<Check> {
         binary!("complex_div", divisors(), |a| parts(pair(a).0 / pair(a).1)),
         Check {
             probe: pure(
-                &["complex"],
                 (2, 1),
                 "put(0u, complex_norm2(Complex4(vec4f(a(0u)), vec4f(a(1u)))).w);",
             ),
@@ -247,7 +231,6 @@ fn complex() -> Vec<Check> {
         },
         Check {
             probe: pure(
-                &["complex"],
                 (2, 2),
                 "let z = complex_sqrt(Complex4(vec4f(a(0u)), vec4f(a(1u)))); put(0u, z.re.x); put(1u, z.im.x);",
             ),

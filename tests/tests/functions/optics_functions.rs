@@ -20,7 +20,6 @@ const SHALLOW: f32 = 1.745e-4;
 fn surfaces() -> Vec<Check> {
     vec![Check {
         probe: pure(
-            &["fresnel"],
             (3, 1),
             "put(0u, reflectance_unpolarised(vec4f(a(0u)), vec4f(a(1u)), a(2u)).x);",
         ),
@@ -87,7 +86,7 @@ fn transparent_films() -> Vec<Check> {
         &[1.333, 300.0, 380.0, 1.0],
     ];
     let check = |thickest, cosines, tolerance| Check {
-        probe: pure(&["film"], (4, 1), TRANSPARENT),
+        probe: pure((4, 1), TRANSPARENT),
         proves: &["film_reflectance"],
         inputs: table(
             &[(1.0, 2.5), (0.0, thickest), (360.0, 830.0), cosines],
@@ -111,7 +110,7 @@ fn lossy_films() -> Vec<Check> {
         &[1.0, 0.0, 200.0, 500.0, 1e-4],
     ];
     let check = |cosines, tolerance| Check {
-        probe: pure(&["film"], (5, 2), LOSSY),
+        probe: pure((5, 2), LOSSY),
         proves: &["film_powers"],
         inputs: table(
             &[
@@ -143,9 +142,7 @@ fn boundary(a: &[f64]) -> Vec<f64> {
 fn film_parts() -> Vec<Check> {
     vec![
         Check {
-            probe: pure(
-                &["film"],
-                (4, 2),
+            probe: pure((4, 2),
                 "let f = film_of_boundary(Complex4(vec4f(a(0u)), vec4f(a(1u))), Complex4(vec4f(a(2u)), vec4f(a(3u))));
                  put(0u, f.reflectance.x); put(1u, f.transmittance.x);",
             ),
@@ -155,9 +152,7 @@ fn film_parts() -> Vec<Check> {
             tolerance: FRESNEL,
         },
         Check {
-            probe: pure(
-                &["phase"],
-                (2, 2),
+            probe: pure((2, 2),
                 "let z = phase_factor(vec4f(a(0u)), vec4f(a(1u))); put(0u, z.re.x); put(1u, z.im.x);",
             ),
             proves: &["phase_factor"],
@@ -176,11 +171,7 @@ fn facets() -> Vec<Check> {
     let slopes = (0.05, 1.0);
     vec![
         Check {
-            probe: pure(
-                &["microfacet"],
-                (2, 1),
-                "put(0u, beckmann_d(a(0u), a(1u)));",
-            ),
+            probe: pure((2, 1), "put(0u, beckmann_d(a(0u), a(1u)));"),
             proves: &["beckmann_d"],
             inputs: table(
                 &[(0.05, 1.0), slopes],
@@ -190,11 +181,7 @@ fn facets() -> Vec<Check> {
             tolerance: pellicle_tests::tolerances::BECKMANN,
         },
         Check {
-            probe: pure(
-                &["microfacet"],
-                (4, 1),
-                "put(0u, v_groove_g(a(0u), a(1u), a(2u), a(3u)));",
-            ),
+            probe: pure((4, 1), "put(0u, v_groove_g(a(0u), a(1u), a(2u), a(3u)));"),
             proves: &["v_groove_g"],
             inputs: table(
                 &[(0.0, 1.0), (0.0, 1.0), (0.0, 1.0), (0.05, 1.0)],
@@ -204,11 +191,7 @@ fn facets() -> Vec<Check> {
             tolerance: FRESNEL,
         },
         Check {
-            probe: pure(
-                &["microfacet"],
-                (3, 3),
-                "put3(0u, sample_beckmann(a(0u), a(1u), a(2u)));",
-            ),
+            probe: pure((3, 3), "put3(0u, sample_beckmann(a(0u), a(1u), a(2u)));"),
             proves: &["sample_beckmann"],
             inputs: table(
                 &[(0.0, 0.999_999), (0.0, 0.999_999), slopes],
@@ -218,7 +201,7 @@ fn facets() -> Vec<Check> {
             tolerance: DIRECTION,
         },
         Check {
-            probe: pure(&["microfacet"], (1, 1), "put(0u, log_one_minus(a(0u)));"),
+            probe: pure((1, 1), "put(0u, log_one_minus(a(0u)));"),
             proves: &["log_one_minus"],
             inputs: table(
                 &[(0.0, 0.999_999)],

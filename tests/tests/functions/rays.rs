@@ -126,9 +126,7 @@ fn distance_to() -> Check {
     let world = everything();
     let all = objects_where(|_, _| true);
     Check {
-        probe: world.probe(
-            &["hit"],
-            (8, 1),
+        probe: world.probe((8, 1),
             "let r = Ray(a3(2u), a3(5u));
              put(0u, max(distance_to(u32(a(0u)), r, select(u32(max(a(1u), 0.0)), NONE, a(1u) < 0.0)), -1.0));",
         ),
@@ -153,9 +151,7 @@ fn distance_to() -> Check {
 fn nearest_hit() -> Check {
     let world = everything();
     Check {
-        probe: world.probe(
-            &["hit"],
-            (7, 2),
+        probe: world.probe((7, 2),
             "let h = nearest_hit(Ray(a3(1u), a3(4u)), select(u32(max(a(0u), 0.0)), NONE, a(0u) < 0.0));
              let hits = h.object != NONE;
              put(0u, select(-1.0, f32(h.object), hits)); put(1u, select(-1.0, h.distance, hits));",
@@ -192,7 +188,6 @@ fn surface_point() -> Check {
     let all = objects_where(|_, _| true);
     Check {
         probe: world.probe(
-            &["surface"],
             (8, 7),
             "let p = surface_point(u32(a(0u)), Ray(a3(1u), a3(4u)), a(7u));
              put3(0u, p.position); put3(3u, p.normal); put(6u, p.cosine);",

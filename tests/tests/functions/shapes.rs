@@ -21,7 +21,6 @@ fn directions() -> Vec<Check> {
         Check {
             // Given whole, so that both sides see the same sign of z.
             probe: pure(
-                &["sampling"],
                 (3, 9),
                 "let f = frame_of(a3(0u)); put3(0u, f[0]); put3(3u, f[1]); put3(6u, f[2]);",
             ),
@@ -35,11 +34,7 @@ fn directions() -> Vec<Check> {
             tolerance: DIRECTION,
         },
         Check {
-            probe: pure(
-                &["sampling"],
-                (2, 3),
-                "put3(0u, sample_cosine_hemisphere(a(0u), a(1u)));",
-            ),
+            probe: pure((2, 3), "put3(0u, sample_cosine_hemisphere(a(0u), a(1u)));"),
             proves: &["sample_cosine_hemisphere"],
             inputs: table(
                 &[(0.0, 1.0), (0.0, 1.0)],
@@ -53,11 +48,7 @@ fn directions() -> Vec<Check> {
             tolerance: DIRECTION,
         },
         Check {
-            probe: pure(
-                &["sampling"],
-                (3, 3),
-                "put3(0u, sample_cone(a(0u), a(1u), a(2u)));",
-            ),
+            probe: pure((3, 3), "put3(0u, sample_cone(a(0u), a(1u), a(2u)));"),
             proves: &["sample_cone"],
             inputs: table(
                 &[(0.0, 1.0), (0.0, 1.0), (0.001, 2.0)],
@@ -67,18 +58,14 @@ fn directions() -> Vec<Check> {
             tolerance: DIRECTION,
         },
         Check {
-            probe: pure(&["sampling"], (2, 1), "put(0u, cone_height(a(0u), a(1u)));"),
+            probe: pure((2, 1), "put(0u, cone_height(a(0u), a(1u)));"),
             proves: &["cone_height"],
             inputs: table(&[(0.1, 1.0), (1.1, 50.0)], &[&[1.0, 1.0001], &[0.5, 0.5]]),
             twin: |a| vec![reference::cone_height(a[0], a[1])],
             tolerance: pellicle_tests::tolerances::CONE,
         },
         Check {
-            probe: pure(
-                &["path_state"],
-                (6, 3),
-                "put3(0u, mirrored(a3(0u), a3(3u)));",
-            ),
+            probe: pure((6, 3), "put3(0u, mirrored(a3(0u), a3(3u)));"),
             proves: &["mirrored"],
             inputs: pairs_of_unit_vectors(),
             twin: |a| {
@@ -158,7 +145,6 @@ fn distances() -> Vec<Check> {
     vec![
         Check {
             probe: pure(
-                &["intersect"],
                 (6, 1),
                 "put(0u, intersect_sphere(a3(0u), a3(3u), 1.5, false));",
             ),
@@ -174,7 +160,6 @@ fn distances() -> Vec<Check> {
         },
         Check {
             probe: pure(
-                &["intersect"],
                 (6, 1),
                 "put(0u, intersect_sphere(1.5 * a3(0u), a3(3u), 1.5, true));",
             ),
@@ -194,7 +179,6 @@ fn distances() -> Vec<Check> {
         },
         Check {
             probe: pure(
-                &["intersect"],
                 (6, 1),
                 "put(0u, intersect_plane(a3(0u), a3(3u), vec3f(0.0, 0.6, 0.8)));",
             ),

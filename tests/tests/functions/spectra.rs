@@ -33,9 +33,7 @@ pub(crate) fn checks() -> Vec<Check> {
     offsets.extend([0.0, 0.5, 0.999_999_94]);
     vec![
         Check {
-            probe: world.probe(
-                &["spectrum"],
-                (1, 3),
+            probe: world.probe((1, 3),
                 "let w = wavelengths_at(a(0u)); put(0u, w.offset); put(1u, f32(w.knot)); put(2u, w.fraction);",
             ),
             proves: &["wavelengths_at"],
@@ -47,9 +45,7 @@ pub(crate) fn checks() -> Vec<Check> {
             tolerance: KNOT,
         },
         Check {
-            probe: world.probe(
-                &["spectrum"],
-                (3, 4),
+            probe: world.probe((3, 4),
                 "put4(0u, spectrum_at(u32(a(0u)), u32(a(1u)), wavelengths_at(a(2u))));",
             ),
             proves: &["spectra_row", "spectrum_at"],
@@ -61,9 +57,7 @@ pub(crate) fn checks() -> Vec<Check> {
             tolerance: SPECTRUM,
         },
         Check {
-            probe: world.probe(
-                &["lifting"],
-                (5, 4),
+            probe: world.probe((5, 4),
                 "put4(0u, smooth_value(a3(0u), u32(a(3u)), wavelengths_at(a(4u))));",
             ),
             proves: &["smooth_value"],
@@ -84,9 +78,7 @@ pub(crate) fn checks() -> Vec<Check> {
         },
         Check {
             // In 1/µm, so that the numbers are of order one.
-            probe: world.probe(
-                &["spectrum"],
-                (2, 4),
+            probe: world.probe((2, 4),
                 "put4(0u, 1000.0 * inverse_wavelengths(u32(a(0u)), wavelengths_at(a(1u))));",
             ),
             proves: &["inverse_wavelengths"],

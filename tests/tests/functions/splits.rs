@@ -7,11 +7,7 @@ use pellicle_tests::tolerances::{ARITHMETIC, ARITHMETIC_OF_TABLES};
 pub(crate) fn checks() -> Vec<Check> {
     vec![
         Check {
-            probe: everything().probe(
-                &["split"],
-                (2, 1),
-                "put(0u, reflected_part(u32(a(0u)), a(1u)));",
-            ),
+            probe: everything().probe((2, 1), "put(0u, reflected_part(u32(a(0u)), a(1u)));"),
             proves: &["reflected_part"],
             inputs: rows(2, |u| {
                 let materials = everything().scene.estimates();
@@ -24,7 +20,6 @@ pub(crate) fn checks() -> Vec<Check> {
         },
         Check {
             probe: everything().probe(
-                &["split"],
                 (1, 2),
                 "put(0u, reflected_share(a(0u))); put(1u, chance_to_go_on(a(0u)));",
             ),

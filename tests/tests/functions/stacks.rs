@@ -36,7 +36,7 @@ const STACK: &str = "
 fn stack(cosines: (f32, f32), thickest: f32, tolerance: Tolerance) -> Check {
     let thickness = (0.0, thickest);
     Check {
-        probe: pure(&["stack"], (11, 4), STACK),
+        probe: pure((11, 4), STACK),
         proves: &[
             "stack_on",
             "stack_layer",
@@ -121,7 +121,6 @@ fn stack_twin(a: &[f64]) -> Vec<f64> {
 fn two_beams() -> Vec<Check> {
     vec![Check {
         probe: pure(
-            &["two_beam"],
             (4, 3),
             "let n = vec4f(a(0u)); let inverse = vec4f(1.0 / a(2u));
              put(0u, two_beam_reflectance(n, a(1u), inverse, a(3u), false).x);

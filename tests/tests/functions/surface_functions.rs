@@ -129,11 +129,7 @@ pub(crate) fn checks() -> Vec<Check> {
         )
     });
     vec![Check {
-        probe: world().probe(
-            &["path", "evaluate", "emitter_sampling", "bsdf/bsdf"],
-            (9, 8),
-            BODY,
-        ),
+        probe: world().probe((9, 8), BODY),
         proves: &[
             "begin_record",
             "begin_vertex",

@@ -88,7 +88,6 @@ fn thickness(
     }
     Check {
         probe: world.probe(
-            &["thickness", "records", "bindings"],
             (4, 1),
             "let i = u32(a(0u)); let m = material_at(shape_at(i).material);
              var first = load_film(m.record).first_layer;
@@ -212,7 +211,7 @@ fn lattice_noise() -> Check {
 }
 
 fn pure_noise() -> pellicle_tests::probe::Probe<'static> {
-    pure(&["noise"], (5, 4), NOISE_BODY)
+    pure((5, 4), NOISE_BODY)
 }
 
 fn whole(table: &mut [f32], columns: &[usize]) {

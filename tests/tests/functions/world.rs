@@ -35,12 +35,10 @@ impl World {
 
     pub(crate) fn probe(
         &'static self,
-        roots: &'static [&'static str],
         shape: (usize, usize),
         body: &'static str,
     ) -> Probe<'static> {
         Probe {
-            roots,
             body,
             shape,
             scene: Some(&self.packed),

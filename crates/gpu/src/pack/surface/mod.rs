@@ -1,8 +1,15 @@
 //! Materials: a head for each, and by its kind what it is made of, what the shader must be able to do for it, and how many passes its loops
 //! make.
 
+mod coated;
+mod cook;
+mod diffuse;
+mod facets;
+mod film;
+mod interface;
+
 use super::tables::Tables;
-use super::{coated, cook, diffuse, film, id, interface, light};
+use super::{id, light};
 use crate::layout;
 use scene::{Estimate, Material, Pattern, Scene};
 

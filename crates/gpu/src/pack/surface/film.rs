@@ -1,9 +1,9 @@
 //! Free films.
 
-use super::surface::{PackedSurface, Passes};
-use super::tables::Tables;
-use super::thickness;
+use super::{PackedSurface, Passes};
 use crate::layout::{self, NONE};
+use crate::pack::tables::Tables;
+use crate::pack::thickness;
 use scene::{Estimate, Interference, Layer, PathDifference};
 
 /// Passes for a layer of a stack: its own, and those of the series for small thicknesses.

@@ -1,9 +1,10 @@
 //! Diffuse bodies below clear coats.
 
-use super::surface::{PackedSurface, Passes};
-use super::tables::Tables;
-use super::{diffuse, facets, id};
+use super::{PackedSurface, Passes};
+use super::{diffuse, facets};
 use crate::layout::{self, NONE};
+use crate::pack::id;
+use crate::pack::tables::Tables;
 use scene::CoatedBody;
 
 pub(super) fn pack(tables: &mut Tables, body: &CoatedBody) -> PackedSurface {

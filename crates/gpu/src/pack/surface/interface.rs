@@ -1,9 +1,10 @@
 //! Conductors, bare or coated, smooth or rough.
 
-use super::surface::{PackedSurface, Passes};
-use super::tables::Tables;
-use super::{facets, film, thickness};
+use super::{PackedSurface, Passes};
+use super::{facets, film};
 use crate::layout::{self, NONE};
+use crate::pack::tables::Tables;
+use crate::pack::thickness;
 use scene::{Layer, Microsurface};
 
 pub(super) fn pack(

@@ -1,9 +1,9 @@
 //! The model of Cook and Torrance.
 
-use super::id;
-use super::surface::{PackedSurface, Passes};
-use super::tables::Tables;
+use super::{PackedSurface, Passes};
 use crate::layout::{self, NONE};
+use crate::pack::id;
+use crate::pack::tables::Tables;
 use scene::{Cook1981, CookDistribution};
 
 pub(super) fn pack(tables: &mut Tables, cook: &Cook1981) -> PackedSurface {

@@ -1,14 +1,14 @@
 //! Lambertian surfaces, and what lies below coats.
 
-use super::id;
-use super::surface::{PackedSurface, Passes};
-use super::tables::Tables;
+use super::{PackedSurface, Passes};
 use crate::layout::{self, NONE};
+use crate::pack::id;
+use crate::pack::tables::Tables;
 use scene::Pattern;
 
 pub(super) fn pack(tables: &mut Tables, reflectance: &Pattern) -> PackedSurface {
     let (record, mut features) = pattern(tables, reflectance);
-    features.extend(["HAS_DIFFUSE", "HAS_BSDFS", "HAS_SCATTERING"]);
+    features.extend(["HAS_BSDFS", "HAS_SCATTERING"]);
     PackedSurface {
         surface: layout::SURFACE_DIFFUSE,
         record,

@@ -1,8 +1,8 @@
 //! What makes a surface rough.
 
-use super::tables::Tables;
-use super::vec3;
 use crate::layout;
+use crate::pack::tables::Tables;
+use crate::pack::vec3;
 use glam::DVec3;
 use scene::{Distribution, FacetTable, Grain, Microsurface};
 
