@@ -28,7 +28,6 @@ override HAS_SAMPLED_FIELDS: bool = true;
 override HAS_SWIRLS: bool = true;
 override HAS_PICTURES: bool = true;
 override HAS_SPHERE_LIGHTS: bool = true;
-override HAS_RECTANGLE_LIGHTS: bool = true;
 override HAS_DISK_LIGHTS: bool = true;
 override HAS_DELTA_LIGHTS: bool = true;
 override HAS_DISCS: bool = true;

@@ -18,7 +18,8 @@ const FIRST_COLOR: u32 = FIRST_DEVIATION + GROUPS;
 fn accumulate(pixel: u32, pixels: u32, count: f32, at: Wavelengths) -> array<vec3f, LIGHT_GROUPS> {
     var color: array<vec3f, LIGHT_GROUPS>;
     let dimmed = dimming(at);
-    for (var group = 0u; group < GROUPS; group++) {
+    var group = 0u;
+    loop {
         let radiance = path_radiance(group, at);
         let x = spectrum_at(frame.observer, group, at);
         let y = spectrum_at(frame.observer + 1u, group, at);
@@ -29,14 +30,19 @@ fn accumulate(pixel: u32, pixels: u32, count: f32, at: Wavelengths) -> array<vec
         for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
             let value = dimmed * radiance[light_group];
             let place = (light_group * GROUPS + group) * pixels + pixel;
-            let difference = value - sums[place];
-            let mean = sums[place] + difference / count;
+            let so_far = sums[place];
+            let difference = value - so_far;
+            let mean = so_far + difference / count;
             sums[place] = mean;
             before += difference;
             after += value - mean;
             color[light_group] += vec3f(dot(value, x), dot(value, y), dot(value, z));
         }
         sums[(FIRST_DEVIATION + group) * pixels + pixel] += before * after;
+        continuing {
+            group++;
+            break if group >= GROUPS;
+        }
     }
     return color;
 }

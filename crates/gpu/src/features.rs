@@ -126,7 +126,6 @@ fn of_lights(scene: &Scene) -> Vec<Named> {
     let direct = scene.settings().direct_light;
     vec![
         ("HAS_SPHERE_LIGHTS", light(is_sphere)),
-        ("HAS_RECTANGLE_LIGHTS", light(is_rectangle)),
         ("HAS_DISK_LIGHTS", light(is_disk)),
         ("HAS_DELTA_LIGHTS", sources.iter().any(is_delta)),
         ("HAS_DISCS", surroundings.iter().any(is_disc)),

@@ -743,9 +743,8 @@ fn declare_loader(name: &str, members: &[Member]) -> String {
         }
     });
     let values = values.collect::<Vec<_>>().join(",\n        ");
-    let rows: String = (0..next / 4)
-        .map(|row| format!("    let row_{row} = LIST_row(row + {row}u);\n"))
-        .collect();
+    let row = |row| format!("    let row_{row} = LIST_row(row + {row}u);\n");
+    let rows = (0..next / 4).map(row).collect::<Vec<_>>().concat();
     format!(
         "const {}_ROWS: u32 = {}u;\nfn load_{}(row: u32) -> {name} {{\n{rows}    return {name}(\n        {values},\n    );\n}}\n",
         name.to_uppercase(),
