@@ -132,7 +132,7 @@ fn factor_twin(a: &[f64]) -> Vec<f64> {
         _ => {
             let grid = &everything().scene.settings().bands;
             let film = optics::film(index(band), a[3], grid.wavelength_nm(band, a[5]), a[2]);
-            [film.reflectance, film.transmittance].map(|power| power.unpolarised())
+            [film.reflectance, film.transmittance].map(optics::Polarised::unpolarised)
         }
     };
     let both = bands_of(a[4]).map(values);
