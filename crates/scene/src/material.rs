@@ -1,6 +1,7 @@
 //! What a surface is made of, in a validated scene.
 
 use crate::description::PathDifference;
+use crate::rounding::RoundToF32;
 use crate::{CoatedBody, Cook1981, LightGroupId, Microsurface, SpectrumId, Texels, Thickness};
 use std::sync::Arc;
 
@@ -85,6 +86,45 @@ impl Material {
             Self::Emitter { emission, .. } => Some(emission),
             Self::Cook(Cook1981 { ambient, .. }) => ambient.as_mut(),
             _ => None,
+        }
+    }
+}
+
+impl RoundToF32 for Material {
+    fn rounded(&self) -> Self {
+        match self {
+            Self::Diffuse { reflectance } => Self::Diffuse {
+                reflectance: reflectance.rounded(),
+            },
+            Self::Conductor {
+                n,
+                k,
+                layers,
+                microsurface,
+            } => Self::Conductor {
+                n: *n,
+                k: *k,
+                layers: layers.iter().map(RoundToF32::rounded).collect(),
+                microsurface: microsurface.as_ref().map(RoundToF32::rounded),
+            },
+            Self::Cook(cook) => Self::Cook(cook.rounded()),
+            Self::CoatedBody(body) => Self::CoatedBody(body.rounded()),
+            Self::Film {
+                layers,
+                transparent,
+                interference,
+            } => Self::Film {
+                layers: layers.iter().map(RoundToF32::rounded).collect(),
+                transparent: *transparent,
+                interference: *interference,
+            },
+            Self::Emitter {
+                emission,
+                reflectance,
+            } => Self::Emitter {
+                emission: emission.rounded(),
+                reflectance: *reflectance,
+            },
         }
     }
 }

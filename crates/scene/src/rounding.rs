@@ -3,8 +3,8 @@
 use crate::EnvironmentPicture;
 use crate::{
     Camera, CoatEstimate, CoatedBody, Cook1981, CookFacets, DiffuseShare, Emission, Environment,
-    Grain, Hierarchy, Layer, Lens, Light, LightNode, LightShape, LightTree, Material, Microsurface,
-    Object, Pattern, Projection, RenderSettings, Scene, Shape,
+    Grain, Hierarchy, Layer, Lens, Light, LightNode, LightShape, LightTree, Microsurface, Object,
+    Pattern, Projection, RenderSettings, Scene, Shape,
 };
 use glam::DVec3;
 use std::sync::Arc;
@@ -97,45 +97,6 @@ impl RoundToF32 for Projection {
             Self::Panorama => Self::Panorama,
             Self::Orthographic { half_height } => Self::Orthographic {
                 half_height: half_height.rounded(),
-            },
-        }
-    }
-}
-
-impl RoundToF32 for Material {
-    fn rounded(&self) -> Self {
-        match self {
-            Self::Diffuse { reflectance } => Self::Diffuse {
-                reflectance: reflectance.rounded(),
-            },
-            Self::Conductor {
-                n,
-                k,
-                layers,
-                microsurface,
-            } => Self::Conductor {
-                n: *n,
-                k: *k,
-                layers: layers.iter().map(RoundToF32::rounded).collect(),
-                microsurface: microsurface.as_ref().map(RoundToF32::rounded),
-            },
-            Self::Cook(cook) => Self::Cook(cook.rounded()),
-            Self::CoatedBody(body) => Self::CoatedBody(body.rounded()),
-            Self::Film {
-                layers,
-                transparent,
-                interference,
-            } => Self::Film {
-                layers: layers.iter().map(RoundToF32::rounded).collect(),
-                transparent: *transparent,
-                interference: *interference,
-            },
-            Self::Emitter {
-                emission,
-                reflectance,
-            } => Self::Emitter {
-                emission: emission.rounded(),
-                reflectance: *reflectance,
             },
         }
     }

@@ -11,19 +11,112 @@ mod interface;
 mod rough;
 
 pub use coated::coat_share;
-pub(crate) use coated::{Coated, CoatedAt};
-pub(crate) use cook::Cook;
+use coated::{Coated, CoatedAt};
+use cook::Cook;
 pub use cook::{CookFacets, cook_facets, sample_cook_facet};
-pub(crate) use diffuse::Diffuse;
+use diffuse::Diffuse;
 pub use facets::{FacetScattering, Facets};
-pub(crate) use interface::{Interface, InterfaceAt};
+use interface::{Interface, InterfaceAt};
 use rough::Rough;
 
-use crate::layers::Nanometers;
-use crate::spectral::{Bands, Spectrum};
-use crate::surface::Reflectance;
+use crate::SurfacePoint;
+use crate::layers::{Film, Nanometers, SurfaceAt};
+use crate::spectral::{Bands, Spectrum, Tables};
+use crate::surface::{Reflectance, pattern_reflectance};
 use glam::DVec3;
 use pulp::Simd;
+use scene::{Emission, Estimate, Material, Pattern, Shape};
+
+/// A material as paths meet it.
+pub(crate) struct Surface<'a> {
+    /// What it emits.
+    pub(crate) emission: Option<Emission>,
+    /// How it divides light, roughly.
+    pub(crate) estimate: &'a Estimate,
+    kind: SurfaceKind<'a>,
+}
+
+enum SurfaceKind<'a> {
+    Black,
+    Film(Film<'a>),
+    Diffuse(Pattern),
+    Interface(Interface<'a>),
+    Coated(Coated<'a>),
+    Cook(Cook<'a>),
+}
+
+impl<'a> Surface<'a> {
+    pub(crate) fn new(tables: &mut Tables, material: &'a Material, estimate: &'a Estimate) -> Self {
+        let kind = match material {
+            Material::Film {
+                layers,
+                interference,
+                ..
+            } => SurfaceKind::Film(Film::new(tables, layers, *interference)),
+            Material::Diffuse { reflectance } => SurfaceKind::Diffuse(reflectance.clone()),
+            Material::Emitter { reflectance, .. } => match *reflectance {
+                Some(spectrum) => SurfaceKind::Diffuse(Pattern::Uniform(spectrum)),
+                None => SurfaceKind::Black,
+            },
+            Material::Conductor {
+                n,
+                k,
+                layers,
+                microsurface,
+            } => {
+                let of = Interface::new(tables, (*n, *k), layers, microsurface.as_ref());
+                SurfaceKind::Interface(of)
+            }
+            Material::CoatedBody(body) => SurfaceKind::Coated(Coated::new(tables, body)),
+            Material::Cook(cook) => SurfaceKind::Cook(Cook::new(tables, cook)),
+        };
+        let ambient = match material {
+            Material::Cook(cook) => cook.ambient,
+            _ => None,
+        };
+        Self {
+            emission: material.emission().or(ambient),
+            estimate,
+            kind,
+        }
+    }
+
+    /// The film that it is.
+    pub(crate) fn film(&self) -> Option<&Film<'a>> {
+        match &self.kind {
+            SurfaceKind::Film(film) => Some(film),
+            _ => None,
+        }
+    }
+
+    /// How it scatters light at a point; none of films and of what is black. `random` in [0, 1) chooses between the texels of a picture.
+    pub(crate) fn bsdf(
+        &'a self,
+        shape: &'a Shape,
+        point: &SurfacePoint,
+        random: impl FnOnce() -> f64,
+    ) -> Option<Bsdf<'a>> {
+        let position = point.position;
+        let reflectance = |pattern: &Pattern| match *pattern {
+            Pattern::Uniform(spectrum) => Reflectance::Spectrum(spectrum),
+            Pattern::Checker { .. } => pattern_reflectance(pattern, shape, position, 0.0),
+            Pattern::Texture { .. } => pattern_reflectance(pattern, shape, position, random()),
+        };
+        Some(match &self.kind {
+            SurfaceKind::Black | SurfaceKind::Film(_) => return None,
+            SurfaceKind::Diffuse(pattern) => Bsdf::Diffuse(Diffuse(reflectance(pattern))),
+            SurfaceKind::Interface(interface) => Bsdf::Interface(InterfaceAt {
+                interface,
+                surface: SurfaceAt { shape, position },
+            }),
+            SurfaceKind::Coated(coated) => Bsdf::Coated(CoatedAt {
+                coated,
+                base: reflectance(&coated.body.base),
+            }),
+            SurfaceKind::Cook(cook) => Bsdf::Cook(cook),
+        })
+    }
+}
 
 /// What scatters light at a point of a surface.
 pub(crate) enum Bsdf<'a> {
