@@ -136,7 +136,8 @@ fn begin_vertex(resumes: u32) {
     is_pending = false;
     pending = Vertex(FACTOR_ONE, 1.0, 1.0, 0.0, 0u, 0.0, 1.0, 0u, resumes << RESUMES_FROM);
     if (HAS_SHEENS) {
-        pending_sheen = Sheen(0.0, 0.0, 0.0);
+        // Of no facets, whose color is finite whatever they reflect.
+        pending_sheen = Sheen(0.0, 0.0, 1.0);
     }
     if (HAS_BASES) {
         pending_body = Body(FACTOR_ONE, 0u, 0.0, 0.0, 1.0, 1.0, 1.0);

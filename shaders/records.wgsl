@@ -426,7 +426,7 @@ fn load_node(row: u32) -> Node {
     );
 }
 
-/// A node of the tree of emitters, depth first: a group as seen from afar; or an emitter, of which only the last three are meant.
+/// A node of the tree of emitters, depth first: a group as seen from afar; or an emitter, of which only the last four count.
 struct LightNode {
     /// Mean of the places of what the group holds.
     center: vec3f,

@@ -98,7 +98,7 @@ fn coated_spectrum(at: Place, vertex: Vertex, n: vec4f) -> Values {
     let body = bodies[at.vertex];
     let coated = coated_of(body.material);
     let k = spectrum_at(coated.spectrum + 1u, at.group, at.wavelengths);
-    let base = reflectance_value(at, body.base, spectrum_at(factor_number(body.base), at.group, at.wavelengths));
+    let base = reflectance_value(at, body.base, number_spectrum(body.base, at));
     let outer = spectrum_at(coated.mean_reflectance, at.group, at.wavelengths);
     let inside = base * coated_albedo_factor(base, n, outer);
     var values: Values;

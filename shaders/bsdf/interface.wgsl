@@ -67,7 +67,10 @@ fn coating_spectrum(at: Place, vertex: Vertex) -> Values {
     let layers = Layers(boundary.first_layer, boundary.layer_count, boundary.varying_layers, first_thickness);
     var values = Values(vec4f(0.0), vec4f(0.0));
     var mean = vec4f(0.0);
-    let count = select(1u, select(2u, 5u, HAS_SHEENS), HAS_SCATTERING);
+    var count = select(1u, 2u, HAS_SCATTERING);
+    if (HAS_SHEENS && sheens[at.vertex].weight + sheens[at.vertex].light_weight > 0.0) {
+        count = 5u;
+    }
     var i = 0u;
     loop {
         var cosine = select(vertex.light_cosine, vertex.cosine, i == 0u);

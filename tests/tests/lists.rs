@@ -1,5 +1,5 @@
-//! The lists of a scene give the same bits in a storage buffer, a uniform buffer and a texture; and scenes with long lists agree with the
-//! reference.
+//! The lists of a scene give the same bits in a storage buffer, a uniform buffer and a texture; and scenes with long lists, or of what lies
+//! side by side in few scenes, agree with the reference.
 
 use gpu::{Gpu, ListForm, PackedScene};
 use pellicle_tests::device::open;
@@ -65,6 +65,20 @@ fn many(spheres: u32, materials: u32) -> Scene {
     parsed(&text)
 }
 
+/// A mirror that reflects all but 1e-9 at some wavelengths, beside a rough metal: the color of light that met several facets has no value
+/// for the mirror, and must not be asked for.
+fn mirror_beside_a_rough_metal() -> Scene {
+    let pair = "{ index = 2.4, thickness_nm = 57.3 }, { index = 1.46, thickness_nm = 94.2 }";
+    let layers = vec![pair; 20].join(", ");
+    parsed(&format!(
+        "{HEAD}environment = {{ type = 'gradient', zenith = {{ constant = 2 }}, horizon = {{ constant = 1 }} }}\n\
+         [materials.mirror]\ntype = 'coated'\nsubstrate = 'silver'\nlayers = [{layers}]\n\
+         [materials.rough]\ntype = 'conductor'\nindex = 'gold'\nroughness = 0.4\n\
+         [[objects]]\ntype = 'sphere'\nmaterial = 'mirror'\ncenter = [-2, 0, 0]\nradius = 1.6\n\
+         [[objects]]\ntype = 'sphere'\nmaterial = 'rough'\ncenter = [2, 0, 0]\nradius = 1.6\n"
+    ))
+}
+
 /// A coating of 64 layers on a ball, and a free stack of as many.
 fn layered() -> Scene {
     let layers: Vec<_> = (0..64)
@@ -118,6 +132,10 @@ fn long_lists_agree_with_the_reference() {
     for (what, scene) in [
         ("1200 spheres, 400 lamps, 320 spectra", many(1200, 320)),
         ("two stacks of 64 layers", layered()),
+        (
+            "a mirror beside a rough metal",
+            mirror_beside_a_rough_metal(),
+        ),
     ] {
         let (actual, expected) = (on_gpu(&gpu, &scene), on_cpu(&scene));
         let compared = same_numbers(Values::of(&actual), Values::of(&expected), &FRAMES);

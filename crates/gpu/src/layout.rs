@@ -625,7 +625,7 @@ records! { TREES;
         pub object: u32,
     }
 
-    /// A node of the tree of emitters, depth first: a group as seen from afar; or an emitter, of which only the last three are meant.
+    /// A node of the tree of emitters, depth first: a group as seen from afar; or an emitter, of which only the last four count.
     pub struct LightNode {
         /// Mean of the places of what the group holds.
         pub center: [f32; 3],

@@ -300,7 +300,8 @@ fn write_new(file: &Path, parts: &[&[u8]]) -> io::Result<()> {
     parts.iter().try_for_each(|part| opened.write_all(part))
 }
 
-/// A folder that others may not write to, which drivers' code will be read from.
+/// Makes the folder, where it is not there, such that others may not write to it: drivers' code will be read from it. One that is there is
+/// taken as it is: whoever names a folder that others may write to trusts them.
 fn create_private_folder(folder: &Path) -> io::Result<()> {
     let mut builder = fs::DirBuilder::new();
     builder.recursive(true);

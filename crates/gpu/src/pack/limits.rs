@@ -17,14 +17,16 @@ pub(super) fn of(scene: &Scene) -> RecordLimits {
     let splits = if has_films { settings.film_splits } else { 0 };
     let segments = settings.max_path_segments;
     let crossings = crossings(scene, segments, splits);
-    // Of a gradient a direction sees two parts, of which one stands for the segment that escapes.
-    let own = if glows(scene) { 2 } else { 1 };
-    let vertices = own * vertices(segments, splits) + (discs(scene) << splits);
+    let surfaces = vertices(segments, splits);
+    // What a surface emits has a vertex of its own. Of a gradient a direction sees two parts, of which one stands for the segment that
+    // escapes.
+    let glowing = if glows(scene) { surfaces } else { 0 };
+    let vertices = surfaces + glowing + (discs(scene) << splits);
     RecordLimits {
         vertices,
         crossings: u32::max(crossings, 1),
         thicknesses: u32::max(
-            most_varying(scene, |_| true) * vertices + most_varying(scene, is_film) * crossings,
+            most_varying(scene, |_| true) * surfaces + most_varying(scene, is_film) * crossings,
             1,
         ),
         light_groups: scene.light_groups().len() as u32,

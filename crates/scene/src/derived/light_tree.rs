@@ -20,7 +20,7 @@ pub struct LightTree {
 
 /// A source of light, or a group of them as it is seen from afar.
 ///
-/// Of a source only `next`, `parent` and `source` are meant: it is weighed by itself.
+/// Of a source only `near`, which is 0, `next`, `parent` and `source` are meant: it is weighed by itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightNode {
     /// Mean of the places of what the group holds, by power.
