@@ -65,7 +65,7 @@ impl PackedScene {
 pub enum ListForm {
     /// In a storage buffer.
     Storage,
-    /// In a uniform buffer of [`UNIFORM_BYTES`].
+    /// In a uniform buffer of 64 KiB.
     Uniform,
     /// In a texture, row by row.
     Texture,
