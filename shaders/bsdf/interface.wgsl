@@ -44,15 +44,18 @@ fn conductor_spectrum(at: Place, vertex: Vertex, n: vec4f, k: vec4f) -> Values {
         values.lit = vertex.light_weight * reflectance_unpolarised(n, k, vertex.light_cosine);
     }
     if (HAS_SHEENS) {
-        let sheen = sheens[at.vertex];
         var mean = MEAN_WEIGHTS.x * reflectance_unpolarised(n, k, MEAN_COSINES.x);
         mean += MEAN_WEIGHTS.y * reflectance_unpolarised(n, k, MEAN_COSINES.y);
         mean += MEAN_WEIGHTS.z * reflectance_unpolarised(n, k, MEAN_COSINES.z);
-        let several = multiple_color(mean, sheen.mean_energy);
-        values.onward += sheen.weight * several;
-        values.lit += sheen.light_weight * several;
+        return with_sheen(values, sheens[at.vertex], mean);
     }
     return values;
+}
+
+/// The values with light that met several facets, by the mean of the reflectance over a hemisphere.
+fn with_sheen(once: Values, sheen: Sheen, mean: vec4f) -> Values {
+    let several = multiple_color(mean, sheen.mean_energy);
+    return Values(once.onward + sheen.weight * several, once.lit + sheen.light_weight * several);
 }
 
 /// Layers on a conductor, at one cosine after the other, so that their code is there once.
@@ -95,10 +98,7 @@ fn coating_spectrum(at: Place, vertex: Vertex) -> Values {
         }
     }
     if (HAS_SHEENS) {
-        let sheen = sheens[at.vertex];
-        let several = multiple_color(mean, sheen.mean_energy);
-        values.onward += sheen.weight * several;
-        values.lit += sheen.light_weight * several;
+        return with_sheen(values, sheens[at.vertex], mean);
     }
     return values;
 }

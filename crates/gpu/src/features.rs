@@ -1,4 +1,4 @@
-//! What a scene has, so that its shader leaves out the rest: the values of `shaders/features.wgsl`.
+//! What a scene has, so that its shader leaves out the rest: the values of the `override` lines of `shaders/`.
 
 use scene::{
     DirectLight, Environment, EnvironmentPart, EnvironmentShape, LightSource, LightTree, Material,
@@ -61,7 +61,7 @@ impl Features {
         self.has.iter().flatten().chain(counts).copied()
     }
 
-    /// A line of `shaders/features.wgsl` that declares a constant, with its value; none of another line.
+    /// A line that declares an overridable constant as one with its value; none of another line.
     pub(crate) fn fill_in(&self, line: &str) -> Option<String> {
         let declared = line.strip_prefix("override ")?;
         let (name, rest) = declared.split_once(": ")?;

@@ -58,11 +58,14 @@ impl PackedScene {
         let mut tables = Tables::with_materials(scene.materials().len());
         let mut features = Features::of(scene);
         let mut passes = Passes::default();
+        let mut is_used = vec![false; scene.materials().len()];
+        for object in scene.objects() {
+            is_used[object.material.index()] = true;
+        }
         let materials = scene.materials().iter().zip(scene.estimates());
         for (number, (material, estimate)) in materials.enumerate() {
             let packed = surface::pack(scene, (number, material, estimate), &mut tables);
-            let mut objects = scene.objects().iter();
-            if objects.any(|object| object.material.index() == number) {
+            if is_used[number] {
                 features.add(&packed.features);
                 passes = passes.max(packed.passes);
             }

@@ -151,6 +151,7 @@ pub(crate) fn checks() -> Vec<Check> {
             "multiple_color",
             "record_lit",
             "record_onward",
+            "with_sheen",
             "write_vertex",
         ],
         inputs,

@@ -3,7 +3,7 @@
 use super::tables::Tables;
 use super::{light, vec3};
 use crate::layout::{self, NONE};
-use scene::{Emission, EnvironmentShape, LightShape, LightSource, Scene, Shape, SourceKind};
+use scene::{Emission, EnvironmentShape, LightShape, LightSource, Scene, SourceKind};
 
 /// All emitters: those that are sampled, in the order of the scene's sources of light, then parts of the surroundings that are not. The
 /// numbers of the surroundings' parts are added to the tables; the first of them is returned as well.
@@ -22,7 +22,7 @@ pub(super) fn pack(
             SourceKind::Environment(index) => numbers[index] = Some(number),
             SourceKind::Light(_) => {}
         }
-        emitters.push(sampled(scene, source, tables));
+        emitters.push(sampled(scene, source, shapes, tables));
     }
     let mut places = Vec::new();
     for (part, number) in surroundings.iter().zip(numbers) {
@@ -35,12 +35,14 @@ pub(super) fn pack(
     (emitters, tables.look_up(&places))
 }
 
-fn sampled(scene: &Scene, source: LightSource, tables: &mut Tables) -> layout::Emitter {
+fn sampled(
+    scene: &Scene,
+    source: LightSource,
+    shapes: &[layout::Shape],
+    tables: &mut Tables,
+) -> layout::Emitter {
     let shape = match source.kind {
-        SourceKind::Object(index) => layout::Emitter {
-            object: index as u32,
-            ..object(&scene.objects()[index].shape)
-        },
+        SourceKind::Object(index) => object(index, &shapes[index]),
         SourceKind::Environment(index) => surrounding(scene.surroundings()[index].shape, tables),
         SourceKind::Light(index) => single_direction(scene.lights()[index].shape),
     };
@@ -68,47 +70,23 @@ fn plain(kind: u32) -> layout::Emitter {
     }
 }
 
-/// An object; an unbounded plane is none.
-fn object(shape: &Shape) -> layout::Emitter {
-    match *shape {
-        Shape::Sphere { center, radius } => layout::Emitter {
-            position: vec3(center),
-            radius: radius as f32,
-            ..plain(layout::EMITTER_SPHERE)
-        },
-        Shape::Rectangle {
-            center,
-            normal,
-            tangent,
-            bitangent,
-            half_width,
-            half_height,
-        } => layout::Emitter {
-            position: vec3(center),
-            axis: vec3(normal),
-            tangent: vec3(tangent),
-            half_width: half_width as f32,
-            bitangent: vec3(bitangent),
-            half_height: half_height as f32,
-            ..plain(layout::EMITTER_RECTANGLE)
-        },
-        Shape::Disk {
-            center,
-            normal,
-            tangent,
-            bitangent,
-            radius,
-        } => layout::Emitter {
-            position: vec3(center),
-            axis: vec3(normal),
-            radius: radius as f32,
-            tangent: vec3(tangent),
-            half_width: radius as f32,
-            bitangent: vec3(bitangent),
-            half_height: radius as f32,
-            ..plain(layout::EMITTER_DISK)
-        },
-        Shape::Plane { .. } => plain(NONE),
+/// An object, which is no unbounded plane.
+fn object(index: usize, shape: &layout::Shape) -> layout::Emitter {
+    let kind = match shape.kind {
+        layout::SHAPE_SPHERE => layout::EMITTER_SPHERE,
+        layout::SHAPE_RECTANGLE => layout::EMITTER_RECTANGLE,
+        _ => layout::EMITTER_DISK,
+    };
+    layout::Emitter {
+        position: shape.center,
+        axis: shape.normal,
+        radius: shape.radius,
+        tangent: shape.tangent,
+        half_width: shape.half_width,
+        bitangent: shape.bitangent,
+        half_height: shape.half_height,
+        object: index as u32,
+        ..plain(kind)
     }
 }
 
