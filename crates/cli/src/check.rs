@@ -1,13 +1,13 @@
 //! `pellicle check`.
 
 use crate::{memory, print};
-use pellicle::scene::{Scene, SceneFile};
+use pellicle::scene::SceneFile;
 use std::path::Path;
 
 /// Validates a scene and says in a line what it is.
 pub(crate) fn run(path: &Path) -> miette::Result<()> {
     let scene = SceneFile::read(path)?.validate()?;
-    tell_notes(&scene);
+    print::notes(scene.notes());
     let settings = scene.settings();
     print::result(format_args!(
         "{}: valid; {}×{} pixels, {}, {}, {}, {}; {}",
@@ -20,13 +20,6 @@ pub(crate) fn run(path: &Path) -> miette::Result<()> {
         light(scene.lamps(), scene.is_lit_by_surroundings()),
         memory::of_picture(&scene),
     ))
-}
-
-/// Says what may not be meant.
-pub(crate) fn tell_notes(scene: &Scene) {
-    for note in scene.notes() {
-        print::note(format_args!("note: {note}"));
-    }
 }
 
 /// `1 object`, `2 objects`.

@@ -57,7 +57,7 @@ fn material(name: &str) -> miette::Result<(MaterialInfo, OpticalConstants)> {
         pellicle::scene::optical_constants(&index, "".as_ref()),
         spectra::material_info(name),
     ) {
-        (Ok(constants), Some(info)) => Ok((info, constants)),
+        (Ok((constants, _)), Some(info)) => Ok((info, constants)),
         (Err(problems), _) => {
             let said = problems
                 .iter()

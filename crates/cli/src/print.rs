@@ -20,6 +20,13 @@ pub(crate) fn note(line: impl Display) {
     let _ = writeln!(std::io::stderr().lock(), "{line}");
 }
 
+/// What was assumed of what was read, a line each on standard error.
+pub(crate) fn notes<N: Display>(notes: impl IntoIterator<Item = N>) {
+    for said in notes {
+        note(format_args!("note: {said}"));
+    }
+}
+
 /// Errors as they come from the library, with lines as long as they are: what is to be typed or searched for stays in one
 /// piece, and a terminal wraps by itself.
 pub(crate) fn keep_lines_whole() {

@@ -3,7 +3,7 @@
 use crate::develop::{self, FOV_SETTING, OfImage};
 use crate::output::Outputs;
 use crate::progress::Progress;
-use crate::{check, memory, print};
+use crate::{memory, print};
 use clap::ValueEnum;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::color::spectral_exr::Metadata;
@@ -114,7 +114,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     arguments.overrides.apply(&mut file);
     // What is wrong with the scene is told before anything is opened.
     let scene = file.validate()?;
-    check::tell_notes(&scene);
+    print::notes(scene.notes());
     let outputs = Outputs::new(&arguments.scene, &arguments.output)?;
     let developing = &arguments.developing;
     developing.check(outputs.pictures(), of_image(&scene))?;

@@ -51,16 +51,19 @@ fn air() -> Index {
     Index::Name("air".to_owned())
 }
 
-/// n and k; `vacuum` is n = 1.
-pub(crate) fn constants(index: &Index, directory: &Path) -> Result<OpticalConstants, Vec<Problem>> {
+/// A medium, whose files are looked for from `directory`; `vacuum` is n = 1.
+pub(crate) fn medium(index: &Index, directory: &Path) -> Result<Medium, Vec<Problem>> {
     if matches!(index, Index::Name(name) if name == "vacuum") {
-        return Ok(OpticalConstants {
+        let constants = OpticalConstants {
             n: Spectrum::Constant(1.0),
             k: Spectrum::Constant(0.0),
-        });
+        };
+        return Ok(Medium::new(index.clone(), constants, Vec::new()));
     }
-    scene::optical_constants(index, directory)
-        .map_err(|problems| problems.iter().cloned().collect())
+    let read = scene::optical_constants(index, directory);
+    let (constants, notes) =
+        read.map_err(|problems| problems.iter().cloned().collect::<Vec<_>>())?;
+    Ok(Medium::new(index.clone(), constants, notes))
 }
 
 pub(crate) fn read(path: &Path) -> Result<Stack, Problems> {
@@ -117,8 +120,8 @@ struct Checks<'a> {
 
 impl Checks<'_> {
     fn medium(&mut self, field: &FieldPath, written: &Index) -> Option<Medium> {
-        match constants(written, self.directory) {
-            Ok(constants) => Some(Medium::new(written.clone(), constants)),
+        match medium(written, self.directory) {
+            Ok(medium) => Some(medium),
             Err(problems) => {
                 let placed = problems.into_iter().map(|problem| problem.within(field));
                 self.problems.extend(placed);

@@ -1,6 +1,6 @@
 //! Stacks written in one line: `air | silica 300nm | silicon`.
 
-use crate::file::constants;
+use crate::file;
 use crate::stack::{Layer, Medium, Stack};
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use scene::description::{Extrapolate, Index};
@@ -169,8 +169,8 @@ fn split_thickness(text: &str) -> Option<Split<'_>> {
 
 fn medium(text: &str) -> Result<Medium, Fault> {
     let index = index(text)?;
-    match constants(&index, Path::new("")) {
-        Ok(constants) => Ok(Medium::new(index, constants)),
+    match file::medium(&index, Path::new("")) {
+        Ok(medium) => Ok(medium),
         Err(problems) => {
             let first = problems.into_iter().next();
             let (message, help) = first.map_or_else(Default::default, |p| (p.message, p.help));

@@ -16,11 +16,16 @@ use thiserror::Error;
 pub struct Medium {
     written: Index,
     constants: OpticalConstants,
+    notes: Vec<String>,
 }
 
 impl Medium {
-    pub(crate) fn new(written: Index, constants: OpticalConstants) -> Self {
-        Self { written, constants }
+    pub(crate) fn new(written: Index, constants: OpticalConstants, notes: Vec<String>) -> Self {
+        Self {
+            written,
+            constants,
+            notes,
+        }
     }
 
     /// As it was written.
@@ -189,6 +194,19 @@ impl Stack {
             substrate,
             thicknesses_nm,
         }
+    }
+
+    /// What was assumed of the files that its media are read from, a line each, none twice.
+    pub fn notes(&self) -> Vec<&str> {
+        let layers = self.layers.iter().map(|layer| &layer.medium);
+        let media = [&self.incident, &self.substrate].into_iter().chain(layers);
+        let mut notes: Vec<&str> = Vec::new();
+        for note in media.flat_map(|medium| &medium.notes) {
+            if !notes.contains(&note.as_str()) {
+                notes.push(note);
+            }
+        }
+        notes
     }
 
     /// Why `medium` cannot be the one that the light comes from; `None` when it can.

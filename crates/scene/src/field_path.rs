@@ -39,6 +39,11 @@ impl FieldPath {
         Self(self.0.iter().chain(&inner.0).cloned().collect())
     }
 
+    /// Whether this is the description itself.
+    pub fn is_root(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// The steps from the top.
     pub fn steps(&self) -> &[Step] {
         &self.0

@@ -5,14 +5,14 @@ use crate::{Problems, validate};
 use spectra::OpticalConstants;
 use std::path::Path;
 
-/// The optical constants that `index` describes; files that it names are looked for from `directory`.
+/// The optical constants that `index` describes, and what was assumed of its files, a line each; files that it names are looked for from `directory`.
 ///
 /// What wavelengths will be asked for is not known here: that a table is too short shows when it is read.
 ///
 /// ```
 /// use pellicle_scene::{description::Index, optical_constants};
 /// let gold = Index::Name("gold".to_owned());
-/// let constants = optical_constants(&gold, "".as_ref()).unwrap();
+/// let (constants, _) = optical_constants(&gold, "".as_ref()).unwrap();
 /// assert!(constants.k.at(600.0).unwrap() > 2.0);
 /// assert!(constants.k.at(1e5).is_err());
 /// ```
@@ -20,6 +20,9 @@ use std::path::Path;
 /// # Errors
 /// Everything that is wrong with the index, and with the file that it names. The fields of the problems start at the
 /// index: `n[2]` is the third value of its table.
-pub fn optical_constants(index: &Index, directory: &Path) -> Result<OpticalConstants, Problems> {
+pub fn optical_constants(
+    index: &Index,
+    directory: &Path,
+) -> Result<(OpticalConstants, Vec<String>), Problems> {
     validate::optical_constants(index, directory).map_err(Problems::of_index)
 }

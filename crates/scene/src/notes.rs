@@ -3,11 +3,12 @@
 use crate::{Emission, Material, Scene};
 
 impl Scene {
-    /// What may not be meant, though it can be rendered: one line each.
+    /// What was assumed of files, and what may not be meant though it can be rendered: one line each.
     pub fn notes(&self) -> Vec<String> {
         let dark = (self.lamps() == 0 && !self.is_lit_by_surroundings())
             .then(|| "nothing shines: the picture will be black".to_owned());
-        dark.into_iter().chain(self.note_on_gain()).collect()
+        let assumed = self.assumptions.iter().cloned();
+        assumed.chain(dark).chain(self.note_on_gain()).collect()
     }
 
     /// How many objects and lights shine, the sun of a sky among them.

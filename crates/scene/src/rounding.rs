@@ -54,6 +54,7 @@ impl RoundToF32 for Scene {
             environment: self.environment.rounded(),
             estimates: self.estimates.rounded(),
             light_tree: LightTree::default(),
+            assumptions: self.assumptions.clone(),
         };
         scene.light_tree = LightTree::new(&scene).rounded();
         scene

@@ -66,6 +66,8 @@ pub struct Scene {
     pub(crate) estimates: Vec<Estimate>,
     pub(crate) hierarchy: Hierarchy,
     pub(crate) light_tree: LightTree,
+    /// What was assumed of its files, a line each.
+    pub(crate) assumptions: Vec<String>,
 }
 
 impl Scene {

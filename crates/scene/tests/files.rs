@@ -171,7 +171,7 @@ fn an_index_alone_is_read_and_its_mistakes_are_told() {
         csv: name.into(),
         extrapolate: Extrapolate::Error,
     };
-    let constants = optical_constants(&file("good.csv"), folder.path()).unwrap();
+    let (constants, _) = optical_constants(&file("good.csv"), folder.path()).unwrap();
     assert_eq!(constants.n.at(600.0), Ok(2.0));
     assert_eq!(constants.k.at(600.0), Ok(0.5));
     assert!(constants.n.at(399.0).is_err());

@@ -136,7 +136,7 @@ fn try_database_file(text: &str) -> bool {
     let yaml = "a.yml".into();
     let extrapolate = Extrapolate::Error;
     match optical_constants(&Index::Database { yaml, extrapolate }, folder.path()) {
-        Ok(constants) => {
+        Ok((constants, _)) => {
             let range = constants.range_nm().expect("a file covers a range");
             for nm in [range.0, f64::midpoint(range.0, range.1), range.1] {
                 let index = constants.at(nm);

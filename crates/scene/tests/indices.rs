@@ -13,7 +13,8 @@ fn database(text: &str) -> Result<OpticalConstants, Problems> {
     fs::write(folder.path().join("medium.yml"), text).unwrap();
     let yaml = "medium.yml".into();
     let extrapolate = Extrapolate::Error;
-    optical_constants(&Index::Database { yaml, extrapolate }, folder.path())
+    let index = Index::Database { yaml, extrapolate };
+    optical_constants(&index, folder.path()).map(|(constants, _)| constants)
 }
 
 fn close(constants: &OpticalConstants, nm: f64, (n, k): (f64, f64)) -> bool {

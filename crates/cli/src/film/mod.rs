@@ -188,6 +188,7 @@ struct Film<'a> {
 pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     arguments.check_uses()?;
     let film = Film::new(arguments)?;
+    print::notes(film.stack.notes());
     // What cannot be written is told before anything is computed.
     pictures::check(&film)?;
     if arguments.prints_spectra() {

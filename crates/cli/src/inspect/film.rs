@@ -2,7 +2,7 @@
 
 use super::{FilmArguments, Inspection};
 use crate::film::numbers::Vary;
-use crate::lamp;
+use crate::{lamp, print};
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::coating::{Angle, FilmFits, FilmFitting, Measured, Stack, View};
 use pellicle::color::Probe;
@@ -73,7 +73,9 @@ impl Films {
         let angle = Angle::from_degrees(asked.angle.unwrap_or(0.0))
             .map_err(|error| miette!("--angle: {error}"))?;
         let lamps = lamps(asked, &inspection.image)?;
-        Ok(Self::Stack(Box::new(Stack::open(text)?), angle, lamps))
+        let stack = Stack::open(text)?;
+        print::notes(stack.notes());
+        Ok(Self::Stack(Box::new(stack), angle, lamps))
     }
 
     /// The film at a place; `None` where nothing was said of films.

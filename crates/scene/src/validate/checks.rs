@@ -5,6 +5,7 @@ use crate::problem::{Problem, ProblemKind};
 use crate::{Distribution, Energy, FieldPath};
 use glam::DVec3;
 use spectra::suggestion::nearest;
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -12,6 +13,8 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub(crate) struct Checks {
     pub(crate) problems: Vec<Problem>,
+    /// What was assumed, a line each, none twice.
+    pub(crate) notes: Vec<String>,
     /// Where files are looked for.
     pub(crate) directory: PathBuf,
     /// Time of the picture, s.
@@ -24,6 +27,7 @@ impl Checks {
     pub(crate) fn new(directory: &Path) -> Self {
         Self {
             problems: Vec::new(),
+            notes: Vec::new(),
             directory: directory.to_owned(),
             time_s: 0.0,
             energies: Vec::new(),
@@ -50,6 +54,18 @@ impl Checks {
 
     pub(crate) fn report(&mut self, problem: Problem) {
         self.problems.push(problem);
+    }
+
+    /// Says what was assumed about what is written at `field`.
+    pub(crate) fn note(&mut self, field: &FieldPath, assumed: impl Display) {
+        let note = if field.is_root() {
+            assumed.to_string()
+        } else {
+            format!("{field}: {assumed}")
+        };
+        if !self.notes.contains(&note) {
+            self.notes.push(note);
+        }
     }
 
     /// A number within `range`.

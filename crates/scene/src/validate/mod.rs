@@ -85,26 +85,28 @@ pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene
             environment: lit.parts.environment,
             estimates: Vec::new(),
             light_tree: LightTree::default(),
+            assumptions: Vec::new(),
         })
     };
     match assemble() {
         Some(mut scene) if checks.problems.is_empty() => {
             scene.estimates = derived::estimates(&scene);
             scene.light_tree = LightTree::new(&scene);
+            scene.assumptions = checks.notes;
             Ok(scene)
         }
         _ => Err(checks.problems),
     }
 }
 
-/// The optical constants that `index` describes; files are looked for from `directory`.
+/// The optical constants that `index` describes, and what was assumed of its files; files are looked for from `directory`.
 pub(crate) fn optical_constants(
     index: &Index,
     directory: &Path,
-) -> Result<OpticalConstants, Vec<Problem>> {
+) -> Result<(OpticalConstants, Vec<String>), Vec<Problem>> {
     let mut checks = Checks::new(directory);
     match index::read(&mut checks, directory, &FieldPath::root(), index) {
-        Some((constants, _)) if checks.problems.is_empty() => Ok(constants),
+        Some((constants, _)) if checks.problems.is_empty() => Ok((constants, checks.notes)),
         _ => Err(checks.problems),
     }
 }
