@@ -1,7 +1,9 @@
 //! The colour of a stack.
 
+use crate::fringes::{Fringes, Places};
 use crate::response::{Angle, Sampled};
 use crate::{Light, SampleError, Stack};
+use colorimetry::lab::delta_e_2000;
 use colorimetry::{Lab, srgb};
 use optics::Polarised;
 use optics::batch::Powers;
@@ -137,6 +139,8 @@ pub fn parse_srgb(text: &str) -> Result<[f64; 3], ParseColourError> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct StackColour {
     sampled: Sampled,
+    /// At every nm.
+    fine: Sampled,
     light: Light,
     view: View,
 }
@@ -147,23 +151,63 @@ impl StackColour {
     /// # Errors
     /// When one of them has no data somewhere from 380 to 780 nm.
     pub fn new(stack: &Stack, light: Light, view: View) -> Result<Self, SampleError> {
+        let wavelengths_nm = light.wavelengths_nm();
+        let every_nm: Vec<f64> = match wavelengths_nm[..] {
+            [first, .., last] => (first as u32..=last as u32).map(f64::from).collect(),
+            _ => wavelengths_nm.clone(),
+        };
         Ok(Self {
-            sampled: stack.sampled(&light.wavelengths_nm())?,
+            sampled: stack.sampled(&wavelengths_nm)?,
+            fine: stack.sampled(&every_nm)?,
             light,
             view,
         })
     }
 
-    /// The colour with these thicknesses, nm, one per layer, at an angle.
+    /// The colour with these thicknesses, nm, one per layer, at an angle: of any thickness, with fringes as fine as they may be. The
+    /// weights of the light's sums are taken as linear between their wavelengths.
     ///
     /// # Panics
     /// When there is not one thickness per layer.
     pub fn at(&self, thicknesses_nm: &[f64], angle: Angle) -> Colour {
+        let shares = self.shares(thicknesses_nm, angle);
+        self.colour(self.fringes(thicknesses_nm, angle).xyz(&shares))
+    }
+
+    /// What is seen at each wavelength of the sums.
+    fn shares(&self, thicknesses_nm: &[f64], angle: Angle) -> Vec<f64> {
         let powers = self.sampled.powers(thicknesses_nm, angle);
-        let seen = powers
-            .iter()
-            .map(|powers| self.view.of(powers.reflectance, powers.transmittance));
-        self.colour(self.light.xyz(seen))
+        powers.iter().map(|powers| self.seen(powers)).collect()
+    }
+
+    fn seen(&self, powers: &Powers) -> f64 {
+        self.view.of(powers.reflectance, powers.transmittance)
+    }
+
+    fn fringes<'a>(&'a self, thicknesses_nm: &'a [f64], angle: Angle) -> Fringes<'a> {
+        Fringes {
+            light: &self.light,
+            view: self.view,
+            fine: &self.fine,
+            thicknesses_nm,
+            angle,
+        }
+    }
+
+    /// How much of the colour hangs on what the light's table does not say: ΔE₀₀ between the colour, for which its power is linear between
+    /// the points of its table, and the sum over those points alone. 0 where the film's spectrum is smooth.
+    pub fn doubt(&self, thicknesses_nm: &[f64], angle: Angle) -> f64 {
+        let shares = self.shares(thicknesses_nm, angle);
+        let of_points = self.light.xyz(shares.iter().copied());
+        let integral = self.fringes(thicknesses_nm, angle).xyz(&shares);
+        let [a, b] = [of_points, integral].map(|xyz| self.colour(xyz).lab());
+        delta_e_2000(a, b)
+    }
+
+    /// Where its colour with these thicknesses is summed up.
+    pub(crate) fn places(&self, thicknesses_nm: &[f64], angle: Angle) -> Places {
+        let shares = self.shares(thicknesses_nm, angle);
+        self.fringes(thicknesses_nm, angle).places(&shares)
     }
 
     /// XYZ with many sets of thicknesses at many angles, as `[set][angle]`, on all cores.
@@ -173,13 +217,20 @@ impl StackColour {
     pub fn xyz_of_all(&self, sets: &[Vec<f64>], angles: &[Angle]) -> Vec<[f64; 3]> {
         /// Spectra that are in memory at a time, some 13 kB each.
         const AT_ONCE: usize = 1024;
-        let seen = |powers: &Powers| self.view.of(powers.reflectance, powers.transmittance);
-        let xyz = |spectrum: &[Powers]| self.light.xyz(spectrum.iter().map(seen));
         let wavelengths = self.sampled.wavelengths_nm().len();
         sets.chunks(AT_ONCE.div_ceil(angles.len().max(1)))
             .flat_map(|sets| {
                 let powers = self.sampled.powers_of_all(sets, angles);
-                let spectra = powers.par_chunks(wavelengths);
+                let films = sets
+                    .iter()
+                    .flat_map(|set| angles.iter().map(move |&angle| (set, angle)));
+                let films: Vec<_> = films.collect();
+                let spectra = powers.par_chunks(wavelengths).zip(&films);
+                let xyz = |(spectrum, &(set, angle)): (&[Powers], &(&Vec<f64>, Angle))| {
+                    let shares: Vec<f64> =
+                        spectrum.iter().map(|powers| self.seen(powers)).collect();
+                    self.fringes(set, angle).xyz(&shares)
+                };
                 spectra.map(xyz).collect::<Vec<_>>()
             })
             .collect()

@@ -30,6 +30,7 @@ mod chart;
 mod colour;
 mod file;
 mod film_fit;
+mod fringes;
 mod light;
 mod line;
 mod matching;

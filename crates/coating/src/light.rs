@@ -52,6 +52,16 @@ impl Light {
         self.weights.rule().wavelengths_nm().collect()
     }
 
+    /// How far apart they are, nm.
+    pub fn step_nm(&self) -> f64 {
+        self.weights.rule().step_nm()
+    }
+
+    /// What a share of the light at each of them adds to XYZ.
+    pub fn per_wavelength(&self) -> &[[f64; 3]] {
+        self.weights.per_wavelength()
+    }
+
     /// XYZ of the light itself, Y = 1.
     pub fn white(&self) -> [f64; 3] {
         self.weights.white()

@@ -108,6 +108,27 @@ impl Sampled {
         }
     }
 
+    /// The stack at wavelengths between its own: for each, nm, the number of the own one before it and how far it is from there to
+    /// the next, from 0 to 1. Indices are linear in between.
+    pub(crate) fn between(&self, places: impl Iterator<Item = (f64, (usize, f64))>) -> Self {
+        let (wavelengths_nm, places): (Vec<f64>, Vec<(usize, f64)>) = places.unzip();
+        let indices = |own: &Vec<Complex64>| {
+            let at =
+                |&(step, along): &(usize, f64)| own[step] + (own[step + 1] - own[step]) * along;
+            places.iter().map(at).collect::<Vec<_>>()
+        };
+        let incident = |&(step, along): &(usize, f64)| {
+            let [a, b] = [step, step + 1].map(|step| self.incident[step]);
+            a + (b - a) * along
+        };
+        Self {
+            wavelengths_nm,
+            incident: places.iter().map(incident).collect(),
+            layers: self.layers.iter().map(indices).collect(),
+            substrate: indices(&self.substrate),
+        }
+    }
+
     /// The wavelengths, nm.
     pub fn wavelengths_nm(&self) -> &[f64] {
         &self.wavelengths_nm

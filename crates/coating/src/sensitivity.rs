@@ -35,10 +35,14 @@ pub fn sensitivity(stack: &StackColour, thicknesses_nm: &[f64], angle: Angle) ->
     let colour = stack.at(thicknesses_nm, angle);
     let share = |d: &ThicknessDerivative| stack.view().of(d.reflectance, d.transmittance);
     // At each wavelength, of each layer.
-    let derivatives = stack.sampled().derivatives(thicknesses_nm, angle);
+    let places = stack.places(thicknesses_nm, angle);
+    let derivatives = places.sampled.derivatives(thicknesses_nm, angle);
     let of_layer = |layer: usize| {
         let shares = derivatives.iter().map(|layers| share(&layers[layer]));
-        let xyz_per_nm = stack.light().xyz(shares);
+        let mut xyz_per_nm = [0.0; 3];
+        for (share, weight) in shares.zip(&places.weights) {
+            xyz_per_nm = std::array::from_fn(|i| xyz_per_nm[i] + share * weight[i]);
+        }
         let lab_per_nm = Lab::derivative(colour.xyz, colour.white, xyz_per_nm);
         LayerSensitivity {
             xyz_per_nm,

@@ -197,7 +197,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     report::print(&film)?;
     pictures::write(&film)?;
     film.note_adaptation();
-    Ok(())
+    film.note_light()
 }
 
 impl Arguments {
@@ -322,11 +322,36 @@ impl<'a> Film<'a> {
         }
     }
 
-    /// Says that colours are shown as the light makes them. D65 is the display's own white, and CSV has no colours.
-    fn note_adaptation(&self) {
-        let only_csv = self.arguments.format == Some(Format::Csv)
+    /// Says what was assumed of a light whose table is too coarse for the film's fringes.
+    fn note_light(&self) -> miette::Result<()> {
+        /// Colour differences that can be seen.
+        const SEEN: f64 = 0.5;
+        if self.light.step_nm() == 1.0 || self.shows_no_colour() {
+            return Ok(());
+        }
+        let colour = self.colour()?;
+        let doubt = |&angle: &Angle| colour.doubt(self.stack.thicknesses_nm(), angle);
+        let most = self.angles.iter().map(doubt).fold(0.0, f64::max);
+        if most > SEEN {
+            let (name, step) = (self.light.name(), self.light.step_nm());
+            print::note(format_args!(
+                "note: {name} is known at steps of {step} nm, which are too coarse for the fringes of this film: its power is taken as \
+                 linear in between (its lines alone, at those wavelengths, would make a color that differs by ΔE00 {most:.1})"
+            ));
+        }
+        Ok(())
+    }
+
+    /// CSV has no colours.
+    fn shows_no_colour(&self) -> bool {
+        self.arguments.format == Some(Format::Csv)
             && self.arguments.plot.is_none()
-            && self.arguments.chart.is_none();
+            && self.arguments.chart.is_none()
+    }
+
+    /// Says that colours are shown as the light makes them. D65 is the display's own white.
+    fn note_adaptation(&self) {
+        let only_csv = self.shows_no_colour();
         let observer = self.arguments.look.observer;
         if observer != Observer::Cie1931Deg2 && !only_csv {
             print::note(format_args!(

@@ -1,0 +1,315 @@
+//! Colors of films whose fringes are finer than the steps of the CIE's sums.
+//!
+//! A film of 95 µm has a fringe every half nanometer, and a filter of many layers a line narrower than that: sums at 1 nm meet them
+//! by chance. Here the weights of a sum are taken as linear between its wavelengths, and each step in which R or T is not smooth is
+//! divided in four, again and again, until it is. Where all of them are smooth at 1 nm, the sum stays the CIE's own, digit by digit.
+//! At 5 nm the weights have the lines of a lamp in them, and the integral is always taken.
+
+use crate::response::{Angle, Sampled};
+use crate::{Light, View};
+
+/// How often a step is divided in four at most: into 4096 parts. Below that R and T are met by chance, in so many places that their
+/// mean is right to 1e-3: in stacks thicker than some 10 mm.
+const MOST_DIVISIONS: u32 = 6;
+
+/// How far a place in the grid of a rule is from the start, in parts of a step: there are [`PARTS`] of them in each.
+type Place = u32;
+
+/// Parts of a step.
+const PARTS: u32 = 4_u32.pow(MOST_DIVISIONS);
+
+/// The most that the phase of light once to and fro through all layers may go on by between neighbors, in radians: a fringe then has
+/// seven points and more.
+const MOST_PHASE: f64 = 0.9;
+/// The same on the grid of the CIE's sums at 1 nm. They stay within ΔE₀₀ 0.005 of the integral to far beyond it.
+const MOST_PHASE_AT_1_NM: f64 = 0.55;
+/// What a step may add to X, Y or Z by the fourth difference of its sum, however that compares with the second one: a corner in a table
+/// of an index is no fringe.
+const NEGLIGIBLE: f64 = 1e-6;
+/// What the error of a span may add to X, Y or Z.
+const ERROR: f64 = 5e-9;
+/// Indices that are in memory at a time.
+const MOST_INDICES: usize = 1 << 21;
+
+/// A film at an angle, as what integrates its color sees it.
+pub(crate) struct Fringes<'a> {
+    pub(crate) light: &'a Light,
+    pub(crate) view: View,
+    /// At every nm from the first wavelength of the light's sums to the last.
+    pub(crate) fine: &'a Sampled,
+    pub(crate) thicknesses_nm: &'a [f64],
+    pub(crate) angle: Angle,
+}
+
+/// A part of a step with R or T at its ends.
+struct Span {
+    start: Place,
+    length: u32,
+    ends: [f64; 2],
+}
+
+/// R or T in a place, and what the sum has of it.
+struct Node {
+    place: Place,
+    weight: [f64; 3],
+    share: f64,
+}
+
+/// Where a color is summed up: in these places of the stack, with these weights.
+pub(crate) struct Places {
+    pub(crate) sampled: Sampled,
+    pub(crate) weights: Vec<[f64; 3]>,
+}
+
+impl Fringes<'_> {
+    /// XYZ, given R or T at the wavelengths of the light's sums.
+    pub(crate) fn xyz(&self, shares: &[f64]) -> [f64; 3] {
+        let mut xyz = self.light.xyz(shares.iter().copied());
+        self.integrate(shares, |node| add(&mut xyz, node.weight, node.share));
+        xyz
+    }
+
+    /// The places that [`Self::xyz`] sums over, for sums of something else of the same stack.
+    pub(crate) fn places(&self, shares: &[f64]) -> Places {
+        let own = (0..).step_by(PARTS as usize);
+        let mut places: Vec<_> = own
+            .zip(self.light.per_wavelength().iter().copied())
+            .collect();
+        self.integrate(shares, |node| places.push((node.place, node.weight)));
+        places.sort_by_key(|&(place, _)| place);
+        places.dedup_by(|next, kept| {
+            let is_same = next.0 == kept.0;
+            if is_same {
+                add(&mut kept.1, next.1, 1.0);
+            }
+            is_same
+        });
+        let (places, weights): (Vec<Place>, _) = places.into_iter().unzip();
+        Places {
+            sampled: self.sampled(&places),
+            weights,
+        }
+    }
+
+    /// What is to be added to the CIE's sum to make it the integral: nothing at 1 nm where all steps are smooth.
+    fn integrate(&self, shares: &[f64], mut node: impl FnMut(Node)) {
+        let is_rough = self.rough_steps(shares);
+        if self.light.step_nm() == 1.0 && !is_rough.contains(&true) {
+            return;
+        }
+        let mut open = Vec::new();
+        for (step, &is_rough) in is_rough.iter().enumerate() {
+            if is_rough {
+                open.push(Span::of_step(step, shares));
+            }
+            self.corrections(step, is_rough, shares).for_each(&mut node);
+        }
+        while !open.is_empty() {
+            let inner: Vec<Place> = open.iter().flat_map(Span::inner).collect();
+            let found = self.shares(&inner);
+            let mut rough = Vec::new();
+            for (span, inner) in open.iter().zip(found.chunks_exact(3)) {
+                let values = [span.ends[0], inner[0], inner[1], inner[2], span.ends[1]];
+                if span.length > 4 && !self.is_smooth(span, &values) {
+                    rough.extend(span.quarters(&values));
+                } else {
+                    self.nodes(span, &values).into_iter().for_each(&mut node);
+                }
+            }
+            open = rough;
+        }
+    }
+
+    /// The steps of the rule in which R or T is not smooth.
+    fn rough_steps(&self, shares: &[f64]) -> Vec<bool> {
+        let Some(last) = shares.len().checked_sub(5) else {
+            return Vec::new();
+        };
+        let is_rough = |step: usize| {
+            let around = step.saturating_sub(2).min(last);
+            let place = step as u32 * PARTS;
+            let five = std::array::from_fn(|i| shares[around + i]);
+            self.phase(place, PARTS) > MOST_PHASE_AT_1_NM || self.is_bent(place, &five)
+        };
+        let rough: Vec<bool> = (0..shares.len()).map(is_rough).collect();
+        rough.windows(2).map(|ends| ends[0] || ends[1]).collect()
+    }
+
+    /// What the CIE's sum, half of the products at both ends of a step, lacks of the integral over it. Of a rough step that is all, to
+    /// be taken off here. Of a smooth one, with weights w linear and R of third order, it is −(w₁ − w₀)(R₁ − R₀)/6 − (w₀ + w₁)(R₋₁ − R₀ −
+    /// R₁ + R₂)/48.
+    fn corrections(
+        &self,
+        step: usize,
+        is_rough: bool,
+        shares: &[f64],
+    ) -> impl Iterator<Item = Node> {
+        let weights = self.light.per_wavelength();
+        let mut added = [[0.0; 3]; 4];
+        for i in 0..3 {
+            let [w0, w1] = [step, step + 1].map(|at| weights[at][i]);
+            let (linear, bent) = ((w1 - w0) / 6.0, (w0 + w1) / 48.0);
+            let of_ends = if is_rough {
+                [0.0, -0.5 * w0, -0.5 * w1, 0.0]
+            } else if step == 0 || step + 2 == shares.len() {
+                [0.0, linear, -linear, 0.0]
+            } else {
+                [-bent, linear + bent, bent - linear, -bent]
+            };
+            for (added, weight) in added.iter_mut().zip(of_ends) {
+                added[i] = weight;
+            }
+        }
+        let around = [
+            step.saturating_sub(1),
+            step,
+            step + 1,
+            (step + 2).min(shares.len() - 1),
+        ];
+        let shares = around.map(|at| (at as u32 * PARTS, shares[at]));
+        shares
+            .into_iter()
+            .zip(added)
+            .map(|((place, share), weight)| Node {
+                place,
+                weight,
+                share,
+            })
+    }
+
+    /// The five places of a span by Boole's rule.
+    fn nodes(&self, span: &Span, values: &[f64; 5]) -> [Node; 5] {
+        const BOOLE: [f64; 5] = [
+            7.0 / 90.0,
+            32.0 / 90.0,
+            12.0 / 90.0,
+            32.0 / 90.0,
+            7.0 / 90.0,
+        ];
+        let width = f64::from(span.length) / f64::from(PARTS);
+        [0, 1, 2, 3, 4].map(|quarter: usize| {
+            let place = span.start + quarter as u32 * (span.length / 4);
+            Node {
+                place,
+                weight: self.weight(place).map(|w| w * width * BOOLE[quarter]),
+                share: values[quarter],
+            }
+        })
+    }
+
+    /// Whether Boole's rule is right over a span: it differs from Simpson's by 1/180 of the fourth difference.
+    fn is_smooth(&self, span: &Span, values: &[f64; 5]) -> bool {
+        let width = f64::from(span.length) / f64::from(PARTS);
+        let (_, fourth) = differences(values);
+        self.phase(span.start, span.length / 4) <= MOST_PHASE
+            && self.largest_weight(span.start) * width * fourth / 180.0 <= ERROR
+    }
+
+    /// Whether five neighbors on the grid of the sums have a fourth difference that counts: of a fringe that goes on by φ between them it is
+    /// 4 sin²(φ/2) of the second ones.
+    fn is_bent(&self, place: Place, values: &[f64; 5]) -> bool {
+        let (second, fourth) = differences(values);
+        fourth > MOST_PHASE_AT_1_NM.powi(2) * second
+            && self.largest_weight(place) * fourth > NEGLIGIBLE
+    }
+
+    fn largest_weight(&self, place: Place) -> f64 {
+        self.weight(place).into_iter().fold(0.0, f64::max)
+    }
+
+    /// By how much the phase of light once to and fro through all layers goes on over so many parts of a step.
+    fn phase(&self, place: Place, parts: u32) -> f64 {
+        let (step, _) = self.fine_step(place);
+        let optical: f64 = self
+            .fine
+            .layers()
+            .iter()
+            .zip(self.thicknesses_nm)
+            .map(|(indices, d)| indices[step].re * d)
+            .sum();
+        let nm = self.nm(place);
+        let width = self.light.step_nm() * f64::from(parts) / f64::from(PARTS);
+        4.0 * std::f64::consts::PI * optical / (nm * nm) * width
+    }
+
+    /// R or T in places between the wavelengths of the sums.
+    fn shares(&self, places: &[Place]) -> Vec<f64> {
+        let at_once = (MOST_INDICES / (self.thicknesses_nm.len() + 1)).max(256);
+        let mut shares = Vec::with_capacity(places.len());
+        for places in places.chunks(at_once) {
+            let set = [self.thicknesses_nm.to_vec()];
+            let powers = self.sampled(places).powers_of_all(&set, &[self.angle]);
+            let seen = powers
+                .iter()
+                .map(|powers| self.view.of(powers.reflectance, powers.transmittance));
+            shares.extend(seen);
+        }
+        shares
+    }
+
+    fn sampled(&self, places: &[Place]) -> Sampled {
+        let fine = |&place| (self.nm(place), self.fine_step(place));
+        self.fine.between(places.iter().map(fine))
+    }
+
+    /// The wavelength of a place.
+    fn nm(&self, place: Place) -> f64 {
+        let first = self.fine.wavelengths_nm().first().copied();
+        first.unwrap_or_default() + f64::from(place) / f64::from(PARTS) * self.light.step_nm()
+    }
+
+    /// The whole nm before a place, counted from the first, and how far it is from there to the next.
+    fn fine_step(&self, place: Place) -> (usize, f64) {
+        let along = f64::from(place) / f64::from(PARTS) * self.light.step_nm();
+        let step = (along as usize).min(self.fine.wavelengths_nm().len().saturating_sub(2));
+        (step, along - step as f64)
+    }
+
+    /// The weights of the light's sums, linear between their wavelengths.
+    fn weight(&self, place: Place) -> [f64; 3] {
+        let weights = self.light.per_wavelength();
+        let step = ((place / PARTS) as usize).min(weights.len().saturating_sub(2));
+        let along = f64::from(place) / f64::from(PARTS) - step as f64;
+        std::array::from_fn(|i| weights[step][i] * (1.0 - along) + weights[step + 1][i] * along)
+    }
+}
+
+impl Span {
+    fn of_step(step: usize, shares: &[f64]) -> Self {
+        Self {
+            start: step as u32 * PARTS,
+            length: PARTS,
+            ends: [shares[step], shares[step + 1]],
+        }
+    }
+
+    /// Its places at a quarter, half and three quarters.
+    fn inner(&self) -> [Place; 3] {
+        [1, 2, 3].map(|quarter| self.start + quarter * (self.length / 4))
+    }
+
+    fn quarters(&self, values: &[f64; 5]) -> [Self; 4] {
+        let length = self.length / 4;
+        [0, 1, 2, 3].map(|quarter: usize| Self {
+            start: self.start + quarter as u32 * length,
+            length,
+            ends: [values[quarter], values[quarter + 1]],
+        })
+    }
+}
+
+/// The largest second difference of five values, and the fourth.
+fn differences([a, b, c, d, e]: &[f64; 5]) -> (f64, f64) {
+    let second = [a - 2.0 * b + c, b - 2.0 * c + d, c - 2.0 * d + e];
+    let fourth = second[0] - 2.0 * second[1] + second[2];
+    let largest = second
+        .iter()
+        .fold(0.0, |largest: f64, v| largest.max(v.abs()));
+    (largest, fourth.abs())
+}
+
+fn add(sum: &mut [f64; 3], weight: [f64; 3], share: f64) {
+    for (sum, weight) in sum.iter_mut().zip(weight) {
+        *sum += weight * share;
+    }
+}
