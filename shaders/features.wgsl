@@ -6,6 +6,8 @@
 override HAS_SPHERES: bool = true;
 override HAS_RECTANGLES: bool = true;
 override HAS_DISKS: bool = true;
+override HAS_LARGE_SPHERES: bool = true;
+override HAS_STACKED_SHAPES: bool = true;
 override HAS_HIERARCHY: bool = true;
 override HAS_LIGHT_TREE: bool = true;
 override HAS_BSDFS: bool = true;

@@ -6,27 +6,87 @@ struct Hit {
     distance: f32,
 }
 
-/// Distance along a ray to one object, below 0 where it misses. `from_object` is the object that the ray starts on, or NONE.
-fn distance_to(index: u32, ray: Ray, from_object: u32) -> f32 {
+/// Whether a point, seen from the middle of what it lies in the plane of, lies in it.
+fn covers(index: u32, place: vec3f) -> bool {
+    if (HAS_RECTANGLES && shape_at(index).kind == SHAPE_RECTANGLE) {
+        return abs(dot(place, shape_at(index).tangent)) <= shape_at(index).half_width
+            && abs(dot(place, shape_at(index).bitangent)) <= shape_at(index).half_height;
+    }
+    if (HAS_DISKS && shape_at(index).kind == SHAPE_DISK) {
+        return dot(place, place) <= shape_at(index).radius * shape_at(index).radius;
+    }
+    return true;
+}
+
+/// Distance along a ray to one object, below 0 where it misses. `starts_here`: the ray starts on its surface.
+fn distance_to_shape(index: u32, ray: Ray, starts_here: bool) -> f32 {
     let origin = ray.origin - shape_at(index).center;
     if (HAS_SPHERES && shape_at(index).kind == SHAPE_SPHERE) {
-        return intersect_sphere(origin, ray.direction, shape_at(index).radius, index == from_object);
+        if (HAS_LARGE_SPHERES && shape_at(index).half_width > 0.0) {
+            let place = ray.origin - shape_at(index).bitangent;
+            return intersect_large_sphere(place, ray.direction, shape_at(index).normal, shape_at(index).half_width, starts_here);
+        }
+        return intersect_sphere(origin, ray.direction, shape_at(index).radius, starts_here);
     }
-    if (index == from_object) {
+    if (starts_here) {
         return -1.0;
     }
     let distance = intersect_plane(origin, ray.direction, shape_at(index).normal);
-    if (HAS_RECTANGLES && shape_at(index).kind == SHAPE_RECTANGLE && distance > 0.0) {
-        let place = origin + distance * ray.direction;
-        let inside = abs(dot(place, shape_at(index).tangent)) <= shape_at(index).half_width
-            && abs(dot(place, shape_at(index).bitangent)) <= shape_at(index).half_height;
-        return select(-1.0, distance, inside);
-    }
-    if (HAS_DISKS && shape_at(index).kind == SHAPE_DISK && distance > 0.0) {
-        let place = origin + distance * ray.direction;
-        return select(-1.0, distance, dot(place, place) <= shape_at(index).radius * shape_at(index).radius);
+    if (distance > 0.0) {
+        return select(-1.0, distance, covers(index, origin + distance * ray.direction));
     }
     return distance;
+}
+
+/// Whether a ray goes out of a stack of coincident surfaces where it meets one of them.
+fn is_outwards(index: u32, direction: vec3f, place: vec3f) -> bool {
+    var normal = shape_at(index).normal;
+    if (HAS_SPHERES && shape_at(index).kind == SHAPE_SPHERE) {
+        normal = place - shape_at(index).center;
+    }
+    return (dot(direction, normal) > 0.0) != ((shape_at(index).sheet & 1u) == 1u);
+}
+
+/// Distance along a ray to one object, below 0 where it misses. `from_object` is the object that the ray starts on, or NONE: of the
+/// surfaces that coincide with it those that lie ahead are met at once, and no other there.
+fn distance_to(index: u32, ray: Ray, from_object: u32) -> f32 {
+    if (HAS_STACKED_SHAPES && from_object != NONE && index != from_object) {
+        let stack = shape_at(index).stack;
+        if (stack != NONE && stack == shape_at(from_object).stack) {
+            let is_ahead = (shape_at(index).sheet < shape_at(from_object).sheet) == is_outwards(index, ray.direction, ray.origin);
+            if (is_ahead && covers(index, ray.origin - shape_at(index).center)) {
+                return 0.0;
+            }
+            return distance_to_shape(index, ray, true);
+        }
+    }
+    let distance = distance_to_shape(index, ray, index == from_object);
+    // Elsewhere a distance of 0 is a rounding.
+    return select(-1.0, distance, distance > 0.0);
+}
+
+/// Whether an object at a distance is nearer than the nearest one so far: of two at the same distance the first counts, of
+/// coincident ones that which the ray comes to first.
+fn is_nearer(index: u32, distance: f32, nearest: Hit, ray: Ray) -> bool {
+    if (HAS_STACKED_SHAPES && distance >= 0.0 && nearest.object != NONE) {
+        let stack = shape_at(index).stack;
+        let apart = abs(distance - nearest.distance);
+        let is_same_crossing = (distance > 0.0) == (nearest.distance > 0.0) && apart <= 1e-5 * max(distance, nearest.distance);
+        if (stack != NONE && stack == shape_at(nearest.object).stack && is_same_crossing) {
+            let leaves = is_outwards(index, ray.direction, ray.origin + distance * ray.direction);
+            return (shape_at(index).sheet > shape_at(nearest.object).sheet) == leaves;
+        }
+    }
+    let is_first = HAS_HIERARCHY && distance == nearest.distance && index < nearest.object;
+    return is_met(distance) && (distance < nearest.distance || is_first);
+}
+
+/// Whether a distance is one: 0 is that of a surface in which the ray starts.
+fn is_met(distance: f32) -> bool {
+    if (HAS_STACKED_SHAPES) {
+        return distance >= 0.0;
+    }
+    return distance > 0.0;
 }
 
 /// Whether a ray meets the box of a node before a distance. `inverse` is 1 over its direction.
@@ -51,9 +111,7 @@ fn nearest_in_hierarchy(ray: Ray, from_object: u32) -> Hit {
         let enters = meets_box(node, ray.origin, inverse, nearest.distance);
         if (enters && node.object != NONE) {
             let distance = distance_to(node.object, ray, from_object);
-            // Of two at the same distance the first counts.
-            let is_first = distance == nearest.distance && node.object < nearest.object;
-            if (distance > 0.0 && (distance < nearest.distance || is_first)) {
+            if (is_nearer(node.object, distance, nearest, ray)) {
                 nearest = Hit(node.object, distance);
             }
         }
@@ -75,7 +133,7 @@ fn nearest_hit(ray: Ray, from_object: u32) -> Hit {
     var index = 0u;
     loop {
         let distance = distance_to(index, ray, from_object);
-        if (distance > 0.0 && distance < nearest.distance) {
+        if (is_nearer(index, distance, nearest, ray)) {
             nearest = Hit(index, distance);
         }
         continuing {

@@ -24,6 +24,31 @@ fn intersect_sphere(origin: vec3f, direction: vec3f, radius: f32, from_surface: 
     return select(root - along, -outside / (along + root), along > 0.0);
 }
 
+/// Distance to a sphere through the origin with this unit normal there: where its center is so far away that a distance from it has no
+/// digits left.
+///
+/// `from_surface`: the ray starts on this sphere. Of a point p the sphere has p·n + |p|² curvature/2 = 0; of the quadratic's roots the one
+/// that does not cancel gives the other (Press et al., Numerical Recipes, equation 5.6.4).
+fn intersect_large_sphere(origin: vec3f, direction: vec3f, normal: vec3f, curvature: f32, from_surface: bool) -> f32 {
+    let slope = dot(direction, normal) + curvature * dot(direction, origin);
+    if (from_surface) {
+        return select(-1.0, -2.0 * slope / curvature, slope < 0.0);
+    }
+    let height = 2.0 * dot(origin, normal) + curvature * dot(origin, origin);
+    let discriminant = slope * slope - curvature * height;
+    if (discriminant < 0.0) {
+        return -1.0;
+    }
+    let steep = abs(slope) + sqrt(discriminant);
+    let near = height / steep;
+    let far = steep / curvature;
+    if (slope < 0.0) {
+        return select(far, near, near > 0.0);
+    }
+    // The ray goes away from the surface that is near: from inside it meets it there, from outside nowhere.
+    return -near;
+}
+
 /// Distance to a plane through the origin. A ray that starts on it or runs along it misses.
 fn intersect_plane(origin: vec3f, direction: vec3f, normal: vec3f) -> f32 {
     let speed = dot(direction, normal);

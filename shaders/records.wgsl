@@ -7,15 +7,15 @@ struct Shape {
     center: vec3f,
     /// Radius of a sphere or disk.
     radius: f32,
-    /// Unit normal of a plane, rectangle or disk.
+    /// Unit normal of a plane, rectangle or disk; of a large sphere that at its `bitangent`.
     normal: vec3f,
     /// A `SHAPE_` tag.
     kind: u32,
     /// First axis of a plane, rectangle or disk.
     tangent: vec3f,
-    /// Half the width of a rectangle, along `tangent`; a disk's radius.
+    /// Half the width of a rectangle, along `tangent`; a disk's radius; of a large sphere its curvature, 1/radius.
     half_width: f32,
-    /// Second axis of a plane, rectangle or disk.
+    /// Second axis of a plane, rectangle or disk; of a large sphere its point nearest to the camera.
     bitangent: vec3f,
     /// Half the height of a rectangle, along `bitangent`; a disk's radius.
     half_height: f32,
@@ -23,8 +23,10 @@ struct Shape {
     material: u32,
     /// Number of the emitter that it is, or NONE.
     emitter: u32,
-    /// Fills the size up to that of its alignment.
-    padding: vec2u,
+    /// Number of the stack of coincident surfaces that it lies in, or NONE.
+    stack: u32,
+    /// How many surfaces of the stack lie outside it, times 2, and 1 where its normal points into the stack.
+    sheet: u32,
 }
 const SHAPE_ROWS: u32 = 5u;
 fn load_shape(row: u32) -> Shape {
@@ -44,7 +46,8 @@ fn load_shape(row: u32) -> Shape {
         bitcast<f32>(row_3.w),
         row_4.x,
         row_4.y,
-        vec2u(row_4.z, row_4.w),
+        row_4.z,
+        row_4.w,
     );
 }
 

@@ -16,8 +16,15 @@ fn surface_point(index: u32, ray: Ray, distance: f32) -> SurfacePoint {
     var normal = shape_at(index).normal;
     if (HAS_SPHERES && shape_at(index).kind == SHAPE_SPHERE) {
         // Put back onto the sphere: what the distance lost does not add up along a path.
-        normal = normalize(position - center);
-        position = center + shape_at(index).radius * normal;
+        if (HAS_LARGE_SPHERES && shape_at(index).half_width > 0.0) {
+            let place = position - shape_at(index).bitangent;
+            let height = dot(place, normal) + 0.5 * shape_at(index).half_width * dot(place, place);
+            normal = normalize(normal + shape_at(index).half_width * place);
+            position -= height * normal;
+        } else {
+            normal = normalize(position - center);
+            position = center + shape_at(index).radius * normal;
+        }
     }
     let cosine = dot(normal, ray.direction);
     return SurfacePoint(position, select(normal, -normal, cosine > 0.0), abs(cosine), cosine <= 0.0);

@@ -1,5 +1,6 @@
 //! What a scene has, so that its shader leaves out the rest: the values of the `override` lines of `shaders/`.
 
+use crate::pack::is_large;
 use scene::{
     DirectLight, Environment, EnvironmentPart, EnvironmentShape, LightSource, LightTree, Material,
     PictureSpectra, Projection, Sampler, Scene, Shape, SourceKind,
@@ -105,10 +106,16 @@ fn is_disk(shape: &Shape) -> bool {
 
 fn of_shapes(scene: &Scene) -> Vec<Named> {
     let shape = |wanted: fn(&Shape) -> bool| scene.objects().iter().any(|o| wanted(&o.shape));
+    let mut objects = scene.objects().iter();
     vec![
         ("HAS_SPHERES", shape(is_sphere)),
         ("HAS_RECTANGLES", shape(is_rectangle)),
         ("HAS_DISKS", shape(is_disk)),
+        (
+            "HAS_LARGE_SPHERES",
+            objects.any(|object| is_large(scene, &object.shape)),
+        ),
+        ("HAS_STACKED_SHAPES", !scene.sheets().is_empty()),
     ]
 }
 

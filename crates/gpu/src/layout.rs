@@ -387,15 +387,15 @@ records! { SHAPES;
         pub center: [f32; 3],
         /// Radius of a sphere or disk.
         pub radius: f32,
-        /// Unit normal of a plane, rectangle or disk.
+        /// Unit normal of a plane, rectangle or disk; of a large sphere that at its `bitangent`.
         pub normal: [f32; 3],
         /// A `SHAPE_` tag.
         pub kind: u32,
         /// First axis of a plane, rectangle or disk.
         pub tangent: [f32; 3],
-        /// Half the width of a rectangle, along `tangent`; a disk's radius.
+        /// Half the width of a rectangle, along `tangent`; a disk's radius; of a large sphere its curvature, 1/radius.
         pub half_width: f32,
-        /// Second axis of a plane, rectangle or disk.
+        /// Second axis of a plane, rectangle or disk; of a large sphere its point nearest to the camera.
         pub bitangent: [f32; 3],
         /// Half the height of a rectangle, along `bitangent`; a disk's radius.
         pub half_height: f32,
@@ -403,8 +403,10 @@ records! { SHAPES;
         pub material: u32,
         /// Number of the emitter that it is, or NONE.
         pub emitter: u32,
-        /// Fills the size up to that of its alignment.
-        pub padding: [u32; 2],
+        /// Number of the stack of coincident surfaces that it lies in, or NONE.
+        pub stack: u32,
+        /// How many surfaces of the stack lie outside it, times 2, and 1 where its normal points into the stack.
+        pub sheet: u32,
     }
 }
 

@@ -19,6 +19,7 @@ use crate::modules::RecordLimits;
 use glam::DVec3;
 use scene::limits::{MAX_LAYERS, MAX_LIGHT_GROUPS, MAX_MATERIALS};
 use scene::{Emission, Projection, Scene, SpectrumId, WavelengthSampling};
+pub(crate) use shapes::is_large;
 use spectra::BandTable;
 use surface::Passes;
 use tables::Tables;
@@ -70,7 +71,7 @@ impl PackedScene {
                 passes = passes.max(packed.passes);
             }
         }
-        let mut shapes: Vec<_> = scene.objects().iter().map(shapes::pack).collect();
+        let mut shapes: Vec<_> = shapes::pack_all(scene);
         let (mut emitters, first_environment) = emitters::pack(scene, &mut shapes, &mut tables);
         let trees = Trees::new(scene.hierarchy(), scene.light_tree());
         for (emitter, &node) in emitters.iter_mut().zip(&trees.light_nodes) {

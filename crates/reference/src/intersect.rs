@@ -2,7 +2,7 @@
 
 use crate::Ray;
 use glam::DVec3;
-use scene::{Hierarchy, Node, Object, Scene, Shape};
+use scene::{Hierarchy, Node, Object, Scene, Shape, Sheet};
 
 /// Distance to a sphere: the smaller positive root of |o + t d − c|² = r². A ray that starts on the
 /// sphere (`from_surface`) has one root at its start, which does not count; the other is −2 d·(o − c).
@@ -36,10 +36,12 @@ pub struct Hit {
     pub distance: f64,
 }
 
-/// The nearest object along a ray, which may start on `from_object`. Of two at the same distance the first counts.
+/// The nearest object along a ray, which may start on `from_object`. Of two at the same distance the first counts; coincident surfaces
+/// are met one after another, in the order of their [`Sheet`]s.
 pub fn nearest_hit(scene: &Scene, ray: &Ray, from_object: Option<usize>) -> Option<Hit> {
     let mut nearest = Nearest {
         objects: scene.objects(),
+        sheets: scene.sheets(),
         ray,
         from: from_object.unwrap_or(usize::MAX),
         hit: Hit {
@@ -58,6 +60,7 @@ pub fn nearest_hit(scene: &Scene, ray: &Ray, from_object: Option<usize>) -> Opti
 /// The nearest object so far.
 struct Nearest<'a> {
     objects: &'a [Object],
+    sheets: &'a [Option<Sheet>],
     ray: &'a Ray,
     from: usize,
     hit: Hit,
@@ -68,14 +71,49 @@ impl Nearest<'_> {
     fn of(&mut self, objects: &[u32]) {
         for &object in objects {
             let object = object as usize;
-            let shape = &self.objects[object].shape;
-            if let Some(distance) = distance_to(shape, self.ray, object == self.from) {
-                let is_first = distance == self.hit.distance && object < self.hit.object;
-                if distance < self.hit.distance || is_first {
-                    self.hit = Hit { object, distance };
+            if let Some(distance) = self.distance(object) {
+                let hit = Hit { object, distance };
+                if self.is_nearer(hit) {
+                    self.hit = hit;
                 }
             }
         }
+    }
+
+    fn distance(&self, object: usize) -> Option<f64> {
+        let shape = &self.objects[object].shape;
+        if object == self.from || self.sheets.is_empty() {
+            return distance_to(shape, self.ray, object == self.from);
+        }
+        let start = self.sheets.get(self.from).copied().flatten();
+        match (self.sheets[object], start) {
+            (Some(sheet), Some(start)) if sheet.stack == start.stack => {
+                let leaves = is_outwards(self.ray, shape, self.ray.origin, sheet);
+                let is_ahead = (sheet.depth < start.depth) == leaves;
+                if is_ahead && covers(shape, self.ray.origin) {
+                    Some(0.0)
+                } else {
+                    distance_to(shape, self.ray, true)
+                }
+            }
+            _ => distance_to(shape, self.ray, false),
+        }
+    }
+
+    fn is_nearer(&self, hit: Hit) -> bool {
+        let nearest = self.hit;
+        if let Some(&Some(sheet)) = self.sheets.get(hit.object)
+            && let Some(&Some(other)) = self.sheets.get(nearest.object)
+            && sheet.stack == other.stack
+            && is_same_crossing(hit.distance, nearest.distance)
+        {
+            let place = self.ray.origin + self.ray.direction * hit.distance;
+            let shape = &self.objects[hit.object].shape;
+            let leaves = is_outwards(self.ray, shape, place, sheet);
+            return (sheet.depth > other.depth) == leaves;
+        }
+        hit.distance < nearest.distance
+            || hit.distance == nearest.distance && hit.object < nearest.object
     }
 
     /// Tries the objects in the boxes that the ray meets, the nearer of two boxes first.
@@ -128,31 +166,50 @@ impl Nearest<'_> {
     }
 }
 
+/// Whether a ray goes out of a stack of coincident surfaces where it meets one of them.
+fn is_outwards(ray: &Ray, shape: &Shape, place: DVec3, sheet: Sheet) -> bool {
+    let speed = match *shape {
+        Shape::Sphere { center, .. } => ray.direction.dot(place - center),
+        Shape::Plane { normal, .. }
+        | Shape::Rectangle { normal, .. }
+        | Shape::Disk { normal, .. } => ray.direction.dot(normal),
+    };
+    (speed > 0.0) != sheet.is_turned
+}
+
+/// Whether coincident surfaces at these distances are met in the same place: an `f32` does not tell them apart.
+fn is_same_crossing(a: f64, b: f64) -> bool {
+    (a > 0.0) == (b > 0.0) && (a - b).abs() <= 1e-5 * a.max(b)
+}
+
+/// Whether a point in the plane of a shape lies in the shape.
+fn covers(shape: &Shape, point: DVec3) -> bool {
+    match *shape {
+        Shape::Sphere { .. } | Shape::Plane { .. } => true,
+        Shape::Rectangle {
+            center,
+            tangent,
+            bitangent,
+            half_width,
+            half_height,
+            ..
+        } => {
+            let place = point - center;
+            place.dot(tangent).abs() <= half_width && place.dot(bitangent).abs() <= half_height
+        }
+        Shape::Disk { center, radius, .. } => (point - center).length_squared() <= radius * radius,
+    }
+}
+
 fn distance_to(shape: &Shape, ray: &Ray, starts_here: bool) -> Option<f64> {
     match *shape {
         Shape::Sphere { center, radius } => intersect_sphere(ray, center, radius, starts_here),
         Shape::Plane { .. } | Shape::Rectangle { .. } | Shape::Disk { .. } if starts_here => None,
         Shape::Plane { point, normal, .. } => intersect_plane(ray, point, normal),
-        Shape::Rectangle {
-            center,
-            normal,
-            tangent,
-            bitangent,
-            half_width,
-            half_height,
-        } => intersect_plane(ray, center, normal).filter(|distance| {
-            let place = ray.origin + ray.direction * *distance - center;
-            place.dot(tangent).abs() <= half_width && place.dot(bitangent).abs() <= half_height
-        }),
-        Shape::Disk {
-            center,
-            normal,
-            radius,
-            ..
-        } => intersect_plane(ray, center, normal).filter(|distance| {
-            let place = ray.origin + ray.direction * *distance - center;
-            place.length_squared() <= radius * radius
-        }),
+        Shape::Rectangle { center, normal, .. } | Shape::Disk { center, normal, .. } => {
+            intersect_plane(ray, center, normal)
+                .filter(|distance| covers(shape, ray.origin + ray.direction * *distance))
+        }
     }
 }
 

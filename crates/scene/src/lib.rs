@@ -50,7 +50,7 @@ pub use coated_body::{CoatEstimate, CoatedBody};
 pub use cook::{Cook1981, CookDistribution, CookFacets, DiffuseShare};
 pub use derived::{
     DirectionTable, Energy, Estimate, FacetTable, Hierarchy, LightNode, LightTree, Node,
-    PixelFilter,
+    PixelFilter, Sheet,
 };
 pub use description::{Distribution, PathDifference, Sampler};
 pub use document::SourceFile;

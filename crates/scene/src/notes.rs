@@ -1,6 +1,6 @@
 //! What is worth saying of a scene that is sound.
 
-use crate::{Emission, Material, Scene};
+use crate::{Emission, Material, Scene, derived};
 
 impl Scene {
     /// What was assumed of files, and what may not be meant though it can be rendered: one line each.
@@ -8,7 +8,11 @@ impl Scene {
         let dark = (self.lamps() == 0 && !self.is_lit_by_surroundings())
             .then(|| "nothing shines: the picture will be black".to_owned());
         let assumed = self.assumptions.iter().cloned();
-        assumed.chain(dark).chain(self.note_on_gain()).collect()
+        assumed
+            .chain(dark)
+            .chain(self.notes_on_stacks())
+            .chain(self.note_on_gain())
+            .collect()
     }
 
     /// How many objects and lights shine, the sun of a sky among them.
@@ -33,6 +37,30 @@ impl Scene {
 
     fn shines(&self, emission: Emission) -> bool {
         emission.scale > 0.0 && self.spectrum(emission.spectrum).extent().1 > 0.0
+    }
+
+    /// Surfaces that lie in one another, stack by stack.
+    fn notes_on_stacks(&self) -> Vec<String> {
+        let mut notes: Vec<(u32, String)> = Vec::new();
+        for (object, sheet) in self.sheets().iter().enumerate() {
+            let Some(sheet) = sheet else { continue };
+            let others = self.sheets().iter().enumerate().skip(object + 1);
+            let over = others
+                .filter(|(_, other)| other.is_some_and(|other| other.stack == sheet.stack))
+                .find(|(other, _)| {
+                    let shape = |object: usize| &self.objects()[object].shape;
+                    derived::overlap(shape(object), shape(*other))
+                });
+            let Some((other, _)) = over else { continue };
+            if notes.iter().all(|(stack, _)| *stack != sheet.stack) {
+                let note = format!(
+                    "objects[{object}] and objects[{other}] lie in one another; of coincident surfaces the one named first lies outside: of \
+                     planes on the side of its normal, of spheres outermost"
+                );
+                notes.push((sheet.stack, note));
+            }
+        }
+        notes.into_iter().map(|(_, note)| note).collect()
     }
 
     /// Light that grows from one surface to the next.

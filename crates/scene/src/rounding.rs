@@ -50,6 +50,7 @@ impl RoundToF32 for Scene {
             materials: self.materials.rounded(),
             hierarchy: Hierarchy::new(&objects),
             objects,
+            sheets: self.sheets.clone(),
             lights: self.lights.rounded(),
             environment: self.environment.rounded(),
             estimates: self.estimates.rounded(),

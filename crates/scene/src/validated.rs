@@ -4,7 +4,7 @@ use crate::description::Description;
 use crate::rounding::RoundToF32;
 use crate::{
     Camera, Environment, Estimate, Hierarchy, Light, LightTree, Material, Object, Problems,
-    RenderSettings, validate,
+    RenderSettings, Sheet, validate,
 };
 use spectra::{BandTable, LightGroup, SpectralImage};
 use std::path::Path;
@@ -60,6 +60,8 @@ pub struct Scene {
     pub(crate) light_groups: Vec<LightGroup>,
     pub(crate) materials: Vec<Material>,
     pub(crate) objects: Vec<Object>,
+    /// Of each object, or of none.
+    pub(crate) sheets: Vec<Option<Sheet>>,
     pub(crate) lights: Vec<Light>,
     pub(crate) environment: Environment,
     /// Of each material.
@@ -145,6 +147,11 @@ impl Scene {
     /// All objects.
     pub fn objects(&self) -> &[Object] {
         &self.objects
+    }
+
+    /// The places of objects in stacks of coincident surfaces, by object; empty where no two surfaces coincide.
+    pub fn sheets(&self) -> &[Option<Sheet>] {
+        &self.sheets
     }
 
     /// Boxes around the objects.

@@ -2,13 +2,52 @@
 
 use super::vec3;
 use crate::layout;
-use scene::{Object, Shape};
+use glam::DVec3;
+use scene::{Object, Scene, Shape, Sheet};
 
-/// An object; whether it is an emitter follows.
-pub(super) fn pack(object: &Object) -> layout::Shape {
+/// A sphere is large from so many times the distance of its surface from the camera on: an `f32` then loses a hundred thousandth of
+/// that distance between the surface and the center.
+const LARGE: f64 = 100.0;
+
+/// The curvature of a sphere whose surface is given by its point nearest to the camera, because its center is too far away.
+pub(crate) fn is_large(scene: &Scene, shape: &Shape) -> bool {
+    match *shape {
+        Shape::Sphere { center, radius } => {
+            let height = (scene.camera().origin.distance(center) - radius).abs();
+            radius > LARGE * height.max(scene.camera().origin.length())
+        }
+        _ => false,
+    }
+}
+
+/// The objects; whether they are emitters follows.
+pub(super) fn pack_all(scene: &Scene) -> Vec<layout::Shape> {
+    let pack = |(index, object): (usize, &Object)| {
+        let mut shape = pack(object, scene.sheets().get(index).copied().flatten());
+        if is_large(scene, &object.shape) {
+            anchor(&mut shape, &object.shape, scene.camera().origin);
+        }
+        shape
+    };
+    scene.objects().iter().enumerate().map(pack).collect()
+}
+
+/// Describes a large sphere by its point nearest to the camera.
+fn anchor(packed: &mut layout::Shape, shape: &Shape, camera: DVec3) {
+    if let Shape::Sphere { center, radius } = *shape {
+        let normal = (camera - center).normalize();
+        packed.normal = vec3(normal);
+        packed.bitangent = vec3(center + radius * normal);
+        packed.half_width = (1.0 / radius) as f32;
+    }
+}
+
+fn pack(object: &Object, sheet: Option<Sheet>) -> layout::Shape {
     let mut packed = layout::Shape {
         material: object.material.index() as u32,
         emitter: layout::NONE,
+        stack: sheet.map_or(layout::NONE, |sheet| sheet.stack),
+        sheet: sheet.map_or(0, |sheet| 2 * sheet.depth + u32::from(sheet.is_turned)),
         ..Default::default()
     };
     match object.shape {

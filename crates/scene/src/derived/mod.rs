@@ -1,6 +1,7 @@
 //! What both renderers look up and neither should work out by itself, made once from a validated scene.
 
 pub(crate) mod coats;
+mod coincidence;
 mod direction_table;
 mod energy;
 mod estimate;
@@ -9,6 +10,8 @@ mod filter;
 mod hierarchy;
 mod light_tree;
 
+pub use coincidence::Sheet;
+pub(crate) use coincidence::{overlap, sheets};
 pub use direction_table::DirectionTable;
 pub(crate) use direction_table::Sent;
 pub use energy::Energy;

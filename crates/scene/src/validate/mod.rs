@@ -75,6 +75,7 @@ pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene
             light_groups: lit.light_groups,
             materials: lit.parts.materials,
             hierarchy: Hierarchy::new(&lit.parts.objects),
+            sheets: derived::sheets(&lit.parts.objects),
             objects: lit.parts.objects,
             lights: lit
                 .parts
