@@ -10,7 +10,7 @@ use pellicle::colorimetry::matrix::times;
 use pellicle::colorimetry::temperature::{Temperature, correlated_temperature};
 use pellicle::colorimetry::tristimulus::{Rule, Weights, xyz_of_emission};
 use pellicle::colorimetry::{Adaptation, Display, Lab, srgb};
-use pellicle::spectra::table_file::{Quantity, columns};
+use pellicle::spectra::table_file::{self, ColumnChoice, Options, Quantity};
 use pellicle::spectra::{Observer, OutOfRange, Spectrum};
 use serde_json::json;
 use std::path::PathBuf;
@@ -24,12 +24,18 @@ use std::path::PathBuf;
 /// takes off, are left out here.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// A file .csv of wavelength_nm,value
+    /// A table: columns of numbers (.csv, .txt, .tsv, .spd ...), CGATS or IES TM-27 (.spdx); - is standard input
     file: PathBuf,
+    /// Which column, by its name in the head or its number from 1, or which sample of CGATS
+    #[arg(long, value_name = "NAME|NUMBER")]
+    column: Option<String>,
+    /// Units that the file does not name: nm, um, angstrom or eV of its wavelengths, percent of its values, or both
+    #[arg(long, value_name = "UNIT")]
+    unit: Option<String>,
     /// The values are the power of a light, not a reflectance; --illuminant then says what white it is compared with
     #[arg(long)]
     emission: bool,
-    /// The light: D65, A, FL11, LED-B3, D5700K, blackbody_3000K ..., or a file .csv of wavelength_nm,power
+    /// The light: D65, A, FL11, LED-B3, D5700K, blackbody_3000K ..., or a file of wavelength_nm,power (.csv, .spd, .spdx ...)
     #[arg(long, value_name = "NAME|FILE", default_value = "D65", value_parser = Lamp::unscaled)]
     illuminant: Lamp,
     /// The observer: 1931_2, 1964_10, 2015_2 or 2015_10
@@ -281,19 +287,33 @@ fn spaced(values: [f64; 3]) -> String {
 fn read(arguments: &Arguments) -> miette::Result<Spectrum> {
     let quantity = if arguments.emission {
         // In whatever unit.
-        Quantity {
-            noun: "power",
-            range: (0.0, 1e30),
-        }
+        Quantity::amount("power", (0.0, 1e30))
     } else {
         Quantity::REFLECTANCE
     };
-    let [table] = columns(&arguments.file, [quantity])
-        .map_err(|error| miette!("{}: {error}", arguments.file.display()))?;
+    let file = arguments.file.display();
+    let table = table_file::read(&arguments.file, [quantity], &options(arguments)?)
+        .map_err(|error| miette!("{file}: {error}"))?;
+    print::notes(table.note.map(|note| format!("{file}: {note}")));
+    let [table] = table.columns;
     let spectrum = Spectrum::Table(table);
     Ok(if arguments.clamp {
         spectrum.clamped()
     } else {
         spectrum
     })
+}
+
+/// What is said of the file.
+fn options(arguments: &Arguments) -> miette::Result<Options> {
+    let mut options = Options::default();
+    if let Some(column) = &arguments.column {
+        let number = column.parse().map(ColumnChoice::Number);
+        options.columns = vec![number.unwrap_or_else(|_| ColumnChoice::Name(column.clone()))];
+    }
+    if let Some(unit) = &arguments.unit {
+        let taken = options.set_unit(unit);
+        taken.map_err(|complaint| miette!("--unit: {complaint}"))?;
+    }
+    Ok(options)
 }

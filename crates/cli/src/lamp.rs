@@ -1,10 +1,15 @@
 //! Lamps as options name them: `D65`, `D5700K`, `lamp.csv`, `F11*0.3`.
 
+use crate::print;
 use pellicle::colorimetry::tristimulus::Rule;
-use pellicle::spectra::table_file::{Quantity, columns};
+use pellicle::spectra::table_file::{self, Options, Quantity};
+use pellicle::spectra::text_file::STANDARD_INPUT;
 use pellicle::spectra::{Spectrum, find_illuminant};
-use std::ffi::OsStr;
 use std::path::Path;
+
+/// The files that tables over wavelength are read from.
+pub(crate) const FORMATS: &str =
+    "columns of numbers in .csv, .txt, .tsv, .dat or .spd, CGATS, or IES TM-27 (.spdx)";
 
 /// A spectrum that a light burns with, and how strongly.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,10 +28,10 @@ pub(crate) struct Lamp {
 const FACTORS: std::ops::RangeInclusive<f64> = 0.0..=1e9;
 
 impl Lamp {
-    /// Reads `NAME` or `FILE.csv`, either with `*FACTOR` behind it.
+    /// Reads `NAME` or `FILE`, either with `*FACTOR` behind it.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         match text.rsplit_once('*') {
-            Some((lamp, factor)) if !is_file(text) => Ok(Self {
+            Some((lamp, factor)) if !Path::new(text).exists() => Ok(Self {
                 factor: parse_factor(factor)?,
                 ..Self::unscaled(lamp.trim_end())?
             }),
@@ -34,13 +39,14 @@ impl Lamp {
         }
     }
 
-    /// Reads `NAME` or `FILE.csv`: a light whose strength does not matter.
+    /// Reads `NAME` or `FILE`: a light whose strength does not matter.
     pub(crate) fn unscaled(text: &str) -> Result<Self, String> {
         let (name, spectrum) = spectrum(text)?;
-        let rule = if is_file(text) {
-            Rule::OneNm
-        } else {
+        let is_known = find_illuminant(text).is_ok();
+        let rule = if is_known {
             Rule::for_illuminant(&name)
+        } else {
+            Rule::OneNm
         };
         Ok(Self {
             name,
@@ -51,27 +57,46 @@ impl Lamp {
     }
 }
 
-/// A light's spectrum with its name: `NAME` or `FILE.csv`.
+/// A light's spectrum with its name: `NAME` or `FILE`. What was assumed of a file is printed.
 pub(crate) fn spectrum(text: &str) -> Result<(String, Spectrum), String> {
-    if !is_file(text) {
-        let set = find_illuminant(text).map_err(|error| format!("{error}; or a file .csv"))?;
-        return Ok((set.name.into_owned(), set.data));
+    match find_illuminant(text) {
+        Ok(set) => return Ok((set.name.into_owned(), set.data)),
+        Err(error) if !is_file(text) => {
+            return Err(format!("{error}; or a file: {FORMATS}"));
+        }
+        Err(_) => {}
     }
     let path = Path::new(text);
-    let [table] = columns(path, [Quantity::POWER]).map_err(|error| format!("{text}: {error}"))?;
-    if table.points().all(|(_, value)| value == 0.0) {
+    let table = table_file::read(path, [Quantity::POWER], &Options::default());
+    let table = table.map_err(|error| {
+        if path.exists() || text == STANDARD_INPUT {
+            format!("{text}: {error}")
+        } else {
+            format!("{text}: {error}; a lamp is the name of an illuminant, or a file: {FORMATS}")
+        }
+    })?;
+    let [power] = table.columns;
+    if power.points().all(|(_, value)| value == 0.0) {
         return Err(format!(
             "{text}: a lamp must shine somewhere, but all values are 0"
         ));
     }
+    print::notes(table.note.map(|note| format!("{text}: {note}")));
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    Ok((stem.into_owned(), Spectrum::Table(table)))
+    Ok((stem.into_owned(), Spectrum::Table(power)))
 }
 
-/// Whether a lamp is a file: its name ends in `.csv`.
+/// Whether what is no name of an illuminant is a file: there is one, or it is written as files are.
 fn is_file(text: &str) -> bool {
-    let extension = Path::new(text).extension().and_then(OsStr::to_str);
-    extension.is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
+    let path = Path::new(text);
+    let is_ending = |ending: &str| {
+        (1..=6).contains(&ending.len()) && ending.starts_with(|c: char| c.is_ascii_alphabetic())
+    };
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    text == STANDARD_INPUT
+        || text.contains(std::path::is_separator)
+        || ending.is_some_and(is_ending)
+        || path.exists() && !text.is_empty()
 }
 
 /// What stands behind `*`.
@@ -113,10 +138,35 @@ mod tests {
             ("D65*NaN", "is not a factor"),
             ("*2", "no illuminant \"\""),
             ("no/such.csv", "cannot be opened"),
+            ("none.spdx", "or a file: columns of numbers in .csv"),
+            ("no/such", "IES TM-27"),
+            ("X65", "or a file: columns of numbers in .csv"),
             ("D100K", "4000 to 25000 K"),
         ] {
             let error = Lamp::parse(text).unwrap_err();
             assert!(error.contains(said), "{text:?}: {error}");
+        }
+    }
+
+    #[test]
+    fn files_of_any_ending_are_lamps() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, text) in [
+            ("a.spd", "380 0.5\n780 1\n"),
+            ("a.txt", "nm;power\n380;0,5\n780;1,0\n"),
+            ("a.anything", "380,0.5\n780,1\n"),
+            ("none", "780\t1\n380\t0.5\n"),
+            (
+                "a.spdx",
+                "<IESTM2714><SpectralData wavelength='380'>0.5</SpectralData><SpectralData wavelength='780'>1</SpectralData></IESTM2714>",
+            ),
+        ] {
+            let path = folder.path().join(name);
+            std::fs::write(&path, text).unwrap();
+            let lamp = Lamp::parse(&format!("{}*0.5", path.display())).unwrap();
+            // Halfway between the two points.
+            assert_eq!(lamp.spectrum.at(580.0), Ok(0.75), "{name}");
+            assert_eq!((lamp.factor, lamp.rule), (0.5, Rule::OneNm));
         }
     }
 }

@@ -204,6 +204,8 @@ fn index(text: &str) -> Result<Index, Fault> {
     Ok(match ending {
         Some("csv") => Index::File {
             csv: path,
+            column: None,
+            unit: None,
             extrapolate,
         },
         Some("yml" | "yaml") => Index::Database {

@@ -84,7 +84,7 @@ fn table_files_that_cannot_be_used_name_the_field_and_the_line() {
         ),
         (
             "narrow.csv",
-            b"380,1,2\n780\n",
+            b"380,1.0,2\n780\n",
             "narrow.csv: line 2: found 1 columns, expected 3",
         ),
         (
@@ -93,18 +93,23 @@ fn table_files_that_cannot_be_used_name_the_field_and_the_line() {
             "wide.csv: line 1: found 4 columns",
         ),
         (
-            "falling.csv",
-            b"780,1,2\n380,1,2\n",
-            "falling.csv: line 2: found 380 nm after 780 nm",
+            "twice.csv",
+            b"780,1.0,2\n780,1,2\n",
+            "twice.csv: lines 1 and 2 are both at 780",
+        ),
+        (
+            "commas.csv",
+            b"380,1,2\n780,1,2\n",
+            "commas.csv: line 1: \"380,1,2\" is ambiguous",
         ),
         (
             "nan.csv",
             b"380,nan,2\n780,1,2\n",
-            "nan.csv: line 1: found n NaN; it must be from 0.001",
+            "nan.csv: line 1: \"nan\" is not a number",
         ),
         (
             "short.csv",
-            b"400,1,2\n700,1,2\n",
+            b"400,1.0,2\n700,1,2\n",
             "the data cover 400 to 700 nm",
         ),
         (
@@ -127,7 +132,7 @@ fn table_files_that_cannot_be_used_name_the_field_and_the_line() {
         .collect();
     fs::write(directory.path().join("long.csv"), long.concat()).unwrap();
     let text = told(&with_csv(directory.path(), "long.csv").unwrap_err());
-    assert!(text.contains("has 100001 points; at most 100000"), "{text}");
+    assert!(text.contains("has more than 100000 points"), "{text}");
     for (name, expected) in [("none.csv", "cannot be opened"), ("", "is a directory")] {
         let text = told(&with_csv(directory.path(), name).unwrap_err());
         assert!(
@@ -169,6 +174,8 @@ fn an_index_alone_is_read_and_its_mistakes_are_told() {
     .unwrap();
     let file = |name: &str| Index::File {
         csv: name.into(),
+        column: None,
+        unit: None,
         extrapolate: Extrapolate::Error,
     };
     let (constants, _) = optical_constants(&file("good.csv"), folder.path()).unwrap();
@@ -261,5 +268,76 @@ fn the_size_of_a_picture_on_spheres_alone_is_refused() {
         let plain = material.replace(", size = [1, 1]", "");
         with_picture("map.png", &pixel(), &scene(&plain, ""))
             .unwrap_or_else(|p| panic!("{}", told(&p)));
+    }
+}
+
+/// What a scene of a diffuse surface with such a reflectance says, and the reflectance at 580 nm.
+fn with_reflectance(csv: &str, more: &str) -> Result<(f64, Vec<String>), Problems> {
+    let directory = TempDir::new().unwrap();
+    fs::write(directory.path().join("tile.txt"), csv).unwrap();
+    let scene = format!(
+        "[camera]\ntype = 'perspective'\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nfov_deg = 40\n\
+         [materials.tile]\ntype = 'diffuse'\nreflectance = {{ csv = 'tile.txt'{more} }}\n\
+         [[objects]]\ntype = 'sphere'\nmaterial = 'tile'\ncenter = [0, 0, 0]\nradius = 1\n"
+    );
+    let scene = SceneFile::parse("scene.toml", &scene, directory.path())?.validate()?;
+    let table = scene.spectra().iter().find(|table| table.extent().1 > 0.0);
+    Ok((table.unwrap().at(20, 0.0), scene.notes()))
+}
+
+#[test]
+fn tables_say_what_was_assumed_and_take_columns_and_units() {
+    // 580 nm lies halfway between 380 and 780.
+    for (csv, more, said) in [
+        ("380,0.25\n780,0.75\n", "", ""),
+        (
+            "nm,%R\n380,25\n780,75\n",
+            "",
+            "read with values in percent, as the file says",
+        ),
+        (
+            "780;0,75\n380;0,25\n",
+            "",
+            "semicolons between columns; decimal commas; rows turned over",
+        ),
+        ("nm,R,T\n380,0.25,1\n780,0.75,1\n", ", column = 'R'", ""),
+        ("nm,R,T\n380,0.25,1\n780,0.75,1\n", ", column = 2", ""),
+        ("0.38,25\n0.78,75\n", ", unit = 'um percent'", ""),
+    ] {
+        let (value, notes) = with_reflectance(csv, more).unwrap_or_else(|p| panic!("{}", told(&p)));
+        assert!((value - 0.5).abs() < 1e-12, "{csv}: {value}");
+        let notes: Vec<_> = notes
+            .iter()
+            .filter(|note| note.contains("tile.txt"))
+            .collect();
+        assert_eq!(notes.len(), usize::from(!said.is_empty()), "{notes:?}");
+        assert!(
+            notes
+                .iter()
+                .all(|note| note.contains(said) && note.contains("materials.tile.reflectance.csv")),
+            "{notes:?}"
+        );
+    }
+    for (csv, more, said) in [
+        ("380,25\n", "", "unit = \"percent\""),
+        ("0.38,0.5\n", "", "unit = \"um\""),
+        (
+            "380,0.5\n",
+            ", unit = 'mile'",
+            "reflectance.unit: found \"mile\"",
+        ),
+        (
+            "nm,R,T\n380,0.5,1\n",
+            "",
+            "the columns are 1 \"nm\", 2 \"R\", 3 \"T\"",
+        ),
+        (
+            "nm,R,T\n380,0.5,1\n",
+            ", column = 'X'",
+            "there is no column \"X\"",
+        ),
+    ] {
+        let problems = told(&with_reflectance(csv, more).unwrap_err());
+        assert!(problems.contains(said), "{problems}");
     }
 }

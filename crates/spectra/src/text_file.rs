@@ -1,9 +1,16 @@
-//! Reading a whole file that someone else wrote.
+//! Reading a whole file that someone else wrote, or what comes from standard input.
 
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use thiserror::Error;
+
+/// The name that stands for standard input.
+pub const STANDARD_INPUT: &str = "-";
+
+/// Whether standard input has been asked for: what has been read from it does not come again.
+static STANDARD_INPUT_IS_USED: AtomicBool = AtomicBool::new(false);
 
 /// The largest file of text that is read, in bytes.
 pub const MAX_BYTES: u64 = 16 << 20;
@@ -33,22 +40,50 @@ pub enum TextFileError {
         /// The first line that is not, from 1.
         line: usize,
     },
+    /// It starts as UTF-16 and is not.
+    #[error("is not text: line {line} is not UTF-16, as which the file starts")]
+    NotUtf16 {
+        /// The first line that is not, from 1.
+        line: usize,
+    },
+    /// `-` stands in two places.
+    #[error(
+        "is standard input, which can be read once, but is asked for twice; write one of the two into a file"
+    )]
+    StandardInputTwice,
 }
 
-/// The text of a regular file of at most [`MAX_BYTES`].
+/// The text of a regular file of at most [`MAX_BYTES`], or of standard input for `-`: UTF-8, or UTF-16 with a byte order mark.
 ///
 /// # Errors
-/// When it cannot be read, or is not UTF-8.
+/// When it cannot be read, or is not such text.
 pub fn read_text(path: &Path) -> Result<String, TextFileError> {
-    String::from_utf8(read_bytes(path, MAX_BYTES)?).map_err(|error| {
-        let sound = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        TextFileError::NotText {
-            line: sound.split(|&b| b == b'\n').count(),
-        }
-    })
+    let bytes = read_bytes(path, MAX_BYTES)?;
+    match bytes.as_slice() {
+        [0xff, 0xfe, rest @ ..] => utf_16(rest, u16::from_le_bytes),
+        [0xfe, 0xff, rest @ ..] => utf_16(rest, u16::from_be_bytes),
+        _ => String::from_utf8(bytes).map_err(|error| {
+            let sound = error.as_bytes().get(..error.utf8_error().valid_up_to());
+            TextFileError::NotText {
+                line: sound.unwrap_or_default().split(|&b| b == b'\n').count(),
+            }
+        }),
+    }
 }
 
-/// The bytes of a regular file of at most `most`.
+fn utf_16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Result<String, TextFileError> {
+    let (pairs, rest) = bytes.as_chunks::<2>();
+    let mut text = String::new();
+    let mut characters = char::decode_utf16(pairs.iter().copied().map(unit));
+    let is_sound = characters.all(|character| character.map(|c| text.push(c)).is_ok());
+    if is_sound && rest.is_empty() {
+        return Ok(text);
+    }
+    let line = text.split('\n').count();
+    Err(TextFileError::NotUtf16 { line })
+}
+
+/// The bytes of a regular file of at most `most`, or of standard input for `-`.
 ///
 /// # Errors
 /// When it cannot be read.
@@ -60,13 +95,21 @@ pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, TextFileError> {
     Ok(bytes)
 }
 
-/// The first bytes of a regular file, all of them where it has no more.
+/// The first bytes of a regular file, all of them where it has no more; for `-` those of standard input, once in a process.
 ///
 /// What the path leads to is looked at before it is opened: to open a pipe would wait for its writer.
 ///
 /// # Errors
 /// When it cannot be read.
 pub fn read_start(path: &Path, most: u64) -> Result<Vec<u8>, TextFileError> {
+    if path.as_os_str() == STANDARD_INPUT {
+        if STANDARD_INPUT_IS_USED.swap(true, Ordering::Relaxed) {
+            return Err(TextFileError::StandardInputTwice);
+        }
+        let mut bytes = Vec::new();
+        io::stdin().lock().take(most).read_to_end(&mut bytes)?;
+        return Ok(bytes);
+    }
     let metadata = fs::metadata(path)?;
     if metadata.is_dir() {
         return Err(TextFileError::Directory);
@@ -77,4 +120,35 @@ pub fn read_start(path: &Path, most: u64) -> Result<Vec<u8>, TextFileError> {
     let mut bytes = Vec::new();
     File::open(path)?.take(most).read_to_end(&mut bytes)?;
     Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text_of(bytes: &[u8]) -> Result<String, TextFileError> {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        fs::write(file.path(), bytes).unwrap();
+        read_text(file.path())
+    }
+
+    #[test]
+    fn utf_16_with_a_mark_is_text() {
+        // "µ\n": U+00B5 U+000A.
+        assert_eq!(text_of(b"\xff\xfe\xb5\x00\x0a\x00").unwrap(), "µ\n");
+        assert_eq!(text_of(b"\xfe\xff\x00\xb5\x00\x0a").unwrap(), "µ\n");
+        assert_eq!(text_of(b"\xff\xfe").unwrap(), "");
+    }
+
+    #[test]
+    fn what_is_no_text_names_the_line() {
+        for (bytes, said) in [
+            (&b"a\nb\n\xc3("[..], "line 3 is not UTF-8"),
+            (b"\xff\xfea\x00\n\x00b", "line 2 is not UTF-16"),
+            (b"\xfe\xff\x00a\xd8\x00", "line 1 is not UTF-16"),
+        ] {
+            let error = text_of(bytes).unwrap_err().to_string();
+            assert!(error.contains(said), "{error}");
+        }
+    }
 }

@@ -86,7 +86,7 @@ pub(crate) struct Arguments {
 /// How colours are looked at.
 #[derive(clap::Args)]
 struct Look {
-    /// The light that colours are seen in: D65, A, FL11, LED-B3, D5700K, blackbody_3000K ..., or a file .csv of wavelength_nm,power;
+    /// The light that colours are seen in: D65, A, FL11, LED-B3, D5700K, blackbody_3000K ..., or a file of wavelength_nm,power (.csv, .spd, .spdx ...);
     /// swatches and codes of sRGB are not adapted to it: under A white looks orange
     #[arg(long, value_name = "NAME|FILE", default_value = "D65", value_parser = Lamp::unscaled)]
     illuminant: Lamp,

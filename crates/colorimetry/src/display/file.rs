@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use spectra::suggestion;
 use spectra::table_file::TableFileError;
-use spectra::text_file::{TextFileError, read_text};
+use spectra::text_file::{STANDARD_INPUT, TextFileError, read_text};
 use thiserror::Error;
 
 use super::Display;
@@ -61,14 +61,14 @@ pub enum DisplayError {
 }
 
 impl Display {
-    /// A display by its name, or from a file whose name ends in `.toml`.
+    /// A display by its name, or from a file whose name ends in `.toml`, or from standard input for `-`.
     ///
     /// # Errors
     /// When there is no display of the name, or [`Self::read`] fails.
     pub fn open(name_or_file: &str) -> Result<Self, DisplayError> {
         let path = Path::new(name_or_file);
         let is_toml = |extension: &OsStr| extension.eq_ignore_ascii_case("toml");
-        if path.extension().is_some_and(is_toml) {
+        if path.extension().is_some_and(is_toml) || path.as_os_str() == STANDARD_INPUT {
             return Self::read(path);
         }
         Self::named(name_or_file).ok_or_else(|| DisplayError::Unknown {

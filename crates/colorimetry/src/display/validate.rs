@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use spectra::table_file::{Quantity, TableFileError, parse_columns, parse_rows};
+use spectra::table_file::{Options, Quantity, TableFileError, parse, parse_rows};
 use spectra::{Observer, Spectrum, Tabulated};
 
 use super::file::{
@@ -91,9 +91,9 @@ impl Checks<'_> {
             ])),
             (None, None, None, Some(csv)) => {
                 let text = (self.read)(csv)?;
-                let spectra = parse_columns(&text, [Quantity::POWER; 3]);
-                let spectra = spectra.map_err(|source| self.table_fault(csv, source))?;
-                Ok(Primaries::Spectra(Box::new(spectra)))
+                let table = parse(&text, [Quantity::POWER; 3], &Options::default());
+                let table = table.map_err(|source| self.table_fault(csv, source))?;
+                Ok(Primaries::Spectra(Box::new(table.columns)))
             }
             _ => Err(self.fault(
                 "primaries",

@@ -1,6 +1,6 @@
 //! What lights emit, as written.
 
-use super::Extrapolate;
+use super::{Extrapolate, TableColumn};
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -48,8 +48,14 @@ pub enum EmissionSpectrum {
     },
     /// A table in a file.
     File {
-        /// A text file with two columns, wavelength in nm and radiance at scale 1; relative to the scene file.
+        /// A text file with the columns wavelength and radiance at scale 1, or of a lamp by IES TM-27; relative to the scene file.
         csv: PathBuf,
+        /// Which column of the file, by its name in the head or its number from 1; needed where there are several.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        column: Option<TableColumn>,
+        /// The unit that the file's head does not name: "nm", "um", "angstrom" or "eV" of its wavelengths.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        unit: Option<String>,
         /// What the table says outside its wavelengths.
         #[serde(default)]
         extrapolate: Extrapolate,

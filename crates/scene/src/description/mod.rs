@@ -14,6 +14,7 @@ mod microsurface;
 mod object;
 mod render;
 mod spectrum;
+mod table_file;
 mod thickness;
 
 pub use crate::settings::DirectLight;
@@ -29,6 +30,7 @@ pub use microsurface::{Brushed, Distribution, Finish, Roughness};
 pub use object::Object;
 pub use render::{LightGroups, Render, Sampler, WavelengthSampling};
 pub use spectrum::{Extrapolate, Index, MixtureRule, Reflectance, SellmeierTerms};
+pub use table_file::{IndexColumns, TableColumn};
 pub use thickness::{
     AnodisedMetal, Anodising, Drainage, HeatTint, Quantity, Steel, Steps, Swirls, Thickness,
 };

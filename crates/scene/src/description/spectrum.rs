@@ -1,5 +1,6 @@
 //! Numbers over wavelength as written.
 
+use super::{IndexColumns, TableColumn};
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -56,8 +57,15 @@ pub enum Reflectance {
     },
     /// A table in a file.
     File {
-        /// A text file with two columns, wavelength in nm and reflectance; relative to the scene file.
+        /// A text file with the columns wavelength and reflectance, or of a measuring instrument; relative to the scene file.
         csv: PathBuf,
+        /// Which column of the file, by its name in the head or its number from 1; needed where there are several.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        column: Option<TableColumn>,
+        /// Units that the file's head does not name: "nm", "um", "angstrom" or "eV" of its wavelengths, "percent" of its values,
+        /// or both, as in "um percent".
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        unit: Option<String>,
         /// What the table says outside its wavelengths.
         #[serde(default)]
         extrapolate: Extrapolate,
@@ -97,8 +105,15 @@ pub enum Index {
     },
     /// A table in a file.
     File {
-        /// A text file with the columns wavelength in nm, n and (0 when absent) k; relative to the scene file.
+        /// A text file with the columns wavelength, n and (0 when absent) k; relative to the scene file.
         csv: PathBuf,
+        /// The columns of n and k, as in `["n_o", "k_o"]`, or that of n alone: by their names in the head or their numbers from 1;
+        /// needed where the head does not tell.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        column: Option<IndexColumns>,
+        /// The unit that the file's head does not name: "nm", "um", "angstrom" or "eV" of its wavelengths.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        unit: Option<String>,
         /// What the table says outside its wavelengths.
         #[serde(default)]
         extrapolate: Extrapolate,

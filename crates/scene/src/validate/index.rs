@@ -3,16 +3,17 @@
 use super::checks::Checks;
 use super::database_file::{self, Block, Data};
 use super::formula;
-use super::points::{self, Column};
+use super::points::{self, Column, FileTable};
 use super::spectrum_list::{Advice, extrapolated, read_reflectance};
 use crate::description::{Extrapolate, Index, MixtureRule, Reflectance};
 use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, limits};
+use spectra::table_file::QuantityKind;
 use spectra::{DispersionFormula, OpticalConstants, Spectrum, Tabulated};
 use std::path::Path;
 
-const INDEX_N: Column = Column::new("n", "n", &limits::INDEX_N);
-const INDEX_K: Column = Column::new("k", "k", &limits::INDEX_K);
+const INDEX_N: Column = Column::new("n", "n", &limits::INDEX_N, QuantityKind::Plain);
+const INDEX_K: Column = Column::new("k", "k", &limits::INDEX_K, QuantityKind::Plain);
 
 /// n and k over wavelength, and what to do where they do not reach far enough; files are looked for from `directory`.
 pub(crate) fn read<'w>(
@@ -52,10 +53,19 @@ pub(crate) fn read<'w>(
             let spectra = points::inline(checks, field, nm, columns, *extrapolate)?;
             (spectra, Advice::Add)
         }
-        Index::File { csv, extrapolate } => {
-            let path = directory.join(csv);
-            let columns = [INDEX_N, INDEX_K];
-            let spectra = points::file(checks, field, &path, columns, *extrapolate)?;
+        Index::File {
+            csv,
+            column,
+            unit,
+            extrapolate,
+        } => {
+            let table = FileTable {
+                path: &directory.join(csv),
+                columns: points::chosen_of_index(column.as_ref()),
+                unit: unit.as_deref(),
+                extrapolate: *extrapolate,
+            };
+            let spectra = points::file(checks, field, table, [INDEX_N, INDEX_K])?;
             (spectra, Advice::Add)
         }
         Index::Database { yaml, extrapolate } => {

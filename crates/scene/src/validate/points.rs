@@ -1,11 +1,12 @@
 //! Tables over wavelength, written in the scene or in a file of their own.
 
 use super::checks::Checks;
+use super::spectrum_list::extrapolated;
 use crate::FieldPath;
-use crate::description::Extrapolate;
+use crate::description::{Extrapolate, IndexColumns, TableColumn};
 use crate::limits::{MAX_TABLE_POINTS, Range, TABLE_NM};
 use crate::problem::{Problem, ProblemKind};
-use spectra::table_file::{self, Row};
+use spectra::table_file::{self, ColumnChoice, Options, Quantity, QuantityKind, Row};
 use spectra::{Spectrum, Tabulated};
 use std::path::Path;
 
@@ -17,6 +18,8 @@ pub(crate) struct Column {
     /// Its field in a table within the scene.
     field: &'static str,
     range: &'static Range,
+    /// What files do with it.
+    kind: QuantityKind,
 }
 
 impl Column {
@@ -24,8 +27,52 @@ impl Column {
         noun: &'static str,
         field: &'static str,
         range: &'static Range,
+        kind: QuantityKind,
     ) -> Self {
-        Self { noun, field, range }
+        Self {
+            noun,
+            field,
+            range,
+            kind,
+        }
+    }
+
+    fn quantity(&self) -> Quantity {
+        Quantity {
+            noun: self.noun,
+            range: (self.range.low, self.range.high),
+            kind: self.kind,
+        }
+    }
+}
+
+/// A table in a file, and what the scene says of it.
+pub(crate) struct FileTable<'a> {
+    pub(crate) path: &'a Path,
+    /// Empty where none is chosen.
+    pub(crate) columns: Vec<ColumnChoice>,
+    pub(crate) unit: Option<&'a str>,
+    pub(crate) extrapolate: Extrapolate,
+}
+
+/// A column as it is asked for.
+pub(crate) fn chosen(column: Option<&TableColumn>) -> Vec<ColumnChoice> {
+    column.map(choice).into_iter().collect()
+}
+
+/// The columns of n and k as they are asked for.
+pub(crate) fn chosen_of_index(columns: Option<&IndexColumns>) -> Vec<ColumnChoice> {
+    match columns {
+        None => Vec::new(),
+        Some(IndexColumns::N(column)) => vec![choice(column)],
+        Some(IndexColumns::Both(columns)) => columns.iter().map(choice).collect(),
+    }
+}
+
+fn choice(column: &TableColumn) -> ColumnChoice {
+    match column {
+        TableColumn::Number(number) => ColumnChoice::Number(*number as usize),
+        TableColumn::Name(name) => ColumnChoice::Name(name.clone()),
     }
 }
 
@@ -83,19 +130,58 @@ pub(crate) fn inline<const N: usize>(
 pub(crate) fn file<const N: usize>(
     checks: &mut Checks,
     field: &FieldPath,
-    path: &Path,
+    table: FileTable,
     columns: [Column; N],
-    extrapolate: Extrapolate,
 ) -> Option<[Spectrum; N]> {
+    let extrapolate = table.extrapolate;
+    let mut options = Options {
+        columns: table.columns,
+        ..Options::default()
+    };
+    if let Some(unit) = table.unit {
+        set_unit(checks, &field.key("unit"), unit, (&mut options, &columns))?;
+    }
     let own = field.key("csv");
-    match table_file::rows::<N>(path) {
-        Ok(found) => rows(checks, &own, path, &found, columns, extrapolate),
+    let path = table.path.display();
+    match table_file::read(
+        table.path,
+        columns.map(|column| column.quantity()),
+        &options,
+    ) {
+        Ok(found) => {
+            if let Some(note) = found.note {
+                checks.note(&own, format_args!("{path}: {note}"));
+            }
+            let spectrum = |table| extrapolated(Spectrum::Table(table), extrapolate);
+            Some(found.columns.map(spectrum))
+        }
         Err(complaint) => {
-            let message = format!("{}: {complaint}", path.display());
+            let message = format!("{path}: {complaint}");
             checks.report(Problem::new(ProblemKind::File, &own, message));
             None
         }
     }
+}
+
+/// Takes the units that the scene says.
+fn set_unit(
+    checks: &mut Checks,
+    field: &FieldPath,
+    unit: &str,
+    (options, columns): (&mut Options, &[Column]),
+) -> Option<()> {
+    let can_be_percent = columns
+        .iter()
+        .any(|column| column.kind == QuantityKind::Part);
+    let complaint = match options.set_unit(unit) {
+        Err(complaint) => complaint,
+        Ok(()) if options.is_percent && !can_be_percent => {
+            "found \"percent\", but only reflectances can be in percent".to_owned()
+        }
+        Ok(()) => return Some(()),
+    };
+    checks.report(Problem::new(ProblemKind::UnknownName, field, complaint));
+    None
 }
 
 /// The spectra of rows that were read from a file.

@@ -3,7 +3,7 @@
 use super::checks::Checks;
 use super::index;
 use super::lifted;
-use super::points::{self, Column};
+use super::points::{self, Column, FileTable};
 use super::strength::{self, Amount, Radiator};
 use crate::description::{
     self, EmissionSpectrum, Extrapolate, Index, Reflectance, WavelengthSampling,
@@ -12,6 +12,7 @@ use crate::limits::{self, Shown};
 use crate::problem::{Problem, ProblemKind};
 use crate::{Emission, FieldPath, LightGroupId, SpectrumId};
 use colorimetry::srgb::decode;
+use spectra::table_file::QuantityKind;
 use spectra::{BandGrid, BandTable, OpticalConstants, Spectrum, Tabulated};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -39,7 +40,12 @@ pub(crate) struct Lamp {
 }
 
 /// What a light's spectrum is, for messages: the noun, and the range of its values.
-const EMISSION: Column = Column::new("radiance", "values", &limits::EMISSION);
+const EMISSION: Column = Column::new(
+    "radiance",
+    "values",
+    &limits::EMISSION,
+    QuantityKind::Amount,
+);
 
 impl<'a> SpectrumList<'a> {
     /// An empty list over `grid`. Without a grid everything is still checked, but nothing comes of it.
@@ -240,9 +246,19 @@ impl<'a> SpectrumList<'a> {
                 let [spectrum] = points::inline(checks, field, nm, columns, *extrapolate)?;
                 Some(spectrum)
             }
-            EmissionSpectrum::File { csv, extrapolate } => {
-                let path = self.path(csv);
-                let [spectrum] = points::file(checks, field, &path, [EMISSION], *extrapolate)?;
+            EmissionSpectrum::File {
+                csv,
+                column,
+                unit,
+                extrapolate,
+            } => {
+                let table = FileTable {
+                    path: &self.path(csv),
+                    columns: points::chosen(column.as_ref()),
+                    unit: unit.as_deref(),
+                    extrapolate: *extrapolate,
+                };
+                let [spectrum] = points::file(checks, field, table, [EMISSION])?;
                 Some(spectrum)
             }
         }
@@ -340,7 +356,7 @@ pub(super) fn read_reflectance<'w>(
     field: &FieldPath,
     written: &'w Reflectance,
 ) -> Option<(Spectrum, Advice<'w>)> {
-    let column = Column::new("reflectance", "values", range);
+    let column = Column::new("reflectance", "values", range, QuantityKind::Part);
     Some(match written {
         Reflectance::Constant(value) => {
             let value = checks.number(field, *value, range)?;
@@ -371,9 +387,19 @@ pub(super) fn read_reflectance<'w>(
             let [spectrum] = points::inline(checks, field, nm, columns, *extrapolate)?;
             (spectrum, Advice::Add)
         }
-        Reflectance::File { csv, extrapolate } => {
-            let path = directory.join(csv);
-            let [spectrum] = points::file(checks, field, &path, [column], *extrapolate)?;
+        Reflectance::File {
+            csv,
+            column: chosen,
+            unit,
+            extrapolate,
+        } => {
+            let table = FileTable {
+                path: &directory.join(csv),
+                columns: points::chosen(chosen.as_ref()),
+                unit: unit.as_deref(),
+                extrapolate: *extrapolate,
+            };
+            let [spectrum] = points::file(checks, field, table, [column])?;
             (spectrum, Advice::Add)
         }
     })

@@ -1,0 +1,126 @@
+//! Where in a text the rows of numbers stand, and what stands above them.
+
+use super::MAX_ROWS;
+use super::error::TableFileError;
+use super::head::{axis_word, is_axis};
+use super::line::{Line, lines, number};
+
+/// A line above the rows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HeadLine<'a> {
+    pub(super) line: Line<'a>,
+    /// Whether it has the sign of a comment, which is left out.
+    pub(super) is_comment: bool,
+}
+
+/// Rows of numbers with what stands above them.
+#[derive(Debug, Default)]
+pub(super) struct Block<'a> {
+    pub(super) head: Vec<HeadLine<'a>>,
+    /// Not empty.
+    pub(super) rows: Vec<Line<'a>>,
+}
+
+/// The blocks of a text: one, or more where a head stands between rows.
+pub(super) fn blocks(text: &str) -> Result<Vec<Block<'_>>, TableFileError> {
+    let begin = lines(text)
+        .filter(|line| is_begin(line.content))
+        .map(|line| line.number)
+        .last();
+    let mut blocks = Vec::new();
+    let mut block = Block::default();
+    for line in lines(text).filter(|line| begin.is_none_or(|begin| line.number > begin)) {
+        if let Some(content) = line.comment() {
+            if block.rows.is_empty() {
+                let line = Line { content, ..line };
+                let is_comment = true;
+                block.head.push(HeadLine { line, is_comment });
+            }
+            continue;
+        }
+        if is_end(line.content, &block) {
+            break;
+        }
+        if !block.rows.is_empty() && is_head(&line) {
+            blocks.push(std::mem::take(&mut block));
+        }
+        if block.rows.is_empty() && !is_row(&line) {
+            let is_comment = false;
+            block.head.push(HeadLine { line, is_comment });
+        } else if block.rows.len() == MAX_ROWS {
+            let (what, most) = ("points", MAX_ROWS);
+            return Err(TableFileError::TooMany { what, most });
+        } else {
+            block.rows.push(line);
+        }
+    }
+    check_head(&block)?;
+    if !block.rows.is_empty() {
+        blocks.push(block);
+    }
+    blocks.iter().try_for_each(check_head)?;
+    Ok(blocks)
+}
+
+/// A line behind which the data begin.
+fn is_begin(content: &str) -> bool {
+    let is_marker = |rest: &str| {
+        rest.trim_start_matches('>')
+            .trim_start()
+            .starts_with("Begin")
+    };
+    content.strip_prefix(">>>").is_some_and(is_marker) || content.eq_ignore_ascii_case("[data]")
+}
+
+/// A line at which the data end.
+fn is_end(content: &str, block: &Block) -> bool {
+    !block.rows.is_empty() && (content.starts_with(">>>") || content.starts_with('['))
+}
+
+/// A row of numbers below which all others must be rows too.
+fn is_row(line: &Line) -> bool {
+    let cells = line.cells(line.separator());
+    let is_number = |at: usize| {
+        cells
+            .get(at)
+            .is_none_or(|cell| cell.is_empty() || number(cell).is_some())
+    };
+    cells.first().is_some_and(|first| number(first).is_some()) && is_number(1)
+        || cells.first().is_some_and(|first| first.is_empty()) && cells.len() > 1 && is_number(1)
+}
+
+/// Whether a line between rows is the head of another table.
+fn is_head(line: &Line) -> bool {
+    let cells = line.cells(line.separator());
+    let first = cells.first().copied().unwrap_or_default();
+    cells.len() > 1
+        && (axis_word(first) || is_axis(first))
+        && cells.iter().all(|cell| number(cell).is_none())
+}
+
+/// Refuses a line of the head that is a row but for a cell that is no number.
+fn check_head(block: &Block) -> Result<(), TableFileError> {
+    let width = block
+        .rows
+        .first()
+        .map(|row| row.cells(row.separator()).len());
+    let own = block.head.iter().filter(|head| !head.is_comment);
+    for HeadLine { line, .. } in own {
+        let cells = line.cells(line.separator());
+        let Some((first, others)) = cells.split_first() else {
+            continue;
+        };
+        let is_as_wide = width.is_none_or(|width| width == cells.len());
+        let is_broken = number(first).is_some()
+            || first.starts_with(|c: char| c.is_ascii_digit())
+                && others.iter().all(|cell| number(cell).is_some());
+        if is_as_wide && is_broken && !others.is_empty() {
+            let text = cells.iter().find(|cell| number(cell).is_none());
+            return Err(TableFileError::Number {
+                line: line.number,
+                text: text.copied().unwrap_or_default().to_owned(),
+            });
+        }
+    }
+    Ok(())
+}

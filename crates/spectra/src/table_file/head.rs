@@ -1,0 +1,252 @@
+//! Heads of tables: the names of columns, and the units in them.
+
+use super::block::{Block, HeadLine};
+use super::error::{TableFileError, cell_text};
+use super::line::{Separator, number, split};
+use super::options::Unit;
+
+/// What stands above the rows of a table.
+#[derive(Debug, Default)]
+pub(super) struct Head {
+    /// Its line, from 1; 0 without a head.
+    pub(super) line: usize,
+    /// A name for each column, or none at all.
+    pub(super) names: Vec<String>,
+    /// Whether one of the names says that it is the wavelength's.
+    pub(super) names_axis: bool,
+    /// How many columns a head has whose columns are not those of the rows.
+    pub(super) other_width: Option<usize>,
+    /// A head whose words cannot be told apart.
+    pub(super) prose: Option<String>,
+}
+
+/// Words of the axis of a table over wavelength.
+const AXIS_WORDS: [&str; 9] = [
+    "wl",
+    "wlen",
+    "wave",
+    "λ",
+    "energy",
+    "photon",
+    "wavenumber",
+    "wavenumbers",
+    "frequency",
+];
+/// How words for a wavelength start, in the languages of instruments.
+const AXIS_STARTS: [&str; 7] = [
+    "wavel",
+    "lambda",
+    "wellenl",
+    "longueur",
+    "longitud",
+    "lunghezza",
+    "golflengte",
+];
+/// Axes and units that are not read.
+const OTHER_UNITS: [&str; 10] = [
+    "wavenumber",
+    "wavenumbers",
+    "frequency",
+    "energy",
+    "thz",
+    "hz",
+    "cm",
+    "mm",
+    "m",
+    "pm",
+];
+
+fn words(cell: &str) -> impl Iterator<Item = String> + '_ {
+    let words = cell.split(|c: char| !c.is_alphanumeric() && c != '\u{30a}');
+    words.filter(|word| !word.is_empty()).map(str::to_lowercase)
+}
+
+/// Whether a cell has a word for a wavelength.
+pub(super) fn axis_word(cell: &str) -> bool {
+    words(cell).any(|word| {
+        AXIS_WORDS.contains(&word.as_str())
+            || AXIS_STARTS.iter().any(|start| word.starts_with(start))
+    })
+}
+
+/// Whether a cell is a unit of wavelength and nothing else.
+pub(super) fn is_axis(cell: &str) -> bool {
+    words(cell).next().is_some() && words(cell).all(|word| Unit::from_word(&word).is_some())
+}
+
+/// The unit of wavelength that a cell names.
+fn unit(cell: &str) -> Option<Unit> {
+    words(cell).find_map(|word| Unit::from_word(&word))
+}
+
+/// Whether a cell says that its column is in percent.
+pub(super) fn is_percent(cell: &str) -> bool {
+    cell.contains('%')
+        || words(cell).any(|word| ["percent", "pct", "prozent"].contains(&word.as_str()))
+}
+
+/// Whether a cell is a unit of any kind: in brackets, empty or a sign.
+fn is_unit_cell(cell: &str) -> bool {
+    let is_bracketed = cell.starts_with(['(', '[']) && cell.ends_with([')', ']']);
+    cell.is_empty() || cell == "%" || cell == "-" || cell == "1" || is_bracketed || is_axis(cell)
+}
+
+impl Head {
+    /// The head of a block whose rows have `width` columns.
+    pub(super) fn of(block: &Block, separator: Separator, width: usize) -> Self {
+        let mut head = Self::default();
+        let last = block.head.last().map(|last| last.line.number);
+        for candidate in &block.head {
+            let is_last = Some(candidate.line.number) == last;
+            head.take(candidate, (separator, width), is_last);
+        }
+        head
+    }
+
+    fn take(
+        &mut self,
+        candidate: &HeadLine,
+        (separator, width): (Separator, usize),
+        is_last: bool,
+    ) {
+        let line = candidate.line;
+        let cells = head_cells(line.content, separator, width);
+        let is_named = cells.iter().any(|cell| axis_word(cell) || is_axis(cell));
+        if cells.len() == width {
+            let units = self.names.len() == width && cells.iter().all(|cell| is_unit_cell(cell));
+            if units && self.names_axis {
+                for (name, unit) in self.names.iter_mut().zip(&cells) {
+                    *name = format!("{name} {unit}").trim().to_owned();
+                }
+                return;
+            }
+            let is_figure = cells.iter().skip(1).any(|cell| number(cell).is_some());
+            if is_last && !candidate.is_comment || is_named && (is_last || !is_figure) {
+                *self = Self {
+                    line: line.number,
+                    names: cells.iter().map(|&cell| cell.to_owned()).collect(),
+                    names_axis: is_named,
+                    ..Self::default()
+                };
+            }
+        } else if is_named && is_last && separator == Separator::Blanks {
+            self.prose = Some(line.content.to_owned());
+            self.line = line.number;
+        } else if is_named && is_last && !candidate.is_comment && cells.len() > 1 {
+            self.other_width = Some(cells.len());
+            self.line = line.number;
+        }
+    }
+
+    /// Which column has the wavelengths; the first where nothing is said.
+    pub(super) fn axis(&self) -> usize {
+        let find = |is: fn(&str) -> bool| self.names.iter().position(|name| is(name));
+        find(axis_word).or_else(|| find(is_axis)).unwrap_or(0)
+    }
+
+    /// The unit of the wavelengths, where it is named.
+    pub(super) fn unit(&self) -> Result<Option<Unit>, TableFileError> {
+        let named = self
+            .names_axis
+            .then(|| self.names.get(self.axis()))
+            .flatten();
+        let Some(text) = named.or(self.prose.as_ref()) else {
+            return Ok(None);
+        };
+        if let Some(unit) = unit(text) {
+            return Ok(Some(unit));
+        }
+        if named.is_some() && words(text).any(|word| OTHER_UNITS.contains(&word.as_str())) {
+            let (line, text) = (self.line, text.clone());
+            return Err(TableFileError::Unit { line, text });
+        }
+        Ok(None)
+    }
+
+    /// Whether the head says that a column is in percent.
+    pub(super) fn is_percent(&self, column: usize) -> bool {
+        let name = self.names.get(column).or(self.prose.as_ref());
+        name.is_some_and(|name| is_percent(name))
+    }
+
+    /// The columns, for a message.
+    pub(super) fn known(&self, width: usize) -> String {
+        const MOST: usize = 24;
+        let column = |at: usize| match self.names.get(at) {
+            Some(name) => format!("{} {}", at + 1, cell_text(name)),
+            None => (at + 1).to_string(),
+        };
+        let shown: Vec<_> = (0..width.min(MOST)).map(column).collect();
+        let more = width.saturating_sub(MOST);
+        let rest = if more > 0 {
+            format!(" and {more} more")
+        } else {
+            String::new()
+        };
+        shown.join(", ") + &rest
+    }
+}
+
+/// The name of a column without its unit: what stands before a bracket.
+pub(super) fn base(name: &str) -> &str {
+    name.split(['(', '[']).next().unwrap_or(name).trim()
+}
+
+/// The cells of a head: separated as the rows are, or else by its own signs.
+fn head_cells(content: &str, separator: Separator, width: usize) -> Vec<&str> {
+    let trimmed = |separator| {
+        let mut cells = split(content, separator);
+        while cells.len() > 1 && cells.last().is_some_and(|cell| cell.is_empty()) {
+            cells.pop();
+        }
+        cells
+    };
+    let own = trimmed(separator);
+    if own.len() == width {
+        return own;
+    }
+    let others = [Separator::Semicolon, Separator::Tab, Separator::Comma];
+    let fitting = others
+        .into_iter()
+        .map(trimmed)
+        .find(|cells| cells.len() == width);
+    let by_gaps = || {
+        let is_gap = |cells: &Vec<&str>| cells.len() == width;
+        let cells = content
+            .split("  ")
+            .map(str::trim)
+            .filter(|cell| !cell.is_empty());
+        Some(cells.collect()).filter(is_gap)
+    };
+    fitting
+        .or_else(|| (separator == Separator::Blanks).then(by_gaps).flatten())
+        .or_else(|| {
+            let cells = words_with_units(content);
+            (separator == Separator::Blanks && cells.len() == width).then_some(cells)
+        })
+        .unwrap_or(own)
+}
+
+/// Words separated by blanks, each with what stands in brackets behind it: `Wavelength (nm)`.
+fn words_with_units(content: &str) -> Vec<&str> {
+    let mut cells: Vec<&str> = Vec::new();
+    let mut start = None;
+    let mut depth = 0_usize;
+    for (at, c) in content.char_indices() {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        let is_before_unit = content[at..].trim_start().starts_with(['(', '[']);
+        if c.is_whitespace() && depth == 0 && !is_before_unit {
+            if let Some(start) = start.take() {
+                cells.push(content[start..at].trim());
+            }
+        } else if start.is_none() && !c.is_whitespace() {
+            start = Some(at);
+        }
+    }
+    cells.extend(start.map(|start| content[start..].trim()));
+    cells
+}
