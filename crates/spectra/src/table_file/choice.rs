@@ -232,7 +232,7 @@ impl Wanted<'_> {
         }
         let values: Vec<usize> = (0..width).filter(|&column| column != axis).collect();
         let chosen = if self.is_index && head.names_axis {
-            self.by_head(&values, head, width)?
+            by_head(&values, head, width)?
         } else {
             values
         };
@@ -256,31 +256,6 @@ impl Wanted<'_> {
         Ok(chosen)
     }
 
-    /// The columns named n and k.
-    fn by_head(
-        &self,
-        values: &[usize],
-        head: &Head,
-        width: usize,
-    ) -> Result<Vec<usize>, TableFileError> {
-        let find = |is: fn(&str) -> bool| -> Vec<usize> {
-            let named = |&&column: &&usize| head.names.get(column).is_some_and(|name| is(name));
-            values.iter().filter(named).copied().collect()
-        };
-        let which = |wrong: &str| TableFileError::WhichColumn {
-            wrong: wrong.to_owned(),
-            known: head.known(width),
-        };
-        match (find(is_n).as_slice(), find(is_k).as_slice(), values) {
-            (&[n], &[k], _) => Ok(vec![n, k]),
-            (&[n], &[], &[_]) => Ok(vec![n]),
-            (&[], &[], &[only]) => Ok(vec![only]),
-            (&[], &[_], _) => Err(which("there is k, but no n")),
-            (&[_], &[], _) => Err(which("which column is k is not clear")),
-            _ => Err(which("which columns are n and k is not clear")),
-        }
-    }
-
     fn too_many(&self, line: usize, width: usize, head: &Head) -> TableFileError {
         let expected = if self.is_index {
             "3 (or 2, for k = 0)".to_owned()
@@ -300,6 +275,26 @@ impl Wanted<'_> {
             wrong: format!("line {line}: found {width} columns, expected {expected}"),
             known: head.known(width),
         }
+    }
+}
+
+/// The columns named n and k.
+fn by_head(values: &[usize], head: &Head, width: usize) -> Result<Vec<usize>, TableFileError> {
+    let find = |is: fn(&str) -> bool| -> Vec<usize> {
+        let named = |&&column: &&usize| head.names.get(column).is_some_and(|name| is(name));
+        values.iter().filter(named).copied().collect()
+    };
+    let which = |wrong: &str| TableFileError::WhichColumn {
+        wrong: wrong.to_owned(),
+        known: head.known(width),
+    };
+    match (find(is_n).as_slice(), find(is_k).as_slice(), values) {
+        (&[n], &[k], _) => Ok(vec![n, k]),
+        (&[n], &[], &[_]) => Ok(vec![n]),
+        (&[], &[], &[only]) => Ok(vec![only]),
+        (&[], &[_], _) => Err(which("there is k, but no n")),
+        (&[_], &[], _) => Err(which("which column is k is not clear")),
+        _ => Err(which("which columns are n and k is not clear")),
     }
 }
 

@@ -14,16 +14,16 @@ const NOISE: f64 = 1e-3;
 
 /// The table of a column, its values in the quantity's range.
 pub(super) fn table(
-    series: Series,
+    series: &Series,
     quantity: Quantity,
     options: &Options,
     notes: &mut Notes,
 ) -> Result<Tabulated, TableFileError> {
     let points = &series.points;
-    let unit = unit(&series, options, notes)?;
+    let unit = unit(series, options, notes)?;
     let nm = wavelengths(points, unit)?;
     let is_falling = is_falling(points, &nm)?;
-    let scale = scale(&series, quantity, options, notes);
+    let scale = scale(series, quantity, options, notes);
     let values = values(points, (scale, quantity), notes)?;
     let mut table: Vec<(f64, f64)> = nm.into_iter().zip(values).collect();
     if is_falling {

@@ -116,7 +116,9 @@ impl Head {
             let units = self.names.len() == width && cells.iter().all(|cell| is_unit_cell(cell));
             if units && self.names_axis {
                 for (name, unit) in self.names.iter_mut().zip(&cells) {
-                    *name = format!("{name} {unit}").trim().to_owned();
+                    if !unit.is_empty() {
+                        *name = format!("{name} {unit}");
+                    }
                 }
                 return;
             }

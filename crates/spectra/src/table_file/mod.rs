@@ -191,7 +191,7 @@ pub fn parse<const N: usize>(
     }
     let mut columns = Vec::with_capacity(N);
     for (series, quantity) in series.into_iter().zip(quantities) {
-        columns.push(finish::table(series, quantity, options, &mut notes)?);
+        columns.push(finish::table(&series, quantity, options, &mut notes)?);
     }
     let columns = columns.try_into().map_err(|_| TableFileError::Empty)?;
     Ok(Table {

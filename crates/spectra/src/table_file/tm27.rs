@@ -97,7 +97,7 @@ impl LineCount<'_> {
             .as_bytes()
             .get(self.at..position)
             .unwrap_or_default();
-        self.line += between.iter().filter(|&&byte| byte == b'\n').count();
+        self.line += between.split(|&byte| byte == b'\n').skip(1).count();
         self.at = self.at.max(position);
         self.line
     }
