@@ -28,8 +28,9 @@ impl BandTable {
     /// Samples `spectrum` at the knots of `grid`.
     ///
     /// # Errors
-    /// When the spectrum has no value at one of the knots.
+    /// When the spectrum has no value at one of the knots, or a fault between them.
     pub fn new(grid: &BandGrid, spectrum: &Spectrum) -> Result<Self, OutOfRange> {
+        spectrum.is_sound_within(grid.min_nm(), grid.max_nm())?;
         let steps = Self::steps_of(grid);
         let mut values = Vec::with_capacity(((steps + 1) * grid.count()) as usize);
         for step in 0..=steps {

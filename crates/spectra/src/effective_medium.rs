@@ -1,6 +1,7 @@
 //! The index of a mixture of two media whose grains are far smaller than the wavelength.
 
-use crate::{OpticalConstants, Spectrum, Tabulated, TabulatedError};
+use crate::fault::Faults;
+use crate::{Fault, OpticalConstants, Spectrum, Tabulated, TabulatedError};
 use num_complex::Complex64;
 use thiserror::Error;
 
@@ -101,7 +102,7 @@ impl OpticalConstants {
     /// The mixture of two media, `fraction` of it (0 to 1) being the second, where both have an index.
     ///
     /// It is constant if they are. Otherwise it is a table at every point of theirs and at steps of 1 nm (10 nm beyond
-    /// 2.5 µm); at those points it is exact.
+    /// 2.5 µm); at those points it is exact. Where the data of either cannot be used, it has no value.
     ///
     /// # Errors
     /// When the media have no wavelength in common.
@@ -111,7 +112,8 @@ impl OpticalConstants {
         fraction: f64,
     ) -> Result<Self, MixtureError> {
         let parts = [&a.n, &a.k, &b.n, &b.k];
-        let Some(knots) = knots(&parts, common_range(a, b)?) else {
+        let faults = faults(&parts);
+        let Some(knots) = knots(&parts, &faults, common_range(a, b)?) else {
             let at = |constants: &Self| {
                 constants
                     .at(0.0)
@@ -131,7 +133,9 @@ impl OpticalConstants {
             k.push((nm, index.im));
         }
         let is_clamped = a.range_nm().is_none() && b.range_nm().is_none();
-        let [n, k] = [Tabulated::new(n)?, Tabulated::new(k)?].map(Spectrum::Table);
+        let sound = |table: Tabulated| table.with_faults(faults.iter().cloned().collect());
+        let [n, k] = [Tabulated::new(n)?, Tabulated::new(k)?].map(sound);
+        let [n, k] = [n, k].map(Spectrum::Table);
         let kept = |spectrum: Spectrum| {
             if is_clamped {
                 spectrum.clamped()
@@ -161,9 +165,14 @@ fn common_range(
     Ok(Some((low, high)))
 }
 
-/// The wavelengths of a mixture's table: those of the tables that it comes from and regular ones between. `None` if
-/// all is constant.
-fn knots(parts: &[&Spectrum], range: Option<(f64, f64)>) -> Option<Vec<f64>> {
+fn faults(parts: &[&Spectrum]) -> Faults {
+    let all = parts.iter().filter_map(|part| part.faults());
+    Faults::new(all.flat_map(Faults::iter).cloned().collect())
+}
+
+/// The wavelengths of a mixture's table: those of the tables that it comes from and regular ones between, without those in
+/// a fault. `None` if all is constant.
+fn knots(parts: &[&Spectrum], faults: &Faults, range: Option<(f64, f64)>) -> Option<Vec<f64>> {
     let extents = || parts.iter().filter_map(|part| part.extent_nm());
     // Tables that keep their end values have all that they say between their ends.
     let hull = || {
@@ -174,8 +183,11 @@ fn knots(parts: &[&Spectrum], range: Option<(f64, f64)>) -> Option<Vec<f64>> {
     let fine = (1..2500).map(f64::from);
     let coarse = (250..3000).map(|tens| 10.0 * f64::from(tens));
     let own = parts.iter().flat_map(|part| part.points_nm());
-    let mut knots: Vec<f64> = fine.chain(coarse).chain(own).chain([low, high]).collect();
-    knots.retain(|&nm| low <= nm && nm <= high);
+    let ends_of = |fault: &Fault| [fault.from_nm, fault.to_nm];
+    let sound_ends = faults.iter().flat_map(ends_of);
+    let regular = fine.chain(coarse).chain([low, high]);
+    let mut knots: Vec<f64> = regular.chain(own).chain(sound_ends).collect();
+    knots.retain(|&nm| low <= nm && nm <= high && faults.at(nm).is_none());
     knots.sort_by(f64::total_cmp);
     knots.dedup();
     Some(knots)

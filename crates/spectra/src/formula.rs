@@ -1,9 +1,11 @@
 //! Dispersion formulas: the index of a transparent medium from a few coefficients.
 
-use crate::OutOfRange;
+use crate::fault::Faults;
+use crate::{Fault, OutOfRange};
+use std::sync::Arc;
 use thiserror::Error;
 
-/// The dispersion formulas 1 to 6 of the refractiveindex.info database.
+/// The dispersion formulas 1 to 9 of the refractiveindex.info database.
 ///
 /// λ is the vacuum wavelength in µm, C₁, C₂ … are the coefficients in their order.
 ///
@@ -23,10 +25,20 @@ pub enum FormulaKind {
     Cauchy,
     /// 6: n − 1 = C₁ + C₂/(C₃ − λ⁻²) + C₄/(C₅ − λ⁻²) + …
     Gases,
+    /// 7: n = C₁ + C₂L + C₃L² + C₄λ² + C₅λ⁴ + C₆λ⁶ with L = 1/(λ² − 0.028). M. Herzberger, Opt. Acta 6, 197 (1959),
+    /// DOI 10.1080/713826291.
+    Herzberger,
+    /// 8: (n² − 1)/(n² + 2) = C₁ + C₂λ²/(λ² − C₃) + C₄λ².
+    Retro,
+    /// 9: n² = C₁ + C₂/(λ² − C₃) + C₄(λ − C₅)/((λ − C₅)² + C₆).
+    Exotic,
 }
 
+/// The square of the resonant wavelength that Herzberger gives all glasses, µm².
+const HERZBERGER_UM2: f64 = 0.028;
+
 impl FormulaKind {
-    /// The formula of this number in the database, from 1 to 6.
+    /// The formula of this number in the database, from 1 to 9.
     pub fn from_number(number: u32) -> Option<Self> {
         Some(match number {
             1 => Self::Sellmeier,
@@ -35,6 +47,9 @@ impl FormulaKind {
             4 => Self::RefractiveIndexInfo,
             5 => Self::Cauchy,
             6 => Self::Gases,
+            7 => Self::Herzberger,
+            8 => Self::Retro,
+            9 => Self::Exotic,
             _ => return None,
         })
     }
@@ -43,6 +58,9 @@ impl FormulaKind {
     fn accepts(self, count: usize) -> bool {
         match self {
             Self::RefractiveIndexInfo => matches!(count, 1 | 5) || (count >= 9 && count % 2 == 1),
+            Self::Herzberger => matches!(count, 1..=6),
+            Self::Retro => matches!(count, 1 | 3 | 4),
+            Self::Exotic => matches!(count, 1 | 3 | 6),
             _ => count % 2 == 1,
         }
     }
@@ -56,6 +74,10 @@ impl FormulaKind {
             let pairs = coefficients.get(from..).unwrap_or_default();
             let weighted = pairs.chunks_exact(2).filter(|pair| pair[0] != 0.0);
             weighted.map(|pair| term(pair[0], pair[1])).sum()
+        };
+        let one_pair = |term: &dyn Fn(f64, f64) -> f64| match coefficients.get(1..3) {
+            Some(&[b, c]) if b != 0.0 => term(b, c),
+            _ => 0.0,
         };
         let power = |b: f64, c: f64| b * um.powf(c);
         match self {
@@ -72,8 +94,55 @@ impl FormulaKind {
             }
             Self::Cauchy => first + pairs(1, &power),
             Self::Gases => 1.0 + (first + pairs(1, &|b, c| b / (c - 1.0 / um2))),
+            Self::Herzberger => herzberger(coefficients, um2),
+            Self::Retro => {
+                let resonant = one_pair(&|b, c| b * um2 / (um2 - c));
+                let x = first + resonant + coefficients.get(3).map_or(0.0, |c| c * um2);
+                ((1.0 + 2.0 * x) / (1.0 - x)).sqrt()
+            }
+            Self::Exotic => {
+                let resonant = one_pair(&|b, c| b / (um2 - c));
+                let damped = match coefficients.get(3..6) {
+                    Some(&[b, at, width]) if b != 0.0 => {
+                        b * (um - at) / ((um - at) * (um - at) + width)
+                    }
+                    _ => 0.0,
+                };
+                (first + resonant + damped).sqrt()
+            }
         }
     }
+
+    /// The squares, µm², of the wavelengths at which a term has no value: those below 0 are none.
+    fn poles_um2(self, coefficients: &[f64]) -> Vec<f64> {
+        let pairs = |most: usize, square: &dyn Fn(f64) -> f64| -> Vec<f64> {
+            let pairs = coefficients.get(1..).unwrap_or_default().chunks_exact(2);
+            let weighted = pairs.take(most).filter(|pair| pair[0] != 0.0);
+            weighted.map(|pair| square(pair[1])).collect()
+        };
+        match self {
+            Self::Sellmeier => pairs(usize::MAX, &|c| c * c),
+            Self::Sellmeier2 => pairs(usize::MAX, &|c| c),
+            Self::Gases => pairs(usize::MAX, &|c| 1.0 / c),
+            Self::Retro | Self::Exotic => pairs(1, &|c| c),
+            Self::RefractiveIndexInfo => {
+                let resonances = &coefficients[1..coefficients.len().min(9)];
+                let weighted = resonances.chunks_exact(4).filter(|term| term[0] != 0.0);
+                weighted.map(|c| c[2].powf(c[3])).collect()
+            }
+            Self::Herzberger if coefficients.iter().skip(1).take(2).any(|&c| c != 0.0) => {
+                vec![HERZBERGER_UM2]
+            }
+            Self::Polynomial | Self::Cauchy | Self::Herzberger => Vec::new(),
+        }
+    }
+}
+
+fn herzberger(coefficients: &[f64], um2: f64) -> f64 {
+    let near = 1.0 / (um2 - HERZBERGER_UM2);
+    let terms = [1.0, near, near * near, um2, um2 * um2, um2 * um2 * um2];
+    let weighted = coefficients.iter().zip(terms).filter(|(c, _)| **c != 0.0);
+    weighted.map(|(c, term)| c * term).sum()
 }
 
 /// A dispersion formula with its coefficients and the wavelengths that it is valid for.
@@ -82,6 +151,7 @@ pub struct DispersionFormula {
     kind: FormulaKind,
     coefficients: Vec<f64>,
     range_nm: (f64, f64),
+    faults: Faults,
 }
 
 /// Why numbers do not make a [`DispersionFormula`].
@@ -117,6 +187,9 @@ fn whole_terms(kind: FormulaKind) -> &'static str {
         FormulaKind::RefractiveIndexInfo => {
             "one, then none, four or eight for the resonances, and after eight any number of pairs are expected"
         }
+        FormulaKind::Herzberger => "one to six are expected",
+        FormulaKind::Retro => "one, three or four are expected",
+        FormulaKind::Exotic => "one, three or six are expected",
         _ => "one, then two for each term are expected",
     }
 }
@@ -146,7 +219,27 @@ impl DispersionFormula {
             kind,
             coefficients,
             range_nm,
+            faults: Faults::default(),
         })
+    }
+
+    /// The same formula without values where what it gives cannot be used.
+    #[must_use]
+    pub fn with_faults(mut self, faults: Vec<Fault>) -> Self {
+        self.faults = Faults::new(faults);
+        self
+    }
+
+    pub(crate) fn faults(&self) -> &Faults {
+        &self.faults
+    }
+
+    /// The wavelengths within the range at which a term has no value, nm.
+    pub fn poles_nm(&self) -> Vec<f64> {
+        let (min_nm, max_nm) = self.range_nm;
+        let squares = self.kind.poles_um2(&self.coefficients).into_iter();
+        let poles = squares.map(|um2| um2.sqrt() * 1e3);
+        poles.filter(|&nm| min_nm <= nm && nm <= max_nm).collect()
     }
 
     /// First and last wavelength, nm.
@@ -157,23 +250,33 @@ impl DispersionFormula {
     /// The index at `nm`.
     ///
     /// # Errors
-    /// When `nm` lies outside the range by more than 1e-9 nm, or the formula gives no positive real number there.
+    /// When `nm` lies outside the range by more than 1e-9 nm or in a fault, or the formula gives no positive real number there.
     pub fn at(&self, nm: f64) -> Result<f64, OutOfRange> {
         let (min_nm, max_nm) = self.range_nm;
         let inside = nm >= min_nm - 1e-9 && nm <= max_nm + 1e-9;
         let n = self.kind.index(&self.coefficients, nm * 1e-3);
-        if inside && n > 0.0 && n.is_finite() {
+        let fault = self.faults.at(nm).map(|fault| Arc::clone(&fault.reason));
+        if inside && n > 0.0 && n.is_finite() && fault.is_none() {
             return Ok(n);
         }
-        Err(OutOfRange { nm, min_nm, max_nm })
+        let no_index = || inside.then(|| "the formula gives no index there".into());
+        Err(OutOfRange {
+            nm,
+            min_nm,
+            max_nm,
+            fault: fault.or_else(no_index),
+        })
     }
 
     /// The index at `nm`, and beyond the range the index at the nearer end of it.
     ///
     /// # Errors
-    /// When the formula gives no positive real number there.
+    /// When `nm` lies in a fault, or the formula gives no positive real number there.
     pub fn clamped_at(&self, nm: f64) -> Result<f64, OutOfRange> {
         let (min_nm, max_nm) = self.range_nm;
+        if self.faults.at(nm).is_some() {
+            return self.at(nm);
+        }
         self.at(nm.clamp(min_nm, max_nm))
     }
 }
@@ -190,7 +293,7 @@ mod tests {
     #[test]
     fn every_formula_is_its_equation_worked_by_hand() {
         // λ = 0.5 µm: λ² = 1/4 and λ⁻² = 4, so that the terms come out in whole numbers and fractions.
-        let cases: [(u32, &[f64], f64); 8] = [
+        let cases: [(u32, &[f64], f64); 13] = [
             // 1 + 2 + 3·¼/(¼ − 0.3²) = 3 + 0.75/0.16
             (1, &[2.0, 3.0, 0.3], (3.0_f64 + 0.75 / 0.16).sqrt()),
             // 1 + 2 + 3·¼/(¼ − 0.1) = 3 + 5
@@ -210,13 +313,66 @@ mod tests {
             (5, &[1.25, 0.01, -2.0, 0.001, -4.0], 1.306),
             // 1 + 0.5 + 3/(10 − 4)
             (6, &[0.5, 3.0, 10.0], 2.0),
+            // L = 1/(0.25 − 0.028) = 1/0.222: 1.5 + 0.0222/0.222 + 0.002/0.222² + 0.4/4 + 0.16/16 + 0.64/64
+            (
+                7,
+                &[1.5, 0.0222, 0.002, 0.4, 0.16, 0.64],
+                1.5 + 0.1 + 0.002 / 0.049_284 + 0.1 + 0.01 + 0.01,
+            ),
+            (7, &[1.5, 0.0222], 1.6),
+            // x = 0.1 + 0.2·¼/(¼ − 0.05) + 0.4·¼ = 0.1 + 0.25 + 0.1: n² = 1.9/0.55
+            (8, &[0.1, 0.2, 0.05, 0.4], (1.9_f64 / 0.55).sqrt()),
+            // x = 0.35: n² = 1.7/0.65
+            (8, &[0.1, 0.2, 0.05], (1.7_f64 / 0.65).sqrt()),
+            // 2 + 0.3/(¼ − 0.05) + 0.4·0.2/(0.2² + 0.06) = 2 + 1.5 + 0.8
+            (9, &[2.0, 0.3, 0.05, 0.4, 0.3, 0.06], 4.3_f64.sqrt()),
         ];
         for (number, coefficients, expected) in cases {
             let found = formula(number, coefficients).at(500.0).unwrap();
             assert!((found - expected).abs() < 1e-14, "{number}: {found}");
         }
         assert_eq!(FormulaKind::from_number(0), None);
-        assert_eq!(FormulaKind::from_number(7), None);
+        assert_eq!(FormulaKind::from_number(10), None);
+    }
+
+    #[test]
+    fn published_indices_of_the_last_three_formulas() {
+        let at = |number, coefficients: &[f64], range, nm| {
+            let kind = FormulaKind::from_number(number).unwrap();
+            let formula = DispersionFormula::new(kind, coefficients.to_vec(), range).unwrap();
+            formula.at(nm).unwrap()
+        };
+        // Edwards and Ochoa, Appl. Opt. 19, 4130 (1980): silicon has 3.4434 at 2.4373 µm and 3.4201 at 25 µm.
+        let silicon = [3.41983, 0.159906, -0.123109, 1.26878e-6, -1.95104e-9];
+        let silicon = |nm| at(7, &silicon, (2437.3, 25e3), nm);
+        assert!((silicon(2437.3) - 3.4434).abs() < 5e-5 && (silicon(25e3) - 3.4201).abs() < 5e-5);
+        // Schröter, Z. Phys. 67, 24 (1931); handbooks give silver bromide 2.253 at the D line.
+        let bromide = [0.452505, 0.09939, 0.070537, -0.000150];
+        assert!((at(8, &bromide, (495.0, 670.0), 589.3) - 2.253).abs() < 5e-3);
+        // Rosker et al., IEEE J. Quantum Electron. 21, 1600 (1985); mineralogists give urea's ε as 1.602 at the D line.
+        let urea = [2.51527, 0.0240, 0.0300, 0.020, 1.52, 0.8771];
+        assert!((at(9, &urea, (300.0, 1060.0), 589.3) - 1.602).abs() < 6e-3);
+    }
+
+    #[test]
+    fn poles_are_where_a_denominator_is_zero() {
+        let near = |number, coefficients: &[f64], expected: &[f64]| {
+            let found = formula(number, coefficients).poles_nm();
+            let same = found.len() == expected.len()
+                && found
+                    .iter()
+                    .zip(expected)
+                    .all(|(a, b)| (a - b).abs() < 1e-9);
+            assert!(same, "{number}: {found:?}");
+        };
+        near(1, &[0.0, 1.0, 0.5, 0.0, 0.6, 1.0, 9.0], &[500.0]);
+        near(2, &[0.0, 1.0, 0.25, 1.0, -0.25], &[500.0]);
+        near(3, &[1.0, 1.0, -2.0], &[]);
+        near(4, &[1.0, 1.0, 0.0, 0.5, 2.0], &[500.0]);
+        near(6, &[0.0, 1.0, 4.0], &[500.0]);
+        near(7, &[1.5], &[]);
+        near(8, &[0.1, 0.1, 0.25, 0.25], &[500.0]);
+        near(9, &[2.0, 0.1, 0.25, 1.0, 0.36, 0.1], &[500.0]);
     }
 
     #[test]
@@ -239,6 +395,13 @@ mod tests {
             DispersionFormula::new(kind, vec![1.0; count], range)
         };
         let range = (300.0, 800.0);
+        for number in [7, 8, 9] {
+            assert!(new(number, 0, range).is_err() && new(number, 7, range).is_err());
+            assert!(new(number, 1, range).is_ok() && new(number, 3, range).is_ok());
+            assert_eq!(new(number, 4, range).is_ok(), number != 9, "{number}");
+            assert_eq!(new(number, 5, range).is_ok(), number == 7, "{number}");
+            assert_eq!(new(number, 6, range).is_ok(), number != 8, "{number}");
+        }
         for number in 1..=6 {
             assert!(new(number, 0, range).is_err() && new(number, 2, range).is_err());
             assert!(new(number, 1, range).is_ok());

@@ -18,6 +18,7 @@ mod band_grid;
 mod band_table;
 mod data;
 mod effective_medium;
+mod fault;
 mod formula;
 mod light_group;
 mod optical_constants;
@@ -32,10 +33,12 @@ pub use band_grid::{BandGrid, BandGridError};
 pub use band_table::BandTable;
 pub use data::{
     DataSet, IlluminantError, KM_LUMENS_PER_WATT, MaterialInfo, Observer, UnknownObserver,
-    black_body, find_illuminant, illuminant, illuminant_names, is_line_lamp, material_info,
-    material_names, observer_1931, optical_constants, reflectance, reflectance_names,
+    black_body, find_illuminant, illuminant, illuminant_names, is_line_lamp, material_aliases,
+    material_info, material_names, material_sets, observer_1931, optical_constants, reflectance,
+    reflectance_names,
 };
 pub use effective_medium::{MixtureError, MixtureRule, bruggeman, maxwell_garnett};
+pub use fault::Fault;
 pub use formula::{DispersionFormula, FormulaError, FormulaKind};
 pub use light_group::LightGroup;
 pub use optical_constants::OpticalConstants;

@@ -1,6 +1,9 @@
 //! A number over wavelength: a constant, a table or a formula.
 
-use crate::DispersionFormula;
+use crate::fault::Faults;
+use crate::{DispersionFormula, Fault};
+use std::fmt;
+use std::sync::Arc;
 use thiserror::Error;
 
 /// A table over wavelength, linear between its points. Rising wavelengths, finite values, at least one point.
@@ -8,6 +11,7 @@ use thiserror::Error;
 pub struct Tabulated {
     nm: Vec<f64>,
     values: Vec<f64>,
+    faults: Faults,
 }
 
 /// Why points do not make a [`Tabulated`].
@@ -34,8 +38,7 @@ pub enum TabulatedError {
 }
 
 /// A spectrum was asked for where its table or formula has no value.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error("no value at {nm} nm: the data cover {min_nm} to {max_nm} nm")]
+#[derive(Clone, Debug, Error, PartialEq)]
 pub struct OutOfRange {
     /// The wavelength asked for.
     pub nm: f64,
@@ -43,6 +46,23 @@ pub struct OutOfRange {
     pub min_nm: f64,
     /// Last wavelength of the table or formula.
     pub max_nm: f64,
+    /// What is wrong with the data at that wavelength, where they are there but cannot be used.
+    pub fault: Option<Arc<str>>,
+}
+
+impl fmt::Display for OutOfRange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            nm, min_nm, max_nm, ..
+        } = self;
+        match &self.fault {
+            Some(fault) => write!(f, "no value at {nm} nm: {fault}"),
+            None => write!(
+                f,
+                "no value at {nm} nm: the data cover {min_nm} to {max_nm} nm"
+            ),
+        }
+    }
 }
 
 impl Tabulated {
@@ -63,7 +83,22 @@ impl Tabulated {
             }
         }
         let (nm, values) = points.into_iter().unzip();
-        Ok(Self { nm, values })
+        Ok(Self {
+            nm,
+            values,
+            faults: Faults::default(),
+        })
+    }
+
+    /// The same table without values where data cannot be used, also beyond its ends.
+    #[must_use]
+    pub fn with_faults(mut self, faults: Vec<Fault>) -> Self {
+        self.faults = Faults::new(faults);
+        self
+    }
+
+    pub(crate) fn faults(&self) -> &Faults {
+        &self.faults
     }
 
     /// First and last wavelength, nm.
@@ -79,11 +114,17 @@ impl Tabulated {
     /// The value at `nm`, linear between points.
     ///
     /// # Errors
-    /// When `nm` lies outside the table by more than 1e-9 nm.
+    /// When `nm` lies outside the table by more than 1e-9 nm, or in a fault.
     pub fn at(&self, nm: f64) -> Result<f64, OutOfRange> {
         let (min_nm, max_nm) = self.range_nm();
-        if !(nm >= min_nm - 1e-9 && nm <= max_nm + 1e-9) {
-            return Err(OutOfRange { nm, min_nm, max_nm });
+        let fault = self.faults.at(nm).map(|fault| Arc::clone(&fault.reason));
+        if fault.is_some() || !(nm >= min_nm - 1e-9 && nm <= max_nm + 1e-9) {
+            return Err(OutOfRange {
+                nm,
+                min_nm,
+                max_nm,
+                fault,
+            });
         }
         let above = self.nm.partition_point(|&x| x <= nm);
         Ok(match above {
@@ -96,7 +137,7 @@ impl Tabulated {
         })
     }
 
-    /// The value at `nm`, and beyond the ends the value at the nearer end.
+    /// The value at `nm`, and beyond the ends the value at the nearer end. For tables without faults.
     pub fn clamped_at(&self, nm: f64) -> f64 {
         let (min_nm, max_nm) = self.range_nm();
         // `clamp` keeps a NaN, which then reads the first value.
@@ -121,6 +162,7 @@ impl Tabulated {
         Self {
             nm: self.nm.clone(),
             values: self.values.iter().map(|v| v * factor).collect(),
+            faults: self.faults.clone(),
         }
     }
 }
@@ -149,9 +191,35 @@ impl Spectrum {
         match self {
             Self::Constant(value) => Ok(*value),
             Self::Table(table) => table.at(nm),
+            Self::ClampedTable(table) if table.faults.at(nm).is_some() => table.at(nm),
             Self::ClampedTable(table) => Ok(table.clamped_at(nm)),
             Self::Formula(formula) => formula.at(nm),
             Self::ClampedFormula(formula) => formula.clamped_at(nm),
+        }
+    }
+
+    /// Whether data from `low_nm` to `high_nm` can be used wherever there are some.
+    ///
+    /// # Errors
+    /// When a fault has a part of that range; the error is of a wavelength in it.
+    pub fn is_sound_within(&self, low_nm: f64, high_nm: f64) -> Result<(), OutOfRange> {
+        let fault = self.faults().and_then(|all| all.within(low_nm, high_nm));
+        match (fault, self.extent_nm()) {
+            (Some(fault), Some((min_nm, max_nm))) => Err(OutOfRange {
+                nm: (fault.from_nm.max(low_nm) + fault.to_nm.min(high_nm)) / 2.0,
+                min_nm,
+                max_nm,
+                fault: Some(Arc::clone(&fault.reason)),
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    pub(crate) fn faults(&self) -> Option<&Faults> {
+        match self {
+            Self::Constant(_) => None,
+            Self::Table(table) | Self::ClampedTable(table) => Some(table.faults()),
+            Self::Formula(formula) | Self::ClampedFormula(formula) => Some(formula.faults()),
         }
     }
 
@@ -227,6 +295,32 @@ mod tests {
         );
         assert_eq!(table.clamped_at(300.0), 1.0);
         assert_eq!(table.clamped_at(900.0), 0.0);
+    }
+
+    #[test]
+    fn in_a_fault_there_is_no_value_and_its_reason_is_told() {
+        let fault = |from_nm, to_nm, reason: &str| Fault {
+            from_nm,
+            to_nm,
+            reason: reason.into(),
+        };
+        let table = Tabulated::new(vec![(400.0, 1.0), (500.0, 3.0), (600.0, 5.0)]).unwrap();
+        let table = table.with_faults(vec![
+            fault(500.0, 600.0, "line 3 is wrong"),
+            fault(600.0, f64::INFINITY, "line 5 is wrong"),
+        ]);
+        for spectrum in [
+            Spectrum::Table(table.clone()),
+            Spectrum::ClampedTable(table),
+        ] {
+            assert_eq!(spectrum.at(450.0), Ok(2.0));
+            assert_eq!((spectrum.at(500.0), spectrum.at(600.0)), (Ok(3.0), Ok(5.0)));
+            let said = |nm| spectrum.at(nm).unwrap_err().to_string();
+            assert_eq!(said(550.0), "no value at 550 nm: line 3 is wrong");
+            assert_eq!(said(900.0), "no value at 900 nm: line 5 is wrong");
+            assert_eq!(spectrum.is_sound_within(300.0, 500.0), Ok(()));
+            assert!(spectrum.is_sound_within(400.0, 520.0).is_err());
+        }
     }
 
     #[test]

@@ -41,6 +41,8 @@ mod tests {
         assert_eq!(nearest("Centre", known), Some("center"));
         assert_eq!(nearest("colour", known), None);
         assert_eq!(nearest("radius_mm", known), Some("radius"));
+        // Upper and lower case alone are no slip at all.
+        assert_eq!(nearest("sio2", ["SiO", "TiO2", "SiO2"]), Some("SiO2"));
         assert_eq!(nearest("mat", known), Some("material"));
         assert_eq!(nearest("m", known), None);
         assert_eq!(nearest("", known), None);

@@ -223,6 +223,7 @@ fn over(grid: &BandGrid, lamp: &Spectrum) -> Result<Tabulated, OutOfRange> {
         nm: ends[0],
         min_nm: ends[0],
         max_nm: ends[1],
+        fault: None,
     })
 }
 

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-use super::DataSet;
 use super::table::{Table, TableError, embedded};
+use super::{DataSet, aliases};
 use crate::{DispersionFormula, FormulaKind, OpticalConstants, Spectrum};
 
 /// A material's name and its file.
@@ -94,6 +94,8 @@ const FILES: [(&str, &str); 69] = [
 pub struct MaterialInfo {
     /// The name by which scenes ask for it, such as `gold`.
     pub name: &'static str,
+    /// What else it is called, such as `Au`.
+    pub aliases: Vec<&'static str>,
     /// What was measured, in a few words.
     pub material: &'static str,
     /// The name of the data set in the refractiveindex.info database, such as `Au-Johnson`.
@@ -158,6 +160,7 @@ fn entry(name: &'static str, table: &Table) -> Result<Entry, TableError> {
     let data = read(table)?;
     let info = MaterialInfo {
         name,
+        aliases: aliases::of(name),
         material: table.head("material")?,
         data_set: table.head("name")?,
         paper: table.head("paper")?,
@@ -182,7 +185,7 @@ fn find(name: &str) -> Option<&'static Entry> {
         let unread = |(name, text)| (name, (text, OnceLock::new()));
         FILES.into_iter().map(unread).collect()
     });
-    let (&name, (text, read)) = all.get_key_value(name)?;
+    let (&name, (text, read)) = all.get_key_value(aliases::resolved(name))?;
     Some(read.get_or_init(|| embedded(name, text, |table| entry(name, table))))
 }
 
@@ -200,6 +203,9 @@ fn find(name: &str) -> Option<&'static Entry> {
 /// | polymers | `pmma`, `polystyrene` |
 /// | others | `air`, `diamond` |
 ///
+/// Chemistry's and the trade's names do as well, in their own upper and lower case: `Au`, `SiO2`, `ITO`, `N-BK7`; see
+/// [`material_aliases`].
+///
 /// A name with an ending (`gold_olmon`, `copper_mcpeak`, `silica_film`) is another set of figures of the same material. The
 /// choice of set moves a metal's colour by more than any numerics: name it beside a result.
 ///
@@ -214,9 +220,37 @@ pub fn material_info(name: &str) -> Option<MaterialInfo> {
     find(name).map(|entry| entry.info.clone())
 }
 
-/// Names that [`optical_constants`] knows, sorted.
+/// The names of the sets that [`optical_constants`] knows, sorted.
 pub fn material_names() -> Vec<&'static str> {
     FILES.iter().map(|&(name, _)| name).collect()
+}
+
+/// Further names that [`optical_constants`] knows, sorted, each with the set that it stands for: `Au` is `gold`.
+pub fn material_aliases() -> &'static [(&'static str, &'static str)] {
+    &aliases::ALIASES
+}
+
+/// The sets of figures of the substance that this name stands for, that of the name first: `TiO2` has `titania`, `anatase`,
+/// `rutile` and more. Empty where the name is unknown.
+pub fn material_sets(name: &str) -> Vec<&'static str> {
+    let name = aliases::resolved(name);
+    let Some(&(own, text)) = FILES.iter().find(|(known, _)| *known == name) else {
+        return Vec::new();
+    };
+    let others = FILES.iter().filter(|(known, other)| {
+        *known != own && substance(other).is_some() && substance(other) == substance(text)
+    });
+    std::iter::once(own)
+        .chain(others.map(|&(known, _)| known))
+        .collect()
+}
+
+/// What the database calls the substance of a file: `TiO2` of `TiO2-Siefke`.
+fn substance(text: &str) -> Option<&str> {
+    let data_set = text
+        .lines()
+        .find_map(|line| line.strip_prefix("# name: "))?;
+    data_set.split('-').next()
 }
 
 #[cfg(test)]
@@ -279,6 +313,43 @@ mod tests {
             );
         }
         assert_eq!(material_info("unobtainium"), None);
+    }
+
+    #[test]
+    fn aliases_are_the_substances_of_their_sets() {
+        let aliases = material_aliases();
+        assert!(aliases.windows(2).all(|pair| pair[0].0 < pair[1].0));
+        for &(alias, name) in aliases {
+            assert!(!material_names().contains(&alias), "{alias}");
+            let info = material_info(alias).unwrap();
+            assert_eq!(info.name, name);
+            assert!(info.aliases.contains(&alias));
+            assert_eq!(optical_constants(alias), optical_constants(name));
+            // The database's own name of the substance says the same as the alias, save for names in words and of glasses.
+            let head = info.data_set.split('-').next().unwrap();
+            let written = alias.replace("N-", "N");
+            let in_words = ["aluminum", "sapphire", "PS", "BK7", "SF11"].contains(&alias);
+            assert!(in_words || written == head, "{alias}: {head}");
+        }
+        for stranger in ["au", "AU", "sio2", "SIO2", "Hg", "", "N-BK10"] {
+            assert_eq!(optical_constants(stranger), None, "{stranger}");
+        }
+    }
+
+    #[test]
+    fn the_sets_of_a_substance_are_those_of_its_formula() {
+        let titania = [
+            "titania",
+            "anatase",
+            "rutile",
+            "titania_amorphous",
+            "titania_sarkar",
+            "titania_zhukovsky",
+        ];
+        assert_eq!(material_sets("TiO2"), titania);
+        assert_eq!(material_sets("silica_film"), ["silica_film", "silica"]);
+        assert_eq!(material_sets("Ge"), ["germanium"]);
+        assert_eq!(material_sets("ge"), [""; 0]);
     }
 
     #[test]

@@ -5,6 +5,7 @@
 
 use std::borrow::Cow;
 
+mod aliases;
 mod illuminants;
 mod materials;
 mod observer;
@@ -15,7 +16,9 @@ mod table;
 pub use illuminants::{
     IlluminantError, find_illuminant, illuminant, illuminant_names, is_line_lamp,
 };
-pub use materials::{MaterialInfo, material_info, material_names, optical_constants};
+pub use materials::{
+    MaterialInfo, material_aliases, material_info, material_names, material_sets, optical_constants,
+};
 pub use observer::{Observer, UnknownObserver, observer_1931};
 pub use radiators::black_body;
 pub(crate) use radiators::components as daylight_components;
