@@ -9,12 +9,17 @@ use tempfile::TempDir;
 
 /// What a file of the database with this text gives.
 fn database(text: &str) -> Result<OpticalConstants, Problems> {
+    noted(text).map(|(constants, _)| constants)
+}
+
+/// The same with what was assumed.
+fn noted(text: &str) -> Result<(OpticalConstants, Vec<String>), Problems> {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("medium.yml"), text).unwrap();
     let yaml = "medium.yml".into();
     let extrapolate = Extrapolate::Error;
     let index = Index::Database { yaml, extrapolate };
-    optical_constants(&index, folder.path()).map(|(constants, _)| constants)
+    optical_constants(&index, folder.path())
 }
 
 fn close(constants: &OpticalConstants, nm: f64, (n, k): (f64, f64)) -> bool {
@@ -29,9 +34,22 @@ fn tables_of_a_database_file_are_read_in_any_of_their_forms() {
     let apart = "DATA:\n  - type: tabulated n\n    data: |\n        0.4 1.5\n\n        0.8 2.5\n  - type: tabulated k\n    \
                  data: |\n        0.4 0.25\n        0.8 0.75\n";
     let other_order = "SPECS: {a: [1, {b: 2}], ? [c] : d}\nDATA:\n- data: >\n\n    0.4 1.5 0.25\n\n    0.8 2.5 0.75\n  type: \"tabulated nk\"\n";
-    let twice = "DATA:\n  - type: tabulated nk\n    data: |\n        1e-5 1 0\n        0.4 1.5 0.25\n        0.4 9 9\n        0.8 2.5 0.75\n";
+    let twice = "DATA:\n  - type: tabulated nk\n    data: |\n        1e-5 1 0\n        0.4 1.5 0.25\n        0.4 1.50 2.5E-1\n        0.8 2.5 0.75\n";
+    let tabs = "DATA:\r\n  - type: tabulated nk\r\n    data: |\r\n        # um\tn\tk\r\n        0.4\t1.5\t0.25\r\n        0.8\t2.5  0.75 # end\r\n";
+    let with_n2 = "# a file of today\nREFERENCES: |\n    A. Author\nCOMMENTS: |\n    Film\nDATA:\n  - type: tabulated n2\n    data: |\n        \
+                   9.2 750e-20\n  - type: tabulated nk\n    data: |\n        0.4 1.5 0.25\n        0.8 2.5 0.75\nSPECS:\n    \
+                   n_is_absolute: true\n    thermal_dispersion:\n    - type: \"Schott formula\"\n      coefficients: 1 2\n\
+                   PROPERTIES:\n  density: 2.5\n";
     let steps_back = "DATA:\n  - type: tabulated nk\n    data: |\n        0.4 1.5 0.25\n        0.8 2.5 0.75\n        0.7 2.25 0.625\n";
-    for text in [together, apart, other_order, twice, steps_back] {
+    for text in [
+        together,
+        apart,
+        other_order,
+        twice,
+        tabs,
+        with_n2,
+        steps_back,
+    ] {
         let constants = database(text).unwrap_or_else(|problems| panic!("{text}\n{problems:#}"));
         assert!(close(&constants, 600.0, (2.0, 0.5)), "{text}");
         assert_eq!(constants.range_nm(), Some((400.0, 800.0)), "{text}");
@@ -48,6 +66,9 @@ fn formulas_of_a_database_file_are_those_of_the_database() {
         ("formula 4", "2 3 1 0.2 2", (2.0_f64 + 1.5 / 0.21).sqrt()),
         ("formula 5", "1.25 1E-2 -2", 1.29),
         ("formula 6", "0.5 3 10", 2.0),
+        ("formula 7", "1.5 2.22E-2", 1.6),
+        ("formula 8", "0.1 0.2 0.05 0.4", (1.9_f64 / 0.55).sqrt()),
+        ("formula 9", "2 0.3 0.05 0.4 0.3 0.06", 4.3_f64.sqrt()),
     ];
     for (kind, coefficients, n) in cases {
         let text = format!(
@@ -86,8 +107,8 @@ fn files_that_are_not_of_the_database_are_told() {
         ("a: &a 1\nDATA:\n  - type: *a\n", "line 3: an alias"),
         ("DATA:\n  - data: 1\n", "line 2: the block has no `type`"),
         (
-            "DATA:\n\n  - type: formula 7\n",
-            "line 3: found the type \"formula 7\"; it must be \"tabulated nk\"",
+            "DATA:\n\n  - type: formula 10\n",
+            "line 3: found the type \"formula 10\"; it must be \"tabulated nk\"",
         ),
         (
             "DATA:\n  - type: tabulated q\n",
@@ -96,6 +117,26 @@ fn files_that_are_not_of_the_database_are_told() {
         (
             "DATA:\n  - type: tabulated k\n    data: 0.4 1\n",
             "no block gives n",
+        ),
+        (
+            "DATA:\n  - type: tabulated n2\n    data: 9.2 750e-20\n",
+            "no block gives n",
+        ),
+        (
+            "DATA:\n  - type: tabulated n\n    data: 0.4 1\nCOMMENTS: x\nDATA:\n  - type: tabulated n\n    data: 0.4 2\n",
+            "line 5: the key \"DATA\" is already there in line 1",
+        ),
+        (
+            "DATA:\n  - type: tabulated n\n    data: 0.4 1\n    data: 0.4 2\n",
+            "line 4: the key \"data\" is already there in line 3",
+        ),
+        (
+            "SPECS: {a: {b: 1, b: 2}}\nDATA:\n  - type: tabulated n\n    data: 0.4 1\n",
+            "line 1: the key \"b\" is already there in line 1",
+        ),
+        (
+            "DATA:\n  - type: tabulated n\n    data: 0.4 1\n---\nDATA:\n  - type: tabulated k\n    data: 0.4 2\n",
+            "line 4: a second document begins",
         ),
     ];
     assert_told(&cases.map(|(text, expected)| (text.to_owned(), expected)));
@@ -117,20 +158,16 @@ fn tables_of_a_database_file_are_checked_line_by_line() {
             "line 5: \"x\" is not a number",
         ),
         (
-            "        0.4 1.5 0\n        0.5 1.5 0\n        0.4 1.6 0\n",
-            "line 6: found 400 nm after 400 nm; wavelengths must rise",
+            "        0.4 -1 0\n        0.5 -2 0\n",
+            "line 4: found n -1 at 400 nm; it must be from 0.001 to 1000",
         ),
         (
-            "        0.4 1.5 0\n        0.5 -1 0\n",
-            "line 5: found n -1; it must be from 0.001 to 1000",
+            "        0.5 1 -1\n",
+            "line 4: found k -1 at 500 nm; it must be from 0 to 1000",
         ),
         (
-            "        0.4 1.5 0\n        0.5 1 -1\n",
-            "line 5: found k -1; it must be from 0 to 1000",
-        ),
-        (
-            "        0.8 1.5 0\n        0.5 1 0\n        0.7 1 -0.1\n",
-            "line 6: found k -0.1; it must be from 0 to 1000",
+            "        0.4 1.5 0\n        0.4 1.6 0\n",
+            "lines 4 and 5 both give n at 400 nm, as 1.5 and as 1.6",
         ),
         ("        nan 1.5 0\n", "line 4: found NaN"),
         ("        0 1.5 0\n", "line 4: found 0"),
@@ -175,11 +212,218 @@ fn formulas_of_a_database_file_are_checked() {
         ),
         (
             format!("{range}    coefficients: -2\n"),
-            "line 2: the formula gives no index from 0.001 to 1000 at 300 nm",
+            "line 2: the formula gives no index from 0.001 to 1000 at any wavelength from 300 to 2000 nm",
         ),
     ];
     let formula = |rest: String| format!("DATA:\n  - type: formula 1\n{rest}");
     assert_told(&cases.map(|(rest, expected)| (formula(rest), expected)));
+}
+
+/// What is said of a table of n and k where it is asked for, and where it is sound.
+#[test]
+fn a_fault_of_a_table_is_told_only_where_it_is_asked_for() {
+    // Rows; a wavelength in the fault and what is said there; sound wavelengths around it.
+    let cases: [(&str, f64, &str, &[f64]); 7] = [
+        (
+            "0.3 1.5 0|0.9 1.45 0|12 1.9 -0.3|13 1.9 0",
+            5000.0,
+            "line 6: found k -0.3 at 12000 nm; it must be from 0 to 1000",
+            &[300.0, 900.0, 13_000.0],
+        ),
+        (
+            "0.3 1.5 0|0.9 1.45 0|12 1.9 -0.3",
+            901.0,
+            "line 6: found k -0.3 at 12000 nm",
+            &[300.0, 900.0],
+        ),
+        (
+            "0.1 -1 0|0.3 1.5 0|0.9 1.45 0",
+            200.0,
+            "line 4: found n -1 at 100 nm; it must be from 0.001 to 1000",
+            &[300.0, 900.0],
+        ),
+        // Noise of an n below 0 is none.
+        (
+            "0.3 1.5 0|0.5 -1e-9 0|0.9 1.45 0",
+            400.0,
+            "line 5: found n -0.000000001 at 500 nm",
+            &[300.0, 900.0],
+        ),
+        (
+            "0.3 1.5 0|0.5 nan 0|0.9 1.45 0",
+            500.0,
+            "line 5: found n NaN at 500 nm",
+            &[300.0, 900.0],
+        ),
+        (
+            "0.3 1.5 0|0.5 1.5 -1.1e-6|0.9 1.45 0",
+            500.0,
+            "line 5: found k -0.0000011 at 500 nm",
+            &[300.0, 900.0],
+        ),
+        (
+            "0.3 1.5 0|0.5 1.5 0.1|0.9 1.45 0|0.5 1.5 0.2",
+            600.0,
+            "lines 5 and 7 both give k at 500 nm, as 0.1 and as 0.2",
+            &[300.0, 900.0],
+        ),
+    ];
+    for (rows, faulty, said, sound) in cases {
+        let rows = rows.replace('|', "\n        ");
+        let text = format!("DATA:\n  - type: tabulated nk\n    data: |\n        {rows}\n");
+        let constants = database(&text).unwrap_or_else(|problems| panic!("{text}\n{problems:#}"));
+        let error = constants.at(faulty).unwrap_err().to_string();
+        assert!(error.contains(said), "{text}\n{error}");
+        for &nm in sound {
+            assert!(constants.at(nm).is_ok(), "{text} at {nm} nm");
+        }
+        let clamped = constants.n.clone().clamped();
+        let k = constants.k.clone().clamped();
+        assert!(clamped.at(faulty).and(k.at(faulty)).is_err(), "{text}");
+    }
+}
+
+#[test]
+fn a_pole_of_a_formula_is_told_only_where_it_is_asked_for() {
+    let text = "DATA:\n  - type: formula 1\n    wavelength_range: 0.3 12\n    coefficients: 0 1.5 0.18 0.09 6.5919\n";
+    let constants = database(text).unwrap();
+    // √(1 + 1.5·0.25/(0.25 − 0.0324) + 0.09·0.25/(0.25 − 43.45314561)), by Python.
+    assert!(close(&constants, 500.0, (1.650_098_419_132_538_5, 0.0)));
+    // 1 + 1.5·144/(144 − 0.0324) + 0.09·144/(144 − 43.45314561)
+    assert!(close(&constants, 12_000.0, (1.621_490_890_282_918_8, 0.0)));
+    let error = constants.at(6591.9).unwrap_err().to_string();
+    assert!(
+        error.contains("line 2: the formula gives no index from 0.001 to 1000 at 65"),
+        "{error}"
+    );
+    // A pole too weak for any sample to meet is still no place to go through.
+    let weak = "DATA:\n  - type: formula 2\n    wavelength_range: 0.3 12\n    coefficients: 1 1e-20 0.25\n";
+    let constants = database(weak).unwrap();
+    assert!(constants.n.is_sound_within(380.0, 780.0).is_err());
+    assert!(constants.n.is_sound_within(510.0, 780.0).is_ok());
+}
+
+#[test]
+fn scenes_are_refused_only_where_their_bands_meet_a_fault() {
+    let folder = TempDir::new().unwrap();
+    let rows = |middle: &str| {
+        format!(
+            "DATA:\n  - type: tabulated nk\n    data: |\n        0.3 1.5 0\n        {middle}\n        0.9 1.5 0\n        12 1.5 -1\n"
+        )
+    };
+    let check = |text: String| {
+        let path = folder.path().join("medium.yml");
+        fs::write(&path, text).unwrap();
+        scene(&format!("{{ yaml = '{}' }}", path.display()))
+    };
+    assert!(check(rows("0.5 1.5 0")).is_ok());
+    // Between the knots of the bands, which are whole nanometres apart.
+    let narrow = rows("0.5001 1.5 0\n        0.5002 1.5 -1\n        0.5003 1.5 0");
+    let problems = check(narrow).unwrap_err();
+    let said = format!("{problems:#}");
+    assert!(
+        said.contains("line 6: found k -1 at 500.2 nm; it must be from 0 to 1000, and the bands cover 380 to 780 nm"),
+        "{said}"
+    );
+    let help = problems.iter().next().and_then(|p| p.help.clone()).unwrap();
+    assert!(!help.contains("extrapolate"), "{help}");
+}
+
+#[test]
+fn mixtures_keep_the_faults_of_their_media() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("medium.yml");
+    let rows = "0.3 2 0\n        0.5 2 0\n        0.55 2 -1\n        0.6 2 0\n        0.9 2 0";
+    fs::write(
+        &path,
+        format!("DATA:\n  - type: tabulated nk\n    data: |\n        {rows}\n"),
+    )
+    .unwrap();
+    let yaml = path.display();
+    let index = format!(
+        "{{ mixture = 'maxwell_garnett', of = [1, {{ yaml = '{yaml}' }}], fraction = 0.5 }}"
+    );
+    let said = format!("{:#}", scene(&index).unwrap_err());
+    assert!(said.contains("line 6: found k -1 at 550 nm"), "{said}");
+}
+
+#[test]
+fn what_is_assumed_of_a_database_file_is_noted() {
+    let table = |rows: &str, rest: &str| {
+        let rows = rows.replace('|', "\n        ");
+        format!("DATA:\n  - type: tabulated nk\n    data: |\n        {rows}\n{rest}")
+    };
+    let n2 = "  - type: tabulated n2\n    data: 9.2 750e-20\n";
+    let cases = [
+        (
+            table("0.3 1.5 1E-6|0.9 1.45 1E-8|30.0 1.9 -1E-9", ""),
+            vec!["line 6: k -0.000000001 at 30000 nm: taken as 0"],
+        ),
+        (
+            table("0.3 1.5 -1e-6|0.9 1.45 -1E-8", ""),
+            vec!["line 4: k -0.000001 at 300 nm, and 1 more that are above -0.000001: taken as 0"],
+        ),
+        (
+            table("0.3 1.5 0|0.9 1.5 0|0.3 1.5 0|0.9 1.5 0", ""),
+            vec!["line 6 repeats line 4, and 1 more such rows; each counts once"],
+        ),
+        (
+            table("0.3 1.5 0|1e-4 1 0|0.9 1.5 0", ""),
+            vec!["1 of the rows are left out: they are beyond 1 to 1e6 nm"],
+        ),
+        (
+            table("0.3 1.5 0|0.9 1.5 0", n2),
+            vec!["line 6: \"tabulated n2\", the nonlinear index, is passed over"],
+        ),
+        (
+            table(
+                "0.3 1.5 0|0.9 1.5 0",
+                "SPECS:\n    n_is_absolute: false\n    wavelength_is_vacuum: false\n",
+            ),
+            vec![
+                "line 7: n is relative to air (`n_is_absolute: false`) and is used as it stands",
+                "line 8: wavelengths are those in air (`wavelength_is_vacuum: false`) and are used as they stand",
+            ],
+        ),
+        (
+            table("0.3 1.5 0|0.9 1.5 0", "SPECS:\n    n_is_absolute: true\n"),
+            vec![],
+        ),
+    ];
+    for (text, expected) in cases {
+        let (constants, notes) = noted(&text).unwrap_or_else(|problems| panic!("{problems:#}"));
+        assert_eq!(notes.len(), expected.len(), "{text}\n{notes:?}");
+        for (note, expected) in notes.iter().zip(expected) {
+            assert!(
+                note.contains("medium.yml: ") && note.ends_with(expected),
+                "{text}\n{note}"
+            );
+        }
+        assert!(constants.at(600.0).is_ok(), "{text}");
+    }
+    let (constants, _) = noted(&table("0.3 1.5 -1e-6|0.9 1.45 -1E-8", "")).unwrap();
+    assert_eq!(constants.k.at(300.0), Ok(0.0));
+}
+
+#[test]
+fn names_of_chemistry_are_materials() {
+    let named = |name: &str| optical_constants(&Index::Name(name.to_owned()), Path::new(""));
+    let (gold, notes) = named("Au").unwrap();
+    assert_eq!(gold, spectra::optical_constants("gold").unwrap().data);
+    let note =
+        "Au is taken as gold (Johnson and Christy 1972); there are also gold_mcpeak, gold_olmon";
+    assert!(notes.len() == 1 && notes[0].contains(note), "{notes:?}");
+    // One set of figures, or a set's own name: nothing is assumed.
+    assert!(named("Ge").unwrap().1.is_empty() && named("gold").unwrap().1.is_empty());
+    for (written, meant) in [
+        ("sio2", "SiO2"),
+        ("AU", "Au"),
+        ("n-bk7", "N-BK7"),
+        ("silca", "silica"),
+    ] {
+        let said = format!("{:#}", named(written).unwrap_err());
+        assert!(said.contains(&format!("did you mean {meant:?}?")), "{said}");
+    }
 }
 
 #[test]
@@ -187,8 +431,37 @@ fn hostile_database_files_are_refused_without_delay() {
     let deep = format!("DATA: {}", "[".repeat(100_000));
     let dashes = format!("DATA:\n{}", "- ".repeat(100_000));
     let large = format!("DATA: '{}'", "x".repeat(17 << 20));
-    for text in [deep, dashes, large] {
-        assert!(database(&text).is_err());
+    let deep_elsewhere = format!("SPECS: {}1\nDATA: 1\n", "{a: ".repeat(100_000));
+    let bomb = format!(
+        "a: &a [x, x]\n{}DATA: 1\n",
+        (0..50)
+            .map(|i| format!("b{i}: [*a, *a]\n"))
+            .collect::<String>()
+    );
+    let head = "DATA:\n  - type: formula 3\n    wavelength_range: 0.3 2\n    coefficients: ";
+    let coefficients = format!("{head}{}\n", "1 ".repeat(1_000_001));
+    let rows = "        0.5 1.5 0\n".repeat(500_000);
+    let long = format!("DATA:\n  - type: tabulated nk\n    data: |\n{rows}");
+    let wide = format!(
+        "DATA:\n  - type: tabulated nk\n    data: {}\n",
+        "0.5 ".repeat(2_000_000)
+    );
+    let keys: String = (0..200_000).map(|key| format!("k{key}: 1\n")).collect();
+    for text in [
+        deep,
+        dashes,
+        large,
+        deep_elsewhere,
+        bomb,
+        coefficients,
+        long,
+        wide,
+        keys,
+    ] {
+        let start = std::time::Instant::now();
+        let said = format!("{:#}", database(&text).unwrap_err());
+        assert!(said.len() < 500, "{said}");
+        assert!(start.elapsed().as_secs() < 5, "{said}");
     }
 }
 

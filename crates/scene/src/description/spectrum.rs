@@ -120,7 +120,7 @@ pub enum Index {
     },
     /// A file of the refractiveindex.info database, or one like it.
     Database {
-        /// A YAML file with `DATA` blocks: tables of n, k or both, and the formulas 1 to 6; relative to the scene file.
+        /// A YAML file with `DATA` blocks: tables of n, k or both, and the formulas 1 to 9; relative to the scene file.
         yaml: PathBuf,
         /// What the data say outside their wavelengths.
         #[serde(default)]

@@ -5,7 +5,7 @@ use crate::FieldPath;
 use crate::description::SellmeierTerms;
 use crate::limits::{COEFFICIENT, INDEX_N, MAX_FORMULA_TERMS};
 use crate::problem::{Problem, ProblemKind};
-use spectra::{DispersionFormula, FormulaKind};
+use spectra::{DispersionFormula, Fault, FormulaKind};
 
 /// n = A + B/λ² + C/λ⁴.
 pub(crate) fn cauchy(
@@ -110,11 +110,37 @@ fn over_all_it_gives(
     formula
 }
 
-/// The first wavelength of its range at which a formula gives no index that a scene may have.
-pub(crate) fn gap_nm(formula: &DispersionFormula) -> Option<f64> {
+/// A formula with the wavelengths of its range marked at which it gives no index that a scene may have, or goes through a pole:
+/// there its faults tell of `line`. `None` where it gives no index at all.
+pub(crate) fn without_gaps(formula: &DispersionFormula, line: usize) -> Option<DispersionFormula> {
     let (low, high) = formula.range_nm();
-    let inside = wavelengths_nm().filter(|nm| (low..=high).contains(nm));
-    inside
-        .chain([low, high])
-        .find(|&nm| !gives_an_index(formula, nm))
+    let poles = formula.poles_nm();
+    let inside = wavelengths_nm().chain(far_wavelengths_nm());
+    let mut samples: Vec<f64> = inside.filter(|nm| (low..=high).contains(nm)).collect();
+    samples.extend([low, high].iter().chain(&poles));
+    samples.sort_by(f64::total_cmp);
+    samples.dedup();
+    let mut faults = Vec::new();
+    let (mut last_sound, mut first_faulty) = (None, None);
+    let fault = |from_nm: Option<f64>, at: f64, to_nm| Fault {
+        from_nm: from_nm.unwrap_or(0.0),
+        to_nm,
+        reason: format!("line {line}: the formula gives no index from {INDEX_N} at {at} nm").into(),
+    };
+    for nm in samples {
+        if poles.contains(&nm) || !gives_an_index(formula, nm) {
+            first_faulty.get_or_insert(nm);
+            continue;
+        }
+        faults.extend(first_faulty.take().map(|at| fault(last_sound, at, nm)));
+        last_sound = Some(nm);
+    }
+    last_sound?;
+    faults.extend(first_faulty.map(|at| fault(last_sound, at, f64::INFINITY)));
+    Some(formula.clone().with_faults(faults))
+}
+
+/// From 30 µm to the end of all tables, every micrometre.
+fn far_wavelengths_nm() -> impl Iterator<Item = f64> {
+    (31..=1000).map(|um| 1e3 * f64::from(um))
 }

@@ -1,7 +1,7 @@
 //! Indices of refraction: from what is written to n and k over wavelength.
 
 use super::checks::Checks;
-use super::database_file::{self, Block, Data};
+use super::database;
 use super::formula;
 use super::points::{self, Column, FileTable};
 use super::spectrum_list::{Advice, extrapolated, read_reflectance};
@@ -69,7 +69,7 @@ pub(crate) fn read<'w>(
             (spectra, Advice::Add)
         }
         Index::Database { yaml, extrapolate } => {
-            let spectra = database(checks, &field.key("yaml"), &directory.join(yaml))?;
+            let spectra = database::read(checks, &field.key("yaml"), &directory.join(yaml))?;
             let spectra = spectra.map(|spectrum| extrapolated(spectrum, *extrapolate));
             (spectra, Advice::Add)
         }
@@ -199,74 +199,6 @@ fn mixture(
         .ok()
 }
 
-/// n and k from a file of the refractiveindex.info database.
-fn database(checks: &mut Checks, field: &FieldPath, path: &Path) -> Option<[Spectrum; 2]> {
-    let blocks = match database_file::read(path) {
-        Ok(blocks) => blocks,
-        Err(error) => {
-            report(checks, ProblemKind::File, field, path, &error.to_string());
-            return None;
-        }
-    };
-    let (mut n, mut k) = (Vec::new(), Vec::new());
-    for block in &blocks {
-        let (real, imaginary) = block_spectra(checks, field, path, block)?;
-        n.extend(real);
-        k.extend(imaginary);
-    }
-    for (what, count) in [("n", n.len()), ("k", k.len())] {
-        let complaint = match count {
-            0 if what == "n" => "no block gives n".to_owned(),
-            0 | 1 => continue,
-            _ => format!("{count} blocks give {what}; only one can"),
-        };
-        report(checks, ProblemKind::Inconsistent, field, path, &complaint);
-        return None;
-    }
-    Some([n.pop()?, k.pop().unwrap_or(Spectrum::Constant(0.0))])
-}
-
-/// The n and the k that a block gives.
-fn block_spectra(
-    checks: &mut Checks,
-    field: &FieldPath,
-    path: &Path,
-    block: &Block,
-) -> Option<(Option<Spectrum>, Option<Spectrum>)> {
-    const END: Extrapolate = Extrapolate::Error;
-    Some(match &block.data {
-        Data::N(rows) => {
-            let [n] = points::rows(checks, field, path, rows, [INDEX_N], END)?;
-            (Some(n), None)
-        }
-        Data::K(rows) => {
-            let [k] = points::rows(checks, field, path, rows, [INDEX_K], END)?;
-            (None, Some(k))
-        }
-        Data::Nk(rows) => {
-            let [n, k] = points::rows(checks, field, path, rows, [INDEX_N, INDEX_K], END)?;
-            (Some(n), Some(k))
-        }
-        Data::Formula(formula) => {
-            if let Some(nm) = formula::gap_nm(formula) {
-                let complaint = format!(
-                    "line {}: the formula gives no index from {} at {nm} nm",
-                    block.line,
-                    limits::INDEX_N
-                );
-                report(checks, ProblemKind::OutOfRange, field, path, &complaint);
-                return None;
-            }
-            (Some(Spectrum::Formula(formula.clone())), None)
-        }
-    })
-}
-
-fn report(checks: &mut Checks, kind: ProblemKind, field: &FieldPath, path: &Path, complaint: &str) {
-    let message = format!("{}: {complaint}", path.display());
-    checks.report(Problem::new(kind, field, message));
-}
-
 fn named(
     checks: &mut Checks,
     field: &FieldPath,
@@ -274,12 +206,22 @@ fn named(
     extrapolate: Extrapolate,
 ) -> Option<[Spectrum; 2]> {
     let Some(set) = spectra::optical_constants(name) else {
-        checks.unknown_name(
-            field,
-            ("material with a known index", name),
-            &spectra::material_names(),
-        );
+        let aliases = spectra::material_aliases().iter().map(|&(alias, _)| alias);
+        let known: Vec<&str> = spectra::material_names()
+            .into_iter()
+            .chain(aliases)
+            .collect();
+        checks.unknown_name(field, ("material with a known index", name), &known);
         return None;
     };
+    if name != set.name
+        && let [taken, others @ ..] = spectra::material_sets(name).as_slice()
+        && !others.is_empty()
+    {
+        let paper = spectra::material_info(taken).map_or("", |info| info.paper);
+        let others = others.join(", ");
+        let note = format!("{name} is taken as {taken} ({paper}); there are also {others}");
+        checks.note(field, note);
+    }
     Some([set.data.n, set.data.k].map(|spectrum| extrapolated(spectrum, extrapolate)))
 }

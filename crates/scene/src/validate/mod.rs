@@ -3,7 +3,9 @@
 mod camera;
 mod checks;
 mod cook;
+mod database;
 mod database_file;
+mod database_table;
 mod dielectric;
 mod environment;
 mod environment_picture;

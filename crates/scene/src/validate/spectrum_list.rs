@@ -280,16 +280,20 @@ impl<'a> SpectrumList<'a> {
             Ok(table) => return Some(table),
             Err(error) => error,
         };
-        let message = format!(
-            "the data cover {} to {} nm, but the bands cover {} to {} nm",
-            error.min_nm,
-            error.max_nm,
-            grid.min_nm(),
-            grid.max_nm()
-        );
+        let bands = format!("the bands cover {} to {} nm", grid.min_nm(), grid.max_nm());
+        let message = match &error.fault {
+            Some(fault) => format!("{fault}, and {bands}"),
+            None => {
+                let (low, high) = (error.min_nm, error.max_nm);
+                format!("the data cover {low} to {high} nm, but {bands}")
+            }
+        };
         let mut problem = Problem::new(ProblemKind::Inconsistent, field, message)
             .involving(FieldPath::root().key("render").key("wavelengths_nm"));
-        problem.help = advice.text();
+        problem.help = match error.fault {
+            Some(_) => Some("mend the data, or narrow `render.wavelengths_nm`".to_owned()),
+            None => advice.text(),
+        };
         checks.report(problem);
         None
     }
