@@ -78,7 +78,8 @@ fn search(text: &str) -> miette::Result<Vec<MaterialInfo>> {
     let text = text.to_lowercase();
     let is_meant = |info: &MaterialInfo| {
         let words = [info.name, info.material, info.data_set, info.paper];
-        words.iter().any(|word| word.to_lowercase().contains(&text))
+        let mut names = words.iter().chain(&info.aliases);
+        names.any(|word| word.to_lowercase().contains(&text))
     };
     let names = spectra::material_names().into_iter();
     let found: Vec<_> = names
@@ -96,14 +97,15 @@ fn search(text: &str) -> miette::Result<Vec<MaterialInfo>> {
 
 fn list(materials: &[MaterialInfo]) -> miette::Result<()> {
     print::result(format_args!(
-        "{:<24}{:>14}  {:<28}paper",
-        "name", "range, nm", "data set"
+        "{:<24}{:<20}{:>14}  {:<28}paper",
+        "name", "also", "range, nm", "data set"
     ))?;
     for info in materials {
         let (low, high) = info.range_nm;
         print::result(format_args!(
-            "{:<24}{:>14}  {:<28}{}",
+            "{:<24}{:<20}{:>14}  {:<28}{}",
             info.name,
+            info.aliases.join(" "),
             format!("{low:.0} to {high:.0}"),
             info.data_set,
             info.paper,
@@ -115,6 +117,9 @@ fn list(materials: &[MaterialInfo]) -> miette::Result<()> {
 fn show(info: &MaterialInfo, constants: &OpticalConstants) -> miette::Result<()> {
     let (low, high) = info.range_nm;
     print::result(format_args!("{}: {}", info.name, info.material))?;
+    if !info.aliases.is_empty() {
+        print::result(format_args!("also      {}", info.aliases.join(", ")))?;
+    }
     print::result(format_args!("data set  {}", info.data_set))?;
     print::result(format_args!("source    {}", info.citation))?;
     print::result(format_args!("licence   {}", info.licence))?;
@@ -166,6 +171,7 @@ fn figures(constants: &OpticalConstants, step_nm: u32) -> Vec<(u32, f64, f64)> {
 fn described(info: &MaterialInfo) -> Value {
     json!({
         "name": info.name,
+        "aliases": info.aliases,
         "material": info.material,
         "data_set": info.data_set,
         "paper": info.paper,

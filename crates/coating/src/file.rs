@@ -1,6 +1,7 @@
 //! Stack files.
 
 use crate::stack::{Layer, Medium, Stack};
+use crate::thickness::optical_nm;
 use scene::description::Index;
 use scene::{FieldPath, Problem, ProblemKind, Problems, SourceFile, limits};
 use schemars::JsonSchema;
@@ -21,6 +22,8 @@ const NEEDS: &str = "a stack needs at least `substrate = …`";
 /// index = "silica"
 /// thickness_nm = 300
 /// ```
+///
+/// In place of `thickness_nm` a layer may have `optical_thickness = { waves = 0.25, at_nm = 550 }`, a quarter wave at normal incidence.
 ///
 /// An index is what a scene's materials accept: a number, `[n, k]`, a name, `{ name = "gold", extrapolate = "clamp" }`, a table in
 /// place `{ nm = […], n = […], k = […] }`, linear between its points, or a file, relative to this one.
@@ -44,7 +47,21 @@ pub struct LayerDescription {
     /// What it is made of.
     pub index: Index,
     /// How thick it is, nm.
-    pub thickness_nm: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thickness_nm: Option<f64>,
+    /// How thick it is for light along its normal, in its place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub optical_thickness: Option<OpticalThickness>,
+}
+
+/// A thickness in waves: n d = waves · λ with the real part n of the layer's index.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OpticalThickness {
+    /// How many waves; 0.25 is a quarter-wave layer.
+    pub waves: f64,
+    /// The wavelength in vacuum, nm.
+    pub at_nm: f64,
 }
 
 fn air() -> Index {
@@ -82,7 +99,8 @@ impl StackDescription {
     pub(crate) fn of(stack: &Stack) -> Self {
         let layer = |layer: &Layer| LayerDescription {
             index: layer.medium.written().clone(),
-            thickness_nm: layer.thickness_nm,
+            thickness_nm: Some(layer.thickness_nm),
+            optical_thickness: None,
         };
         Self {
             incident: stack.incident().written().clone(),
@@ -156,20 +174,57 @@ impl Checks<'_> {
 
     fn layer(&mut self, field: &FieldPath, written: &LayerDescription) -> Option<Layer> {
         let medium = self.medium(&field.key("index"), &written.index);
-        let thickness_nm = written.thickness_nm;
-        if !limits::THICKNESS_NM.contains(thickness_nm) {
-            let message = format!(
-                "found {thickness_nm}; it must be from {}",
-                limits::THICKNESS_NM
-            );
-            let at = field.key("thickness_nm");
-            self.report(ProblemKind::OutOfRange, &at, message);
-            return None;
-        }
+        let thickness_nm = match (written.thickness_nm, &written.optical_thickness) {
+            (Some(nm), None) => self.thickness(&field.key("thickness_nm"), nm),
+            (None, Some(optical)) => {
+                let medium = medium.as_ref()?;
+                self.optical(&field.key("optical_thickness"), *optical, medium)
+            }
+            (both, _) => {
+                let at = field.key("thickness_nm");
+                let found = if both.is_some() {
+                    "there is also `optical_thickness`"
+                } else {
+                    "is missing"
+                };
+                let message = format!(
+                    "{found}; a layer has either `thickness_nm` or `optical_thickness = {{ waves = …, at_nm = … }}`"
+                );
+                self.report(ProblemKind::Inconsistent, &at, message);
+                None
+            }
+        };
         Some(Layer {
             medium: medium?,
-            thickness_nm,
+            thickness_nm: thickness_nm?,
         })
+    }
+
+    fn thickness(&mut self, at: &FieldPath, thickness_nm: f64) -> Option<f64> {
+        if limits::THICKNESS_NM.contains(thickness_nm) {
+            return Some(thickness_nm);
+        }
+        let range = limits::THICKNESS_NM;
+        let message = format!("found {thickness_nm}; it must be from {range}");
+        self.report(ProblemKind::OutOfRange, at, message);
+        None
+    }
+
+    fn optical(
+        &mut self,
+        at: &FieldPath,
+        written: OpticalThickness,
+        medium: &Medium,
+    ) -> Option<f64> {
+        let OpticalThickness { waves, at_nm } = written;
+        match optical_nm(waves, at_nm, medium.constants()) {
+            Ok(nm) => Some(nm),
+            Err((message, help)) => {
+                let problem = Problem::new(ProblemKind::OutOfRange, at, message);
+                self.problems.push(problem.help(help));
+                None
+            }
+        }
     }
 
     fn report(&mut self, kind: ProblemKind, field: &FieldPath, message: String) {
@@ -228,6 +283,36 @@ mod tests {
         let said = error.to_string();
         for words in ["710 nm", "layer 1", "400 to 700 nm"] {
             assert!(said.contains(words), "{said}");
+        }
+    }
+
+    #[test]
+    fn a_thickness_may_be_in_waves() {
+        let layer = |thickness: &str| {
+            parsed(&format!(
+                "substrate = 1.5\n[[layer]]\nindex = 1.25\n{thickness}\n"
+            ))
+        };
+        let stack = layer("optical_thickness = { waves = 0.25, at_nm = 550 }").unwrap();
+        // 0.25 · 550 / 1.25.
+        assert_eq!(stack.thicknesses_nm(), [110.0]);
+        for (written, words) in [
+            ("", "layer[0].thickness_nm: is missing; a layer has either"),
+            (
+                "thickness_nm = 1\noptical_thickness = { waves = 1, at_nm = 500 }",
+                "layer[0].thickness_nm: there is also `optical_thickness`",
+            ),
+            (
+                "optical_thickness = { waves = -1, at_nm = 550 }",
+                "layer[0].optical_thickness: a thickness of -1 waves at 550 nm, -440 nm",
+            ),
+            (
+                "optical_thickness = { waves = 1, at_nm = 0 }",
+                "layer[0].optical_thickness: a wavelength of 0 nm",
+            ),
+        ] {
+            let said = format!("{:#}", layer(written).unwrap_err());
+            assert!(said.contains(words), "{written}: {said}");
         }
     }
 

@@ -41,11 +41,12 @@ mod sensitivity;
 mod sheet;
 mod spectrum_plot;
 mod stack;
+mod thickness;
 mod tolerance;
 
 pub use chart::{Chart, ChartOf};
 pub use colour::{Colour, ParseColourError, Polarisation, Side, StackColour, View, parse_srgb};
-pub use file::{LayerDescription, StackDescription};
+pub use file::{LayerDescription, OpticalThickness, StackDescription};
 pub use film_fit::{FilmFit, FilmFits, FilmFitting, Measured, Verdict};
 pub use light::Light;
 pub use line::LineError;

@@ -6,16 +6,18 @@ use crate::response::Sampled;
 use miette::Diagnostic;
 use optics::Complex64;
 use scene::Problems;
-use scene::description::Index;
-use spectra::OpticalConstants;
+use scene::description::{Extrapolate, Index};
+use spectra::{OpticalConstants, OutOfRange};
 use std::path::Path;
+use std::sync::Arc;
 use thiserror::Error;
 
 /// A material as the stack's author wrote it, with its optical constants.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Medium {
     written: Index,
-    constants: OpticalConstants,
+    /// Shared: a medium may be that of hundreds of layers.
+    constants: Arc<OpticalConstants>,
     notes: Vec<String>,
 }
 
@@ -23,7 +25,7 @@ impl Medium {
     pub(crate) fn new(written: Index, constants: OpticalConstants, notes: Vec<String>) -> Self {
         Self {
             written,
-            constants,
+            constants: Arc::new(constants),
             notes,
         }
     }
@@ -55,6 +57,41 @@ impl Medium {
         }
     }
 
+    /// The same medium with its end values outside its data. What was written says so too, where it can: not for mixtures and
+    /// reflectances, whose parts have ends of their own.
+    fn clamped(mut self) -> Self {
+        let Some((low, high)) = self.constants.range_nm() else {
+            return self;
+        };
+        let label = self.label();
+        let OpticalConstants { n, k } = OpticalConstants::clone(&self.constants);
+        self.constants = Arc::new(OpticalConstants {
+            n: n.clamped(),
+            k: k.clamped(),
+        });
+        let note = format!("{label}: beyond {low} to {high} nm its end values are used");
+        self.notes.push(note);
+        match &mut self.written {
+            Index::Name(name) => {
+                self.written = Index::Named {
+                    name: std::mem::take(name),
+                    extrapolate: Extrapolate::Clamp,
+                };
+            }
+            Index::Named { extrapolate, .. }
+            | Index::Table { extrapolate, .. }
+            | Index::File { extrapolate, .. }
+            | Index::Database { extrapolate, .. }
+            | Index::Cauchy { extrapolate, .. }
+            | Index::Sellmeier { extrapolate, .. } => *extrapolate = Extrapolate::Clamp,
+            Index::Real(_)
+            | Index::Complex(_)
+            | Index::Reflecting { .. }
+            | Index::Mixture { .. } => {}
+        }
+        self
+    }
+
     /// Whether visible light is weakened on its way through it, as far as its data say.
     fn absorbs(&self) -> bool {
         let k = |nm| self.constants.k.at(f64::from(nm)).unwrap_or(0.0);
@@ -78,6 +115,8 @@ pub struct Stack {
     layers: Vec<Layer>,
     substrate: Medium,
     thicknesses_nm: Vec<f64>,
+    /// Whether it is written in one line, for what errors advise.
+    is_line: bool,
 }
 
 /// Why there is no stack.
@@ -106,10 +145,6 @@ pub enum SampleError {
     #[error(
         "{asked_nm} nm is outside the data of {place}, {label}, which cover {min_nm} to {max_nm} nm"
     )]
-    #[diagnostic(help(
-        "ask for wavelengths within that range; or go on with the end values, in a stack file by \
-         index = {{ name = …, extrapolate = \"clamp\" }}"
-    ))]
     OutOfRange {
         /// Which medium: `the incident medium`, `layer 2`, `the substrate`.
         place: String,
@@ -121,6 +156,22 @@ pub enum SampleError {
         min_nm: f64,
         /// The longest wavelength of the data, nm.
         max_nm: f64,
+        /// What can be done, in the form that the stack is written in.
+        #[help]
+        help: String,
+    },
+    /// The data of a medium cannot be used there.
+    #[error("at {asked_nm} nm the data of {place}, {label}, cannot be used: {fault}")]
+    #[diagnostic(help("mend the data, or ask for other wavelengths"))]
+    Faulty {
+        /// Which medium: `the incident medium`, `layer 2`, `the substrate`.
+        place: String,
+        /// What it is called.
+        label: String,
+        /// The wavelength asked for, nm.
+        asked_nm: f64,
+        /// What is wrong with the data, with its line.
+        fault: String,
     },
     /// The incident medium absorbs there.
     #[error(
@@ -160,7 +211,12 @@ impl Stack {
     /// A stack written in one line: `air | silica 300nm | silicon`.
     ///
     /// The first medium is the one that the light comes from, the last the substrate, and what is between are layers with their
-    /// thickness in nm or µm (um). A medium is a material's name, a number `1.5`, `1.5+0.1i`, or a file `.csv` or `.yml`. `air` is that of the library, n = 1.0003;
+    /// thickness in nm, µm (um), mm or Å (angstrom), or in waves at a wavelength in nm: `TiO2 0.25@550` is a quarter-wave layer at
+    /// normal incidence. Layers in brackets come as often as the power says: `air | (TiO2 60nm | SiO2 90nm)^8 | BK7`. Definitions
+    /// before the stack name media and layers: `H=TiO2 0.25@550; L=SiO2 0.25@550; air | (HL)^8 2H | BK7`, where `2H` is twice as
+    /// thick as `H`.
+    ///
+    /// A medium is a material's name, a number `1.5`, `1.5+0.1i`, or a file `.csv` or `.yml`. `air` is that of the library, n = 1.0003;
     /// `vacuum` is n = 1.
     ///
     /// # Errors
@@ -193,6 +249,28 @@ impl Stack {
             layers,
             substrate,
             thicknesses_nm,
+            is_line: false,
+        }
+    }
+
+    pub(crate) fn written_in_a_line(mut self) -> Self {
+        self.is_line = true;
+        self
+    }
+
+    /// The same stack where every medium goes on with its end values outside its data; its notes say of which. Faults within the
+    /// data stay faults.
+    #[must_use]
+    pub fn clamped(self) -> Self {
+        let layer = |layer: Layer| Layer {
+            medium: layer.medium.clamped(),
+            ..layer
+        };
+        Self {
+            incident: self.incident.clamped(),
+            layers: self.layers.into_iter().map(layer).collect(),
+            substrate: self.substrate.clamped(),
+            ..self
         }
     }
 
@@ -273,7 +351,7 @@ impl Stack {
     /// # Errors
     /// When a medium has no data at one of them, or the incident one absorbs.
     pub fn sampled(&self, wavelengths_nm: &[f64]) -> Result<Sampled, SampleError> {
-        let incident = read("the incident medium", &self.incident, wavelengths_nm)?;
+        let incident = self.indices("the incident medium", &self.incident, wavelengths_nm)?;
         if let Some((&nm, index)) = wavelengths_nm
             .iter()
             .zip(&incident)
@@ -286,7 +364,7 @@ impl Stack {
             });
         }
         let of_layer = |(index, layer): (usize, &Layer)| {
-            read(
+            self.indices(
                 &format!("layer {}", index + 1),
                 &layer.medium,
                 wavelengths_nm,
@@ -297,24 +375,95 @@ impl Stack {
             wavelengths_nm.to_vec(),
             incident.into_iter().map(|index| index.re).collect(),
             layers.collect::<Result<_, _>>()?,
-            read("the substrate", &self.substrate, wavelengths_nm)?,
+            self.indices("the substrate", &self.substrate, wavelengths_nm)?,
         ))
+    }
+
+    /// A medium's index at each wavelength.
+    fn indices(
+        &self,
+        place: &str,
+        medium: &Medium,
+        nm: &[f64],
+    ) -> Result<Vec<Complex64>, SampleError> {
+        let at = |&nm: &f64| medium.constants.at(nm);
+        let found: Result<_, OutOfRange> = nm.iter().map(at).collect();
+        found.map_err(|gap| {
+            let (place, label, asked_nm) = (place.to_owned(), medium.label(), gap.nm);
+            match gap.fault {
+                Some(fault) => SampleError::Faulty {
+                    place,
+                    label,
+                    asked_nm,
+                    fault: fault.to_string(),
+                },
+                None => SampleError::OutOfRange {
+                    place,
+                    label,
+                    asked_nm,
+                    min_nm: gap.min_nm,
+                    max_nm: gap.max_nm,
+                    help: self.help_beyond_data().to_owned(),
+                },
+            }
+        })
+    }
+
+    fn help_beyond_data(&self) -> &'static str {
+        if self.is_line {
+            "ask for wavelengths within that range, or go on with the end values by --clamp"
+        } else {
+            "ask for wavelengths within that range; or go on with the end values by --clamp, or in the stack file by \
+             index = { name = …, extrapolate = \"clamp\" }"
+        }
     }
 }
 
-/// A medium's index at each wavelength.
-fn read(place: &str, medium: &Medium, nm: &[f64]) -> Result<Vec<Complex64>, SampleError> {
-    let at = |&nm: &f64| {
-        medium
-            .constants
-            .at(nm)
-            .map_err(|gap| SampleError::OutOfRange {
-                place: place.to_owned(),
-                label: medium.label(),
-                asked_nm: gap.nm,
-                min_nm: gap.min_nm,
-                max_nm: gap.max_nm,
-            })
-    };
-    nm.iter().map(at).collect()
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_too_short_is_told_in_the_form_of_the_stack_and_can_be_clamped() {
+        let line = Stack::parse("1 | Au 30nm | rutile").unwrap();
+        let help = |stack: &Stack| {
+            let error = stack.sampled(&[400.0]).unwrap_err();
+            assert!(error.to_string().contains("430 to 1530 nm"), "{error}");
+            error.help().unwrap().to_string()
+        };
+        assert!(help(&line).contains("--clamp") && !help(&line).contains('{'));
+        let file = line.description().check(Path::new("")).unwrap();
+        assert!(help(&file).contains("--clamp") && help(&file).contains("extrapolate"));
+        let clamped = line.clamped();
+        let index = |nm: f64| clamped.sampled(&[nm]).unwrap().substrate()[0];
+        assert_eq!(index(400.0), index(430.0));
+        let notes = clamped.notes().join("\n");
+        assert!(
+            notes.contains("rutile: beyond 430 to 1530 nm its end values are used"),
+            "{notes}"
+        );
+        // A file that is written of it says the same.
+        let again = clamped.description().check(Path::new("")).unwrap();
+        assert_eq!(
+            again.sampled(&[400.0]).unwrap().substrate()[0],
+            index(400.0)
+        );
+    }
+
+    #[test]
+    fn a_fault_of_a_file_is_told_where_it_is_asked_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("mine.yml");
+        let rows = "        0.3 1.5 0\n        0.9 1.5 0\n        12 1.5 -0.3\n";
+        let text = format!("DATA:\n  - type: tabulated nk\n    data: |\n{rows}");
+        std::fs::write(&path, text).unwrap();
+        let stack = Stack::parse(&format!("1 | {} 30nm | 1.5", path.display())).unwrap();
+        assert!(stack.sampled(&[380.0, 780.0]).is_ok());
+        for stack in [stack.clone(), stack.clamped()] {
+            let said = stack.sampled(&[1000.0]).unwrap_err().to_string();
+            for words in ["at 1000 nm", "layer 1", "line 6: found k -0.3 at 12000 nm"] {
+                assert!(said.contains(words), "{said}");
+            }
+        }
+    }
 }

@@ -73,7 +73,8 @@ pub fn seen(
     let thicknesses = thicknesses.map(|t| layer_thickness(t, &object.shape, point.position));
     let layer = |(index, thickness_nm)| LayerDescription {
         index,
-        thickness_nm,
+        thickness_nm: Some(thickness_nm),
+        optical_thickness: None,
     };
     let mut layer: Vec<LayerDescription> = media.into_iter().zip(thicknesses).map(layer).collect();
     // A coated surface is one on both of its sides, its first layer outermost.

@@ -1,0 +1,117 @@
+//! Thicknesses as they are written in a line: a length with its unit, or waves at a wavelength.
+
+use scene::limits::{TABLE_NM, THICKNESS_NM};
+use spectra::OpticalConstants;
+
+/// The units of a thickness, in nm. µ is a sign of its own beside the Greek letter, and so is Å beside the letter with a ring.
+const UNITS: [(&str, f64); 8] = [
+    ("nm", 1.0),
+    ("um", 1e3),
+    ("\u{b5}m", 1e3),
+    ("\u{3bc}m", 1e3),
+    ("mm", 1e6),
+    ("\u{c5}", 0.1),
+    ("\u{212b}", 0.1),
+    ("angstrom", 0.1),
+];
+
+/// How thicknesses are written.
+pub(crate) const FORMS: &str = "300nm, 0.3um, 3000Å or, in waves at a wavelength in nm, 0.25@550";
+
+/// A thickness as written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Written<'a> {
+    /// A number and its unit with what it is in nm.
+    Length(&'a str, (&'static str, f64)),
+    /// An optical thickness in waves, and the wavelength in vacuum.
+    Waves(&'a str, &'a str),
+}
+
+/// Splits `silica 300 nm` into medium and thickness; without a thickness at its end it is all medium.
+pub(crate) fn split(text: &str) -> (&str, Option<Written<'_>>) {
+    let last_word = |text: &'_ str| text.rfind(char::is_whitespace).map_or(0, |at| at + 1);
+    if let Some((before, after)) = text.rsplit_once('@') {
+        let at = after.trim();
+        let at = at.strip_suffix("nm").unwrap_or(at).trim_end();
+        let before = before.trim_end();
+        let (medium, waves) = split_at_char(before, last_word(before));
+        if is_a_number_at_its_end(at) && !at.contains(char::is_whitespace) {
+            return (medium.trim_end(), Some(Written::Waves(waves, at)));
+        }
+    }
+    for unit in UNITS {
+        let Some(rest) = text.strip_suffix(unit.0) else {
+            continue;
+        };
+        let rest = rest.trim_end();
+        let (medium, digits) = split_at_char(rest, last_word(rest));
+        // A name that happens to end like a unit has no digit before it.
+        if is_a_number_at_its_end(digits) {
+            return (medium.trim_end(), Some(Written::Length(digits, unit)));
+        }
+    }
+    (text, None)
+}
+
+/// `text` in two, the second with the character that begins there or before.
+fn split_at_char(text: &str, at: usize) -> (&str, &str) {
+    let at = (0..=at).rev().find(|&at| text.is_char_boundary(at));
+    text.split_at(at.unwrap_or(0))
+}
+
+fn is_a_number_at_its_end(text: &str) -> bool {
+    text.ends_with(|c: char| c.is_ascii_digit() || c == '.')
+}
+
+impl Written<'_> {
+    /// The thickness in nm of a layer of this medium, or what is wrong and what would be right.
+    pub(crate) fn nm(self, constants: &OpticalConstants) -> Result<f64, (String, String)> {
+        let number = |digits: &str| {
+            digits.parse::<f64>().map_err(|_| {
+                let message = format!("{digits:?} is not a number");
+                (message, format!("a thickness is written like {FORMS}"))
+            })
+        };
+        match self {
+            Self::Length(digits, (unit, factor)) => {
+                let nm = number(digits)? * factor;
+                let written = if factor == 1.0 {
+                    String::new()
+                } else {
+                    format!("{digits} {unit}, ")
+                };
+                within(nm, &written)
+            }
+            Self::Waves(waves, at) => optical_nm(number(waves)?, number(at)?, constants),
+        }
+    }
+}
+
+/// A thickness that a layer may have; `written` is how it was written, where not in nm.
+pub(crate) fn within(nm: f64, written: &str) -> Result<f64, (String, String)> {
+    if THICKNESS_NM.contains(nm) {
+        // −0 is 0.
+        return Ok(nm + 0.0);
+    }
+    let help = format!("it must be from {THICKNESS_NM}");
+    Err((format!("a thickness of {written}{nm} nm"), help))
+}
+
+/// The thickness d in nm at which a layer is `waves` wavelengths thick for light along its normal: n d = waves · λ with the real
+/// part n of its index at the vacuum wavelength λ = `at_nm`; a quarter-wave layer has 0.25. What is wrong and what would be right
+/// where there is none.
+pub(crate) fn optical_nm(
+    waves: f64,
+    at_nm: f64,
+    constants: &OpticalConstants,
+) -> Result<f64, (String, String)> {
+    if !TABLE_NM.contains(at_nm) {
+        let help = format!("it must be from {TABLE_NM}");
+        return Err((format!("a wavelength of {at_nm} nm"), help));
+    }
+    let n = constants.n.at(at_nm).map_err(|gap| {
+        let help = "a thickness in waves needs the layer's index at the wavelength behind the @";
+        (gap.to_string(), help.to_owned())
+    })?;
+    within(waves * at_nm / n, &format!("{waves} waves at {at_nm} nm, "))
+}
