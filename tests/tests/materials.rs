@@ -30,8 +30,18 @@ fn all_materials_are_listed_with_set_range_and_paper() {
         .collect();
     assert_eq!(
         gold.join(" "),
-        "gold 255 to 1937 Au-Johnson Johnson and Christy 1972"
+        "gold Au 255 to 1937 Au-Johnson Johnson and Christy 1972"
     );
+}
+
+#[test]
+fn names_of_chemistry_are_shown_and_taken() {
+    let glass = printed("N-BK7");
+    assert_eq!(glass, printed("bk7"));
+    assert!(glass.contains("also      BK7, N-BK7, NBK7\n"), "{glass}");
+    assert!(printed("--search tio2").contains("titania "));
+    let said = Place::default().run("materials sio2").failed();
+    assert!(said.contains("did you mean \"SiO2\"?"), "{said}");
 }
 
 #[test]

@@ -291,9 +291,11 @@ fn a_pole_of_a_formula_is_told_only_where_it_is_asked_for() {
     assert!(close(&constants, 500.0, (1.650_098_419_132_538_5, 0.0)));
     // 1 + 1.5·144/(144 − 0.0324) + 0.09·144/(144 − 43.45314561)
     assert!(close(&constants, 12_000.0, (1.621_490_890_282_918_8, 0.0)));
+    // n² is 0.135 at 6470 nm and −0.082 at 6480 nm, by hand.
+    assert!((constants.at(6470.0).unwrap().re.powi(2) - 0.135).abs() < 1e-3);
     let error = constants.at(6591.9).unwrap_err().to_string();
     assert!(
-        error.contains("line 2: the formula gives no index from 0.001 to 1000 at 65"),
+        error.contains("line 2: the formula gives no index from 0.001 to 1000 at 6480 nm"),
         "{error}"
     );
     // A pole too weak for any sample to meet is still no place to go through.
