@@ -234,10 +234,7 @@ fn mistakes_in_groups_are_told_where_they_are() {
         assert!(!message.contains(" = {"), "{message}");
     }
     for (line, words) in [
-        (
-            "1 | (HL)^8 | 1",
-            "\"HL\" is not defined; nothing is defined",
-        ),
+        ("1 | (HL)^8 | 1", "\"HL\" has no thickness"),
         ("H=2.3 60nm; H=2.3 6nm; 1 | H | 1", "H is defined twice"),
         ("H 2.3; 1 | H | 1", "is no definition"),
         ("2=2.3 60nm; 1 | H | 1", "\"2\" is no name"),
