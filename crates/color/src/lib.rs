@@ -11,6 +11,8 @@
 //!   -> compare        how far two images are from each other
 //! ```
 //!
+//! The other way, pictures as inputs: `radiance` reads Radiance files (.hdr).
+//!
 //! Arithmetic is `f64`. Nothing here knows how the image was rendered. Files are written under another
 //! name beside the one asked for and renamed when complete, so a failure leaves no half file.
 
@@ -21,6 +23,7 @@ pub mod icc;
 mod pending_file;
 pub mod png;
 mod probe;
+pub mod radiance;
 mod relight;
 pub mod rgb_exr;
 mod rgb_image;
