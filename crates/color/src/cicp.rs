@@ -30,6 +30,17 @@ const PRIMARIES: [([[f64; 2]; 4], u8); 7] = [
     ([[0.680, 0.320], [0.265, 0.690], [0.150, 0.060], D65], 12),
 ];
 
+/// Chromaticities of red, green, blue and white by their number; `None` where it is none of H.273, table 2, or one without three
+/// primaries on a screen.
+pub(crate) fn primaries(number: u8) -> Option<[[f64; 2]; 4]> {
+    // SMPTE ST 240 has those of SMPTE C.
+    let number = if number == 7 { 6 } else { number };
+    let mut known = PRIMARIES.iter();
+    known
+        .find(|(_, own)| *own == number)
+        .map(|(primaries, _)| *primaries)
+}
+
 /// How far chromaticities may lie apart and be the same: half of the last decimal where the table has three. C, for one, is
 /// 0.31006, 0.31616 elsewhere.
 const TOLERANCE: f64 = 5e-4;

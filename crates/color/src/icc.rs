@@ -18,7 +18,7 @@ pub enum IccError {
 }
 
 /// XYZ of the profile connection space's white, D50 (ICC.1:2022, 6.3.4.3).
-const D50: [f64; 3] = [0.9642, 1.0, 0.8249];
+pub(crate) const D50: [f64; 3] = [0.9642, 1.0, 0.8249];
 /// Where the header has the time of creation, six big-endian numbers of two bytes (ICC.1:2022, 7.2.8).
 const CREATION: std::ops::Range<usize> = 24..36;
 /// Year, month, day, hours, minutes and seconds.

@@ -11,7 +11,8 @@
 //!   -> compare        how far two images are from each other
 //! ```
 //!
-//! The other way, pictures as inputs: `radiance` reads Radiance files (.hdr).
+//! The other way, pictures as inputs: `radiance` reads Radiance files (.hdr), and `png_colors` says which colors the codes of a PNG
+//! file are.
 //!
 //! Arithmetic is `f64`. Nothing here knows how the image was rendered. Files are written under another
 //! name beside the one asked for and renamed when complete, so a failure leaves no half file.
@@ -22,6 +23,7 @@ pub mod develop;
 pub mod icc;
 mod pending_file;
 pub mod png;
+pub mod png_colors;
 mod probe;
 pub mod radiance;
 mod relight;
