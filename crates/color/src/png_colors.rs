@@ -32,13 +32,15 @@ const GAMMA: std::ops::RangeInclusive<f64> = 0.1..=10.0;
 #[non_exhaustive]
 pub enum PngColorsError {
     /// The file cannot be decoded.
-    #[error(transparent)]
+    #[error("is not a PNG picture that can be read: {0}")]
     Decode(#[from] ::png::DecodingError),
     /// A chunk is damaged.
     #[error("its {0} chunk is damaged, or says what PNG does not allow")]
     Chunk(&'static str),
     /// The codes are no amounts of light that a surface could reflect.
-    #[error("its {0} chunk says that its codes are {1}, which no reflectance is; convert it to sRGB")]
+    #[error(
+        "its {0} chunk says that its codes are {1}, which no reflectance is; convert it to sRGB"
+    )]
     Light(&'static str, &'static str),
     /// A number of H.273 that is not read.
     #[error(
@@ -52,7 +54,9 @@ pub enum PngColorsError {
         number: u8,
     },
     /// Narrow range.
-    #[error("its cICP chunk says that its codes have the narrow range of video; convert it to the full range")]
+    #[error(
+        "its cICP chunk says that its codes have the narrow range of video; convert it to the full range"
+    )]
     NarrowRange,
     /// `gAMA` is out of all bounds.
     #[error("its gAMA chunk says {0}; from 0.1 to 10 is possible")]
@@ -102,8 +106,12 @@ impl CodeColors {
             bytes: MAX_TAG_BYTES,
         };
         let decoder = ::png::Decoder::new_with_limits(Cursor::new(file), limits);
+        let chunks = chunks_before_data(file);
+        if let Some(name) = chunks.iter().find_map(damaged) {
+            return Err(PngColorsError::Chunk(name));
+        }
         let reader = decoder.read_info()?;
-        let (info, chunks) = (reader.info(), chunks_before_data(file));
+        let info = reader.info();
         let mut notes = Vec::new();
         let found = first_said(info, &chunks, &mut notes)?;
         let (mut colors, said) = found.unwrap_or((Self::srgb(), String::new()));
@@ -167,10 +175,10 @@ impl Curve {
 /// The first of a file's statements that can be used, and how it is told.
 fn first_said(
     info: &::png::Info,
-    chunks: &[[u8; 4]],
+    chunks: &[Chunk],
     notes: &mut Vec<String>,
 ) -> Result<Option<(CodeColors, String)>, PngColorsError> {
-    let has = |name: &[u8; 4]| chunks.contains(name);
+    let has = |name: &[u8; 4]| chunks.iter().any(|(found, _)| found == name);
     if has(b"cICP") {
         let points = info.coding_independent_code_points;
         let points = points.ok_or(PngColorsError::Chunk("cICP"))?;
@@ -198,22 +206,40 @@ fn first_said(
     of_gamma_and_primaries(info, has(b"gAMA"), has(b"cHRM"))
 }
 
-/// The names of the chunks before the first `IDAT`.
-fn chunks_before_data(file: &[u8]) -> Vec<[u8; 4]> {
-    let mut names = Vec::new();
+/// The name of a chunk and what it holds.
+type Chunk<'a> = ([u8; 4], &'a [u8]);
+
+/// The chunks before the first `IDAT`.
+fn chunks_before_data(file: &[u8]) -> Vec<Chunk<'_>> {
+    let mut chunks = Vec::new();
     let mut rest = file.get(8..).unwrap_or_default();
     while let Some((length, after)) = rest.split_first_chunk::<4>() {
         let Some((name, after)) = after.split_first_chunk::<4>() else {
             break;
         };
+        let length = u32::from_be_bytes(*length) as usize;
+        let Some((data, after)) = after.split_at_checked(length) else {
+            break;
+        };
         if name == b"IDAT" {
             break;
         }
-        names.push(*name);
-        let length = u32::from_be_bytes(*length) as usize;
-        rest = after.get(length.saturating_add(4)..).unwrap_or_default();
+        chunks.push((*name, data));
+        rest = after.get(4..).unwrap_or_default();
     }
-    names
+    chunks
+}
+
+/// The name of a chunk about colors of which the decoder could only say that it is wrong.
+fn damaged((name, data): &Chunk) -> Option<&'static str> {
+    let (name, is_sound) = match name {
+        b"cICP" => ("cICP", matches!(data, [_, _, 0, 0 | 1])),
+        b"sRGB" => ("sRGB", matches!(data, [0..=3])),
+        b"gAMA" => ("gAMA", data.len() == 4 && *data != [0; 4]),
+        b"cHRM" => ("cHRM", data.len() == 32),
+        _ => return None,
+    };
+    (!is_sound).then_some(name)
 }
 
 fn of_code_points(
@@ -282,10 +308,7 @@ fn of_gamma_and_primaries(
 }
 
 /// From amounts of these primaries to those of sRGB, white to white; `None` where they are the same.
-fn to_srgb(
-    primaries: [[f64; 2]; 3],
-    white: [f64; 2],
-) -> Result<Option<Matrix3>, PngColorsError> {
+fn to_srgb(primaries: [[f64; 2]; 3], white: [f64; 2]) -> Result<Option<Matrix3>, PngColorsError> {
     if primaries == srgb::PRIMARIES && white == srgb::WHITE {
         return Ok(None);
     }

@@ -84,14 +84,14 @@ pub const WARP: Range = Range::new(0.0, 4.0, "");
 pub const SWIRL_RATE: Range = Range::new(0.0, 1000.0, " per second");
 /// Octaves of swirls: each is half as large and half as strong as the one before.
 pub const OCTAVES: Range = Range::new(1.0, 6.0, "");
-/// The widest or highest picture of a thickness, in pixels.
-pub const MAX_PICTURE_SIDE: u32 = 8192;
-/// The most pixels of such a picture.
-pub const MAX_PICTURE_PIXELS: u64 = 1 << 24;
+/// The widest or highest picture, in pixels.
+pub const MAX_PICTURE_SIDE: u32 = 16_384;
+/// The most pixels of such a picture: 16384 × 8192. A panorama of as many takes 4.3 GB while it is read, and 2.1 GB of the scene.
+pub const MAX_PICTURE_PIXELS: u64 = 1 << 27;
 /// The most pixels of a picture of spectra times the scene's bands, in whole fours: 512 MiB.
 pub const MAX_PICTURE_VALUES: u64 = 1 << 27;
-/// The largest file of a picture, in bytes: twice that of 2²⁴ pixels of four numbers.
-pub const MAX_PICTURE_BYTES: u64 = 512 << 20;
+/// The largest file of a picture, in bytes: that of 2²⁷ pixels of four numbers.
+pub const MAX_PICTURE_BYTES: u64 = 2 << 30;
 /// How far the width of a picture of all directions may be from twice its height, as a part of it, and by how many pixels.
 pub const PANORAMA_ASIDE: (f64, u32) = (0.01, 2);
 /// Time, and the step of a sequence.

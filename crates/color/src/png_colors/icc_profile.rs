@@ -1,34 +1,65 @@
 //! ICC profiles of pictures: a matrix and curves, or a curve of gray.
 
-use std::fmt;
-
 use colorimetry::adaptation::Adaptation;
 use colorimetry::matrix::product;
 use colorimetry::srgb;
-use moxcms::{
-    ColorProfile, DataColorSpace, ToneCurveEvaluator, ToneReprCurve, TransferCharacteristics,
-};
+use moxcms::{ColorProfile, DataColorSpace, ToneReprCurve, TransferCharacteristics};
 
 use super::{CodeColors, Curve, PngColorsError};
 use crate::icc;
 
-/// A channel's curve.
-pub(super) struct ProfileCurve(Box<dyn ToneCurveEvaluator + Send + Sync>);
+/// A channel's curve (ICC.1:2022, 10.6 and 10.18).
+#[derive(Clone, Debug)]
+pub(super) enum ProfileCurve {
+    /// Values at even steps of the code, at least two.
+    Table(Vec<u16>),
+    /// (a x + b)^g + e from d on, c x + f below it: `[g, a, b, c, d, e, f]`.
+    Function([f64; 7]),
+}
 
 impl ProfileCurve {
-    fn new(curve: Option<&ToneReprCurve>) -> Option<Self> {
-        curve?.make_linear_evaluator().ok().map(Self)
+    pub(super) fn new(curve: &ToneReprCurve) -> Option<Self> {
+        let power = |g| Self::Function([g, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        match curve {
+            ToneReprCurve::Lut(table) => Some(match **table {
+                [] => power(1.0),
+                // Eight bits behind the point.
+                [gamma] => power(f64::from(gamma) / 256.0),
+                _ => Self::Table(table.clone()),
+            }),
+            ToneReprCurve::Parametric(numbers) => {
+                let numbers: Vec<f64> = numbers.iter().map(|&number| f64::from(number)).collect();
+                Some(match numbers[..] {
+                    [g] => power(g),
+                    [g, a, b] => Self::Function([g, a, b, 0.0, -b / a, 0.0, 0.0]),
+                    [g, a, b, c] => Self::Function([g, a, b, 0.0, -b / a, c, c]),
+                    [g, a, b, c, d] => Self::Function([g, a, b, c, d, 0.0, 0.0]),
+                    [g, a, b, c, d, e, f] => Self::Function([g, a, b, c, d, e, f]),
+                    _ => return None,
+                })
+            }
+        }
     }
 
     /// The amount of light of a code in \[0, 1\].
     pub(super) fn light(&self, code: f64) -> f64 {
-        f64::from(self.0.evaluate_value(code as f32))
-    }
-}
-
-impl fmt::Debug for ProfileCurve {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("ProfileCurve")
+        match self {
+            Self::Table(table) => {
+                let at = code * (table.len() - 1) as f64;
+                let below = at.floor();
+                let value = |index: usize| table.get(index).or(table.last()).copied();
+                let value = |index| f64::from(value(index).unwrap_or_default()) / 65_535.0;
+                let (low, high) = (value(below as usize), value(below as usize + 1));
+                low + (high - low) * (at - below)
+            }
+            Self::Function([g, a, b, c, d, e, f]) => {
+                if code >= *d {
+                    (a * code + b).powf(*g) + e
+                } else {
+                    c * code + f
+                }
+            }
+        }
     }
 }
 
@@ -68,7 +99,7 @@ pub(super) fn colors(
 
 fn of_rgb(profile: &ColorProfile) -> Result<CodeColors, &'static str> {
     let curves = [&profile.red_trc, &profile.green_trc, &profile.blue_trc];
-    let [red, green, blue] = curves.map(|curve| ProfileCurve::new(curve.as_ref()));
+    let [red, green, blue] = curves.map(|curve| curve.as_ref().and_then(ProfileCurve::new));
     let (Some(red), Some(green), Some(blue)) = (red, green, blue) else {
         return Err("has no matrix and curves (tables are not read)");
     };
@@ -89,12 +120,10 @@ fn of_rgb(profile: &ColorProfile) -> Result<CodeColors, &'static str> {
 }
 
 fn of_gray(profile: &ColorProfile) -> Result<CodeColors, &'static str> {
-    let curve = || ProfileCurve::new(profile.gray_trc.as_ref());
-    let (Some(red), Some(green), Some(blue)) = (curve(), curve(), curve()) else {
-        return Err("has no curve");
-    };
+    let curve = profile.gray_trc.as_ref().and_then(ProfileCurve::new);
+    let curve = curve.ok_or("has no curve")?;
     checked(CodeColors {
-        curve: Curve::Profile(Box::new([red, green, blue])),
+        curve: Curve::Profile(Box::new([curve.clone(), curve.clone(), curve])),
         to_srgb: None,
         notes: Vec::new(),
     })

@@ -196,10 +196,11 @@ pub enum DiffuseReflectance {
         #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
         size: f64,
     },
-    /// A picture of colours in sRGB, each of which becomes a smooth reflectance with that colour under D65. On planes, rectangles
+    /// A picture of colours, each of which becomes a smooth reflectance with that colour under D65. On planes, rectangles
     /// and disks it lies upright in the middle; on spheres it lies like a map on a globe, with its middle towards +Z.
     Texture {
-        /// A PNG file of 8 or 16 bits, in the codes of sRGB; relative to the scene file.
+        /// A PNG file of 8 or 16 bits, in the codes that it says (cICP, iCCP, gAMA and cHRM), else of sRGB; relative to the scene
+        /// file.
         texture: PathBuf,
         /// Width and height on planes, rectangles and disks; when absent the whole rectangle, the square about a disk, or a square of
         /// side 1 on a plane. Beyond it the picture's edge goes on. Not for spheres, which it always covers.

@@ -32,7 +32,8 @@ pub use render::{LightGroups, Render, Sampler, WavelengthSampling};
 pub use spectrum::{Extrapolate, Index, MixtureRule, Reflectance, SellmeierTerms};
 pub use table_file::{IndexColumns, TableColumn};
 pub use thickness::{
-    AnodisedMetal, Anodising, Drainage, HeatTint, Quantity, Steel, Steps, Swirls, Thickness,
+    AnodisedMetal, Anodising, Drainage, HeatTint, PictureChannel, Quantity, Steel, Steps, Swirls,
+    Thickness,
 };
 
 use schemars::JsonSchema;

@@ -5,6 +5,22 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
+/// What of a picture's pixel is a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PictureChannel {
+    /// Red.
+    R,
+    /// Green.
+    G,
+    /// Blue.
+    B,
+    /// Alpha: 1 where the picture is opaque.
+    A,
+    /// 0.2126 r + 0.7152 g + 0.0722 b of the values as they stand.
+    Luma,
+}
+
 /// The thickness of a layer over its surface, in nm.
 ///
 /// What sums and products come to is kept from 0 to 100 000 nm: where less comes out the layer is absent. Within a
@@ -59,10 +75,14 @@ pub enum Thickness {
     },
     /// A picture over the surface.
     Image {
-        /// A PNG file, relative to the scene file. Its grey values (the luma of a coloured one) are taken as numbers from
-        /// 0 to 1 as they stand, without any transfer function. On a sphere its left edge and its right edge meet behind,
+        /// A PNG file, relative to the scene file. Its values are taken as numbers from 0 to 1 as they stand, without any
+        /// transfer function, whatever the file says of its colors. On a sphere its left edge and its right edge meet behind,
         /// towards −Z, its middle looks to +Z and its upper edge is the pole +Y.
         image: PathBuf,
+        /// What of the picture is taken: one of its channels, or their luma (0.2126 r + 0.7152 g + 0.0722 b of the values).
+        /// Luma when absent, which is the value of a grey picture. glTF keeps thicknesses in "g".
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        channel: Option<PictureChannel>,
         /// Thickness where the picture is black, nm.
         #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))]
         min: f64,

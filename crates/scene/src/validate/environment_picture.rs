@@ -47,7 +47,12 @@ pub(super) fn read(
 ) -> Option<Sphere> {
     let path = checks.directory.join(file);
     let grid = grid?;
-    let message = match read_light(&path, &grid) {
+    let mut notes = Vec::new();
+    let found = read_light(&path, &grid, &mut notes);
+    for note in notes {
+        checks.note(field, format_args!("{}: {note}", file.display()));
+    }
+    let message = match found {
         Ok(LightFile::Colours { width, rgb }) => match lifted(width, &rgb) {
             Ok(sphere) => return Some(sphere),
             Err(pixel) => format!("{}: {pixel}", path.display()),
@@ -98,20 +103,23 @@ fn check_pixels(values: &[f32], per_pixel: usize, width: u32) -> Result<(), BadP
 /// smoother than a brighter one would be.
 fn lifted(width: u32, rgb: &[[f32; 3]]) -> Result<Sphere, BadPixel> {
     check_pixels(rgb.as_flattened(), 3, width)?;
-    let texel_of_row = |row: &[[f32; 3]]| {
+    let fill_row = |(texels, row): (&mut [[f32; 4]], &[[f32; 3]])| {
         let mut before = SigmoidReflectance::default();
-        let texel = |&colour: &[f32; 3]| {
+        for (texel, colour) in texels.iter_mut().zip(row) {
             let colour = colour.map(|value| f64::from(value.max(0.0)));
             let scale = 2.0 * colour.into_iter().fold(0.0, f64::max);
             if scale > 0.0 {
                 before = before.moved_to_linear_srgb(colour.map(|value| value / scale));
             }
             let [c0, c1, c2] = before.coefficients;
-            [c0, c1, c2, scale].map(|value| value as f32)
-        };
-        row.iter().map(texel).collect::<Vec<_>>()
+            *texel = [c0, c1, c2, scale].map(|value| value as f32);
+        }
     };
+    // Filled in its place: a picture may have many pixels.
+    let mut values = vec![[0.0; 4]; rgb.len()];
     let rows = rgb.par_chunks(width as usize);
+    let texels = values.par_chunks_mut(width as usize);
+    texels.zip(rows).for_each(fill_row);
     let brightness = rgb.iter().map(|colour| {
         let sum: f32 = colour.iter().map(|value| value.max(0.0)).sum();
         sum / 3.0
@@ -121,7 +129,7 @@ fn lifted(width: u32, rgb: &[[f32; 3]]) -> Result<Sphere, BadPixel> {
             width,
             height: (rgb.len() / width as usize) as u32,
             per_pixel: 1,
-            values: rows.flat_map_iter(texel_of_row).collect(),
+            values,
         },
         spectra: PictureSpectra::Smooth,
         brightness: brightness.collect(),

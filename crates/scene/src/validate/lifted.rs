@@ -1,12 +1,12 @@
-//! Colours in sRGB: from codes to smooth reflectances.
+//! Colours: from codes to smooth reflectances.
 
 use super::checks::Checks;
 use super::picture_file::read_colours;
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, Texels};
+use color::png_colors::CodeColors;
 use colorimetry::lifting::SigmoidReflectance;
-use colorimetry::srgb::decode;
 use rayon::prelude::*;
 use spectra::{BandGrid, Spectrum, Tabulated};
 use std::collections::HashMap;
@@ -36,8 +36,9 @@ pub(super) fn reflectance(linear_rgb: [f64; 3]) -> Spectrum {
 /// The texels of a picture's colours.
 pub(super) fn picture(checks: &mut Checks, field: &FieldPath, file: &Path) -> Option<Arc<Texels>> {
     let path = checks.directory.join(file);
-    let picture = match read_colours(&path) {
-        Ok(picture) => picture,
+    let mut notes = Vec::new();
+    let (picture, meaning) = match read_colours(&path, &mut notes) {
+        Ok(found) => found,
         Err(error) => {
             let message = format!("{}: {error}", path.display());
             checks.report(Problem::new(ProblemKind::File, field, message));
@@ -47,9 +48,20 @@ pub(super) fn picture(checks: &mut Checks, field: &FieldPath, file: &Path) -> Op
     let mut colours: Vec<[u16; 3]> = picture.pixels().map(|pixel| pixel.0).collect();
     colours.sort_unstable();
     colours.dedup();
+    let beyond = colours.par_iter().filter(|&&codes| is_beyond(&meaning, codes));
+    let beyond = beyond.count();
+    if beyond > 0 {
+        let of = colours.len();
+        notes.push(format!(
+            "{beyond} of its {of} colors lie beyond those of sRGB, and are clipped to them"
+        ));
+    }
+    for note in notes {
+        checks.note(field, format_args!("{}: {note}", file.display()));
+    }
     let texels: HashMap<[u16; 3], [f32; 4]> = colours
         .into_par_iter()
-        .map(|codes| (codes, texel(codes)))
+        .map(|codes| (codes, texel(meaning.linear_srgb(codes))))
         .collect();
     Some(Arc::new(Texels {
         width: picture.width(),
@@ -59,8 +71,13 @@ pub(super) fn picture(checks: &mut Checks, field: &FieldPath, file: &Path) -> Op
     }))
 }
 
-fn texel(codes: [u16; 3]) -> [f32; 4] {
-    let linear = codes.map(|code| decode(f64::from(code) / 65_535.0));
+/// Whether sRGB does not reach a color, by more than rounding.
+fn is_beyond(meaning: &CodeColors, codes: [u16; 3]) -> bool {
+    let linear = meaning.linear_srgb(codes);
+    linear.iter().any(|value| !(-1e-3..=1.001).contains(value))
+}
+
+fn texel(linear: [f64; 3]) -> [f32; 4] {
     let [c0, c1, c2] = SigmoidReflectance::of_linear_srgb(linear).coefficients;
     [c0 as f32, c1 as f32, c2 as f32, 1.0]
 }

@@ -1,13 +1,16 @@
 //! Pictures as numbers.
 
 use crate::PictureFile;
+use crate::description::PictureChannel;
 use crate::limits::{
     MAX_PICTURE_BYTES, MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE, MAX_PICTURE_VALUES, PANORAMA_ASIDE,
 };
+use color::png_colors::{CodeColors, PngColorsError};
+use color::radiance::{RadianceError, RadiancePicture, is_radiance};
 use color::rgb_exr::BadPrimaries;
 use color::spectral_exr::ReadExrError;
 use colorimetry::matrix::times;
-use image::{DynamicImage, ImageBuffer, ImageFormat, ImageReader, Limits, Rgb};
+use image::{DynamicImage, ImageBuffer, ImageFormat, ImageReader, Limits, Rgb, Rgba};
 use spectra::text_file::{TextFileError, read_bytes, read_start};
 use spectra::{BandGrid, SpectralImage};
 use std::io::Cursor;
@@ -26,6 +29,12 @@ pub(crate) enum PictureFileError {
     NotLight,
     #[error("cannot be read, or is cut short: {0}")]
     BadLight(image::ImageError),
+    #[error(transparent)]
+    Radiance(#[from] RadianceError),
+    #[error(transparent)]
+    Colors(#[from] PngColorsError),
+    #[error("has no alpha channel; \"r\", \"g\", \"b\" and \"luma\" are possible")]
+    NoAlpha,
     #[error("cannot be read; it is damaged")]
     Damaged,
     #[error("{0}")]
@@ -52,24 +61,87 @@ pub(crate) enum PictureFileError {
     TooLarge { width: u32, height: u32 },
 }
 
-/// Reads a PNG file of 8 or 16 bits, its values taken as they stand: grey, or luma of a coloured one.
-pub(crate) fn read(path: &Path) -> Result<PictureFile, PictureFileError> {
-    let picture = decode(path)?.into_luma16();
-    let values = picture
-        .pixels()
-        .map(|pixel| f32::from(pixel.0[0]) / 65_535.0);
+/// Reads the values of a channel of a PNG file of 8 or 16 bits as they stand, without regard to what the file says of its colors.
+///
+/// Without a channel it is gray, or luma of a colored picture. What that leaves out is noted.
+pub(crate) fn read(
+    path: &Path,
+    channel: Option<PictureChannel>,
+    notes: &mut Vec<String>,
+) -> Result<PictureFile, PictureFileError> {
+    let picture = decode(&read_bytes(path, MAX_PICTURE_BYTES)?)?;
+    if channel == Some(PictureChannel::A) && !picture.color().has_alpha() {
+        return Err(PictureFileError::NoAlpha);
+    }
+    if channel != Some(PictureChannel::A) && has_transparency(&picture) {
+        notes.push("it has transparent pixels: their values are taken as they stand".to_owned());
+    }
+    if channel.is_none() && has_colors(&picture) {
+        notes.push(
+            "its red, green and blue differ: their luma is taken (channel = \"g\", say, takes one of them, channel = \"luma\" says \
+             that this is meant)"
+                .to_owned(),
+        );
+    }
+    let (width, height) = (picture.width(), picture.height());
+    let codes: Vec<u16> = match channel.unwrap_or(PictureChannel::Luma) {
+        PictureChannel::Luma => picture.into_luma16().into_raw(),
+        PictureChannel::R => one_of(&picture.into_rgba16(), 0),
+        PictureChannel::G => one_of(&picture.into_rgba16(), 1),
+        PictureChannel::B => one_of(&picture.into_rgba16(), 2),
+        PictureChannel::A => one_of(&picture.into_rgba16(), 3),
+    };
+    let values = codes.into_iter().map(|code| f32::from(code) / 65_535.0);
     Ok(PictureFile {
-        width: picture.width(),
-        height: picture.height(),
+        width,
+        height,
         values: values.collect(),
     })
 }
 
-/// The codes of red, green and blue of 16 bits of a PNG file of 8 or 16 bits.
+fn one_of(picture: &ImageBuffer<Rgba<u16>, Vec<u16>>, channel: usize) -> Vec<u16> {
+    picture.pixels().map(|pixel| pixel.0[channel]).collect()
+}
+
+/// Whether there are pixels of which red, green and blue differ.
+fn has_colors(picture: &DynamicImage) -> bool {
+    fn differ<T: PartialEq>(codes: &[T], per_pixel: usize) -> bool {
+        let mut pixels = codes.chunks_exact(per_pixel);
+        pixels.any(|pixel| pixel[0] != pixel[1] || pixel[1] != pixel[2])
+    }
+    match picture {
+        DynamicImage::ImageRgb8(picture) => differ(picture, 3),
+        DynamicImage::ImageRgba8(picture) => differ(picture, 4),
+        DynamicImage::ImageRgb16(picture) => differ(picture, 3),
+        DynamicImage::ImageRgba16(picture) => differ(picture, 4),
+        _ => false,
+    }
+}
+
+/// Whether there are pixels that are not opaque.
+fn has_transparency(picture: &DynamicImage) -> bool {
+    match picture {
+        DynamicImage::ImageLumaA8(picture) => picture.pixels().any(|pixel| pixel.0[1] != u8::MAX),
+        DynamicImage::ImageRgba8(picture) => picture.pixels().any(|pixel| pixel.0[3] != u8::MAX),
+        DynamicImage::ImageLumaA16(picture) => picture.pixels().any(|pixel| pixel.0[1] != u16::MAX),
+        DynamicImage::ImageRgba16(picture) => picture.pixels().any(|pixel| pixel.0[3] != u16::MAX),
+        _ => false,
+    }
+}
+
+/// The codes of red, green and blue of 16 bits of a PNG file of 8 or 16 bits, and the colors that they are.
 pub(crate) fn read_colours(
     path: &Path,
-) -> Result<ImageBuffer<Rgb<u16>, Vec<u16>>, PictureFileError> {
-    Ok(decode(path)?.into_rgb16())
+    notes: &mut Vec<String>,
+) -> Result<(ImageBuffer<Rgb<u16>, Vec<u16>>, CodeColors), PictureFileError> {
+    let bytes = read_bytes(path, MAX_PICTURE_BYTES)?;
+    let colors = CodeColors::of_png(&bytes)?;
+    let picture = decode(&bytes)?;
+    notes.extend_from_slice(colors.notes());
+    if has_transparency(&picture) {
+        notes.push("it has transparent pixels: their colors are taken as they stand".to_owned());
+    }
+    Ok((picture.into_rgb16(), colors))
 }
 
 /// Light from all directions as a file has it.
@@ -81,10 +153,16 @@ pub(crate) enum LightFile {
 }
 
 /// Reads a picture of all directions for these bands: a Radiance file or an OpenEXR file, of colours or of spectra.
-pub(crate) fn read_light(path: &Path, grid: &BandGrid) -> Result<LightFile, PictureFileError> {
-    let format = image::guess_format(&read_start(path, 64)?).ok();
-    match format {
-        Some(ImageFormat::Hdr) => read_colours_of_light(path, ImageFormat::Hdr),
+pub(crate) fn read_light(
+    path: &Path,
+    grid: &BandGrid,
+    notes: &mut Vec<String>,
+) -> Result<LightFile, PictureFileError> {
+    let start = read_start(path, 64)?;
+    if is_radiance(&start) {
+        return read_radiance(path, notes);
+    }
+    match image::guess_format(&start).ok() {
         Some(ImageFormat::OpenExr) => match color::spectral_exr::read_size(path) {
             Ok(found) => read_spectra(path, found, grid),
             Err(ReadExrError::NoSpectrum { .. }) => {
@@ -94,6 +172,17 @@ pub(crate) fn read_light(path: &Path, grid: &BandGrid) -> Result<LightFile, Pict
         },
         _ => Err(PictureFileError::NotLight),
     }
+}
+
+fn read_radiance(path: &Path, notes: &mut Vec<String>) -> Result<LightFile, PictureFileError> {
+    let bytes = read_bytes(path, MAX_PICTURE_BYTES)?;
+    let picture = RadiancePicture::new(&bytes)?;
+    check_size(picture.width(), picture.height())?;
+    check_panorama(picture.width(), picture.height())?;
+    let rgb = picture.pixels()?;
+    notes.extend_from_slice(picture.notes());
+    let width = picture.width();
+    Ok(LightFile::Colours { width, rgb })
 }
 
 fn read_spectra(
@@ -163,11 +252,10 @@ fn chain(error: &dyn std::error::Error) -> String {
     text
 }
 
-fn decode(path: &Path) -> Result<DynamicImage, PictureFileError> {
-    let bytes = read_bytes(path, MAX_PICTURE_BYTES)?;
-    let (width, height) = reader(&bytes, ImageFormat::Png).into_dimensions()?;
+fn decode(bytes: &[u8]) -> Result<DynamicImage, PictureFileError> {
+    let (width, height) = reader(bytes, ImageFormat::Png).into_dimensions()?;
     check_size(width, height)?;
-    Ok(reader(&bytes, ImageFormat::Png).decode()?)
+    Ok(reader(bytes, ImageFormat::Png).decode()?)
 }
 
 fn check_size(width: u32, height: u32) -> Result<(), PictureFileError> {

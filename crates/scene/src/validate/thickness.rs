@@ -91,10 +91,11 @@ fn part(
         Written::Swirls { swirls } => texture::swirls(checks, &field.key("swirls"), swirls),
         Written::Image {
             image,
+            channel,
             min,
             max,
             size,
-        } => texture::picture(checks, field, image, (*min, *max), *size),
+        } => texture::picture(checks, field, (image, *channel), (*min, *max), *size),
         Written::Sum { sum } => combined(checks, &field.key("sum"), sum).map(Thickness::Sum),
         Written::Product { product } => {
             combined(checks, &field.key("product"), product).map(Thickness::Product)

@@ -44,7 +44,7 @@ pub(super) fn swirls(
 pub(super) fn picture(
     checks: &mut Checks,
     field: &FieldPath,
-    image: &Path,
+    (image, channel): (&Path, Option<description::PictureChannel>),
     (min, max): (f64, f64),
     size: Option<[f64; 2]>,
 ) -> Option<Thickness> {
@@ -52,7 +52,8 @@ pub(super) fn picture(
     let white_nm = checks.number(&field.key("max"), max, &limits::THICKNESS_NM);
     let size = placed_size(checks, &field.key("size"), size);
     let path = checks.directory.join(image);
-    let file = match picture_file::read(&path) {
+    let mut notes = Vec::new();
+    let file = match picture_file::read(&path, channel, &mut notes) {
         Ok(file) => Some(Arc::new(file)),
         Err(error) => {
             let message = format!("{}: {error}", path.display());
@@ -64,6 +65,10 @@ pub(super) fn picture(
             None
         }
     };
+    for note in notes {
+        let note = format_args!("{}: {note}", image.display());
+        checks.note(&field.key("image"), note);
+    }
     Some(Thickness::Picture(Picture {
         file: file?,
         black_nm: black_nm?,
