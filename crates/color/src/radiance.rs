@@ -30,7 +30,9 @@ pub enum RadianceError {
     #[error("is no Radiance picture: it does not begin with #?RADIANCE or #?RGBE")]
     NotRadiance,
     /// The header has no end.
-    #[error("has no empty line at the end of its header, or a header of more than 64 KiB")]
+    #[error(
+        "is cut short, or no Radiance picture: there is no empty line at the end of its header of at most 64 KiB"
+    )]
     NoEnd,
     /// A line of the header cannot be used.
     #[error("line {line} of its header, {found:?}, {problem}")]

@@ -404,14 +404,14 @@ fn pictures_that_cannot_be_used_are_told() {
     fs::write(path("text.png"), "not a picture").unwrap();
     fs::write(path("empty.png"), "").unwrap();
     let mut huge = whole.clone();
-    huge[16..20].copy_from_slice(&9000_u32.to_be_bytes());
+    huge[16..20].copy_from_slice(&17_000_u32.to_be_bytes());
     fs::write(path("huge.png"), with_checksum(huge)).unwrap();
     for (name, said) in [
         ("none.png", "none.png: cannot be opened"),
         ("cut.png", "cut.png: is not a PNG picture"),
         ("text.png", "text.png: is not a PNG picture"),
         ("empty.png", "empty.png: is not a PNG picture"),
-        ("huge.png", "has 9000 × 2 pixels; at most 8192"),
+        ("huge.png", "has 17000 × 2 pixels; at most 16384"),
         ("", "is a directory"),
     ] {
         let written = format!("{{ image = '{name}', min = 0, max = 9 }}");

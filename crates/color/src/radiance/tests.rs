@@ -241,12 +241,15 @@ fn what_is_no_picture_is_one_error() {
         (vec![], "does not begin with #?"),
         (
             b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe".to_vec(),
-            "no empty line",
+            "there is no empty line",
         ),
-        (b"#?RADIANCE\n\n-Y 1 +X 1".to_vec(), "no empty line"),
+        (
+            b"#?RADIANCE\n\n-Y 1 +X 1".to_vec(),
+            "there is no empty line",
+        ),
         (
             b"#?x\n".iter().chain(&[b'a'; 70_000]).copied().collect(),
-            "no empty line",
+            "there is no empty line",
         ),
         (
             file(&PLAIN, "-Y 0 +X 2", &[]),

@@ -48,7 +48,9 @@ pub(super) fn picture(checks: &mut Checks, field: &FieldPath, file: &Path) -> Op
     let mut colours: Vec<[u16; 3]> = picture.pixels().map(|pixel| pixel.0).collect();
     colours.sort_unstable();
     colours.dedup();
-    let beyond = colours.par_iter().filter(|&&codes| is_beyond(&meaning, codes));
+    let beyond = colours
+        .par_iter()
+        .filter(|&&codes| is_beyond(&meaning, codes));
     let beyond = beyond.count();
     if beyond > 0 {
         let of = colours.len();
