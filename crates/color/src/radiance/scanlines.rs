@@ -6,6 +6,9 @@ use super::header::Layout;
 /// The lengths of scanlines that may have runs in each component.
 const WITH_RUNS: std::ops::RangeInclusive<usize> = 8..=0x7fff;
 
+/// A scanline's number, from 0, and its pixels.
+type Scanline<'a> = (u32, &'a [[u8; 4]]);
+
 /// Reads one scanline after the other.
 pub(super) struct Scanlines<'a> {
     data: &'a [u8],
@@ -33,7 +36,7 @@ impl<'a> Scanlines<'a> {
     }
 
     /// The next scanline with its number from 0; `None` after the last.
-    pub(super) fn next(&mut self) -> Result<Option<(u32, &[[u8; 4]])>, RadianceError> {
+    pub(super) fn next(&mut self) -> Result<Option<Scanline<'_>>, RadianceError> {
         if self.next == self.count {
             return Ok(None);
         }
@@ -86,7 +89,9 @@ fn read_component(data: &mut &[u8], pixels: &mut [[u8; 4]], component: usize) ->
         }
         if code > 128 {
             let [value] = take(data)?;
-            part.iter_mut().for_each(|pixel| pixel[component] = value);
+            for pixel in part {
+                pixel[component] = value;
+            }
         } else {
             let (values, rest) = data.split_at_checked(count).ok_or(Fault::CutShort)?;
             *data = rest;

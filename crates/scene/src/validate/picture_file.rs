@@ -129,11 +129,14 @@ fn has_transparency(picture: &DynamicImage) -> bool {
     }
 }
 
+/// Codes of red, green and blue.
+pub(crate) type Codes = ImageBuffer<Rgb<u16>, Vec<u16>>;
+
 /// The codes of red, green and blue of 16 bits of a PNG file of 8 or 16 bits, and the colors that they are.
 pub(crate) fn read_colours(
     path: &Path,
     notes: &mut Vec<String>,
-) -> Result<(ImageBuffer<Rgb<u16>, Vec<u16>>, CodeColors), PictureFileError> {
+) -> Result<(Codes, CodeColors), PictureFileError> {
     let bytes = read_bytes(path, MAX_PICTURE_BYTES)?;
     let colors = CodeColors::of_png(&bytes)?;
     let picture = decode(&bytes)?;
