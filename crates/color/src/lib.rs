@@ -20,13 +20,14 @@
 mod cicp;
 pub mod compare;
 pub mod develop;
+mod exr_file;
 pub mod icc;
 mod pending_file;
 pub mod png;
 pub mod png_colors;
 mod probe;
 pub mod radiance;
-mod relight;
+pub(crate) mod relight;
 pub mod rgb_exr;
 mod rgb_image;
 pub mod spectral_exr;

@@ -17,9 +17,12 @@ use crate::develop::LinearImage;
 use crate::pending_file::PendingFile;
 use crate::spectral_exr::software;
 
+mod layers;
 mod primaries;
+mod read;
 
-pub use primaries::{BadPrimaries, srgb_from_file};
+pub use primaries::BadPrimaries;
+pub use read::{ReadRgbError, RgbFile};
 
 /// How a file holds a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -198,9 +201,11 @@ mod tests {
         let path = folder.path().join("p3.exr");
         let (image, display) = image(2, 1);
         write(&path, &image, &display, Samples::Float).unwrap();
-        let matrix = srgb_from_file(&std::fs::read(&path).unwrap())
-            .unwrap()
-            .unwrap();
+        let primaries = || {
+            let file = exr::meta::MetaData::read_from_file(&path, true).unwrap();
+            file.headers[0].shared_attributes.chromaticities
+        };
+        let matrix = primaries::srgb_from(primaries()).unwrap().unwrap();
         for (row, expected) in matrix.iter().zip([1.2249, -0.0421, -0.0196]) {
             assert!((row[0] - expected).abs() < 1e-4, "{matrix:?}");
             // One white.
@@ -208,7 +213,7 @@ mod tests {
         }
         let srgb = Display::named("srgb").unwrap();
         write(&path, &image, &srgb, Samples::Float).unwrap();
-        assert_eq!(srgb_from_file(&std::fs::read(&path).unwrap()), Ok(None));
-        assert_eq!(srgb_from_file(b"no such file"), Ok(None));
+        assert_eq!(primaries::srgb_from(primaries()), Ok(None));
+        assert_eq!(primaries::srgb_from(None), Ok(None));
     }
 }

@@ -209,7 +209,7 @@ impl Change {
 }
 
 /// A lamp over the bands.
-fn over(grid: &BandGrid, lamp: &Spectrum) -> Result<Tabulated, OutOfRange> {
+pub(crate) fn over(grid: &BandGrid, lamp: &Spectrum) -> Result<Tabulated, OutOfRange> {
     let ends = [grid.min_nm(), grid.max_nm()];
     for nm in ends {
         lamp.at(nm)?;

@@ -1,13 +1,10 @@
 //! The primaries that an `OpenEXR` file's red, green and blue are amounts of.
 
-use std::panic::catch_unwind;
-
 use colorimetry::Matrix3;
 use colorimetry::display::xyz_from_rgb_of;
 use colorimetry::matrix::product;
 use colorimetry::srgb;
 use exr::math::Vec2;
-use exr::meta::MetaData;
 use exr::meta::attribute::Chromaticities;
 use thiserror::Error;
 
@@ -30,20 +27,14 @@ pub struct BadPrimaries {
     pub white: [f32; 2],
 }
 
-/// The matrix from a file's red, green and blue to those of sRGB, without chromatic adaptation: colours stay what they are. `None`
-/// where the header says nothing (the format's default is the primaries of Rec. ITU-R BT.709, which are those of sRGB), where
-/// it says sRGB, and where it cannot be read.
+/// The matrix from a file's red, green and blue to those of sRGB, without chromatic adaptation: colors stay what they are. `None`
+/// where the header says nothing (the format's default is the primaries of Rec. ITU-R BT.709, which are those of sRGB) and where
+/// it says sRGB.
 ///
 /// # Errors
 /// When the header's chromaticities are no primaries.
-pub fn srgb_from_file(bytes: &[u8]) -> Result<Option<Matrix3>, BadPrimaries> {
-    // Some damage makes the decoder panic.
-    let read = catch_unwind(|| MetaData::read_from_buffered(bytes, false));
-    let Ok(Ok(metadata)) = read else {
-        return Ok(None);
-    };
-    let mut headers = metadata.headers.iter();
-    let Some(found) = headers.find_map(|header| header.shared_attributes.chromaticities) else {
+pub(super) fn srgb_from(found: Option<Chromaticities>) -> Result<Option<Matrix3>, BadPrimaries> {
+    let Some(found) = found else {
         return Ok(None);
     };
     if is_srgb(found) {

@@ -87,6 +87,8 @@ pub(super) struct Bands {
     pub(super) used: std::ops::Range<usize>,
     /// How those make the grid's bands; `None` where they are the grid's bands.
     pub(super) shares: Option<Shares>,
+    /// The ends of the bands where [`Bands::to_the_ends`] went on beyond them, nm.
+    pub(super) ends_nm: Option<(f64, f64)>,
 }
 
 /// For each band of the grid the bands that it is made of, counted from the first one used, and their shares. The integral
@@ -111,6 +113,7 @@ impl Bands {
                     grid,
                     used: 0..centres.len(),
                     shares: None,
+                    ends_nm: None,
                 }),
             };
         }
@@ -130,6 +133,7 @@ impl Bands {
                 grid,
                 used,
                 shares: None,
+                ends_nm: None,
             });
         }
         let narrowest = cut
@@ -141,8 +145,66 @@ impl Bands {
         let grid = BandGrid::new(first, last, (count as u32).clamp(1, BandGrid::MAX_COUNT))?;
         Ok(Self {
             shares: Some(shares(&cut, &grid)),
+            ends_nm: None,
             grid,
             used,
+        })
+    }
+}
+
+/// Bands may begin and end so near to the ends of [`SEEN_NM`], nm: less than 0.1 % of any lamp's X, Y or Z lies beyond.
+const NEAR_ENDS_NM: f64 = 5.0;
+/// In how many parts bands may be split to come that near.
+const MOST_PARTS: u32 = 8;
+
+impl Bands {
+    /// Bands that go from one end of [`SEEN_NM`] to the other, as reflectances need them to be seen under lamps: where the file's
+    /// end before, the last one goes on; what lies beyond is left out. Bands are split where that takes them nearer.
+    pub(super) fn to_the_ends(self) -> Result<Self, BandLayoutError> {
+        let (low, high) = SEEN_NM;
+        let (count, width_nm) = (f64::from(self.grid.count()), self.grid.width_nm());
+        let lattice = |parts: u32| {
+            let step = width_nm / f64::from(parts);
+            let first = ((low - self.grid.min_nm()) / step - 1e-6).ceil();
+            let end = ((high - self.grid.min_nm()) / step + 1e-6).floor();
+            (step, first, end)
+        };
+        let is_near = |parts: &u32| {
+            let (step, first, end) = lattice(*parts);
+            let from_nm = self.grid.min_nm() + first * step;
+            let to_nm = self.grid.min_nm() + end * step;
+            from_nm - low <= NEAR_ENDS_NM && high - to_nm <= NEAR_ENDS_NM
+        };
+        let parts = (1..=MOST_PARTS).find(is_near).unwrap_or(MOST_PARTS);
+        let (step, first, end) = lattice(parts);
+        if parts == 1 && first == 0.0 && end == count {
+            return Ok(self);
+        }
+        let (from_nm, to_nm) = (
+            self.grid.min_nm() + first * step,
+            self.grid.min_nm() + end * step,
+        );
+        let grid = BandGrid::new(
+            from_nm.max(low),
+            to_nm.min(high),
+            (end - first).max(0.0) as u32,
+        )?;
+        let last = self.grid.count() - 1;
+        let source = |band: u32| {
+            let old = ((first + f64::from(band)) / f64::from(parts) + 1e-6).floor();
+            // A cast takes what is negative to 0.
+            let old = (old as u32).min(last) as usize;
+            match &self.shares {
+                Some(shares) => shares[old].clone(),
+                None => vec![(old, 1.0)],
+            }
+        };
+        let goes_on = first < 0.0 || end > count * f64::from(parts);
+        Ok(Self {
+            ends_nm: goes_on.then(|| (self.grid.min_nm(), self.grid.max_nm())),
+            shares: Some((0..grid.count()).map(source).collect()),
+            grid,
+            used: self.used,
         })
     }
 }
@@ -235,6 +297,7 @@ mod tests {
             grid: BandGrid::new(min_nm, max_nm, used.len() as u32).unwrap(),
             used,
             shares: None,
+            ends_nm: None,
         }
     }
 
@@ -307,6 +370,36 @@ mod tests {
             let total: f32 = shares.iter().map(|(_, share)| share).sum();
             assert!((total - 1.0).abs() < 1e-5, "light is neither lost nor made");
         }
+    }
+
+    /// 400 to 700 nm by 20 are 390 to 710 nm, ten short of the violet end: halves of 10 nm reach it. 380 to 780 nm by 20 reach
+    /// over both ends by half a band. 400 to 700 nm by 10 begin at 395.
+    #[test]
+    fn reflectances_go_on_to_where_people_see() {
+        for (from, step, count, grid, ends) in [
+            (400.0, 20.0, 16, (380.0, 780.0, 40), Some((390.0, 710.0))),
+            (380.0, 20.0, 21, (380.0, 780.0, 40), None),
+            (400.0, 10.0, 31, (385.0, 775.0, 39), Some((395.0, 705.0))),
+            (360.0, 5.0, 95, (382.5, 777.5, 79), None),
+        ] {
+            let nm: Vec<f64> = (0..count).map(|i| from + step * f64::from(i)).collect();
+            let found = Bands::new(&centres(&nm), None).unwrap();
+            let places = found.used.len() - 1;
+            let found = found.to_the_ends().unwrap();
+            let (low, high, bands) = grid;
+            assert!((found.grid.min_nm() - low).abs() < 1e-9, "{found:?}");
+            assert!((found.grid.max_nm() - high).abs() < 1e-9, "{found:?}");
+            assert_eq!((found.grid.count(), found.ends_nm), (bands, ends));
+            // Each band is the one of the file that it lies in, or the nearest.
+            for (band, shares) in (0..).zip(found.shares.unwrap()) {
+                let place = (found.grid.centre_nm(band) - nm[found.used.start]) / step;
+                let place = place.round().clamp(0.0, places as f64) as usize;
+                assert_eq!(shares, [(place, 1.0)], "{band}");
+            }
+        }
+        let whole: Vec<f64> = (0..40).map(|i| 385.0 + 10.0 * f64::from(i)).collect();
+        let whole = Bands::new(&centres(&whole), None).unwrap();
+        assert_eq!(whole.clone().to_the_ends().unwrap(), whole);
     }
 
     #[test]

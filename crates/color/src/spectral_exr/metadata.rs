@@ -153,9 +153,18 @@ fn number(header: &Header, name: &str) -> Option<f64> {
 }
 
 fn emissive_units(shared: &ImageAttributes, own: &LayerAttributes) -> Option<String> {
-    let key = text(UNITS_KEY);
+    attribute_text(shared, own, UNITS_KEY)
+}
+
+/// An attribute that is a string, of the part or of the whole file.
+pub(super) fn attribute_text(
+    shared: &ImageAttributes,
+    own: &LayerAttributes,
+    name: &str,
+) -> Option<String> {
+    let key = text(name);
     match own.other.get(&key).or_else(|| shared.other.get(&key)) {
-        Some(AttributeValue::Text(units)) => Some(unicode(units)),
+        Some(AttributeValue::Text(value)) => Some(unicode(value)),
         _ => None,
     }
 }

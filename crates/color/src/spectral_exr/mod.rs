@@ -48,4 +48,5 @@ mod write;
 pub use bands::BandLayoutError;
 pub use metadata::{Metadata, software};
 pub use read::{MAX_BYTES, ReadExrError, read, read_size, read_xyz};
+pub(crate) use write::blocks_at_a_time;
 pub use write::{BATCH_BYTES, WriteExrError, WriteOptions, write};

@@ -1,29 +1,24 @@
 //! Reading a spectral image.
 
 use std::fs::File;
-use std::io::{self, BufReader, Read, Seek};
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
 
-use exr::block::UncompressedBlock;
-use exr::block::chunk::Chunk;
 use exr::block::reader::Reader;
-use exr::meta::attribute::ChannelList;
-use rayon::prelude::*;
 use spectra::{BandGrid, SpectralImage};
 use thiserror::Error;
 
 use super::bands::BandLayoutError;
 use super::metadata::Metadata;
-use super::write::blocks_at_a_time;
 use crate::XyzImage;
+use crate::exr_file::{self, Context, each_block, guard};
 
 mod colours;
-mod guard;
 mod pixels;
 mod plan;
+mod reflectances;
 
-pub use guard::MAX_BYTES;
+pub use crate::exr_file::guard::MAX_BYTES;
 
 use colours::Colours;
 use pixels::Pixels;
@@ -101,8 +96,15 @@ pub enum ReadExrError {
 /// an end from where people see (380 to 780 nm) is cut there.
 ///
 /// What a file of other origin lacks is filled in: XYZ by summing the bands
-/// ([`BandWeights::observed`](crate::BandWeights::observed)), variance and sample count as 0. Reflectances are taken as lit by a radiance of
-/// 1, where there is no radiance in the file. Polarised components, light emitted at another wavelength than it was absorbed at,
+/// ([`BandWeights::observed`](crate::BandWeights::observed)), variance and sample count as 0.
+///
+/// Reflectances, where there is no radiance in the file, are looked at under an illuminant: the one that the file's attribute
+/// `illuminant` names or has a table of, else D65. It is as bright as a radiance of 1 at every wavelength, so that a perfect white
+/// is a display's white at 0 EV. It is the lamp of the image's only light group, `illuminant`. Beyond the file's bands, from 380 to
+/// 780 nm, the reflectance stays what it is at the ends (CIE 15:2018, 7.2.3).
+///
+/// The image is the file's display window: pixels of it that the data window lacks are black and have 0 samples, those outside are
+/// cut off. Polarised components, light emitted at another wavelength than it was absorbed at,
 /// and other channels are passed over. What was assumed or changed is in the metadata's notes.
 ///
 /// # Errors
@@ -121,7 +123,8 @@ pub fn read_size(path: &Path) -> Result<([u32; 2], BandGrid), ReadExrError> {
     let (_, plan, _) = open(path)?;
     // Sides that memory holds, which has been looked at.
     let side = |side| u32::try_from(side).unwrap_or(u32::MAX);
-    Ok(([side(plan.size.0), side(plan.size.1)], plan.grid))
+    let (width, height) = plan.window.size();
+    Ok(([side(width), side(height)], plan.grid))
 }
 
 /// Reads the colours of a spectral file, without its spectra: the same XYZ as [`read`] gives, sooner.
@@ -136,7 +139,7 @@ pub fn read_xyz(path: &Path) -> Result<(XyzImage, Metadata), ReadExrError> {
         each_block(&context, reader, plan.layer, |block, channels| {
             colours.insert(&plan, block, channels)
         })?;
-        colours.finish()
+        colours.finish(&plan)
     } else {
         Some(XyzImage::from(&pixels(&context, reader, plan)?))
     };
@@ -146,30 +149,22 @@ pub fn read_xyz(path: &Path) -> Result<(XyzImage, Metadata), ReadExrError> {
 
 /// Opens a file and reads what its header says, which is checked.
 fn open(path: &Path) -> Result<(Reader<BufReader<File>>, Plan, Metadata), ReadExrError> {
-    let file_error = |source| ReadExrError::File {
-        path: path.to_owned(),
-        source,
-    };
-    let mut file = File::open(path).map_err(file_error)?;
-    let length = file.metadata().map_err(file_error)?.len();
-    if !is_exr(&mut file).map_err(file_error)? {
-        return Err(ReadExrError::NotExr {
+    let (reader, length) = exr_file::open(path)?;
+    let context = Context { path };
+    let (plan, metadata) = Plan::new(&context, reader.headers())?;
+    guard::check(&context, reader.headers(), plan.layer, length)?;
+    let (bands, groups) = (plan.grid.count(), plan.light_groups.len());
+    let bytes = |width, height| SpectralImage::bytes(width, height, bands, groups);
+    if !guard::fits(&plan.window, bytes) {
+        let (width, height) = plan.window.size();
+        return Err(ReadExrError::TooLarge {
             path: path.to_owned(),
+            width,
+            height,
+            bands: bands as usize,
         });
     }
-    let context = Context { path };
-    let reader = context.run(|| exr::block::read(BufReader::new(file), false))?;
-    let (plan, metadata) = Plan::new(&context, reader.headers())?;
-    guard::check(&context, reader.headers(), &plan, length)?;
     Ok((reader, plan, metadata))
-}
-
-/// Whether the file begins with the four bytes of an `OpenEXR` file; leaves it at its start.
-fn is_exr(file: &mut File) -> io::Result<bool> {
-    let mut magic = Vec::new();
-    Read::by_ref(file).take(4).read_to_end(&mut magic)?;
-    file.rewind()?;
-    Ok(magic == [0x76, 0x2f, 0x31, 0x01])
 }
 
 /// The whole image.
@@ -178,79 +173,16 @@ fn pixels(
     reader: Reader<BufReader<File>>,
     plan: Plan,
 ) -> Result<SpectralImage, ReadExrError> {
+    let illuminant = plan.illuminant.clone();
     let mut pixels = Pixels::new(plan);
     each_block(context, reader, pixels.layer(), |block, channels| {
         pixels.insert(block, channels)
     })?;
-    pixels
-        .finish()
-        .ok_or_else(|| context.damaged("some pixels are missing"))
-}
-
-/// Decompresses the blocks of a layer, some at a time on all cores, and hands them on in order.
-fn each_block(
-    context: &Context<'_>,
-    reader: Reader<BufReader<File>>,
-    layer: usize,
-    mut insert: impl FnMut(&UncompressedBlock, &ChannelList) -> Option<()>,
-) -> Result<(), ReadExrError> {
-    let meta = reader.meta_data().clone();
-    let at_a_time = blocks_at_a_time(meta.headers[layer].max_block_byte_size());
-    let channels = &meta.headers[layer].channels;
-    let mut chunks = context.run(|| reader.all_chunks(false))?;
-    loop {
-        let batch: Vec<Chunk> = context.run(|| chunks.by_ref().take(at_a_time).collect())?;
-        if batch.is_empty() {
-            return Ok(());
-        }
-        let blocks: Vec<UncompressedBlock> = context.run(|| {
-            batch
-                .into_par_iter()
-                .filter(|chunk| chunk.layer_index == layer)
-                .map(|chunk| UncompressedBlock::decompress_chunk(chunk, &meta, false))
-                .collect()
-        })?;
-        for block in &blocks {
-            insert(block, channels)
-                .ok_or_else(|| context.damaged("a block lies outside the image"))?;
-        }
+    let missing = || context.damaged("some pixels are missing");
+    let mut image = pixels.finish().ok_or_else(missing)?;
+    if let Some(illuminant) = illuminant {
+        reflectances::light(&mut image, illuminant)
+            .map_err(|error| context.unsupported(&error.to_string()))?;
     }
-}
-
-/// The file being read, for its errors.
-#[derive(Clone, Copy)]
-struct Context<'a> {
-    path: &'a Path,
-}
-
-impl Context<'_> {
-    fn damaged(&self, reason: &str) -> ReadExrError {
-        ReadExrError::Damaged {
-            path: self.path.to_owned(),
-            reason: reason.to_owned(),
-        }
-    }
-
-    fn unsupported(&self, reason: &str) -> ReadExrError {
-        ReadExrError::Unsupported {
-            path: self.path.to_owned(),
-            reason: reason.to_owned(),
-        }
-    }
-
-    /// Runs a step of the decoder. Some damage makes the decoder panic: here that is an error too.
-    fn run<T>(&self, step: impl FnOnce() -> exr::error::Result<T>) -> Result<T, ReadExrError> {
-        use exr::error::Error;
-        match catch_unwind(AssertUnwindSafe(step)) {
-            Ok(Ok(value)) => Ok(value),
-            Ok(Err(Error::Io(source))) => Err(ReadExrError::File {
-                path: self.path.to_owned(),
-                source,
-            }),
-            Ok(Err(Error::NotSupported(reason))) => Err(self.unsupported(&reason)),
-            Ok(Err(Error::Invalid(reason))) => Err(self.damaged(&reason)),
-            Ok(Err(Error::Aborted)) => Err(self.damaged("reading was broken off")),
-            Err(_) => Err(self.damaged("the decoder gave up")),
-        }
-    }
+    Ok(image)
 }

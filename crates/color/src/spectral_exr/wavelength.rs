@@ -96,7 +96,7 @@ fn is_reradiation(text: &str) -> bool {
 
 /// A wavelength (`550nm`, `0,55um`) or a frequency (`5,45e2THz`) in nm: a number with a comma or a dot, a prefix, and m or
 /// Hz (Fichet, Pacanowski and Wilkie, section 4).
-fn wavelength_nm(text: &str) -> Option<f64> {
+pub(super) fn wavelength_nm(text: &str) -> Option<f64> {
     let nm = if let Some(text) = text.strip_suffix("Hz") {
         let (value, exponent) = prefixed(text)?;
         LIGHT_M_PER_S / (value * power_of_ten(exponent)) * 1e9
@@ -123,7 +123,7 @@ fn prefixed(text: &str) -> Option<(f64, i32)> {
         .find_map(|&(prefix, exponent)| Some((number(text.strip_suffix(prefix)?)?, exponent)))
 }
 
-fn number(text: &str) -> Option<f64> {
+pub(super) fn number(text: &str) -> Option<f64> {
     let is_plain = |c: char| c.is_ascii_digit() || ",.eE+-".contains(c);
     let starts = text.starts_with(|c: char| c.is_ascii_digit() || ",.".contains(c));
     let is_number = starts && text.chars().all(is_plain);

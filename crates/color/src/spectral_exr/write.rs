@@ -41,7 +41,7 @@ pub const BATCH_BYTES: usize = 256 << 20;
 
 /// How many blocks are worked on in parallel before the next are read or these written: two for each core, more where they
 /// are small.
-pub(super) fn blocks_at_a_time(block_bytes: usize) -> usize {
+pub(crate) fn blocks_at_a_time(block_bytes: usize) -> usize {
     const SMALL: usize = 16 << 20;
     let block_bytes = block_bytes.max(1);
     let enough = (2 * rayon::current_num_threads()).max(SMALL / block_bytes);

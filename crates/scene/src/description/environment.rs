@@ -27,6 +27,10 @@ pub enum Environment {
         /// becomes a smooth spectrum times the illuminant's, so that (1, 1, 1) is the illuminant. The spectra of a spectral
         /// OpenEXR file are taken as they are.
         image: PathBuf,
+        /// The layer of colours to take from an OpenEXR file of several: what stands before the last dot of its channels' names, as
+        /// "ViewLayer.Combined" does in `ViewLayer.Combined.R`. When absent, the only one, or plain R, G and B.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        layer: Option<String>,
         /// Factor of all radiance.
         #[serde(default = "one")]
         #[schemars(range(min = limits::EMISSION.low, max = limits::EMISSION.high))]

@@ -67,6 +67,7 @@ pub(crate) fn check<'a>(
         }
         Some(description::Environment::Image {
             image,
+            layer,
             scale,
             illuminant,
             rotation_deg,
@@ -74,6 +75,7 @@ pub(crate) fn check<'a>(
         }) => {
             let written = Image {
                 file: image,
+                layer: layer.as_deref(),
                 scale: *scale,
                 illuminant: illuminant.as_deref(),
                 rotation_deg: *rotation_deg,
@@ -142,6 +144,7 @@ fn times(spectrum: EmissionSpectrum, scale: f64) -> Emission {
 /// A picture of all directions as written.
 struct Image<'a> {
     file: &'a Path,
+    layer: Option<&'a str>,
     scale: f64,
     illuminant: Option<&'a str>,
     rotation_deg: f64,
@@ -160,8 +163,8 @@ impl Image<'_> {
             self.rotation_deg,
             &limits::ROTATION_DEG,
         );
-        let sphere =
-            environment_picture::read(checks, &top.key("image"), self.file, spectra.grid());
+        let file = (self.file, self.layer);
+        let sphere = environment_picture::read(checks, &top.key("image"), file, spectra.grid());
         let is_spectral = sphere
             .as_ref()
             .is_some_and(|s| s.spectra == PictureSpectra::Bands);

@@ -38,17 +38,17 @@ impl Sphere {
     }
 }
 
-/// Reads a picture of all directions.
+/// Reads a picture of all directions, of the layer asked for where a file has several.
 pub(super) fn read(
     checks: &mut Checks,
     field: &FieldPath,
-    file: &Path,
+    (file, layer): (&Path, Option<&str>),
     grid: Option<BandGrid>,
 ) -> Option<Sphere> {
     let path = checks.directory.join(file);
     let grid = grid?;
     let mut notes = Vec::new();
-    let found = read_light(&path, &grid, &mut notes);
+    let found = read_light(&path, layer, &grid, &mut notes);
     for note in notes {
         checks.note(field, format_args!("{}: {note}", file.display()));
     }

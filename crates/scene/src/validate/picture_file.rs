@@ -7,9 +7,8 @@ use crate::limits::{
 };
 use color::png_colors::{CodeColors, PngColorsError};
 use color::radiance::{RadianceError, RadiancePicture, is_radiance};
-use color::rgb_exr::BadPrimaries;
+use color::rgb_exr::RgbFile;
 use color::spectral_exr::ReadExrError;
-use colorimetry::matrix::times;
 use image::{DynamicImage, ImageBuffer, ImageFormat, ImageReader, Limits, Rgb, Rgba};
 use spectra::text_file::{TextFileError, read_bytes, read_start};
 use spectra::{BandGrid, SpectralImage};
@@ -27,6 +26,8 @@ pub(crate) enum PictureFileError {
     NotPng(#[from] image::ImageError),
     #[error("is neither a Radiance picture (.hdr) nor an OpenEXR picture")]
     NotLight,
+    #[error("is a Radiance picture, which has no layers; leave `layer` out")]
+    NoLayers,
     #[error("cannot be read, or is cut short: {0}")]
     BadLight(image::ImageError),
     #[error(transparent)]
@@ -39,12 +40,6 @@ pub(crate) enum PictureFileError {
     Damaged,
     #[error("{0}")]
     Exr(String),
-    #[error(
-        "is an OpenEXR file with neither channels R, G and B nor spectral ones (`S0.550,000000nm`)"
-    )]
-    NoColours,
-    #[error(transparent)]
-    Primaries(#[from] BadPrimaries),
     #[error("its spectra cover {} to {} nm, but the bands cover {} to {} nm; set `render.wavelengths_nm` within them", own.0, own.1, bands.0, bands.1)]
     Bands { own: (f64, f64), bands: (f64, f64) },
     #[error(
@@ -155,22 +150,26 @@ pub(crate) enum LightFile {
     Spectra(Box<SpectralImage>),
 }
 
-/// Reads a picture of all directions for these bands: a Radiance file or an OpenEXR file, of colours or of spectra.
+/// Reads a picture of all directions for these bands: a Radiance file or an OpenEXR file, of colours or of spectra. `layer` is
+/// that of an OpenEXR file of several, and is then one of colours. What is assumed goes into `notes`.
 pub(crate) fn read_light(
     path: &Path,
+    layer: Option<&str>,
     grid: &BandGrid,
     notes: &mut Vec<String>,
 ) -> Result<LightFile, PictureFileError> {
     let start = read_start(path, 64)?;
     if is_radiance(&start) {
-        return read_radiance(path, notes);
+        return match layer {
+            Some(_) => Err(PictureFileError::NoLayers),
+            None => read_radiance(path, notes),
+        };
     }
     match image::guess_format(&start).ok() {
+        Some(ImageFormat::OpenExr) if layer.is_some() => read_exr_colours(path, layer, notes),
         Some(ImageFormat::OpenExr) => match color::spectral_exr::read_size(path) {
-            Ok(found) => read_spectra(path, found, grid),
-            Err(ReadExrError::NoSpectrum { .. }) => {
-                read_colours_of_light(path, ImageFormat::OpenExr)
-            }
+            Ok(found) => read_spectra(path, found, grid, notes),
+            Err(ReadExrError::NoSpectrum { .. }) => read_exr_colours(path, None, notes),
             Err(error) => Err(PictureFileError::Exr(chain(&error))),
         },
         _ => Err(PictureFileError::NotLight),
@@ -188,10 +187,27 @@ fn read_radiance(path: &Path, notes: &mut Vec<String>) -> Result<LightFile, Pict
     Ok(LightFile::Colours { width, rgb })
 }
 
+fn read_exr_colours(
+    path: &Path,
+    layer: Option<&str>,
+    notes: &mut Vec<String>,
+) -> Result<LightFile, PictureFileError> {
+    let file = RgbFile::open(path, layer);
+    let file = file.map_err(|error| PictureFileError::Exr(chain(&error)))?;
+    let [width, height] = file.size();
+    check_size(width, height)?;
+    check_panorama(width, height)?;
+    notes.extend_from_slice(file.notes());
+    let rgb = file.read();
+    let rgb = rgb.map_err(|error| PictureFileError::Exr(chain(&error)))?;
+    Ok(LightFile::Colours { width, rgb })
+}
+
 fn read_spectra(
     path: &Path,
     ([width, height], own): ([u32; 2], BandGrid),
     grid: &BandGrid,
+    notes: &mut Vec<String>,
 ) -> Result<LightFile, PictureFileError> {
     check_size(width, height)?;
     check_panorama(width, height)?;
@@ -210,37 +226,23 @@ fn read_spectra(
         });
     }
     let read = color::spectral_exr::read(path);
-    let (image, _) = read.map_err(|error| PictureFileError::Exr(chain(&error)))?;
+    let (image, metadata) = read.map_err(|error| PictureFileError::Exr(chain(&error)))?;
+    notes.extend(metadata.notes);
     Ok(LightFile::Spectra(Box::new(image)))
 }
 
 fn read_colours_of_light(path: &Path, format: ImageFormat) -> Result<LightFile, PictureFileError> {
     let bytes = read_bytes(path, MAX_PICTURE_BYTES)?;
-    // A header without colours is a sound one.
-    let bad_header = |error| match format {
-        ImageFormat::OpenExr => PictureFileError::NoColours,
-        _ => PictureFileError::BadLight(error),
-    };
     let (width, height) = reader(&bytes, format)
         .into_dimensions()
-        .map_err(bad_header)?;
+        .map_err(PictureFileError::BadLight)?;
     check_size(width, height)?;
     check_panorama(width, height)?;
-    // Some damage makes the decoder of OpenEXR panic.
+    // Some damage makes a decoder panic.
     let decoded = catch_unwind(AssertUnwindSafe(|| reader(&bytes, format).decode()));
     let decoded = decoded.map_err(|_| PictureFileError::Damaged)?;
     let picture = decoded.map_err(PictureFileError::BadLight)?.into_rgb32f();
-    let rgb = picture.pixels().map(|pixel| pixel.0);
-    let to_srgb = match format {
-        ImageFormat::OpenExr => color::rgb_exr::srgb_from_file(&bytes)?,
-        _ => None,
-    };
-    let rgb = match to_srgb {
-        Some(matrix) => rgb
-            .map(|rgb| times(&matrix, rgb.map(f64::from)).map(|value| value as f32))
-            .collect(),
-        None => rgb.collect(),
-    };
+    let rgb = picture.pixels().map(|pixel| pixel.0).collect();
     Ok(LightFile::Colours { width, rgb })
 }
 

@@ -4,8 +4,8 @@ use exr::block::UncompressedBlock;
 use exr::meta::attribute::ChannelList;
 
 use super::Plan;
-use super::pixels::each;
 use crate::XyzImage;
+use crate::exr_file::each_sample;
 use crate::spectral_exr::channels::Content;
 
 /// The colours of an image that is being read.
@@ -18,9 +18,9 @@ pub(super) struct Colours {
 
 impl Colours {
     pub(super) fn new(plan: &Plan) -> Self {
-        let (width, height) = plan.size;
+        let (width, height) = plan.window.size();
         Self {
-            size: plan.size,
+            size: (width, height),
             xyz: vec![[0.0; 3]; width * height],
             filled: 0,
         }
@@ -33,33 +33,34 @@ impl Colours {
         block: &UncompressedBlock,
         channels: &ChannelList,
     ) -> Option<()> {
-        if block.index.level.0 != 0 || block.index.level.1 != 0 {
-            // A smaller version of the same image.
-            return Some(());
-        }
         for line in block.lines(channels) {
             let at = line.location;
             let Some(Content::Xyz(axis)) = plan.contents[at.channel] else {
                 continue;
             };
             let (x, y) = (at.position.x(), at.position.y());
-            if x.checked_add(at.sample_count)? > self.size.0 || y >= self.size.1 {
+            if !plan.window.holds((x, y), at.sample_count) {
                 return None;
             }
-            let start = y * self.size.0 + x;
-            let row = &mut self.xyz[start..start + at.sample_count];
-            each(line, channels.list[at.channel].sample_type, |x, value| {
+            self.filled += at.sample_count;
+            let Some(run) = plan.window.place((x, y), at.sample_count) else {
+                continue;
+            };
+            let start = run.y * self.size.0 + run.x;
+            let row = &mut self.xyz[start..start + run.count];
+            let kind = channels.list[at.channel].sample_type;
+            each_sample(line, kind, (run.skip, run.count), |x, value| {
                 row[x][axis] = plan.scale * value;
             });
-            self.filled += at.sample_count;
         }
         Some(())
     }
 
     /// The colours, if every sample came.
-    pub(super) fn finish(self) -> Option<XyzImage> {
+    pub(super) fn finish(self, plan: &Plan) -> Option<XyzImage> {
         let (width, height) = self.size;
-        let all = self.filled == 3 * width * height;
+        let held = plan.window.data();
+        let all = self.filled == 3 * held.0 * held.1;
         all.then(|| XyzImage::new(width as u32, height as u32, self.xyz))?
     }
 }

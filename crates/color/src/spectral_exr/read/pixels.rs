@@ -3,11 +3,11 @@
 use exr::block::UncompressedBlock;
 use exr::block::lines::LineRef;
 use exr::meta::attribute::{ChannelList, SampleType};
-use exr::prelude::f16;
 use spectra::{Observer, SpectralImage};
 
 use super::Plan;
 use crate::BandWeights;
+use crate::exr_file::{Run, each_sample, words};
 use crate::spectral_exr::channels::{Content, LightContent};
 
 /// An image that is being read.
@@ -35,7 +35,7 @@ struct Row {
 
 impl Pixels {
     pub(super) fn new(plan: Plan) -> Self {
-        let (width, height) = plan.size;
+        let (width, height) = plan.window.size();
         Self {
             image: SpectralImage::with_light_groups(
                 width as u32,
@@ -61,14 +61,12 @@ impl Pixels {
         block: &UncompressedBlock,
         channels: &ChannelList,
     ) -> Option<()> {
-        if block.index.level.0 != 0 || block.index.level.1 != 0 {
-            // A smaller version of the same image.
-            return Some(());
-        }
         let (position, size) = (block.index.pixel_position, block.index.pixel_size);
-        let (width, height) = self.plan.size;
-        if position.x().checked_add(size.width())? > width
-            || position.y().checked_add(size.height())? > height
+        let last_row = position.y().checked_add(size.height())?.checked_sub(1)?;
+        if !self
+            .plan
+            .window
+            .holds((position.x(), last_row), size.width())
         {
             return None;
         }
@@ -85,17 +83,19 @@ impl Pixels {
                 );
             }
             if channel == last {
-                self.put(&row, position.x(), y);
+                if let Some(run) = self.plan.window.place((position.x(), y), size.width()) {
+                    self.put(&row, run);
+                }
             }
         }
         Some(())
     }
 
-    fn put(&mut self, row: &Row, x0: usize, y: usize) {
+    fn put(&mut self, row: &Row, run: Run) {
         let bands = self.plan.grid.count() as usize;
         let mut even = vec![0.0; bands];
         let mut lights = (Vec::new(), Vec::new());
-        for (x, &xyz) in row.xyz.iter().enumerate() {
+        for (x, &xyz) in row.xyz.iter().enumerate().skip(run.skip).take(run.count) {
             let values = x * bands..(x + 1) * bands;
             let radiance = &row.radiance[x * row.channels..(x + 1) * row.channels];
             let radiance = match &self.plan.shares {
@@ -111,7 +111,7 @@ impl Pixels {
                 Some(observer) => observer.xyz(radiance).map(|v| v as f32),
                 None => xyz,
             };
-            let place = ((x0 + x) as u32, y as u32);
+            let place = ((run.x + x - run.skip) as u32, run.y as u32);
             let variance = &row.variance[values];
             if row.lights.is_empty() {
                 self.image
@@ -123,15 +123,14 @@ impl Pixels {
                     .set_pixel_by_light(place, radiance, variance, xyz, row.samples[x]);
             }
         }
-        self.filled[y] += row.xyz.len();
+        self.filled[run.y] += run.count;
     }
 
     /// The image, if every pixel came exactly once.
     pub(super) fn finish(self) -> Option<SpectralImage> {
-        let width = self.plan.size.0;
-        self.filled
-            .iter()
-            .all(|&count| count == width)
+        let window = self.plan.window;
+        let mut rows = self.filled.iter().enumerate();
+        rows.all(|(y, &count)| count == window.held_in_row(y))
             .then_some(self.image)
     }
 }
@@ -194,24 +193,6 @@ impl Row {
 }
 
 /// Calls `put` with the index and value of every sample of a line.
-pub(super) fn each(line: LineRef<'_>, kind: SampleType, put: impl FnMut(usize, f32)) {
-    let mut put = put;
-    match kind {
-        SampleType::F32 => words(line.value)
-            .enumerate()
-            .for_each(|(x, bytes)| put(x, f32::from_ne_bytes(bytes))),
-        SampleType::U32 => words(line.value)
-            .enumerate()
-            .for_each(|(x, bytes)| put(x, u32::from_ne_bytes(bytes) as f32)),
-        SampleType::F16 => line
-            .value
-            .chunks_exact(2)
-            .enumerate()
-            .for_each(|(x, bytes)| put(x, f16::from_ne_bytes([bytes[0], bytes[1]]).to_f32())),
-    }
-}
-
-/// The samples of four bytes in a line.
-fn words(bytes: &[u8]) -> impl Iterator<Item = [u8; 4]> + '_ {
-    bytes.chunks_exact(4).map(|b| [b[0], b[1], b[2], b[3]])
+fn each(line: LineRef<'_>, kind: SampleType, put: impl FnMut(usize, f32)) {
+    each_sample(line, kind, (0, line.location.sample_count), put);
 }

@@ -1,10 +1,10 @@
 //! What to read from a file: which layer, which of its channels.
 
-use exr::math::Vec2;
 use exr::meta::header::Header;
-use spectra::{BandGrid, LightGroup};
+use spectra::{BandGrid, LightGroup, Spectrum};
 
-use super::{Context, ReadExrError};
+use super::{ReadExrError, reflectances};
+use crate::exr_file::{Context, Window, name_of};
 use crate::spectral_exr::BandLayoutError;
 use crate::spectral_exr::bands::{Bands, Shares};
 use crate::spectral_exr::channels::{Content, plain_content, variance_band};
@@ -17,8 +17,8 @@ use crate::spectral_exr::wavelength::{Place, Quantity, spectral_channel};
 pub(super) struct Plan {
     /// Index of the layer.
     pub(super) layer: usize,
-    /// Width and height in pixels.
-    pub(super) size: (usize, usize),
+    /// The picture, and where the layer's pixels lie in it.
+    pub(super) window: Window,
     /// The bands.
     pub(super) grid: BandGrid,
     /// What each channel of the layer holds, `None` where it is passed over.
@@ -31,10 +31,12 @@ pub(super) struct Plan {
     pub(super) scale: f32,
     /// The light groups, at least one.
     pub(super) light_groups: Vec<LightGroup>,
+    /// What lights reflectances; `None` where the channels are of light.
+    pub(super) illuminant: Option<Spectrum>,
 }
 
 /// The spectral channels of a layer, in order of their wavelengths.
-struct Spectrum {
+struct Spectral {
     quantity: Quantity,
     channels: Vec<(Place, usize)>,
 }
@@ -57,14 +59,25 @@ impl Plan {
                     path: context.path.to_owned(),
                 })?;
         let header = &headers[layer];
-        let mut channels = header.channels.list.iter();
-        if channels.any(|c| c.sampling != Vec2(1, 1)) {
-            return Err(context.unsupported("channels with fewer samples than pixels"));
-        }
         let places: Vec<Place> = spectrum.channels.iter().map(|&(place, _)| place).collect();
-        let bands = Bands::new(&places, range_nm(header)).map_err(bands_error)?;
+        let is_reflectance = spectrum.quantity == Quantity::Reflectance;
+        let bands = Bands::new(&places, range_nm(header));
+        let bands = if is_reflectance {
+            bands.and_then(Bands::to_the_ends)
+        } else {
+            bands
+        };
+        let bands = bands.map_err(bands_error)?;
         let mut metadata = Metadata::of_header(header);
-        let light_groups = lights::of_header(header, &bands.grid, &mut metadata.notes);
+        let window = Window::of(header);
+        metadata.notes.extend(window.note());
+        let (light_groups, illuminant) = if is_reflectance {
+            let illuminant = reflectances::illuminant(header, &bands.grid, &mut metadata.notes);
+            (reflectances::light_groups(&bands.grid), Some(illuminant))
+        } else {
+            let groups = lights::of_header(header, &bands.grid, &mut metadata.notes);
+            (groups, None)
+        };
         let contents = contents(header, &spectrum, &bands, &light_groups);
         if let Some(name) = lights::incomplete(&light_groups, &contents, &bands.grid) {
             return Err(context.damaged(&format!("the light group {name:?} lacks channels")));
@@ -76,28 +89,30 @@ impl Plan {
         note(&mut metadata, headers, &spectrum, &bands);
         let plan = Self {
             layer,
-            size: (header.layer_size.width(), header.layer_size.height()),
+            window,
             grid: bands.grid,
             contents,
             spectral_channels: bands.used.len(),
             shares: bands.shares,
             scale: scale as f32,
             light_groups,
+            illuminant,
         };
         Ok((plan, metadata))
     }
 
     /// Whether the file has X, Y and Z.
     pub(super) fn has_xyz(&self) -> bool {
-        (0..3).all(|axis| self.contents.contains(&Some(Content::Xyz(axis))))
+        self.illuminant.is_none()
+            && (0..3).all(|axis| self.contents.contains(&Some(Content::Xyz(axis))))
     }
 }
 
 /// The layer to read, with its spectrum.
-fn find(headers: &[Header]) -> Result<Option<(usize, Spectrum)>, BandLayoutError> {
+fn find(headers: &[Header]) -> Result<Option<(usize, Spectral)>, BandLayoutError> {
     for quantity in [Quantity::Radiance, Quantity::Range, Quantity::Reflectance] {
         for (layer, header) in headers.iter().enumerate().filter(|(_, h)| !h.deep) {
-            let spectrum = Spectrum::of(header, quantity)?;
+            let spectrum = Spectral::of(header, quantity)?;
             if !spectrum.channels.is_empty() {
                 return Ok(Some((layer, spectrum)));
             }
@@ -106,7 +121,7 @@ fn find(headers: &[Header]) -> Result<Option<(usize, Spectrum)>, BandLayoutError
     Ok(None)
 }
 
-impl Spectrum {
+impl Spectral {
     fn of(header: &Header, quantity: Quantity) -> Result<Self, BandLayoutError> {
         let mut channels = Vec::new();
         for (channel, name) in names(header).iter().enumerate() {
@@ -126,14 +141,14 @@ impl Spectrum {
 fn names(header: &Header) -> Vec<String> {
     let channels = header.channels.list.iter();
     channels
-        .map(|channel| String::from_utf8_lossy(channel.name.as_slice()).into_owned())
+        .map(|channel| name_of(channel.name.as_slice()))
         .collect()
 }
 
 /// What each channel holds.
 fn contents(
     header: &Header,
-    spectrum: &Spectrum,
+    spectrum: &Spectral,
     bands: &Bands,
     light_groups: &[LightGroup],
 ) -> Vec<Option<Content>> {
@@ -153,16 +168,10 @@ fn contents(
 }
 
 /// Says what was chosen and changed.
-fn note(metadata: &mut Metadata, headers: &[Header], spectrum: &Spectrum, bands: &Bands) {
+fn note(metadata: &mut Metadata, headers: &[Header], spectrum: &Spectral, bands: &Bands) {
     let mut say = |note: String| metadata.notes.push(note);
-    if spectrum.quantity == Quantity::Reflectance {
-        say(
-            "holds reflectances: they are taken as lit by a radiance of 1 at every wavelength"
-                .into(),
-        );
-    }
     let spectral_layers = headers.iter().filter(|header| {
-        let found = Spectrum::of(header, spectrum.quantity);
+        let found = Spectral::of(header, spectrum.quantity);
         !header.deep && found.is_ok_and(|found| !found.channels.is_empty())
     });
     if spectral_layers.count() > 1 {
@@ -176,7 +185,12 @@ fn note(metadata: &mut Metadata, headers: &[Header], spectrum: &Spectrum, bands:
             "{left_out} of its {all} bands are left out: they reach beyond {low} to {high} nm"
         ));
     }
-    if bands.shares.is_some() {
+    if let Some((from_nm, to_nm)) = bands.ends_nm {
+        say(format!(
+            "its bands cover {from_nm} to {to_nm} nm: beyond, the reflectance stays what it is there"
+        ));
+    }
+    if bands.shares.is_some() && spectrum.quantity != Quantity::Reflectance {
         say(format!(
             "its {} bands are of different widths: read onto {} even ones of {:.3} nm, which keeps the integral",
             bands.used.len(),

@@ -1,0 +1,202 @@
+//! What reading spectral files and files of colors has in common: opening, checks of what a header claims, blocks, windows.
+
+use std::fs::File;
+use std::io::{self, BufReader, Read, Seek};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+use exr::block::UncompressedBlock;
+use exr::block::chunk::Chunk;
+use exr::block::lines::LineRef;
+use exr::block::reader::Reader;
+use exr::math::Vec2;
+use exr::meta::MetaData;
+use exr::meta::attribute::{ChannelList, SampleType};
+use exr::meta::header::Header;
+use exr::prelude::{Compression, f16};
+use rayon::prelude::*;
+
+use crate::spectral_exr::{ReadExrError, blocks_at_a_time};
+
+pub(crate) mod guard;
+mod window;
+
+pub(crate) use window::{Run, Window};
+
+/// Names that a message lists.
+const MOST_LISTED: usize = 24;
+
+/// Opens a file and reads its header; with it comes the file's length in bytes. What the header claims is checked by
+/// [`guard::check`].
+pub(crate) fn open(path: &Path) -> Result<(Reader<BufReader<File>>, u64), ReadExrError> {
+    let file_error = |source| ReadExrError::File {
+        path: path.to_owned(),
+        source,
+    };
+    let mut file = File::open(path).map_err(file_error)?;
+    let length = file.metadata().map_err(file_error)?.len();
+    if !is_exr(&mut file).map_err(file_error)? {
+        return Err(ReadExrError::NotExr {
+            path: path.to_owned(),
+        });
+    }
+    let context = Context { path };
+    let buffered = BufReader::new(&file);
+    let claimed = context.run(|| MetaData::read_from_buffered(buffered, true))?;
+    check_form(&context, &claimed.headers)?;
+    file.rewind().map_err(file_error)?;
+    let reader = context.run(|| exr::block::read(BufReader::new(file), false))?;
+    Ok((reader, length))
+}
+
+/// Refuses what the decoder does not read, by its name.
+fn check_form(context: &Context<'_>, headers: &[Header]) -> Result<(), ReadExrError> {
+    if headers.iter().any(|header| header.deep) {
+        return Err(context.unsupported("deep data, that is several samples per pixel"));
+    }
+    let channels = || headers.iter().flat_map(|header| &header.channels.list);
+    let coarse = channels().filter(|channel| channel.sampling != Vec2(1, 1));
+    let coarse: Vec<String> = coarse
+        .map(|channel| name_of(channel.name.as_slice()))
+        .collect();
+    if !coarse.is_empty() {
+        let all: Vec<String> = channels().map(|c| name_of(c.name.as_slice())).collect();
+        return Err(context.unsupported(&format!(
+            "channels with fewer samples than pixels ({}), as luminance and chroma have them; write it with a sample per pixel, \
+             as R, G and B. Its channels are {}",
+            listed(&coarse),
+            listed(&all)
+        )));
+    }
+    let unknown = headers.iter().map(|header| header.compression);
+    let mut unknown = unknown.filter(|c| matches!(c, Compression::HTJ2K32 | Compression::HTJ2K256));
+    match unknown.next() {
+        Some(compression) => Err(context.unsupported(&format!(
+            "compression {compression:?}; write it with ZIP or PIZ"
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// Whether the file begins with the four bytes of an `OpenEXR` file; leaves it at its start.
+fn is_exr(file: &mut File) -> io::Result<bool> {
+    let mut magic = Vec::new();
+    Read::by_ref(file).take(4).read_to_end(&mut magic)?;
+    file.rewind()?;
+    Ok(magic == [0x76, 0x2f, 0x31, 0x01])
+}
+
+/// A channel's or part's name, whatever its bytes are.
+pub(crate) fn name_of(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// Names in quotation marks, control characters escaped; of many the first ones, and how many more there are.
+pub(crate) fn listed(names: &[String]) -> String {
+    let shown = names.iter().take(MOST_LISTED);
+    let shown: Vec<String> = shown.map(|name| format!("{name:?}")).collect();
+    match names.len().saturating_sub(MOST_LISTED) {
+        0 => shown.join(", "),
+        more => format!("{} and {more} more", shown.join(", ")),
+    }
+}
+
+/// Decompresses the blocks of a part, some at a time on all cores, and hands those of full size on in order.
+pub(crate) fn each_block(
+    context: &Context<'_>,
+    reader: Reader<BufReader<File>>,
+    part: usize,
+    mut insert: impl FnMut(&UncompressedBlock, &ChannelList) -> Option<()>,
+) -> Result<(), ReadExrError> {
+    let meta = reader.meta_data().clone();
+    let at_a_time = blocks_at_a_time(meta.headers[part].max_block_byte_size());
+    let channels = &meta.headers[part].channels;
+    let mut chunks = context.run(|| reader.all_chunks(false))?;
+    loop {
+        let batch: Vec<Chunk> = context.run(|| chunks.by_ref().take(at_a_time).collect())?;
+        if batch.is_empty() {
+            return Ok(());
+        }
+        let blocks: Vec<UncompressedBlock> = context.run(|| {
+            batch
+                .into_par_iter()
+                .filter(|chunk| chunk.layer_index == part)
+                .map(|chunk| UncompressedBlock::decompress_chunk(chunk, &meta, false))
+                .collect()
+        })?;
+        // Others are smaller versions of the same image.
+        let full_size = blocks
+            .iter()
+            .filter(|block| block.index.level == Vec2(0, 0));
+        for block in full_size {
+            insert(block, channels)
+                .ok_or_else(|| context.damaged("a block lies outside the image"))?;
+        }
+    }
+}
+
+/// Calls `put` with the index and value of so many samples of a line, after those to skip.
+pub(crate) fn each_sample(
+    line: LineRef<'_>,
+    kind: SampleType,
+    (skip, count): (usize, usize),
+    mut put: impl FnMut(usize, f32),
+) {
+    let samples = words(line.value).skip(skip).take(count).enumerate();
+    match kind {
+        SampleType::F32 => samples.for_each(|(x, bytes)| put(x, f32::from_ne_bytes(bytes))),
+        SampleType::U32 => samples.for_each(|(x, bytes)| put(x, u32::from_ne_bytes(bytes) as f32)),
+        SampleType::F16 => {
+            let halves = line.value.chunks_exact(2).skip(skip).take(count);
+            halves
+                .enumerate()
+                .for_each(|(x, b)| put(x, f16::from_ne_bytes([b[0], b[1]]).to_f32()));
+        }
+    }
+}
+
+/// The samples of four bytes in a line.
+pub(crate) fn words(bytes: &[u8]) -> impl Iterator<Item = [u8; 4]> + '_ {
+    bytes.chunks_exact(4).map(|b| [b[0], b[1], b[2], b[3]])
+}
+
+/// The file being read, for its errors.
+#[derive(Clone, Copy)]
+pub(crate) struct Context<'a> {
+    pub(crate) path: &'a Path,
+}
+
+impl Context<'_> {
+    pub(crate) fn damaged(&self, reason: &str) -> ReadExrError {
+        ReadExrError::Damaged {
+            path: self.path.to_owned(),
+            reason: reason.to_owned(),
+        }
+    }
+
+    pub(crate) fn unsupported(&self, reason: &str) -> ReadExrError {
+        ReadExrError::Unsupported {
+            path: self.path.to_owned(),
+            reason: reason.to_owned(),
+        }
+    }
+
+    /// Runs a step of the decoder. Some damage makes the decoder panic: here that is an error too.
+    pub(crate) fn run<T>(
+        &self,
+        step: impl FnOnce() -> exr::error::Result<T>,
+    ) -> Result<T, ReadExrError> {
+        use exr::error::Error;
+        match catch_unwind(AssertUnwindSafe(step)) {
+            Ok(Ok(value)) => Ok(value),
+            Ok(Err(Error::Io(source))) => Err(ReadExrError::File {
+                path: self.path.to_owned(),
+                source,
+            }),
+            Ok(Err(Error::NotSupported(reason))) => Err(self.unsupported(&reason)),
+            Ok(Err(Error::Invalid(reason))) => Err(self.damaged(&reason)),
+            Ok(Err(Error::Aborted)) => Err(self.damaged("reading was broken off")),
+            Err(_) => Err(self.damaged("the decoder gave up")),
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! Where the pixels that a file holds lie in its picture.
+
+use exr::meta::header::Header;
+
+/// The data window, whose pixels a file holds, in the display window, which is the picture. Pixels of the picture that the file
+/// does not hold are black; those that lie outside the picture are cut off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Window {
+    size: (usize, usize),
+    data: (usize, usize),
+    /// Place of the data window's first pixel in the picture.
+    offset: (i64, i64),
+}
+
+/// Neighboring samples of a row that lie in the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Run {
+    /// How many samples before them are cut off.
+    pub(crate) skip: usize,
+    /// How many they are.
+    pub(crate) count: usize,
+    /// Place of the first one in the picture.
+    pub(crate) x: usize,
+    /// Their row in the picture.
+    pub(crate) y: usize,
+}
+
+impl Window {
+    pub(crate) fn of(header: &Header) -> Self {
+        let (display, position) = (
+            header.shared_attributes.display_window,
+            header.own_attributes.layer_position,
+        );
+        let from = |data: i32, display: i32| i64::from(data) - i64::from(display);
+        Self {
+            size: (display.size.width(), display.size.height()),
+            data: (header.layer_size.width(), header.layer_size.height()),
+            offset: (
+                from(position.x(), display.position.x()),
+                from(position.y(), display.position.y()),
+            ),
+        }
+    }
+
+    /// Width and height of the picture in pixels.
+    pub(crate) fn size(&self) -> (usize, usize) {
+        self.size
+    }
+
+    /// Width and height of what the file holds.
+    pub(crate) fn data(&self) -> (usize, usize) {
+        self.data
+    }
+
+    /// Whether `count` samples from column `x` of row `y` lie in the data window.
+    pub(crate) fn holds(&self, (x, y): (usize, usize), count: usize) -> bool {
+        x.checked_add(count).is_some_and(|end| end <= self.data.0) && y < self.data.1
+    }
+
+    /// Where `count` samples from column `x` of row `y` of the data window lie; `None` where none lies in the picture.
+    pub(crate) fn place(&self, (x, y): (usize, usize), count: usize) -> Option<Run> {
+        let row = usize::try_from(y as i64 + self.offset.1).ok();
+        let row = row.filter(|&row| row < self.size.1)?;
+        let start = x as i64 + self.offset.0;
+        let end = (start + count as i64).min(self.size.0 as i64);
+        let first = start.max(0);
+        (first < end).then_some(Run {
+            skip: (first - start) as usize,
+            count: (end - first) as usize,
+            x: first as usize,
+            y: row,
+        })
+    }
+
+    /// How many pixels of a row of the picture the file holds.
+    pub(crate) fn held_in_row(&self, y: usize) -> usize {
+        let data_row = y as i64 - self.offset.1;
+        if !(0..self.data.1 as i64).contains(&data_row) {
+            return 0;
+        }
+        self.place((0, data_row as usize), self.data.0)
+            .map_or(0, |run| run.count)
+    }
+
+    /// What is black and what is cut off, if anything.
+    pub(crate) fn note(&self) -> Option<String> {
+        let ((width, height), (own_width, own_height)) = (self.size, self.data);
+        let (x, y) = self.offset;
+        let is_over =
+            |start: i64, own: usize, all: usize| start < 0 || start + own as i64 > all as i64;
+        let is_short =
+            |start: i64, own: usize, all: usize| start > 0 || start + (own as i64) < all as i64;
+        let over = is_over(x, own_width, width) || is_over(y, own_height, height);
+        let short = is_short(x, own_width, width) || is_short(y, own_height, height);
+        let done = match (over, short) {
+            (false, false) => return None,
+            (true, false) => "what lies outside is cut off",
+            (false, true) => "the pixels without data are black",
+            (true, true) => "what lies outside is cut off, and the pixels without data are black",
+        };
+        Some(format!(
+            "holds {own_width}×{own_height} pixels from {x},{y} on of a picture of {width}×{height}: {done}"
+        ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn window(offset: (i64, i64), data: (usize, usize)) -> Window {
+        Window {
+            size: (8, 4),
+            data,
+            offset,
+        }
+    }
+
+    #[test]
+    fn crops_and_overscan_are_placed() {
+        let crop = window((2, 1), (4, 2));
+        let run = |skip, count, x, y| Some(Run { skip, count, x, y });
+        assert_eq!(crop.place((0, 0), 4), run(0, 4, 2, 1));
+        assert_eq!(crop.place((1, 1), 2), run(0, 2, 3, 2));
+        assert_eq!([0, 1, 2, 3].map(|y| crop.held_in_row(y)), [0, 4, 4, 0]);
+        let overscan = window((-3, -1), (14, 6));
+        assert_eq!(overscan.place((0, 1), 14), run(3, 8, 0, 0));
+        assert_eq!(overscan.place((0, 0), 14), None);
+        assert_eq!(overscan.place((0, 5), 14), None);
+        assert_eq!(overscan.place((2, 4), 4), run(1, 3, 0, 3));
+        assert_eq!([0, 3].map(|y| overscan.held_in_row(y)), [8, 8]);
+        assert!(
+            overscan.holds((13, 5), 1) && !overscan.holds((13, 5), 2) && !overscan.holds((0, 6), 1)
+        );
+    }
+
+    #[test]
+    fn windows_that_do_not_meet_have_no_pixel_in_common() {
+        for offset in [
+            (8, 0),
+            (-4, 0),
+            (0, 4),
+            (0, -2),
+            (i64::from(i32::MAX) * 2, 0),
+            (0, i64::from(i32::MIN) * 2),
+        ] {
+            let window = window(offset, (4, 2));
+            assert!(
+                (0..2).all(|y| window.place((0, y), 4).is_none()),
+                "{offset:?}"
+            );
+            assert!((0..4).all(|y| window.held_in_row(y) == 0), "{offset:?}");
+            assert!(window.note().is_some());
+        }
+    }
+
+    #[test]
+    fn what_is_done_is_said() {
+        assert_eq!(window((0, 0), (8, 4)).note(), None);
+        let said = |offset, data| window(offset, data).note().unwrap_or_default();
+        assert!(
+            said((2, 1), (4, 2))
+                .ends_with("from 2,1 on of a picture of 8×4: the pixels without data are black")
+        );
+        assert!(said((-1, 0), (10, 4)).ends_with(": what lies outside is cut off"));
+        assert!(said((-1, 0), (4, 4)).contains("cut off, and"));
+    }
+}
