@@ -113,7 +113,7 @@ fn files_that_are_no_pictures_of_light_are_told() {
     );
     let spectra = fs::read(folder.join("spectra.exr")).unwrap();
     fs::write(folder.join("few.exr"), &spectra[..spectra.len() / 2]).unwrap();
-    let neither = "neither channels R, G and B nor spectral ones";
+    let neither = "neither channels R, G and B, nor X, Y and Z";
     for (name, phrase) in [
         ("none.hdr", "cannot be opened"),
         ("cut.hdr", "cut short"),

@@ -120,15 +120,6 @@ fn each_band_comes_from_its_own_channel() {
 }
 
 #[test]
-fn reflectances_are_read_where_there_is_no_radiance() {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("foreign.exr");
-    let (image, metadata) = read_foreign(&path, &["T.450nm", "T.460nm", "R"]);
-    assert_eq!(image.pixel(2, 1), [5.0; 2]);
-    assert!(metadata.notes[0].contains("reflectances"));
-}
-
-#[test]
 fn units_are_converted_where_they_are_a_scale_away() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("foreign.exr");

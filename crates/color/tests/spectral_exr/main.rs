@@ -3,5 +3,7 @@
 mod damaged;
 mod foreign;
 mod lights;
+mod reflectances;
 mod round_trip;
 mod support;
+mod windows;
