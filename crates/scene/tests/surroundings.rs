@@ -94,7 +94,8 @@ fn files_that_are_no_pictures_of_light_are_told() {
     fs::write(folder.join("text.hdr"), "a picture").unwrap();
     fs::create_dir(folder.join("folder.exr")).unwrap();
     write_exr(&folder.join("depth.exr"), (2, 1), &["Z"], &[1.0; 2], None);
-    write_exr(&folder.join("grey.exr"), (2, 1), &["Y"], &[1.0; 2], None);
+    let layers = ["a.R", "a.G", "a.B", "b.R", "b.G", "b.B"];
+    write_exr(&folder.join("layers.exr"), (2, 1), &layers, &[1.0; 2], None);
     write_exr(
         &folder.join("whole.exr"),
         (8, 4),
@@ -124,7 +125,7 @@ fn files_that_are_no_pictures_of_light_are_told() {
         ),
         ("folder.exr", "is a directory"),
         ("depth.exr", neither),
-        ("grey.exr", neither),
+        ("layers.exr", "several layers of colors, \"a\", \"b\""),
         ("cut.exr", "cut short"),
         ("head.exr", "cut short"),
         ("few.exr", "cut short"),
@@ -135,6 +136,39 @@ fn files_that_are_no_pictures_of_light_are_told() {
             &[name, phrase],
         );
     }
+}
+
+/// Luminance is gray, and a layer is chosen by its name: each texel's last number is twice its largest part.
+#[test]
+fn luminance_and_layers_of_openexr_are_surroundings() {
+    let directory = TempDir::new().unwrap();
+    let folder = directory.path();
+    let scale_of = |rest: &str| {
+        let text = format!("environment = {{ type = 'image', {rest} }}");
+        let scene = checked(folder, &text).unwrap();
+        match &scene.environment {
+            Environment::Picture { picture, .. } => picture.texels.values[0][3],
+            other => panic!("{other:?}"),
+        }
+    };
+    write_exr(&folder.join("gray.exr"), (2, 1), &["Y"], &[0.75; 2], None);
+    assert_eq!(scale_of("image = 'gray.exr'"), 1.5);
+    let layers = ["B", "G", "R", "key.B", "key.G", "key.R"];
+    let path = folder.join("layers.exr");
+    write_exr(&path, (2, 1), &layers, &[0.25; 2], None);
+    assert_eq!(scale_of("image = 'layers.exr'"), 0.5);
+    assert_eq!(scale_of("image = 'layers.exr', layer = 'key'"), 0.5);
+    let wrong = "environment = { type = 'image', image = 'layers.exr', layer = 'fill' }";
+    let phrases = ["layers.exr", "no layer \"fill\"", "\"key\""];
+    assert_told(checked(folder, wrong), "environment.image", &phrases);
+    let hdr = include_bytes!("../../../tests/data/surroundings.hdr");
+    fs::write(folder.join("sky.hdr"), hdr).unwrap();
+    let radiance = "environment = { type = 'image', image = 'sky.hdr', layer = 'key' }";
+    assert_told(
+        checked(folder, radiance),
+        "environment.image",
+        &["sky.hdr", "no layers"],
+    );
 }
 
 #[test]

@@ -52,7 +52,7 @@ pub enum ReadRgbError {
         layers: String,
     },
     /// The primaries of red, green and blue are none.
-    #[error("{path}: {source}")]
+    #[error("the colors of {path} cannot be used")]
     Primaries {
         /// The file.
         path: PathBuf,
