@@ -146,7 +146,7 @@ fn luminance_and_layers_of_openexr_are_surroundings() {
     let scale_of = |rest: &str| {
         let text = format!("environment = {{ type = 'image', {rest} }}");
         let scene = checked(folder, &text).unwrap();
-        match &scene.environment {
+        match scene.environment() {
             Environment::Picture { picture, .. } => picture.texels.values[0][3],
             other => panic!("{other:?}"),
         }
