@@ -13,7 +13,6 @@ use image::{DynamicImage, ImageBuffer, ImageFormat, ImageReader, Limits, Rgb, Rg
 use spectra::text_file::{TextFileError, read_bytes, read_start};
 use spectra::{BandGrid, SpectralImage};
 use std::io::Cursor;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use thiserror::Error;
 
@@ -28,16 +27,12 @@ pub(crate) enum PictureFileError {
     NotLight,
     #[error("is a Radiance picture, which has no layers; leave `layer` out")]
     NoLayers,
-    #[error("cannot be read, or is cut short: {0}")]
-    BadLight(image::ImageError),
     #[error(transparent)]
     Radiance(#[from] RadianceError),
     #[error(transparent)]
     Colors(#[from] PngColorsError),
     #[error("has no alpha channel; \"r\", \"g\", \"b\" and \"luma\" are possible")]
     NoAlpha,
-    #[error("cannot be read; it is damaged")]
-    Damaged,
     #[error("{0}")]
     Exr(String),
     #[error("its spectra cover {} to {} nm, but the bands cover {} to {} nm; set `render.wavelengths_nm` within them", own.0, own.1, bands.0, bands.1)]
@@ -231,21 +226,6 @@ fn read_spectra(
     Ok(LightFile::Spectra(Box::new(image)))
 }
 
-fn read_colours_of_light(path: &Path, format: ImageFormat) -> Result<LightFile, PictureFileError> {
-    let bytes = read_bytes(path, MAX_PICTURE_BYTES)?;
-    let (width, height) = reader(&bytes, format)
-        .into_dimensions()
-        .map_err(PictureFileError::BadLight)?;
-    check_size(width, height)?;
-    check_panorama(width, height)?;
-    // Some damage makes a decoder panic.
-    let decoded = catch_unwind(AssertUnwindSafe(|| reader(&bytes, format).decode()));
-    let decoded = decoded.map_err(|_| PictureFileError::Damaged)?;
-    let picture = decoded.map_err(PictureFileError::BadLight)?.into_rgb32f();
-    let rgb = picture.pixels().map(|pixel| pixel.0).collect();
-    Ok(LightFile::Colours { width, rgb })
-}
-
 /// An error with what lies behind it, in one line.
 fn chain(error: &dyn std::error::Error) -> String {
     let mut text = error.to_string();
@@ -258,9 +238,9 @@ fn chain(error: &dyn std::error::Error) -> String {
 }
 
 fn decode(bytes: &[u8]) -> Result<DynamicImage, PictureFileError> {
-    let (width, height) = reader(bytes, ImageFormat::Png).into_dimensions()?;
+    let (width, height) = reader(bytes).into_dimensions()?;
     check_size(width, height)?;
-    Ok(reader(bytes, ImageFormat::Png).decode()?)
+    Ok(reader(bytes).decode()?)
 }
 
 fn check_size(width: u32, height: u32) -> Result<(), PictureFileError> {
@@ -284,8 +264,8 @@ fn check_panorama(width: u32, height: u32) -> Result<(), PictureFileError> {
     }
 }
 
-fn reader(bytes: &[u8], format: ImageFormat) -> ImageReader<Cursor<&[u8]>> {
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+fn reader(bytes: &[u8]) -> ImageReader<Cursor<&[u8]>> {
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
     reader.limits(Limits::default());
     reader
 }

@@ -184,34 +184,6 @@ fn set_unit(
     None
 }
 
-/// The spectra of rows that were read from a file.
-pub(crate) fn rows<const N: usize>(
-    checks: &mut Checks,
-    field: &FieldPath,
-    path: &Path,
-    rows: &[Row<N>],
-    columns: [Column; N],
-    extrapolate: Extrapolate,
-) -> Option<[Spectrum; N]> {
-    let mut is_sound = check_count(checks, field, rows.len(), &format!("{}: ", path.display()));
-    for (line, complaint) in faults_of_rows(rows, &columns)
-        .into_iter()
-        .take(MOST_PROBLEMS)
-    {
-        let message = format!("{}: line {line}: {complaint}", path.display());
-        checks.report(Problem::new(ProblemKind::OutOfRange, field, message));
-        is_sound = false;
-    }
-    if !is_sound {
-        return None;
-    }
-    let spectra = std::array::from_fn(|column| {
-        let points = rows.iter().map(|row| (row.nm, row.values[column]));
-        spectrum(checks, field, points.collect(), extrapolate)
-    });
-    all(spectra)
-}
-
 /// `prefix` names the table where it is not the scene's own.
 fn check_count(checks: &mut Checks, field: &FieldPath, count: usize, prefix: &str) -> bool {
     let complaint = match count {
@@ -238,28 +210,6 @@ fn faults_of_wavelengths(nm: &[f64]) -> impl Iterator<Item = (usize, String)> {
             None
         }
     })
-}
-
-/// Everything out of range in the rows of a file, by line.
-fn faults_of_rows<const N: usize>(rows: &[Row<N>], columns: &[Column; N]) -> Vec<(usize, String)> {
-    let nm: Vec<f64> = rows.iter().map(|row| row.nm).collect();
-    let mut faults: Vec<_> = faults_of_wavelengths(&nm)
-        .take(MOST_PROBLEMS)
-        .map(|(index, complaint)| (rows[index].line, complaint))
-        .collect();
-    for (position, column) in columns.iter().enumerate() {
-        let values = rows.iter().map(|row| (row.line, row.values[position]));
-        let wrong = values.filter(|&(_, value)| !column.range.contains(value));
-        faults.extend(wrong.take(MOST_PROBLEMS).map(|(line, value)| {
-            let complaint = format!(
-                "found {} {value}; it must be from {}",
-                column.noun, column.range
-            );
-            (line, complaint)
-        }));
-    }
-    faults.sort_by_key(|&(line, _)| line);
-    faults
 }
 
 fn spectrum(
