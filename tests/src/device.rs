@@ -2,6 +2,12 @@
 
 use gpu::{AdapterChoice, Gpu};
 
+/// Whether suites that render whole scenes take the short form, as `PELLICLE_SHORT` asks: small pictures, no statistics. It is for a
+/// second driver, after the first one has proved the numbers.
+pub fn is_short() -> bool {
+    std::env::var_os("PELLICLE_SHORT").is_some()
+}
+
 /// Opens the adapter named by `PELLICLE_ADAPTER`, or the best; prints which.
 ///
 /// # Panics

@@ -2,7 +2,7 @@
 //! the truth is known.
 
 use gpu::Gpu;
-use pellicle_tests::device::open;
+use pellicle_tests::device::{is_short, open};
 use pellicle_tests::frames::{Values, same_expectation, same_numbers, same_variances};
 use pellicle_tests::scenes::{BANDS, MADE, all, file, small};
 use pellicle_tests::tolerances::{FRAMES, SAME_COLOUR, SUMS, VARIANCES, Z_FURNACE, Z_MEAN};
@@ -26,14 +26,21 @@ fn on_cpu(scene: &Scene) -> SpectralImage {
 fn both_renderers_give_the_same_pictures() {
     let wrong = failures_of(&all(), |gpu, name| {
         let mut compared = by_the_same_numbers(gpu, name);
-        compared.push(by_different_numbers(gpu, name));
+        if !is_short() {
+            compared.push(by_different_numbers(gpu, name));
+        }
         compared
     });
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 fn by_the_same_numbers(gpu: &Gpu, name: &str) -> Vec<Result<String, String>> {
-    let scene = small(name, [96, 72], 16, BANDS, 1);
+    let (size, samples) = if is_short() {
+        ([48, 36], 8)
+    } else {
+        ([96, 72], 16)
+    };
+    let scene = small(name, size, samples, BANDS, 1);
     let (actual, expected) = (on_gpu(gpu, &scene), on_cpu(&scene));
     let colours = (Values::of_xyz(&actual), Values::of_xyz(&expected));
     let whole = [

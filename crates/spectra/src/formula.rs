@@ -343,11 +343,11 @@ mod tests {
             formula.at(nm).unwrap()
         };
         // Edwards and Ochoa, Appl. Opt. 19, 4130 (1980): silicon has 3.4434 at 2.4373 µm and 3.4201 at 25 µm.
-        let silicon = [3.41983, 0.159906, -0.123109, 1.26878e-6, -1.95104e-9];
+        let silicon = [3.41983, 0.159_906, -0.123_109, 1.26878e-6, -1.95104e-9];
         let silicon = |nm| at(7, &silicon, (2437.3, 25e3), nm);
         assert!((silicon(2437.3) - 3.4434).abs() < 5e-5 && (silicon(25e3) - 3.4201).abs() < 5e-5);
         // Schröter, Z. Phys. 67, 24 (1931); handbooks give silver bromide 2.253 at the D line.
-        let bromide = [0.452505, 0.09939, 0.070537, -0.000150];
+        let bromide = [0.452_505, 0.09939, 0.070_537, -0.000_150];
         assert!((at(8, &bromide, (495.0, 670.0), 589.3) - 2.253).abs() < 5e-3);
         // Rosker et al., IEEE J. Quantum Electron. 21, 1600 (1985); mineralogists give urea's ε as 1.602 at the D line.
         let urea = [2.51527, 0.0240, 0.0300, 0.020, 1.52, 0.8771];

@@ -206,7 +206,7 @@ impl Spectrum {
         let fault = self.faults().and_then(|all| all.within(low_nm, high_nm));
         match (fault, self.extent_nm()) {
             (Some(fault), Some((min_nm, max_nm))) => Err(OutOfRange {
-                nm: (fault.from_nm.max(low_nm) + fault.to_nm.min(high_nm)) / 2.0,
+                nm: f64::midpoint(fault.from_nm.max(low_nm), fault.to_nm.min(high_nm)),
                 min_nm,
                 max_nm,
                 fault: Some(Arc::clone(&fault.reason)),

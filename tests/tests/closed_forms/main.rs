@@ -1,5 +1,6 @@
 //! Pictures whose truth has a closed form: both renderers against formulas and optics, scene by scene.
 
+mod coincidence;
 mod comparison;
 mod delta_lights;
 mod furnace;

@@ -46,7 +46,7 @@ pub enum DisplayError {
         /// The file.
         path: String,
         /// What and where.
-        source: TableFileError,
+        source: Box<TableFileError>,
     },
     /// A field has a value that cannot be.
     #[error("{path}: {field}: {message}")]

@@ -108,7 +108,7 @@ impl Checks<'_> {
                 .with_file_name(csv)
                 .display()
                 .to_string(),
-            source,
+            source: Box::new(source),
         }
     }
 
