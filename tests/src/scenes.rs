@@ -134,5 +134,6 @@ pub const PROVED_ON_PATHS: &[&str] = &[
 /// WGSL functions that the suite `stack_batches` proves: batches of film stacks.
 pub const PROVED_ON_STACKS: &[&str] = &["evaluate_stacks", "run_index", "run_stack"];
 
-/// WGSL functions that the suite `frames` proves: the accumulation of samples.
-pub const PROVED_ON_FRAMES: &[&str] = &["accumulate", "loops_run", "render"];
+/// WGSL functions that whole pictures prove: the accumulation of samples in the suite `frames`, the order of coincident surfaces in
+/// `closed_forms`.
+pub const PROVED_ON_FRAMES: &[&str] = &["accumulate", "is_outwards", "loops_run", "render"];

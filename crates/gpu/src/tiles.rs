@@ -6,8 +6,8 @@ use std::time::Duration;
 const WIDTH: u32 = 512;
 /// A tile has at most this many pixels: enough to fill any GPU.
 const MAX_PIXELS: u32 = WIDTH * 512;
-/// Rows of the first tile, before anything is known about the speed.
-const FIRST_ROWS: u32 = 64;
+/// Rows of the first tile, before anything is known about the speed: 8192 pixels take a tenth of a second where a software driver is slow.
+const FIRST_ROWS: u32 = 16;
 /// A batch makes at most this many passes of loops in an invocation: llvmpipe ends all loops of one after 65535, silently.
 const MAX_PASSES: u64 = 60_000;
 /// A batch aims at this time.

@@ -32,8 +32,7 @@ type = "diffuse"
 reflectance = 0
 "#;
 
-const RENDER: &str =
-    "[render]\nsize = [16, 16]\nsamples = 64\nbands = 4\nlight_groups = \"single\"\n";
+const RENDER: &str = "[render]\nsize = [16, 16]\nsamples = 64\nbands = 4\nsampling = \"centre\"\nlight_groups = \"single\"\n";
 /// No coordinate of these has few digits.
 const TILTED: &str = "normal = [0.31, 0.52, 1.07]\nup = [0.1, 1, 0.2]";
 
@@ -187,7 +186,7 @@ fn mean_reflectance(image: &SpectralImage, band: u32) -> f64 {
 fn a_film_in_the_plane_of_a_white_wall_loses_nothing() {
     let way = "type = \"rectangle\"\ncenter = [0.123, 0.4, 0.037]\nsize = [9, 9]\nnormal = [0.31, 0.52, 1.07]\nup = [0.1, 1, 0.2]";
     let wall = rectangle("white", [0.123, 0.4, 0.037], 9.0, TILTED);
-    let render = RENDER.replace("light_groups", "max_path_segments = 64\nlight_groups");
+    let render = RENDER.replace("light_groups", "max_path_segments = 32\nlight_groups");
     let gpu = open();
     let seen = scene(&[FURNACE, &render, &film("1.5", 400.0, way), &wall]);
     for (who, image) in pictures(&gpu, &seen) {

@@ -130,7 +130,7 @@ fn distance_to() -> Check {
             "let r = Ray(a3(2u), a3(5u));
              put(0u, max(distance_to(u32(a(0u)), r, select(u32(max(a(1u), 0.0)), NONE, a(1u) < 0.0)), -1.0));",
         ),
-        proves: &["distance_to"],
+        proves: &["covers", "distance_to", "distance_to_shape"],
         inputs: rows(9, |u| {
             let (from, ray) = ray_of(u);
             // The object aimed at, or the one that the ray starts on.
@@ -156,7 +156,7 @@ fn nearest_hit() -> Check {
              let hits = h.object != NONE;
              put(0u, select(-1.0, f32(h.object), hits)); put(1u, select(-1.0, h.distance, hits));",
         ),
-        proves: &["load_node", "load_shape", "meets_box", "nearest_hit", "nearest_in_hierarchy", "shape_at", "shapes_row"],
+        proves: &["is_met", "is_nearer", "load_node", "load_shape", "meets_box", "nearest_hit", "nearest_in_hierarchy", "shape_at", "shapes_row"],
         inputs: rows(9, |u| {
             let (from, ray) = ray_of(u);
             let shapes = || world.scene.objects().iter().map(|object| &object.shape).enumerate();

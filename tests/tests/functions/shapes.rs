@@ -141,6 +141,21 @@ fn sphere_is_clear(a: &[f64]) -> bool {
     (nearest.length() - RADIUS).abs() > 1e-3 && (ray.origin.length() - RADIUS).abs() > 1e-3
 }
 
+/// A sphere through the origin with the curvature 0.001, its normal there as an `f32` has it.
+fn large_sphere() -> (DVec3, f64) {
+    let normal = DVec3::new(0.0, f64::from(0.6_f32), f64::from(0.8_f32));
+    let radius = 1.0 / f64::from(0.001_f32);
+    (-radius * normal, radius * normal.length())
+}
+
+/// The ray starts off the sphere by a thousandth, and does not run along it.
+fn large_sphere_is_clear(ray: &reference::Ray) -> bool {
+    let (center, radius) = large_sphere();
+    let outwards = (ray.origin - center).normalize();
+    let height = (ray.origin - center).length() - radius;
+    height.abs() > 1e-3 && ray.direction.dot(outwards).abs() > 0.05
+}
+
 fn distances() -> Vec<Check> {
     vec![
         Check {
@@ -176,6 +191,34 @@ fn distances() -> Vec<Check> {
                 vec![reference::intersect_sphere(&ray, DVec3::ZERO, RADIUS, true).unwrap_or(MISS)]
             },
             tolerance: ARITHMETIC,
+        },
+        Check {
+            probe: pure(
+                (6, 1),
+                "put(0u, max(intersect_large_sphere(a3(0u), a3(3u), vec3f(0.0, 0.6, 0.8), 0.001, false), -1.0));",
+            ),
+            proves: &["intersect_large_sphere"],
+            inputs: rays(|a| large_sphere_is_clear(&ray(a))),
+            twin: |a| {
+                let (center, radius) = large_sphere();
+                vec![reference::intersect_sphere(&ray(a), center, radius, false).unwrap_or(MISS)]
+            },
+            tolerance: pellicle_tests::tolerances::SPHERE_DISTANCE,
+        },
+        Check {
+            probe: pure(
+                (6, 1),
+                "put(0u, max(intersect_large_sphere(vec3f(0.0), a3(3u), vec3f(0.0, 0.6, 0.8), 0.001, true), -1.0));",
+            ),
+            proves: &["intersect_large_sphere"],
+            inputs: rays(|a| large_sphere_is_clear(&ray(a))),
+            twin: |a| {
+                let (center, radius) = large_sphere();
+                let mut ray = ray(a);
+                ray.origin = DVec3::ZERO;
+                vec![reference::intersect_sphere(&ray, center, radius, true).unwrap_or(MISS)]
+            },
+            tolerance: DISTANCE,
         },
         Check {
             probe: pure(

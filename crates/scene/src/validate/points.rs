@@ -6,7 +6,7 @@ use crate::FieldPath;
 use crate::description::{Extrapolate, IndexColumns, TableColumn};
 use crate::limits::{MAX_TABLE_POINTS, Range, TABLE_NM};
 use crate::problem::{Problem, ProblemKind};
-use spectra::table_file::{self, ColumnChoice, Options, Quantity, QuantityKind, Row};
+use spectra::table_file::{self, ColumnChoice, Options, Quantity, QuantityKind};
 use spectra::{Spectrum, Tabulated};
 use std::path::Path;
 

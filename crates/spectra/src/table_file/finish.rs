@@ -4,6 +4,7 @@ use super::error::TableFileError;
 use super::options::{Options, Unit};
 use super::{Notes, Point, Quantity, QuantityKind, Series};
 use crate::Tabulated;
+use crate::sprague::sprague;
 
 /// Wavelengths that a table may have, nm.
 const POSSIBLE_NM: (f64, f64) = (1.0, 1e6);
@@ -32,7 +33,16 @@ pub(super) fn table(
             notes.add("rows turned over, as wavelengths fall");
         }
     }
-    Tabulated::new(table).map_err(|_| TableFileError::Empty)
+    let table = Tabulated::new(table).map_err(|_| TableFileError::Empty)?;
+    match sprague(&table, quantity.range) {
+        Some((fine, step_nm)) if quantity.kind == QuantityKind::Part => {
+            notes.add(format!(
+                "Sprague's interpolation between points {step_nm} nm apart"
+            ));
+            Ok(fine)
+        }
+        _ => Ok(table),
+    }
 }
 
 /// The unit of the wavelengths: as asked, as the file says, or else nm.
