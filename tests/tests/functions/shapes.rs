@@ -195,7 +195,7 @@ fn distances() -> Vec<Check> {
         Check {
             probe: pure(
                 (6, 1),
-                "put(0u, max(intersect_large_sphere(a3(0u), a3(3u), vec3f(0.0, 0.6, 0.8), 0.001, false), -1.0));",
+                "let d = intersect_large_sphere(a3(0u), a3(3u), vec3f(0.0, 0.6, 0.8), 0.001, false); put(0u, select(-1.0, d, d > 0.0));",
             ),
             proves: &["intersect_large_sphere"],
             inputs: rays(|a| large_sphere_is_clear(&ray(a))),
@@ -208,7 +208,7 @@ fn distances() -> Vec<Check> {
         Check {
             probe: pure(
                 (6, 1),
-                "put(0u, max(intersect_large_sphere(vec3f(0.0), a3(3u), vec3f(0.0, 0.6, 0.8), 0.001, true), -1.0));",
+                "let d = intersect_large_sphere(vec3f(0.0), a3(3u), vec3f(0.0, 0.6, 0.8), 0.001, true); put(0u, select(-1.0, d, d > 0.0));",
             ),
             proves: &["intersect_large_sphere"],
             inputs: rays(|a| large_sphere_is_clear(&ray(a))),
