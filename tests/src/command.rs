@@ -3,8 +3,9 @@
 use crate::wgsl::root;
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 use std::sync::OnceLock;
 use tempfile::TempDir;
 
@@ -148,6 +149,22 @@ impl Place {
     /// When it panics.
     pub fn run(&self, arguments: &str) -> Ran {
         Ran::of(&self.command(arguments).output().unwrap())
+    }
+
+    /// Runs the command with this on its standard input.
+    ///
+    /// # Panics
+    /// When it panics or cannot be started.
+    pub fn run_with_input(&self, arguments: &str, input: &[u8]) -> Ran {
+        let mut command = self.command(arguments);
+        command
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        // A command that does not read it to the end closes the pipe.
+        let _ = child.stdin.take().unwrap().write_all(input);
+        Ran::of(&child.wait_with_output().unwrap())
     }
 
     /// Runs the command where no driver is found.

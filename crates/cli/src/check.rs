@@ -11,7 +11,7 @@ pub(crate) fn run(path: &Path) -> miette::Result<()> {
     let settings = scene.settings();
     print::result(format_args!(
         "{}: valid; {}×{} pixels, {}, {}, {}, {}; {}",
-        path.display(),
+        print::name(path),
         settings.width,
         settings.height,
         counted(settings.bands.count(), "band"),

@@ -108,7 +108,7 @@ impl<'a> Found<'a> {
             miette!(
                 help = "--clamp goes on with its first and last value",
                 "{}: {gap}; colours are sums from 380 to 780 nm",
-                arguments.file.display()
+                print::name(&arguments.file)
             )
         };
         let (xyz, luminance) = if arguments.emission {
@@ -116,7 +116,7 @@ impl<'a> Found<'a> {
             if xyz[1] <= 0.0 {
                 return Err(miette!(
                     "{}: an emission must shine between 380 and 780 nm, but nothing is seen of it",
-                    arguments.file.display()
+                    print::name(&arguments.file)
                 ));
             }
             (xyz.map(|v| v / xyz[1]), Some(xyz[1]))
@@ -223,7 +223,7 @@ impl<'a> Found<'a> {
         format!(
             "{}: {about}\nXYZ       {}\nxy        {xy}\nu'v'      {uv}\n\
              L*a*b*    {}   C* {:.4}  h {:.3}°\nlinear    {}   of {}{adapted}\nRGB       {r} {g} {b}   {}#{r:02x}{g:02x}{b:02x}{clipped}",
-            self.arguments.file.display(),
+            print::name(&self.arguments.file),
             spaced(hundred),
             spaced([lab.l, lab.a, lab.b]),
             lab.chroma(),
@@ -291,7 +291,7 @@ fn read(arguments: &Arguments) -> miette::Result<Spectrum> {
     } else {
         Quantity::REFLECTANCE
     };
-    let file = arguments.file.display();
+    let file = print::name(&arguments.file);
     let table = table_file::read(&arguments.file, [quantity], &options(arguments)?)
         .map_err(|error| miette!("{file}: {error}"))?;
     print::notes(table.note.map(|note| format!("{file}: {note}")));

@@ -4,6 +4,7 @@ use crate::print;
 use pellicle::colorimetry::tristimulus::Rule;
 use pellicle::spectra::table_file::{self, Options, Quantity};
 use pellicle::spectra::text_file::STANDARD_INPUT;
+use pellicle::spectra::wording::visible;
 use pellicle::spectra::{Spectrum, find_illuminant};
 use std::path::Path;
 
@@ -68,9 +69,10 @@ pub(crate) fn spectrum(text: &str) -> Result<(String, Spectrum), String> {
     }
     let path = Path::new(text);
     let table = table_file::read(path, [Quantity::POWER], &Options::default());
+    let shown = print::name(path);
     let table = table.map_err(|error| {
         if path.exists() || text == STANDARD_INPUT {
-            format!("{text}: {error}")
+            format!("{shown}: {error}")
         } else {
             format!("{text}: {error}; a lamp is the name of an illuminant, or a file: {FORMATS}")
         }
@@ -78,12 +80,15 @@ pub(crate) fn spectrum(text: &str) -> Result<(String, Spectrum), String> {
     let [power] = table.columns;
     if power.points().all(|(_, value)| value == 0.0) {
         return Err(format!(
-            "{text}: a lamp must shine somewhere, but all values are 0"
+            "{shown}: a lamp must shine somewhere, but all values are 0"
         ));
     }
-    print::notes(table.note.map(|note| format!("{text}: {note}")));
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    Ok((stem.into_owned(), Spectrum::Table(power)))
+    print::notes(table.note.map(|note| format!("{shown}: {note}")));
+    let name = match text {
+        STANDARD_INPUT => "standard input".into(),
+        _ => path.file_stem().unwrap_or_default().to_string_lossy(),
+    };
+    Ok((visible(&name).into_owned(), Spectrum::Table(power)))
 }
 
 /// Whether what is no name of an illuminant is a file: there is one, or it is written as files are.

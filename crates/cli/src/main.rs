@@ -41,7 +41,7 @@ enum Command {
     Develop(develop::Arguments),
     /// Validate a scene without rendering it
     Check {
-        /// The scene file
+        /// The scene file; - is standard input
         scene: PathBuf,
     },
     Film(film::Arguments),
@@ -61,7 +61,8 @@ enum Command {
 
 fn main() -> ExitCode {
     print::keep_lines_whole();
-    let result = match Arguments::parse().command {
+    let arguments = Arguments::try_parse().unwrap_or_else(|error| print::of_arguments(&error));
+    let result = match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Develop(arguments) => develop::run(&arguments),
         Command::Check { scene } => check::run(&scene),
@@ -78,7 +79,7 @@ fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(report) => {
-            print::note(format_args!("{report:?}"));
+            print::error(&report);
             ExitCode::FAILURE
         }
     }

@@ -1,13 +1,30 @@
 //! What the command says. A reader that has gone away (`pellicle schema | head`) is no reason to crash.
+//!
+//! Names of files, keys and arguments may hold anything; what a terminal would obey is escaped on its way out.
 
-use miette::{IntoDiagnostic, WrapErr};
-use std::fmt::Display;
+use crate::film::swatch;
+use miette::{
+    Diagnostic, IntoDiagnostic, LabeledSpan, MietteHandler, ReportHandler, Severity, SourceCode,
+    WrapErr,
+};
+use pellicle::spectra::text_file::STANDARD_INPUT;
+use pellicle::spectra::wording::{shortened, visible};
+use std::error::Error;
+use std::fmt::{self, Display};
 use std::io::{ErrorKind, Write};
+use std::path::Path;
 
-/// A result, as a line on standard output.
+/// A result, as a line on standard output. Swatches keep their color.
 pub(crate) fn result(line: impl Display) -> miette::Result<()> {
+    let line = line.to_string();
+    let safe: String = swatch::parts(&line)
+        .map(|part| match part {
+            swatch::Part::Swatch(text) => text.into(),
+            swatch::Part::Text(text) => visible(text),
+        })
+        .collect();
     let mut out = std::io::stdout().lock();
-    match writeln!(out, "{line}").and_then(|()| out.flush()) {
+    match writeln!(out, "{safe}").and_then(|()| out.flush()) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         written => written
             .into_diagnostic()
@@ -17,7 +34,16 @@ pub(crate) fn result(line: impl Display) -> miette::Result<()> {
 
 /// A note, as a line on standard error. There is nowhere to tell that it could not be written.
 pub(crate) fn note(line: impl Display) {
-    let _ = writeln!(std::io::stderr().lock(), "{line}");
+    let line = line.to_string();
+    let _ = writeln!(std::io::stderr().lock(), "{}", visible(&line));
+}
+
+/// How a file is called: standard input has a name of its own.
+pub(crate) fn name(path: &Path) -> String {
+    match path.as_os_str() == STANDARD_INPUT {
+        true => "<standard input>".to_owned(),
+        false => path.display().to_string(),
+    }
 }
 
 /// What was assumed of what was read, a line each on standard error.
@@ -27,12 +53,173 @@ pub(crate) fn notes<N: Display>(notes: impl IntoIterator<Item = N>) {
     }
 }
 
+/// What failed, with all its causes.
+pub(crate) fn error(report: &miette::Report) {
+    let _ = writeln!(std::io::stderr().lock(), "{report:?}");
+}
+
+/// Arguments that are none, and help.
+pub(crate) fn of_arguments(error: &clap::Error) -> ! {
+    let plain = error.render().to_string();
+    match visible(&plain) {
+        safe if safe != plain => {
+            note(safe.trim_end());
+            std::process::exit(error.exit_code())
+        }
+        _ => error.exit(),
+    }
+}
+
 /// Errors as they come from the library, with lines as long as they are: what is to be typed or searched for stays in one
 /// piece, and a terminal wraps by itself.
 pub(crate) fn keep_lines_whole() {
     // It fails where it was done before, which changes nothing.
     let _ = miette::set_hook(Box::new(|_| {
         let options = miette::MietteHandlerOpts::new();
-        Box::new(options.wrap_lines(false).break_words(false).build())
+        Box::new(Safely(options.wrap_lines(false).break_words(false).build()))
     }));
+}
+
+/// Shows diagnostics without what a terminal would obey.
+struct Safely(MietteHandler);
+
+impl ReportHandler for Safely {
+    fn debug(&self, diagnostic: &dyn Diagnostic, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.debug(&Safe::new(diagnostic), f)
+    }
+}
+
+/// The most characters of a message.
+const MOST: usize = 4000;
+
+fn safe(text: impl Display) -> String {
+    let text = text.to_string();
+    visible(&shortened(&text, MOST)).into_owned()
+}
+
+/// A message and its causes.
+#[derive(Debug)]
+struct Message(String, Option<Box<Message>>);
+
+impl Message {
+    fn new(error: &dyn Error) -> Self {
+        let cause = error.source().map(|cause| Box::new(Self::new(cause)));
+        Self(safe(error), cause)
+    }
+}
+
+impl Display for Message {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.0)
+    }
+}
+
+impl Error for Message {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        self.1.as_deref().map(|cause| cause as _)
+    }
+}
+
+/// A diagnostic whose texts a terminal can show. Source code is left as it is: `Snippet` has seen to it.
+struct Safe<'a> {
+    of: &'a dyn Diagnostic,
+    message: Message,
+    related: Vec<Safe<'a>>,
+    cause: Option<Box<Safe<'a>>>,
+}
+
+impl<'a> Safe<'a> {
+    fn new(of: &'a dyn Diagnostic) -> Self {
+        let cause = of.source().map(|cause| Box::new(Message::new(cause)));
+        Self {
+            of,
+            message: Message(safe(of), cause),
+            related: of.related().into_iter().flatten().map(Self::new).collect(),
+            cause: of
+                .diagnostic_source()
+                .map(|cause| Box::new(Self::new(cause))),
+        }
+    }
+}
+
+impl fmt::Debug for Safe<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(&self.message, f)
+    }
+}
+
+impl Display for Safe<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.message)
+    }
+}
+
+impl Error for Safe<'_> {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        self.message.source()
+    }
+}
+
+impl Diagnostic for Safe<'_> {
+    fn code<'b>(&'b self) -> Option<Box<dyn Display + 'b>> {
+        self.of.code()
+    }
+
+    fn severity(&self) -> Option<Severity> {
+        self.of.severity()
+    }
+
+    fn help<'b>(&'b self) -> Option<Box<dyn Display + 'b>> {
+        self.of.help().map(|help| Box::new(safe(help)) as _)
+    }
+
+    fn url<'b>(&'b self) -> Option<Box<dyn Display + 'b>> {
+        self.of.url()
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.of.source_code()
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        self.of.labels()
+    }
+
+    fn related<'b>(&'b self) -> Option<Box<dyn Iterator<Item = &'b dyn Diagnostic> + 'b>> {
+        let related = self.related.iter().map(|safe| safe as &dyn Diagnostic);
+        (!self.related.is_empty()).then(|| Box::new(related) as _)
+    }
+
+    fn diagnostic_source(&self) -> Option<&dyn Diagnostic> {
+        self.cause.as_deref().map(|cause| cause as _)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use miette::miette;
+
+    /// Messages, help, causes and related problems, each with what a terminal obeys.
+    #[test]
+    fn nothing_that_a_terminal_obeys_is_shown() {
+        let cause = miette!(help = "h\x07", "inner\x1b[2J");
+        let report: miette::Report = cause.wrap_err("outer\u{202e}");
+        let shown = format!("{:?}", Safe::new(report.as_ref()));
+        assert!(shown.contains("outer\\u202e"), "{shown}");
+        let handler = miette::MietteHandlerOpts::new().color(false).build();
+        let shown = Whole(Safely(handler), report).to_string();
+        for words in ["outer\\u202e", "inner\\u001b[2J"] {
+            assert!(shown.contains(words), "{shown}");
+        }
+        assert!(!shown.contains(['\x1b', '\x07', '\u{202e}']), "{shown}");
+    }
+
+    struct Whole(Safely, miette::Report);
+
+    impl Display for Whole {
+        fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            self.0.debug(self.1.as_ref(), f)
+        }
+    }
 }

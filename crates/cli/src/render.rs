@@ -10,14 +10,15 @@ use pellicle::color::spectral_exr::Metadata;
 use pellicle::gpu::AdapterChoice;
 use pellicle::scene::{RenderSettings, Scene, SceneFile};
 use pellicle::spectra::SpectralImage;
+use pellicle::spectra::text_file::STANDARD_INPUT;
 use pellicle::{Backend, OpenError, Renderer};
 use std::ops::{ControlFlow, Range};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The scene file
+    /// The scene file; - is standard input
     scene: PathBuf,
     /// Where to write: .png is a picture, .exr a spectral image, no ending or a folder both; can be repeated
     /// [default: both, named after the scene, in the current folder]
@@ -115,7 +116,12 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     // What is wrong with the scene is told before anything is opened.
     let scene = file.validate()?;
     print::notes(scene.notes());
-    let outputs = Outputs::new(&arguments.scene, &arguments.output)?;
+    // What comes from standard input has no name.
+    let named = match arguments.scene.as_os_str() == STANDARD_INPUT {
+        true => Path::new("render"),
+        false => &arguments.scene,
+    };
+    let outputs = Outputs::new(named, &arguments.output)?;
     let developing = &arguments.developing;
     developing.check(outputs.pictures(), of_image(&scene))?;
     let mut pixel = one_pixel(&scene);

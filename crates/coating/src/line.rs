@@ -13,10 +13,13 @@ mod syntax;
 mod tests;
 
 use crate::file;
+use crate::label;
 use crate::stack::{Layer, Medium, Stack};
 use crate::thickness;
-use miette::{Diagnostic, NamedSource, SourceSpan};
+use miette::{Diagnostic, SourceSpan};
+use scene::Snippet;
 use scene::description::{Extrapolate, Index};
+use spectra::wording::{shortened, visible};
 use std::collections::HashMap;
 use std::ops::Range;
 use std::path::Path;
@@ -32,10 +35,13 @@ pub struct LineError {
     #[help]
     help: Option<String>,
     #[source_code]
-    line: Arc<NamedSource<String>>,
+    line: Arc<Snippet>,
     #[label]
     at: SourceSpan,
 }
+
+/// The most characters of a message: what stands between two bars may be of any length.
+const MOST_OF_MESSAGE: usize = 400;
 
 /// A stack in one line.
 pub(crate) const EXAMPLE: &str = "air | silica 300nm | silicon";
@@ -63,11 +69,14 @@ impl Fault {
 struct Misplaced(Fault, Range<usize>);
 
 pub(crate) fn parse(line: &str) -> Result<Stack, LineError> {
-    read(line).map_err(|Misplaced(Fault { message, help }, bytes)| LineError {
-        message,
-        help,
-        line: Arc::new(NamedSource::new("stack", line.to_owned())),
-        at: bytes.into(),
+    read(line).map_err(|Misplaced(Fault { message, help }, bytes)| {
+        let snippet = Snippet::new("stack", line, bytes);
+        LineError {
+            message: visible(&shortened(&message, MOST_OF_MESSAGE)).into_owned(),
+            help: help.map(|help| visible(&help).into_owned()),
+            at: snippet.fault().into(),
+            line: Arc::new(snippet),
+        }
     })
 }
 
@@ -121,6 +130,7 @@ impl<'a> Media<'a> {
     fn named_or_read(&mut self, text: &'a str, piece: &Piece<'_>) -> Result<Medium, Misplaced> {
         if let Some(defined) = self.defined.iter().find(|defined| defined.name == text) {
             if let Some(nm) = defined.thickness_nm {
+                let nm = label::rounded(nm);
                 let message = format!("{text} is defined as a layer of {nm} nm");
                 let help = "here a medium alone is needed: define it without a thickness";
                 return Err(piece.misplaced(message, help));
@@ -218,7 +228,7 @@ impl<'a> Media<'a> {
             let help = format!("write it behind, like \"{name} 300nm\", or in the definition");
             return Err(piece.misplaced(message, help));
         };
-        let thickness_nm = thickness::within(factor * nm, "");
+        let thickness_nm = thickness::within(factor * nm, |nm| format!("{nm} nm"));
         Ok(Layer {
             medium: defined.medium.clone(),
             thickness_nm: thickness_nm.map_err(|(message, help)| piece.misplaced(message, help))?,

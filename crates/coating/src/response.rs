@@ -1,7 +1,10 @@
 //! What a stack does to light: R, T and A over wavelength at an angle.
 
+use crate::model::{Model, TwoBeamFilm};
 use optics::batch::{LayerOf, Media, Powers, StackBatch, StackOf, evaluate};
 use optics::{Complex64, Layer, Polarised, ThicknessDerivative};
+use rayon::prelude::*;
+use spectra::wording::number;
 use thiserror::Error;
 
 /// A stack at chosen wavelengths: numbers alone, without names or tables. Thicknesses and angles are given when it is evaluated.
@@ -12,6 +15,7 @@ pub struct Sampled {
     /// For each layer an index per wavelength.
     layers: Vec<Vec<Complex64>>,
     substrate: Vec<Complex64>,
+    model: Model,
 }
 
 /// Absorptance A = 1 − R − T of a whole stack.
@@ -32,7 +36,7 @@ pub struct Angle {
 
 /// An angle of incidence that there is not.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error("an angle of {0}°; it must be at least 0° and less than 90°")]
+#[error("an angle of {}°; it must be at least 0° and less than 90°", number(*.0))]
 pub struct AngleError(
     /// The angle in degrees.
     pub f64,
@@ -105,7 +109,18 @@ impl Sampled {
             incident,
             layers,
             substrate,
+            model: Model::Exact,
         }
+    }
+
+    /// Two beams must be defined for it, which `Stack` has seen to.
+    pub(crate) fn with_model(self, model: Model) -> Self {
+        Self { model, ..self }
+    }
+
+    /// By which formula R and T are computed.
+    pub fn model(&self) -> Model {
+        self.model
     }
 
     /// The stack at wavelengths between its own: for each, nm, the number of the own one before it and how far it is from there to
@@ -126,6 +141,7 @@ impl Sampled {
             incident: places.iter().map(incident).collect(),
             layers: self.layers.iter().map(indices).collect(),
             substrate: indices(&self.substrate),
+            model: self.model,
         }
     }
 
@@ -155,6 +171,9 @@ impl Sampled {
     /// When there is not one thickness per layer.
     pub fn powers(&self, thicknesses_nm: &[f64], angle: Angle) -> Vec<Powers> {
         self.each(thicknesses_nm, |n0, layers, substrate, nm| {
+            if let Some(film) = self.two_beams(n0, layers, nm) {
+                return film.powers(angle);
+            }
             let found = optics::stack(n0, layers, substrate, nm, angle.cosine());
             Powers {
                 reflectance: found.reflectance,
@@ -163,7 +182,8 @@ impl Sampled {
         })
     }
 
-    /// The stack with many sets of thicknesses at many angles, as a batch for whatever evaluates batches.
+    /// The stack with many sets of thicknesses at many angles, as a batch for whatever evaluates batches: by the exact sum, whatever
+    /// its model is.
     ///
     /// # Panics
     /// When there is not one thickness per layer.
@@ -205,6 +225,16 @@ impl Sampled {
     /// # Panics
     /// When there is not one thickness per layer, finite and not negative.
     pub fn powers_of_all(&self, sets: &[Vec<f64>], angles: &[Angle]) -> Vec<Powers> {
+        if self.model != Model::Exact {
+            let films = sets
+                .iter()
+                .flat_map(|set| angles.iter().map(move |&angle| (set, angle)));
+            let films: Vec<_> = films.collect();
+            let powers = films
+                .par_iter()
+                .flat_map_iter(|&(set, angle)| self.powers(set, angle));
+            return powers.collect();
+        }
         match evaluate(&self.batch(sets, angles).as_batch()) {
             Ok(powers) => powers,
             // A stack's indices and an angle's cosine are in the batch's domain.
@@ -212,7 +242,7 @@ impl Sampled {
         }
     }
 
-    /// At each wavelength the absorptance of each layer: R + T + ΣA = 1.
+    /// At each wavelength the absorptance of each layer: R + T + ΣA = 1. By the exact sum, whatever the model is: two beams have none.
     ///
     /// # Panics
     /// When there is not one thickness per layer.
@@ -232,7 +262,24 @@ impl Sampled {
         angle: Angle,
     ) -> Vec<Vec<ThicknessDerivative>> {
         self.each(thicknesses_nm, |n0, layers, substrate, nm| {
+            if let Some(film) = self.two_beams(n0, layers, nm) {
+                return vec![film.derivative(angle)];
+            }
             optics::thickness_derivatives(n0, layers, substrate, nm, angle.cosine())
+        })
+    }
+
+    /// The film that two beams are computed of, where the model says so.
+    fn two_beams(&self, around: f64, layers: &[Layer], wavelength_nm: f64) -> Option<TwoBeamFilm> {
+        let (Model::TwoBeam(path), [film]) = (self.model, layers) else {
+            return None;
+        };
+        Some(TwoBeamFilm {
+            path,
+            around,
+            index: film.index.re,
+            thickness_nm: film.thickness_nm,
+            wavelength_nm,
         })
     }
 

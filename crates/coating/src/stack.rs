@@ -1,12 +1,16 @@
 //! A stack: two half spaces and the layers between them.
 
 use crate::file::{self, StackDescription};
+use crate::label;
 use crate::line::{self, EXAMPLE, LineError};
+use crate::model::{self, Model};
 use crate::response::Sampled;
 use miette::Diagnostic;
 use optics::Complex64;
 use scene::Problems;
 use scene::description::{Extrapolate, Index};
+use spectra::text_file::STANDARD_INPUT;
+use spectra::wording::visible;
 use spectra::{OpticalConstants, OutOfRange};
 use std::path::Path;
 use std::sync::Arc;
@@ -42,7 +46,7 @@ impl Medium {
 
     /// A short name for people: `silica`, `1.5+0.1i`, `mine.csv`, `table`.
     pub fn label(&self) -> String {
-        match &self.written {
+        let label = match &self.written {
             Index::Real(n) => n.to_string(),
             Index::Complex([n, k]) => format!("{n}+{k}i"),
             Index::Name(name) | Index::Named { name, .. } => name.clone(),
@@ -54,23 +58,28 @@ impl Medium {
             Index::Sellmeier { .. } => "Sellmeier".to_owned(),
             Index::Reflecting { .. } => "normal reflectance".to_owned(),
             Index::Mixture { .. } => "mixture".to_owned(),
-        }
+        };
+        visible(&label).into_owned()
+    }
+
+    /// Its data as `rutile beyond 430 to 1530 nm`, where they do not cover these wavelengths.
+    fn shortfall(&self, (from_nm, to_nm): (f64, f64)) -> Option<String> {
+        let (low, high) = self.constants.range_nm()?;
+        let is_short = from_nm < low || high < to_nm;
+        is_short.then(|| format!("{} beyond {low} to {high} nm", self.label()))
     }
 
     /// The same medium with its end values outside its data. What was written says so too, where it can: not for mixtures and
     /// reflectances, whose parts have ends of their own.
     fn clamped(mut self) -> Self {
-        let Some((low, high)) = self.constants.range_nm() else {
+        if self.constants.range_nm().is_none() {
             return self;
-        };
-        let label = self.label();
+        }
         let OpticalConstants { n, k } = OpticalConstants::clone(&self.constants);
         self.constants = Arc::new(OpticalConstants {
             n: n.clamped(),
             k: k.clamped(),
         });
-        let note = format!("{label}: beyond {low} to {high} nm its end values are used");
-        self.notes.push(note);
         match &mut self.written {
             Index::Name(name) => {
                 self.written = Index::Named {
@@ -108,6 +117,17 @@ pub struct Layer {
     pub thickness_nm: f64,
 }
 
+impl Layer {
+    /// A short name for people, with the thickness rounded to what can be told apart: `TiO2 56.45 nm`.
+    pub fn label(&self) -> String {
+        format!(
+            "{} {} nm",
+            self.medium.label(),
+            label::rounded(self.thickness_nm)
+        )
+    }
+}
+
 /// A stack: the incident medium, layers from there on, the substrate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stack {
@@ -117,6 +137,8 @@ pub struct Stack {
     thicknesses_nm: Vec<f64>,
     /// Whether it is written in one line, for what errors advise.
     is_line: bool,
+    model: Model,
+    notes: Vec<String>,
 }
 
 /// Why there is no stack.
@@ -173,6 +195,15 @@ pub enum SampleError {
         /// What is wrong with the data, with its line.
         fault: String,
     },
+    /// Two beams are not defined for the stack.
+    #[error(
+        "two beams are for one film that does not absorb (k = 0) between two equal media of no larger index, but {fault}"
+    )]
+    #[diagnostic(help("the exact model is for any stack"))]
+    NoTwoBeams {
+        /// What is not so.
+        fault: String,
+    },
     /// The incident medium absorbs there.
     #[error(
         "at {nm} nm the incident medium, {label}, has k = {k}; the medium that light comes from must be transparent (k = 0)"
@@ -194,14 +225,14 @@ impl Stack {
     /// The most layers.
     pub const MAX_LAYERS: usize = 1000;
 
-    /// A stack file where `text` is a path, a one-line stack where it has a `|` in it.
+    /// A stack file where `text` is a path, one from standard input where it is `-`, a one-line stack where it has a `|` in it.
     ///
     /// # Errors
     /// Everything that is wrong with it, with its place.
     pub fn open(text: &str) -> Result<Self, StackError> {
         if text.contains('|') {
             Ok(Self::parse(text)?)
-        } else if !Path::new(text).exists() {
+        } else if text != STANDARD_INPUT && !Path::new(text).exists() {
             Err(StackError::Nothing(text.chars().take(200).collect()))
         } else {
             Ok(Self::read(text)?)
@@ -250,6 +281,8 @@ impl Stack {
             substrate,
             thicknesses_nm,
             is_line: false,
+            model: Model::Exact,
+            notes: Vec::new(),
         }
     }
 
@@ -258,10 +291,20 @@ impl Stack {
         self
     }
 
-    /// The same stack where every medium goes on with its end values outside its data; its notes say of which. Faults within the
-    /// data stay faults.
+    /// The same stack where every medium goes on with its end values outside its data; a note names those whose data do not cover
+    /// `used_nm`, from the shortest to the longest wavelength that it is used at. Faults within the data stay faults.
     #[must_use]
-    pub fn clamped(self) -> Self {
+    pub fn clamped(mut self, used_nm: (f64, f64)) -> Self {
+        let mut extended: Vec<String> = Vec::new();
+        for medium in self.media() {
+            let new = medium.shortfall(used_nm);
+            extended.extend(new.filter(|new| !extended.contains(new)));
+        }
+        if !extended.is_empty() {
+            let media = extended.join(", ");
+            let note = format!("end values are used where data end: of {media}");
+            self.notes.push(note);
+        }
         let layer = |layer: Layer| Layer {
             medium: layer.medium.clamped(),
             ..layer
@@ -274,12 +317,30 @@ impl Stack {
         }
     }
 
-    /// What was assumed of the files that its media are read from, a line each, none twice.
-    pub fn notes(&self) -> Vec<&str> {
+    /// The same stack, whose R and T are computed by this formula. Whether it is defined for the stack is looked at where it is
+    /// sampled.
+    #[must_use]
+    pub fn with_model(self, model: Model) -> Self {
+        Self { model, ..self }
+    }
+
+    /// By which formula R and T are computed.
+    pub fn model(&self) -> Model {
+        self.model
+    }
+
+    /// In the order of the stack.
+    fn media(&self) -> impl Iterator<Item = &Medium> {
         let layers = self.layers.iter().map(|layer| &layer.medium);
-        let media = [&self.incident, &self.substrate].into_iter().chain(layers);
+        let incident = std::iter::once(&self.incident);
+        incident.chain(layers).chain([&self.substrate])
+    }
+
+    /// What was assumed of the files that its media are read from, and where data end, a line each, none twice.
+    pub fn notes(&self) -> Vec<&str> {
         let mut notes: Vec<&str> = Vec::new();
-        for note in media.flat_map(|medium| &medium.notes) {
+        let of_media = self.media().flat_map(|medium| &medium.notes);
+        for note in of_media.chain(&self.notes) {
             if !notes.contains(&note.as_str()) {
                 notes.push(note);
             }
@@ -322,26 +383,22 @@ impl Stack {
 
     /// The stack in one line, for people.
     pub fn label(&self) -> String {
-        self.labelled(|layer| format!("{} nm", self.layers[layer].thickness_nm))
+        self.labelled(None)
     }
 
     /// The stack in one line, for people, where one layer (counted from 0) has the thickness d.
     pub fn label_with_varied(&self, varied: usize) -> String {
-        self.labelled(|layer| {
-            if layer == varied {
-                "d".to_owned()
-            } else {
-                format!("{} nm", self.layers[layer].thickness_nm)
-            }
-        })
+        self.labelled(Some(varied))
     }
 
-    fn labelled(&self, thickness: impl Fn(usize) -> String) -> String {
-        let numbered = self.layers.iter().enumerate();
-        let layers =
-            numbered.map(|(i, layer)| format!("{} {}", layer.medium.label(), thickness(i)));
+    fn labelled(&self, varied: Option<usize>) -> String {
+        let layer = |(place, layer): (usize, &Layer)| match varied {
+            Some(varied) if varied == place => format!("{} d", layer.medium.label()),
+            _ => layer.label(),
+        };
+        let layers: Vec<String> = self.layers.iter().enumerate().map(layer).collect();
         let mut parts = vec![self.incident.label()];
-        parts.extend(layers);
+        parts.extend(label::of_layers(&layers));
         parts.push(self.substrate.label());
         parts.join(" | ")
     }
@@ -371,12 +428,16 @@ impl Stack {
             )
         };
         let layers = self.layers.iter().enumerate().map(of_layer);
-        Ok(Sampled::new(
+        let sampled = Sampled::new(
             wavelengths_nm.to_vec(),
             incident.into_iter().map(|index| index.re).collect(),
             layers.collect::<Result<_, _>>()?,
             self.indices("the substrate", &self.substrate, wavelengths_nm)?,
-        ))
+        );
+        if self.model != Model::Exact {
+            has_two_beams(&sampled)?;
+        }
+        Ok(sampled.with_model(self.model))
     }
 
     /// A medium's index at each wavelength.
@@ -419,6 +480,19 @@ impl Stack {
     }
 }
 
+/// Whether two beams are defined for a stack at all its wavelengths.
+fn has_two_beams(sampled: &Sampled) -> Result<(), SampleError> {
+    let media = sampled.incident().iter().zip(sampled.substrate());
+    for (w, (&around, &substrate)) in media.enumerate() {
+        let at_this = |indices: &Vec<Complex64>| indices.get(w).copied();
+        let layers: Vec<Complex64> = sampled.layers().iter().filter_map(at_this).collect();
+        if let Some(fault) = model::fault_of_two_beams(around, &layers, substrate) {
+            return Err(SampleError::NoTwoBeams { fault });
+        }
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -434,13 +508,18 @@ mod tests {
         assert!(help(&line).contains("--clamp") && !help(&line).contains('{'));
         let file = line.description().check(Path::new("")).unwrap();
         assert!(help(&file).contains("--clamp") && help(&file).contains("extrapolate"));
-        let clamped = line.clamped();
+        let said = |stack: &Stack| -> Vec<String> {
+            let notes = stack.notes().into_iter();
+            let of_ends = notes.filter(|note| note.contains("end values"));
+            of_ends.map(str::to_owned).collect()
+        };
+        assert!(said(&line.clone().clamped((430.0, 780.0))).is_empty());
+        let clamped = line.clamped((380.0, 780.0));
         let index = |nm: f64| clamped.sampled(&[nm]).unwrap().substrate()[0];
         assert_eq!(index(400.0), index(430.0));
-        let notes = clamped.notes().join("\n");
-        assert!(
-            notes.contains("rutile: beyond 430 to 1530 nm its end values are used"),
-            "{notes}"
+        assert_eq!(
+            said(&clamped),
+            ["end values are used where data end: of rutile beyond 430 to 1530 nm"]
         );
         // A file that is written of it says the same.
         let again = clamped.description().check(Path::new("")).unwrap();
@@ -459,7 +538,7 @@ mod tests {
         std::fs::write(&path, text).unwrap();
         let stack = Stack::parse(&format!("1 | {} 30nm | 1.5", path.display())).unwrap();
         assert!(stack.sampled(&[380.0, 780.0]).is_ok());
-        for stack in [stack.clone(), stack.clamped()] {
+        for stack in [stack.clone(), stack.clamped((380.0, 1000.0))] {
             let said = stack.sampled(&[1000.0]).unwrap_err().to_string();
             for words in ["at 1000 nm", "layer 1", "line 6: found k -0.3 at 12000 nm"] {
                 assert!(said.contains(words), "{said}");

@@ -2,6 +2,7 @@
 
 use scene::limits::{TABLE_NM, THICKNESS_NM};
 use spectra::OpticalConstants;
+use spectra::wording::number;
 
 /// The units of a thickness, in nm. µ is a sign of its own beside the Greek letter, and so is Å beside the letter with a ring.
 const UNITS: [(&str, f64); 8] = [
@@ -66,7 +67,7 @@ fn is_a_number_at_its_end(text: &str) -> bool {
 impl Written<'_> {
     /// The thickness in nm of a layer of this medium, or what is wrong and what would be right.
     pub(crate) fn nm(self, constants: &OpticalConstants) -> Result<f64, (String, String)> {
-        let number = |digits: &str| {
+        let parsed = |digits: &str| {
             digits.parse::<f64>().map_err(|_| {
                 let message = format!("{digits:?} is not a number");
                 (message, format!("a thickness is written like {FORMS}"))
@@ -74,27 +75,25 @@ impl Written<'_> {
         };
         match self {
             Self::Length(digits, (unit, factor)) => {
-                let nm = number(digits)? * factor;
-                let written = if factor == 1.0 {
-                    String::new()
-                } else {
-                    format!("{digits} {unit}, ")
-                };
-                within(nm, &written)
+                let nm = parsed(digits)? * factor;
+                within(nm, |nm| match factor {
+                    1.0 => format!("{digits} nm"),
+                    _ => format!("{digits} {unit}, {nm} nm"),
+                })
             }
-            Self::Waves(waves, at) => optical_nm(number(waves)?, number(at)?, constants),
+            Self::Waves(waves, at) => optical_nm(parsed(waves)?, parsed(at)?, constants),
         }
     }
 }
 
-/// A thickness that a layer may have; `written` is how it was written, where not in nm.
-pub(crate) fn within(nm: f64, written: &str) -> Result<f64, (String, String)> {
+/// A thickness that a layer may have; `written` tells how it was written, given the number in nm.
+pub(crate) fn within(nm: f64, written: impl Fn(&str) -> String) -> Result<f64, (String, String)> {
     if THICKNESS_NM.contains(nm) {
         // −0 is 0.
         return Ok(nm + 0.0);
     }
     let help = format!("it must be from {THICKNESS_NM}");
-    Err((format!("a thickness of {written}{nm} nm"), help))
+    Err((format!("a thickness of {}", written(&number(nm))), help))
 }
 
 /// The thickness d in nm at which a layer is `waves` wavelengths thick for light along its normal: n d = waves · λ with the real
@@ -107,11 +106,13 @@ pub(crate) fn optical_nm(
 ) -> Result<f64, (String, String)> {
     if !TABLE_NM.contains(at_nm) {
         let help = format!("it must be from {TABLE_NM}");
-        return Err((format!("a wavelength of {at_nm} nm"), help));
+        return Err((format!("a wavelength of {} nm", number(at_nm)), help));
     }
     let n = constants.n.at(at_nm).map_err(|gap| {
         let help = "a thickness in waves needs the layer's index at the wavelength behind the @";
         (gap.to_string(), help.to_owned())
     })?;
-    within(waves * at_nm / n, &format!("{waves} waves at {at_nm} nm, "))
+    within(waves * at_nm / n, |nm| {
+        format!("{} waves at {} nm, {nm} nm", number(waves), number(at_nm))
+    })
 }

@@ -1,10 +1,10 @@
 //! What is wrong with a scene, and where.
 
-use crate::FieldPath;
-use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
+use crate::{FieldPath, Snippet};
+use miette::{Diagnostic, LabeledSpan, SourceCode};
+use spectra::wording::{number, shortened, visible};
 use std::fmt;
 use std::ops::Range;
-use std::sync::Arc;
 use thiserror::Error;
 
 /// What sort of mistake a [`Problem`] is.
@@ -115,14 +115,37 @@ impl Problem {
         self.location = Some(location);
         self
     }
+
+    /// Tells a number in the form that the file has it in, `1e9`, where `written` is the message's number in another one.
+    pub(crate) fn as_written(mut self, written: &str) -> Self {
+        let Ok(value) = written.replace('_', "").parse::<f64>() else {
+            return self;
+        };
+        let found = [value.to_string(), number(value)].map(|form| format!("found {form}"));
+        let is_it = |rest: &str| !rest.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '.');
+        if let Some(rest) = found.iter().find_map(|found| {
+            let rest = self.message.strip_prefix(found)?;
+            // A number at the end of a sentence is no other number.
+            (is_it(rest) || rest == ".").then(|| rest.to_owned())
+        }) {
+            self.message = format!("found {written}{rest}");
+        }
+        self
+    }
 }
+
+/// The most characters of a field and of a message that are shown: names in a file may be of any length.
+const MOST_OF_FIELD: usize = 200;
+const MOST_OF_MESSAGE: usize = 2000;
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.field.steps().is_empty() {
-            write!(f, "{}: ", self.field)?;
+            let field = self.field.to_string();
+            write!(f, "{}: ", visible(&shortened(&field, MOST_OF_FIELD)))?;
         }
-        write!(f, "{}", self.message)
+        let message = shortened(&self.message, MOST_OF_MESSAGE);
+        write!(f, "{}", visible(&message))
     }
 }
 
@@ -150,9 +173,31 @@ struct Inner {
     /// What has the problems, where there is no file.
     subject: &'static str,
     name: Option<String>,
-    source: Option<NamedSource<Arc<str>>>,
-    list: Vec<Problem>,
+    list: Vec<Placed>,
     omitted: usize,
+}
+
+/// A problem with the lines of the file that it is shown in.
+#[derive(Clone, Debug, Error)]
+#[error("{problem}")]
+struct Placed {
+    problem: Problem,
+    snippet: Option<Snippet>,
+}
+
+impl Diagnostic for Placed {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        Diagnostic::help(&self.problem)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.snippet.as_ref().map(|snippet| snippet as _)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let bytes = self.snippet.as_ref()?.fault();
+        Some(Box::new(std::iter::once(LabeledSpan::underline(bytes))))
+    }
 }
 
 impl Problems {
@@ -161,50 +206,43 @@ impl Problems {
 
     /// Problems of a scene that a program has filled in.
     pub(crate) fn of_program(list: Vec<Problem>) -> Self {
-        Self::new("the scene", None, None, list, 0)
+        Self::new("the scene", None, list, 0)
     }
 
     /// Problems of an index of refraction that is part of no scene.
     pub(crate) fn of_index(list: Vec<Problem>) -> Self {
-        Self::new("the index", None, None, list, 0)
+        Self::new("the index", None, list, 0)
     }
 
     /// A file that cannot be read.
     pub(crate) fn of_unread_file(name: String, problem: Problem) -> Self {
-        Self::new("the scene", Some(name), None, vec![problem], 0)
+        Self::new("the scene", Some((name, "")), vec![problem], 0)
     }
 
     /// Problems of a file with this text; `omitted` more were found.
-    pub(crate) fn of_file(
-        name: &str,
-        text: &Arc<str>,
-        mut list: Vec<Problem>,
-        omitted: usize,
-    ) -> Self {
+    pub(crate) fn of_file(name: &str, text: &str, mut list: Vec<Problem>, omitted: usize) -> Self {
         list.sort_by_key(|problem| problem.location.as_ref().map(|place| place.bytes.start));
-        let source = NamedSource::new(name, Arc::clone(text)).with_language("TOML");
-        Self::new(
-            "the scene",
-            Some(name.to_owned()),
-            Some(source),
-            list,
-            omitted,
-        )
+        Self::new("the scene", Some((name.to_owned(), text)), list, omitted)
     }
 
     fn new(
         subject: &'static str,
-        name: Option<String>,
-        source: Option<NamedSource<Arc<str>>>,
+        file: Option<(String, &str)>,
         mut list: Vec<Problem>,
         omitted: usize,
     ) -> Self {
         let omitted = omitted + list.len().saturating_sub(Self::MAX_SHOWN);
         list.truncate(Self::MAX_SHOWN);
+        let placed = |problem: Problem| {
+            let place = problem.location.as_ref().zip(file.as_ref());
+            let snippet =
+                place.map(|(place, (name, text))| Snippet::new(name, text, place.bytes.clone()));
+            Placed { problem, snippet }
+        };
+        let list = list.into_iter().map(placed).collect();
         Self(Box::new(Inner {
             subject,
-            name,
-            source,
+            name: file.map(|(name, _)| visible(&name).into_owned()),
             list,
             omitted,
         }))
@@ -212,7 +250,7 @@ impl Problems {
 
     /// The problems, in the order of the file.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &Problem> {
-        self.0.list.iter()
+        self.0.list.iter().map(|placed| &placed.problem)
     }
 
     /// How many more were found than [`Self::iter`] lists.
@@ -270,13 +308,9 @@ impl fmt::Display for Problems {
 }
 
 impl Diagnostic for Problems {
-    fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.0.source.as_ref().map(|source| source as _)
-    }
-
     fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
         Some(Box::new(
-            self.0.list.iter().map(|problem| problem as &dyn Diagnostic),
+            self.0.list.iter().map(|placed| placed as &dyn Diagnostic),
         ))
     }
 }

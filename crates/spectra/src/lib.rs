@@ -29,6 +29,7 @@ mod sprague;
 pub mod suggestion;
 pub mod table_file;
 pub mod text_file;
+pub mod wording;
 
 pub use band_grid::{BandGrid, BandGridError};
 pub use band_table::BandTable;

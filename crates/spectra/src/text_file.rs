@@ -26,7 +26,7 @@ pub enum TextFileError {
     #[error("is a directory, not a file")]
     Directory,
     /// It is a pipe, a device or the like.
-    #[error("is not a regular file")]
+    #[error("is not a regular file but a pipe or a device; standard input is read as -")]
     NotRegular,
     /// It has more bytes than are read.
     #[error("is larger than {} MiB", most >> 20)]

@@ -1,29 +1,35 @@
 //! `pellicle film`.
 
+mod look;
+mod model;
 pub(crate) mod numbers;
 mod pictures;
 mod report;
 mod spectra;
 pub(crate) mod swatch;
+mod uses;
 
-use crate::lamp::Lamp;
 use crate::print;
 use clap::ValueEnum;
+use look::Look;
 use miette::{IntoDiagnostic, WrapErr, miette};
+use model::{ModelName, PathName};
 use numbers::{List, Vary};
-use pellicle::coating::{
-    Angle, Light, MatchBy, Polarisation, Side, Stack, StackColour, View, parse_srgb,
-};
+use pellicle::coating::{Angle, Light, MatchBy, Model, Stack, StackColour, parse_srgb};
 use pellicle::gpu::AdapterChoice;
 use pellicle::spectra::Observer;
+use pellicle::spectra::wording::number;
 use pellicle::{Backend, Renderer, coating, stacks};
 use std::path::PathBuf;
 
 /// What a stack of thin films does to light: spectra, colours, plots, tolerances.
 ///
-/// STACK is a stack file (TOML), or a stack in one line such as "air | silica 300nm | silicon": the medium that light comes from,
+/// STACK is a stack file (TOML), - for one from standard input, or a stack in one line such as "air | silica 300nm | silicon": the medium that light comes from,
 /// layers with thicknesses in nm or um, the substrate. A medium is a material's name, a number 1.5, 1.5+0.1i (n + ik, k > 0
 /// absorbs), or a file .csv or .yml. "air" has n = 1.0003 as measured; "vacuum" and 1 are 1 exactly.
+///
+/// Groups repeat, (TiO2 60nm | SiO2 90nm)^8, and letters may be defined before the stack, with thicknesses in waves at a wavelength in
+/// nm: "H=TiO2 0.25@550; L=SiO2 0.25@550; air | (HL)^8 2H | BK7".
 ///
 /// A stack file has `incident` ("air" when absent), `substrate`, and per layer `[[layer]]` with `index` and `thickness_nm`. An index
 /// is whatever a scene's materials accept, a table in place { nm = [...], n = [...], k = [...] } included.
@@ -40,6 +46,16 @@ pub(crate) struct Arguments {
     /// How R and T are printed: rows go by angle, then by wavelength [default: table, unless something else is asked for]
     #[arg(long, value_enum, conflicts_with_all = ["wanted", "tolerance", "sensitivity"])]
     format: Option<Format>,
+    /// Go on with a medium's first and last values beyond its data
+    #[arg(long)]
+    clamp: bool,
+    /// By which formula R and T are computed: exact, for any stack; two_beam, which scenes have too, for one film that does not absorb
+    /// between equal media. By two beams R + T is not 1, and there is no A
+    #[arg(long, value_enum, default_value_t = ModelName::Exact)]
+    model: ModelName,
+    /// What --model two_beam takes for the path difference between the two beams [default: optical]
+    #[arg(long, value_enum)]
+    path_difference: Option<PathName>,
     /// Print the absorptance of each layer too (always from the CPU)
     #[arg(long)]
     absorptance: bool,
@@ -83,27 +99,6 @@ pub(crate) struct Arguments {
     design: f64,
 }
 
-/// How colours are looked at.
-#[derive(clap::Args)]
-struct Look {
-    /// The light that colours are seen in: D65, A, FL11, LED-B3, D5700K, blackbody_3000K ..., or a file of wavelength_nm,power (.csv, .spd, .spdx ...);
-    /// swatches and codes of sRGB are not adapted to it: under A white looks orange
-    #[arg(long, value_name = "NAME|FILE", default_value = "D65", value_parser = Lamp::unscaled)]
-    illuminant: Lamp,
-    /// The observer of colours: 1931_2, 1964_10, 2015_2 or 2015_10
-    #[arg(long, value_name = "NAME", default_value_t = Observer::Cie1931Deg2)]
-    observer: Observer,
-    /// Stops by which colours are shown brighter: a soap film reflects 8 % at most
-    #[arg(long, value_name = "EV", default_value = "0", value_parser = numbers::number, allow_hyphen_values = true)]
-    exposure: f64,
-    /// Look at the light that passes, not at the reflected
-    #[arg(long)]
-    transmitted: bool,
-    /// Polarisation of the light of colours and plots
-    #[arg(long, value_enum, default_value_t = PolarisationName::Unpolarised)]
-    polarisation: PolarisationName,
-}
-
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Format {
     /// For people, with the colour of each angle
@@ -126,13 +121,6 @@ enum MatchByName {
     Chromaticity,
 }
 
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-enum PolarisationName {
-    Unpolarised,
-    S,
-    P,
-}
-
 /// A wanted colour as it was written and as XYZ.
 #[derive(Clone, Debug)]
 struct Wanted {
@@ -142,34 +130,6 @@ struct Wanted {
 fn wanted(text: &str) -> Result<Wanted, String> {
     let xyz = parse_srgb(text).map_err(|error| error.to_string())?;
     Ok(Wanted { xyz })
-}
-
-impl Look {
-    fn light(&self) -> miette::Result<Light> {
-        let Lamp {
-            name,
-            spectrum,
-            rule,
-            ..
-        } = &self.illuminant;
-        Light::new(name, spectrum, self.observer, *rule)
-            .map_err(|error| miette!("--illuminant {name}: {error}"))
-    }
-
-    fn view(&self) -> View {
-        View {
-            side: if self.transmitted {
-                Side::Transmitted
-            } else {
-                Side::Reflected
-            },
-            polarisation: match self.polarisation {
-                PolarisationName::Unpolarised => Polarisation::Unpolarised,
-                PolarisationName::S => Polarisation::S,
-                PolarisationName::P => Polarisation::P,
-            },
-        }
-    }
 }
 
 /// The most wavelengths times angles.
@@ -190,6 +150,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     let film = Film::new(arguments)?;
     print::notes(film.stack.notes());
     // What cannot be written is told before anything is computed.
+    film.check_model()?;
     pictures::check(&film)?;
     if arguments.prints_spectra() {
         spectra::print(&film, arguments.format.unwrap_or(Format::Table))?;
@@ -200,49 +161,6 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     film.note_light()
 }
 
-impl Arguments {
-    /// Whether R and T are printed: where they are asked for, or nothing is.
-    fn prints_spectra(&self) -> bool {
-        let reports = self.wanted.is_some() || self.tolerance.is_some() || self.sensitivity;
-        let pictures = self.plot.is_some() || self.chart.is_some();
-        self.format.is_some() || !(reports || pictures)
-    }
-
-    /// An option that nothing would heed is a mistake.
-    fn check_uses(&self) -> miette::Result<()> {
-        let spectra = self.prints_spectra();
-        let spectra_or_plot = spectra || self.plot.is_some();
-        let uses = [
-            (
-                "--backend gpu",
-                self.backend == BackendName::Gpu && !spectra_or_plot,
-                "R and T, printed or with --plot; the rest is computed on the CPU",
-            ),
-            (
-                "--wavelengths",
-                self.wavelengths.is_some() && !spectra_or_plot,
-                "R and T, printed or with --plot; colours are sums from 380 to 780 nm",
-            ),
-            (
-                "--absorptance",
-                self.absorptance && !spectra,
-                "printed R and T; add --format table",
-            ),
-            (
-                "--vary",
-                self.vary.is_some() && self.wanted.is_none() && self.chart.is_none(),
-                "--match and --chart",
-            ),
-        ];
-        match uses.into_iter().find(|(_, is_unused, _)| *is_unused) {
-            Some((option, _, purpose)) => {
-                Err(miette!("{option} has no effect here: it is for {purpose}"))
-            }
-            None => Ok(()),
-        }
-    }
-}
-
 impl<'a> Film<'a> {
     fn new(arguments: &'a Arguments) -> miette::Result<Self> {
         let look = &arguments.look;
@@ -250,11 +168,16 @@ impl<'a> Film<'a> {
         if !exposure.contains(look.exposure) {
             return Err(miette!(
                 "--exposure {}: it must be from {exposure}",
-                look.exposure
+                number(look.exposure)
             ));
         }
         let angle =
             |&deg: &f64| Angle::from_degrees(deg).map_err(|error| miette!("--angles: {error}"));
+        let model = model::model(arguments.model, arguments.path_difference)?;
+        let mut stack = Stack::open(&arguments.stack)?.with_model(model);
+        if arguments.clamp {
+            stack = stack.clamped(arguments.used_nm());
+        }
         let angles = arguments
             .angles
             .0
@@ -263,7 +186,7 @@ impl<'a> Film<'a> {
             .collect::<Result<_, _>>()?;
         Ok(Self {
             arguments,
-            stack: Stack::open(&arguments.stack)?,
+            stack,
             angles,
             light: look.light()?,
             exposure_ev: look.exposure,
@@ -280,10 +203,24 @@ impl<'a> Film<'a> {
         let possible = pellicle::scene::limits::TABLE_NM;
         match nm.iter().find(|&&nm| !possible.contains(nm)) {
             Some(nm) => Err(miette!(
-                "--wavelengths: {nm} nm; it must be from {possible}"
+                "--wavelengths: {} nm; it must be from {possible}",
+                number(*nm)
             )),
             None => Ok(nm),
         }
+    }
+
+    /// What a model is not defined for is told before anything is computed.
+    fn check_model(&self) -> miette::Result<()> {
+        if self.stack.model() != Model::Exact {
+            self.stack.sampled(&self.wavelengths_nm(10)?)?;
+        }
+        Ok(())
+    }
+
+    /// The stack in a line, with what is computed of it.
+    fn title(&self) -> String {
+        self.stack.label() + &model::remark(self.stack.model())
     }
 
     /// With the absorptance of layers a row has a figure for each of them.
@@ -314,8 +251,11 @@ impl<'a> Film<'a> {
         Renderer::open(&backend).into_diagnostic()
     }
 
-    /// Below this an absorptance is the rounding of R + T.
+    /// Below this an absorptance is the rounding of R + T. Two beams have none.
     fn rounding(&self) -> f64 {
+        if self.stack.model() != Model::Exact {
+            return f64::INFINITY;
+        }
         match self.arguments.backend {
             BackendName::Cpu => 1e-9,
             BackendName::Gpu => 2e-4,
@@ -326,7 +266,7 @@ impl<'a> Film<'a> {
     fn note_light(&self) -> miette::Result<()> {
         /// Colour differences that can be seen.
         const SEEN: f64 = 0.5;
-        if self.light.step_nm() == 1.0 || self.shows_no_colour() {
+        if self.light.step_nm() == 1.0 || self.arguments.shows_no_colour() {
             return Ok(());
         }
         let colour = self.colour()?;
@@ -342,16 +282,9 @@ impl<'a> Film<'a> {
         Ok(())
     }
 
-    /// CSV has no colours.
-    fn shows_no_colour(&self) -> bool {
-        self.arguments.format == Some(Format::Csv)
-            && self.arguments.plot.is_none()
-            && self.arguments.chart.is_none()
-    }
-
     /// Says that colours are shown as the light makes them. D65 is the display's own white.
     fn note_adaptation(&self) {
-        let only_csv = self.shows_no_colour();
+        let only_csv = self.arguments.shows_no_colour();
         let observer = self.arguments.look.observer;
         if observer != Observer::Cie1931Deg2 && !only_csv {
             print::note(format_args!(
@@ -372,6 +305,11 @@ impl<'a> Film<'a> {
         renderer: &Renderer,
         sampled: &coating::Sampled,
     ) -> miette::Result<Vec<Vec<coating::Powers>>> {
+        if sampled.model() != Model::Exact {
+            let thicknesses = self.stack.thicknesses_nm();
+            let angles = self.angles.iter();
+            return Ok(angles.map(|&a| sampled.powers(thicknesses, a)).collect());
+        }
         let thicknesses = [self.stack.thicknesses_nm().to_vec()];
         let batch = sampled.batch(&thicknesses, &self.angles);
         let powers = stacks::evaluate(renderer, &batch.as_batch()).into_diagnostic()?;

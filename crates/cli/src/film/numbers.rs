@@ -110,7 +110,7 @@ impl Vary {
         let (from_nm, to_nm) = (number(from)?, number(to)?);
         if !(0.0 <= from_nm && from_nm < to_nm && to_nm <= Self::MAX_NM) {
             return Err(format!(
-                "thicknesses from {from_nm} to {to_nm} nm; they must rise, and lie from 0 to {} nm",
+                "thicknesses from {from} to {to} nm; they must rise, and lie from 0 to {} nm",
                 Self::MAX_NM
             ));
         }

@@ -1,6 +1,6 @@
 //! Plots and charts of stacks, written to files.
 
-use super::{Film, Vary};
+use super::{Film, Vary, model};
 use crate::{output, print};
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::coating::{Angle, Chart, ChartOf, Curve, Plot};
@@ -78,7 +78,7 @@ fn plot(film: &Film) -> miette::Result<Plot> {
         colour: colour.as_ref().map(|colour| colour.at(thicknesses, angle)),
     };
     Ok(Plot {
-        title: film.stack.label(),
+        title: film.title(),
         wavelengths_nm,
         curves: film.angles.iter().zip(powers).map(curve).collect(),
         view: film.arguments.look.view(),
@@ -95,7 +95,7 @@ fn chart(film: &Film) -> miette::Result<Chart> {
     };
     let layer = film.layer_of(&vary)?;
     let of = ChartOf {
-        title: film.stack.label_with_varied(layer),
+        title: film.stack.label_with_varied(layer) + &model::remark(film.stack.model()),
         layer,
         layer_label: film.stack.layers()[layer].medium.label(),
         range_nm: (vary.from_nm, vary.to_nm),

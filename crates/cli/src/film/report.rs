@@ -40,7 +40,7 @@ pub(crate) fn print(film: &Film) -> miette::Result<()> {
     }
     for (index, report) in reports.iter().enumerate() {
         if index == 0 {
-            print::result(film.stack.label())?;
+            print::result(film.title())?;
         }
         print::result(format_args!("\n{}", report.trim_end()))?;
     }
@@ -190,13 +190,7 @@ fn figures(q: &Quantiles) -> String {
 }
 
 fn layer_name(film: &Film, layer: usize) -> String {
-    let found = &film.stack.layers()[layer];
-    format!(
-        "{} {} {} nm",
-        layer + 1,
-        found.medium.label(),
-        found.thickness_nm
-    )
+    format!("{} {}", layer + 1, film.stack.layers()[layer].label())
 }
 
 fn sensitivity(film: &Film, colour: &StackColour, angle: Angle) -> miette::Result<String> {

@@ -3,7 +3,7 @@
 use super::swatch::swatch;
 use super::{Film, Format};
 use crate::print;
-use pellicle::coating::{Angle, Colour, Powers, Sampled, Side, absorptance};
+use pellicle::coating::{Angle, Colour, Model, Powers, Sampled, Side, absorptance};
 use pellicle::optics::{Complex64, Polarised};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -85,25 +85,26 @@ impl<'a> Spectra<'a> {
     }
 
     fn table(&self) -> String {
-        let mut text = format!("{}\n", self.film.stack.label());
+        let mut text = format!("{}\n", self.film.title());
+        let is_exact = self.film.stack.model() == Model::Exact;
+        let head = ["nm", "Rs", "Rp", "R", "Ts", "Tp", "T"].map(|name| format!("{name:>9}"));
+        let mut head = head.join(" ");
+        if is_exact {
+            head += &format!(" {:>9}", "A");
+        }
+        self.layers().for_each(|layer| {
+            let _ = write!(head, " {:>9}", format!("A{layer}"));
+        });
         for at in &self.angles {
-            let _ = writeln!(text, "\n{}", self.heading(at));
-            let _ = write!(
-                text,
-                "{:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}",
-                "nm", "Rs", "Rp", "R", "Ts", "Tp", "T", "A"
-            );
-            self.layers().for_each(|layer| {
-                let _ = write!(text, " {:>9}", format!("A{layer}"));
-            });
-            text.push('\n');
+            let _ = writeln!(text, "\n{}\n{head}", self.heading(at));
             for (nm, powers, absorptances) in self.rows(at) {
                 let (r, t) = (powers.reflectance, powers.transmittance);
-                let a = absorptance(*powers).unpolarised();
+                // Two beams have no absorptance.
+                let a = is_exact.then(|| absorptance(*powers).unpolarised());
                 let _ = write!(text, "{nm:>9}");
                 let layers = absorptances.iter().map(|a| a.unpolarised());
-                let figures = [r.s, r.p, r.unpolarised(), t.s, t.p, t.unpolarised(), a];
-                for figure in figures.into_iter().chain(layers) {
+                let figures = [r.s, r.p, r.unpolarised(), t.s, t.p, t.unpolarised()];
+                for figure in figures.into_iter().chain(a).chain(layers) {
                     // A rounding of 0 is shown without a sign.
                     let _ = write!(text, " {:>9.6}", (figure * 1e6).round() / 1e6 + 0.0);
                 }
@@ -152,11 +153,12 @@ impl<'a> Spectra<'a> {
             json!({ "n": n, "k": k })
         };
         let layers: Vec<Value> = self.sampled.layers().iter().map(|l| complex(l)).collect();
-        json!({
+        let mut value = json!({
             "about": "power reflectance R and transmittance T (into the substrate) of a stack of thin films for s and p polarised light; \
                       index n + ik, k >= 0 absorbs; wavelengths in vacuum",
             "program": concat!("pellicle ", env!("CARGO_PKG_VERSION")),
             "backend": self.backend,
+            "model": stack.model().name(),
             "stack": stack.description(),
             "indices": {
                 "incident": { "n": self.sampled.incident() },
@@ -165,7 +167,11 @@ impl<'a> Spectra<'a> {
             },
             "wavelengths_nm": self.sampled.wavelengths_nm(),
             "angles": self.angles.iter().map(|at| self.json_of_angle(at)).collect::<Vec<_>>(),
-        })
+        });
+        if let Some(path) = stack.model().path_difference() {
+            value["path_difference"] = json!(path);
+        }
+        value
     }
 
     fn json_of_angle(&self, at: &AtAngle) -> Value {

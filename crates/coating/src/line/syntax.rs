@@ -173,6 +173,8 @@ fn part_nodes<'a>(
     let is_row = !definitions.is_empty() || part.text.contains('^');
     if part.text.starts_with('(') || (!is_layer && is_row && !part.text.is_empty()) {
         row(part, definitions, depth)
+    } else if depth > 0 && !is_layer && is_row_of_letters(part.text) {
+        Err(undefined(part, part.text, definitions))
     } else {
         Ok(vec![Node::Layer(part)])
     }
@@ -287,9 +289,28 @@ fn word<'a>(word: Piece<'a>, definitions: &[Definition<'a>]) -> Result<Vec<Node<
 fn undefined(word: Piece<'_>, name: &str, definitions: &[Definition<'_>]) -> Misplaced {
     let short: String = name.chars().take(64).collect();
     let names = || definitions.iter().map(|defined| defined.name);
+    let known: Vec<&str> = names().take(20).collect();
+    let letters = undefined_letters(name, &known);
+    if let Some(letters) = letters.filter(|_| known.is_empty() || name.len() > 1) {
+        let (named, verb) = match letters.as_slice() {
+            [only] => (only.to_string(), "is"),
+            [first @ .., last] => (format!("{} and {last}", listed(first)), "are"),
+            [] => (String::new(), "is"),
+        };
+        let message = format!("{short:?}: {named} {verb} not defined");
+        let definitions = letters
+            .iter()
+            .map(|letter| format!("{letter}=TiO2 0.25@550; "));
+        let help = format!(
+            "say before the stack what a letter stands for, like \"{}air | …\": a medium and its thickness, {}; or write each \
+             layer so, with | between them",
+            definitions.collect::<String>(),
+            thickness::FORMS
+        );
+        return word.misplaced(message, help);
+    }
     let meant =
         nearest(name, names()).map_or(String::new(), |name| format!("; did you mean {name:?}?"));
-    let known: Vec<&str> = names().take(20).collect();
     let help = if known.is_empty() {
         format!("nothing is defined; {GROUP}")
     } else {
@@ -299,6 +320,38 @@ fn undefined(word: Piece<'_>, name: &str, definitions: &[Definition<'_>]) -> Mis
         )
     };
     word.misplaced(format!("{short:?} is not defined{meant}"), help)
+}
+
+fn listed(letters: &[char]) -> String {
+    let letters: Vec<String> = letters.iter().map(char::to_string).collect();
+    letters.join(", ")
+}
+
+/// Whether a text is a row of some letters, each with or without a factor, and no medium: `HL`, `2HLH`.
+fn is_row_of_letters(text: &str) -> bool {
+    undefined_letters(text, &[]).is_some()
+}
+
+/// The letters of a row such as `2HLH` that are not defined; `None` where it reads as a name rather: of a material, or of more letters
+/// than a design has, none of which is defined.
+fn undefined_letters(text: &str, known: &[&str]) -> Option<Vec<char>> {
+    /// More than the designs of filters have.
+    const MOST: usize = 4;
+    let is_of_factor = |c: &char| c.is_ascii_digit() || *c == '.';
+    let mut letters: Vec<char> = Vec::new();
+    let mut has_known = false;
+    for letter in text.chars().filter(|c| !is_of_factor(c)) {
+        if known.iter().any(|name| name.chars().eq([letter])) {
+            has_known = true;
+        } else if !letter.is_ascii_alphabetic() {
+            return None;
+        } else if !letters.contains(&letter) {
+            letters.push(letter);
+        }
+    }
+    let are_capitals = letters.iter().all(char::is_ascii_uppercase);
+    let is_row = has_known || (are_capitals && spectra::material_info(text).is_none());
+    (is_row && (1..=MOST).contains(&letters.len())).then_some(letters)
 }
 
 /// The number before a name, 1 where there is none, and the name.

@@ -234,7 +234,12 @@ fn mistakes_in_groups_are_told_where_they_are() {
         assert!(!message.contains(" = {"), "{message}");
     }
     for (line, words) in [
-        ("1 | (HL)^8 | 1", "\"HL\" has no thickness"),
+        ("1 | (HL)^8 | 1", "\"HL\": H and L are not defined"),
+        ("1 | (HL)^8 H | 1", "H=TiO2 0.25@550; L=TiO2 0.25@550; air"),
+        ("1 | (2HLH)^8 | 1", "H and L are not defined"),
+        ("1 | (H | 1.5 3nm)^8 | 1", "\"H\": H is not defined"),
+        ("1 | (Si | 1.5 3nm)^8 | 1", "\"Si\" has no thickness"),
+        ("H=1.5 3nm; 1 | (HLLK)^2 | 1", "L and K are not defined"),
         ("H=2.3 60nm; H=2.3 6nm; 1 | H | 1", "H is defined twice"),
         ("H 2.3; 1 | H | 1", "is no definition"),
         ("2=2.3 60nm; 1 | H | 1", "\"2\" is no name"),

@@ -5,7 +5,7 @@ use crate::FieldPath;
 use crate::problem::{Location, Problem, ProblemKind, Problems};
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
-use spectra::text_file::read_text;
+use spectra::text_file::{STANDARD_INPUT, read_text};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ pub struct SourceFile {
 }
 
 impl SourceFile {
-    /// Reads a file. `needs` says what the least is that such a file holds, for the error about an empty one.
+    /// Reads a file, or standard input for `-`, whose own paths are relative to the working folder. `needs` says what the least is that such a file holds, for the error about an empty one.
     ///
     /// # Errors
     /// When there is no such file, or it is not TOML. Other mistakes wait for [`Self::finish`].
@@ -30,7 +30,10 @@ impl SourceFile {
         path: &Path,
         needs: &str,
     ) -> Result<(T, Self), Problems> {
-        let name = path.display().to_string();
+        let name = match path.as_os_str() == STANDARD_INPUT {
+            true => "<standard input>".to_owned(),
+            false => path.display().to_string(),
+        };
         let text = read_text(path).map_err(|error| {
             let problem = Problem::new(ProblemKind::File, &FieldPath::root(), error.to_string());
             Problems::of_unread_file(name.clone(), problem)
@@ -148,7 +151,10 @@ impl SourceFile {
                 return problem.help(help);
             }
             let location = Location::new(&self.text, tree.bytes_of(&problem.field));
-            problem.located(location)
+            let written = self.text.get(location.bytes.clone());
+            problem
+                .as_written(written.unwrap_or_default())
+                .located(location)
         };
         problems.into_iter().map(place).collect()
     }

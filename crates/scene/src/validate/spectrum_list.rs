@@ -431,8 +431,14 @@ fn named_illuminant(
     match spectra::find_illuminant(name) {
         Ok(set) => Some(extrapolated(set.data, extrapolate)),
         Err(error) => {
-            let message = error.to_string();
-            checks.report(Problem::new(ProblemKind::UnknownName, field, message));
+            let mut problem = Problem::new(ProblemKind::UnknownName, field, error.to_string());
+            let ending = Path::new(name)
+                .extension()
+                .and_then(|ending| ending.to_str());
+            if ending.is_some_and(|ending| ending.starts_with(|c: char| c.is_ascii_alphabetic())) {
+                problem = problem.help(format!("a file is written {{ csv = {name:?} }}"));
+            }
+            checks.report(problem);
             None
         }
     }

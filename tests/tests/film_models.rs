@@ -1,0 +1,172 @@
+//! `pellicle film` with media beyond their data and by two beams.
+
+use color::spectral_exr::read;
+use pellicle_tests::agreement::compare;
+use pellicle_tests::command::{Place, Ran};
+use pellicle_tests::tables::{number, rows};
+use pellicle_tests::tolerances::ORACLE_TWO_BEAM;
+use serde_json::Value;
+
+fn film_in(place: &Place, stack: &str, arguments: &str) -> Ran {
+    let mut command = place.command("film");
+    command.arg(stack).args(arguments.split_whitespace());
+    Ran::of(&command.output().unwrap())
+}
+
+fn film(stack: &str, arguments: &str) -> Ran {
+    film_in(&Place::default(), stack, arguments)
+}
+
+/// Wavelength, angle, Rs, Rp, Ts and Tp of each row of a CSV.
+fn figures(csv: &str) -> Vec<Vec<f64>> {
+    let row = |line: &str| line.split(',').map(number).collect();
+    csv.lines().skip(1).map(row).collect()
+}
+
+/// Rs and Rp of `two_beam.csv`, which were computed by another program.
+#[test]
+fn two_beams_have_the_figures_of_an_independent_computation() {
+    let (mut found, mut expected) = (Vec::new(), Vec::new());
+    let table: Vec<_> = rows(include_str!("../data/two_beam.csv"));
+    for chunk in table.iter().step_by(23) {
+        let [nm, angle, wavelength, path] = [0, 1, 2, 3].map(|cell| chunk[cell]);
+        let asked = format!(
+            "--model two_beam --path-difference {path} --angles {angle} --wavelengths {wavelength} --format csv"
+        );
+        let ran = film(&format!("1 | 1.3333333333333333 {nm}nm | 1"), &asked).succeeded();
+        found.extend_from_slice(&figures(&ran.stdout)[0][2..4]);
+        expected.extend([number(chunk[4]), number(chunk[5])]);
+    }
+    assert!(found.len() > 20);
+    if let Err(report) = compare(&found, &expected, ORACLE_TWO_BEAM) {
+        panic!("{report}");
+    }
+}
+
+/// A film before black in surroundings of 1 is as bright as it reflects.
+#[test]
+fn two_beams_are_those_of_scenes() {
+    for path in ["optical", "as_printed"] {
+        let place = Place::default();
+        let scene = format!(
+            r#"
+            camera = {{ type = "orthographic", position = [0, 0, 2], look_at = [0, 0, 0], height = 0.1 }}
+            environment = {{ type = "constant", emission = 1 }}
+            objects = [
+                {{ type = "rectangle", material = "film", center = [0, 0, 0], normal = [0, 0, 1], size = [4, 4] }},
+                {{ type = "rectangle", material = "black", center = [0, 0, -1], normal = [0, 0, 1], size = [40, 40] }},
+            ]
+            [materials]
+            film = {{ type = "film", index = 1.5, thickness_nm = 400, model = "two_beam", path_difference = "{path}" }}
+            black = {{ type = "diffuse", reflectance = 0 }}
+            [render]
+            size = [2, 2]
+            samples = 1
+            bands = 4
+            sampling = "centre"
+            wavelengths_nm = [499, 507]
+            "#
+        );
+        let asked = "render - --backend cpu -o film.exr";
+        let _ = place.run_with_input(asked, scene.as_bytes()).succeeded();
+        let (image, _) = read(&place.path("film.exr")).unwrap();
+        let asked = format!(
+            "--model two_beam --path-difference {path} --wavelengths 500:506:2 --format csv"
+        );
+        let rows = figures(&film("1 | 1.5 400nm | 1", &asked).succeeded().stdout);
+        for (band, row) in rows.iter().enumerate() {
+            let seen = f64::from(image.pixel(0, 0)[band]);
+            // An image holds f32.
+            assert!((seen - row[2]).abs() < 1e-6, "{path} {row:?}: {seen}");
+        }
+        assert!((rows[0][2] - 0.04).abs() > 0.005);
+    }
+}
+
+#[test]
+fn the_model_is_named_and_has_no_absorptance() {
+    let stack = "1 | 1.5 83.33333333333333nm | 1";
+    let two = "--model two_beam --wavelengths 500";
+    let ran = film(stack, two).succeeded();
+    // 0.153664 and 0.9216, worked out by hand: r² = 0.04.
+    for words in ["two beams, path difference optical", "0.153664", "0.921600"] {
+        assert!(ran.stdout.contains(words), "{words}: {}", ran.stdout);
+    }
+    let head = ran.stdout.lines().find(|line| line.contains("Rs")).unwrap();
+    assert!(head.trim_end().ends_with(" T"), "{head}");
+    let json = |arguments: &str| -> Value {
+        let ran = film(stack, &format!("{arguments} --format json")).succeeded();
+        serde_json::from_str(&ran.stdout).unwrap()
+    };
+    let printed = json(&format!("{two} --path-difference as_printed"));
+    assert_eq!(printed["model"], "two_beam");
+    assert_eq!(printed["path_difference"], "as_printed");
+    assert!((printed["angles"][0]["Rs"][0].as_f64().unwrap() - 0.115264).abs() < 1e-12);
+    let exact = json("--wavelengths 500");
+    assert_eq!(exact["model"], "exact");
+    assert!(exact.get("path_difference").is_none());
+    let place = Place::default();
+    let asked = "--model two_beam --plot a.svg --chart a.png --sensitivity --tolerance 1%";
+    let _ = film_in(&place, stack, asked).succeeded();
+    let plot = std::fs::read_to_string(place.path("a.svg")).unwrap();
+    assert!(plot.contains("two beams"), "{plot}");
+}
+
+#[test]
+fn what_two_beams_are_not_for_is_refused() {
+    let two = "--model two_beam";
+    for (stack, arguments, said) in [
+        ("1 | 1.5 1nm | 1.4 1nm | 1", two, "has 2 layers"),
+        ("1 | 1.5+0.1i 1nm | 1", two, "1.5+0.1i"),
+        ("1 | 1.5 1nm | silicon", two, "behind it 5."),
+        (
+            "1 | 1.5 1nm | 1",
+            "--model two_beam --absorptance",
+            "no absorptance",
+        ),
+        (
+            "1 | 1.5 1nm | 1",
+            "--model two_beam --backend gpu",
+            "on the CPU",
+        ),
+        (
+            "1 | 1.5 1nm | 1",
+            "--path-difference optical",
+            "the exact model has no choice of path difference",
+        ),
+        ("1 | 1.5 1nm | 1", "--model two-beam", "two_beam"),
+    ] {
+        let failed = film(stack, arguments).failed();
+        assert!(failed.contains(said), "{stack} {arguments}: {failed}");
+    }
+}
+
+/// Rutile's data begin at 430 nm.
+#[test]
+fn clamp_goes_on_with_the_end_values() {
+    let stack = "1 | rutile 100nm | silica";
+    let failed = film(stack, "").failed();
+    assert!(failed.contains("--clamp"), "{failed}");
+    let ran = film(stack, "--clamp --wavelengths 430 --format json").succeeded();
+    let notes: Vec<_> = ran
+        .stderr
+        .lines()
+        .filter(|line| line.contains("end values"))
+        .collect();
+    assert_eq!(
+        notes,
+        ["note: end values are used where data end: of rutile beyond 430 to 1530 nm"]
+    );
+    let clamped = film(stack, "--clamp --wavelengths 400,430 --format json").succeeded();
+    let json: Value = serde_json::from_str(&clamped.stdout).unwrap();
+    let index = &json["indices"]["layer"][0]["n"];
+    assert_eq!(index[0], index[1]);
+    // What lies within the data is the same as without, and nothing is noted.
+    let inside = "--wavelengths 430,500 --format csv";
+    let (with, without) = (
+        film(stack, &format!("--clamp {inside}")),
+        film(stack, inside),
+    );
+    assert_eq!(with.clone().succeeded().stdout, without.succeeded().stdout);
+    assert_eq!(with.stderr, "");
+}
