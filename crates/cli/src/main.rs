@@ -61,7 +61,8 @@ enum Command {
 
 fn main() -> ExitCode {
     print::keep_lines_whole();
-    let arguments = Arguments::try_parse().unwrap_or_else(|error| print::of_arguments(&error));
+    let arguments =
+        Arguments::try_parse().unwrap_or_else(|error| print::of_arguments::<Arguments>(&error));
     let result = match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Develop(arguments) => develop::run(&arguments),

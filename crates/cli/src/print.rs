@@ -58,16 +58,22 @@ pub(crate) fn error(report: &miette::Report) {
     let _ = writeln!(std::io::stderr().lock(), "{report:?}");
 }
 
-/// Arguments that are none, and help.
-pub(crate) fn of_arguments(error: &clap::Error) -> ! {
-    let plain = error.render().to_string();
-    match visible(&plain) {
-        safe if safe != plain => {
-            note(safe.trim_end());
-            std::process::exit(error.exit_code())
-        }
-        _ => error.exit(),
+/// Help, or what is wrong with arguments, as the parser tells it of `P`; what a terminal would obey in them is escaped first.
+pub(crate) fn of_arguments<P: clap::Parser>(error: &clap::Error) -> ! {
+    let arguments = std::env::args_os().map(|argument| argument.to_string_lossy().into_owned());
+    let arguments: Vec<String> = arguments.collect();
+    let is_safe = |argument: &String| visible(argument) == argument.as_str();
+    if arguments.iter().all(is_safe) {
+        error.exit();
     }
+    let safe = arguments
+        .iter()
+        .map(|argument| visible(argument).into_owned());
+    if let Err(error) = P::try_parse_from(safe) {
+        error.exit();
+    }
+    note(error.to_string().trim_end());
+    std::process::exit(error.exit_code())
 }
 
 /// Errors as they come from the library, with lines as long as they are: what is to be typed or searched for stays in one
