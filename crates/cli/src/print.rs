@@ -211,8 +211,6 @@ mod tests {
     fn nothing_that_a_terminal_obeys_is_shown() {
         let cause = miette!(help = "h\x07", "inner\x1b[2J");
         let report: miette::Report = cause.wrap_err("outer\u{202e}");
-        let shown = format!("{:?}", Safe::new(report.as_ref()));
-        assert!(shown.contains("outer\\u202e"), "{shown}");
         let handler = miette::MietteHandlerOpts::new().color(false).build();
         let shown = Whole(Safely(handler), report).to_string();
         for words in ["outer\\u202e", "inner\\u001b[2J"] {
@@ -225,7 +223,7 @@ mod tests {
 
     impl Display for Whole {
         fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-            self.0.debug(self.1.as_ref(), f)
+            self.0.debug(&*self.1, f)
         }
     }
 }
