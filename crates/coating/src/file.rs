@@ -3,7 +3,7 @@
 use crate::stack::{Layer, Medium, Stack};
 use crate::thickness::optical_nm;
 use scene::description::Index;
-use scene::{FieldPath, Problem, ProblemKind, Problems, SourceFile, limits};
+use scene::{FieldPath, Folder, Problem, ProblemKind, Problems, SourceFile, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use spectra::{OpticalConstants, Spectrum};
@@ -68,8 +68,8 @@ fn air() -> Index {
     Index::Name("air".to_owned())
 }
 
-/// A medium, whose files are looked for from `directory`; `vacuum` is n = 1.
-pub(crate) fn medium(index: &Index, directory: &Path) -> Result<Medium, Vec<Problem>> {
+/// A medium, whose files are looked for from `folder`; `vacuum` is n = 1.
+pub(crate) fn medium(index: &Index, folder: &Folder) -> Result<Medium, Vec<Problem>> {
     if matches!(index, Index::Name(name) if name == "vacuum") {
         let constants = OpticalConstants {
             n: Spectrum::Constant(1.0),
@@ -77,22 +77,24 @@ pub(crate) fn medium(index: &Index, directory: &Path) -> Result<Medium, Vec<Prob
         };
         return Ok(Medium::new(index.clone(), constants, Vec::new()));
     }
-    let read = scene::optical_constants(index, directory);
+    let read = scene::optical_constants(index, folder.clone());
     let (constants, notes) =
         read.map_err(|problems| problems.iter().cloned().collect::<Vec<_>>())?;
     Ok(Medium::new(index.clone(), constants, notes))
 }
 
-pub(crate) fn read(path: &Path) -> Result<Stack, Problems> {
-    finish(SourceFile::read(path, NEEDS)?)
+pub(crate) fn read(path: &Path, allows_outside: bool) -> Result<Stack, Problems> {
+    let (description, mut source) = SourceFile::read(path, NEEDS)?;
+    source.allow_outside(allows_outside);
+    finish((description, source))
 }
 
-pub(crate) fn parse(name: &str, text: &str, directory: &Path) -> Result<Stack, Problems> {
-    finish(SourceFile::parse(name, text, directory, NEEDS)?)
+pub(crate) fn parse(name: &str, text: &str, folder: &Folder) -> Result<Stack, Problems> {
+    finish(SourceFile::parse(name, text, folder, NEEDS)?)
 }
 
 fn finish((description, source): (StackDescription, SourceFile)) -> Result<Stack, Problems> {
-    source.finish(description.check(source.directory()))
+    source.finish(description.check(source.folder().clone()))
 }
 
 impl StackDescription {
@@ -109,13 +111,13 @@ impl StackDescription {
         }
     }
 
-    /// The stack that this describes; files are looked for from `directory`.
+    /// The stack that this describes; files are looked for from `folder` and must lie in it.
     ///
     /// # Errors
     /// Everything that is wrong with it; the problems' fields say where.
-    pub fn check(&self, directory: &Path) -> Result<Stack, Vec<Problem>> {
+    pub fn check(&self, folder: impl Into<Folder>) -> Result<Stack, Vec<Problem>> {
         let mut checks = Checks {
-            directory,
+            folder: folder.into(),
             problems: Vec::new(),
         };
         let root = FieldPath::root();
@@ -131,14 +133,14 @@ impl StackDescription {
     }
 }
 
-struct Checks<'a> {
-    directory: &'a Path,
+struct Checks {
+    folder: Folder,
     problems: Vec<Problem>,
 }
 
-impl Checks<'_> {
+impl Checks {
     fn medium(&mut self, field: &FieldPath, written: &Index) -> Option<Medium> {
-        match medium(written, self.directory) {
+        match medium(written, &self.folder) {
             Ok(medium) => Some(medium),
             Err(problems) => {
                 let placed = problems.into_iter().map(|problem| problem.within(field));

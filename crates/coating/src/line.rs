@@ -17,8 +17,8 @@ use crate::label;
 use crate::stack::{Layer, Medium, Stack};
 use crate::thickness;
 use miette::{Diagnostic, SourceSpan};
-use scene::Snippet;
 use scene::description::{Extrapolate, Index};
+use scene::{Folder, Snippet};
 use spectra::wording::{shortened, visible};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -247,7 +247,9 @@ fn placed_nm(
 
 fn medium(text: &str) -> Result<Medium, Fault> {
     let index = index(text)?;
-    file::medium(&index, Path::new("")).map_err(|problems| {
+    // Who writes a line names its files.
+    let folder = Folder::from("").allow_outside(true);
+    file::medium(&index, &folder).map_err(|problems| {
         let first = problems.into_iter().next();
         let (message, help) = first.map_or_else(Default::default, |p| (p.message, p.help));
         // A table's fields can be written in a file alone.

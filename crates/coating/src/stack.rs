@@ -7,8 +7,8 @@ use crate::model::{self, Model};
 use crate::response::Sampled;
 use miette::Diagnostic;
 use optics::Complex64;
-use scene::Problems;
 use scene::description::{Extrapolate, Index};
+use scene::{Folder, Problems};
 use spectra::text_file::STANDARD_INPUT;
 use spectra::wording::visible;
 use spectra::{OpticalConstants, OutOfRange};
@@ -239,6 +239,17 @@ impl Stack {
         }
     }
 
+    /// As [`Self::open`], of a stack file that can be trusted: the files that it names may lie outside of its folder.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, with its place.
+    pub fn open_trusted(text: &str) -> Result<Self, StackError> {
+        if text.contains('|') || !Path::new(text).exists() {
+            return Self::open(text);
+        }
+        Ok(file::read(text.as_ref(), true)?)
+    }
+
     /// A stack written in one line: `air | silica 300nm | silicon`.
     ///
     /// The first medium is the one that the light comes from, the last the substrate, and what is between are layers with their
@@ -256,20 +267,20 @@ impl Stack {
         line::parse(line)
     }
 
-    /// A stack file: see [`StackDescription`].
+    /// A stack file: see [`StackDescription`]. The files that it names must lie in its folder.
     ///
     /// # Errors
     /// Everything that is wrong with it.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Problems> {
-        file::read(path.as_ref())
+        file::read(path.as_ref(), false)
     }
 
-    /// The text of a stack file; `name` is what errors call it, and tables are looked for from `directory`.
+    /// The text of a stack file; `name` is what errors call it, and files are looked for from `folder` and must lie in it.
     ///
     /// # Errors
     /// Everything that is wrong with it.
-    pub fn from_toml(name: &str, text: &str, directory: &Path) -> Result<Self, Problems> {
-        file::parse(name, text, directory)
+    pub fn from_toml(name: &str, text: &str, folder: impl Into<Folder>) -> Result<Self, Problems> {
+        file::parse(name, text, &folder.into())
     }
 
     /// The incident medium must be transparent, the thicknesses finite and not negative; `line` and `file` have seen to it.

@@ -4,7 +4,7 @@ use crate::description::Description;
 use crate::document::SourceFile;
 use crate::field_path::Step;
 use crate::problem::Problems;
-use crate::{FieldPath, Scene, validate};
+use crate::{FieldPath, Folder, Scene, validate};
 use std::cell::OnceCell;
 use std::path::Path;
 use toml::Value;
@@ -49,12 +49,18 @@ impl SceneFile {
         Ok(Self::new(SourceFile::read(path.as_ref(), NEEDS)?))
     }
 
-    /// Reads the text of a scene file: `name` is what errors call it, and tables are looked for from `directory`.
+    /// Reads the text of a scene file: `name` is what errors call it, and files are looked for from `folder` and must lie in
+    /// it; the empty path is the working folder.
     ///
     /// # Errors
     /// When the text is not TOML.
-    pub fn parse(name: &str, text: &str, directory: &Path) -> Result<Self, Problems> {
-        Ok(Self::new(SourceFile::parse(name, text, directory, NEEDS)?))
+    pub fn parse(name: &str, text: &str, folder: impl Into<Folder>) -> Result<Self, Problems> {
+        Ok(Self::new(SourceFile::parse(
+            name,
+            text,
+            &folder.into(),
+            NEEDS,
+        )?))
     }
 
     fn new((description, source): (Description, SourceFile)) -> Self {
@@ -65,12 +71,25 @@ impl SceneFile {
         }
     }
 
+    /// Whether the files that the scene names may lie outside of its folder, which they may not by default: only for scenes that
+    /// can be trusted.
+    #[must_use]
+    pub fn allow_outside(mut self, allows_outside: bool) -> Self {
+        self.source.allow_outside(allows_outside);
+        self
+    }
+
+    /// Where the files are looked for that the scene names.
+    pub fn folder(&self) -> &Folder {
+        self.source.folder()
+    }
+
     /// The scene that the file, as changed, describes.
     ///
     /// # Errors
     /// Everything that is wrong with the file and with [`Self::description`].
     pub fn validate(&self) -> Result<Scene, Problems> {
-        let checked = validate::scene(&self.description, self.source.directory());
+        let checked = validate::scene(&self.description, self.source.folder());
         let changes = OnceCell::new();
         self.source.finish_changed(checked, |field| {
             let between = || Changes::between(&self.as_read, &self.description);

@@ -28,6 +28,7 @@ mod drainage;
 mod environment;
 mod field_path;
 pub mod file;
+mod folder;
 mod growth;
 mod index;
 mod light;
@@ -60,6 +61,7 @@ pub use environment::{
 };
 pub use field_path::{FieldPath, Step};
 pub use file::SceneFile;
+pub use folder::{Folder, OutsideError};
 pub use index::optical_constants;
 pub use light::{Light, LightShape, LightSource, SourceKind};
 pub use material::{Emission, Interference, Layer, Material, Pattern};

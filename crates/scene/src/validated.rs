@@ -3,11 +3,10 @@
 use crate::description::Description;
 use crate::rounding::RoundToF32;
 use crate::{
-    Camera, Environment, Estimate, Hierarchy, Light, LightTree, Material, Object, Problems,
+    Camera, Environment, Estimate, Folder, Hierarchy, Light, LightTree, Material, Object, Problems,
     RenderSettings, Sheet, validate,
 };
 use spectra::{BandTable, LightGroup, SpectralImage};
-use std::path::Path;
 
 /// Index of a spectrum in [`Scene::spectra`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -73,13 +72,13 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The scene that `description` describes. Tables in files are looked for from `directory`.
+    /// The scene that `description` describes. Files are looked for from `folder` and must lie in it.
     ///
     /// # Errors
     /// Everything that is wrong with the description. For one that comes from a file,
     /// [`SceneFile::validate`](crate::SceneFile::validate) also knows the lines.
-    pub fn new(description: &Description, directory: &Path) -> Result<Self, Problems> {
-        validate::scene(description, directory).map_err(Problems::of_program)
+    pub fn new(description: &Description, folder: impl Into<Folder>) -> Result<Self, Problems> {
+        validate::scene(description, &folder.into()).map_err(Problems::of_program)
     }
 
     /// How it is to be rendered.

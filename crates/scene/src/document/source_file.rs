@@ -1,12 +1,12 @@
 //! A file that has been read as a description, and what did not fit in it.
 
 use super::{Findings, Tree, TreeError, read};
-use crate::FieldPath;
 use crate::problem::{Location, Problem, ProblemKind, Problems};
+use crate::{FieldPath, Folder};
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use spectra::text_file::{STANDARD_INPUT, read_text};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 /// A TOML file that has been read as a description, and what did not fit in it.
@@ -18,7 +18,7 @@ pub struct SourceFile {
     findings: Findings,
     name: String,
     text: Arc<str>,
-    directory: PathBuf,
+    folder: Folder,
 }
 
 impl SourceFile {
@@ -39,17 +39,17 @@ impl SourceFile {
             Problems::of_unread_file(name.clone(), problem)
         })?;
         let directory = path.parent().unwrap_or(Path::new(""));
-        Self::parse(&name, &text, directory, needs)
+        Self::parse(&name, &text, &Folder::from(directory), needs)
     }
 
-    /// Reads the text of a file: `name` is what errors call it, and its own paths are relative to `directory`.
+    /// Reads the text of a file: `name` is what errors call it, and its own paths are relative to `folder`.
     ///
     /// # Errors
     /// When the text is not TOML.
     pub fn parse<T: DeserializeOwned + JsonSchema>(
         name: &str,
         text: &str,
-        directory: &Path,
+        folder: &Folder,
         needs: &str,
     ) -> Result<(T, Self), Problems> {
         let text: Arc<str> = Arc::from(text);
@@ -75,14 +75,19 @@ impl SourceFile {
             findings,
             name: name.to_owned(),
             text,
-            directory: directory.to_owned(),
+            folder: folder.clone(),
         };
         Ok((description, file))
     }
 
     /// Where the file's own paths start from.
-    pub fn directory(&self) -> &Path {
-        &self.directory
+    pub fn folder(&self) -> &Folder {
+        &self.folder
+    }
+
+    /// Whether the file's own paths may lead out of its folder, which they may not by default.
+    pub fn allow_outside(&mut self, allows_outside: bool) {
+        self.folder = self.folder.clone().allow_outside(allows_outside);
     }
 
     /// What came of checking the description, if reading found nothing wrong either.

@@ -2,7 +2,7 @@
 
 use crate::limits::{self, Range, Shown};
 use crate::problem::{Problem, ProblemKind};
-use crate::{Distribution, Energy, FieldPath};
+use crate::{Distribution, Energy, FieldPath, Folder};
 use glam::DVec3;
 use spectra::suggestion::nearest;
 use std::fmt::Display;
@@ -16,7 +16,7 @@ pub(crate) struct Checks {
     /// What was assumed, a line each, none twice.
     pub(crate) notes: Vec<String>,
     /// Where files are looked for.
-    pub(crate) directory: PathBuf,
+    folder: Folder,
     /// Time of the picture, s.
     pub(crate) time_s: f64,
     /// Tables of rough surfaces made so far: those alike share theirs.
@@ -24,14 +24,25 @@ pub(crate) struct Checks {
 }
 
 impl Checks {
-    pub(crate) fn new(directory: &Path) -> Self {
+    pub(crate) fn new(folder: &Folder) -> Self {
         Self {
             problems: Vec::new(),
             notes: Vec::new(),
-            directory: directory.to_owned(),
+            folder: folder.clone(),
             time_s: 0.0,
             energies: Vec::new(),
         }
+    }
+
+    /// The path to the file that `field` names as `written`. Every file that a description names is opened by what this returns.
+    pub(crate) fn path(&mut self, field: &FieldPath, written: &Path) -> Option<PathBuf> {
+        self.folder
+            .path_to(written)
+            .map_err(|error| {
+                self.problems
+                    .push(Problem::new(ProblemKind::File, field, error.to_string()));
+            })
+            .ok()
     }
 
     /// The table of energy of a rough surface.

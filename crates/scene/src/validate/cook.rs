@@ -25,7 +25,7 @@ pub(super) struct Surface {
 /// The surface at `field` by the model at `field.model.cook1981`.
 pub(super) fn check(
     checks: &mut Checks,
-    spectra: &mut SpectrumList<'_>,
+    spectra: &mut SpectrumList,
     field: &FieldPath,
     surface: Surface,
     written: &description::Cook1981,
@@ -257,7 +257,7 @@ fn check_shares(
 /// ρ, where there is a diffuse share.
 fn check_diffuse(
     checks: &mut Checks,
-    spectra: &mut SpectrumList<'_>,
+    spectra: &mut SpectrumList,
     own: &FieldPath,
     written: &description::Cook1981,
 ) -> Result<Option<SpectrumId>, Told> {
@@ -290,7 +290,7 @@ fn check_diffuse(
 /// Ia Ra with Ra = s F₀ + d ρ.
 fn ambient_light(
     checks: &mut Checks,
-    spectra: &mut SpectrumList<'_>,
+    spectra: &mut SpectrumList,
     field: &FieldPath,
     written: &description::Emission,
     (specular, (n, k), diffuse): (f64, (SpectrumId, SpectrumId), Option<DiffuseShare>),

@@ -11,7 +11,7 @@ use crate::{CoatEstimate, CoatedBody, FieldPath, Material, Microsurface, Pattern
 /// A material at `field` of index `(n, k)`, written as `index`, with `base` below it where there is one.
 pub(super) fn check(
     checks: &mut Checks,
-    spectra: &mut SpectrumList<'_>,
+    spectra: &mut SpectrumList,
     (field, index): (&FieldPath, &Index),
     ((n, k), microsurface): ((SpectrumId, SpectrumId), Option<Microsurface>),
     base: Option<Pattern>,

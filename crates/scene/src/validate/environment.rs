@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// Checks `[environment]`; without one it is black. A sky may come with the light of its sun.
 pub(crate) fn check<'a>(
     checks: &mut Checks,
-    spectra: &mut SpectrumList<'_>,
+    spectra: &mut SpectrumList,
     description: &'a Description,
 ) -> Option<(Environment, Option<Named<'a>>)> {
     let environment = description.environment.as_ref();
@@ -107,7 +107,7 @@ pub(crate) fn check<'a>(
 /// A sky, and the light of its sun where that is there.
 fn check_sky(
     checks: &mut Checks,
-    spectra: &mut SpectrumList<'_>,
+    spectra: &mut SpectrumList,
     sky: &Sky<'_>,
     (scale, has_sun, sent): (f64, bool, Sent),
 ) -> Option<(Environment, Option<Light>)> {
@@ -154,7 +154,7 @@ impl Image<'_> {
     fn check(
         &self,
         checks: &mut Checks,
-        spectra: &mut SpectrumList<'_>,
+        spectra: &mut SpectrumList,
         sent: Sent,
     ) -> Option<Environment> {
         let top = FieldPath::root().key("environment");

@@ -45,7 +45,7 @@ pub(super) fn read(
     (file, layer): (&Path, Option<&str>),
     grid: Option<BandGrid>,
 ) -> Option<Sphere> {
-    let path = checks.directory.join(file);
+    let path = checks.path(field, file)?;
     let grid = grid?;
     let mut notes = Vec::new();
     let found = read_light(&path, layer, &grid, &mut notes);

@@ -10,15 +10,13 @@ use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, limits};
 use spectra::table_file::QuantityKind;
 use spectra::{DispersionFormula, OpticalConstants, Spectrum, Tabulated};
-use std::path::Path;
 
 const INDEX_N: Column = Column::new("n", "n", &limits::INDEX_N, QuantityKind::Plain);
 const INDEX_K: Column = Column::new("k", "k", &limits::INDEX_K, QuantityKind::Plain);
 
-/// n and k over wavelength, and what to do where they do not reach far enough; files are looked for from `directory`.
+/// n and k over wavelength, and what to do where they do not reach far enough.
 pub(crate) fn read<'w>(
     checks: &mut Checks,
-    directory: &Path,
     field: &FieldPath,
     written: &'w Index,
 ) -> Option<(OpticalConstants, Advice<'w>)> {
@@ -60,7 +58,7 @@ pub(crate) fn read<'w>(
             extrapolate,
         } => {
             let table = FileTable {
-                path: &directory.join(csv),
+                path: &checks.path(&field.key("csv"), csv)?,
                 columns: points::chosen_of_index(column.as_ref()),
                 unit: unit.as_deref(),
                 extrapolate: *extrapolate,
@@ -69,7 +67,9 @@ pub(crate) fn read<'w>(
             (spectra, Advice::Add)
         }
         Index::Database { yaml, extrapolate } => {
-            let spectra = database::read(checks, &field.key("yaml"), &directory.join(yaml))?;
+            let field = field.key("yaml");
+            let path = checks.path(&field, yaml)?;
+            let spectra = database::read(checks, &field, &path)?;
             let spectra = spectra.map(|spectrum| extrapolated(spectrum, *extrapolate));
             (spectra, Advice::Add)
         }
@@ -89,15 +89,14 @@ pub(crate) fn read<'w>(
         }
         Index::Reflecting { normal_reflectance } => {
             let field = field.key("normal_reflectance");
-            reflecting(checks, directory, &field, normal_reflectance)?
+            reflecting(checks, &field, normal_reflectance)?
         }
         Index::Mixture {
             mixture: rule,
             of,
             fraction,
         } => {
-            let OpticalConstants { n, k } =
-                mixture(checks, directory, field, (*rule, of, *fraction))?;
+            let OpticalConstants { n, k } = mixture(checks, field, (*rule, of, *fraction))?;
             ([n, k], Advice::Part)
         }
     };
@@ -112,7 +111,6 @@ fn transparent(formula: DispersionFormula, extrapolate: Extrapolate) -> [Spectru
 /// The index without absorption of a reflectance at normal incidence.
 fn reflecting<'w>(
     checks: &mut Checks,
-    directory: &Path,
     field: &FieldPath,
     written: &'w Reflectance,
 ) -> Option<([Spectrum; 2], Advice<'w>)> {
@@ -126,7 +124,7 @@ fn reflecting<'w>(
         return None;
     }
     let range = &limits::NORMAL_REFLECTANCE;
-    let (reflectance, advice) = read_reflectance(checks, (directory, range), field, written)?;
+    let (reflectance, advice) = read_reflectance(checks, range, field, written)?;
     let points = points_of(&reflectance);
     if let Some((nm, value)) = points.iter().find(|(_, value)| !range.contains(*value)) {
         // Numbers have been looked at where they are written: this is a name or a colour.
@@ -177,7 +175,6 @@ fn finely(points: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> {
 
 fn mixture(
     checks: &mut Checks,
-    directory: &Path,
     field: &FieldPath,
     (rule, of, fraction): (MixtureRule, &[Index; 2], f64),
 ) -> Option<OpticalConstants> {
@@ -186,8 +183,8 @@ fn mixture(
         MixtureRule::MaxwellGarnett => spectra::MixtureRule::MaxwellGarnett,
     };
     let parts = field.key("of");
-    let a = read(checks, directory, &parts.index(0), &of[0]);
-    let b = read(checks, directory, &parts.index(1), &of[1]);
+    let a = read(checks, &parts.index(0), &of[0]);
+    let b = read(checks, &parts.index(1), &of[1]);
     let fraction = checks.number(&field.key("fraction"), fraction, &limits::FRACTION);
     let ((a, _), (b, _), fraction) = (a?, b?, fraction?);
     let mixture = OpticalConstants::mixture(rule, [&a, &b], fraction);

@@ -21,7 +21,7 @@ impl Written<'_> {
     pub(super) fn check(
         self,
         checks: &mut Checks,
-        spectra: &mut SpectrumList<'_>,
+        spectra: &mut SpectrumList,
         field: &FieldPath,
     ) -> Option<Vec<Layer>> {
         match (self.index, self.thickness_nm, self.layers) {
@@ -68,7 +68,7 @@ fn report_forms(checks: &mut Checks, field: &FieldPath, given: [(&str, bool); 3]
 
 fn check_list(
     checks: &mut Checks,
-    spectra: &mut SpectrumList<'_>,
+    spectra: &mut SpectrumList,
     field: &FieldPath,
     layers: &[description::Layer],
 ) -> Option<Vec<Layer>> {
@@ -94,7 +94,7 @@ fn check_list(
 
 fn check_layer(
     checks: &mut Checks,
-    spectra: &mut SpectrumList<'_>,
+    spectra: &mut SpectrumList,
     field: &FieldPath,
     (index, thickness_nm): (&description::Index, &description::Thickness),
 ) -> Option<Layer> {
@@ -111,7 +111,7 @@ fn check_layer(
 /// The two-beam formula is for a single layer that does not absorb.
 pub(super) fn check_interference(
     checks: &mut Checks,
-    spectra: &SpectrumList<'_>,
+    spectra: &SpectrumList,
     field: &FieldPath,
     (model, path_difference): (FilmModel, Option<PathDifference>),
     layers: &[Layer],

@@ -35,7 +35,7 @@ pub(super) fn reflectance(linear_rgb: [f64; 3]) -> Spectrum {
 
 /// The texels of a picture's colours.
 pub(super) fn picture(checks: &mut Checks, field: &FieldPath, file: &Path) -> Option<Arc<Texels>> {
-    let path = checks.directory.join(file);
+    let path = checks.path(field, file)?;
     let mut notes = Vec::new();
     let (picture, meaning) = match read_colours(&path, &mut notes) {
         Ok(found) => found,

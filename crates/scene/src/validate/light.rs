@@ -15,7 +15,7 @@ pub(crate) type Named<'a> = (Light, Option<&'a str>);
 /// Checks `[[lights]]`.
 pub(crate) fn check_all<'a>(
     checks: &mut Checks,
-    spectra: &mut SpectrumList<'_>,
+    spectra: &mut SpectrumList,
     lights: &'a [description::Light],
 ) -> Option<Vec<Named<'a>>> {
     let top = FieldPath::root().key("lights");
@@ -83,7 +83,7 @@ fn is_disc(light: &Light) -> bool {
 
 fn check(
     checks: &mut Checks,
-    spectra: &mut SpectrumList<'_>,
+    spectra: &mut SpectrumList,
     field: &FieldPath,
     light: &description::Light,
 ) -> Option<Light> {

@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 /// Checks `[materials]`; they are numbered in the order of their names.
 pub(crate) fn check_all(
     checks: &mut Checks,
-    spectra: &mut SpectrumList<'_>,
+    spectra: &mut SpectrumList,
     materials: &BTreeMap<String, description::Material>,
 ) -> Option<Vec<Material>> {
     let top = FieldPath::root().key("materials");
@@ -29,7 +29,7 @@ pub(crate) fn check_all(
 
 fn check(
     checks: &mut Checks,
-    spectra: &mut SpectrumList<'_>,
+    spectra: &mut SpectrumList,
     field: &FieldPath,
     material: &description::Material,
 ) -> Option<Material> {
@@ -108,7 +108,7 @@ fn check(
 /// A conductor: by its facets, or by Cook's model.
 fn conductor(
     checks: &mut Checks,
-    spectra: &mut SpectrumList<'_>,
+    spectra: &mut SpectrumList,
     field: &FieldPath,
     material: &description::Material,
 ) -> Option<Material> {
@@ -141,7 +141,7 @@ fn conductor(
 /// A dielectric, opaque or a coat over a base.
 fn dielectric(
     checks: &mut Checks,
-    spectra: &mut SpectrumList<'_>,
+    spectra: &mut SpectrumList,
     field: &FieldPath,
     material: &description::Material,
 ) -> Option<Material> {
@@ -174,7 +174,7 @@ fn cook_model(model: Option<&ConductorModel>) -> Option<Cook1981> {
 
 fn pattern(
     checks: &mut Checks,
-    spectra: &mut SpectrumList<'_>,
+    spectra: &mut SpectrumList,
     field: &FieldPath,
     written: &DiffuseReflectance,
 ) -> Option<Pattern> {

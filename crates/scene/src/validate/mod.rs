@@ -30,19 +30,18 @@ mod thickness;
 use crate::description::{Description, Index};
 use crate::limits::{MAX_LIGHTS, MAX_MATERIALS, MAX_OBJECTS};
 use crate::problem::{Problem, ProblemKind};
-use crate::{FieldPath, Hierarchy, LightTree, Scene, derived};
+use crate::{FieldPath, Folder, Hierarchy, LightTree, Scene, derived};
 use checks::Checks;
 use spectra::OpticalConstants;
 use spectrum_list::SpectrumList;
-use std::path::Path;
 
-/// The scene that `description` describes; tables are looked for from `directory`.
-pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene, Vec<Problem>> {
-    let mut checks = Checks::new(directory);
+/// The scene that `description` describes; tables are looked for from `folder`.
+pub(crate) fn scene(description: &Description, folder: &Folder) -> Result<Scene, Vec<Problem>> {
+    let mut checks = Checks::new(folder);
     check_counts(&mut checks, description);
     let settings = settings::check(&mut checks, &description.render);
     let camera = camera::check(&mut checks, &description.camera);
-    let mut spectra = SpectrumList::new(settings.grid, description.render.sampling, directory);
+    let mut spectra = SpectrumList::new(settings.grid, description.render.sampling);
     let materials = material::check_all(&mut checks, &mut spectra, &description.materials);
     let objects = object::check_all(&mut checks, &description.materials, &description.objects);
     let lights = light::check_all(&mut checks, &mut spectra, &description.lights);
@@ -102,13 +101,13 @@ pub(crate) fn scene(description: &Description, directory: &Path) -> Result<Scene
     }
 }
 
-/// The optical constants that `index` describes, and what was assumed of its files; files are looked for from `directory`.
+/// The optical constants that `index` describes, and what was assumed of its files; files are looked for from `folder`.
 pub(crate) fn optical_constants(
     index: &Index,
-    directory: &Path,
+    folder: &Folder,
 ) -> Result<(OpticalConstants, Vec<String>), Vec<Problem>> {
-    let mut checks = Checks::new(directory);
-    match index::read(&mut checks, directory, &FieldPath::root(), index) {
+    let mut checks = Checks::new(folder);
+    match index::read(&mut checks, &FieldPath::root(), index) {
         Some((constants, _)) if checks.problems.is_empty() => Ok((constants, checks.notes)),
         _ => Err(checks.problems),
     }

@@ -33,11 +33,7 @@ pub(super) struct Checked {
 }
 
 impl Sky<'_> {
-    pub(super) fn check(
-        &self,
-        checks: &mut Checks,
-        spectra: &mut SpectrumList<'_>,
-    ) -> Option<Checked> {
+    pub(super) fn check(&self, checks: &mut Checks, spectra: &mut SpectrumList) -> Option<Checked> {
         let top = FieldPath::root().key("environment");
         let mut number = |name: &str, value, range| checks.number(&top.key(name), value, range);
         let elevation = number(

@@ -15,13 +15,12 @@ use colorimetry::srgb::decode;
 use spectra::table_file::QuantityKind;
 use spectra::{BandGrid, BandTable, OpticalConstants, Spectrum, Tabulated};
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The spectra of a scene, each one once.
-pub(crate) struct SpectrumList<'a> {
+pub(crate) struct SpectrumList {
     grid: Option<BandGrid>,
     sampling: WavelengthSampling,
-    directory: &'a Path,
     tables: Vec<BandTable>,
     singles: HashMap<Vec<u64>, SpectrumId>,
     pairs: HashMap<Vec<u64>, SpectrumId>,
@@ -47,17 +46,12 @@ const EMISSION: Column = Column::new(
     QuantityKind::Amount,
 );
 
-impl<'a> SpectrumList<'a> {
+impl SpectrumList {
     /// An empty list over `grid`. Without a grid everything is still checked, but nothing comes of it.
-    pub(crate) fn new(
-        grid: Option<BandGrid>,
-        sampling: WavelengthSampling,
-        directory: &'a Path,
-    ) -> Self {
+    pub(crate) fn new(grid: Option<BandGrid>, sampling: WavelengthSampling) -> Self {
         Self {
             grid,
             sampling,
-            directory,
             tables: Vec::new(),
             singles: HashMap::new(),
             pairs: HashMap::new(),
@@ -129,12 +123,7 @@ impl<'a> SpectrumList<'a> {
         field: &FieldPath,
         written: &Reflectance,
     ) -> Option<SpectrumId> {
-        let (spectrum, advice) = read_reflectance(
-            checks,
-            (self.directory, &limits::REFLECTANCE),
-            field,
-            written,
-        )?;
+        let (spectrum, advice) = read_reflectance(checks, &limits::REFLECTANCE, field, written)?;
         let table = self.resampled(checks, field, &spectrum, advice)?;
         Some(self.single(&table, limits::REFLECTANCE))
     }
@@ -157,8 +146,7 @@ impl<'a> SpectrumList<'a> {
         field: &FieldPath,
         written: &Index,
     ) -> Option<(SpectrumId, SpectrumId)> {
-        let (OpticalConstants { n, k }, advice) =
-            index::read(checks, self.directory, field, written)?;
+        let (OpticalConstants { n, k }, advice) = index::read(checks, field, written)?;
         let n = self.resampled(checks, field, &n, advice)?;
         let k = self.resampled(checks, field, &k, advice)?;
         Some(self.pair(&n, &k))
@@ -253,7 +241,7 @@ impl<'a> SpectrumList<'a> {
                 extrapolate,
             } => {
                 let table = FileTable {
-                    path: &self.path(csv),
+                    path: &checks.path(&field.key("csv"), csv)?,
                     columns: points::chosen(column.as_ref()),
                     unit: unit.as_deref(),
                     extrapolate: *extrapolate,
@@ -262,10 +250,6 @@ impl<'a> SpectrumList<'a> {
                 Some(spectrum)
             }
         }
-    }
-
-    fn path(&self, csv: &Path) -> PathBuf {
-        self.directory.join(csv)
     }
 
     fn resampled(
@@ -352,11 +336,10 @@ impl Advice<'_> {
     }
 }
 
-/// A reflectance over wavelength, and what to do where it does not reach far enough; files are looked for from `directory`, and
-/// what is written as a number must lie in `range`.
+/// A reflectance over wavelength, and what to do where it does not reach far enough; what is written as a number must lie in `range`.
 pub(super) fn read_reflectance<'w>(
     checks: &mut Checks,
-    (directory, range): (&Path, &'static limits::Range),
+    range: &'static limits::Range,
     field: &FieldPath,
     written: &'w Reflectance,
 ) -> Option<(Spectrum, Advice<'w>)> {
@@ -398,7 +381,7 @@ pub(super) fn read_reflectance<'w>(
             extrapolate,
         } => {
             let table = FileTable {
-                path: &directory.join(csv),
+                path: &checks.path(&field.key("csv"), csv)?,
                 columns: points::chosen(chosen.as_ref()),
                 unit: unit.as_deref(),
                 extrapolate: *extrapolate,

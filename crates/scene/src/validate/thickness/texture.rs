@@ -51,7 +51,7 @@ pub(super) fn picture(
     let black_nm = checks.number(&field.key("min"), min, &limits::THICKNESS_NM);
     let white_nm = checks.number(&field.key("max"), max, &limits::THICKNESS_NM);
     let size = placed_size(checks, &field.key("size"), size);
-    let path = checks.directory.join(image);
+    let path = checks.path(&field.key("image"), image)?;
     let mut notes = Vec::new();
     let file = match picture_file::read(&path, channel, &mut notes) {
         Ok(file) => Some(Arc::new(file)),
