@@ -50,6 +50,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         ],
     ),
     ("pellicle-cli", &["pellicle"]),
+    ("pellicle-fuzz", &[]),
 ];
 
 const TESTS: &str = "pellicle-tests";

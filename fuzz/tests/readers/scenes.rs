@@ -1,0 +1,145 @@
+//! Scene files.
+
+use crate::bombs;
+use crate::support::{files, root, text};
+use pellicle_fuzz::{Campaign, Outcome};
+use scene::{Scene, SceneFile, Shape};
+use std::fs;
+use std::path::Path;
+
+/// Words that mean something in a scene or to TOML.
+const WORDS: [&str; 44] = [
+    "true",
+    "1979-05-27",
+    "\"gold\"",
+    "\"water\"",
+    "\"\"",
+    "[]",
+    "{}",
+    "[0, 0, 0]",
+    "[1e-6, 0, 0]",
+    "[nan, 1, 1]",
+    "[[objects]]",
+    "[camera]",
+    "[render]",
+    "=",
+    "\"",
+    "'''",
+    "\"\"\"",
+    ".",
+    ",",
+    "\n",
+    "#",
+    "\\u0000",
+    "{ constant = 1 }",
+    "{ pole = 1, equator = 2 }",
+    "{ cauchy = [1.5, 0.004] }",
+    "{ sellmeier = { b = [1], c_um2 = [0.3] } }",
+    "{ mixture = 'bruggeman', of = [1, 'gold'], fraction = 0.5 }",
+    "{ texture = 'colours.png' }",
+    "{ csv = 'glass.csv' }",
+    "{ yaml = 'glass.yml' }",
+    "{ image = 'thickness.png', min = 100, max = 900 }",
+    "{ illuminant = 'A' }",
+    "{ srgb = [0.1, 0.5, 1] }",
+    "{ temperature_k = 3000 }",
+    "type = 'image'\nimage = 'surroundings.hdr'",
+    "type = 'film'",
+    "type = 'conductor'",
+    "type = 'dielectric'",
+    "type = 'diffuse'",
+    "type = 'emitter'",
+    "type = 'sky'",
+    "roughness",
+    "scale",
+    "bands",
+];
+
+/// The bands of a render, few: a case then takes no longer than it must.
+fn quickened(scene: &[u8]) -> Vec<u8> {
+    text(scene)
+        .replace("[render]\n", "[render]\nbands = 2\n")
+        .replace("\"tests/data/", "\"")
+        .into_bytes()
+}
+
+/// What is not sound in a scene: every number is finite, before and after rounding, and no length is 0.
+fn fault(scene: &Scene) -> Option<String> {
+    for scene in [scene, &scene.rounded_to_f32()] {
+        let text = format!("{scene:?}");
+        for word in ["NaN", "inf"] {
+            if let Some(at) = text.find(word) {
+                let from = text.floor_char_boundary(at.saturating_sub(300));
+                return Some(format!("a number is {word}: {}", &text[from..at]));
+            }
+        }
+        for object in scene.objects() {
+            let lengths = match object.shape {
+                Shape::Sphere { radius, .. } => [radius, 1.0, 1.0],
+                Shape::Plane {
+                    normal, tangent, ..
+                } => [normal.length(), tangent.length(), 1.0],
+                Shape::Rectangle {
+                    half_width,
+                    half_height,
+                    normal,
+                    ..
+                } => [half_width, half_height, normal.length()],
+                Shape::Disk { radius, normal, .. } => [radius, normal.length(), 1.0],
+            };
+            let is_material = object.material.index() < scene.materials().len();
+            if !is_material || lengths.iter().any(|&length| length <= 1e-7) {
+                return Some(format!("an object: {object:?}"));
+            }
+        }
+    }
+    None
+}
+
+pub(crate) fn read(text: &str, folder: &Path) -> Outcome {
+    let scene = SceneFile::parse("fuzz.toml", text, folder).and_then(|file| file.validate());
+    match scene {
+        Ok(scene) => match fault(&scene) {
+            Some(fault) => Outcome::Unsound(fault),
+            None => Outcome::ACCEPTED,
+        },
+        Err(problems) if problems.iter().len() == 0 => {
+            Outcome::Unsound("it is refused without a problem".to_owned())
+        }
+        Err(problems) => Outcome::Refused(format!("{problems:#}")),
+    }
+}
+
+/// A folder with the files that the words and scenes name.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["colours.png", "thickness.png", "surroundings.hdr"] {
+        fs::copy(
+            root().join("tests/data").join(name),
+            folder.path().join(name),
+        )
+        .unwrap();
+    }
+    fs::write(
+        folder.path().join("glass.csv"),
+        "nm,n,k\n300,1.5,0\n900,1.4,0.1\n",
+    )
+    .unwrap();
+    let yaml = "DATA:\n  - type: formula 5\n    wavelength_range: 0.3 0.9\n    coefficients: 1.5 0.004 -2\n";
+    fs::write(folder.path().join("glass.yml"), yaml).unwrap();
+    folder
+}
+
+#[test]
+fn scene_files() {
+    let folder = folder();
+    let seeds = [files("scenes", "toml"), files("tests/src", "toml")].concat();
+    let mut seeds: Vec<_> = seeds.iter().map(|scene| quickened(scene)).collect();
+    seeds.extend(bombs::toml());
+    Campaign {
+        seeds,
+        words: &WORDS,
+        ..Campaign::new("scene_files", 400)
+    }
+    .run(|bytes| read(&text(bytes), folder.path()));
+}
