@@ -5,8 +5,9 @@ use pellicle::scene::SceneFile;
 use std::path::Path;
 
 /// Validates a scene and says in a line what it is.
-pub(crate) fn run(path: &Path) -> miette::Result<()> {
-    let scene = SceneFile::read(path)?.validate()?;
+pub(crate) fn run(path: &Path, allow_outside: bool) -> miette::Result<()> {
+    let file = SceneFile::read(path)?.allow_outside(allow_outside);
+    let scene = file.validate()?;
     print::notes(scene.notes());
     let settings = scene.settings();
     print::result(format_args!(

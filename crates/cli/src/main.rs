@@ -43,6 +43,9 @@ enum Command {
     Check {
         /// The scene file; - is standard input
         scene: PathBuf,
+        /// Let the scene name files outside of its folder: only for scenes that can be trusted
+        #[arg(long)]
+        allow_outside: bool,
     },
     Film(film::Arguments),
     Color(color::Arguments),
@@ -66,7 +69,10 @@ fn main() -> ExitCode {
     let result = match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Develop(arguments) => develop::run(&arguments),
-        Command::Check { scene } => check::run(&scene),
+        Command::Check {
+            scene,
+            allow_outside,
+        } => check::run(&scene, allow_outside),
         Command::Film(arguments) => film::run(&arguments),
         Command::Color(arguments) => color::run(&arguments),
         Command::Display(arguments) => display::run(&arguments),

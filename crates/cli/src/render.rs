@@ -24,6 +24,9 @@ pub(crate) struct Arguments {
     /// [default: both, named after the scene, in the current folder]
     #[arg(short, long, value_name = "PATH")]
     output: Vec<PathBuf>,
+    /// Let the scene name files outside of its folder: only for scenes that can be trusted
+    #[arg(long)]
+    allow_outside: bool,
     /// What renders: auto takes the best GPU, or the CPU where there is none
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     backend: BackendName,
@@ -111,7 +114,7 @@ impl Arguments {
 
 /// Renders, develops and writes.
 pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
-    let mut file = SceneFile::read(&arguments.scene)?;
+    let mut file = SceneFile::read(&arguments.scene)?.allow_outside(arguments.allow_outside);
     arguments.overrides.apply(&mut file);
     // What is wrong with the scene is told before anything is opened.
     let scene = file.validate()?;

@@ -474,7 +474,9 @@ fn scene(index: &str) -> Result<pellicle_scene::Scene, Problems> {
          [materials.metal]\ntype = 'conductor'\nindex = {index}\n\
          [[objects]]\ntype = 'sphere'\nmaterial = 'metal'\ncenter = [0, 0, 0]\nradius = 1\n"
     );
-    SceneFile::parse("test.toml", &text, Path::new(""))?.validate()
+    SceneFile::parse("test.toml", &text, Path::new(""))?
+        .allow_outside(true)
+        .validate()
 }
 
 /// n and k of the scene's metal at the middle of band 17 of 40, 555 nm.

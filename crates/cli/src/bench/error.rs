@@ -23,6 +23,7 @@ pub(super) struct Wanted {
     pub(super) error: f64,
     pub(super) seeds: u32,
     pub(super) as_json: bool,
+    pub(super) allow_outside: bool,
 }
 
 /// What was measured of a scene.
@@ -150,7 +151,7 @@ fn table(all: &[Measured], renderer: &Renderer, wanted: &Wanted) -> miette::Resu
 
 fn measure(path: &Path, renderer: &Renderer, wanted: &Wanted) -> miette::Result<Measured> {
     let started = Instant::now();
-    let mut file = SceneFile::read(path)?;
+    let mut file = SceneFile::read(path)?.allow_outside(wanted.allow_outside);
     file.description.render.samples = 1;
     let first = timed(renderer, &file)?.0;
     let mut measured = Measured {

@@ -13,13 +13,16 @@ use pellicle::gpu::{AdapterChoice, adapters};
 use pellicle::scene::{Scene, SceneFile};
 use pellicle::{Backend, Renderer};
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The scenes to render; by default soap_bubble, film_wedge and metal_spheres in the folder `scenes` of where it is called; for --variance floating_bubble in place of film_wedge, for --error those of `scenes/bench`
     scenes: Vec<PathBuf>,
+    /// Let scenes name files outside of their folders: only for scenes that can be trusted
+    #[arg(long)]
+    allow_outside: bool,
     /// Only film stacks, no scenes
     #[arg(long)]
     stacks: bool,
@@ -110,8 +113,12 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     }
     if arguments.variance {
         let renderer = Renderer::open(&Backend::Auto).into_diagnostic()?;
-        let effort = (arguments.samples, arguments.seeds.unwrap_or(8));
-        return variance::run(&arguments.scenes(NOISY_SCENES), &renderer, effort);
+        let wanted = variance::Wanted {
+            samples: arguments.samples,
+            seeds: arguments.seeds.unwrap_or(8),
+            allow_outside: arguments.allow_outside,
+        };
+        return variance::run(&arguments.scenes(NOISY_SCENES), &renderer, &wanted);
     }
     if let Some(percent) = arguments.error {
         let backend = match &arguments.adapter {
@@ -122,6 +129,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
             error: percent / 100.0,
             seeds: arguments.seeds.unwrap_or(3),
             as_json: arguments.format == Format::Json,
+            allow_outside: arguments.allow_outside,
         };
         let renderer = Renderer::open(&backend).into_diagnostic()?;
         return error::run(&arguments.scenes(COMPARED_SCENES), &renderer, &wanted);
@@ -137,20 +145,21 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     }
     let seconds = arguments.seconds.clamp(0.1, 600.0);
     if !arguments.stacks {
-        scenes(&arguments.scenes(SCENES), &renderers, seconds)?;
+        scenes(arguments, &renderers, seconds)?;
     }
     stacks::run(&renderers, seconds / 4.0)
 }
 
 /// Prints a table of samples per second.
-fn scenes(scenes: &[PathBuf], renderers: &[Renderer], seconds: f64) -> miette::Result<()> {
+fn scenes(arguments: &Arguments, renderers: &[Renderer], seconds: f64) -> miette::Result<()> {
     print::result(format_args!("\nmillion samples/s, best of {ROUNDS} rounds"))?;
     print::result(format_args!(
         "{:<16}{:>10}{:>10}{:>10}{:>14}{:>18}",
         "scene", "renderer", "4 bands", "40 bands", "time 40 / 4", "40 bands to CPU"
     ))?;
-    for path in scenes {
-        let rates = measure(path, renderers, seconds)?;
+    for path in arguments.scenes(SCENES) {
+        let file = SceneFile::read(&path)?.allow_outside(arguments.allow_outside);
+        let rates = measure(file, renderers, seconds)?;
         let on_cpu = rates[rates.len() - 1][1];
         for (index, [few, many]) in rates.iter().enumerate() {
             print::result(format_args!(
@@ -166,9 +175,12 @@ fn scenes(scenes: &[PathBuf], renderers: &[Renderer], seconds: f64) -> miette::R
 }
 
 /// Million samples per second of each renderer with each number of bands.
-fn measure(path: &Path, renderers: &[Renderer], seconds: f64) -> miette::Result<Vec<[f64; 2]>> {
+fn measure(
+    mut file: SceneFile,
+    renderers: &[Renderer],
+    seconds: f64,
+) -> miette::Result<Vec<[f64; 2]>> {
     let mut best = vec![[0.0_f64; 2]; renderers.len()];
-    let mut file = SceneFile::read(path)?;
     for _ in 0..ROUNDS {
         for (renderer, best) in renderers.iter().zip(&mut best) {
             for (bands, best) in BANDS.into_iter().zip(best) {

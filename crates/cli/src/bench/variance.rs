@@ -75,6 +75,15 @@ const WIDTH: u32 = 64;
 /// The most samples of the renders that are given as much time as others took.
 const MOST_SAMPLES: f64 = 65_536.0;
 
+/// What is measured.
+pub(super) struct Wanted {
+    /// Samples per pixel.
+    pub(super) samples: u32,
+    /// Renders of each kind.
+    pub(super) seeds: u32,
+    pub(super) allow_outside: bool,
+}
+
 /// Prints, of each scene, what each change does to the variance.
 ///
 /// The variance of a pixel is that of its mean over renders with different seeds: what samples say of themselves holds only
@@ -82,8 +91,9 @@ const MOST_SAMPLES: f64 = 65_536.0;
 pub(super) fn run(
     scenes: &[impl AsRef<Path>],
     renderer: &Renderer,
-    (samples, seeds): (u32, u32),
+    wanted: &Wanted,
 ) -> miette::Result<()> {
+    let Wanted { samples, seeds, .. } = wanted;
     print::result(format_args!(
         "\nvariance at {samples} samples, over {seeds} seeds, of {}: before / after the change, so that more is better;\n\
          of all pixels and of those that show a film in their middle: by the mean variance, and the median of the pixels' own quotients;\n\
@@ -95,13 +105,14 @@ pub(super) fn run(
         "scene", "change", "all", "median", "film", "median", "time", "samples", "film, equal time"
     ))?;
     for path in scenes {
-        scene(path.as_ref(), renderer, samples, seeds)?;
+        scene(path.as_ref(), renderer, wanted)?;
     }
     Ok(())
 }
 
-fn scene(path: &Path, renderer: &Renderer, samples: u32, seeds: u32) -> miette::Result<()> {
-    let mut file = SceneFile::read(path)?;
+fn scene(path: &Path, renderer: &Renderer, wanted: &Wanted) -> miette::Result<()> {
+    let &Wanted { samples, seeds, .. } = wanted;
+    let mut file = SceneFile::read(path)?.allow_outside(wanted.allow_outside);
     let [width, height] = file.description.render.size;
     let narrow = width.min(WIDTH);
     file.description.render.size = [narrow, (narrow * height / width.max(1)).max(1)];
