@@ -1,11 +1,14 @@
 //! What a place in a picture shows of its scene.
 
-use coating::{Angle, FilmFitting, LayerDescription, Stack, StackDescription};
-use reference::{camera_ray, layer_thickness, nearest_hit, surface_point};
+use coating::{Angle, LayerDescription, Stack, StackDescription};
+use reference::{Ray, camera_ray, layer_thickness, nearest_hit, surface_point};
 use scene::description::{Description, Index, Layer, Material};
-use scene::{Emission, Environment, Problem, Scene};
-use spectra::BandGrid;
+use scene::{Problem, Scene};
 use std::path::Path;
+
+mod lamps;
+
+pub use lamps::{SceneLamp, SceneLamps};
 
 /// What is seen at a place of a picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,15 +30,8 @@ pub struct SeenFilm {
     pub stack: Stack,
     /// The angle at which it is seen.
     pub angle: Angle,
-}
-
-/// A spectrum that the scene's lights burn with.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SceneLamp {
-    /// What shines so: the name of a material, or `the surroundings`.
-    pub name: String,
-    /// Its radiance, scale 1, at each of [`FilmFitting::wavelengths_nm`] of the scene's bands.
-    pub power: Vec<f64>,
+    /// The light of the surroundings that it mirrors; none where an object stands there, or all is dark.
+    pub mirrored: Option<SceneLamp>,
 }
 
 /// What is nearest at a place, in pixels from the left and the top of the picture. `description` is what `scene` was made of, in
@@ -86,12 +82,20 @@ pub fn seen(
         substrate,
         layer,
     };
+    let mirrored = Ray {
+        origin: point.position,
+        direction: ray.direction + 2.0 * point.cosine * point.normal,
+    };
+    let is_open = nearest_hit(scene, &mirrored, Some(hit.object)).is_none();
     let deg = point.cosine.min(1.0).acos().to_degrees();
     Ok(Seen::Film(Box::new(SeenFilm {
         material: name.to_owned(),
         stack: stack.check(directory)?,
         // A ray that grazes exactly meets nothing.
         angle: Angle::from_degrees(deg).unwrap_or(Angle::NORMAL),
+        mirrored: is_open
+            .then(|| lamps::of_surroundings(scene, mirrored.direction))
+            .flatten(),
     })))
 }
 
@@ -102,52 +106,6 @@ fn media(index: Option<&Index>, layers: Option<&[Layer]>) -> Vec<Index> {
         .flatten()
         .map(|layer| layer.index.clone());
     index.into_iter().cloned().chain(layers).collect()
-}
-
-/// The different spectra that the scene's lights burn with.
-pub fn lamps(description: &Description, scene: &Scene) -> Vec<SceneLamp> {
-    let bands = &scene.settings().bands;
-    let mut found: Vec<SceneLamp> = Vec::new();
-    let mut add = |name: &str, emission: &Emission| {
-        let power = power(scene, bands, emission);
-        let shines = emission.scale > 0.0 && power.iter().any(|&v| v > 0.0);
-        if shines && found.iter().all(|lamp| lamp.power != power) {
-            let name = name.to_owned();
-            found.push(SceneLamp { name, power });
-        }
-    };
-    let surroundings = "the surroundings";
-    match scene.environment() {
-        Environment::Constant(emission) | Environment::Picture { emission, .. } => {
-            add(surroundings, emission);
-        }
-        Environment::Gradient {
-            zenith,
-            horizon,
-            ground,
-        } => {
-            for emission in [zenith, horizon, ground] {
-                add(surroundings, emission);
-            }
-        }
-    }
-    for (object, described) in scene.objects().iter().zip(&description.objects) {
-        if let scene::Material::Emitter { emission, .. } = scene.material(object.material) {
-            add(described.material(), emission);
-        }
-    }
-    found
-}
-
-fn power(scene: &Scene, bands: &BandGrid, emission: &Emission) -> Vec<f64> {
-    let table = scene.spectrum(emission.spectrum);
-    let value = |nm: f64| {
-        let at = (nm - bands.min_nm()) / bands.width_nm();
-        let band = (at as u32).min(bands.count() - 1);
-        table.at(band, at - f64::from(band))
-    };
-    let wavelengths = FilmFitting::wavelengths_nm(bands);
-    wavelengths.into_iter().map(value).collect()
 }
 
 #[cfg(test)]
@@ -278,20 +236,6 @@ mod tests {
                 let off = f64::from(*rendered) - expected;
                 assert!(off.abs() < 1e-4, "from {side}: {rendered} {expected}");
             }
-        }
-    }
-
-    #[test]
-    fn each_spectrum_is_one_lamp() {
-        let file = SceneFile::parse("bubble.toml", BUBBLE, Path::new(".")).unwrap();
-        let scene = file.validate().unwrap();
-        let found = lamps(&file.description, &scene);
-        let names: Vec<&str> = found.iter().map(|lamp| lamp.name.as_str()).collect();
-        assert_eq!(names, ["the surroundings", "lamp"]);
-        let nm = FilmFitting::wavelengths_nm(&scene.settings().bands);
-        let d65 = spectra::illuminant("D65").unwrap().data;
-        for (found, nm) in found[0].power.iter().zip(nm) {
-            assert!((found / d65.at(nm).unwrap() - 1.0).abs() < 1e-3, "{nm}");
         }
     }
 }

@@ -8,7 +8,7 @@ use pellicle::coating::{Angle, FilmFits, FilmFitting, Measured, Stack, View};
 use pellicle::color::Probe;
 use pellicle::color::xyz::exposure_scale;
 use pellicle::scene::{Scene, SceneFile};
-use pellicle::seen::{self, SceneLamp, Seen};
+use pellicle::seen::{self, SceneLamp, SceneLamps, Seen};
 use pellicle::spectra::{LightGroup, SpectralImage};
 use std::path::{Path, PathBuf};
 
@@ -26,7 +26,7 @@ pub(super) struct KnownScene {
     file: SceneFile,
     scene: Scene,
     directory: PathBuf,
-    lamps: Vec<SceneLamp>,
+    lamps: SceneLamps,
 }
 
 /// What was found at a place.
@@ -118,7 +118,7 @@ impl KnownScene {
                 found.max_nm()
             ));
         }
-        let lamps = seen::lamps(&file.description, &scene);
+        let lamps = SceneLamps::new(&file.description, &scene);
         if lamps.is_empty() {
             return Err(miette!("--scene {}: nothing shines in it", path.display()));
         }
@@ -144,7 +144,8 @@ impl KnownScene {
             }
             Seen::Film(film) => film,
         };
-        let fitted = fitted(inspection, probe, &film.stack, film.angle, &self.lamps)?;
+        let lamps = self.lamps.of(&film);
+        let fitted = fitted(inspection, probe, &film.stack, film.angle, &lamps)?;
         Ok(FilmSeen::Film(Box::new(Fitted {
             material: Some(film.material),
             ..fitted
