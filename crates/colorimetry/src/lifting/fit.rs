@@ -1,11 +1,12 @@
 //! Finding the coefficients of a colour.
 
-use super::{SigmoidReflectance, place, sigmoid};
+use super::{SigmoidReflectance, place};
 use crate::chromaticity::xy_of_xyz;
 use crate::display::xyz_from_rgb_of;
 use crate::matrix::{Matrix3, inverse, times};
 use crate::srgb::PRIMARIES;
 use crate::tristimulus::{Rule, Weights};
+use pulp::{Arch, Simd, WithSimd};
 use spectra::Observer;
 use std::sync::OnceLock;
 
@@ -21,9 +22,25 @@ const LARGEST: f64 = 2000.0;
 /// What a reflectance is in linear sRGB: sums at 5 nm under D65.
 #[derive(Clone, Debug)]
 pub(super) struct Colours {
-    /// t and the weights of red, green and blue at each wavelength.
-    terms: Vec<(f64, [f64; 3])>,
+    arch: Arch,
+    /// t at each wavelength, filled up with places of no weight.
+    places: Vec<f64>,
+    /// Weights of red, green and blue there, then the same times t, and times t².
+    weights: [Vec<f64>; 9],
+    /// What a reflectance of a half comes to.
+    half: [f64; 3],
 }
+
+/// A reflectance, its colour in linear sRGB, and the derivatives of that by the coefficients: a row for each colour.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Known {
+    pub(super) coefficients: [f64; 3],
+    pub(super) rgb: [f64; 3],
+    jacobian: Matrix3,
+}
+
+/// A list is filled up to a multiple of this: of the lanes of every vector.
+const MOST_LANES: usize = 8;
 
 impl Colours {
     /// The one that all fits share.
@@ -39,76 +56,139 @@ impl Colours {
         let white = xy_of_xyz(weights.white());
         let rgb_from_xyz = inverse(&xyz_from_rgb_of(PRIMARIES, white));
         let wavelengths = Rule::FiveNm.wavelengths_nm();
-        let terms = wavelengths.zip(weights.per_wavelength());
+        let mut terms: Vec<(f64, [f64; 3])> = wavelengths
+            .zip(weights.per_wavelength())
+            .map(|(nm, &xyz)| (place(nm), times(&rgb_from_xyz, xyz)))
+            .collect();
+        terms.resize(terms.len().next_multiple_of(MOST_LANES), (0.0, [0.0; 3]));
+        let list = |index: usize| {
+            let power = (index / 3) as i32;
+            let terms = terms.iter();
+            terms.map(move |(t, weight)| weight[index % 3] * t.powi(power))
+        };
         Self {
-            terms: terms
-                .map(|(nm, &xyz)| (place(nm), times(&rgb_from_xyz, xyz)))
-                .collect(),
+            arch: Arch::new(),
+            places: terms.iter().map(|(t, _)| *t).collect(),
+            weights: std::array::from_fn(|index| list(index).collect()),
+            half: std::array::from_fn(|colour| 0.5 * list(colour).sum::<f64>()),
         }
     }
 
-    /// Linear sRGB of a reflectance.
-    pub(super) fn of(&self, reflectance: SigmoidReflectance) -> [f64; 3] {
-        self.with_derivatives(reflectance.coefficients).0
+    /// What is to know of a reflectance.
+    pub(super) fn known(&self, coefficients: [f64; 3]) -> Known {
+        let sums = self.arch.dispatch(Sums {
+            colours: self,
+            coefficients,
+        });
+        Known {
+            coefficients,
+            rgb: std::array::from_fn(|i| self.half[i] + 0.5 * sums[i]),
+            jacobian: std::array::from_fn(|i| [sums[9 + i], sums[6 + i], sums[3 + i]]),
+        }
     }
+}
 
-    /// Linear sRGB of a reflectance, and its derivatives by the coefficients: a row for each colour.
-    fn with_derivatives(&self, [c0, c1, c2]: [f64; 3]) -> ([f64; 3], Matrix3) {
-        let mut rgb = [0.0; 3];
-        let mut jacobian = [[0.0; 3]; 3];
-        for &(t, weight) in &self.terms {
-            let x = (c0 * t + c1) * t + c2;
-            let value = sigmoid(x);
-            // dS/dx = (1 + x²)^(−3/2) / 2.
-            let root = (1.0 + x * x).sqrt();
-            let slope = 0.5 / (root * root * root);
+/// With x the quadratic: the sums of x/√(1 + x²) with the weights, and of its derivative by 2x, (1 + x²)^(−3/2) / 2, with the weights times
+/// 1, t and t².
+struct Sums<'a> {
+    colours: &'a Colours,
+    coefficients: [f64; 3],
+}
+
+impl WithSimd for Sums<'_> {
+    type Output = [f64; 12];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> [f64; 12] {
+        let [c0, c1, c2] = self.coefficients.map(|c| simd.splat_f64s(c));
+        let [one, half] = [1.0, 0.5].map(|x| simd.splat_f64s(x));
+        let (places, _) = S::as_simd_f64s(&self.colours.places);
+        let weights = self
+            .colours
+            .weights
+            .each_ref()
+            .map(|list| S::as_simd_f64s(list).0);
+        let mut sums = [simd.splat_f64s(0.0); 12];
+        for (i, &t) in places.iter().enumerate() {
+            let x = simd.mul_add_e_f64s(simd.mul_add_e_f64s(c0, t, c1), t, c2);
+            let cosine = simd.div_f64s(one, simd.sqrt_f64s(simd.mul_add_e_f64s(x, x, one)));
+            let sine = simd.mul_f64s(x, cosine);
+            let square = simd.mul_f64s(cosine, cosine);
+            let slope = simd.mul_f64s(simd.mul_f64s(half, cosine), square);
             for colour in 0..3 {
-                rgb[colour] += weight[colour] * value;
-                let part = weight[colour] * slope;
-                jacobian[colour][0] += part * t * t;
-                jacobian[colour][1] += part * t;
-                jacobian[colour][2] += part;
+                sums[colour] = simd.mul_add_e_f64s(weights[colour][i], sine, sums[colour]);
+            }
+            for moment in 0..9 {
+                let sum = &mut sums[3 + moment];
+                *sum = simd.mul_add_e_f64s(weights[moment][i], slope, *sum);
             }
         }
-        (rgb, jacobian)
+        sums.map(|sum| simd.reduce_sum_f64s(sum))
     }
 }
 
 /// The reflectance of a colour in \[0, 1\]³, by the method of Levenberg and Marquardt from a grey that is as bright.
-pub(super) fn fit(colours: &Colours, rgb: [f64; 3]) -> SigmoidReflectance {
+pub(super) fn fit(colours: &Colours, rgb: [f64; 3]) -> Fit {
     // S⁻¹(g) = (g − 1/2) / √(g (1 − g)), kept from the ends, where the derivatives vanish.
     let grey = (rgb.iter().sum::<f64>() / 3.0).clamp(DARKEST, 1.0 - DARKEST);
     let flat = [0.0, 0.0, (grey - 0.5) / (grey * (1.0 - grey)).sqrt()];
-    fit_from(colours, rgb, SigmoidReflectance { coefficients: flat }).0
+    fit_from(colours, rgb, colours.known(flat))
 }
 
-/// The same from another start, and whether it came to the colour.
-pub(super) fn fit_from(
-    colours: &Colours,
-    rgb: [f64; 3],
-    start: SigmoidReflectance,
-) -> (SigmoidReflectance, bool) {
-    let mut best = start.coefficients;
-    let (found, mut jacobian) = colours.with_derivatives(best);
-    let mut error = residual(rgb, found);
+/// What a fit comes to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fit {
+    pub(super) reflectance: SigmoidReflectance,
+    /// The last reflectance that was worked out, at most a short step from the result.
+    pub(super) last: Known,
+    /// Whether it comes to the colour.
+    pub(super) is_good: bool,
+}
+
+/// The same from another start.
+pub(super) fn fit_from(colours: &Colours, rgb: [f64; 3], start: Known) -> Fit {
+    let mut best = start;
+    let mut error = residual(rgb, best.rgb);
+    let mut before = f64::INFINITY;
     let mut damping = 1e-6;
     for _ in 0..MOST_STEPS {
         if squares(error) < GOOD_ENOUGH * GOOD_ENOUGH || damping > 1e12 {
             break;
         }
-        let step = damped_step(&jacobian, error, damping);
-        let next = std::array::from_fn(|i| (best[i] + step[i]).clamp(-LARGEST, LARGEST));
-        let (next_found, next_jacobian) = colours.with_derivatives(next);
-        let next_error = residual(rgb, next_found);
+        let step = damped_step(&best.jacobian, error, damping);
+        let next: [f64; 3] =
+            std::array::from_fn(|i| (best.coefficients[i] + step[i]).clamp(-LARGEST, LARGEST));
+        if is_last_step(squares(error), before) && next.iter().all(|c| c.abs() < LARGEST) {
+            let reflectance = SigmoidReflectance { coefficients: next };
+            return Fit {
+                reflectance,
+                last: best,
+                is_good: true,
+            };
+        }
+        let next = colours.known(next);
+        let next_error = residual(rgb, next.rgb);
         if squares(next_error) < squares(error) {
-            (best, jacobian, error) = (next, next_jacobian, next_error);
+            before = squares(error);
+            (best, error) = (next, next_error);
             damping *= 0.1;
         } else {
             damping = (damping * 10.0).max(1e-9);
         }
     }
-    let is_good = squares(error) < GOOD_ENOUGH * GOOD_ENOUGH;
-    (SigmoidReflectance { coefficients: best }, is_good)
+    Fit {
+        reflectance: SigmoidReflectance {
+            coefficients: best.coefficients,
+        },
+        last: best,
+        is_good: squares(error) < GOOD_ENOUGH * GOOD_ENOUGH,
+    }
+}
+
+/// Whether the next step leaves less than a third of [`GOOD_ENOUGH`], if it leaves no larger share of the error than the step before it: the
+/// steps converge. Both are squares of errors.
+fn is_last_step(error: f64, before: f64) -> bool {
+    error * error < (GOOD_ENOUGH / 3.0).powi(2) * before && before.is_finite()
 }
 
 fn residual(wanted: [f64; 3], found: [f64; 3]) -> [f64; 3] {

@@ -20,7 +20,7 @@
 
 mod fit;
 
-use fit::{Colours, fit, fit_from};
+use fit::{Colours, Known, fit, fit_from};
 
 /// The sigmoid of a quadratic in wavelength: a smooth reflectance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -37,24 +37,12 @@ impl SigmoidReflectance {
 
     /// The reflectance of a colour in linear sRGB. What lies outside \[0, 1\] is taken to the nearest end.
     pub fn of_linear_srgb(rgb: [f64; 3]) -> Self {
-        fit(Colours::shared(), rgb.map(|value| value.clamp(0.0, 1.0)))
-    }
-
-    /// The reflectance of a colour in linear sRGB like [`Self::of_linear_srgb`]'s, found sooner where it is near this one.
-    #[must_use]
-    pub fn moved_to_linear_srgb(self, rgb: [f64; 3]) -> Self {
-        let rgb = rgb.map(|value| value.clamp(0.0, 1.0));
-        let (found, is_good) = fit_from(Colours::shared(), rgb, self);
-        if is_good {
-            found
-        } else {
-            Self::of_linear_srgb(rgb)
-        }
+        fit(Colours::shared(), within(rgb)).reflectance
     }
 
     /// Its colour in linear sRGB.
     pub fn linear_srgb(self) -> [f64; 3] {
-        Colours::shared().of(self)
+        Colours::shared().known(self.coefficients).rgb
     }
 
     /// The reflectance at a wavelength, from 0 to 1.
@@ -63,6 +51,33 @@ impl SigmoidReflectance {
         let [c0, c1, c2] = self.coefficients;
         sigmoid((c0 * t + c1) * t + c2)
     }
+}
+
+/// Reflectances of colours one after another, each found sooner where it is near the one before.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Lifting {
+    /// The colour before, its reflectance, and where its fit ended.
+    before: Option<([f64; 3], SigmoidReflectance, Known)>,
+}
+
+impl Lifting {
+    /// The reflectance of the next colour in linear sRGB, like [`SigmoidReflectance::of_linear_srgb`]'s.
+    pub fn next(&mut self, rgb: [f64; 3]) -> SigmoidReflectance {
+        let (colours, rgb) = (Colours::shared(), within(rgb));
+        let near = match self.before {
+            Some((before, reflectance, _)) if before == rgb => return reflectance,
+            Some((_, _, known)) => Some(fit_from(colours, rgb, known)),
+            None => None,
+        };
+        let near = near.filter(|fit| fit.is_good);
+        let found = near.unwrap_or_else(|| fit(colours, rgb));
+        self.before = Some((rgb, found.reflectance, found.last));
+        found.reflectance
+    }
+}
+
+fn within(rgb: [f64; 3]) -> [f64; 3] {
+    rgb.map(|value| value.clamp(0.0, 1.0))
 }
 
 /// t of a wavelength.
@@ -166,6 +181,28 @@ mod tests {
             let signs: Vec<f64> = steps.filter(|s| s.abs() > 1e-12).map(f64::signum).collect();
             let turns = signs.windows(2).filter(|pair| pair[0] != pair[1]).count();
             assert!(turns <= 1, "{rgb:?}: {turns} turns");
+        }
+    }
+
+    /// Small steps, leaps, repetitions and the ends: each colour comes back, whatever was before it.
+    #[test]
+    fn colours_one_after_another_come_back() {
+        let step = |i: u32| 0.5 * f64::from(i) / 200.0;
+        let near = (0..200).map(|i| [0.5, 0.45 - 0.8 * step(i), 0.05 + 0.7 * step(i)]);
+        let leaps = (0..200).map(|i| [step(i * 37 % 200), 0.5, step(i * 91 % 200)]);
+        let ends = [
+            [0.0; 3],
+            [1.0; 3],
+            [0.5, 0.0, 0.0],
+            [0.5, 0.0, 0.0],
+            [0.3; 3],
+        ];
+        let mut lifting = Lifting::default();
+        for rgb in near.chain(leaps).chain(ends) {
+            let found = lifting.next(rgb).linear_srgb();
+            for (found, wanted) in found.iter().zip(rgb) {
+                assert!((found - wanted).abs() < 1e-5, "{found} {wanted} of {rgb:?}");
+            }
         }
     }
 }

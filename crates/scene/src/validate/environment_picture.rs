@@ -6,7 +6,7 @@ use crate::derived::{DirectionTable, Sent};
 use crate::limits::{self, Shown};
 use crate::problem::{Problem, ProblemKind};
 use crate::{EnvironmentPicture, FieldPath, PictureSpectra, Texels};
-use colorimetry::lifting::SigmoidReflectance;
+use colorimetry::lifting::{Lifting, SigmoidReflectance};
 use glam::DVec3;
 use rayon::prelude::*;
 use spectra::{BandGrid, SpectralImage};
@@ -104,14 +104,16 @@ fn check_pixels(values: &[f32], per_pixel: usize, width: u32) -> Result<(), BadP
 fn lifted(width: u32, rgb: &[[f32; 3]]) -> Result<Sphere, BadPixel> {
     check_pixels(rgb.as_flattened(), 3, width)?;
     let fill_row = |(texels, row): (&mut [[f32; 4]], &[[f32; 3]])| {
-        let mut before = SigmoidReflectance::default();
+        let mut lifting = Lifting::default();
         for (texel, colour) in texels.iter_mut().zip(row) {
             let colour = colour.map(|value| f64::from(value.max(0.0)));
             let scale = 2.0 * colour.into_iter().fold(0.0, f64::max);
-            if scale > 0.0 {
-                before = before.moved_to_linear_srgb(colour.map(|value| value / scale));
-            }
-            let [c0, c1, c2] = before.coefficients;
+            let reflectance = if scale > 0.0 {
+                lifting.next(colour.map(|value| value / scale))
+            } else {
+                SigmoidReflectance::default()
+            };
+            let [c0, c1, c2] = reflectance.coefficients;
             *texel = [c0, c1, c2, scale].map(|value| value as f32);
         }
     };
