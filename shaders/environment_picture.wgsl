@@ -15,11 +15,10 @@ struct DirectionTable {
 }
 
 fn direction_table(light: u32) -> DirectionTable {
-    let first = u32(texel_at(emitter_at(light).picture).w);
-    let columns = u32(number_at(first));
-    let rows = u32(number_at(first + 1u));
-    let heights = first + 3u;
-    return DirectionTable(columns, rows, number_at(first + 2u), heights, heights + rows + 1u, heights + 2u * (rows + 1u));
+    let picture = load_panorama(emitter_at(light).picture);
+    let heights = picture.first_number;
+    let marginal = heights + picture.rows + 1u;
+    return DirectionTable(picture.columns, picture.rows, picture.even_density, heights, marginal, marginal + picture.rows + 1u);
 }
 
 /// Place of a direction in the picture, from its upper left corner in its width and height.
@@ -33,9 +32,9 @@ fn environment_place(light: u32, direction: vec3f) -> vec2f {
 
 /// The first texel of the pixel that a path takes for a direction, by a random number.
 fn environment_texel(light: u32, direction: vec3f, random: f32) -> u32 {
-    let head = emitter_at(light).picture;
-    let pixel = chosen_pixel(head, environment_place(light, direction), true, random);
-    return head + 1u + pixel * u32(texel_at(head).z);
+    let picture = load_panorama(emitter_at(light).picture);
+    let pixel = chosen_pixel(picture.head, environment_place(light, direction), true, random);
+    return picture.head + 1u + pixel * picture.per_pixel;
 }
 
 /// The interval between `count` + 1 rising numbers from 0 to 1 that `u` falls into.

@@ -83,7 +83,7 @@ struct Emitter {
     edge_height: f32,
     /// The row of its node in the tree of emitters.
     node: u32,
-    /// The head of a picture of the surroundings, or NONE.
+    /// The row of a picture of the surroundings among the records: a Panorama. NONE where it is no picture.
     picture: u32,
 }
 const EMITTER_ROWS: u32 = 6u;
@@ -403,6 +403,38 @@ fn load_field(row: u32) -> Field {
         row_4.y,
         row_4.z,
         row_4.w,
+    );
+}
+
+/// A picture of the surroundings, and the table by which directions are drawn.
+struct Panorama {
+    /// Where it is among the texels: the head, then its pixels.
+    head: u32,
+    /// Texels of a pixel.
+    per_pixel: u32,
+    /// Columns of the table.
+    columns: u32,
+    /// Rows of the table.
+    rows: u32,
+    /// First of the numbers of the table: heights of the rows' edges from the top, running probability of the rows, and of the cells of each row.
+    first_number: u32,
+    /// The density that light as bright as the picture's mean would have beside the light that is sent for; 0 where that is all light.
+    even_density: f32,
+    /// Fills the last row.
+    padding: vec2u,
+}
+const PANORAMA_ROWS: u32 = 2u;
+fn load_panorama(row: u32) -> Panorama {
+    let row_0 = records_row(row + 0u);
+    let row_1 = records_row(row + 1u);
+    return Panorama(
+        row_0.x,
+        row_0.y,
+        row_0.z,
+        row_0.w,
+        row_1.x,
+        bitcast<f32>(row_1.y),
+        vec2u(row_1.z, row_1.w),
     );
 }
 

@@ -443,7 +443,7 @@ records! { EMITTERS;
         pub edge_height: f32,
         /// The row of its node in the tree of emitters.
         pub node: u32,
-        /// The head of a picture of the surroundings, or NONE.
+        /// The row of a picture of the surroundings among the records: a [`Panorama`]. NONE where it is no picture.
         pub picture: u32,
     }
 }
@@ -611,6 +611,24 @@ records! { RECORDS;
         pub sample_count: u32,
         /// Rows of a picture.
         pub rows: u32,
+    }
+
+    /// A picture of the surroundings, and the table by which directions are drawn.
+    pub struct Panorama {
+        /// Where it is among the texels: the head, then its pixels.
+        pub head: u32,
+        /// Texels of a pixel.
+        pub per_pixel: u32,
+        /// Columns of the table.
+        pub columns: u32,
+        /// Rows of the table.
+        pub rows: u32,
+        /// First of the numbers of the table: heights of the rows' edges from the top, running probability of the rows, and of the cells of each row.
+        pub first_number: u32,
+        /// The density that light as bright as the picture's mean would have beside the light that is sent for; 0 where that is all light.
+        pub even_density: f32,
+        /// Fills the last row.
+        pub padding: [u32; 2],
     }
 }
 

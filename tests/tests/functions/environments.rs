@@ -92,6 +92,7 @@ fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
 /// What surroundings by a picture are made of.
 const OF_PICTURES: &[&str] = &[
     "direction_table",
+    "load_panorama",
     "interval_of",
     "place_in_interval",
     "sample_environment_picture",

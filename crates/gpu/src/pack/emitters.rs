@@ -98,14 +98,16 @@ fn surrounding(shape: EnvironmentShape<'_>, tables: &mut Tables) -> layout::Emit
             axis: vec3(pole),
             ..plain(layout::EMITTER_POLE)
         },
-        EnvironmentShape::Picture(picture) => layout::Emitter {
-            axis: vec3(picture.forward),
-            tangent: vec3(picture.right),
-            picture: tables
-                .pictures
-                .add_environment(picture, &mut tables.numbers),
-            ..plain(layout::EMITTER_PICTURE)
-        },
+        EnvironmentShape::Picture(picture) => {
+            let pictures = &mut tables.pictures;
+            let panorama = pictures.add_environment(picture, &mut tables.numbers);
+            layout::Emitter {
+                axis: vec3(picture.forward),
+                tangent: vec3(picture.right),
+                picture: tables.push(&panorama),
+                ..plain(layout::EMITTER_PICTURE)
+            }
+        }
         EnvironmentShape::Disc { towards, height } => layout::Emitter {
             axis: vec3(towards),
             edge_height: height as f32,

@@ -1,5 +1,6 @@
-//! Pictures of four numbers in each place, in one list of texels. Before the texels of each stands its head.
+//! Pictures of four numbers in each place, in one list of texels. Before the texels of each stands its head: width and height in pixels.
 
+use crate::layout::Panorama;
 use scene::{EnvironmentPicture, Texels};
 use std::sync::Arc;
 
@@ -12,27 +13,21 @@ pub(super) struct Pictures {
 }
 
 impl Pictures {
-    /// The head of a picture of the surroundings: width and height in pixels, texels of a pixel, and the first of its table's numbers.
-    ///
-    /// The table: columns, rows, density of even light, heights of the rows' edges, running probability of the rows, and of the cells of each row.
+    /// A picture of the surroundings, whose table is added to the numbers.
     pub(super) fn add_environment(
         &mut self,
         picture: &EnvironmentPicture,
         numbers: &mut Vec<f32>,
-    ) -> u32 {
-        let (head, texels) = (self.texels.len() as u32, &picture.texels);
-        let of_picture = [texels.width, texels.height, texels.per_pixel];
-        let [width, height, per_pixel] = of_picture.map(|count| count as f32);
-        self.texels
-            .push([width, height, per_pixel, numbers.len() as f32]);
+    ) -> Panorama {
+        let (texels, table) = (&picture.texels, &picture.table);
+        let panorama = panorama(picture, self.texels.len(), numbers.len());
+        let [width, height] = [texels.width, texels.height].map(|count| count as f32);
+        self.texels.push([width, height, 0.0, 0.0]);
         self.texels.extend_from_slice(&texels.values);
-        let table = &picture.table;
-        let [columns, rows] = [table.columns, table.rows].map(|count| count as f32);
-        numbers.extend([columns, rows, table.even_density]);
         for list in [&table.heights, &table.marginal, &table.conditional] {
             numbers.extend_from_slice(list);
         }
-        head
+        panorama
     }
 
     /// The head of a picture: width and height in pixels, then the size on planes and rectangles, 0 for its natural one.
@@ -49,5 +44,90 @@ impl Pictures {
         self.texels.extend_from_slice(&texels.values);
         self.known.push((Arc::clone(texels), size, head));
         head
+    }
+}
+
+/// A picture of the surroundings whose head and table begin at these places.
+fn panorama(picture: &EnvironmentPicture, head: usize, first_number: usize) -> Panorama {
+    Panorama {
+        head: head as u32,
+        per_pixel: picture.texels.per_pixel,
+        columns: picture.table.columns,
+        rows: picture.table.rows,
+        first_number: first_number as u32,
+        even_density: picture.table.even_density,
+        ..Default::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::PackedScene;
+    use scene::{Environment, SceneFile};
+    use std::path::Path;
+
+    const SKY: &str = r#"
+        environment = { type = "sky", sun_elevation_deg = 40 }
+        [camera]
+        type = "perspective"
+        position = [0, 0, 5]
+        look_at = [0, 0, 0]
+        fov_deg = 40
+        [materials.grey]
+        type = "diffuse"
+        reflectance = 0.5
+        [[objects]]
+        type = "sphere"
+        material = "grey"
+        center = [0, 0, 0]
+        radius = 1
+    "#;
+
+    /// Beyond 2²⁴ not every whole number is one of `f32`.
+    #[test]
+    fn places_are_exact_in_long_lists() {
+        let scene = SceneFile::parse("sky.toml", SKY, Path::new(".")).unwrap();
+        let scene = scene.validate().unwrap();
+        let Environment::Picture { picture, .. } = scene.environment() else {
+            panic!("a picture");
+        };
+        let mut tables = crate::pack::tables::Tables::with_materials(1);
+        for place in [0, (1 << 24) + 1, (1 << 26) - 1, u32::MAX - 1] {
+            let of_picture = panorama(picture, place as usize, place as usize);
+            let row = tables.push(&of_picture);
+            let words = tables.records[row as usize..].as_flattened();
+            // As the shader reads them: the first word of the first row, and of the second.
+            assert_eq!([words[0], words[4]], [place, place]);
+        }
+    }
+
+    /// What a scene's picture says is what lies there.
+    #[test]
+    fn the_table_of_a_sky_lies_where_its_record_says() {
+        let scene = SceneFile::parse("sky.toml", SKY, Path::new(".")).unwrap();
+        let scene = scene.validate().unwrap();
+        let packed = PackedScene::new(&scene);
+        let Environment::Picture { picture, .. } = scene.environment() else {
+            panic!("a picture");
+        };
+        let mut emitters = packed.emitters.iter();
+        let emitter = emitters.find(|emitter| emitter.kind == crate::layout::EMITTER_PICTURE);
+        let panorama: Panorama = packed.record(emitter.unwrap().picture);
+        let table = &picture.table;
+        assert_eq!(
+            [panorama.columns, panorama.rows],
+            [table.columns, table.rows]
+        );
+        let first = panorama.first_number as usize;
+        let (heights, rows) = (&packed.numbers[first..], table.rows as usize);
+        assert_eq!((heights[0], heights[rows]), (1.0, -1.0));
+        assert_eq!((heights[rows + 1], heights[2 * rows + 1]), (0.0, 1.0));
+        let head = panorama.head as usize;
+        let texels = &picture.texels;
+        let size = [texels.width as f32, texels.height as f32];
+        assert_eq!(packed.texels[head][..2], size);
+        assert_eq!(packed.texels[head + 1], texels.values[0]);
+        assert_eq!(panorama.per_pixel, texels.per_pixel);
     }
 }
