@@ -2,8 +2,8 @@
 
 use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
-use pellicle::color;
 use pellicle::color::spectral_exr::{Metadata, WriteOptions};
+use pellicle::color::{self, Destination};
 use pellicle::spectra::SpectralImage;
 use std::ffi::OsStr;
 use std::fs::OpenOptions;
@@ -29,10 +29,17 @@ impl Outputs {
         for path in asked {
             let extension = path.extension().map(OsStr::to_string_lossy);
             match extension.map(|name| name.to_lowercase()).as_deref() {
+                _ if path == Path::new("-") => {
+                    return Err(miette!(
+                        help = "-o /dev/stdout writes a PNG file there",
+                        "-o -: the kind of file is not told by this name"
+                    ));
+                }
                 _ if path.is_dir() => outputs.add_both(&path.join(stem)),
                 _ if names_a_folder(path) => return Err(no_folder("-o", path, path)),
                 Some("png") => outputs.pictures.push(path.clone()),
                 Some("exr") => outputs.spectral.push(path.clone()),
+                None if is_stream(path) => outputs.pictures.push(path.clone()),
                 None => outputs.add_both(path),
                 Some(_) => {
                     return Err(miette!(
@@ -46,7 +53,30 @@ impl Outputs {
         for path in outputs.pictures.iter().chain(&outputs.spectral) {
             check_place("-o", path, scene)?;
         }
+        outputs.check_names()?;
         Ok(outputs)
+    }
+
+    /// No file is written twice, by one name or by two.
+    fn check_names(&self) -> miette::Result<()> {
+        let mut known: Vec<(&PathBuf, PathBuf)> = Vec::new();
+        for path in self.pictures.iter().chain(&self.spectral) {
+            let Ok(Destination::File(file)) = Destination::of(path) else {
+                continue;
+            };
+            let folder = folder_of(&file).canonicalize().into_diagnostic()?;
+            let file = folder.join(file.file_name().unwrap_or_default());
+            if let Some((first, _)) = known.iter().find(|(_, other)| *other == file) {
+                return Err(miette!(
+                    help = "name each file once",
+                    "-o {} and -o {}: this is the same file",
+                    first.display(),
+                    path.display()
+                ));
+            }
+            known.push((path, file));
+        }
+        Ok(())
     }
 
     fn add_both(&mut self, base: &Path) {
@@ -117,18 +147,37 @@ fn no_folder(option: &str, path: &Path, folder: &Path) -> miette::Report {
     )
 }
 
+/// The folder that a file lies in.
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
+/// Whether a name is that of a pipe or a device.
+fn is_stream(path: &Path) -> bool {
+    matches!(Destination::of(path), Ok(Destination::Stream(_)))
+}
+
 /// A place that cannot be written to is told before the work, not after it. `option` is what asked for it, `read` the file that
 /// must not be written over.
 pub(crate) fn check_place(option: &str, path: &Path, read: &Path) -> miette::Result<()> {
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    if !folder.is_dir() {
-        return Err(no_folder(option, path, folder));
-    }
     if path.is_dir() {
         return Err(miette!("{option} {}: this is a folder", path.display()));
+    }
+    if names_a_folder(path) {
+        return Err(no_folder(option, path, path));
+    }
+    let file = match Destination::of(path) {
+        // It is there, and is not replaced.
+        Ok(Destination::Stream(_)) => return Ok(()),
+        Ok(Destination::File(file)) => file,
+        Err(error) => return Err(miette!("{option} {}: {error}", path.display())),
+    };
+    let folder = folder_of(&file);
+    if !folder.is_dir() {
+        return Err(no_folder(option, path, folder));
     }
     if let (Ok(written), Ok(read)) = (path.canonicalize(), read.canonicalize())
         && written == read
@@ -201,5 +250,34 @@ mod tests {
         for missing in ["no/such/folder/a.png", "no_such_folder/", "no_such/..", ""] {
             assert!(outputs(&[missing]).is_err(), "{missing:?}");
         }
+    }
+
+    #[test]
+    fn a_file_is_named_once() {
+        for asked in [
+            ["a.png", "a.png"],
+            ["a.png", "./a.png"],
+            ["a.exr", "a"],
+            ["a", "../cli/a.png"],
+        ] {
+            let error = outputs(&asked).unwrap_err().to_string();
+            assert!(error.contains("the same file"), "{asked:?}: {error}");
+        }
+        assert!(outputs(&["a.png", "b.png", "a.exr"]).is_ok());
+    }
+
+    #[test]
+    fn names_that_tell_no_kind_of_file_are_refused() {
+        for name in ["-", "a.png/", "a.exr/"] {
+            assert!(outputs(&[name]).is_err(), "{name:?}");
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_device_gets_the_picture() {
+        let found = outputs(&["/dev/null"]).unwrap();
+        assert_eq!(found.pictures, [PathBuf::from("/dev/null")]);
+        assert!(found.spectral.is_empty());
     }
 }

@@ -35,7 +35,7 @@ pub mod xyz;
 mod xyz_image;
 
 pub use develop::{DevelopSettings, develop};
-pub use pending_file::PendingFile;
+pub use pending_file::{Destination, PendingFile};
 pub use probe::{LightShare, Probe, Region, RegionError, probe};
 pub use relight::{BandWeights, DarkBand, Relight, RelightError, relight};
 pub use rgb_image::{RgbImage, RgbImage8, RgbImage16};

@@ -6,43 +6,89 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// A file being written beside its place, under another name, so that a failure leaves no half file. Dropped without [`PendingFile::commit`], it is removed.
+/// Where a name leads.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Destination {
+    /// To a file that is there or may be made, its links followed: it is replaced whole.
+    File(PathBuf),
+    /// To a pipe or a device, which is written to as it stands.
+    Stream(PathBuf),
+}
+
+/// As many links as systems follow.
+const MOST_LINKS: usize = 40;
+
+impl Destination {
+    /// Follows the links of a name; the last need not lead to a file.
+    ///
+    /// # Errors
+    /// When it is a folder, does not end in a file name, or its links lead nowhere.
+    pub fn of(path: &Path) -> io::Result<Self> {
+        let ends_in_separator = path.to_string_lossy().ends_with(std::path::is_separator);
+        if ends_in_separator || path.file_name().is_none() {
+            let message = "the path does not end in a file name";
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
+        }
+        let mut path = path.to_owned();
+        for _ in 0..MOST_LINKS {
+            let metadata = fs::metadata(&path);
+            let kind = metadata.as_ref().ok().map(fs::Metadata::file_type);
+            if kind.is_some_and(|kind| kind.is_dir()) {
+                let message = "is a directory";
+                return Err(io::Error::new(io::ErrorKind::IsADirectory, message));
+            }
+            // The names of open files lie there, which may be files themselves.
+            let is_of_system = path.starts_with("/dev/") || path.starts_with("/proc/");
+            let is_special = kind.is_some_and(|kind| !kind.is_file());
+            if is_special || (is_of_system && kind.is_some()) {
+                return Ok(Self::Stream(path));
+            }
+            match fs::read_link(&path) {
+                // A relative link starts where it stands.
+                Ok(link) => path = path.with_file_name("").join(link),
+                Err(_) => return Ok(Self::File(path)),
+            }
+        }
+        Err(io::Error::other("its links lead around"))
+    }
+}
+
+/// A file being written beside its place, under another name, so that a failure leaves no half file. What goes to a pipe or a device is
+/// gathered in the folder for temporary files. Dropped without [`PendingFile::commit`], it is removed.
 #[derive(Debug)]
 pub struct PendingFile {
-    target: PathBuf,
+    target: Destination,
     temporary: PathBuf,
     file: Option<File>,
 }
 
 impl PendingFile {
-    /// Opens a new file in the directory of `target`.
+    /// Opens a new file in the directory that `target` leads to.
     ///
     /// # Errors
-    /// When `target` is a folder or names none, or its folder cannot be written to.
+    /// Those of [`Destination::of`], and when the folder cannot be written to.
     pub fn create(target: &Path) -> io::Result<Self> {
         static COUNTER: AtomicU32 = AtomicU32::new(0);
-        let Some(name) = target.file_name() else {
-            let message = "the path does not end in a file name";
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
-        };
-        if target.is_dir() {
-            return Err(io::Error::new(
-                io::ErrorKind::IsADirectory,
-                "is a directory",
-            ));
-        }
-        let mut hidden = OsString::from(".");
-        hidden.push(name);
+        let target = Destination::of(target)?;
         let turn = COUNTER.fetch_add(1, Ordering::Relaxed);
-        hidden.push(format!(".{}-{turn}.tmp", std::process::id()));
-        let temporary = target.with_file_name(hidden);
+        let ending = format!(".{}-{turn}.tmp", std::process::id());
+        let hidden = |path: &Path| {
+            let mut hidden = OsString::from(".");
+            hidden.push(path.file_name().unwrap_or_default());
+            hidden.push(&ending);
+            hidden
+        };
+        let temporary = match &target {
+            Destination::File(path) => path.with_file_name(hidden(path)),
+            Destination::Stream(path) => std::env::temp_dir().join(hidden(path)),
+        };
         let file = OpenOptions::new()
             .read(true)
             .write(true)
             .create_new(true)
             .open(&temporary)?;
         Ok(Self {
-            target: target.to_owned(),
+            target,
             temporary,
             file: Some(file),
         })
@@ -59,16 +105,24 @@ impl PendingFile {
         }
     }
 
-    /// Puts the file in its place, over any file that stood there.
+    /// Puts the file in its place, over any file that stood there, or writes it to the pipe or device.
     ///
     /// # Errors
-    /// When the file cannot be brought to the disk or renamed; it is then removed.
+    /// When the file cannot be brought to the disk, renamed or written; it is then removed.
     pub fn commit(mut self) -> io::Result<()> {
-        if let Some(file) = &self.file {
-            file.sync_all()?;
+        match &self.target {
+            Destination::File(target) => {
+                if let Some(file) = &self.file {
+                    file.sync_all()?;
+                }
+                fs::rename(&self.temporary, target)?;
+                self.file = None;
+            }
+            Destination::Stream(target) => {
+                let mut stream = OpenOptions::new().append(true).open(target)?;
+                io::copy(&mut File::open(&self.temporary)?, &mut stream)?;
+            }
         }
-        fs::rename(&self.temporary, &self.target)?;
-        self.file = None;
         Ok(())
     }
 }
@@ -118,5 +172,80 @@ mod tests {
         assert!(PendingFile::create(directory.path()).is_err());
         assert!(PendingFile::create(Path::new("/")).is_err());
         assert!(PendingFile::create(&directory.path().join("missing/picture")).is_err());
+    }
+    #[test]
+    fn a_name_with_a_separator_behind_it_is_no_file() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = format!("{}/picture/", directory.path().display());
+        assert!(PendingFile::create(Path::new(&path)).is_err());
+        assert!(names(directory.path()).is_empty());
+    }
+
+    #[cfg(unix)]
+    fn put(path: &Path, bytes: &[u8]) {
+        let pending = PendingFile::create(path).unwrap();
+        pending.handle().unwrap().write_all(bytes).unwrap();
+        pending.commit().unwrap();
+    }
+
+    /// Relative and absolute links, links to links, and a link to what is not there yet.
+    #[cfg(unix)]
+    #[test]
+    fn links_stay_and_what_they_lead_to_is_replaced() {
+        use std::os::unix::fs::symlink;
+        let directory = tempfile::tempdir().unwrap();
+        let at = |name: &str| directory.path().join(name);
+        fs::create_dir(at("inner")).unwrap();
+        fs::write(at("inner/old"), "old").unwrap();
+        symlink("inner/old", at("relative")).unwrap();
+        symlink(at("relative"), at("absolute")).unwrap();
+        symlink("inner/missing", at("dangling")).unwrap();
+        for (link, file) in [
+            ("relative", "inner/old"),
+            ("absolute", "inner/old"),
+            ("dangling", "inner/missing"),
+        ] {
+            put(&at(link), link.as_bytes());
+            assert_eq!(fs::read(at(file)).unwrap(), link.as_bytes());
+            assert!(fs::symlink_metadata(at(link)).unwrap().is_symlink());
+            assert!(!fs::symlink_metadata(at(file)).unwrap().is_symlink());
+        }
+        symlink("round", at("round")).unwrap();
+        assert!(PendingFile::create(&at("round")).is_err());
+        symlink("inner", at("folder")).unwrap();
+        assert!(PendingFile::create(&at("folder")).is_err());
+        assert_eq!(names(&at("inner")).len(), 2);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_gets_the_bytes_and_stays_a_pipe() {
+        use std::os::unix::fs::FileTypeExt;
+        let directory = tempfile::tempdir().unwrap();
+        let pipe = directory.path().join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        assert!(made.unwrap().success());
+        let end = pipe.clone();
+        let reader = std::thread::spawn(move || fs::read(end).unwrap());
+        put(&pipe, b"picture");
+        assert_eq!(reader.join().unwrap(), b"picture");
+        assert!(fs::symlink_metadata(&pipe).unwrap().file_type().is_fifo());
+        assert_eq!(names(directory.path()), ["pipe"]);
+    }
+
+    /// Nothing else is tried where it would be no device afterwards.
+    #[cfg(unix)]
+    #[test]
+    fn the_null_device_is_written_to_and_stays() {
+        use std::os::unix::fs::MetadataExt;
+        let null = Path::new("/dev/null");
+        let before = fs::symlink_metadata(null).unwrap();
+        assert_eq!(
+            Destination::of(null).unwrap(),
+            Destination::Stream(null.to_owned())
+        );
+        put(null, b"picture");
+        let after = fs::symlink_metadata(null).unwrap();
+        assert_eq!((before.ino(), before.rdev()), (after.ino(), after.rdev()));
     }
 }
