@@ -122,10 +122,20 @@ impl Picture {
     }
 }
 
+/// How much longer than itself a compressed stream becomes at most (RFC 1951: 258 bytes of two bits).
+const MAX_INFLATION: u64 = 1032;
+
 fn decode(file: BufReader<File>) -> Result<Picture, ::png::DecodingError> {
+    let length = file
+        .get_ref()
+        .metadata()
+        .map_or(0, |metadata| metadata.len());
     let mut decoder = ::png::Decoder::new(file);
     decoder.set_transformations(::png::Transformations::EXPAND);
     let mut reader = decoder.read_info()?;
+    if reader.info().raw_bytes() as u64 > length.saturating_mul(MAX_INFLATION) {
+        return Err(too_large());
+    }
     let bytes = reader.output_buffer_size().ok_or_else(too_large)?;
     let mut data = Vec::new();
     data.try_reserve_exact(bytes).map_err(|_| too_large())?;
