@@ -177,12 +177,11 @@ impl<'a> Campaign<'a> {
             }
             return false;
         }
-        let outcome = match result {
-            Ok(Outcome::Refused(error)) => words_of(&error),
-            _ => {
-                tally.accepted += 1;
-                String::new()
-            }
+        let outcome = if let Ok(Outcome::Refused(error)) = result {
+            words_of(&error)
+        } else {
+            tally.accepted += 1;
+            String::new()
         };
         tally.outcomes.insert(outcome)
     }

@@ -40,9 +40,10 @@ pub(crate) fn note(line: impl Display) {
 
 /// How a file is called: standard input has a name of its own.
 pub(crate) fn name(path: &Path) -> String {
-    match path.as_os_str() == STANDARD_INPUT {
-        true => "<standard input>".to_owned(),
-        false => path.display().to_string(),
+    if path.as_os_str() == STANDARD_INPUT {
+        "<standard input>".to_owned()
+    } else {
+        path.display().to_string()
     }
 }
 

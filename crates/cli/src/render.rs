@@ -120,9 +120,10 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     let scene = file.validate()?;
     print::notes(scene.notes());
     // What comes from standard input has no name.
-    let named = match arguments.scene.as_os_str() == STANDARD_INPUT {
-        true => Path::new("render"),
-        false => &arguments.scene,
+    let named = if arguments.scene.as_os_str() == STANDARD_INPUT {
+        Path::new("render")
+    } else {
+        &arguments.scene
     };
     let outputs = Outputs::new(named, &arguments.output)?;
     let developing = &arguments.developing;

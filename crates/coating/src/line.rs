@@ -175,7 +175,7 @@ impl<'a> Media<'a> {
         match node {
             Node::Layer(piece) => layers.push(self.layer(piece)?),
             Node::Defined(factor, place, piece) => {
-                layers.push(self.scaled(*factor, *place, piece)?)
+                layers.push(self.scaled(*factor, *place, piece)?);
             }
             Node::Group(nodes, times) => {
                 let start = layers.len();
@@ -253,9 +253,12 @@ fn medium(text: &str) -> Result<Medium, Fault> {
         let first = problems.into_iter().next();
         let (message, help) = first.map_or_else(Default::default, |p| (p.message, p.help));
         // A table's fields can be written in a file alone.
-        let help = help.map(|help| match help.contains(" = ") {
-            true => format!("in a stack file: {help}"),
-            false => help,
+        let help = help.map(|help| {
+            if help.contains(" = ") {
+                format!("in a stack file: {help}")
+            } else {
+                help
+            }
         });
         Fault { message, help }
     })

@@ -144,13 +144,13 @@ mod tests {
     }
 
     /// By hand at normal incidence: r = 1/5 for n = 3/2, r² = 0.04. A quarter wave (500/6 nm) has cos = −1: R = 0.04 · (1 + 0.96 ·
-    /// (0.96 + 2)) = 0.153664; as printed l is 1/n of that, cos(2π/3) = −1/2 for l = 2 d = λ/3: R = 0.04 · (1 + 0.96 · 1.96).
+    /// (0.96 + 2)) = 0.153_664; as printed l is 1/n of that, cos(2π/3) = −1/2 for l = 2 d = λ/3: R = 0.04 · (1 + 0.96 · 1.96).
     #[test]
     fn two_beams_by_hand() {
         let line = "1 | 1.5 83.33333333333333nm | 1";
         for (path, expected) in [
-            (PathDifference::Optical, 0.153664),
-            (PathDifference::AsPrinted, 0.115264),
+            (PathDifference::Optical, 0.153_664),
+            (PathDifference::AsPrinted, 0.115_264),
         ] {
             let found = powers(line, model(path), 0.0);
             assert!((found.reflectance.s - expected).abs() < 1e-14, "{found:?}");

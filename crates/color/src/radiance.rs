@@ -49,6 +49,14 @@ pub enum RadianceError {
         "the EXPOSURE and COLORCORR lines of its header multiply to {0:?}, by which nothing can be divided"
     )]
     Divisor([f64; 3]),
+    /// Divided by them pixels are more than an `f32` holds.
+    #[error(
+        "divided by its EXPOSURE and COLORCORR, a pixel of scanline {scanline} is larger than any number that is used for pixels"
+    )]
+    Overflow {
+        /// Scanline of the file, from 1.
+        scanline: u32,
+    },
     /// There are no pixels.
     #[error("has {width} × {height} pixels, so none at all")]
     Empty {
@@ -133,6 +141,11 @@ impl<'a> RadiancePicture<'a> {
             for (along, &rgbe) in rgbe.iter().enumerate() {
                 if let Some(pixel) = pixels.get_mut(layout.place(scanline, along as u32)) {
                     *pixel = linear.of(rgbe);
+                    if !pixel.iter().all(|value| value.is_finite()) {
+                        return Err(RadianceError::Overflow {
+                            scanline: scanline + 1,
+                        });
+                    }
                 }
             }
         }

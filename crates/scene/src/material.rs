@@ -73,6 +73,15 @@ impl Material {
         }
     }
 
+    /// Whether it sends light on in single directions alone: smooth metals and films.
+    pub(crate) fn is_mirror(&self) -> bool {
+        match self {
+            Self::Film { .. } => true,
+            Self::Conductor { microsurface, .. } => microsurface.is_none(),
+            _ => false,
+        }
+    }
+
     /// The thicknesses of its layers.
     pub fn thicknesses(&self) -> impl Iterator<Item = &Thickness> {
         self.layers().iter().map(|layer| &layer.thickness)

@@ -1,6 +1,6 @@
 //! What is worth saying of a scene that is sound.
 
-use crate::{Emission, Material, Scene, derived};
+use crate::{Emission, LightShape, Material, Scene, derived};
 
 impl Scene {
     /// What was assumed of files, and what may not be meant though it can be rendered: one line each.
@@ -10,6 +10,7 @@ impl Scene {
         let assumed = self.assumptions.iter().cloned();
         assumed
             .chain(dark)
+            .chain(self.note_on_mirrors())
             .chain(self.notes_on_stacks())
             .chain(self.note_on_gain())
             .collect()
@@ -61,6 +62,33 @@ impl Scene {
             }
         }
         notes.into_iter().map(|(_, note)| note).collect()
+    }
+
+    /// Lights without a size, and nothing that scatters what comes from them.
+    fn note_on_mirrors(&self) -> Option<String> {
+        let has_no_size = |shape: &LightShape| !matches!(shape, LightShape::Disc { .. });
+        let mut lights = self
+            .lights()
+            .iter()
+            .filter(|light| self.shines(light.emission));
+        let only_points = self.lamps() > 0
+            && !self.is_lit_by_surroundings()
+            && self.emitters() == 0
+            && lights.all(|light| has_no_size(&light.shape));
+        let mut objects = self.objects().iter();
+        let only_mirrors = objects.all(|object| self.material(object.material).is_mirror());
+        (only_points && only_mirrors && !self.objects().is_empty()).then(|| {
+            "the picture will be black: all surfaces are smooth mirrors or films, in which a light without a size is never seen; give a \
+             surface roughness, or take a sphere that emits, or a distant light with an angular diameter"
+                .to_owned()
+        })
+    }
+
+    /// How many objects shine.
+    fn emitters(&self) -> usize {
+        let emission = |object: &crate::Object| self.material(object.material).emission();
+        let emissions = self.objects().iter().filter_map(emission);
+        emissions.filter(|&emission| self.shines(emission)).count()
     }
 
     /// Light that grows from one surface to the next.

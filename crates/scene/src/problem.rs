@@ -117,7 +117,7 @@ impl Problem {
     }
 
     /// Tells a number in the form that the file has it in, `1e9`, where `written` is the message's number in another one.
-    pub(crate) fn as_written(mut self, written: &str) -> Self {
+    pub(crate) fn with_written(mut self, written: &str) -> Self {
         let Ok(value) = written.replace('_', "").parse::<f64>() else {
             return self;
         };

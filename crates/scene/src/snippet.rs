@@ -44,7 +44,7 @@ impl Snippet {
             snippet.line -= 1;
         }
         let fault = start - line_start..end - line_start;
-        snippet.push_line(&text[line_start..line_end], Some(fault));
+        snippet.push_line(&text[line_start..line_end], Some(&fault));
         if let Some(rest) = text.get(line_end + 1..).filter(|rest| !rest.is_empty()) {
             snippet.push_line(rest.split('\n').next().unwrap_or_default(), None);
         }
@@ -56,14 +56,14 @@ impl Snippet {
         self.fault.clone()
     }
 
-    fn push_line(&mut self, line: &str, fault: Option<Range<usize>>) {
+    fn push_line(&mut self, line: &str, fault: Option<&Range<usize>>) {
         let line = line.strip_suffix('\r').unwrap_or(line);
-        let shown = window(line, fault.as_ref().map_or(0, |fault| fault.start));
+        let shown = window(line, fault.map_or(0, |fault| fault.start));
         if shown.start > 0 {
             self.text.push('…');
         }
         let mut place = shown.start;
-        let within = |place: usize| fault.as_ref().is_some_and(|fault| place == fault.start);
+        let within = |place: usize| fault.is_some_and(|fault| place == fault.start);
         for sign in line[shown.clone()].chars() {
             if within(place) {
                 self.fault = self.text.len()..self.text.len();

@@ -438,7 +438,8 @@ fn hostile_database_files_are_refused_without_delay() {
         "a: &a [x, x]\n{}DATA: 1\n",
         (0..50)
             .map(|i| format!("b{i}: [*a, *a]\n"))
-            .collect::<String>()
+            .collect::<Vec<_>>()
+            .concat()
     );
     let head = "DATA:\n  - type: formula 3\n    wavelength_range: 0.3 2\n    coefficients: ";
     let coefficients = format!("{head}{}\n", "1 ".repeat(1_000_001));
@@ -448,7 +449,8 @@ fn hostile_database_files_are_refused_without_delay() {
         "DATA:\n  - type: tabulated nk\n    data: {}\n",
         "0.5 ".repeat(2_000_000)
     );
-    let keys: String = (0..200_000).map(|key| format!("k{key}: 1\n")).collect();
+    let keys: Vec<String> = (0..200_000).map(|key| format!("k{key}: 1\n")).collect();
+    let keys = keys.concat();
     for text in [
         deep,
         dashes,

@@ -222,6 +222,39 @@ fn lights_that_no_ray_meets_are_refused_where_rays_alone_look_for_them() {
     scene(&with("surfaces", "type = 'distant'\ndirection = [0, 1, 0]"));
 }
 
+/// A point is never seen in a smooth mirror.
+#[test]
+fn light_that_no_surface_can_show_is_noted() {
+    const POINT: &str =
+        "[[lights]]\ntype = 'point'\nposition = [2, 3, 4]\nemission = { constant = 1 }\n";
+    let ball = |name: &str, material: &str| {
+        format!("[materials.{name}]\n{material}\n[[objects]]\nmaterial = '{name}'\n{SPHERE}\n")
+    };
+    let gold = ball("gold", "type = 'conductor'\nindex = 'gold'");
+    let soap = ball("soap", "type = 'film'\nindex = 1.33\nthickness_nm = 300");
+    let rough = ball(
+        "rough",
+        "type = 'conductor'\nindex = 'gold'\nroughness = 0.2",
+    );
+    let white = ball("white", "type = 'diffuse'\nreflectance = 1");
+    let glow = ball("glow", "type = 'emitter'\nemission = { constant = 1 }");
+    let sun = "[[lights]]\ntype = 'distant'\ndirection = [0, -1, 0]\ndiameter_deg = 0.5\nemission = { constant = 1 }\n";
+    let says = |rest: &[&str]| {
+        let notes = scene(&rest.concat()).notes();
+        notes.iter().any(|note| note.contains("never seen"))
+    };
+    assert!(says(&[&gold, POINT]) && says(&[&gold, &soap, POINT]));
+    for lit in [&rough, &white, &glow] {
+        assert!(!says(&[&gold, lit, POINT]), "{lit}");
+    }
+    assert!(!says(&[&gold, POINT, sun]));
+    assert!(!says(&[
+        &gold,
+        "[environment]\ntype = 'constant'\nemission = { constant = 1 }\n",
+        POINT
+    ]));
+}
+
 #[test]
 fn a_scene_that_may_not_be_meant_is_noted() {
     let notes = |rest: &str| scene(rest).notes();

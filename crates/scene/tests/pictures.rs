@@ -97,9 +97,9 @@ fn checksum(bytes: &[u8]) -> u32 {
 }
 
 /// A PNG file with one chunk more, after the first.
-fn with_chunk(png: &[u8], name: &[u8; 4], data: &[u8]) -> Vec<u8> {
+fn with_chunk(png: &[u8], name: [u8; 4], data: &[u8]) -> Vec<u8> {
     let (first, rest) = png.split_at(8 + 4 + 4 + 13 + 4);
-    let named = [name, data].concat();
+    let named = [&name[..], data].concat();
     let length = (data.len() as u32).to_be_bytes();
     let sum = checksum(&named).to_be_bytes();
     [first, &length, &named, &sum, rest].concat()
@@ -147,16 +147,16 @@ fn textures_are_read_by_their_tags() {
     let linear = codes.map(|code| f64::from(code) / 255.0);
     let of_srgb = texel(linear.map(srgb::decode));
     assert_eq!(texture(&plain), Ok((of_srgb, vec![])));
-    let tagged = texture(&with_chunk(&plain, b"sRGB", &[0]));
+    let tagged = texture(&with_chunk(&plain, *b"sRGB", &[0]));
     assert_eq!(tagged, Ok((of_srgb, vec![])));
 
     for file in [
-        with_chunk(&plain, b"cICP", &[1, 8, 0, 1]),
-        with_chunk(&plain, b"gAMA", &100_000_u32.to_be_bytes()),
+        with_chunk(&plain, *b"cICP", &[1, 8, 0, 1]),
+        with_chunk(&plain, *b"gAMA", &100_000_u32.to_be_bytes()),
         // What comes first in the order of PNG counts, wherever it stands.
         with_chunk(
-            &with_chunk(&plain, b"cICP", &[1, 8, 0, 1]),
-            b"gAMA",
+            &with_chunk(&plain, *b"cICP", &[1, 8, 0, 1]),
+            *b"gAMA",
             &45_455_u32.to_be_bytes(),
         ),
     ] {
@@ -165,12 +165,12 @@ fn textures_are_read_by_their_tags() {
         let field = "materials.x.reflectance.texture: map.png: ";
         assert!(notes.len() == 1 && notes[0].starts_with(field), "{notes:?}");
     }
-    let said = texture(&with_chunk(&plain, b"cICP", &[9, 16, 0, 1])).unwrap_err();
+    let said = texture(&with_chunk(&plain, *b"cICP", &[9, 16, 0, 1])).unwrap_err();
     assert!(said.contains("map.png") && said.contains("PQ"), "{said}");
 
     // Red of P3 is (1.2249, −0.0421, −0.0196) of sRGB.
     let red = png(ImageBuffer::from_pixel(1, 1, Rgb([255_u8, 0, 0])));
-    let (found, notes) = texture(&with_chunk(&red, b"cICP", &[12, 13, 0, 1])).unwrap();
+    let (found, notes) = texture(&with_chunk(&red, *b"cICP", &[12, 13, 0, 1])).unwrap();
     assert_eq!(found, texel([1.0, 0.0, 0.0]));
     assert!(
         notes[1].contains("1 of its 1 colors lie beyond"),
@@ -272,7 +272,7 @@ fn gray_pictures_are_numbers_as_they_stand() {
             (b"cICP", [9, 16, 0, 1]),
             (b"gAMA", 100_000_u32.to_be_bytes()),
         ] {
-            let tagged = with_chunk(&file, name, &data);
+            let tagged = with_chunk(&file, *name, &data);
             assert_eq!(values(&tagged, ""), Ok((vec![0.2], vec![])));
         }
     }

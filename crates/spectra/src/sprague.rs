@@ -104,7 +104,7 @@ mod tests {
             let (fine, step_nm) = sprague(&table(step, of), ANY).unwrap();
             assert_eq!((step_nm, fine.points().len()), (step as f64, 301));
             for (nm, value) in fine.points() {
-                let on_point = nm as usize % step == 0;
+                let on_point = (nm as usize).is_multiple_of(step);
                 let beyond = 2.0 * step_nm;
                 let is_inside = (400.0 + beyond..=700.0 - beyond).contains(&nm);
                 let allowed = match (on_point, is_inside) {

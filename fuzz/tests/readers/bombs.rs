@@ -15,7 +15,7 @@ pub(crate) fn toml() -> Vec<Vec<u8>> {
         format!("[[{}a]]", many("a.")),
         many("[[objects]]\n"),
         many("[materials.a]\n"),
-        (0..DEPTH).map(|i| format!("k{i} = 1\n")).collect(),
+        numbered(DEPTH, |i| format!("k{i} = 1\n")),
         format!("a = \"{}\"", many("long ")),
         format!("a = {}", many("1")),
         format!("a = 0.{}1", many("0")),
@@ -35,7 +35,7 @@ pub(crate) fn toml() -> Vec<Vec<u8>> {
 pub(crate) fn yaml() -> Vec<Vec<u8>> {
     let many = |piece: &str| piece.repeat(DEPTH);
     let lists = (0..40).map(|i| format!("a{}: &a{} [*a{i}, *a{i}, *a{i}]\n", i + 1, i + 1));
-    let indented: String = (0..600).map(|i| format!("{}a:\n", " ".repeat(i))).collect();
+    let indented: String = numbered(600, |i| format!("{}a:\n", " ".repeat(i)));
     [
         format!("DATA: {}", many("[")),
         format!("DATA: {}{}", many("["), many("]")),
@@ -130,4 +130,9 @@ pub(crate) fn tables() -> Vec<Vec<u8>> {
     ]
     .map(String::into_bytes)
     .to_vec()
+}
+
+/// So many lines.
+fn numbered(count: usize, line: impl Fn(usize) -> String) -> String {
+    (0..count).map(line).collect::<Vec<_>>().concat()
 }

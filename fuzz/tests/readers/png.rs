@@ -57,10 +57,10 @@ fn checksum(bytes: &[u8]) -> u32 {
     })
 }
 
-fn with_chunk(file: &[u8], name: &[u8; 4], data: &[u8]) -> Vec<u8> {
+fn with_chunk(file: &[u8], name: [u8; 4], data: &[u8]) -> Vec<u8> {
     let (first, rest) = file.split_at(8 + 4 + 4 + 13 + 4);
     let length = (data.len() as u32).to_be_bytes();
-    repaired(&[first, &length, name, data, &[0; 4], rest].concat())
+    repaired(&[first, &length, &name, data, &[0; 4], rest].concat())
 }
 
 fn seeds() -> Vec<Vec<u8>> {
@@ -73,15 +73,15 @@ fn seeds() -> Vec<Vec<u8>> {
         31_270_u32, 32_900, 64_000, 33_000, 30_000, 60_000, 15_000, 6_000,
     ];
     seeds.extend([
-        with_chunk(&plain, b"gAMA", &45_455_u32.to_be_bytes()),
-        with_chunk(&plain, b"sRGB", &[0]),
-        with_chunk(&plain, b"cICP", &[9, 16, 0, 1]),
+        with_chunk(&plain, *b"gAMA", &45_455_u32.to_be_bytes()),
+        with_chunk(&plain, *b"sRGB", &[0]),
+        with_chunk(&plain, *b"cICP", &[9, 16, 0, 1]),
         with_chunk(
             &plain,
-            b"cHRM",
+            *b"cHRM",
             &chromaticities.map(u32::to_be_bytes).concat(),
         ),
-        with_chunk(&plain, b"iCCP", b"name\0\0no profile"),
+        with_chunk(&plain, *b"iCCP", b"name\0\0no profile"),
         plain,
     ]);
     seeds

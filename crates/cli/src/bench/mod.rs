@@ -17,6 +17,10 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 #[derive(clap::Args)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is an option of its own"
+)]
 pub(crate) struct Arguments {
     /// The scenes to render; by default soap_bubble, film_wedge and metal_spheres in the folder `scenes` of where it is called; for --variance floating_bubble in place of film_wedge, for --error those of `scenes/bench`
     scenes: Vec<PathBuf>,

@@ -34,9 +34,16 @@ use std::path::PathBuf;
 /// A stack file has `incident` ("air" when absent), `substrate`, and per layer `[[layer]]` with `index` and `thickness_nm`. An index
 /// is whatever a scene's materials accept, a table in place { nm = [...], n = [...], k = [...] } included.
 #[derive(clap::Args)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is an option of its own"
+)]
 pub(crate) struct Arguments {
     /// A stack file, or a stack in one line (with | between its media)
     stack: String,
+    /// Let a stack file name files outside of its folder: only for those that can be trusted
+    #[arg(long)]
+    allow_outside: bool,
     /// Angles of incidence in degrees, 0 to less than 90: a list, or FROM:TO:STEP
     #[arg(long, default_value = "0", value_parser = List::parse, allow_hyphen_values = true)]
     angles: List,
@@ -174,7 +181,12 @@ impl<'a> Film<'a> {
         let angle =
             |&deg: &f64| Angle::from_degrees(deg).map_err(|error| miette!("--angles: {error}"));
         let model = model::model(arguments.model, arguments.path_difference)?;
-        let mut stack = Stack::open(&arguments.stack)?.with_model(model);
+        let open = if arguments.allow_outside {
+            Stack::open_trusted
+        } else {
+            Stack::open
+        };
+        let mut stack = open(&arguments.stack)?.with_model(model);
         if arguments.clamp {
             stack = stack.clamped(arguments.used_nm());
         }

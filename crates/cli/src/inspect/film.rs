@@ -73,7 +73,12 @@ impl Films {
         let angle = Angle::from_degrees(asked.angle.unwrap_or(0.0))
             .map_err(|error| miette!("--angle: {error}"))?;
         let lamps = lamps(asked, &inspection.image)?;
-        let stack = Stack::open(text)?;
+        let open = if asked.allow_outside {
+            Stack::open_trusted
+        } else {
+            Stack::open
+        };
+        let stack = open(text)?;
         print::notes(stack.notes());
         Ok(Self::Stack(Box::new(stack), angle, lamps))
     }
@@ -97,7 +102,8 @@ impl Films {
 
 impl KnownScene {
     fn read(path: &Path, inspection: &Inspection) -> miette::Result<Self> {
-        let mut file = SceneFile::read(path)?;
+        let allow_outside = inspection.arguments.film.allow_outside;
+        let mut file = SceneFile::read(path)?.allow_outside(allow_outside);
         let image = &inspection.image;
         let render = &mut file.description.render;
         render.size = [image.width(), image.height()];

@@ -48,6 +48,9 @@ struct FilmArguments {
     /// The scene that the image was rendered from: which film each pixel shows, at which angle, in which lamps
     #[arg(long, value_name = "FILE", conflicts_with_all = ["film", "angle", "lamp"])]
     scene: Option<PathBuf>,
+    /// Let the scene or stack name files outside of its folder: only for those that can be trusted
+    #[arg(long)]
+    allow_outside: bool,
     /// The film that the pixels show: a stack file, or a stack in one line such as "1 | water 300nm | 1"
     #[arg(long, value_name = "STACK")]
     film: Option<String>,

@@ -40,7 +40,7 @@ pub(super) enum Node<'a> {
 /// How deep groups may stand in groups.
 const MAX_DEPTH: usize = 16;
 
-impl<'a> Piece<'a> {
+impl Piece<'_> {
     /// Where it stands in the line; an empty one is shown by the sign behind it.
     pub(super) fn bytes(&self) -> Range<usize> {
         self.at..self.at + self.text.len().max(1)
@@ -355,7 +355,7 @@ fn undefined_letters(text: &str, known: &[&str]) -> Option<Vec<char>> {
 }
 
 /// The number before a name, 1 where there is none, and the name.
-fn factor<'a>(word: Piece<'a>) -> Result<(f64, Piece<'a>), Misplaced> {
+fn factor(word: Piece<'_>) -> Result<(f64, Piece<'_>), Misplaced> {
     let is_of_number = |c: char| c.is_ascii_digit() || c == '.';
     let digits = word.text.len() - word.text.trim_start_matches(is_of_number).len();
     let (number, name) = (word.sub(0..digits), word.sub(digits..word.text.len()));
@@ -372,10 +372,10 @@ fn factor<'a>(word: Piece<'a>) -> Result<(f64, Piece<'a>), Misplaced> {
 }
 
 /// Definitions of one letter side by side; `None` where one of them is not defined.
-fn letters<'a>(
-    word: Piece<'a>,
+fn letters(
+    word: Piece<'_>,
     by_name: impl Fn(&str) -> Option<usize>,
-) -> Result<Option<Vec<Node<'a>>>, Misplaced> {
+) -> Result<Option<Vec<Node<'_>>>, Misplaced> {
     let mut nodes = Vec::new();
     let mut rest = word;
     while !rest.text.is_empty() {

@@ -10,8 +10,8 @@ struct Tagged {
 }
 
 impl Tagged {
-    fn with(mut self, name: &[u8; 4], data: &[u8]) -> Self {
-        self.chunks.push((*name, data.to_vec()));
+    fn with(mut self, name: [u8; 4], data: &[u8]) -> Self {
+        self.chunks.push((name, data.to_vec()));
         self
     }
 
@@ -56,12 +56,12 @@ impl Tagged {
     }
 }
 
-fn tagged(name: &[u8; 4], data: &[u8]) -> Tagged {
+fn tagged(name: [u8; 4], data: &[u8]) -> Tagged {
     Tagged::default().with(name, data)
 }
 
 fn cicp(points: [u8; 4]) -> Tagged {
-    tagged(b"cICP", &points)
+    tagged(*b"cICP", &points)
 }
 
 /// Numbers of `gAMA` and `cHRM` in units of 1e-5.
@@ -115,8 +115,8 @@ fn assert_columns(colors: &CodeColors, expected: [[f64; 3]; 3], within: f64) {
 fn pictures_in_srgb_are_read_as_such() {
     for picture in [
         Tagged::default(),
-        tagged(b"sRGB", &[0]),
-        tagged(b"sRGB", &[1]).with(b"gAMA", &scaled(&[100_000])),
+        tagged(*b"sRGB", &[0]),
+        tagged(*b"sRGB", &[1]).with(*b"gAMA", &scaled(&[100_000])),
         cicp([1, 13, 0, 1]),
         Tagged::default().profile(&ColorProfile::new_srgb()),
     ] {
@@ -165,7 +165,7 @@ fn code_points_are_honored() {
 fn gamma_and_primaries_are_honored() {
     let code = 20_000_u16;
     let v = f64::from(code) / 65_535.0;
-    let gamma = |gamma: u32| tagged(b"gAMA", &scaled(&[gamma]));
+    let gamma = |gamma: u32| tagged(*b"gAMA", &scaled(&[gamma]));
     assert_near(
         gamma(100_000).colors().linear_srgb([code; 3]),
         [v; 3],
@@ -180,16 +180,16 @@ fn gamma_and_primaries_are_honored() {
         colors.notes()
     );
 
-    let adobe = gamma(45_470).with(b"cHRM", &scaled(&ADOBE));
+    let adobe = gamma(45_470).with(*b"cHRM", &scaled(&ADOBE));
     assert_columns(&adobe.colors(), ADOBE_TO_SRGB, 1e-4);
-    let alone = tagged(b"cHRM", &scaled(&ADOBE)).colors();
+    let alone = tagged(*b"cHRM", &scaled(&ADOBE)).colors();
     assert_columns(&alone, ADOBE_TO_SRGB, 1e-4);
     let linear = alone.linear_srgb([code; 3]);
     assert_near(linear, [srgb::decode(v); 3], 1e-12);
     // Primaries of sRGB about another white: white is white.
     let mut warm = ADOBE;
     warm[..2].copy_from_slice(&[34_567, 35_850]);
-    let colors = tagged(b"cHRM", &scaled(&warm)).colors();
+    let colors = tagged(*b"cHRM", &scaled(&warm)).colors();
     assert_near(colors.linear_srgb([u16::MAX; 3]), [1.0; 3], 1e-12);
 }
 
@@ -284,7 +284,7 @@ fn profiles_that_cannot_be_used_are_told() {
             icc: Some(profile.unwrap()),
             ..Tagged::default()
         };
-        let colors = picture.with(b"gAMA", &scaled(&[100_000])).colors();
+        let colors = picture.with(*b"gAMA", &scaled(&[100_000])).colors();
         let notes = colors.notes();
         assert!(notes[0].contains(problem), "{notes:?}");
         // What comes next counts.
@@ -300,14 +300,14 @@ fn the_first_that_is_said_counts() {
     let fifth = [u16::MAX / 5; 3];
     let all = cicp([1, 8, 0, 1])
         .profile(&ColorProfile::new_display_p3())
-        .with(b"gAMA", &scaled(&[45_455]))
-        .with(b"cHRM", &scaled(&ADOBE));
+        .with(*b"gAMA", &scaled(&[45_455]))
+        .with(*b"cHRM", &scaled(&ADOBE));
     assert_near(all.colors().linear_srgb(fifth), [0.2; 3], 1e-12);
     let profile = Tagged::default().profile(&ColorProfile::new_display_p3());
-    let two = profile.with(b"gAMA", &gamma).colors();
+    let two = profile.with(*b"gAMA", &gamma).colors();
     assert_columns(&two, P3, 1e-3);
     assert_near(two.linear_srgb(fifth), [srgb::decode(0.2); 3], 1e-3);
-    let open = cicp([2, 8, 0, 1]).with(b"gAMA", &gamma).colors();
+    let open = cicp([2, 8, 0, 1]).with(*b"gAMA", &gamma).colors();
     assert_near(open.linear_srgb(fifth), [0.2; 3], 1e-12);
     assert!(
         open.notes()[0].contains("leaves open"),
@@ -317,7 +317,7 @@ fn the_first_that_is_said_counts() {
     // What comes after the pixels does not count.
     let mut late = Tagged::default().file();
     let end = late.split_off(late.len() - 12);
-    let whole = tagged(b"gAMA", &gamma).file();
+    let whole = tagged(*b"gAMA", &gamma).file();
     let at = whole.windows(4).position(|name| name == b"gAMA").unwrap();
     late.extend_from_slice(&whole[at - 4..at + 12]);
     late.extend(end);
@@ -334,13 +334,16 @@ fn what_cannot_be_honored_is_refused() {
         (cicp([1, 13, 0, 7]), "its cICP chunk is damaged"),
         (cicp([77, 13, 0, 1]), "primaries 77"),
         (cicp([1, 9, 0, 1]), "transfer function 9"),
-        (tagged(b"cICP", &[1]), "its cICP chunk is damaged"),
-        (tagged(b"gAMA", &scaled(&[0])), "its gAMA chunk is damaged"),
-        (tagged(b"gAMA", &scaled(&[1])), "says 0.00001"),
-        (tagged(b"gAMA", &scaled(&[u32::MAX])), "from 0.1 to 10"),
-        (tagged(b"cHRM", &scaled(&[31_270; 8])), "no three primaries"),
-        (tagged(b"cHRM", &scaled(&[0; 8])), "no three primaries"),
-        (tagged(b"cHRM", &[1, 2, 3]), "its cHRM chunk is damaged"),
+        (tagged(*b"cICP", &[1]), "its cICP chunk is damaged"),
+        (tagged(*b"gAMA", &scaled(&[0])), "its gAMA chunk is damaged"),
+        (tagged(*b"gAMA", &scaled(&[1])), "says 0.00001"),
+        (tagged(*b"gAMA", &scaled(&[u32::MAX])), "from 0.1 to 10"),
+        (
+            tagged(*b"cHRM", &scaled(&[31_270; 8])),
+            "no three primaries",
+        ),
+        (tagged(*b"cHRM", &scaled(&[0; 8])), "no three primaries"),
+        (tagged(*b"cHRM", &[1, 2, 3]), "its cHRM chunk is damaged"),
     ] {
         let said = picture.refusal();
         assert!(said.contains(problem), "{said:?} lacks {problem:?}");
@@ -353,8 +356,8 @@ fn what_cannot_be_honored_is_refused() {
 fn damage_is_never_a_panic() {
     let whole = Tagged::default()
         .profile(&ColorProfile::new_srgb())
-        .with(b"gAMA", &scaled(&[45_455]))
-        .with(b"cHRM", &scaled(&ADOBE))
+        .with(*b"gAMA", &scaled(&[45_455]))
+        .with(*b"cHRM", &scaled(&ADOBE))
         .file();
     assert!(CodeColors::of_png(&whole).is_ok());
     for length in 0..whole.len() {

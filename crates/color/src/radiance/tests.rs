@@ -160,6 +160,9 @@ fn exposures_and_corrections_are_divided_by() {
     );
     let tiny = ["#?RADIANCE", "EXPOSURE=1e-200", "EXPOSURE=1e-200"];
     assert!(said(&file(&tiny, "-Y 1 +X 1", &[8, 8, 8, ONE])).contains("multiply to"));
+    let small = ["#?RADIANCE", "EXPOSURE=1e-300"];
+    let bright = file(&small, "-Y 1 +X 1", &[200, 8, 8, 200]);
+    assert!(said(&bright).contains("scanline 1 is larger"));
     for (line, problem) in [
         (
             "EXPOSURE=two",
@@ -248,7 +251,11 @@ fn what_is_no_picture_is_one_error() {
             "there is no empty line",
         ),
         (
-            b"#?x\n".iter().chain(&[b'a'; 70_000]).copied().collect(),
+            b"#?x\n"
+                .iter()
+                .chain(&vec![b'a'; 70_000])
+                .copied()
+                .collect(),
             "there is no empty line",
         ),
         (

@@ -87,7 +87,7 @@ pub(super) struct Bands {
     pub(super) used: std::ops::Range<usize>,
     /// How those make the grid's bands; `None` where they are the grid's bands.
     pub(super) shares: Option<Shares>,
-    /// The ends of the bands where [`Bands::to_the_ends`] went on beyond them, nm.
+    /// The ends of the bands where [`Bands::reaching_the_ends`] went on beyond them, nm.
     pub(super) ends_nm: Option<(f64, f64)>,
 }
 
@@ -160,7 +160,7 @@ const MOST_PARTS: u32 = 8;
 impl Bands {
     /// Bands that go from one end of [`SEEN_NM`] to the other, as reflectances need them to be seen under lamps: where the file's
     /// end before, the last one goes on; what lies beyond is left out. Bands are split where that takes them nearer.
-    pub(super) fn to_the_ends(self) -> Result<Self, BandLayoutError> {
+    pub(super) fn reaching_the_ends(self) -> Result<Self, BandLayoutError> {
         let (low, high) = SEEN_NM;
         let (count, width_nm) = (f64::from(self.grid.count()), self.grid.width_nm());
         let lattice = |parts: u32| {
@@ -385,7 +385,7 @@ mod tests {
             let nm: Vec<f64> = (0..count).map(|i| from + step * f64::from(i)).collect();
             let found = Bands::new(&centres(&nm), None).unwrap();
             let places = found.used.len() - 1;
-            let found = found.to_the_ends().unwrap();
+            let found = found.reaching_the_ends().unwrap();
             let (low, high, bands) = grid;
             assert!((found.grid.min_nm() - low).abs() < 1e-9, "{found:?}");
             assert!((found.grid.max_nm() - high).abs() < 1e-9, "{found:?}");
@@ -399,7 +399,7 @@ mod tests {
         }
         let whole: Vec<f64> = (0..40).map(|i| 385.0 + 10.0 * f64::from(i)).collect();
         let whole = Bands::new(&centres(&whole), None).unwrap();
-        assert_eq!(whole.clone().to_the_ends().unwrap(), whole);
+        assert_eq!(whole.clone().reaching_the_ends().unwrap(), whole);
     }
 
     #[test]

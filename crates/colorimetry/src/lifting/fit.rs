@@ -98,6 +98,10 @@ struct Sums<'a> {
 impl WithSimd for Sums<'_> {
     type Output = [f64; 12];
 
+    #[expect(
+        clippy::inline_always,
+        reason = "vectors are only fast where it is inlined into the code for them"
+    )]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> [f64; 12] {
         let [c0, c1, c2] = self.coefficients.map(|c| simd.splat_f64s(c));

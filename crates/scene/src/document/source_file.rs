@@ -30,9 +30,10 @@ impl SourceFile {
         path: &Path,
         needs: &str,
     ) -> Result<(T, Self), Problems> {
-        let name = match path.as_os_str() == STANDARD_INPUT {
-            true => "<standard input>".to_owned(),
-            false => path.display().to_string(),
+        let name = if path.as_os_str() == STANDARD_INPUT {
+            "<standard input>".to_owned()
+        } else {
+            path.display().to_string()
         };
         let text = read_text(path).map_err(|error| {
             let problem = Problem::new(ProblemKind::File, &FieldPath::root(), error.to_string());
@@ -158,7 +159,7 @@ impl SourceFile {
             let location = Location::new(&self.text, tree.bytes_of(&problem.field));
             let written = self.text.get(location.bytes.clone());
             problem
-                .as_written(written.unwrap_or_default())
+                .with_written(written.unwrap_or_default())
                 .located(location)
         };
         problems.into_iter().map(place).collect()

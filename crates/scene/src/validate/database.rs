@@ -100,14 +100,14 @@ impl Reading<'_> {
     fn block(&mut self, block: &Block) -> Option<[Option<Spectrum>; 2]> {
         Some(match &block.data {
             Data::N(rows) => {
-                let [n] = self.table(rows, [N])?;
+                let [n] = self.table(rows, &[N])?;
                 [Some(n), None]
             }
             Data::K(rows) => {
-                let [k] = self.table(rows, [K])?;
+                let [k] = self.table(rows, &[K])?;
                 [None, Some(k)]
             }
-            Data::Nk(rows) => self.table(rows, [N, K])?.map(Some),
+            Data::Nk(rows) => self.table(rows, &[N, K])?.map(Some),
             Data::Formula(formula) => [Some(self.formula(block.line, formula)?), None],
             Data::N2 => [None, None],
         })
@@ -116,7 +116,7 @@ impl Reading<'_> {
     fn table<const C: usize>(
         &mut self,
         rows: &[Row<C>],
-        columns: [Quantity; C],
+        columns: &[Quantity; C],
     ) -> Option<[Spectrum; C]> {
         if rows.len() > MAX_TABLE_POINTS {
             let count = rows.len();
@@ -147,15 +147,14 @@ impl Reading<'_> {
     }
 
     fn formula(&mut self, line: usize, written: &DispersionFormula) -> Option<Spectrum> {
-        match formula::without_gaps(written, line) {
-            Some(formula) => Some(Spectrum::Formula(formula)),
-            None => {
-                let (low, high) = written.range_nm();
-                let complaint = format!(
-                    "line {line}: the formula gives no index from {INDEX_N} at any wavelength from {low} to {high} nm"
-                );
-                self.refuse(ProblemKind::OutOfRange, &complaint)
-            }
+        if let Some(formula) = formula::without_gaps(written, line) {
+            Some(Spectrum::Formula(formula))
+        } else {
+            let (low, high) = written.range_nm();
+            let complaint = format!(
+                "line {line}: the formula gives no index from {INDEX_N} at any wavelength from {low} to {high} nm"
+            );
+            self.refuse(ProblemKind::OutOfRange, &complaint)
         }
     }
 }

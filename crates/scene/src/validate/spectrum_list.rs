@@ -161,7 +161,7 @@ impl SpectrumList {
         written: &description::Emission,
         radiator: Radiator,
     ) -> Option<Emission> {
-        let spectrum = self.emission_spectrum(checks, field, &written.spectrum);
+        let spectrum = emission_spectrum(checks, field, &written.spectrum);
         let name = lamp_name(&written.spectrum);
         self.emission_of(
             checks,
@@ -210,48 +210,6 @@ impl SpectrumList {
         self.pair(&n, &k)
     }
 
-    fn emission_spectrum(
-        &self,
-        checks: &mut Checks,
-        field: &FieldPath,
-        written: &EmissionSpectrum,
-    ) -> Option<Spectrum> {
-        match written {
-            EmissionSpectrum::Constant { constant } => {
-                let constant = checks.number(&field.key("constant"), *constant, &limits::EMISSION);
-                constant.map(Spectrum::Constant)
-            }
-            EmissionSpectrum::Illuminant {
-                illuminant,
-                extrapolate,
-            } => named_illuminant(checks, &field.key("illuminant"), illuminant, *extrapolate),
-            EmissionSpectrum::Table {
-                nm,
-                values,
-                extrapolate,
-            } => {
-                let columns = [(EMISSION, values.as_slice())];
-                let [spectrum] = points::inline(checks, field, nm, columns, *extrapolate)?;
-                Some(spectrum)
-            }
-            EmissionSpectrum::File {
-                csv,
-                column,
-                unit,
-                extrapolate,
-            } => {
-                let table = FileTable {
-                    path: &checks.path(&field.key("csv"), csv)?,
-                    columns: points::chosen(column.as_ref()),
-                    unit: unit.as_deref(),
-                    extrapolate: *extrapolate,
-                };
-                let [spectrum] = points::file(checks, field, table, [EMISSION])?;
-                Some(spectrum)
-            }
-        }
-    }
-
     fn resampled(
         &self,
         checks: &mut Checks,
@@ -265,12 +223,11 @@ impl SpectrumList {
             Err(error) => error,
         };
         let bands = format!("the bands cover {} to {} nm", grid.min_nm(), grid.max_nm());
-        let message = match &error.fault {
-            Some(fault) => format!("{fault}, and {bands}"),
-            None => {
-                let (low, high) = (error.min_nm, error.max_nm);
-                format!("the data cover {low} to {high} nm, but {bands}")
-            }
+        let message = if let Some(fault) = &error.fault {
+            format!("{fault}, and {bands}")
+        } else {
+            let (low, high) = (error.min_nm, error.max_nm);
+            format!("the data cover {low} to {high} nm, but {bands}")
         };
         let mut problem = Problem::new(ProblemKind::Inconsistent, field, message)
             .involving(FieldPath::root().key("render").key("wavelengths_nm"));
@@ -484,4 +441,46 @@ fn kept_within(table: &BandTable, range: limits::Range) -> BandTable {
 fn bits(table: &BandTable) -> Vec<u64> {
     let rows = (0..=table.steps()).flat_map(|step| table.row(step));
     rows.map(|value| value.to_bits()).collect()
+}
+
+/// What an emission's spectrum is at scale 1.
+fn emission_spectrum(
+    checks: &mut Checks,
+    field: &FieldPath,
+    written: &EmissionSpectrum,
+) -> Option<Spectrum> {
+    match written {
+        EmissionSpectrum::Constant { constant } => {
+            let constant = checks.number(&field.key("constant"), *constant, &limits::EMISSION);
+            constant.map(Spectrum::Constant)
+        }
+        EmissionSpectrum::Illuminant {
+            illuminant,
+            extrapolate,
+        } => named_illuminant(checks, &field.key("illuminant"), illuminant, *extrapolate),
+        EmissionSpectrum::Table {
+            nm,
+            values,
+            extrapolate,
+        } => {
+            let columns = [(EMISSION, values.as_slice())];
+            let [spectrum] = points::inline(checks, field, nm, columns, *extrapolate)?;
+            Some(spectrum)
+        }
+        EmissionSpectrum::File {
+            csv,
+            column,
+            unit,
+            extrapolate,
+        } => {
+            let table = FileTable {
+                path: &checks.path(&field.key("csv"), csv)?,
+                columns: points::chosen(column.as_ref()),
+                unit: unit.as_deref(),
+                extrapolate: *extrapolate,
+            };
+            let [spectrum] = points::file(checks, field, table, [EMISSION])?;
+            Some(spectrum)
+        }
+    }
 }

@@ -82,10 +82,10 @@ impl Pixels {
                     self.plan.scale,
                 );
             }
-            if channel == last {
-                if let Some(run) = self.plan.window.place((position.x(), y), size.width()) {
-                    self.put(&row, run);
-                }
+            if channel == last
+                && let Some(run) = self.plan.window.place((position.x(), y), size.width())
+            {
+                self.put(&row, run);
             }
         }
         Some(())

@@ -63,7 +63,7 @@ impl Plan {
         let is_reflectance = spectrum.quantity == Quantity::Reflectance;
         let bands = Bands::new(&places, range_nm(header));
         let bands = if is_reflectance {
-            bands.and_then(Bands::to_the_ends)
+            bands.and_then(Bands::reaching_the_ends)
         } else {
             bands
         };
