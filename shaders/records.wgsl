@@ -83,7 +83,7 @@ struct Emitter {
     edge_height: f32,
     /// The row of its node in the tree of emitters.
     node: u32,
-    /// The row of a picture of the surroundings among the records: a Panorama. NONE where it is no picture.
+    /// The row of a picture of the surroundings among the records: a `Panorama`. NONE where it is no picture.
     picture: u32,
 }
 const EMITTER_ROWS: u32 = 6u;
