@@ -13,8 +13,15 @@ fn reflected_part(material: u32, cosine: f32) -> f32 {
 /// faintly may be bright all the same.
 const LEAST_SHARE: f32 = 0.25;
 
-/// Share of the paths that follow the reflection of a film. It steers noise only: the weight undoes it.
+/// A part of the light that is a rounding of none.
+const NOTHING: f32 = 1e-9;
+
+/// Share of the paths that follow the reflection of a film. It steers noise only: the weight undoes it. Nothing is drawn for a reflection
+/// that there is none of.
 fn reflected_share(reflected: f32) -> f32 {
+    if (reflected <= NOTHING) {
+        return 0.0;
+    }
     return clamp(reflected, LEAST_SHARE, 1.0 - LEAST_SHARE);
 }
 

@@ -256,11 +256,19 @@ fn tables_that_cannot_be_used_say_why() {
         &["line 2", "reflectance 1.01", "from 0 to 1"],
     );
     refused("380,-0.1\n780,0\n", "", &["line 1", "reflectance -0.1"]);
-    refused("380,nan\n780,0\n", "", &["line 1", "NaN"]);
+    refused("380,nan\n780,0\n", "", &["line 1", "nan"]);
     refused("380,-1\n780,0\n", "--emission", &["line 1", "power -1"]);
     refused("380,0\n780,0\n", "--emission", &["must shine"]);
-    refused("780,0\n380,0\n", "", &["line 2", "must rise"]);
-    refused("nm,r,g\n380,0,0\n", "", &["3 columns, expected 2"]);
+    refused(
+        "780,0\n380,0\n500,1\n",
+        "",
+        &["line 3", "500 after 380", "rise or fall throughout"],
+    );
+    refused(
+        "nm,r,g\n380,0,0\n",
+        "",
+        &["3 columns, expected 2", "2 \"r\", 3 \"g\"", "--column"],
+    );
     refused("", "", &["no points"]);
     refused(
         "400,0.5\n780,0.5\n",
@@ -403,7 +411,7 @@ fn film(place: &Place, stack: &str, arguments: &str) -> Ran {
 #[test]
 fn film_and_color_agree_for_any_lamp_and_observer() {
     let place = Place::default();
-    let stack = "1 | silica 300nm | silicon";
+    let stack = "1 | 2 120nm | 1.5";
     std::fs::write(place.path("stack.csv"), reflectance(stack, 0.0)).unwrap();
     std::fs::write(
         place.path("lamp.csv"),
@@ -417,6 +425,12 @@ fn film_and_color_agree_for_any_lamp_and_observer() {
         "--illuminant LED-RGB1 --observer 2015_10",
         "--illuminant lamp.csv",
     ] {
+        // A reflectance in a file is summed at the 5 nm of a lamp with lines, a film integrated between them.
+        let allowed = if options.ends_with("FL11") {
+            0.01
+        } else {
+            1e-9
+        };
         let color = json(&place, &format!("color stack.csv {options}"));
         let ran = film(&place, stack, &format!("{options} --format json")).succeeded();
         let film: Value = serde_json::from_str(&ran.stdout).unwrap();
@@ -426,7 +440,7 @@ fn film_and_color_agree_for_any_lamp_and_observer() {
             .zip(floats(&color["xyz"]))
         {
             assert!(
-                (100.0 * one - hundred).abs() < 1e-9,
+                (100.0 * one - hundred).abs() < allowed,
                 "{options}: {one} {hundred}"
             );
         }

@@ -51,7 +51,7 @@ fn two_beams_are_those_of_scenes() {
         let scene = format!(
             r#"
             camera = {{ type = "orthographic", position = [0, 0, 2], look_at = [0, 0, 0], height = 0.1 }}
-            environment = {{ type = "constant", emission = 1 }}
+            environment = {{ type = "constant", emission = {{ constant = 1 }} }}
             objects = [
                 {{ type = "rectangle", material = "film", center = [0, 0, 0], normal = [0, 0, 1], size = [4, 4] }},
                 {{ type = "rectangle", material = "black", center = [0, 0, -1], normal = [0, 0, 1], size = [40, 40] }},
@@ -118,7 +118,7 @@ fn what_two_beams_are_not_for_is_refused() {
     for (stack, arguments, said) in [
         ("1 | 1.5 1nm | 1.4 1nm | 1", two, "has 2 layers"),
         ("1 | 1.5+0.1i 1nm | 1", two, "1.5+0.1i"),
-        ("1 | 1.5 1nm | silicon", two, "behind it 5."),
+        ("1 | 1.5 1nm | silicon", two, "behind it 6.6"),
         (
             "1 | 1.5 1nm | 1",
             "--model two_beam --absorptance",

@@ -297,11 +297,24 @@ fn read(arguments: &Arguments) -> miette::Result<Spectrum> {
     print::notes(table.note.map(|note| format!("{file}: {note}")));
     let [table] = table.columns;
     let spectrum = Spectrum::Table(table);
-    Ok(if arguments.clamp {
-        spectrum.clamped()
-    } else {
-        spectrum
-    })
+    if !arguments.clamp {
+        return Ok(spectrum);
+    }
+    if let Spectrum::Table(table) = &spectrum {
+        let (from_nm, to_nm) = table.range_nm();
+        if from_nm >= 780.0 || to_nm <= 380.0 {
+            return Err(miette!(
+                help = "are its wavelengths in another unit? --unit names it",
+                "{file}: its data, {from_nm} to {to_nm} nm, have nothing in common with 380 to 780 nm"
+            ));
+        }
+        if from_nm > 380.0 || to_nm < 780.0 {
+            print::notes([format!(
+                "{file}: its data cover {from_nm} to {to_nm} nm; beyond, they go on with their end values"
+            )]);
+        }
+    }
+    Ok(spectrum.clamped())
 }
 
 /// What is said of the file.

@@ -6,8 +6,10 @@ use pellicle::color::compare::Picture;
 use pellicle::color::spectral_exr::{self, Metadata};
 use pellicle::scene::limits;
 use pellicle::spectra::SpectralImage;
+use pellicle::spectra::text_file::STANDARD_INPUT;
 use std::ffi::OsStr;
 use std::path::Path;
+use tempfile::NamedTempFile;
 
 /// A spectral image or a picture.
 pub(crate) enum Opened {
@@ -25,6 +27,10 @@ impl Opened {
                 let (image, metadata) = spectral(path)?;
                 Ok(Self::Spectral(Box::new(image), metadata))
             }
+            _ if path == Path::new(STANDARD_INPUT) => {
+                let (image, metadata) = spectral(path)?;
+                Ok(Self::Spectral(Box::new(image), metadata))
+            }
             _ => Err(miette!(
                 help = "give a spectral image (.exr) or a picture (.png)",
                 "{}: a file with this ending cannot be read",
@@ -34,9 +40,23 @@ impl Opened {
     }
 }
 
+/// Standard input as a file, where it is asked for: an OpenEXR file is not read from its start to its end.
+fn spooled(path: &Path) -> miette::Result<Option<NamedTempFile>> {
+    if path != Path::new(STANDARD_INPUT) {
+        return Ok(None);
+    }
+    let mut file = NamedTempFile::new().into_diagnostic()?;
+    std::io::copy(&mut std::io::stdin().lock(), &mut file)
+        .into_diagnostic()
+        .wrap_err("standard input was not read")?;
+    Ok(Some(file))
+}
+
 /// Reads a spectral image, and says what that had to assume or change.
 pub(crate) fn spectral(path: &Path) -> miette::Result<(SpectralImage, Metadata)> {
-    let (image, metadata) = spectral_exr::read(path)
+    let spooled = spooled(path)?;
+    let file = spooled.as_ref().map_or(path, |spooled| spooled.path());
+    let (image, metadata) = spectral_exr::read(file)
         .into_diagnostic()
         .wrap_err_with(|| format!("{} was not read", path.display()))?;
     tell(path, &metadata);

@@ -156,13 +156,19 @@ fn folder_of(path: &Path) -> &Path {
 }
 
 /// Whether a name is that of a pipe or a device.
-fn is_stream(path: &Path) -> bool {
+pub(crate) fn is_stream(path: &Path) -> bool {
     matches!(Destination::of(path), Ok(Destination::Stream(_)))
 }
 
 /// A place that cannot be written to is told before the work, not after it. `option` is what asked for it, `read` the file that
 /// must not be written over.
 pub(crate) fn check_place(option: &str, path: &Path, read: &Path) -> miette::Result<()> {
+    if path == Path::new("-") {
+        return Err(miette!(
+            help = "./- is a file of this name",
+            "{option} -: the kind of file is not told by this name"
+        ));
+    }
     if path.is_dir() {
         return Err(miette!("{option} {}: this is a folder", path.display()));
     }

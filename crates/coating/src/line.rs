@@ -21,6 +21,7 @@ use scene::description::{Extrapolate, Index};
 use scene::{Folder, Snippet};
 use spectra::wording::{shortened, visible};
 use std::collections::HashMap;
+use std::ffi::OsStr;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -285,6 +286,9 @@ fn index(text: &str) -> Result<Index, Fault> {
         // 1.5-0i is transparent, and +0 makes its k a 0 without a sign.
         return Ok(Index::Complex([n, k + 0.0]));
     }
+    if let Some(file) = file_index(text) {
+        return Ok(file);
+    }
     if text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
         return Err(Fault::new(
             format!("{text:?} is not an index"),
@@ -292,23 +296,26 @@ fn index(text: &str) -> Result<Index, Fault> {
              has its unit behind it",
         ));
     }
-    let ending = Path::new(text)
-        .extension()
-        .and_then(|ending| ending.to_str());
-    let (path, extrapolate) = (text.into(), Extrapolate::Error);
-    Ok(match ending {
-        Some("csv") => Index::File {
-            csv: path,
+    Ok(Index::Name(text.to_owned()))
+}
+
+/// A file of the database by its ending, a table by its ending or because it is there.
+fn file_index(text: &str) -> Option<Index> {
+    let (path, extrapolate) = (Path::new(text), Extrapolate::Error);
+    let ending = path.extension().map(OsStr::to_ascii_lowercase);
+    match ending.as_deref().and_then(OsStr::to_str) {
+        Some("yml" | "yaml") => Some(Index::Database {
+            yaml: path.to_owned(),
+            extrapolate,
+        }),
+        Some(ending) if ending == "csv" || path.is_file() => Some(Index::File {
+            csv: path.to_owned(),
             column: None,
             unit: None,
             extrapolate,
-        },
-        Some("yml" | "yaml") => Index::Database {
-            yaml: path,
-            extrapolate,
-        },
-        _ => Index::Name(text.to_owned()),
-    })
+        }),
+        _ => None,
+    }
 }
 
 /// `1.5+0.1i`, with or without blanks; the last sign that is not an exponent's parts n from k.

@@ -4,12 +4,18 @@
 /// faintly may be bright all the same.
 const LEAST_SHARE: f64 = 0.25;
 
+/// A part of the light that is a rounding of none.
+const NOTHING: f64 = 1e-9;
+
 /// The least chance that a path has to go on at Russian roulette, which bounds its weight.
 const LEAST_CHANCE: f64 = 0.05;
 
 /// Share of the paths that follow the reflection of a film of which about the part `reflected` is reflected. It steers noise only:
-/// the weight undoes it.
+/// the weight undoes it. Nothing is drawn for a reflection that there is none of.
 pub fn reflected_share(reflected: f64) -> f64 {
+    if reflected <= NOTHING {
+        return 0.0;
+    }
     reflected.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE)
 }
 

@@ -255,7 +255,7 @@ fn values_out_of_range_are_told_where_they_stand() {
             "{ steps = { values = [1, nan], from = [0, 0, 0], to = [1, 0, 0] } }",
             41,
             ".steps.values[1]",
-            &["found NaN"],
+            &["found nan"],
         ),
         (
             "{ drainage = { initial = 500, radius_m = 0 } }",

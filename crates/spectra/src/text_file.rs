@@ -35,9 +35,17 @@ pub enum TextFileError {
         most: u64,
     },
     /// It is not UTF-8.
-    #[error("is not text: line {line} is not UTF-8")]
+    #[error("is not text: line {line} is not UTF-8, which texts are to be saved as")]
     NotText {
         /// The first line that is not, from 1.
+        line: usize,
+    },
+    /// It has a byte that no text has.
+    #[error(
+        "is not text: line {line} has a byte 0; UTF-16 is read where the file starts with its mark"
+    )]
+    Nul {
+        /// Line, from 1.
         line: usize,
     },
     /// It starts as UTF-16 and is not.
@@ -62,13 +70,25 @@ pub fn read_text(path: &Path) -> Result<String, TextFileError> {
     match bytes.as_slice() {
         [0xff, 0xfe, rest @ ..] => utf_16(rest, u16::from_le_bytes),
         [0xfe, 0xff, rest @ ..] => utf_16(rest, u16::from_be_bytes),
+        _ if bytes.contains(&0) => Err(TextFileError::Nul {
+            line: line_of(&bytes, bytes.iter().position(|&byte| byte == 0)),
+        }),
         _ => String::from_utf8(bytes).map_err(|error| {
-            let sound = error.as_bytes().get(..error.utf8_error().valid_up_to());
+            let sound = error.utf8_error().valid_up_to();
             TextFileError::NotText {
-                line: sound.unwrap_or_default().split(|&b| b == b'\n').count(),
+                line: line_of(error.as_bytes(), Some(sound)),
             }
         }),
     }
+}
+
+/// The line, from 1, that a place lies in.
+fn line_of(bytes: &[u8], place: Option<usize>) -> usize {
+    let before = place.and_then(|place| bytes.get(..place));
+    before
+        .unwrap_or_default()
+        .split(|&byte| byte == b'\n')
+        .count()
 }
 
 fn utf_16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Result<String, TextFileError> {
@@ -144,6 +164,7 @@ mod tests {
     fn what_is_no_text_names_the_line() {
         for (bytes, said) in [
             (&b"a\nb\n\xc3("[..], "line 3 is not UTF-8"),
+            (b"a\n1,0.1\x00\n", "line 2 has a byte 0"),
             (b"\xff\xfea\x00\n\x00b", "line 2 is not UTF-16"),
             (b"\xfe\xff\x00a\xd8\x00", "line 1 is not UTF-16"),
         ] {

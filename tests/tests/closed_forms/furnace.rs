@@ -2,7 +2,7 @@
 
 use crate::comparison::{WHITE, pictures, scene};
 use pellicle_tests::device::open;
-use pellicle_tests::tolerances::{FURNACE_ROUGH, PROVING_ERROR, Z_MEAN};
+use pellicle_tests::tolerances::{CLOSED_FORM_EXACT, FURNACE_ROUGH, PROVING_ERROR, Z_MEAN};
 use scene::Scene;
 use spectra::SpectralImage;
 
@@ -116,5 +116,32 @@ fn absorbing_rough_surfaces_are_noticed() {
     for (panel, mean, error) in means(image) {
         let noticed = mean + FURNACE_ROUGH + Z_MEAN * error < 1.0;
         assert!(noticed, "{panel}: {mean} ± {error}");
+    }
+}
+
+/// Of a film without thickness nothing is reflected, and nothing is drawn for it: every pixel is white, whatever the numbers.
+#[test]
+fn a_film_of_no_thickness_is_not_there() {
+    let film =
+        |object: &str| format!("[[objects]]\nmaterial = 'film'\ntype = 'sphere'\n{object}\n");
+    let camera =
+        "[camera]\ntype = 'orthographic'\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nheight = 2\n";
+    for samples in [1, 13] {
+        let seen = scene(&[
+            camera,
+            WHITE,
+            &format!(
+                "[render]\nsize = [16, 16]\nsamples = {samples}\nbands = 4\nmax_path_segments = 32\n"
+            ),
+            "[materials.film]\ntype = 'film'\nindex = 1.33\nthickness_nm = 0\n",
+            &film("center = [0, 0, 0]\nradius = 0.9"),
+            &film("center = [0.1, 0, 0]\nradius = 0.7"),
+            &film("center = [0, 0.1, 0]\nradius = 0.5"),
+        ]);
+        for (who, image) in pictures(&open(), &seen) {
+            let furthest = image.radiance().iter().map(|v| (v - 1.0).abs());
+            let furthest = furthest.fold(0.0, f32::max);
+            assert!(f64::from(furthest) < CLOSED_FORM_EXACT, "{who}: {furthest}");
+        }
     }
 }

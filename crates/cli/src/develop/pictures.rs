@@ -1,6 +1,7 @@
 //! Pictures as files, in the format that their names ask for.
 
 use super::{OfImage, Options};
+use crate::output::is_stream;
 use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::color::develop::{
@@ -33,6 +34,8 @@ impl Options {
                 "{}: a file of this kind has no channels of {bits} bits",
                 path.display()
             )),
+            (None, None | Some(8)) if is_stream(path) => Ok(Format::Png8),
+            (None, Some(16)) if is_stream(path) => Ok(Format::Png16),
             _ => Err(miette!(
                 help = "end it in .png (codes of the display) or .exr (linear red, green and blue)",
                 "-o {}: a picture with this ending cannot be written",

@@ -98,7 +98,7 @@ type = 'constant'
             (
                 "30:14",
                 "objects[1].center[1]",
-                &["found NaN", "-1e6 to 1e6"],
+                &["found nan", "-1e6 to 1e6"],
             ),
             (
                 "31:10",
@@ -171,8 +171,8 @@ fn a_field_of_another_variant_says_where_it_belongs() {
             "materials.x.emission.skale",
             &[
                 "did you mean `scale`?",
-                "either `constant`; or `illuminant` (and `extrapolate`); or `nm`, `values` (and `extrapolate`); or `csv` (and \
-                 `extrapolate`); and with each `illuminance_lux`",
+                "either `constant`; or `illuminant` (and `extrapolate`); or `nm`, `values` (and `extrapolate`); or `csv` (and `column`, \
+                 `extrapolate`, `unit`); and with each `illuminance_lux`",
             ],
         )],
     );

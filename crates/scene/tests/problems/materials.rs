@@ -18,7 +18,7 @@ fn assert_material_problems(cases: &[(String, &str, &str, &[&str])]) {
 fn films_out_of_range_are_told() {
     let film = |rest: &str| format!("type = 'film'\nindex = 1.33\nthickness_nm = {rest}");
     let cases: &[(String, &str, &str, &[&str])] = &[
-        (film("nan"), "9:16", "thickness_nm", &["found NaN"]),
+        (film("nan"), "9:16", "thickness_nm", &["found nan"]),
         (film("100001"), "9:16", "thickness_nm", &["0 to 100000 nm"]),
         (
             film("{ pole = 700, equator = 300 }"),

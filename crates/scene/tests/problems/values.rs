@@ -124,7 +124,7 @@ fn tables_are_checked_point_by_point() {
             "{ nm = [0.5, nan, inf], values = [0, 1, 1], extrapolate = 'claamp' }",
             &[
                 ("8:23", "reflectance.nm[0]", &["found 0.5", "1 to 1e6 nm"]),
-                ("8:28", "reflectance.nm[1]", &["found NaN"]),
+                ("8:28", "reflectance.nm[1]", &["found nan"]),
                 ("8:33", "reflectance.nm[2]", &["found inf"]),
                 (
                     "8:73",

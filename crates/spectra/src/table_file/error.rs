@@ -74,7 +74,7 @@ pub enum TableFileError {
         point: (usize, String),
     },
     /// A value is not in its range.
-    #[error("line {line}: found {noun} {text}; it must be from {} to {}{hint}", range.0, range.1)]
+    #[error("line {line}: found {noun} {text}; it must be from {} to {}{hint}", short(range.0), short(range.1))]
     Value {
         /// Line, from 1.
         line: usize,
@@ -118,7 +118,9 @@ pub enum TableFileError {
         known: String,
     },
     /// There are more columns than needed and none is chosen.
-    #[error("{wrong}; the columns are {known}: choose by `column = …` with a name or number")]
+    #[error(
+        "{wrong}; the columns are {known}: choose by `column = …` (`--column …`) with a name or number"
+    )]
     WhichColumn {
         /// What is not clear.
         wrong: String,
@@ -131,6 +133,17 @@ pub enum TableFileError {
         cell_text(text)
     )]
     Unit {
+        /// Line, from 1.
+        line: usize,
+        /// The cell of the head.
+        text: String,
+    },
+    /// A column holds logarithms of what is needed.
+    #[error(
+        "line {line}: the column {} is the logarithm of a transmittance or reflectance, which is not read; 10^-A is needed",
+        cell_text(text)
+    )]
+    Logarithm {
         /// Line, from 1.
         line: usize,
         /// The cell of the head.
@@ -161,4 +174,13 @@ pub fn cell_text(text: &str) -> String {
         short.push('…');
     }
     format!("{short:?}")
+}
+
+/// A bound as messages show it: large ones as a power of ten.
+fn short(bound: f64) -> String {
+    if bound.abs() >= 1e6 {
+        format!("{bound:e}")
+    } else {
+        bound.to_string()
+    }
 }

@@ -66,7 +66,7 @@ fn unit(series: &Series, options: &Options, notes: &mut Notes) -> Result<Unit, T
             text: first.place_text.to_string(),
             one: format!("{} nm", first.place_text),
             other: format!("{} µm, as all wavelengths are below {SHORTEST_NM}", first.place_text),
-            way_out: "name the unit in the head, as in \"wavelength (um)\", or by `unit = \"um\"` beside `csv`".to_owned(),
+            way_out: "name the unit in the head, as in \"wavelength (um)\", or by `unit = \"um\"` beside `csv` (`--unit um`)".to_owned(),
         });
     }
     Ok(Unit::Nm)
@@ -75,7 +75,11 @@ fn unit(series: &Series, options: &Options, notes: &mut Notes) -> Result<Unit, T
 /// The wavelengths in nm.
 fn wavelengths(points: &[Point], unit: Unit) -> Result<Vec<f64>, TableFileError> {
     let nm = |point: &Point| {
-        let nm = unit.nm(point.place);
+        let nm = match unit {
+            // As many digits as energies are written with do not always lead back to a round wavelength.
+            Unit::Ev => (unit.nm(point.place) * 1e4).round() / 1e4,
+            _ => unit.nm(point.place),
+        };
         if (POSSIBLE_NM.0..=POSSIBLE_NM.1).contains(&nm) {
             return Ok(nm);
         }
@@ -195,7 +199,7 @@ fn out_of_range(point: &Point, scale: f64, quantity: Quantity) -> TableFileError
         },
         range: quantity.range,
         hint: if may_be_percent {
-            "; values in percent need a head that says so, as in \"nm,%R\", or `unit = \"percent\"` beside `csv`"
+            "; values in percent need a head that says so, as in \"nm,%R\", or `unit = \"percent\"` beside `csv` (`--unit percent`)"
         } else {
             ""
         },

@@ -76,6 +76,9 @@ pub(super) fn is_axis(cell: &str) -> bool {
 
 /// The unit of wavelength that a cell names.
 fn unit(cell: &str) -> Option<Unit> {
+    if cell.contains("(A)") || cell.contains("[A]") {
+        return Some(Unit::Angstrom);
+    }
     words(cell).find_map(|word| Unit::from_word(&word))
 }
 
@@ -163,6 +166,29 @@ impl Head {
             return Err(TableFileError::Unit { line, text });
         }
         Ok(None)
+    }
+
+    /// Refuses a column that is named as an absorbance.
+    pub(super) fn check_logarithm(&self, column: usize) -> Result<(), TableFileError> {
+        const NAMES: [&str; 6] = [
+            "absorbance",
+            "abs",
+            "od",
+            "optical density",
+            "extinktion",
+            "log",
+        ];
+        let Some(name) = self.names.get(column) else {
+            return Ok(());
+        };
+        let bare = words(name).collect::<Vec<_>>().join(" ");
+        if NAMES.iter().any(|known| {
+            bare.starts_with(known) && !bare[known.len()..].starts_with(char::is_alphanumeric)
+        }) {
+            let (line, text) = (self.line, name.clone());
+            return Err(TableFileError::Logarithm { line, text });
+        }
+        Ok(())
     }
 
     /// Whether the head says that a column is in percent.

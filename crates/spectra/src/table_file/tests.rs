@@ -524,13 +524,22 @@ fn faults_name_their_line() {
             "line 2: found reflectance 1.10; it must be from 0 to 1",
         ),
         ("400,-0.1\n", "line 1: found reflectance -0.1;"),
+        (
+            "nm,Absorbance\n400,0.5\n",
+            "the column \"Absorbance\" is the logarithm",
+        ),
+        ("nm,OD\n400,0.5\n", "the column \"OD\" is the logarithm"),
+        (
+            "XAxis mode: Wavenumbers\n>>>>>Begin Spectral Data<<<<<\n400\t0.5\n500\t0.5\n",
+            "names no wavelength",
+        ),
         ("400,nan\n", "line 1: \"nan\" is not a number"),
         ("400,0.5\n410,NaN\n", "line 2: \"NaN\" is not a number"),
         ("400,inf\n410,0.5\n", "line 1: \"inf\" is not a number"),
         ("400,1e400\n410,0.5\n", "line 1: \"1e400\" is not a number"),
         (
             "0,0.5\n",
-            "line 1: found wavelength 0; it must be from 1 to 1000000 nm",
+            "line 1: found wavelength 0; it must be from 1 to 1e6 nm",
         ),
         ("400,0.5\n410,x\n", "line 2: \"x\" is not a number"),
         ("400,x\n410,0.5\n", "line 1: \"x\" is not a number"),
@@ -622,4 +631,21 @@ fn hostile_texts_come_to_an_end() {
             .to_string()
             .contains("more than 100000 points")
     );
+}
+
+/// hc/e is 1239.841984 eV nm (CODATA 2018): 380 and 780 nm are 3.26274206 and 1.58954100 eV in eight digits.
+#[test]
+fn round_wavelengths_come_back_from_energies() {
+    let found = parse(
+        "energy (eV),R\n1.58954100,0.5\n3.26274206,0.2\n",
+        [Quantity::REFLECTANCE],
+        &Options::default(),
+    );
+    let [table] = found.unwrap().columns;
+    assert_eq!(table.range_nm(), (380.0, 780.0));
+    let angstrom = "Wavelength (A),R\n3800,0.5\n7800,0.2\n";
+    let [table] = parse(angstrom, [Quantity::REFLECTANCE], &Options::default())
+        .unwrap()
+        .columns;
+    assert_eq!(table.range_nm(), (380.0, 780.0));
 }
