@@ -38,7 +38,7 @@ fn scene_files_that_cannot_be_read_say_why() {
         ("", "is a directory"),
         (
             "binary.toml",
-            "binary.toml: is not text: line 2 is not UTF-8",
+            "binary.toml: is not text: line 2 has a byte 0",
         ),
         ("huge.toml", "huge.toml: is larger than 16 MiB"),
     ];

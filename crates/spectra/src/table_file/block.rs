@@ -21,12 +21,27 @@ pub(super) struct Block<'a> {
     pub(super) rows: Vec<Line<'a>>,
 }
 
+/// Refuses lines above rows in which a spectrometer says that its axis is none of wavelengths.
+pub(super) fn check_axis<'a>(lines: impl Iterator<Item = Line<'a>>) -> Result<(), TableFileError> {
+    let says = |line: &Line| line.content.to_lowercase().contains("wavenumber");
+    match { lines }.find(says) {
+        Some(line) => Err(TableFileError::Unit {
+            line: line.number,
+            text: line.content.to_owned(),
+        }),
+        None => Ok(()),
+    }
+}
+
 /// The blocks of a text: one, or more where a head stands between rows.
 pub(super) fn blocks(text: &str) -> Result<Vec<Block<'_>>, TableFileError> {
     let begin = lines(text)
         .filter(|line| is_begin(line.content))
         .map(|line| line.number)
         .last();
+    if let Some(begin) = begin {
+        check_axis(lines(text).take_while(|line| line.number < begin))?;
+    }
     let mut blocks = Vec::new();
     let mut block = Block::default();
     for line in lines(text).filter(|line| begin.is_none_or(|begin| line.number > begin)) {

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::block::{Block, blocks};
+use super::block::{Block, blocks, check_axis};
 use super::error::{TableFileError, cell_text};
 use super::head::{Head, base};
 use super::line::{DecimalSigns, Separator};
@@ -85,7 +85,7 @@ fn of_block<'a>(
     let mut all = columns(block, (head.axis(), &chosen), width, notes)?;
     let unit = unit_of(&head, &all, wanted)?;
     if unit.is_none() && wanted.options.unit.is_none() {
-        check_axis(block)?;
+        check_axis(block.head.iter().map(|head| head.line))?;
     }
     for &column in &chosen {
         head.check_logarithm(column)?;
@@ -95,18 +95,6 @@ fn of_block<'a>(
         series.scale = head.is_percent(column).then_some(100.0);
     }
     Ok(all)
-}
-
-/// Refuses a block above which a spectrometer says that its axis is none of wavelengths.
-fn check_axis(block: &Block) -> Result<(), TableFileError> {
-    let says = |content: &str| content.to_lowercase().contains("wavenumber");
-    match block.head.iter().find(|head| says(head.line.content)) {
-        Some(head) => Err(TableFileError::Unit {
-            line: head.line.number,
-            text: head.line.content.to_owned(),
-        }),
-        None => Ok(()),
-    }
 }
 
 /// The unit that the head says, or that goes with its names.

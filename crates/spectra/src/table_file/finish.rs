@@ -76,8 +76,7 @@ fn unit(series: &Series, options: &Options, notes: &mut Notes) -> Result<Unit, T
 fn wavelengths(points: &[Point], unit: Unit) -> Result<Vec<f64>, TableFileError> {
     let nm = |point: &Point| {
         let nm = match unit {
-            // As many digits as energies are written with do not always lead back to a round wavelength.
-            Unit::Ev => (unit.nm(point.place) * 1e4).round() / 1e4,
+            Unit::Ev => whole(unit.nm(point.place)),
             _ => unit.nm(point.place),
         };
         if (POSSIBLE_NM.0..=POSSIBLE_NM.1).contains(&nm) {
@@ -96,6 +95,16 @@ fn wavelengths(points: &[Point], unit: Unit) -> Result<Vec<f64>, TableFileError>
         })
     };
     points.iter().map(nm).collect()
+}
+
+/// A whole number of nm where that is meant: as many digits as energies are written with do not always lead back to it.
+fn whole(nm: f64) -> f64 {
+    let near = nm.round();
+    if (nm - near).abs() < 1e-6 * nm {
+        near
+    } else {
+        nm
+    }
 }
 
 /// Whether the wavelengths fall from row to row; one row, and all others rise.
