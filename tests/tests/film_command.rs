@@ -539,6 +539,6 @@ fn the_commands_of_the_readme_run() {
         let _ = Ran::of(&shell.output().unwrap()).succeeded();
         count += 1;
     }
-    assert_eq!(count, 6);
+    assert_eq!(count, 7);
     assert_eq!(place.names(), ["mirror.svg", "mirror.toml", "newton.png"]);
 }

@@ -414,7 +414,7 @@ fn files_of_other_origin_are_told() {
         &ran.stderr,
         &[
             "t.exr: holds reflectances",
-            "t.exr: its 3 bands are of different widths",
+            "t.exr: its bands cover 490 to 640 nm",
         ],
     );
     let found: Value = serde_json::from_str(&ran.stdout).unwrap();
