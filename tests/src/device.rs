@@ -2,7 +2,7 @@
 
 use gpu::{AdapterChoice, Gpu};
 
-/// Whether suites that render whole scenes take the short form, as `PELLICLE_SHORT` asks: small pictures, no statistics. It is for a
+/// Whether suites that render whole scenes take the short form, as `PELLICLE_SHORT` asks: pictures of the same random numbers alone, no statistics. It is for a
 /// second driver, after the first one has proved the numbers.
 pub fn is_short() -> bool {
     std::env::var_os("PELLICLE_SHORT").is_some()

@@ -35,12 +35,7 @@ fn both_renderers_give_the_same_pictures() {
 }
 
 fn by_the_same_numbers(gpu: &Gpu, name: &str) -> Vec<Result<String, String>> {
-    let (size, samples) = if is_short() {
-        ([48, 36], 8)
-    } else {
-        ([96, 72], 16)
-    };
-    let scene = small(name, size, samples, BANDS, 1);
+    let scene = small(name, [96, 72], 16, BANDS, 1);
     let (actual, expected) = (on_gpu(gpu, &scene), on_cpu(&scene));
     let colours = (Values::of_xyz(&actual), Values::of_xyz(&expected));
     let whole = [
