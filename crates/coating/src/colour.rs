@@ -5,8 +5,8 @@ use crate::response::{Angle, Sampled};
 use crate::{Light, SampleError, Stack};
 use colorimetry::lab::delta_e_2000;
 use colorimetry::{Lab, srgb};
-use optics::Polarised;
 use optics::batch::Powers;
+use optics::{Complex64, Polarised};
 use rayon::prelude::*;
 use thiserror::Error;
 
@@ -141,6 +141,8 @@ pub struct StackColour {
     sampled: Sampled,
     /// At every nm.
     fine: Sampled,
+    /// The largest index of each layer there.
+    largest: Vec<f64>,
     light: Light,
     view: View,
 }
@@ -156,9 +158,13 @@ impl StackColour {
             [first, .., last] => (first as u32..=last as u32).map(f64::from).collect(),
             _ => wavelengths_nm.clone(),
         };
+        let fine = stack.sampled(&every_nm)?;
+        let largest =
+            |indices: &Vec<Complex64>| indices.iter().fold(0.0, |most: f64, n| most.max(n.re));
         Ok(Self {
             sampled: stack.sampled(&wavelengths_nm)?,
-            fine: stack.sampled(&every_nm)?,
+            largest: fine.layers().iter().map(largest).collect(),
+            fine,
             light,
             view,
         })
@@ -189,6 +195,7 @@ impl StackColour {
             light: &self.light,
             view: self.view,
             fine: &self.fine,
+            largest: &self.largest,
             thicknesses_nm,
             angle,
         }

@@ -23,8 +23,9 @@ const PARTS: u32 = 4_u32.pow(MOST_DIVISIONS);
 const MOST_PHASE: f64 = 0.9;
 /// The same on the grid of the CIE's sums at 1 nm. They stay within ΔE₀₀ 0.005 of the integral to far beyond it.
 const MOST_PHASE_AT_1_NM: f64 = 0.55;
-/// What a step may add to X, Y or Z by the fourth difference of its sum, however that compares with the second one: a corner in a table
-/// of an index is no fringe.
+/// How small two of three second differences are beside the third where it is that of a corner.
+const CORNER: f64 = 0.125;
+/// What a step may add to X, Y or Z by the fourth difference of its sum, however that compares with the second one.
 const NEGLIGIBLE: f64 = 1e-6;
 /// What the error of a span may add to X, Y or Z.
 const ERROR: f64 = 5e-9;
@@ -37,6 +38,8 @@ pub(crate) struct Fringes<'a> {
     pub(crate) view: View,
     /// At every nm from the first wavelength of the light's sums to the last.
     pub(crate) fine: &'a Sampled,
+    /// The largest index of each layer there.
+    pub(crate) largest: &'a [f64],
     pub(crate) thicknesses_nm: &'a [f64],
     pub(crate) angle: Angle,
 }
@@ -125,11 +128,12 @@ impl Fringes<'_> {
         let Some(last) = shares.len().checked_sub(5) else {
             return Vec::new();
         };
+        let is_thin = self.most_phase() <= MOST_PHASE_AT_1_NM;
         let is_rough = |step: usize| {
             let around = step.saturating_sub(2).min(last);
-            let place = step as u32 * PARTS;
             let five = std::array::from_fn(|i| shares[around + i]);
-            self.phase(place, PARTS) > MOST_PHASE_AT_1_NM || self.is_bent(place, &five)
+            let is_thick = || self.phase(step as u32 * PARTS, PARTS) > MOST_PHASE_AT_1_NM;
+            !is_thin && is_thick() || self.is_bent(step, &five)
         };
         let rough: Vec<bool> = (0..shares.len()).map(is_rough).collect();
         rough.windows(2).map(|ends| ends[0] || ends[1]).collect()
@@ -206,11 +210,18 @@ impl Fringes<'_> {
     }
 
     /// Whether five neighbors on the grid of the sums have a fourth difference that counts: of a fringe that goes on by φ between them it is
-    /// 4 sin²(φ/2) of the second ones.
-    fn is_bent(&self, place: Place, values: &[f64; 5]) -> bool {
+    /// 4 sin²(φ/2) of the second ones. A corner in the table of an index is in one of those alone, and costs a sum nothing.
+    fn is_bent(&self, step: usize, values: &[f64; 5]) -> bool {
         let (second, fourth) = differences(values);
-        fourth > MOST_PHASE_AT_1_NM.powi(2) * second
-            && self.largest_weight(place) * fourth > NEGLIGIBLE
+        let [x, y, z] = self.light.per_wavelength()[step];
+        if x.max(y).max(z) * fourth <= NEGLIGIBLE {
+            return false;
+        }
+        let mut sizes = second.map(f64::abs);
+        sizes.sort_by(f64::total_cmp);
+        let [_, middle, largest] = sizes;
+        let is_corner = middle < CORNER * largest;
+        !is_corner && fourth > MOST_PHASE_AT_1_NM.powi(2) * largest
     }
 
     fn largest_weight(&self, place: Place) -> f64 {
@@ -230,6 +241,18 @@ impl Fringes<'_> {
         let nm = self.nm(place);
         let width = self.light.step_nm() * f64::from(parts) / f64::from(PARTS);
         4.0 * std::f64::consts::PI * optical / (nm * nm) * width
+    }
+
+    /// The most that [`Self::phase`] can be over a step.
+    fn most_phase(&self) -> f64 {
+        let optical: f64 = self
+            .largest
+            .iter()
+            .zip(self.thicknesses_nm)
+            .map(|(n, d)| n * d)
+            .sum();
+        let shortest = self.nm(0);
+        4.0 * std::f64::consts::PI * optical / (shortest * shortest) * self.light.step_nm()
     }
 
     /// R or T in places between the wavelengths of the sums.
@@ -298,14 +321,11 @@ impl Span {
     }
 }
 
-/// The largest second difference of five values, and the fourth.
-fn differences([a, b, c, d, e]: &[f64; 5]) -> (f64, f64) {
+/// The second differences of five values, and the size of the fourth.
+fn differences([a, b, c, d, e]: &[f64; 5]) -> ([f64; 3], f64) {
     let second = [a - 2.0 * b + c, b - 2.0 * c + d, c - 2.0 * d + e];
     let fourth = second[0] - 2.0 * second[1] + second[2];
-    let largest = second
-        .iter()
-        .fold(0.0, |largest: f64, v| largest.max(v.abs()));
-    (largest, fourth.abs())
+    (second, fourth.abs())
 }
 
 fn add(sum: &mut [f64; 3], weight: [f64; 3], share: f64) {

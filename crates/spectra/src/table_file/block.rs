@@ -22,9 +22,11 @@ pub(super) struct Block<'a> {
 }
 
 /// Refuses lines above rows in which a spectrometer says that its axis is none of wavelengths.
-pub(super) fn check_axis<'a>(lines: impl Iterator<Item = Line<'a>>) -> Result<(), TableFileError> {
+pub(super) fn check_axis<'a>(
+    mut lines: impl Iterator<Item = Line<'a>>,
+) -> Result<(), TableFileError> {
     let says = |line: &Line| line.content.to_lowercase().contains("wavenumber");
-    match { lines }.find(says) {
+    match lines.find(says) {
         Some(line) => Err(TableFileError::Unit {
             line: line.number,
             text: line.content.to_owned(),
