@@ -14,7 +14,7 @@ struct EmitterSample {
     texel: u32,
 }
 
-/// Chooses an emitter and a direction towards it.
+/// Chooses an emitter and a direction toward it.
 fn sample_emitter(path: PathState, sample: Sample, point: SurfacePoint) -> EmitterSample {
     if (!HAS_LIGHTS || !SENDS_LIGHT || path.segment + 1u > MAX_PATH_SEGMENTS) {
         return EmitterSample(NONE, point.normal, 0.0, 0.0, 0.0, 0u);
@@ -40,10 +40,10 @@ fn sample_emitter(path: PathState, sample: Sample, point: SurfacePoint) -> Emitt
 }
 
 /// Adds to the vertex that is being made what arrives from the emitter, by its weight.
-fn connect(path: PathState, object: u32, point: SurfacePoint, sampled: EmitterSample, towards: BsdfEval) {
+fn connect(path: PathState, object: u32, point: SurfacePoint, sampled: EmitterSample, toward: BsdfEval) {
     let emitter = sampled.emitter;
     let strength = light_share(emitter, point.position, sampled.direction);
-    if (weight_of(towards.lobes) <= 0.0 || strength <= 0.0) {
+    if (weight_of(toward.lobes) <= 0.0 || strength <= 0.0) {
         return;
     }
     let first_crossing = crossing_count;
@@ -56,7 +56,7 @@ fn connect(path: PathState, object: u32, point: SurfacePoint, sampled: EmitterSa
     }
     var mis = 1.0;
     if (MEETS_LIGHT && !is_single_direction(emitter)) {
-        mis = mis_weight_emitter(emitter, towards.pdf, sampled.pmf, sampled.density);
+        mis = mis_weight_emitter(emitter, toward.pdf, sampled.pmf, sampled.density);
     }
     pending.crossings = (first_crossing << CROSSING_BITS) | (crossing_count - first_crossing);
     pending.light = emitter_at(emitter).light;
@@ -64,7 +64,7 @@ fn connect(path: PathState, object: u32, point: SurfacePoint, sampled: EmitterSa
     if (HAS_ENVIRONMENT_PICTURE) {
         pending_texel = sampled.texel;
     }
-    record_lit(towards.lobes, mis * strength * emitter_at(emitter).scale / (sampled.pmf * sampled.density));
+    record_lit(toward.lobes, mis * strength * emitter_at(emitter).scale / (sampled.pmf * sampled.density));
 }
 
 /// Puts how a surface scatters the light that joins it into the vertex that is being made.
@@ -108,7 +108,7 @@ fn arrives(ray_in: Ray, from_object: u32, emitter: u32, allowed: u32) -> bool {
     return false;
 }
 
-/// Whether nothing lies before an emitter, by what the ray towards it hits.
+/// Whether nothing lies before an emitter, by what the ray toward it hits.
 fn is_reached(ray: Ray, emitter: u32, hit: Hit) -> bool {
     if (emitter_at(emitter).object != NONE) {
         return hit.object == emitter_at(emitter).object;

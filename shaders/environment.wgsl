@@ -14,14 +14,14 @@ fn environment_share(light: u32, direction: vec3f) -> f32 {
     if (emitter_at(light).kind == EMITTER_HORIZON) {
         return max(1.0 - abs(direction.y), 0.0);
     }
-    if (HAS_DISCS && emitter_at(light).kind == EMITTER_DISC) {
+    if (HAS_DISTANT_DISKS && emitter_at(light).kind == EMITTER_DISTANT_DISK) {
         let aside = direction - emitter_at(light).axis;
         return select(0.0, 1.0, dot(aside, aside) <= 2.0 * emitter_at(light).edge_height);
     }
     return clamp(dot(direction, emitter_at(light).axis), 0.0, 1.0);
 }
 
-/// A direction towards a part of the surroundings, by the density of environment_pdf.
+/// A direction toward a part of the surroundings, by the density of environment_pdf.
 fn sample_environment(light: u32, random: vec2f) -> vec3f {
     if (HAS_ENVIRONMENT_PICTURE && emitter_at(light).kind == EMITTER_PICTURE) {
         return sample_environment_picture(light, random);
@@ -37,7 +37,7 @@ fn sample_environment(light: u32, random: vec2f) -> vec3f {
         let around = sqrt((1.0 - height) * (1.0 + height)) * direction_of_turn(random.y);
         return vec3f(around.x, select(-height, height, upwards), around.y);
     }
-    if (HAS_DISCS && emitter_at(light).kind == EMITTER_DISC) {
+    if (HAS_DISTANT_DISKS && emitter_at(light).kind == EMITTER_DISTANT_DISK) {
         return normalize(frame_of(emitter_at(light).axis) * sample_cone(random.x, random.y, emitter_at(light).edge_height));
     }
     return frame_of(emitter_at(light).axis) * sample_cosine_hemisphere(random.x, random.y);
@@ -55,7 +55,7 @@ fn environment_pdf(light: u32, direction: vec3f) -> f32 {
     if (emitter_at(light).kind == EMITTER_HORIZON) {
         return share * (0.5 / PI);
     }
-    if (HAS_DISCS && emitter_at(light).kind == EMITTER_DISC) {
+    if (HAS_DISTANT_DISKS && emitter_at(light).kind == EMITTER_DISTANT_DISK) {
         return share * (0.5 / PI) / emitter_at(light).edge_height;
     }
     return share / PI;

@@ -32,7 +32,7 @@ override HAS_PICTURES: bool = true;
 override HAS_SPHERE_LIGHTS: bool = true;
 override HAS_DISK_LIGHTS: bool = true;
 override HAS_DELTA_LIGHTS: bool = true;
-override HAS_DISCS: bool = true;
+override HAS_DISTANT_DISKS: bool = true;
 override HAS_LIGHTS: bool = true;
 override HAS_LIGHT_CHOICE: bool = true;
 override HAS_ENVIRONMENT: bool = true;
@@ -57,7 +57,7 @@ override OBJECT_COUNT: u32 = 1u;
 override HIERARCHY_ROWS: u32 = 1u;
 /// Lights that are chosen from.
 override LIGHT_COUNT: u32 = 1u;
-/// Parts of the surroundings, discs in the sky among them.
+/// Parts of the surroundings, disks in the sky among them.
 override ENVIRONMENT_COUNT: u32 = 1u;
 /// Groups of four bands; the last may be padded with dark bands.
 override GROUPS: u32 = 1u;

@@ -1,4 +1,4 @@
-// A free film: one layer with vacuum on both sides, exact interference, unpolarised light.
+// A free film: one layer with vacuum on both sides, exact interference, unpolarized light.
 //
 // Sign convention: n + ik with exp(−iωt); k ≥ 0 absorbs. `cosine` in vacuum, in (0, 1];
 // `inverse_wavelength` in 1/nm.
@@ -56,7 +56,7 @@ fn film_powers(n: vec4f, k: vec4f, thickness_nm: f32, inverse_wavelength: vec4f,
     );
 }
 
-/// A film whose two boundaries have amplitude r₁ and −r₁, for one polarisation.
+/// A film whose two boundaries have amplitude r₁ and −r₁, for one polarization.
 fn film_of_boundary(r: Complex4, beta2: Complex4) -> FilmPowers {
     let one = Complex4(vec4f(1.0), vec4f(0.0));
     let r2 = complex_mul(r, r);

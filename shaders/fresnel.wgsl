@@ -1,11 +1,11 @@
 // One boundary between vacuum and an opaque medium.
 
-/// Reflectance for unpolarised light of a half space of index n + ik, seen from vacuum.
+/// Reflectance for unpolarized light of a half space of index n + ik, seen from vacuum.
 ///
 /// With a + ib = √((n + ik)² − sin²θ): R_s = |(cos θ − (a + ib)) / (cos θ + (a + ib))|² and
 /// R_p = R_s |((a + ib) cos θ − sin²θ) / ((a + ib) cos θ + sin²θ)|² (Born and Wolf, 7th ed., section 14.4.1).
 /// `cosine` in (0, 1].
-fn reflectance_unpolarised(n: vec4f, k: vec4f, cosine: f32) -> vec4f {
+fn reflectance_unpolarized(n: vec4f, k: vec4f, cosine: f32) -> vec4f {
     let sin2 = (1.0 - cosine) * (1.0 + cosine);
     // n² − k² − sin²θ, without the cancellation near grazing.
     let root = complex_sqrt(Complex4((n * n - k * k - 1.0) + cosine * cosine, 2.0 * n * k));

@@ -5,7 +5,7 @@
 /// Distance to a sphere around the origin.
 ///
 /// `from_surface`: the ray starts on this sphere. The discriminant is taken from the ray's distance to the
-/// centre, and roots by the one that does not cancel (Haines et al., Ray Tracing Gems, chapter 7, 2019).
+/// center, and roots by the one that does not cancel (Haines et al., Ray Tracing Gems, chapter 7, 2019).
 fn intersect_sphere(origin: vec3f, direction: vec3f, radius: f32, from_surface: bool) -> f32 {
     let along = dot(origin, direction);
     if (from_surface) {

@@ -40,11 +40,11 @@ const EMITTER_HORIZON: u32 = 17u;
 /// Emitter: surroundings by the cosine with `axis`, where it is above 0.
 const EMITTER_POLE: u32 = 18u;
 
-/// Emitter: surroundings by a picture, its middle towards `axis`, its right half towards `tangent`.
+/// Emitter: surroundings by a picture, its middle toward `axis`, its right half toward `tangent`.
 const EMITTER_PICTURE: u32 = 19u;
 
-/// Emitter: a disc in the sky about `axis`.
-const EMITTER_DISC: u32 = 24u;
+/// Emitter: a disk in the sky about `axis`.
+const EMITTER_DISTANT_DISK: u32 = 24u;
 
 /// Emitter: light from the direction `axis` alone. Those of a single direction at each place are greater.
 const EMITTER_DIRECTION: u32 = 25u;
@@ -91,7 +91,7 @@ const GRAIN_NONE: u32 = 0u;
 /// Grain: along a direction in space.
 const GRAIN_ALONG: u32 = 1u;
 
-/// Grain: around an axis through the object's centre.
+/// Grain: around an axis through the object's center.
 const GRAIN_AROUND: u32 = 2u;
 
 /// Cosines for which a rough coat has its reflectance, even in their roots.
@@ -127,7 +127,7 @@ const FIELD_SUM: u32 = 6u;
 /// Field: the product of the two values before it.
 const FIELD_PRODUCT: u32 = 7u;
 
-/// A field runs along the polar angle about a sphere's centre.
+/// A field runs along the polar angle about a sphere's center.
 const ALONG_POLAR_ANGLE: u32 = 0u;
 
 /// A field runs along a line in space.
@@ -218,9 +218,9 @@ struct Frame {
     image_size: vec2u,
     /// Steps that a band is divided into by the spectra's knots.
     steps: u32,
-    /// 1 where each sample draws its wavelengths, 0 where they lie at the bands' centres.
+    /// 1 where each sample draws its wavelengths, 0 where they lie at the bands' centers.
     draws_wavelengths: u32,
-    /// First of the numbers of the emitters that are parts of the surroundings, discs in the sky among them.
+    /// First of the numbers of the emitters that are parts of the surroundings, disks in the sky among them.
     first_environment: u32,
     /// First of the observer's three spectra.
     observer: u32,

@@ -1,4 +1,4 @@
-// Smooth spectra for colours (Jakob and Hanika, Computer Graphics Forum 38 (2), 2019).
+// Smooth spectra for colors (Jakob and Hanika, Computer Graphics Forum 38 (2), 2019).
 
 /// S(c₀ t² + c₁ t + c₂) in the four bands of a group, S(x) = 1/2 + x / (2 √(1 + x²)) (equations 4 and 5), t = (λ − 580 nm) / 200 nm.
 fn smooth_value(coefficients: vec3f, group: u32, at: Wavelengths) -> vec4f {

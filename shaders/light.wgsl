@@ -10,26 +10,26 @@ fn is_surrounding(light: u32) -> bool {
     return HAS_ENVIRONMENT && emitter_at(light).kind >= EMITTER_EVERYWHERE && emitter_at(light).kind < EMITTER_DIRECTION;
 }
 
-/// A direction from `point` towards a light: uniform in the solid angle of a sphere (over all
+/// A direction from `point` toward a light: uniform in the solid angle of a sphere (over all
 /// directions from inside it), uniform over the area of a rectangle or disk.
 fn sample_light(light: u32, point: vec3f, u: f32, v: f32) -> vec3f {
     if (is_surrounding(light)) {
         return sample_environment(light, vec2f(u, v));
     }
-    let towards = emitter_at(light).position - point;
+    let toward = emitter_at(light).position - point;
     if (is_single_direction(light)) {
         if (emitter_at(light).kind == EMITTER_DIRECTION) {
             return emitter_at(light).axis;
         }
-        return normalize(towards);
+        return normalize(toward);
     }
     if (HAS_SPHERE_LIGHTS && emitter_at(light).kind == EMITTER_SPHERE) {
-        let distance2 = dot(towards, towards);
+        let distance2 = dot(toward, toward);
         if (sphere_surrounds(light, distance2)) {
             return sample_cone(u, v, 2.0);
         }
         let height = cone_height(emitter_at(light).radius, distance2);
-        return normalize(frame_of(normalize(towards)) * sample_cone(u, v, height));
+        return normalize(frame_of(normalize(toward)) * sample_cone(u, v, height));
     }
     var place = vec2f(2.0 * u - 1.0, 2.0 * v - 1.0);
     if (HAS_DISK_LIGHTS && emitter_at(light).kind == EMITTER_DISK) {
@@ -37,7 +37,7 @@ fn sample_light(light: u32, point: vec3f, u: f32, v: f32) -> vec3f {
     }
     let aside = place.x * emitter_at(light).half_width * emitter_at(light).tangent;
     let above = place.y * emitter_at(light).half_height * emitter_at(light).bitangent;
-    return normalize(towards + aside + above);
+    return normalize(toward + aside + above);
 }
 
 /// Density with which sample_light draws a direction that hits the light, sr⁻¹; 0 for light from a single direction.
@@ -48,9 +48,9 @@ fn light_pdf(light: u32, point: vec3f, direction: vec3f) -> f32 {
     if (is_single_direction(light)) {
         return 0.0;
     }
-    let towards = emitter_at(light).position - point;
+    let toward = emitter_at(light).position - point;
     if (HAS_SPHERE_LIGHTS && emitter_at(light).kind == EMITTER_SPHERE) {
-        let distance2 = dot(towards, towards);
+        let distance2 = dot(toward, toward);
         if (sphere_surrounds(light, distance2)) {
             return 0.25 / PI;
         }
@@ -58,7 +58,7 @@ fn light_pdf(light: u32, point: vec3f, direction: vec3f) -> f32 {
     }
     // dω = cos dA / distance², with cos = |height| / distance along the direction.
     let speed = abs(dot(direction, emitter_at(light).axis));
-    let height = abs(dot(towards, emitter_at(light).axis));
+    let height = abs(dot(toward, emitter_at(light).axis));
     if (speed <= 0.0 || height <= 0.0) {
         return 0.0;
     }
@@ -72,7 +72,7 @@ fn plane_area(light: u32) -> f32 {
     return select(4.0, PI, round) * emitter_at(light).half_width * emitter_at(light).half_height;
 }
 
-/// Factor of a light's emission towards `point`: the share of a part of the surroundings; of a point and of a spot what makes their
+/// Factor of a light's emission toward `point`: the share of a part of the surroundings; of a point and of a spot what makes their
 /// intensity an irradiance.
 fn light_share(light: u32, point: vec3f, direction: vec3f) -> f32 {
     if (is_surrounding(light)) {
@@ -81,8 +81,8 @@ fn light_share(light: u32, point: vec3f, direction: vec3f) -> f32 {
     if (!is_single_direction(light) || emitter_at(light).kind == EMITTER_DIRECTION) {
         return 1.0;
     }
-    let towards = emitter_at(light).position - point;
-    let falloff = 1.0 / dot(towards, towards);
+    let toward = emitter_at(light).position - point;
+    let falloff = 1.0 / dot(toward, toward);
     if (emitter_at(light).kind == EMITTER_SPOT) {
         return falloff * spot_share(light, direction);
     }
@@ -100,7 +100,7 @@ fn spot_share(light: u32, direction: vec3f) -> f32 {
     return t * t * (3.0 - 2.0 * t);
 }
 
-/// Whether a point at this squared distance from the centre lies in or on the sphere.
+/// Whether a point at this squared distance from the center lies in or on the sphere.
 fn sphere_surrounds(light: u32, distance2: f32) -> bool {
     let radius = emitter_at(light).radius;
     // A point on the surface was put there with rounding; from just outside the cone would be all but a hemisphere.

@@ -29,39 +29,39 @@ fn light_estimate(light: u32, point: vec3f, normal: vec3f) -> f32 {
         let direction = sample_light(light, point, 0.0, 0.0);
         return brightness * light_share(light, point, direction) * max(dot(direction, normal), 0.0);
     }
-    let towards = emitter_at(light).position - point;
-    let distance2 = dot(towards, towards);
+    let toward = emitter_at(light).position - point;
+    let distance2 = dot(toward, toward);
     if (HAS_SPHERE_LIGHTS && emitter_at(light).kind == EMITTER_SPHERE) {
         if (sphere_surrounds(light, distance2)) {
             return brightness * PI;
         }
         let radius = emitter_at(light).radius;
-        let axis = dot(towards, normal) / sqrt(distance2);
+        let axis = dot(toward, normal) / sqrt(distance2);
         let solid_angle = 2.0 * PI * cone_height(radius, distance2);
         return brightness * solid_angle * most_cosine(axis, radius * radius / distance2);
     }
-    return brightness * plane_estimate(light, towards, distance2, normal);
+    return brightness * plane_estimate(light, toward, distance2, normal);
 }
 
 /// Solid angle of a rectangle or disk times the largest cosine, both from the sphere that holds it.
-fn plane_estimate(light: u32, towards: vec3f, distance2: f32, normal: vec3f) -> f32 {
+fn plane_estimate(light: u32, toward: vec3f, distance2: f32, normal: vec3f) -> f32 {
     let width = emitter_at(light).half_width;
     let height = emitter_at(light).half_height;
     let round = HAS_DISK_LIGHTS && emitter_at(light).kind == EMITTER_DISK;
     let reach2 = select(width * width + height * height, width * width, round);
     let area = plane_area(light);
     // Cosine at the light, at most as if it were turned by the angle under which half of it is seen.
-    let facing = abs(dot(towards, emitter_at(light).axis)) * sqrt(distance2) + reach2;
+    let facing = abs(dot(toward, emitter_at(light).axis)) * sqrt(distance2) + reach2;
     let solid_angle = area * min(facing / max(distance2, 1e-20), 1.0) / (distance2 + area * (0.5 / PI));
     if (distance2 <= reach2) {
         return solid_angle;
     }
-    return solid_angle * most_cosine(dot(towards, normal) / sqrt(distance2), reach2 / distance2);
+    return solid_angle * most_cosine(dot(toward, normal) / sqrt(distance2), reach2 / distance2);
 }
 
 /// ∫ share cos dω of a part of the surroundings, about.
 fn environment_estimate(light: u32, normal: vec3f) -> f32 {
-    if (emitter_at(light).kind == EMITTER_DISC) {
+    if (emitter_at(light).kind == EMITTER_DISTANT_DISK) {
         let height = emitter_at(light).edge_height;
         return 2.0 * PI * height * most_cosine(dot(emitter_at(light).axis, normal), height * (2.0 - height));
     }
@@ -82,14 +82,14 @@ const EDGE: f32 = 1e-4;
 /// the cosine over the squared distance (Pharr, Jakob and Humphreys, Physically Based Rendering, 4th edition, section 12.6.3), with
 /// the mean in place of the largest cosine.
 fn group_estimate(node: LightNode, point: vec3f, normal: vec3f) -> f32 {
-    let towards = node.center - point;
-    let height = dot(towards, normal);
-    let distance2 = dot(towards, towards);
-    if (height + node.reach <= 0.0 || is_outside_cone(node, towards, distance2)) {
+    let toward = node.center - point;
+    let height = dot(toward, normal);
+    let distance2 = dot(toward, toward);
+    if (height + node.reach <= 0.0 || is_outside_cone(node, toward, distance2)) {
         return 0.0;
     }
     let soft = distance2 + SOFTENING * node.variance;
-    let along = dot(towards, node.axis);
+    let along = dot(toward, node.axis);
     let square = (along * along + node.variance / 3.0) / (distance2 + node.variance);
     let sent = sqrt(node.even + node.along * square);
     return node.power * sent * mean_above(height, HORIZON * node.variance) / (soft * sqrt(soft));
@@ -101,8 +101,8 @@ fn mean_above(mean: f32, width2: f32) -> f32 {
     return select(0.5 * width2 / (root - mean), 0.5 * (root + mean), mean > 0.0);
 }
 
-/// Whether the cone in which a group shines, as wide as the group is seen, holds no direction towards a point.
-fn is_outside_cone(node: LightNode, towards: vec3f, distance2: f32) -> bool {
+/// Whether the cone in which a group shines, as wide as the group is seen, holds no direction toward a point.
+fn is_outside_cone(node: LightNode, toward: vec3f, distance2: f32) -> bool {
     let reach2 = node.reach * node.reach;
     if (node.cone <= -1.0 || distance2 <= reach2) {
         return false;
@@ -114,13 +114,13 @@ fn is_outside_cone(node: LightNode, towards: vec3f, distance2: f32) -> bool {
         return false;
     }
     let edge = node.cone * cosine - cone_sine * sine;
-    return -dot(towards, node.axis) < (edge - EDGE) * sqrt(distance2);
+    return -dot(toward, node.axis) < (edge - EDGE) * sqrt(distance2);
 }
 
 /// Whether a group is looked into from a point.
 fn is_near(node: LightNode, point: vec3f) -> bool {
-    let towards = node.center - point;
-    return dot(towards, towards) < node.near * node.near;
+    let toward = node.center - point;
+    return dot(toward, toward) < node.near * node.near;
 }
 
 /// About what a node of the tree of emitters brings to a point.

@@ -2,7 +2,7 @@
 // whose z is the cosine with the macroscopic normal.
 
 /// Beckmann's distribution of facet normals, sr⁻¹: exp(−tan²α / m²) / (π m² cos⁴α)
-/// (Cook and Torrance 1982, equation 5, normalised so that ∫ D cos α dω = 1).
+/// (Cook and Torrance 1982, equation 5, normalized so that ∫ D cos α dω = 1).
 fn beckmann_d(cos_facet: f32, slope: f32) -> f32 {
     if (cos_facet <= 0.0) {
         return 0.0;

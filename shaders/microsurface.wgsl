@@ -40,7 +40,7 @@ fn facet_density(surface: Microsurface, facet: vec3f) -> f32 {
     return exp(-min(slope2 / cos2, 80.0)) / (area * cos2 * cos2);
 }
 
-/// Smith's Λ: 1 / (1 + Λ) of the facets that turn towards a direction are seen from there. With a = cot θ over the width in the
+/// Smith's Λ: 1 / (1 + Λ) of the facets that turn toward a direction are seen from there. With a = cot θ over the width in the
 /// direction's azimuth, (exp(−a²) / (a √π) − erfc a) / 2 for Beckmann and (√(1 + 1/a²) − 1) / 2 for GGX
 /// (Heitz 2014, equations 68 and 72).
 fn smith_lambda(surface: Microsurface, direction: vec3f) -> f32 {
@@ -99,15 +99,15 @@ fn sample_ggx_facet(eye: vec3f, u: f32, v: f32) -> vec3f {
     return vec3f(sine * direction_of_turn(u) + eye.xy, below);
 }
 
-/// A visible facet of a Beckmann surface of α = 1: its slope towards the eye by visible_slope, that aside by the normal
+/// A visible facet of a Beckmann surface of α = 1: its slope toward the eye by visible_slope, that aside by the normal
 /// distribution alone (Heitz and d'Eon, Importance Sampling Microfacet-Based BSDFs Using the Distribution of Visible Normals,
 /// 2014, appendix).
 fn sample_beckmann_facet(eye: vec3f, u: f32, v: f32) -> vec3f {
     let sine = length(eye.xy);
     let along = select(vec2f(1.0, 0.0), eye.xy / max(sine, 1e-30), sine > 0.0);
-    let towards = visible_slope(eye.z, sine, u);
+    let toward = visible_slope(eye.z, sine, u);
     let aside = visible_slope(1.0, 0.0, v);
-    return vec3f(-along * towards - vec2f(-along.y, along.x) * aside, 1.0);
+    return vec3f(-along * toward - vec2f(-along.y, along.x) * aside, 1.0);
 }
 
 /// Steps of Halley's rule by which a slope is found.

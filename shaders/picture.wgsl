@@ -19,8 +19,8 @@ fn picture_place(size_in: vec2f, object: u32, position: vec3f) -> vec2f {
     return 0.5 + place / size;
 }
 
-/// The number of the pixel that a path takes at a place of a picture: one of the four whose centres are around it, with the weights that they
-/// have between the centres as odds (`random` in [0, 1)).
+/// The number of the pixel that a path takes at a place of a picture: one of the four whose centers are around it, with the weights that they
+/// have between the centers as odds (`random` in [0, 1)).
 fn chosen_pixel(head: u32, place: vec2f, wraps: bool, random: f32) -> u32 {
     let size = texel_at(head).xy;
     let x = clamp(place.x * size.x - 0.5, -1.0, size.x);

@@ -55,7 +55,7 @@ struct Body {
     /// Weights of what goes on along the path, and of the light that joins here.
     weight: f32,
     light_weight: f32,
-    /// Cosines with the normal: towards the camera, towards the path's next vertex, towards the light that joins here.
+    /// Cosines with the normal: toward the camera, toward the path's next vertex, toward the light that joins here.
     wo_cosine: f32,
     wi_cosine: f32,
     light_wi_cosine: f32,

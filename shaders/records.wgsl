@@ -57,11 +57,11 @@ struct Emitter {
     position: vec3f,
     /// An `EMITTER_` tag.
     kind: u32,
-    /// Unit vector: normal of a rectangle or disk, towards a pole, a disc, a direction or a picture's middle, where a spot shines to.
+    /// Unit vector: normal of a rectangle or disk, toward a pole, a disk, a direction or a picture's middle, where a spot shines to.
     axis: vec3f,
     /// Radius of a sphere or disk.
     radius: f32,
-    /// First axis of a rectangle or disk; towards a picture's right half.
+    /// First axis of a rectangle or disk; toward a picture's right half.
     tangent: vec3f,
     /// Half the width of a rectangle, along `tangent`; a disk's radius.
     half_width: f32,
@@ -79,7 +79,7 @@ struct Emitter {
     object: u32,
     /// 1 − cos of the angle with `axis` within which a spot shines fully.
     full_height: f32,
-    /// 1 − cos of the angle with `axis` beyond which a spot does not shine, or a disc in the sky ends.
+    /// 1 − cos of the angle with `axis` beyond which a spot does not shine, or a disk in the sky ends.
     edge_height: f32,
     /// The row of its node in the tree of emitters.
     node: u32,

@@ -25,7 +25,7 @@ fn sample_cone(u: f32, v: f32, height: f32) -> vec3f {
 }
 
 /// 1 − cos of the half angle under which a sphere is seen from outside; `distance2` is the square of the
-/// distance of its centre.
+/// distance of its center.
 fn cone_height(radius: f32, distance2: f32) -> f32 {
     let sin2 = min(radius * radius / distance2, 1.0);
     return sin2 / (1.0 + sqrt(1.0 - sin2));

@@ -6,7 +6,7 @@ struct Wavelengths {
     offset: f32,
     /// The knot at or below the offset.
     knot: u32,
-    /// How far it lies towards the next knot, in [0, 1).
+    /// How far it lies toward the next knot, in [0, 1).
     fraction: f32,
 }
 

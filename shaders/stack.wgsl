@@ -110,7 +110,7 @@ fn exponential_quotient(z: Complex4) -> Complex4 {
 /// 1/n! from n = 1 on.
 const INVERSE_FACTORIALS = array<f32, 7>(1.0, 0.5, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0, 1.0 / 5040.0);
 
-/// The fields of one polarisation at the upper end of a layer, brought to a size near 1.
+/// The fields of one polarization at the upper end of a layer, brought to a size near 1.
 fn fields_above(below: TangentialFields, phase: LayerPhase, a: Complex4, b: Complex4) -> TangentialFields {
     let from_second = complex_mul(a, below.second);
     let from_first = complex_mul(b, below.first);
@@ -126,7 +126,7 @@ fn fields_above(below: TangentialFields, phase: LayerPhase, a: Complex4, b: Comp
     );
 }
 
-/// Powers of both polarisations.
+/// Powers of both polarizations.
 struct StackPowers {
     reflectance_s: vec4f,
     reflectance_p: vec4f,

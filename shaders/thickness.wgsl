@@ -88,7 +88,7 @@ fn picture_value(field: u32, object: u32, position: vec3f) -> f32 {
     return load_field(field).base + load_field(field).swing * value;
 }
 
-/// The value of a picture, linear between the centres of its pixels.
+/// The value of a picture, linear between the centers of its pixels.
 fn bilinear(field: u32, place: vec2f, wraps: bool) -> f32 {
     let width = i32(load_field(field).sample_count);
     let height = i32(load_field(field).rows);

@@ -1,7 +1,7 @@
 // A free film by two beams (Suzuki, Yokoi and Toriwaki, section 4-2): the light that the first boundary reflects and the
 // light that the second does, once. Kept for the paper's sake; energy is not conserved, least of all near grazing.
 
-/// Reflectance of a film without absorption and with n ≥ 1, for unpolarised light.
+/// Reflectance of a film without absorption and with n ≥ 1, for unpolarized light.
 ///
 /// With Fresnel's r and t t′ = 1 − r², the sum r² + (t r t′)² + 2 r (t r t′) cos(2π l / λ − π) is
 /// r² (r⁴ + 4 (1 − r²) sin²(π l / λ)); l = 2 n d cos θ₂, or 2 d cos θ₂ as the paper prints it.

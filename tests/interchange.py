@@ -20,7 +20,7 @@ warnings.filterwarnings("ignore")
 import colour
 import numpy as np
 import OpenEXR
-from colour.io import (
+from color.io import (
     Specification_Fichet2021,
     read_spectral_image_Fichet2021,
     write_spectral_image_Fichet2021,
@@ -51,8 +51,8 @@ def written_here(folder):
     pellicle("render", SCENE, "--backend", "cpu", "--size", "48x36", "--samples", "8", "-o", path)
     components, specification = read_spectral_image_Fichet2021(path, additional_data=True)
     wavelengths, radiance = components["S0"]
-    check("colour-science: emissive, not polarised, not bispectral",
-          (specification.is_emissive, specification.is_polarised, specification.is_bispectral) == (True, False, False))
+    check("colour-science: emissive, not polarized, not bispectral",
+          (specification.is_emissive, specification.is_polarized, specification.is_bispectral) == (True, False, False))
     check("colour-science: 40 bands from 385 to 775 nm", np.array_equal(np.sort(wavelengths), np.arange(385, 776, 10)))
     channels = OpenEXR.File(str(path), separate_channels=True).channels()
     pixels = {name: channel.pixels for name, channel in channels.items()}
@@ -61,7 +61,7 @@ def written_here(folder):
     check("colour-science and the OpenEXR library read the same radiances", all(same))
     at = inspect(path, (24, 14))["places"][0]
     check("and Pellicle too", np.allclose(at["radiance"], radiance[14, 24][np.argsort(wavelengths)], rtol=1e-6))
-    # Y from the bands by colour-science's observer, sums at the bands' centres, against Y summed at the drawn wavelengths.
+    # Y from the bands by colour-science's observer, sums at the bands' centers, against Y summed at the drawn wavelengths.
     observer = colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"]
     y_bar = np.array([observer[nm][1] for nm in wavelengths])
     luminance = 683 * 10 * (radiance * y_bar).sum(-1).mean()
@@ -77,7 +77,7 @@ def written_there(folder):
     found = inspect(path, (0, 0))
     radiance = found["places"][0]["radiance"]
     check("D65 of colour-science: the same numbers, but beyond 360 nm",
-          np.allclose(radiance, [d65[nm] for nm in found["centres_nm"]], rtol=1e-6) and len(radiance) == 84)
+          np.allclose(radiance, [d65[nm] for nm in found["centers_nm"]], rtol=1e-6) and len(radiance) == 84)
     check("its chromaticity is 0.3127, 0.3290", np.allclose(found["places"][0]["xy"], [0.31272, 0.32903], atol=5e-5))
     path = folder / "chart.exr"
     patches = list(colour.SDS_COLOURCHECKERS["ISO 17321-1"].values())
@@ -85,7 +85,7 @@ def written_there(folder):
     write_spectral_image_Fichet2021(patches, path, "float16", Specification_Fichet2021(), shape=shape)
     found = inspect(path, (0, 0), (5, 3))
     for place, patch in zip(found["places"], (patches[0], patches[23])):
-        expected = [patch[nm] for nm in found["centres_nm"]]
+        expected = [patch[nm] for nm in found["centers_nm"]]
         check(f"reflectances in half floats: {patch.name}", np.allclose(place["radiance"], expected, rtol=1e-3))
 
 

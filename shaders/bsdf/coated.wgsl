@@ -12,7 +12,7 @@ fn coated_of(material: u32) -> Coated {
 fn coat_share(material: u32, cosine: f32) -> f32 {
     let coated = coated_of(material);
     let n = vec4f(coated.coat_estimate);
-    let reflected = reflectance_unpolarised(n, vec4f(0.0), max(cosine, 1e-6)).x;
+    let reflected = reflectance_unpolarized(n, vec4f(0.0), max(cosine, 1e-6)).x;
     let share = reflected / max(reflected + (1.0 - reflected) * coated.base_estimate, 1e-6);
     // A rough coat reflects less near grazing than a smooth one: both must stay within reach.
     return select(clamp(share, 0.1, 0.9), share, material_at(material).facets == NONE);
@@ -75,7 +75,7 @@ fn coated_factor(object: u32, point: SurfacePoint, random: f32) -> u32 {
 
 /// The part of light in a direction that a clear coat of index n lets in, or out of the body that way.
 fn coat_passes(n: vec4f, cosine: f32) -> vec4f {
-    return 1.0 - reflectance_unpolarised(n, vec4f(0.0), max(cosine, 1e-6));
+    return 1.0 - reflectance_unpolarized(n, vec4f(0.0), max(cosine, 1e-6));
 }
 
 /// The part of light in a direction that a rough coat lets in, or out of the body that way: 1 less the reflectance of its table, whose
@@ -109,7 +109,7 @@ fn coated_spectrum(at: Place, vertex: Vertex, n: vec4f) -> Values {
         passes.wi = rough_coat_passes(coated.coat_reflectances, body.wi_cosine, at.group, at.wavelengths);
         passes.light_wi = rough_coat_passes(coated.coat_reflectances, body.light_wi_cosine, at.group, at.wavelengths);
     } else {
-        values = Values(vertex.weight * reflectance_unpolarised(n, k, vertex.cosine), vec4f(0.0));
+        values = Values(vertex.weight * reflectance_unpolarized(n, k, vertex.cosine), vec4f(0.0));
         passes.wo = coat_passes(n, body.wo_cosine);
         passes.wi = coat_passes(n, body.wi_cosine);
         passes.light_wi = coat_passes(n, body.light_wi_cosine);
@@ -119,7 +119,7 @@ fn coated_spectrum(at: Place, vertex: Vertex, n: vec4f) -> Values {
     return values;
 }
 
-/// What a coat lets through towards the camera, from the path's next vertex, and from the light that joins.
+/// What a coat lets through toward the camera, from the path's next vertex, and from the light that joins.
 struct Passes {
     wo: vec4f,
     wi: vec4f,

@@ -92,8 +92,8 @@ fn cook_factor(material: u32) -> u32 {
 fn cook_spectrum(at: Place, vertex: Vertex, n: vec4f) -> Values {
     let k = spectrum_at(factor_number(vertex.factor) + 1u, at.group, at.wavelengths);
     var values = Values(
-        vertex.weight * reflectance_unpolarised(n, k, vertex.cosine),
-        vertex.light_weight * reflectance_unpolarised(n, k, vertex.light_cosine),
+        vertex.weight * reflectance_unpolarized(n, k, vertex.cosine),
+        vertex.light_weight * reflectance_unpolarized(n, k, vertex.light_cosine),
     );
     if (HAS_BASES) {
         let body = bodies[at.vertex];

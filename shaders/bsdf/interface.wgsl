@@ -39,14 +39,14 @@ fn interface_spectrum(at: Place, vertex: Vertex, first: vec4f) -> Values {
 
 /// A bare conductor of index n + ik.
 fn conductor_spectrum(at: Place, vertex: Vertex, n: vec4f, k: vec4f) -> Values {
-    var values = Values(vertex.weight * reflectance_unpolarised(n, k, vertex.cosine), vec4f(0.0));
+    var values = Values(vertex.weight * reflectance_unpolarized(n, k, vertex.cosine), vec4f(0.0));
     if (HAS_SCATTERING) {
-        values.lit = vertex.light_weight * reflectance_unpolarised(n, k, vertex.light_cosine);
+        values.lit = vertex.light_weight * reflectance_unpolarized(n, k, vertex.light_cosine);
     }
     if (HAS_SHEENS) {
-        var mean = MEAN_WEIGHTS.x * reflectance_unpolarised(n, k, MEAN_COSINES.x);
-        mean += MEAN_WEIGHTS.y * reflectance_unpolarised(n, k, MEAN_COSINES.y);
-        mean += MEAN_WEIGHTS.z * reflectance_unpolarised(n, k, MEAN_COSINES.z);
+        var mean = MEAN_WEIGHTS.x * reflectance_unpolarized(n, k, MEAN_COSINES.x);
+        mean += MEAN_WEIGHTS.y * reflectance_unpolarized(n, k, MEAN_COSINES.y);
+        mean += MEAN_WEIGHTS.z * reflectance_unpolarized(n, k, MEAN_COSINES.z);
         return with_sheen(values, sheens[at.vertex], mean);
     }
     return values;

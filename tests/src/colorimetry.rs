@@ -1,4 +1,4 @@
-//! Colour of a reflectance by plain sums, apart from the renderer's own way.
+//! Color of a reflectance by plain sums, apart from the renderer's own way.
 
 /// XYZ under an illuminant, with Y = 100 for a perfect mirror, for the CIE 1931 2° observer, by sums at 380, 381 … 780 nm.
 ///
@@ -32,7 +32,7 @@ pub fn lab(xyz: [f64; 3], white: [f64; 3]) -> [f64; 3] {
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
-/// Chroma C* and hue angle h, degrees from 0 to 360, of a CIELAB colour.
+/// Chroma C* and hue angle h, degrees from 0 to 360, of a CIELAB color.
 pub fn chroma_hue([_, a, b]: [f64; 3]) -> (f64, f64) {
     (a.hypot(b), b.atan2(a).to_degrees().rem_euclid(360.0))
 }
@@ -48,14 +48,14 @@ mod tests {
         assert!((chroma - 79.82).abs() < 0.005 && (hue - 271.92).abs() < 0.005);
     }
 
-    /// White is L* 100 without chroma, a grey of 18.42 % L* 50, and below 216/24389 L* is 903.3 Y (CIE 015:2018).
+    /// White is L* 100 without chroma, a gray of 18.42 % L* 50, and below 216/24389 L* is 903.3 Y (CIE 015:2018).
     #[test]
     fn lightness_follows_its_definition() {
         let white = xyz("D65", |_| 1.0);
         let found = lab(white, white);
         assert!((found[0] - 100.0).abs() < 1e-12 && chroma_hue(found).0 < 1e-12);
-        let grey = lab(white.map(|x| 0.184_187 * x), white);
-        assert!((grey[0] - 50.0).abs() < 1e-3);
+        let gray = lab(white.map(|x| 0.184_187 * x), white);
+        assert!((gray[0] - 50.0).abs() < 1e-3);
         let black = lab(white.map(|x| 0.001 * x), white);
         assert!((black[0] - 0.903_296).abs() < 1e-6);
     }

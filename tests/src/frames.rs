@@ -196,12 +196,12 @@ pub fn same_expectation(a: &SpectralImage, b: &SpectralImage) -> Result<String, 
                 let block = block_difference((a, b), band, (x, y), SIDE);
                 whole.0 += block.0;
                 whole.1 += block.1;
-                let z = standardised(block);
+                let z = standardized(block);
                 blocks += 1;
                 beyond += u32::from(z.is_nan() || z.abs() > 3.0);
             }
         }
-        let z = standardised(whole);
+        let z = standardized(whole);
         worst = if z.is_nan() {
             f64::INFINITY
         } else {
@@ -221,7 +221,7 @@ pub fn same_expectation(a: &SpectralImage, b: &SpectralImage) -> Result<String, 
 }
 
 /// z of a difference and its variance; without noise, 0 where they agree to f32 and infinity where not.
-fn standardised((difference, variance): (f64, f64)) -> f64 {
+fn standardized((difference, variance): (f64, f64)) -> f64 {
     if variance > 0.0 {
         difference / variance.sqrt()
     } else if difference.abs() < 1e-4 {
@@ -339,9 +339,9 @@ mod tests {
         let mut image = SpectralImage::new(20, 20, spectra::BandGrid::visible(2).unwrap());
         for i in 0..400 {
             let level = 0.5 + (i % 17) as f32 * 0.1;
-            let colour = xyz([level, 1.1 * level, 1.3 * level]);
+            let color = xyz([level, 1.1 * level, 1.3 * level]);
             let variance = [variance(1e-3 * level), variance(2e-3 * level)];
-            image.set_pixel((i % 20, i / 20), &[level; 2], &variance, colour, 16);
+            image.set_pixel((i % 20, i / 20), &[level; 2], &variance, color, 16);
         }
         image
     }
@@ -360,7 +360,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_colour_is_noticed() {
+    fn a_wrong_color_is_noticed() {
         let right = uneven(|v| v, |c| c);
         let compare = |wrong: &SpectralImage| {
             same_numbers(Values::of_xyz(wrong), Values::of_xyz(&right), &FRAMES)

@@ -15,7 +15,7 @@ pub const EXACT: Tolerance = of(1e-300, 0.0);
 pub const ARITHMETIC: Tolerance = of(5e-7, 5e-7);
 /// Trigonometric polynomials: a few ε of the largest term.
 pub const TRIGONOMETRY: Tolerance = of(4e-7, 4e-7);
-/// Directions: unit vectors after a rotation and a normalisation, each coordinate.
+/// Directions: unit vectors after a rotation and a normalization, each coordinate.
 pub const DIRECTION: Tolerance = of(1.5e-6, 0.0);
 /// Bare surfaces: R from a complex root and two quotients; near grazing 1 − R keeps an absolute error.
 pub const FRESNEL: Tolerance = of(2e-6, 2e-6);
@@ -158,7 +158,7 @@ pub const ORACLE_RGB: Tolerance = of(1e-10, 1e-8);
 /// XYZ against independent sums over the same 401 wavelengths: the figures have ten to twelve digits.
 pub const ORACLE_XYZ: Tolerance = of(0.0, 1e-9);
 /// Mean XYZ of two pictures of the same random numbers: the bands' bias, and outliers of a few pixels in ten thousand.
-pub const SAME_COLOUR: f64 = 1e-3;
+pub const SAME_COLOR: f64 = 1e-3;
 /// The furnace: standard errors that the mean of a band may be off.
 pub const Z_FURNACE: f64 = 4.0;
 
@@ -190,7 +190,7 @@ pub const VARIANCES: VarianceTolerance = VarianceTolerance {
 /// 1e-5) and f32 geometry, optics and sums of a million samples add as much again.
 pub const CLOSED_FORM: f64 = 2e-5;
 /// Ground under a clear sky against integrals of its formulas: the sky is drawn as a picture with pixels of 1.4°, bilinear between
-/// their centres.
+/// their centers.
 pub const SKY_PICTURE: f64 = 3e-4;
 /// Albedo of rough metals: the tables of facets' energy are linear between 32 cosines and made by 48² facets.
 pub const ROUGH_FORM: f64 = 5e-4;
@@ -205,7 +205,7 @@ pub const CLOSED_FORM_FILM: f64 = 2e-4;
 /// Light through a film from a small lamp, against T at normal incidence: at θ ≤ 0.02 the phase (three half turns of 100 nm
 /// per fringe) moves by θ² / 2 = 2e-4 of itself.
 pub const NEARLY_NORMAL: f64 = 5e-4;
-/// A small lamp out of focus: mean r² and light of its disc, which 50 000 samples met (independent ones would leave 0.5 %); its outline,
+/// A small lamp out of focus: mean r² and light of its disk, which 50 000 samples met (independent ones would leave 0.5 %); its outline,
 /// seen from the lens's rim, is 0.25 % longer.
 pub const OUT_OF_FOCUS: f64 = 0.015;
 /// Each pixel's share of a small lamp's light, of 1: 6000 samples met it in the middle. There the two filters differ by 0.15.
@@ -235,7 +235,7 @@ pub const SPECTRUM: Tolerance = of(2e-6, 2e-6);
 /// Mean ΔE2000 between a picture relit from its bands and one rendered under the lamp. The promise is 0.5, half a just noticeable
 /// difference, with 40 bands for smooth lamps and 80 for those with lines; found: 0.03 to 0.08.
 pub const RELIT_DELTA_E: f64 = 0.15;
-/// ΔE2000 of a film's colour between 16 and 160 bands, in every one of the eight columns of a wedge. What is left is noise: in a
+/// ΔE2000 of a film's color between 16 and 160 bands, in every one of the eight columns of a wedge. What is left is noise: in a
 /// band of 25 nm the lines of a lamp vary by twice their mean, which the 262 144 samples of a column take to 0.4 %; found: mean
 /// 0.05, largest 0.10.
 pub const BANDS_DELTA_E: f64 = 0.3;

@@ -35,11 +35,11 @@ fn plane(material: &str, degrees: f64, light: &str, render: &str) -> Scene {
         .rounded_to_f32()
 }
 
-const NANOMETRES: &str = "size = [1, 1], samples = 1, bands = 400, sampling = 'centre'";
+const NANOMETERS: &str = "size = [1, 1], samples = 1, bands = 400, sampling = 'center'";
 
 /// XYZ of the picture's only pixel.
 fn seen(material: &str, who: usize) -> [f64; 3] {
-    let scene = plane(material, 0.0, "{ illuminant = 'D65' }", NANOMETRES);
+    let scene = plane(material, 0.0, "{ illuminant = 'D65' }", NANOMETERS);
     rendered(&scene)[who].1.xyz()[0].map(f64::from)
 }
 
@@ -51,12 +51,12 @@ fn lab_of(material: &str, who: usize) -> [f64; 3] {
 
 /// L*, a*, b* of bare metals at normal incidence under D65, CIE 1931 observer, steps of 1 nm, computed apart from this code in
 /// double precision (tmm 0.2.0 after S. J. Byrne, arXiv:1603.02720, and numpy) from the same indices: Johnson and Christy (1972) for
-/// gold, silver and copper, Rakić (1995) for aluminium.
+/// gold, silver and copper, Rakić (1995) for aluminum.
 const METALS: [(&str, [f64; 3]); 4] = [
     ("gold", [90.223_026, 5.039_866, 33.798_897]),
     ("silver", [99.403_737, 0.080_163, 0.402_288]),
     ("copper", [86.063_462, 11.861_556, 13.047_770]),
-    ("aluminium", [96.595_598, -0.198_880, -0.483_298]),
+    ("aluminum", [96.595_598, -0.198_880, -0.483_298]),
 ];
 
 fn difference(found: [f64; 3], expected: [f64; 3]) -> f64 {
@@ -64,9 +64,9 @@ fn difference(found: [f64; 3], expected: [f64; 3]) -> f64 {
     squares.sum::<f64>().sqrt()
 }
 
-/// From the scene file through the picture to CIELAB. The picture's wavelengths lie half a nanometre beside those of the figures.
+/// From the scene file through the picture to CIELAB. The picture's wavelengths lie half a nanometer beside those of the figures.
 #[test]
-fn bare_metals_have_their_colours() {
+fn bare_metals_have_their_colors() {
     for (name, expected) in METALS {
         for who in 0..2 {
             let found = lab_of(&format!("{{ type = 'conductor', index = '{name}' }}"), who);
@@ -75,7 +75,7 @@ fn bare_metals_have_their_colours() {
             assert!(off < 0.05, "{name}: {found:?} {expected:?}");
         }
     }
-    // Another set of figures for copper is another colour.
+    // Another set of figures for copper is another color.
     let other = lab_of("{ type = 'conductor', index = 'copper_mcpeak' }", 1);
     assert!(difference(other, METALS[2].1) > 1.0, "{other:?}");
 }
@@ -131,16 +131,16 @@ fn a_base_that_absorbs_is_noticed() {
 
 /// With D2 and the printed π the model returns four times what it does with D2/π and 4, path by path.
 #[test]
-fn the_printed_constant_is_four_times_the_normalised() {
-    let of = |normalisation: &str| {
+fn the_printed_constant_is_four_times_the_normalized() {
+    let of = |normalization: &str| {
         let material = format!(
-            "{{ type = 'conductor', index = 'gold', roughness = 0.3, model = {{ cook1981 = {{ normalisation = '{normalisation}' }} }} }}"
+            "{{ type = 'conductor', index = 'gold', roughness = 0.3, model = {{ cook1981 = {{ normalization = '{normalization}' }} }} }}"
         );
         let render = "size = [16, 16], samples = 4, bands = 4";
         rendered(&plane(&material, 50.0, "{ constant = 1 }", render))
     };
-    for ((who, printed), (_, normalised)) in of("printed").iter().zip(&of("normalised")) {
-        let pairs = printed.radiance().iter().zip(normalised.radiance());
+    for ((who, printed), (_, normalized)) in of("printed").iter().zip(&of("normalized")) {
+        let pairs = printed.radiance().iter().zip(normalized.radiance());
         assert!(
             pairs
                 .clone()

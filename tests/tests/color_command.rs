@@ -7,8 +7,8 @@ use pellicle_tests::tables::{number, rows};
 use serde_json::Value;
 use std::fmt::Write as _;
 
-/// Colours of stacks by an independent computation; its head says how.
-const STACK_COLOURS: &str = include_str!("../../crates/coating/tests/data/stack_colours.csv");
+/// Colors of stacks by an independent computation; its head says how.
+const STACK_COLORS: &str = include_str!("../../crates/coating/tests/data/stack_colors.csv");
 /// White points by an independent computation.
 const WHITE_POINTS: &str = include_str!("../../crates/colorimetry/tests/data/white_points.csv");
 
@@ -21,7 +21,7 @@ fn csv(values: impl IntoIterator<Item = (f64, f64)>) -> String {
     text
 }
 
-/// The unpolarised reflectance of a stack at 380, 381 … 780 nm.
+/// The unpolarized reflectance of a stack at 380, 381 … 780 nm.
 fn reflectance(stack: &str, angle_deg: f64) -> String {
     let nm: Vec<f64> = (380..=780).map(f64::from).collect();
     let stack = Stack::parse(stack).unwrap();
@@ -32,7 +32,7 @@ fn reflectance(stack: &str, angle_deg: f64) -> String {
         .powers(stack.thicknesses_nm(), angle);
     csv(nm
         .into_iter()
-        .zip(powers.iter().map(|p| p.reflectance.unpolarised())))
+        .zip(powers.iter().map(|p| p.reflectance.unpolarized())))
 }
 
 fn json(place: &Place, arguments: &str) -> Value {
@@ -79,11 +79,11 @@ fn difference(place: &Place, row: &[&str], illuminant: &str) -> f64 {
 }
 
 #[test]
-fn stacks_have_the_colours_of_an_independent_computation() {
+fn stacks_have_the_colors_of_an_independent_computation() {
     let place = Place::default();
     let mut written = String::new();
     let mut count = 0;
-    for row in rows(STACK_COLOURS).filter(|row| row[1] == "0" || row[1] == "60") {
+    for row in rows(STACK_COLORS).filter(|row| row[1] == "0" || row[1] == "60") {
         let of = format!("{} {}", row[0], row[1]);
         if of != written {
             std::fs::write(place.path("stack.csv"), reflectance(row[0], number(row[1]))).unwrap();
@@ -145,10 +145,10 @@ fn emissions_have_the_white_points_of_an_independent_computation() {
 #[test]
 fn lamps_with_lines_are_summed_at_5_nm_unless_another_rule_is_asked_for() {
     let place = Place::default();
-    std::fs::write(place.path("grey.csv"), csv([(380.0, 0.5), (780.0, 0.5)])).unwrap();
+    std::fs::write(place.path("gray.csv"), csv([(380.0, 0.5), (780.0, 0.5)])).unwrap();
     let rule = |options: &str| {
         let ran = place
-            .run(&format!("color grey.csv {options} --format json"))
+            .run(&format!("color gray.csv {options} --format json"))
             .succeeded();
         let found: Value = serde_json::from_str(&ran.stdout).unwrap();
         (found["rule"].as_str().unwrap().to_owned(), ran.stderr)
@@ -178,8 +178,8 @@ fn white_is_adapted_to_the_display_and_codes_follow_its_curve() {
             }
         }
     }
-    std::fs::write(place.path("grey.csv"), csv([(380.0, 0.25), (780.0, 0.25)])).unwrap();
-    let found = json(&place, "color grey.csv --adapt bradford --display crt_1997");
+    std::fs::write(place.path("gray.csv"), csv([(380.0, 0.25), (780.0, 0.25)])).unwrap();
+    let found = json(&place, "color gray.csv --adapt bradford --display crt_1997");
     let expected = 0.25_f64.powf(1.0 / 2.2);
     for code in floats(&found["encoded_rgb"]) {
         assert!((code - expected).abs() < 1e-12, "{code}");
@@ -378,10 +378,10 @@ response = { curve = 'gamma', gamma = [2.1, 2.2, 2.3], alpha = 0.05 }
     );
     let white = floats(&found["white_xy"]);
     assert!((white[0] - 0.310_06).abs() < 1e-5 && (white[1] - 0.316_16).abs() < 1e-5);
-    std::fs::write(place.path("grey.csv"), csv([(380.0, 0.25), (780.0, 0.25)])).unwrap();
+    std::fs::write(place.path("gray.csv"), csv([(380.0, 0.25), (780.0, 0.25)])).unwrap();
     let found = json(
         &place,
-        "color grey.csv --illuminant C --rule 5nm --display screens/old.toml",
+        "color gray.csv --illuminant C --rule 5nm --display screens/old.toml",
     );
     // α + (1 − α) 0.25^(1/γ).
     for (code, gamma) in floats(&found["encoded_rgb"])
@@ -431,13 +431,13 @@ fn film_and_color_agree_for_any_lamp_and_observer() {
         } else {
             1e-9
         };
-        let color = json(&place, &format!("color stack.csv {options}"));
+        let summed = json(&place, &format!("color stack.csv {options}"));
         let ran = film(&place, stack, &format!("{options} --format json")).succeeded();
         let film: Value = serde_json::from_str(&ran.stdout).unwrap();
-        let colour = &film["angles"][0]["colour"];
-        for (one, hundred) in floats(&colour["XYZ"])
+        let color = &film["angles"][0]["color"];
+        for (one, hundred) in floats(&color["XYZ"])
             .into_iter()
-            .zip(floats(&color["xyz"]))
+            .zip(floats(&summed["xyz"]))
         {
             assert!(
                 (100.0 * one - hundred).abs() < allowed,
@@ -445,7 +445,7 @@ fn film_and_color_agree_for_any_lamp_and_observer() {
             );
         }
         for key in ["illuminant", "observer"] {
-            assert_eq!(colour[key], color[key], "{options}");
+            assert_eq!(color[key], summed[key], "{options}");
         }
     }
     let stderr = film(&place, stack, "--illuminant none.csv").failed();

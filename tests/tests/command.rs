@@ -413,12 +413,12 @@ fn the_examples_run() {
             "render_scene_file.png"
         ]
     );
-    // Eight films of different thickness have different colours.
+    // Eight films of different thickness have different colors.
     let picture = png(&place, "build_a_scene.png");
-    let colours: std::collections::BTreeSet<_> =
+    let colors: std::collections::BTreeSet<_> =
         (0..8).map(|i| picture.get_pixel(8 * i + 4, 4).0).collect();
-    assert_eq!(colours.len(), 8, "{colours:?}");
-    assert!(!colours.contains(&[0; 3]), "{colours:?}");
+    assert_eq!(colors.len(), 8, "{colors:?}");
+    assert!(!colors.contains(&[0; 3]), "{colors:?}");
 
     let exr_path = place.path("render_scene_file.exr");
     let (image, _) = read(&exr_path).unwrap();

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 const SIZE: [u32; 2] = [12, 8];
 
-/// A place with `image.exr`: greys, a row of saturated lines of the spectrum, and a lamp.
+/// A place with `image.exr`: grays, a row of saturated lines of the spectrum, and a lamp.
 fn place() -> Place {
     let place = Place::default();
     let grid = BandGrid::visible(40).unwrap();
@@ -110,7 +110,7 @@ fn the_gamut_report_counts_what_the_warning_marks() {
     let place = place();
     let ran = place.run("develop image.exr -o out.png --gamut-report --gamut-warning");
     let report = ran.succeeded().stdout;
-    // A row of spectral lines, the lamp, and greys that are brighter than the white.
+    // A row of spectral lines, the lamp, and grays that are brighter than the white.
     let count: u32 = report
         .split(['(', ' '])
         .find_map(|word| word.parse::<u32>().ok().filter(|&n| n > 12))
@@ -125,7 +125,7 @@ fn the_gamut_report_counts_what_the_warning_marks() {
     };
     let (mut seen, mut hidden) = (0, 0);
     for (x, y, pixel) in plain.enumerate_pixels() {
-        // Where a pixel has the stripe's colour anyway, nothing tells whether it is marked.
+        // Where a pixel has the stripe's color anyway, nothing tells whether it is marked.
         if pixel.0 == stripe(x, y) {
             hidden += 1;
         } else if marked.get_pixel(x, y) != pixel {

@@ -92,8 +92,8 @@ const SURFACES: &[(&str, &str)] = &[
         "type = \"coated\"\nsubstrate = \"titanium\"\nindex = 2.4\nthickness_nm = 80\nroughness = 0.15\n",
     ),
     (
-        "turned aluminium",
-        "type = \"conductor\"\nindex = \"aluminium\"\nroughness = [0.1, 0.4]\nbrushed = { around = [0, 1, 0] }\ndistribution = \"ggx\"\n",
+        "turned aluminum",
+        "type = \"conductor\"\nindex = \"aluminum\"\nroughness = [0.1, 0.4]\nbrushed = { around = [0, 1, 0] }\ndistribution = \"ggx\"\n",
     ),
     (
         "black lacquer",
@@ -106,7 +106,7 @@ const SURFACES: &[(&str, &str)] = &[
     ),
     (
         "Cook's copper",
-        "type = \"conductor\"\nindex = \"copper\"\nmodel = { cook1981 = { normalisation = \"normalised\", slopes = [{ m = 0.2, weight = 0.6 }, { m = 0.5, weight = 0.4 }] } }\n",
+        "type = \"conductor\"\nindex = \"copper\"\nmodel = { cook1981 = { normalization = \"normalized\", slopes = [{ m = 0.2, weight = 0.6 }, { m = 0.5, weight = 0.4 }] } }\n",
     ),
 ];
 

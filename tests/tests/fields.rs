@@ -53,7 +53,7 @@ fn each_kind_of_thickness_renders_alone() {
         "{ image = 'tests/data/thickness.png', min = 100, max = 500 }".to_owned(),
         "{ sum = [100, { product = [2, 130] }] }".to_owned(),
         format!(
-            "{{ anodising = {{ metal = 'titanium', volts = {{ start = 5, end = 120, {ALONG} }} }} }}"
+            "{{ anodizing = {{ metal = 'titanium', volts = {{ start = 5, end = 120, {ALONG} }} }} }}"
         ),
         format!(
             "{{ heat_tint = {{ temperature_c = {{ start = 200, end = 350, {ALONG} }}, minutes = 9 }} }}"

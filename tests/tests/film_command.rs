@@ -162,12 +162,12 @@ fn json_says_what_it_is() {
             let sum = figure(&at["Rp"][w]) + figure(&at["Tp"][w]) + absorbed;
             assert!((sum - 1.0).abs() < 1e-12 && absorbed > 0.01);
         }
-        assert!(at["colour"]["srgb"].as_str().unwrap().starts_with('#'));
+        assert!(at["color"]["srgb"].as_str().unwrap().starts_with('#'));
     }
 }
 
 #[test]
-fn without_a_file_there_is_a_table_with_the_colours() {
+fn without_a_file_there_is_a_table_with_the_colors() {
     let ran = film(STEP, "--angles 0,60").succeeded();
     told(
         &ran.stdout,
@@ -188,7 +188,7 @@ fn without_a_file_there_is_a_table_with_the_colours() {
     );
     assert!(
         !ran.stdout.contains('\x1b'),
-        "no colours where there is no terminal"
+        "no colors where there is no terminal"
     );
     let short = film(
         STEP,
@@ -268,9 +268,9 @@ fn pictures_are_written_the_same_each_time() {
     );
 }
 
-/// The thickness whose colour was asked for comes out first, and the colour that is printed leads back to it.
+/// The thickness whose color was asked for comes out first, and the color that is printed leads back to it.
 #[test]
-fn a_wanted_colour_is_found_again() {
+fn a_wanted_color_is_found_again() {
     let ran = film(STEP, "--match #4d6caf --vary 1:20:700").succeeded();
     let lines: Vec<&str> = ran
         .stdout
@@ -412,7 +412,7 @@ fn bad_arguments_are_told_and_leave_no_file() {
         ("--chart a.png --vary 1:100", vec!["LAYER:FROM:TO"]),
         (
             "--match blue --vary 1:0:100",
-            vec!["\"blue\" is not a colour", "#2e6fd0"],
+            vec!["\"blue\" is not a color", "#2e6fd0"],
         ),
         ("--match #123456", vec!["--vary"]),
         (
@@ -504,14 +504,14 @@ fn a_stack_file_is_not_written_over() {
     );
 }
 
-/// Data that stop within visible light have spectra, but no colour.
+/// Data that stop within visible light have spectra, but no color.
 #[test]
-fn without_data_for_visible_light_there_is_no_colour() {
+fn without_data_for_visible_light_there_is_no_color() {
     let place = Place::default();
     let text = "substrate = { nm = [400, 700], n = [1.5, 1.4] }\n";
     std::fs::write(place.path("stack.toml"), text).unwrap();
     let ran = film_in(&place, "stack.toml", "--wavelengths 400:700:100").succeeded();
-    told(&ran.stdout, &["no colour", "0.039946"], "");
+    told(&ran.stdout, &["no color", "0.039946"], "");
     let said = film_in(&place, "stack.toml", "").failed();
     told(&said, &["380 nm", "the substrate", "400 to 700 nm"], "");
 }

@@ -63,7 +63,7 @@ fn two_beams_are_those_of_scenes() {
             size = [2, 2]
             samples = 1
             bands = 4
-            sampling = "centre"
+            sampling = "center"
             wavelengths_nm = [499, 507]
             "#
         );

@@ -5,7 +5,7 @@ use gpu::Gpu;
 use pellicle_tests::device::{is_short, open};
 use pellicle_tests::frames::{Values, same_expectation, same_numbers, same_variances};
 use pellicle_tests::scenes::{BANDS, MADE, all, file, small};
-use pellicle_tests::tolerances::{FRAMES, SAME_COLOUR, SUMS, VARIANCES, Z_FURNACE, Z_MEAN};
+use pellicle_tests::tolerances::{FRAMES, SAME_COLOR, SUMS, VARIANCES, Z_FURNACE, Z_MEAN};
 use pellicle_tests::workers::failures_of;
 use scene::Scene;
 use scene::description::Sampler;
@@ -37,12 +37,12 @@ fn both_renderers_give_the_same_pictures() {
 fn by_the_same_numbers(gpu: &Gpu, name: &str) -> Vec<Result<String, String>> {
     let scene = small(name, [96, 72], 16, BANDS, 1);
     let (actual, expected) = (on_gpu(gpu, &scene), on_cpu(&scene));
-    let colours = (Values::of_xyz(&actual), Values::of_xyz(&expected));
+    let colors = (Values::of_xyz(&actual), Values::of_xyz(&expected));
     let whole = [
         same_numbers(Values::of(&actual), Values::of(&expected), &FRAMES),
         same_variances(&actual, &expected, &VARIANCES),
-        same_numbers(colours.0, colours.1, &FRAMES).map_err(|report| format!("XYZ: {report}")),
-        same_colours(&actual, &expected),
+        same_numbers(colors.0, colors.1, &FRAMES).map_err(|report| format!("XYZ: {report}")),
+        same_colors(&actual, &expected),
     ];
     let by_light = same_light_groups(&actual, &expected);
     whole.into_iter().chain(by_light).collect()
@@ -79,8 +79,8 @@ fn same_light_groups(
         let of = |image| Values::of_light(image, index);
         let of_xyz = |image| Values::of_light_xyz(image, index);
         let bands = same_numbers(of(actual), of(expected), &FRAMES);
-        let colours = same_numbers(of_xyz(actual), of_xyz(expected), &FRAMES);
-        [(bands, "bands"), (colours, "XYZ")].map(|(compared, what)| {
+        let colors = same_numbers(of_xyz(actual), of_xyz(expected), &FRAMES);
+        [(bands, "bands"), (colors, "XYZ")].map(|(compared, what)| {
             let named = |report| format!("light group {}, {what}: {report}", group.name);
             compared.map(named).map_err(named)
         })
@@ -89,7 +89,7 @@ fn same_light_groups(
 }
 
 /// XYZ is accumulated apart from the bands, so its mean over the picture is compared apart too.
-fn same_colours(actual: &SpectralImage, expected: &SpectralImage) -> Result<String, String> {
+fn same_colors(actual: &SpectralImage, expected: &SpectralImage) -> Result<String, String> {
     let mut worst = 0.0_f64;
     for axis in 0..3 {
         let sum = |image: &SpectralImage| {
@@ -100,7 +100,7 @@ fn same_colours(actual: &SpectralImage, expected: &SpectralImage) -> Result<Stri
                 .sum::<f64>()
         };
         let error = sum(actual) / sum(expected) - 1.0;
-        if error.is_nan() || error.abs() > SAME_COLOUR {
+        if error.is_nan() || error.abs() > SAME_COLOR {
             return Err(format!("mean of axis {axis} of XYZ is off by {error:.1e}"));
         }
         worst = worst.max(error.abs());
@@ -152,9 +152,9 @@ fn light_groups_add_up_to_the_picture() {
         ("cpu", on_cpu(&apart), on_cpu(&together)),
     ] {
         let radiance = same_numbers(Values::of(&apart), Values::of(&together), &SUMS);
-        let colours = same_numbers(Values::of_xyz(&apart), Values::of_xyz(&together), &SUMS);
+        let colors = same_numbers(Values::of_xyz(&apart), Values::of_xyz(&together), &SUMS);
         let variances = same_variances(&apart, &together, &VARIANCES);
-        for compared in [radiance, colours, variances] {
+        for compared in [radiance, colors, variances] {
             println!(
                 "{who}: {}",
                 compared.unwrap_or_else(|report| panic!("{who}: {report}"))
@@ -305,7 +305,7 @@ fn mean_over_band(
         let index = scene.spectrum(n).at(band, offset);
         let wavelength = scene.settings().bands.wavelength_nm(band, offset);
         let film = optics::film(index.into(), thickness_nm, wavelength, 1.0);
-        film.reflectance.unpolarised() * scene.spectrum(light).at(band, offset)
+        film.reflectance.unpolarized() * scene.spectrum(light).at(band, offset)
     };
     (0..steps).map(at).sum::<f64>() / f64::from(steps)
 }

@@ -32,7 +32,7 @@ fn write(path: &Path, image: &SpectralImage) {
 }
 
 /// Radiance 0.2 everywhere, and at `odd` that times 1.5 in the first half of the bands.
-fn grey(size: [u32; 2], bands: u32, odd: Option<(u32, u32)>) -> SpectralImage {
+fn gray(size: [u32; 2], bands: u32, odd: Option<(u32, u32)>) -> SpectralImage {
     image(size, bands, |x, y| {
         let bright = if odd == Some((x, y)) { 1.5 } else { 1.0 };
         let value = |band| 0.2 * if band < bands / 2 { bright } else { 1.0 };
@@ -53,7 +53,7 @@ fn told(said: &str, words: &[&str]) {
 #[test]
 fn equal_images_do_not_differ() {
     let place = Place::default();
-    write(&place.path("a.exr"), &grey([6, 4], 8, None));
+    write(&place.path("a.exr"), &gray([6, 4], 8, None));
     let found = json(place.run("compare a.exr a.exr --format json"));
     for figure in ["mean", "p50", "p95", "p99", "max"] {
         assert_eq!(found["delta_e_2000"][figure], 0.0);
@@ -75,8 +75,8 @@ fn equal_images_do_not_differ() {
 #[test]
 fn a_pixel_that_differs_is_found_and_measured() {
     let place = Place::default();
-    write(&place.path("a.exr"), &grey([6, 4], 8, None));
-    write(&place.path("b.exr"), &grey([6, 4], 8, Some((5, 2))));
+    write(&place.path("a.exr"), &gray([6, 4], 8, None));
+    write(&place.path("b.exr"), &gray([6, 4], 8, Some((5, 2))));
     let found = json(place.run("compare a.exr b.exr --format json --map map.png --map-of delta-e"));
     assert_eq!(found["delta_e_2000"]["max_at"], serde_json::json!([5, 2]));
     assert!(found["delta_e_2000"]["max"].as_f64().unwrap() > 10.0);
@@ -131,9 +131,9 @@ fn pictures_compare_with_each_other_and_with_spectral_images() {
     let psnr = -10.0 * ((40.0_f64 / 255.0).powi(2) / 72.0).log10();
     assert!((found["psnr_db"].as_f64().unwrap() - psnr).abs() < 1e-9);
 
-    write(&place.path("c.exr"), &grey([6, 4], 8, None));
+    write(&place.path("c.exr"), &gray([6, 4], 8, None));
     let settings = DevelopSettings::srgb(1.0);
-    let developed = color::develop(&grey([6, 4], 8, None), &settings).unwrap();
+    let developed = color::develop(&gray([6, 4], 8, None), &settings).unwrap();
     color::png::write(&place.path("c.png"), &developed).unwrap();
     // sRGB clips what equal energy has of red: the rest is a rounding of the codes.
     let alike = json(place.run("compare c.exr c.png --exposure 1 --format json"));
@@ -145,9 +145,9 @@ fn pictures_compare_with_each_other_and_with_spectral_images() {
 #[test]
 fn what_does_not_compare_is_one_clear_error() {
     let place = Place::default();
-    write(&place.path("a.exr"), &grey([6, 4], 8, None));
-    write(&place.path("wide.exr"), &grey([7, 4], 8, None));
-    write(&place.path("bands.exr"), &grey([6, 4], 9, None));
+    write(&place.path("a.exr"), &gray([6, 4], 8, None));
+    write(&place.path("wide.exr"), &gray([7, 4], 8, None));
+    write(&place.path("bands.exr"), &gray([6, 4], 9, None));
     let picture = RgbImage8::new(2, 1, vec![9; 6]).unwrap();
     color::png::write(&place.path("small.png"), &picture).unwrap();
     std::fs::write(place.path("text.png"), "no picture").unwrap();
@@ -228,7 +228,7 @@ fn a_pixel_and_a_region_are_told_as_they_are() {
 #[test]
 fn spectra_are_plotted() {
     let place = Place::default();
-    write(&place.path("a.exr"), &grey([4, 3], 5, None));
+    write(&place.path("a.exr"), &gray([4, 3], 5, None));
     let _ = place
         .run("inspect a.exr --at 1,1 --region 0,0,2,2 --plot p.svg")
         .succeeded();
@@ -242,7 +242,7 @@ fn spectra_are_plotted() {
 #[test]
 fn what_cannot_be_inspected_is_one_clear_error() {
     let place = Place::default();
-    write(&place.path("a.exr"), &grey([4, 3], 5, None));
+    write(&place.path("a.exr"), &gray([4, 3], 5, None));
     let before = place.names();
     for (arguments, words) in [
         ("a.exr --at 4,0", &["4,0", "4×3"][..]),
@@ -271,9 +271,9 @@ fn what_cannot_be_inspected_is_one_clear_error() {
     assert_eq!(place.names(), before, "nothing half-written");
 }
 
-/// What `inspect --film` finds at pixel 0 (a film of 412 nm at 30° in FL11), 1 (a grey surface in it) and 2 (black).
+/// What `inspect --film` finds at pixel 0 (a film of 412 nm at 30° in FL11), 1 (a gray surface in it) and 2 (black).
 #[test]
-fn a_film_is_recognised_and_what_is_none_is_told() {
+fn a_film_is_recognized_and_what_is_none_is_told() {
     let grid = BandGrid::visible(40).unwrap();
     let stack = Stack::parse("1 | water 0nm | 1").unwrap();
     let lamp = spectra::illuminant("FL11").unwrap().data;
@@ -291,14 +291,14 @@ fn a_film_is_recognised_and_what_is_none_is_told() {
         lamp: &power,
     };
     let film = fitting.spectrum(&grid, 412.0).unwrap();
-    let grey: Vec<f64> = power
+    let gray: Vec<f64> = power
         .chunks(10)
         .map(|v| v.iter().sum::<f64>() / 50.0)
         .collect();
     let place = Place::default();
     let made = image([3, 1], 40, |x, _| match x {
         0 => film.iter().map(|v| 3.0 * *v as f32).collect(),
-        1 => grey.iter().map(|v| *v as f32).collect(),
+        1 => gray.iter().map(|v| *v as f32).collect(),
         _ => vec![0.0; 40],
     });
     write(&place.path("a.exr"), &made);
@@ -338,7 +338,7 @@ fn a_film_is_recognised_and_what_is_none_is_told() {
         &table.stdout,
         &[
             "has the shape of the spectrum",
-            "by colour",
+            "by color",
             "the lamp's own spectrum",
             "nothing to fit",
         ],
@@ -470,7 +470,7 @@ fn a_booth_shows_each_lamp() {
         told(&place.run(&format!("develop {arguments}")).failed(), words);
     }
     // What does not know its lamp cannot burn with another.
-    write(&place.path("unknown.exr"), &grey([4, 3], 5, None));
+    write(&place.path("unknown.exr"), &gray([4, 3], 5, None));
     let said = place.run("develop unknown.exr --booth A -o b.png").failed();
     told(&said, &["--booth A", "cannot be changed"]);
     assert_eq!(place.names().len(), before.len() + 1);

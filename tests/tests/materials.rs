@@ -50,7 +50,7 @@ fn a_material_is_shown_with_source_figures_and_plot() {
     for phrase in [
         "gold: gold, evaporated film\n",
         "Phys. Rev. B 6, 4370-4379 (1972), DOI 10.1103/PhysRevB.6.4370\n",
-        "licence   CC0 1.0",
+        "license   CC0 1.0",
         "range     255.1 to 1937 nm\n",
         // Between 0.43 + 2.455i at 548.6 nm and 0.29 + 2.863i at 582.1 nm, Johnson and Christy (1972).
         "   550        0.4241        2.4721\n",

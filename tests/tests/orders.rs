@@ -1,15 +1,15 @@
-//! The orders of interference colours that were observed and published, by hue; no device is needed.
+//! The orders of interference colors that were observed and published, by hue; no device is needed.
 
 use num_complex::Complex64;
 use optics::{Layer, film, stack};
 use pellicle_tests::colorimetry::{chroma_hue, lab, xyz};
 use spectra::OpticalConstants;
 
-/// What a colour's name means: hue from .. to (degrees in CIELAB, against the clock, through 0 where from > to) and chroma.
+/// What a color's name means: hue from .. to (degrees in CIELAB, against the clock, through 0 where from > to) and chroma.
 ///
 /// The hues around which names gather are those of the unique hues in CIELAB (red 25°, yellow 90°, green 165°, blue 250°; Fairchild,
 /// Color Appearance Models, 2013) and of the purples between blue and red; boxes are 50° to 95° wide because observers
-/// of a film name a colour beside its neighbours and not on its own. "Pale" and "silver" ask for little chroma, the other
+/// of a film name a color beside its neighbors and not on its own. "Pale" and "silver" ask for little chroma, the other
 /// names for enough to be seen.
 struct Name {
     word: &'static str,
@@ -46,7 +46,7 @@ const NAMES: [Name; 16] = [
     name("silver", 0.0, 360.0, PALE),
 ];
 
-/// Whether a colour of such chroma and hue may be called so.
+/// Whether a color of such chroma and hue may be called so.
 fn is_called(called: &str, (chroma, hue): (f64, f64)) -> bool {
     let of_name = |name: &&Name| name.word == called;
     let name = NAMES.iter().find(of_name).expect("the name is in the list");
@@ -68,7 +68,7 @@ fn index(constants: &OpticalConstants, nm: f64) -> Complex64 {
 }
 
 /// Chroma and hue of a film on a substrate at normal incidence.
-fn colour(
+fn color(
     illuminant: &str,
     film: &OpticalConstants,
     thickness_nm: f64,
@@ -80,7 +80,7 @@ fn colour(
             thickness_nm,
         };
         let found = stack(1.0, &[layer], index(substrate, nm), nm, 1.0);
-        found.reflectance.unpolarised()
+        found.reflectance.unpolarized()
     };
     let white = xyz(illuminant, |_| 1.0);
     chroma_hue(lab(xyz(illuminant, reflectance), white))
@@ -109,10 +109,10 @@ const PLISKIN_CONRAD: [(f64, &str); 14] = [
 fn missed(
     order: &[(f64, &'static str)],
     scale: f64,
-    colour: impl Fn(f64) -> (f64, f64),
+    color: impl Fn(f64) -> (f64, f64),
 ) -> Vec<&'static str> {
     let misses = |(thickness_nm, called): &(f64, &'static str)| {
-        let found = colour(scale * thickness_nm);
+        let found = color(scale * thickness_nm);
         println!(
             "{thickness_nm} {called}: C* {:.0}, h {:.0}",
             found.0, found.1
@@ -125,7 +125,7 @@ fn missed(
 fn oxide_on_silicon(scale: f64) -> Vec<&'static str> {
     let (silica, silicon) = (named("silica"), named("silicon"));
     missed(&PLISKIN_CONRAD, scale, |d| {
-        colour("FL2", &silica, d, &silicon)
+        color("FL2", &silica, d, &silicon)
     })
 }
 
@@ -134,10 +134,10 @@ fn silica_on_silicon_follows_pliskin_and_conrad() {
     assert_eq!(oxide_on_silicon(1.0), [""; 0]);
 }
 
-/// Anodised titanium: gold, purple, blue, pale blue, silver, yellow, pink, violet, cobalt, green, as the voltage rises; the oxide
+/// Anodized titanium: gold, purple, blue, pale blue, silver, yellow, pink, violet, cobalt, green, as the voltage rises; the oxide
 /// grows by 2.4 to 2.8 nm per volt (M. V. Diamanti, B. Del Curto and M. Pedeferri, "Interference colors of thin oxide layers on
 /// titanium", Color Res. Appl. 33, 221 (2008)). Titania after Siefke et al. (2016), titanium after Johnson and Christy (1974).
-const ANODISED: [(f64, &str); 10] = [
+const ANODIZED: [(f64, &str); 10] = [
     (20.0, "gold"),
     (40.0, "purple"),
     (60.0, "blue"),
@@ -150,23 +150,23 @@ const ANODISED: [(f64, &str); 10] = [
     (200.0, "green"),
 ];
 
-fn anodised_titanium(scale: f64) -> Vec<&'static str> {
+fn anodized_titanium(scale: f64) -> Vec<&'static str> {
     let (titania, titanium) = (named("titania"), named("titanium"));
-    missed(&ANODISED, scale, |d| colour("D65", &titania, d, &titanium))
+    missed(&ANODIZED, scale, |d| color("D65", &titania, d, &titanium))
 }
 
 #[test]
-fn anodised_titanium_follows_its_order() {
-    assert_eq!(anodised_titanium(1.0), [""; 0]);
+fn anodized_titanium_follows_its_order() {
+    assert_eq!(anodized_titanium(1.0), [""; 0]);
 }
 
 /// The boxes tell films apart that are a seventh too thin or too thick.
 #[test]
 fn a_wrong_thickness_breaks_the_orders() {
     for scale in [0.85, 1.15] {
-        let (oxide, anodised) = (oxide_on_silicon(scale), anodised_titanium(scale));
+        let (oxide, anodized) = (oxide_on_silicon(scale), anodized_titanium(scale));
         assert!(oxide.len() >= 7, "{scale}: {oxide:?}");
-        assert!(anodised.len() >= 5, "{scale}: {anodised:?}");
+        assert!(anodized.len() >= 5, "{scale}: {anodized:?}");
     }
 }
 
@@ -193,7 +193,7 @@ fn a_soap_film_is_brightest_and_darkest_where_published() {
         let reflectance = |nm: f64| {
             film(index(&water, nm), d, nm, 1.0)
                 .reflectance
-                .unpolarised()
+                .unpolarized()
         };
         xyz("D65", reflectance)[1] / 100.0
     };
@@ -206,7 +206,7 @@ fn a_soap_film_is_brightest_and_darkest_where_published() {
     assert!((peak - 0.0778).abs() < 5e-5, "{peak}");
 }
 
-/// Michel-Lévy's chart: between crossed polarisers a retardation Γ passes sin²(πΓ/λ); the darkest are Γ = 551 nm, the sensitive tint at the
+/// Michel-Lévy's chart: between crossed polarizers a retardation Γ passes sin²(πΓ/λ); the darkest are Γ = 551 nm, the sensitive tint at the
 /// end of the first order, and 1106 and 1666 nm at the ends of the second and third.
 #[test]
 fn the_orders_of_michel_levy_end_where_published() {

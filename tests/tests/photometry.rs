@@ -150,7 +150,7 @@ fn constant_surroundings_give_their_illuminance() {
 
 /// E = I / d².
 #[test]
-fn a_point_of_100_candelas_gives_25_lux_at_two_metres() {
+fn a_point_of_100_candelas_gives_25_lux_at_two_meters() {
     let point = |emission: &str| {
         format!(
             "{FLOOR}[[lights]]\ntype = \"point\"\nemission = {{ illuminant = \"A\", {emission} }}\nposition = [0, 2, 0]\n"

@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 use optics::{
-    Layer, StackAmplitudes, cos_refracted, film, fresnel, reflectance_unpolarised, stack,
+    Layer, StackAmplitudes, cos_refracted, film, fresnel, reflectance_unpolarized, stack,
 };
 use pellicle_tests::agreement::compare;
 use pellicle_tests::colorimetry::xyz;
@@ -13,15 +13,15 @@ use std::collections::BTreeMap;
 
 const FILMS: &str = include_str!("../data/films.csv");
 const FILMS_MEDIA: &str = include_str!("../data/films_media.csv");
-const FILM_COLOURS: &str = include_str!("../data/film_colours.csv");
+const FILM_COLORS: &str = include_str!("../data/film_colors.csv");
 
 fn close(a: f64, b: f64, tolerance: f64) -> bool {
     (a - b).abs() <= tolerance
 }
 
-/// What `stack` makes of unpolarised light.
-fn unpolarised(found: &StackAmplitudes) -> f64 {
-    found.reflectance.unpolarised()
+/// What `stack` makes of unpolarized light.
+fn unpolarized(found: &StackAmplitudes) -> f64 {
+    found.reflectance.unpolarized()
 }
 
 /// The media of `films_media.csv` by case and wavelength, incident half space first, index and thickness.
@@ -87,23 +87,23 @@ fn an_index_one_per_cent_too_high_is_noticed_in_every_case() {
     }
 }
 
-/// The rows of `film_colours.csv`: a name, XYZ as found with the soap's index times `index_factor` or the metal's own
+/// The rows of `film_colors.csv`: a name, XYZ as found with the soap's index times `index_factor` or the metal's own
 /// constants times it, and as expected.
-fn colours(index_factor: f64) -> Vec<(String, [f64; 3], Vec<f64>)> {
+fn colors(index_factor: f64) -> Vec<(String, [f64; 3], Vec<f64>)> {
     let of_row = |row: Vec<&str>| {
         let (thickness_nm, degrees) = (number(row[1]), number(row[2]));
         let cosine = degrees.to_radians().cos();
         let soap = |n: f64| {
             let index = Complex64::from(n * index_factor);
             xyz("D65", |nm| {
-                unpolarised(&film(index, thickness_nm, nm, cosine))
+                unpolarized(&film(index, thickness_nm, nm, cosine))
             })
         };
         let metal = |name: &str| {
             let constants = spectra::optical_constants(name).unwrap().data;
             xyz("D65", |nm| {
                 let (n, k) = (constants.n.at(nm).unwrap(), constants.k.at(nm).unwrap());
-                reflectance_unpolarised(Complex64::new(n, k) * index_factor, cosine)
+                reflectance_unpolarized(Complex64::new(n, k) * index_factor, cosine)
             })
         };
         let found = match row[0] {
@@ -116,14 +116,14 @@ fn colours(index_factor: f64) -> Vec<(String, [f64; 3], Vec<f64>)> {
         let expected = row[3..6].iter().map(|cell| number(cell)).collect();
         (row[..3].join(" "), found, expected)
     };
-    rows(FILM_COLOURS).map(of_row).collect()
+    rows(FILM_COLORS).map(of_row).collect()
 }
 
 #[test]
-fn films_and_metals_have_the_colours_of_independent_computations() {
-    let colours = colours(1.0);
-    assert_eq!(colours.len(), 23);
-    for (name, found, expected) in colours {
+fn films_and_metals_have_the_colors_of_independent_computations() {
+    let colors = colors(1.0);
+    assert_eq!(colors.len(), 23);
+    for (name, found, expected) in colors {
         match compare(&found, &expected, ORACLE_XYZ) {
             Ok(report) => println!("{name}: {report}"),
             Err(report) => panic!("{name}: {report}"),
@@ -132,8 +132,8 @@ fn films_and_metals_have_the_colours_of_independent_computations() {
 }
 
 #[test]
-fn a_colour_of_a_wrong_index_is_noticed() {
-    for (name, found, expected) in colours(1.01) {
+fn a_color_of_a_wrong_index_is_noticed() {
+    for (name, found, expected) in colors(1.01) {
         assert!(compare(&found, &expected, ORACLE_XYZ).is_err(), "{name}");
     }
 }

@@ -1,4 +1,4 @@
-//! Pictures under other lamps: relit from bands against rendered afresh, and colour against the number of bands.
+//! Pictures under other lamps: relit from bands against rendered afresh, and color against the number of bands.
 
 use color::xyz::exposure_scale;
 use color::{Relight, relight};
@@ -73,7 +73,7 @@ fn white(lamp: &str) -> [f64; 3] {
     sums.map(|sum| sum * spectra::KM_LUMENS_PER_WATT * exposure_scale(0.0))
 }
 
-/// Colour differences of two lists of colours, as developed at an exposure, each beside its lamp's white: the smallest first.
+/// Color differences of two lists of colors, as developed at an exposure, each beside its lamp's white: the smallest first.
 fn differences(a: &[[f64; 3]], b: &[[f64; 3]], (lamp, exposure_ev): (&str, f64)) -> Vec<f64> {
     let (white, scale) = (white(lamp), exposure_scale(exposure_ev));
     let lab = |xyz: &[f64; 3]| Lab::from_xyz(xyz.map(|v| v * scale), white);
@@ -87,7 +87,7 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-fn colours(image: &SpectralImage) -> Vec<[f64; 3]> {
+fn colors(image: &SpectralImage) -> Vec<[f64; 3]> {
     image.xyz().iter().map(|xyz| xyz.map(f64::from)).collect()
 }
 
@@ -99,7 +99,7 @@ const SAMPLES: u32 = 256;
 fn fresh(gpu: &Gpu, lamp: &str) -> SpectralImage {
     let mut file = sized(lit_by("soap_bubble", lamp), SIZE, SAMPLES, 400);
     let render = &mut file.description.render;
-    render.sampling = WavelengthSampling::Centre;
+    render.sampling = WavelengthSampling::Center;
     render.light_groups = LightGroups::Single;
     on_gpu(gpu, &file)
 }
@@ -127,8 +127,8 @@ fn a_relit_bubble_is_the_bubble_rendered_under_that_lamp() {
         ("FL11", 80, &of_80),
         ("HP1", 80, &of_80),
     ] {
-        let truth = colours(&fresh(&gpu, lamp));
-        let found = colours(&relit(from, lamp));
+        let truth = colors(&fresh(&gpu, lamp));
+        let found = colors(&relit(from, lamp));
         let off = differences(&found, &truth, (lamp, exposure_ev));
         let report = format!(
             "D65 to {lamp}, {bands} bands: mean ΔE2000 {:.3}, 95th percentile {:.3}, largest {:.2}",
@@ -141,7 +141,7 @@ fn a_relit_bubble_is_the_bubble_rendered_under_that_lamp() {
             wrong.push(report);
         }
         // The comparison can fail: the picture as it was is another one.
-        let unlit = differences(&colours(from), &truth, (lamp, exposure_ev));
+        let unlit = differences(&colors(from), &truth, (lamp, exposure_ev));
         assert!(mean(&unlit) > 2.0, "{lamp}: {}", mean(&unlit));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
@@ -149,7 +149,7 @@ fn a_relit_bubble_is_the_bubble_rendered_under_that_lamp() {
 
 /// XYZ is summed at the drawn wavelengths, so that it does not know of bands, not even under a lamp with lines.
 #[test]
-fn the_colour_of_a_film_does_not_depend_on_the_number_of_bands() {
+fn the_color_of_a_film_does_not_depend_on_the_number_of_bands() {
     const COLUMNS: [u32; 2] = [8, 8];
     let gpu = open();
     let columns = |bands| {
@@ -173,12 +173,12 @@ fn the_colour_of_a_film_does_not_depend_on_the_number_of_bands() {
         off[off.len() - 1]
     );
     assert!(off.iter().all(|&e| e < BANDS_DELTA_E), "{off:?}");
-    // Neighbouring columns differ by more: the comparison can fail.
+    // Neighboring columns differ by more: the comparison can fail.
     let shifted = differences(&few[1..], &many[..few.len() - 1], ("FL11", 3.5));
     assert!(mean(&shifted) > 3.0 * BANDS_DELTA_E, "{shifted:?}");
 }
 
-/// The plates of `scenes/metamers.toml` are one colour under D65 alone. CIELAB under FL11 was computed apart from this code (numpy,
+/// The plates of `scenes/metamers.toml` are one color under D65 alone. CIELAB under FL11 was computed apart from this code (numpy,
 /// sums at 1 nm).
 #[test]
 fn metamers_part_under_another_lamp() {

@@ -83,7 +83,7 @@ fn scene_of(media: &[Medium]) -> Scene {
     let text = format!(
         "camera = {{ type = 'orthographic', position = [0, 0, 9], look_at = [0, 0, 0], height = 9 }}\n\
          environment = {{ type = 'constant', emission = {{ constant = 1 }} }}\n\
-         render = {{ bands = {BANDS}, wavelengths_nm = [375, 785], sampling = 'centre' }}\n\
+         render = {{ bands = {BANDS}, wavelengths_nm = [375, 785], sampling = 'center' }}\n\
          materials = {{ m = {{ {material} }} }}\n\
          [[objects]]\ntype = 'sphere'\nmaterial = 'm'\ncenter = [0, 0, 0]\nradius = 1\n"
     );
@@ -92,7 +92,7 @@ fn scene_of(media: &[Medium]) -> Scene {
         .unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// R and T, if light is let through, in each band at the cosine of the angle of incidence, for unpolarised light.
+/// R and T, if light is let through, in each band at the cosine of the angle of incidence, for unpolarized light.
 fn by_renderer(prepared: &PreparedScene, cosine: f64) -> (Vec<f64>, Option<Vec<f64>>) {
     let point = SurfacePoint {
         position: DVec3::Z,
@@ -217,14 +217,14 @@ fn films_on_paths_are_those_of_the_stack() {
                 if is_film {
                     let [r, t] = prepared.film_powers(0, &point, 0.5).expect("a film");
                     actual.extend(r.into_iter().chain(t));
-                    expected.extend((0..BANDS).map(|b| exact(b).reflectance.unpolarised()));
-                    expected.extend((0..BANDS).map(|b| exact(b).transmittance.unpolarised()));
+                    expected.extend((0..BANDS).map(|b| exact(b).reflectance.unpolarized()));
+                    expected.extend((0..BANDS).map(|b| exact(b).transmittance.unpolarized()));
                 } else {
                     let r = prepared
                         .mirror_reflectance(0, &point, 0.5)
                         .expect("a mirror");
                     actual.extend(r);
-                    expected.extend((0..BANDS).map(|b| exact(b).reflectance.unpolarised()));
+                    expected.extend((0..BANDS).map(|b| exact(b).reflectance.unpolarized()));
                 }
             }
         }
@@ -249,7 +249,7 @@ fn the_wedge_is_exact() {
             let nm = 300.0 + 1700.0 * (f64::from(x) + place(i)) / 64.0;
             let wavelength = scene.settings().bands.wavelength_nm(band, place(j));
             let film = film((1.33 * factor).into(), nm, wavelength, 1.0);
-            film.reflectance.unpolarised() * light.at(band, place(j))
+            film.reflectance.unpolarized() * light.at(band, place(j))
         };
         let places = (0..STEPS).flat_map(|i| (0..STEPS).map(move |j| of(i, j)));
         places.sum::<f64>() / f64::from(STEPS * STEPS)

@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 use optics::batch::{LayerOf, Media, StackBatch, StackOf, evaluate};
-use optics::{Layer, Polarised, absorptance, stack, thickness_derivatives};
+use optics::{Layer, Polarized, absorptance, stack, thickness_derivatives};
 use pellicle_tests::agreement::compare;
 use pellicle_tests::tables::{number, rows};
 use pellicle_tests::tolerances::{DERIVATIVE, IDENTITY, ORACLE_STACKS};
@@ -104,9 +104,9 @@ fn stacks_agree_with_fifty_digits() {
     }
 }
 
-/// A layer a picometre thicker is noticed, by single calls and by batches.
+/// A layer a picometer thicker is noticed, by single calls and by batches.
 #[test]
-fn a_picometre_is_noticed() {
+fn a_picometer_is_noticed() {
     let mut noticed = 0;
     for mut case in cases() {
         // Not where nothing changes: grazing, opaque or too thin a layer.
@@ -142,7 +142,7 @@ fn substrates() -> impl Strategy<Value = Complex64> {
 fn sum(incident: f64, layers: &[Layer], substrate: Complex64, nm: f64, cosine: f64) -> [f64; 2] {
     let found = stack(incident, layers, substrate, nm, cosine);
     let absorbed = absorptance(incident, layers, substrate, nm, cosine);
-    let whole = |of: fn(&Polarised) -> f64| {
+    let whole = |of: fn(&Polarized) -> f64| {
         let (r, t) = (of(&found.reflectance), of(&found.transmittance));
         r + t + absorbed.iter().map(of).sum::<f64>()
     };

@@ -19,9 +19,9 @@ const BANDS: u32 = 8;
 /// The scene is at f32, and so are its texels; a ray to the middle of a pixel takes another one by chance of as much.
 const ROUNDED: f64 = 2e-5;
 
-/// Towards the middle of a pixel, as the documentation has it: the picture's middle is towards −Z, its right half towards +X, its top
-/// towards +Y; it is turned about +Y from +Z towards +X.
-fn towards([x, y]: [u32; 2], [width, height]: [u32; 2], rotation_deg: f64) -> DVec3 {
+/// Toward the middle of a pixel, as the documentation has it: the picture's middle is toward −Z, its right half toward +X, its top
+/// toward +Y; it is turned about +Y from +Z toward +X.
+fn toward([x, y]: [u32; 2], [width, height]: [u32; 2], rotation_deg: f64) -> DVec3 {
     let longitude = TAU * ((f64::from(x) + 0.5) / f64::from(width) - 0.5);
     let latitude = PI * (0.5 - (f64::from(y) + 0.5) / f64::from(height));
     let (up, around) = latitude.sin_cos();
@@ -135,7 +135,7 @@ fn spectra_come_back_as_they_are() {
         let environment = format!(
             "type = \"image\"\nimage = \"a.exr\"\nscale = 0.5\nrotation_deg = {rotation_deg:?}"
         );
-        let direction = towards(pixel, size, rotation_deg);
+        let direction = toward(pixel, size, rotation_deg);
         let own: Vec<f64> = spectrum_of(pixel[0], pixel[1])
             .iter()
             .map(|&v| f64::from(v))
@@ -163,11 +163,11 @@ fn spectra_come_back_as_they_are() {
 fn directions_are_where_the_documentation_has_them() {
     let near = |a: DVec3, b: DVec3| assert!((a - b).length() < 0.02, "{a} {b}");
     let size = [1024, 512];
-    near(towards([512, 256], size, 0.0), DVec3::NEG_Z);
-    near(towards([768, 256], size, 0.0), DVec3::X);
-    near(towards([100, 0], size, 0.0), DVec3::Y);
-    // From +Z towards +X: what was at −Z is at −X.
-    near(towards([512, 256], size, 90.0), DVec3::NEG_X);
+    near(toward([512, 256], size, 0.0), DVec3::NEG_Z);
+    near(toward([768, 256], size, 0.0), DVec3::X);
+    near(toward([100, 0], size, 0.0), DVec3::Y);
+    // From +Z toward +X: what was at −Z is at −X.
+    near(toward([512, 256], size, 90.0), DVec3::NEG_X);
     let folder = TempDir::new().unwrap();
     let lit = |x, y| {
         if (x, y) == (6, 1) {
@@ -184,7 +184,7 @@ fn directions_are_where_the_documentation_has_them() {
             "type = \"image\"\nimage = \"spot.exr\"\nilluminant = \"E\"\nrotation_deg = {rotation_deg:?}"
         );
         let seen = |pixel| {
-            let direction = towards(pixel, [8, 4], rotation_deg);
+            let direction = toward(pixel, [8, 4], rotation_deg);
             mean(&on_cpu(&looking(direction, folder.path(), &environment, 4)))
         };
         assert!(
@@ -200,12 +200,12 @@ fn directions_are_where_the_documentation_has_them() {
     }
 }
 
-/// Linear (r, g, b) of a file, at the exposure of its own (1, 1, 1): the colour of what a ray brings, as lifting promises.
+/// Linear (r, g, b) of a file, at the exposure of its own (1, 1, 1): the color of what a ray brings, as lifting promises.
 #[test]
-fn colours_come_back_as_colours() {
+fn colors_come_back_as_colors() {
     let folder = TempDir::new().unwrap();
-    let colour = [0.9_f32, 0.35, 0.1];
-    ImageBuffer::from_pixel(4, 2, Rgb(colour))
+    let color = [0.9_f32, 0.35, 0.1];
+    ImageBuffer::from_pixel(4, 2, Rgb(color))
         .save(folder.path().join("a.exr"))
         .unwrap();
     let environment = "type = \"image\"\nimage = \"a.exr\"";
@@ -216,7 +216,7 @@ fn colours_come_back_as_colours() {
         std::array::from_fn(|i| sum[i] + scale * f64::from(xyz[i]) / count)
     });
     let found = srgb::linear_from_xyz(xyz);
-    assert_near("rgb", &found, &colour.map(f64::from), 2e-3);
+    assert_near("rgb", &found, &color.map(f64::from), 2e-3);
 }
 
 const ROOM: &str = r#"
@@ -243,7 +243,7 @@ fn a_panorama_is_the_surroundings_that_it_saw() {
     let size = [64, 32];
     let text = format!(
         "camera = {{ type = \"panorama\", position = [0, 0, 0] }}\n\
-         render = {{ size = {size:?}, samples = 64, bands = {BANDS}, sampling = \"centre\" }}\n{ROOM}"
+         render = {{ size = {size:?}, samples = 64, bands = {BANDS}, sampling = \"center\" }}\n{ROOM}"
     );
     let file = SceneFile::parse("room.toml", &text, Path::new(""));
     let scene = file
@@ -253,9 +253,9 @@ fn a_panorama_is_the_surroundings_that_it_saw() {
     let (metadata, options) = (Metadata::default(), WriteOptions::default());
     color::spectral_exr::write(&folder.path().join("room.exr"), &seen, &metadata, options).unwrap();
     let environment = "type = \"image\"\nimage = \"room.exr\"";
-    // On the panel towards +X, beside it, straight up and down.
+    // On the panel toward +X, beside it, straight up and down.
     for pixel in [[48, 14], [47, 16], [16, 10], [30, 1], [5, 30]] {
-        let direction = towards(pixel, size, 0.0);
+        let direction = toward(pixel, size, 0.0);
         let found = mean(&on_cpu(&looking(
             direction,
             folder.path(),

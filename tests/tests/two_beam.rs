@@ -1,4 +1,4 @@
-//! Two beams and Newton's colours against independent computations; no device is needed.
+//! Two beams and Newton's colors against independent computations; no device is needed.
 
 use optics::{PathDifference, film, two_beam};
 use pellicle_tests::agreement::compare;
@@ -62,10 +62,10 @@ fn newton(index: f64) -> Vec<(String, [f64; 6], Vec<f64>)> {
     let of_row = |row: Vec<&str>| {
         let d = number(row[2]);
         let reflectance = |nm: f64| match row[0] {
-            "airy" => film(index.into(), d, nm, 1.0).reflectance.unpolarised(),
+            "airy" => film(index.into(), d, nm, 1.0).reflectance.unpolarized(),
             beams => two_beam(index, d, nm, 1.0, path(beams))
                 .reflectance
-                .unpolarised(),
+                .unpolarized(),
         };
         let [x, y, z] = xyz(row[1], reflectance);
         let [r, g, b] = colorimetry::srgb::linear_from_xyz([x, y, z].map(|v| v / 100.0));
@@ -76,10 +76,10 @@ fn newton(index: f64) -> Vec<(String, [f64; 6], Vec<f64>)> {
 }
 
 #[test]
-fn newtons_series_has_the_colours_of_independent_computations() {
-    let colours = newton(WATER);
-    assert_eq!(colours.len(), 3 * 2 * 41);
-    for (name, found, expected) in colours {
+fn newtons_series_has_the_colors_of_independent_computations() {
+    let colors = newton(WATER);
+    assert_eq!(colors.len(), 3 * 2 * 41);
+    for (name, found, expected) in colors {
         if name.starts_with("airy") && name.ends_with(" 0") {
             assert!(found.iter().all(|x| x.abs() < 1e-12), "{name}: {found:?}");
             assert!(expected.iter().all(|x| *x == 0.0));

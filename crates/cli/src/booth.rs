@@ -4,7 +4,7 @@ use crate::develop::{OfImage, Options};
 use crate::lamp::Lamp;
 use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
-use pellicle::coating::{SheetColours, contact_sheet};
+use pellicle::coating::{SheetColors, contact_sheet};
 use pellicle::color::develop::SceneWhite;
 use pellicle::color::{Relight, png, relight};
 use pellicle::colorimetry::Display;
@@ -83,12 +83,12 @@ pub(crate) fn write(
         let height = relit.height();
         pictures.push((label.clone(), options.codes(&relit, of_image, height)?));
     }
-    let colours = SheetColours {
+    let colors = SheetColors {
         ground: shade(options.display(), 0.02),
         text: shade(options.display(), 1.0),
     };
     let sheet =
-        contact_sheet(&pictures, colours).ok_or_else(|| miette!("--booth: there is no lamp"))?;
+        contact_sheet(&pictures, colors).ok_or_else(|| miette!("--booth: there is no lamp"))?;
     for path in outputs {
         png::write_for_display(path, &sheet, options.display())
             .into_diagnostic()

@@ -15,12 +15,12 @@ use pellicle::spectra::{Observer, OutOfRange, Spectrum};
 use serde_json::json;
 use std::path::PathBuf;
 
-/// The colour of a spectrum: XYZ, CIELAB, and RGB of a display.
+/// The color of a spectrum: XYZ, CIELAB, and RGB of a display.
 ///
 /// FILE is a table with the columns wavelength_nm and value, linear between its points: a reflectance (or transmittance) from 0 to 1, or
 /// with --emission the power of a light in any unit. Sums run from 380 to 780 nm. XYZ have Y = 100 for the perfect reflector, and for an
 /// emission as a whole; CIELAB is beside the illuminant's white. Linear RGB is XYZ/100 through the display's M⁻¹, beyond 0 and 1 where
-/// the display cannot show the colour; RGB are its codes of 8 bits, clipped. The display's black and the ambient light, which `develop`
+/// the display cannot show the color; RGB are its codes of 8 bits, clipped. The display's black and the ambient light, which `develop`
 /// takes off, are left out here.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
@@ -64,7 +64,7 @@ enum Format {
     Json,
 }
 
-/// A colour and all that is told of it.
+/// A color and all that is told of it.
 struct Found<'a> {
     arguments: &'a Arguments,
     display: Display,
@@ -107,7 +107,7 @@ impl<'a> Found<'a> {
         let too_short = |gap: OutOfRange| {
             miette!(
                 help = "--clamp goes on with its first and last value",
-                "{}: {gap}; colours are sums from 380 to 780 nm",
+                "{}: {gap}; colors are sums from 380 to 780 nm",
                 print::name(&arguments.file)
             )
         };
@@ -170,7 +170,7 @@ impl<'a> Found<'a> {
         self.encoded().map(|code| (255.0 * code).round() as u8)
     }
 
-    /// Whether the display shows the colour, to the rounding of sums over wavelength beside its white.
+    /// Whether the display shows the color, to the rounding of sums over wavelength beside its white.
     fn is_in_gamut(&self) -> bool {
         const ROUNDING: f64 = 1e-3;
         let fits = |v: &f64| (-ROUNDING..=self.display.peak() + ROUNDING).contains(v);

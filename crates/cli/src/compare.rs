@@ -10,11 +10,11 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// How far an image is from another: per band, in colour, and to the eye.
+/// How far an image is from another: per band, in color, and to the eye.
 ///
 /// The first image is the reference: a bias above 0 means that the second has more light. Both are spectral images (.exr), or
-/// pictures (.png), which have no bands. Colours are compared as a display of sRGB shows them, both at the exposure of the first;
-/// differences of colour (CIEDE2000) count what the display would clip, FLIP and PSNR do not.
+/// pictures (.png), which have no bands. Colors are compared as a display of sRGB shows them, both at the exposure of the first;
+/// differences of color (CIEDE2000) count what the display would clip, FLIP and PSNR do not.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The reference, .exr or .png
@@ -199,7 +199,7 @@ impl Comparison {
             let _ = write!(
                 text,
                 "{:>9.2} {:>12.5e} {:>12.4e} {:>12.5e}",
-                band.centre_nm, band.reference_mean, band.bias, band.rmse
+                band.center_nm, band.reference_mean, band.bias, band.rmse
             );
             if let Some(noise) = band.noise {
                 let _ = write!(text, " {:>12.5e} {:>8.2}", noise.rmse, noise.bias_sigmas);
@@ -242,7 +242,7 @@ impl Comparison {
         let noise = |noise: Noise| json!({ "rmse": noise.rmse, "bias_sigmas": noise.bias_sigmas });
         let band = |band: &BandDifference| {
             json!({
-                "centre_nm": band.centre_nm, "mean": band.reference_mean, "bias": band.bias,
+                "center_nm": band.center_nm, "mean": band.reference_mean, "bias": band.bias,
                 "rmse": band.rmse, "noise": band.noise.map(noise), "left_out": band.left_out,
             })
         };
@@ -293,7 +293,7 @@ fn unlike(error: &compare::CompareError, arguments: &Arguments) -> miette::Repor
     )
 }
 
-/// Codes that do not mean the same colours cannot be compared.
+/// Codes that do not mean the same colors cannot be compared.
 fn check_tags(first: &Opened, second: &Opened) -> miette::Result<()> {
     let tag = |opened: &Opened| match opened {
         Opened::Picture(picture) => picture.tag().map(str::to_owned),

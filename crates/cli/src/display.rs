@@ -99,7 +99,7 @@ fn described(display: &Display) -> String {
             let _ = writeln!(text, "{what:<10}{said}");
         }
     }
-    text += &colours(display);
+    text += &colors(display);
     text += &light(display);
     text += &matrix(
         "M, XYZ from amounts of red, green and blue; the white has Y = 1",
@@ -127,7 +127,7 @@ fn described(display: &Display) -> String {
 }
 
 /// Chromaticities, and each primary's share of the white's luminance.
-fn colours(display: &Display) -> String {
+fn colors(display: &Display) -> String {
     let kind = match display.primaries() {
         Primaries::Chromaticities(_) => "as given",
         Primaries::Spectra(_) => "by sums over the spectra at 5 nm",

@@ -25,7 +25,7 @@ use clap::{Parser, Subcommand};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Renders the colour of thin films and metals, wavelength by wavelength.
+/// Renders the color of thin films and metals, wavelength by wavelength.
 #[derive(Parser)]
 #[command(version, about)]
 struct Arguments {

@@ -5,7 +5,7 @@ use clap::ValueEnum;
 use miette::miette;
 use pellicle::color::{BandWeights, xyz};
 use pellicle::colorimetry::srgb;
-use pellicle::optics::reflectance_unpolarised;
+use pellicle::optics::reflectance_unpolarized;
 use pellicle::scene::description::Index;
 use pellicle::spectra::{self, BandGrid, MaterialInfo, Observer, OpticalConstants};
 use serde_json::{Value, json};
@@ -122,14 +122,14 @@ fn show(info: &MaterialInfo, constants: &OpticalConstants) -> miette::Result<()>
     }
     print::result(format_args!("data set  {}", info.data_set))?;
     print::result(format_args!("source    {}", info.citation))?;
-    print::result(format_args!("licence   {}", info.licence))?;
+    print::result(format_args!("license   {}", info.license))?;
     print::result(format_args!("range     {low} to {high} nm"))?;
     print::result(format_args!("notes     {}", info.notes))?;
     if std::io::stdout().is_terminal()
-        && let Some([r, g, b]) = bulk_colour(constants)
+        && let Some([r, g, b]) = bulk_color(constants)
     {
         print::result(format_args!(
-            "colour    \x1b[48;2;{r};{g};{b}m          \x1b[0m  polished, under D65"
+            "color    \x1b[48;2;{r};{g};{b}m          \x1b[0m  polished, under D65"
         ))?;
     }
     print::result(format_args!("\n{:>6}{:>14}{:>14}", "nm", "n", "k"))?;
@@ -176,7 +176,7 @@ fn described(info: &MaterialInfo) -> Value {
         "data_set": info.data_set,
         "paper": info.paper,
         "citation": info.citation,
-        "licence": info.licence,
+        "license": info.license,
         "notes": info.notes,
         "range_nm": [info.range_nm.0, info.range_nm.1],
     })
@@ -193,12 +193,12 @@ fn with_figures(info: &MaterialInfo, constants: &OpticalConstants) -> Value {
 
 /// The sRGB codes of a polished surface in air under D65 at normal incidence; `None` where the figures do not cover the
 /// visible range.
-fn bulk_colour(constants: &OpticalConstants) -> Option<[u8; 3]> {
+fn bulk_color(constants: &OpticalConstants) -> Option<[u8; 3]> {
     let grid = BandGrid::new(PLOT_NM.0, PLOT_NM.1, 80).ok()?;
     let d65 = spectra::illuminant("D65")?.data;
     let reflected = |band| {
         let nm = grid.wavelength_nm(band, 0.5);
-        let reflectance = reflectance_unpolarised(constants.at(nm).ok()?, 1.0);
+        let reflectance = reflectance_unpolarized(constants.at(nm).ok()?, 1.0);
         Some((d65.at(nm).ok()? * reflectance) as f32)
     };
     let radiance: Option<Vec<f32>> = (0..grid.count()).map(reflected).collect();
@@ -211,25 +211,25 @@ fn bulk_colour(constants: &OpticalConstants) -> Option<[u8; 3]> {
 mod tests {
     use super::*;
 
-    fn colour(name: &str) -> Option<[u8; 3]> {
-        bulk_colour(&spectra::optical_constants(name).unwrap().data)
+    fn color(name: &str) -> Option<[u8; 3]> {
+        bulk_color(&spectra::optical_constants(name).unwrap().data)
     }
 
     #[test]
-    fn metals_and_glass_have_the_colours_of_an_independent_computation() {
+    fn metals_and_glass_have_the_colors_of_an_independent_computation() {
         // Normal incidence, D65, CIE 1931 2° at 1 nm, colour-science 0.4.7 and numpy.
         for (name, expected) in [
             ("gold", [255, 222, 163]),
             ("silver", [254, 253, 252]),
             ("bk7", [58, 58, 59]),
         ] {
-            let found = colour(name).unwrap();
+            let found = color(name).unwrap();
             let near = found
                 .iter()
                 .zip(expected)
                 .all(|(code, other)| code.abs_diff(other) <= 1);
             assert!(near, "{name}: {found:?}");
         }
-        assert_eq!(colour("rutile"), None);
+        assert_eq!(color("rutile"), None);
     }
 }

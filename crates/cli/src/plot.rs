@@ -39,7 +39,7 @@ pub(crate) fn curve(values: &[Option<f64>; DOTS_WIDE]) -> Vec<String> {
         .collect()
 }
 
-/// The characters, row by row. Neighbouring dots are joined, so that a steep curve has no gaps.
+/// The characters, row by row. Neighboring dots are joined, so that a steep curve has no gaps.
 fn cells(rows: &[Option<usize>]) -> Vec<String> {
     let mut bits = [[0; CELLS_WIDE]; CELLS_HIGH];
     for (column, &row) in rows.iter().enumerate() {

@@ -1,16 +1,16 @@
-//! The colour of a stack over the thickness of one layer and the angle: Newton's chart of any stack.
+//! The color of a stack over the thickness of one layer and the angle: Newton's chart of any stack.
 
-use crate::colour::{Side, StackColour};
 use crate::picture::{self, Drawing, Drawn, INK, Scale, decimals, draw_title, exposure};
-use crate::plot::polarisation;
+use crate::plot::polarization;
 use crate::response::Angle;
+use crate::stack_color::{Side, StackColor};
 use color::RgbImage8;
 use colorimetry::srgb;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// The colour of a stack over the thickness of one layer and the angle of incidence.
+/// The color of a stack over the thickness of one layer and the angle of incidence.
 #[derive(Clone, Debug)]
 pub struct Chart {
     title: String,
@@ -36,20 +36,20 @@ pub struct ChartOf {
     pub range_nm: (f64, f64),
     /// The angles, from and to.
     pub angles: (Angle, Angle),
-    /// The colours are shown 2^EV times as bright.
+    /// The colors are shown 2^EV times as bright.
     pub exposure_ev: f64,
 }
 
-/// Thicknesses and angles at which the colour is computed; between them linear RGB is linear.
+/// Thicknesses and angles at which the color is computed; between them linear RGB is linear.
 const COLUMNS: usize = 601;
 const ROWS: usize = 86;
 
 impl Chart {
-    /// Computes the colours.
+    /// Computes the colors.
     ///
     /// # Panics
     /// When there is no such layer, or not one thickness per layer.
-    pub fn new(stack: &StackColour, thicknesses_nm: &[f64], of: &ChartOf) -> Self {
+    pub fn new(stack: &StackColor, thicknesses_nm: &[f64], of: &ChartOf) -> Self {
         let range_deg = (of.angles.0.degrees(), of.angles.1.degrees());
         let set = |column: usize| {
             let mut thicknesses = thicknesses_nm.to_vec();
@@ -62,8 +62,8 @@ impl Chart {
         };
         let sets: Vec<Vec<f64>> = (0..COLUMNS).map(set).collect();
         let angles: Vec<Angle> = (0..ROWS).map(angle).collect();
-        let colours = stack.xyz_of_all(&sets, &angles).into_iter();
-        let rgb = |xyz| stack.colour(xyz).linear_srgb(of.exposure_ev);
+        let colors = stack.xyz_of_all(&sets, &angles).into_iter();
+        let rgb = |xyz| stack.color(xyz).linear_srgb(of.exposure_ev);
         let side = match stack.view().side {
             Side::Reflected => "reflected",
             Side::Transmitted => "transmitted",
@@ -77,14 +77,14 @@ impl Chart {
             ),
             footer: format!(
                 "{}, {side}, under {}; sRGB at exposure {}, clipped where a display ends",
-                polarisation(stack.view().polarisation),
+                polarization(stack.view().polarization),
                 stack.light().name(),
                 exposure(of.exposure_ev)
             ),
             nominal_nm: thicknesses_nm[of.layer],
             range_nm: of.range_nm,
             range_deg,
-            cells: colours.map(rgb).collect(),
+            cells: colors.map(rgb).collect(),
         }
     }
 
@@ -184,10 +184,10 @@ impl Chart {
         let middle = |at: i32, size: u32| (f64::from(at) + 0.5 * f64::from(side)) / f64::from(size);
         for y in (0..height as i32).step_by(side as usize) {
             for x in (0..width as i32).step_by(side as usize) {
-                let colour = self.codes(middle(x, width), 1.0 - middle(y, height));
+                let color = self.codes(middle(x, width), 1.0 - middle(y, height));
                 let corner = |at: i32, size: u32| (at + side).min(size as i32);
                 let square = [(x, y), (corner(x, width), corner(y, height))];
-                area.draw(&Rectangle::new(square, colour.filled()))?;
+                area.draw(&Rectangle::new(square, color.filled()))?;
             }
         }
         Ok(())
@@ -210,10 +210,10 @@ mod tests {
     use super::*;
     use crate::{Light, Stack, View};
 
-    fn soap() -> (StackColour, ChartOf) {
+    fn soap() -> (StackColor, ChartOf) {
         let stack = Stack::parse("1 | 1.333 300nm | 1").unwrap();
         let light = Light::named("D65").unwrap();
-        let colour = StackColour::new(&stack, light, View::default()).unwrap();
+        let color = StackColor::new(&stack, light, View::default()).unwrap();
         let of = ChartOf {
             title: stack.label_with_varied(0),
             layer: 0,
@@ -222,14 +222,14 @@ mod tests {
             angles: (Angle::NORMAL, Angle::from_degrees(85.0).unwrap()),
             exposure_ev: 3.0,
         };
-        (colour, of)
+        (color, of)
     }
 
     /// Also between the points at which it was computed.
     #[test]
-    fn every_place_has_the_colour_of_its_thickness_and_angle() {
-        let (colour, of) = soap();
-        let chart = Chart::new(&colour, &[300.0], &of);
+    fn every_place_has_the_color_of_its_thickness_and_angle() {
+        let (color, of) = soap();
+        let chart = Chart::new(&color, &[300.0], &of);
         for (nm, deg) in [
             (0.0, 0.0),
             (300.0, 0.0),
@@ -238,7 +238,7 @@ mod tests {
             (401.0, 84.5),
         ] {
             let angle = Angle::from_degrees(deg).unwrap();
-            let expected = colour.at(&[nm], angle).srgb8(3.0);
+            let expected = color.at(&[nm], angle).srgb8(3.0);
             let RGBColor(r, g, b) = chart.codes(nm / 1200.0, deg / 85.0);
             for (found, expected) in [r, g, b].into_iter().zip(expected) {
                 assert!(
@@ -250,9 +250,9 @@ mod tests {
     }
 
     #[test]
-    fn the_picture_is_the_same_each_time_and_has_the_colours() {
-        let (colour, of) = soap();
-        let chart = Chart::new(&colour, &[300.0], &of);
+    fn the_picture_is_the_same_each_time_and_has_the_colors() {
+        let (color, of) = soap();
+        let chart = Chart::new(&color, &[300.0], &of);
         let picture = chart.pixels();
         assert_eq!((picture.width(), picture.height()), (1800, 1040));
         assert_eq!(picture, chart.pixels());

@@ -38,7 +38,7 @@ pub struct FilmFitting<'a> {
     pub lamp: &'a [f64],
 }
 
-/// A thickness whose spectrum is nearer in shape, or in colour, than those of its neighbours.
+/// A thickness whose spectrum is nearer in shape, or in color, than those of its neighbors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmFit {
     /// The thickness of the layer that varies, nm.
@@ -51,7 +51,7 @@ pub struct FilmFit {
     pub scale: f64,
     /// What is left after scaling, √(Σ(L − a M)² / ΣL²) over the bands: 0 for the same shape.
     pub residual: f64,
-    /// Colour difference ΔE₀₀, the film made as bright as the measured light.
+    /// Color difference ΔE₀₀, the film made as bright as the measured light.
     pub delta_e: f64,
     /// Where in the range it lies.
     pub place: MatchPlace,
@@ -62,9 +62,9 @@ pub struct FilmFit {
 pub struct FilmFits {
     /// By the shape of the spectrum, the best first.
     pub by_shape: Vec<FilmFit>,
-    /// By colour but for brightness, the best first.
-    pub by_colour: Vec<FilmFit>,
-    /// The residual of the lamp's own spectrum, as a surface without colour reflects it.
+    /// By color but for brightness, the best first.
+    pub by_color: Vec<FilmFit>,
+    /// The residual of the lamp's own spectrum, as a surface without color reflects it.
     pub of_lamp: f64,
     /// The residual that noise alone leaves of the right film, where it is known, if the bands' noise is independent.
     pub of_noise: Option<f64>,
@@ -75,15 +75,15 @@ pub struct FilmFits {
 pub enum Verdict {
     /// The best thickness has the shape of the spectrum.
     Film,
-    /// A surface without colour explains the spectrum as well as any thickness does.
+    /// A surface without color explains the spectrum as well as any thickness does.
     Lamp,
     /// No thickness in the range has the shape of the spectrum.
     Nothing,
 }
 
 /// A residual up to this is the same shape: light that the film does not mirror, a film that is not even within a pixel, and
-/// noise leave some percent of the right film. The coloured patches of the ColorChecker leave 12 % and more of the nearest film
-/// of water, its greys 5 to 8 %.
+/// noise leave some percent of the right film. The colored patches of the ColorChecker leave 12 % and more of the nearest film
+/// of water, its grays 5 to 8 %.
 const SAME_SHAPE: f64 = 0.08;
 
 impl FilmFits {
@@ -120,7 +120,7 @@ impl FilmFitting<'_> {
             .collect()
     }
 
-    /// The thicknesses whose spectra are nearest in shape and in colour; `None` where the measured light is black or not a number.
+    /// The thicknesses whose spectra are nearest in shape and in color; `None` where the measured light is black or not a number.
     ///
     /// # Errors
     /// When the stack has no data at some wavelength.
@@ -155,7 +155,7 @@ impl FilmFitting<'_> {
         let grid = search.on_grid();
         Ok(Some(FilmFits {
             by_shape: search.nearest(&grid, |fit| fit.residual),
-            by_colour: search.nearest(&grid, |fit| fit.delta_e),
+            by_color: search.nearest(&grid, |fit| fit.delta_e),
             of_lamp,
             of_noise,
         }))
@@ -360,12 +360,12 @@ mod tests {
         }
     }
 
-    /// XYZ of band values, good enough to tell colours by.
+    /// XYZ of band values, good enough to tell colors by.
     fn xyz(bands: &BandGrid, radiance: &[f64]) -> [f64; 3] {
         let mut xyz = [0.0; 3];
         for (band, value) in (0..).zip(radiance) {
             for (sum, curve) in xyz.iter_mut().zip(observer_1931()) {
-                *sum += value * curve.clamped_at(bands.centre_nm(band));
+                *sum += value * curve.clamped_at(bands.center_nm(band));
             }
         }
         xyz.map(|v| 0.2 * v / xyz[1])
@@ -400,14 +400,14 @@ mod tests {
             assert!((best.thickness_nm - nm).abs() < 1e-2, "{nm}: {best:?}");
             assert!((best.scale - 3.5).abs() < 1e-4 && best.residual < 1e-4);
             assert_eq!(fits.verdict(), Verdict::Film);
-            // By colour alone other orders come near; the right one is among the nearest.
-            let by_colour = fits.by_colour.iter().take(3);
+            // By color alone other orders come near; the right one is among the nearest.
+            let by_color = fits.by_color.iter().take(3);
             assert!(
-                by_colour
+                by_color
                     .clone()
                     .any(|fit| (fit.thickness_nm - nm).abs() < 8.0),
                 "{nm}: {:?}",
-                fits.by_colour
+                fits.by_color
             );
         }
     }
@@ -418,10 +418,10 @@ mod tests {
         let bands = BandGrid::visible(40).unwrap();
         let lamp = lamp(&bands);
         let fitting = fitting(&stack, &lamp, 0.0);
-        // A grey surface in the lamp.
-        let grey: Vec<f64> = means(&lamp, &bands).iter().map(|v| 0.2 * v).collect();
+        // A gray surface in the lamp.
+        let gray: Vec<f64> = means(&lamp, &bands).iter().map(|v| 0.2 * v).collect();
         assert_eq!(
-            found(&fitting, &bands, &grey, None).verdict(),
+            found(&fitting, &bands, &gray, None).verdict(),
             Verdict::Lamp
         );
         // A saturated red, as of a pigment.

@@ -5,29 +5,28 @@
 //!   -> Stack                media (n + ik over wavelength) and layers with their thickness
 //!   -> Sampled              the stack at chosen wavelengths: numbers alone
 //!   -> powers               R, T and A for s and p over wavelength at an angle
-//!   -> Light::xyz           colour under an illuminant for an observer, sums at 1 nm
-//!   -> sensitivity, tolerance, matching: how the colour depends on the thicknesses
+//!   -> Light::xyz           color under an illuminant for an observer, sums at 1 nm
+//!   -> sensitivity, tolerance, matching: how the color depends on the thicknesses
 //!   -> film_fit             which thickness makes a spectrum that was measured or rendered
 //!   -> plot, chart          pictures of all that
 //! ```
 //!
 //! ```
-//! use pellicle_coating::{Angle, Light, Stack, StackColour, View};
+//! use pellicle_coating::{Angle, Light, Stack, StackColor, View};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let stack = Stack::parse("1.0 | silica 300nm | silicon")?;
-//! let colour = StackColour::new(&stack, Light::named("D65")?, View::default())?;
-//! let blue = colour.at(stack.thicknesses_nm(), Angle::NORMAL);
+//! let color = StackColor::new(&stack, Light::named("D65")?, View::default())?;
+//! let blue = color.at(stack.thicknesses_nm(), Angle::NORMAL);
 //! assert!(blue.lab().b < -30.0);
 //! # Ok(())
 //! # }
 //! ```
 //!
-//! Wavelengths are vacuum wavelengths, they and thicknesses in nanometres. Angles are degrees in the incident medium. Light is
-//! unpolarised where nothing else is said. Sign convention n + ik, k ≥ 0 absorbs.
+//! Wavelengths are vacuum wavelengths, they and thicknesses in nanometers. Angles are degrees in the incident medium. Light is
+//! unpolarized where nothing else is said. Sign convention n + ik, k ≥ 0 absorbs.
 
 mod chart;
-mod colour;
 mod file;
 mod film_fit;
 mod fringes;
@@ -43,11 +42,11 @@ mod sensitivity;
 mod sheet;
 mod spectrum_plot;
 mod stack;
+mod stack_color;
 mod thickness;
 mod tolerance;
 
 pub use chart::{Chart, ChartOf};
-pub use colour::{Colour, ParseColourError, Polarisation, Side, StackColour, View, parse_srgb};
 pub use file::{LayerDescription, OpticalThickness, StackDescription};
 pub use film_fit::{FilmFit, FilmFits, FilmFitting, Measured, Verdict};
 pub use light::Light;
@@ -59,7 +58,8 @@ pub use optics::batch::Powers;
 pub use plot::{Curve, Plot};
 pub use response::{Angle, AngleError, Batch, Sampled, absorptance};
 pub use sensitivity::{LayerSensitivity, Sensitivity, sensitivity};
-pub use sheet::{SheetColours, contact_sheet};
+pub use sheet::{SheetColors, contact_sheet};
 pub use spectrum_plot::{Series, SpectrumPlot};
 pub use stack::{Layer, Medium, SampleError, Stack, StackError};
+pub use stack_color::{Color, ParseColorError, Polarization, Side, StackColor, View, parse_srgb};
 pub use tolerance::{Quantiles, Spread, Tolerance, ToleranceError, tolerance};

@@ -1,14 +1,14 @@
-//! Which thickness of a layer gives a wanted colour.
+//! Which thickness of a layer gives a wanted color.
 
-use crate::colour::StackColour;
 use crate::response::Angle;
+use crate::stack_color::StackColor;
 use colorimetry::lab::delta_e_2000;
 use colorimetry::{Lab, srgb};
 
 /// What is looked for, and where.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Matching {
-    /// The wanted colour, XYZ with Y = 1 for the display's white; see [`parse_srgb`](crate::parse_srgb).
+    /// The wanted color, XYZ with Y = 1 for the display's white; see [`parse_srgb`](crate::parse_srgb).
     pub wanted: [f64; 3],
     /// The layer that may vary, counted from 0.
     pub layer: usize,
@@ -25,20 +25,20 @@ pub struct Matching {
 /// What has to be alike.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MatchBy {
-    /// The whole colour, lightness included, at the exposure.
+    /// The whole color, lightness included, at the exposure.
     #[default]
-    Colour,
-    /// The colour but for its brightness: every film is first made as bright as the wanted colour. A film reflects little, so
-    /// that of a light colour only this much may be within reach.
+    Color,
+    /// The color but for its brightness: every film is first made as bright as the wanted color. A film reflects little, so
+    /// that of a light color only this much may be within reach.
     Chromaticity,
 }
 
-/// A thickness whose colour is nearer to the wanted one than those of its neighbours.
+/// A thickness whose color is nearer to the wanted one than those of its neighbors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Match {
     /// The thickness of the layer that varies, nm.
     pub thickness_nm: f64,
-    /// Colour difference ΔE₀₀ from the wanted colour.
+    /// Color difference ΔE₀₀ from the wanted color.
     pub delta_e: f64,
     /// The film's XYZ as it was compared, brightened.
     pub xyz: [f64; 3],
@@ -57,29 +57,29 @@ pub enum MatchPlace {
     ThinEnd,
     /// At its thick end: thicker films may be nearer, or make no difference.
     ThickEnd,
-    /// Anywhere: the colour difference does not depend on the thickness.
+    /// Anywhere: the color difference does not depend on the thickness.
     Anywhere,
 }
 
-/// Colour differences that are told apart. What is less deep than this is no minimum: a rounding makes many in the colour of a film
+/// Color differences that are told apart. What is less deep than this is no minimum: a rounding makes many in the color of a film
 /// below which light does not come.
 const DEPTH: f64 = 1e-3;
 
-/// The step of the search before it is refined, nm. Colours turn over in half a wavelength of path, 20 nm and more of thickness in
+/// The step of the search before it is refined, nm. Colors turn over in half a wavelength of path, 20 nm and more of thickness in
 /// any medium of index below 10.
 pub(crate) const STEP_NM: f64 = 1.0;
 /// The fewest and the most steps.
 pub(crate) const STEPS: (f64, f64) = (100.0, 100_000.0);
 
-/// The local minima of the colour difference over the thickness, the best first: the nearest thickness and its runners-up, one in
-/// each order of interference. Where the colour does not depend on the thickness there is one, [`MatchPlace::Anywhere`].
+/// The local minima of the color difference over the thickness, the best first: the nearest thickness and its runners-up, one in
+/// each order of interference. Where the color does not depend on the thickness there is one, [`MatchPlace::Anywhere`].
 ///
-/// Both colours are taken as a display of sRGB shows them, without adaptation, so that CIELAB is under the display's white.
+/// Both colors are taken as a display of sRGB shows them, without adaptation, so that CIELAB is under the display's white.
 ///
 /// # Panics
 /// When there is no such layer, or not one thickness per layer.
 pub fn matches(
-    stack: &StackColour,
+    stack: &StackColor,
     thicknesses_nm: &[f64],
     angle: Angle,
     matching: &Matching,
@@ -97,8 +97,8 @@ pub fn matches(
         matching.from_nm + along * range_nm
     };
     let sets: Vec<Vec<f64>> = (0..=steps).map(|step| set(nm(step))).collect();
-    let colours = stack.xyz_of_all(&sets, &[angle]).into_iter().enumerate();
-    let grid: Vec<f64> = colours
+    let colors = stack.xyz_of_all(&sets, &[angle]).into_iter().enumerate();
+    let grid: Vec<f64> = colors
         .map(|(step, xyz)| matching.judge(nm(step), xyz).delta_e)
         .collect();
     let mut found: Vec<Match> = minima(&grid)
@@ -162,10 +162,10 @@ pub(crate) fn minima(values: &[f64]) -> Vec<(usize, MatchPlace)> {
 }
 
 impl Matching {
-    /// How near the film of this thickness and colour is.
+    /// How near the film of this thickness and color is.
     fn judge(&self, nm: f64, xyz: [f64; 3]) -> Match {
         let exposure_ev = match self.by {
-            MatchBy::Colour => self.exposure_ev,
+            MatchBy::Color => self.exposure_ev,
             // Black stays black at any exposure.
             MatchBy::Chromaticity if xyz[1] > 0.0 && self.wanted[1] > 0.0 => {
                 (self.wanted[1] / xyz[1]).log2()
@@ -210,9 +210,9 @@ mod tests {
     use super::*;
     use crate::{Light, Stack, View, parse_srgb};
 
-    fn silica_on_silicon() -> StackColour {
+    fn silica_on_silicon() -> StackColor {
         let stack = Stack::parse("1 | silica 0nm | silicon").unwrap();
-        StackColour::new(&stack, Light::named("D65").unwrap(), View::default()).unwrap()
+        StackColor::new(&stack, Light::named("D65").unwrap(), View::default()).unwrap()
     }
 
     fn matching(wanted: [f64; 3], by: MatchBy) -> Matching {
@@ -226,9 +226,9 @@ mod tests {
         }
     }
 
-    /// The colour of a known thickness leads back to it.
+    /// The color of a known thickness leads back to it.
     #[test]
-    fn the_thickness_of_a_known_colour_is_found() {
+    fn the_thickness_of_a_known_color_is_found() {
         let stack = silica_on_silicon();
         for nm in [20.4, 87.3, 312.456, 333.3, 699.6] {
             let wanted = stack.at(&[nm], Angle::NORMAL).xyz;
@@ -236,7 +236,7 @@ mod tests {
                 &stack,
                 &[0.0],
                 Angle::NORMAL,
-                &matching(wanted, MatchBy::Colour),
+                &matching(wanted, MatchBy::Color),
             );
             assert!(
                 (found[0].thickness_nm - nm).abs() < 1e-4,
@@ -251,7 +251,7 @@ mod tests {
         }
     }
 
-    /// By chromaticity the same film is found for a colour eight times as bright, and the exposure says how much brighter.
+    /// By chromaticity the same film is found for a color eight times as bright, and the exposure says how much brighter.
     #[test]
     fn brightness_can_be_left_out() {
         let stack = silica_on_silicon();
@@ -268,32 +268,31 @@ mod tests {
             found[0]
         );
         assert!((found[0].exposure_ev - 3.0).abs() < 1e-5);
-        let by_colour = matches(
+        let by_color = matches(
             &stack,
             &[0.0],
             Angle::NORMAL,
-            &matching(wanted, MatchBy::Colour),
+            &matching(wanted, MatchBy::Color),
         );
-        assert!(by_colour[0].delta_e > 10.0);
+        assert!(by_color[0].delta_e > 10.0);
     }
 
     /// Under opaque gold a layer makes no difference but roundings.
     #[test]
     fn roundings_are_no_orders() {
         let stack = Stack::parse("1 | gold 500nm | silica 100nm | 1.5").unwrap();
-        let colour =
-            StackColour::new(&stack, Light::named("D65").unwrap(), View::default()).unwrap();
+        let color = StackColor::new(&stack, Light::named("D65").unwrap(), View::default()).unwrap();
         let of_layer = |layer| Matching {
             layer,
             from_nm: 0.0,
             to_nm: 400.0,
-            ..matching(parse_srgb("#2e6fd0").unwrap(), MatchBy::Colour)
+            ..matching(parse_srgb("#2e6fd0").unwrap(), MatchBy::Color)
         };
         let thicknesses = stack.thicknesses_nm();
-        let below = matches(&colour, thicknesses, Angle::NORMAL, &of_layer(1));
+        let below = matches(&color, thicknesses, Angle::NORMAL, &of_layer(1));
         assert_eq!(below.len(), 1, "{below:?}");
         assert_eq!(below[0].place, MatchPlace::Anywhere);
-        let gold = matches(&colour, thicknesses, Angle::NORMAL, &of_layer(0));
+        let gold = matches(&color, thicknesses, Angle::NORMAL, &of_layer(0));
         assert!(gold.len() <= 3, "a thick film is all one: {gold:?}");
     }
 
@@ -318,7 +317,7 @@ mod tests {
             &stack,
             &[0.0],
             Angle::NORMAL,
-            &matching(wanted, MatchBy::Colour),
+            &matching(wanted, MatchBy::Color),
         );
         assert_eq!(found[0].thickness_nm, 20.0);
         assert_eq!(found[0].place, MatchPlace::ThinEnd);

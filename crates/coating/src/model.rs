@@ -2,7 +2,7 @@
 
 use crate::response::Angle;
 use optics::batch::Powers;
-use optics::{Complex64, PathDifference, Polarised, ThicknessDerivative, two_beam};
+use optics::{Complex64, PathDifference, Polarized, ThicknessDerivative, two_beam};
 use std::f64::consts::TAU;
 
 /// By which formula R and T of a stack are computed.
@@ -84,11 +84,11 @@ impl TwoBeamFilm {
             2.0 * (1.0 - let_in) * let_in * q * (q * self.thickness_nm).sin()
         };
         ThicknessDerivative {
-            reflectance: Polarised {
+            reflectance: Polarized {
                 s: slope(passed.s),
                 p: slope(passed.p),
             },
-            transmittance: Polarised { s: 0.0, p: 0.0 },
+            transmittance: Polarized { s: 0.0, p: 0.0 },
         }
     }
 }

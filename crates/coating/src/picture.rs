@@ -45,8 +45,8 @@ impl Scale {
     }
 
     /// A line of this width.
-    pub(crate) fn line(self, colour: RGBColor, units: f64) -> ShapeStyle {
-        colour.stroke_width(self.px(units).max(1) as u32)
+    pub(crate) fn line(self, color: RGBColor, units: f64) -> ShapeStyle {
+        color.stroke_width(self.px(units).max(1) as u32)
     }
 }
 

@@ -1,22 +1,23 @@
-//! R, T and A of a stack over wavelength, with the colour of each angle.
+//! R, T and A of a stack over wavelength, with the color of each angle.
 
-use crate::colour::{Colour, Polarisation, Side, View};
 use crate::picture::{
     self, Drawing, Drawn, FAINT, INK, Scale, decimals, draw_title, exposure, round_range,
 };
 use crate::response::{Angle, absorptance};
+use crate::stack_color::{Color, Polarization, Side, View};
 use color::RgbImage8;
 use colorimetry::srgb;
 use optics::batch::Powers;
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use plotters::style::Color as _;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// The most labels of the axes.
 const X_LABELS: usize = 9;
 const Y_LABELS: usize = 6;
 
-/// A plot of R, T and A over wavelength, a curve per angle, with a swatch of each angle's colour.
+/// A plot of R, T and A over wavelength, a curve per angle, with a swatch of each angle's color.
 #[derive(Clone, Debug)]
 pub struct Plot {
     /// What stands above it: the stack.
@@ -25,7 +26,7 @@ pub struct Plot {
     pub wavelengths_nm: Vec<f64>,
     /// For each angle.
     pub curves: Vec<Curve>,
-    /// What is seen; the polarisation is that of the curves too.
+    /// What is seen; the polarization is that of the curves too.
     pub view: View,
     /// The illuminant of the swatches.
     pub illuminant: String,
@@ -42,8 +43,8 @@ pub struct Curve {
     pub angle: Angle,
     /// R and T at each wavelength.
     pub powers: Vec<Powers>,
-    /// The colour; `None` where the stack's data do not cover visible light.
-    pub colour: Option<Colour>,
+    /// The color; `None` where the stack's data do not cover visible light.
+    pub color: Option<Color>,
 }
 
 impl Plot {
@@ -84,7 +85,7 @@ impl Plot {
     }
 
     fn values<'a>(&'a self, panel: &'a Panel, curve: &'a Curve) -> impl Iterator<Item = f64> + 'a {
-        let value = |powers: &Powers| self.view.polarisation.of((panel.of)(*powers)).max(0.0);
+        let value = |powers: &Powers| self.view.polarization.of((panel.of)(*powers)).max(0.0);
         curve.powers.iter().map(value)
     }
 
@@ -186,25 +187,22 @@ impl Plot {
             area.draw(&PathElement::new(vec![at(0.0, y), at(22.0, y)], stroke))?;
             let angle = format!("{}°", curve.angle.degrees());
             area.draw(&Text::new(angle, at(30.0, y), middle(14.0)))?;
-            let Some(colour) = curve.colour else {
+            let Some(color) = curve.color else {
                 continue;
             };
-            let [r, g, b] = colour.srgb8(self.exposure_ev);
+            let [r, g, b] = color.srgb8(self.exposure_ev);
             let swatch = [at(78.0, y - 12.0), at(122.0, y + 12.0)];
             area.draw(&Rectangle::new(swatch, RGBColor(r, g, b).filled()))?;
-            let clipped = if colour.is_in_srgb(self.exposure_ev) {
+            let clipped = if color.is_in_srgb(self.exposure_ev) {
                 ""
             } else {
                 "*"
             };
-            let code = format!("{}{clipped}", colour.hex(self.exposure_ev));
+            let code = format!("{}{clipped}", color.hex(self.exposure_ev));
             area.draw(&Text::new(code, at(130.0, y), middle(13.0)))?;
         }
-        let is_clipped = |curve: &Curve| {
-            curve
-                .colour
-                .is_some_and(|c| !c.is_in_srgb(self.exposure_ev))
-        };
+        let is_clipped =
+            |curve: &Curve| curve.color.is_some_and(|c| !c.is_in_srgb(self.exposure_ev));
         if self.curves.iter().any(is_clipped) {
             let y = 88.0 + 32.0 * self.curves.len() as f64;
             area.draw(&Text::new("* clipped to sRGB", at(0.0, y), middle(12.0)))?;
@@ -218,14 +216,14 @@ impl Plot {
             Side::Transmitted => "transmitted",
         };
         [
-            polarisation(self.view.polarisation).to_owned(),
-            format!("colour {side} under {}", self.illuminant),
+            polarization(self.view.polarization).to_owned(),
+            format!("color {side} under {}", self.illuminant),
             format!("shown at exposure {}", exposure(self.exposure_ev)),
         ]
     }
 }
 
-/// The colour of a curve among `count`: those of Okabe and Ito (2008), which the colour-blind tell apart, or from violet to yellow.
+/// The color of a curve among `count`: those of Okabe and Ito (2008), which the color-blind tell apart, or from violet to yellow.
 pub(crate) fn ink(index: usize, count: usize) -> RGBColor {
     const FEW: [RGBColor; 7] = [
         RGBColor(0, 114, 178),
@@ -245,19 +243,19 @@ pub(crate) fn ink(index: usize, count: usize) -> RGBColor {
     RGBColor(r, g, b)
 }
 
-/// The polarisation in words.
-pub(crate) fn polarisation(polarisation: Polarisation) -> &'static str {
-    match polarisation {
-        Polarisation::Unpolarised => "unpolarised light",
-        Polarisation::S => "s polarised light",
-        Polarisation::P => "p polarised light",
+/// The polarization in words.
+pub(crate) fn polarization(polarization: Polarization) -> &'static str {
+    match polarization {
+        Polarization::Unpolarized => "unpolarized light",
+        Polarization::S => "s polarized light",
+        Polarization::P => "p polarized light",
     }
 }
 
 /// A quantity over wavelength.
 struct Panel {
     name: &'static str,
-    of: fn(Powers) -> optics::Polarised,
+    of: fn(Powers) -> optics::Polarized,
     /// It is shown where it is more than this somewhere.
     least: f64,
 }
@@ -286,7 +284,7 @@ impl Drawing for Plot {
     }
 }
 
-/// The colours of the wavelengths, as far as a display has them, in a strip along the lower edge.
+/// The colors of the wavelengths, as far as a display has them, in a strip along the lower edge.
 pub(crate) fn draw_spectrum<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     scale: Scale,
@@ -300,15 +298,15 @@ pub(crate) fn draw_spectrum<B: DrawingBackend>(
         if !(380.0..=780.0).contains(&nm) {
             continue;
         }
-        // One step further than its own: no gap can show between neighbours.
+        // One step further than its own: no gap can show between neighbors.
         let strip = [(x, top), ((x + 2 * step).min(width as i32), height as i32)];
-        area.draw(&Rectangle::new(strip, colour_of(nm).filled()))?;
+        area.draw(&Rectangle::new(strip, color_of(nm).filled()))?;
     }
     Ok(())
 }
 
-/// A wavelength's colour, made pale enough for a display.
-fn colour_of(nm: f64) -> RGBColor {
+/// A wavelength's color, made pale enough for a display.
+fn color_of(nm: f64) -> RGBColor {
     let xyz = spectra::observer_1931()
         .each_ref()
         .map(|curve| curve.clamped_at(nm));
@@ -323,20 +321,20 @@ fn colour_of(nm: f64) -> RGBColor {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Light, Stack, StackColour};
+    use crate::{Light, Stack, StackColor};
 
     fn plot(line: &str, angles_deg: &[f64]) -> Plot {
         let stack = Stack::parse(line).unwrap();
         let wavelengths_nm: Vec<f64> = (380..=780).map(f64::from).collect();
         let sampled = stack.sampled(&wavelengths_nm).unwrap();
         let light = Light::named("D65").unwrap();
-        let colour = StackColour::new(&stack, light, View::default()).unwrap();
+        let color = StackColor::new(&stack, light, View::default()).unwrap();
         let curve = |&deg: &f64| {
             let angle = Angle::from_degrees(deg).unwrap();
             Curve {
                 angle,
                 powers: sampled.powers(stack.thicknesses_nm(), angle),
-                colour: Some(colour.at(stack.thicknesses_nm(), angle)),
+                color: Some(color.at(stack.thicknesses_nm(), angle)),
             }
         };
         Plot {
@@ -351,7 +349,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_shown_is_labelled() {
+    fn what_is_shown_is_labeled() {
         let svg = plot("1 | silica 300nm | gold", &[0.0, 60.0]).svg();
         assert!(svg.starts_with("<svg width=\"900\"") && svg.trim_end().ends_with("</svg>"));
         for words in [
@@ -378,7 +376,7 @@ mod tests {
         let picture = plot.pixels();
         assert_eq!(picture, plot.pixels());
         assert_eq!(plot.svg(), plot.svg());
-        let codes = plot.curves[0].colour.unwrap().srgb8(0.0);
+        let codes = plot.curves[0].color.unwrap().srgb8(0.0);
         let of_swatch = picture.data().chunks(3).filter(|pixel| **pixel == codes);
         assert!(of_swatch.count() > 2000);
     }

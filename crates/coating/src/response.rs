@@ -2,7 +2,7 @@
 
 use crate::model::{Model, TwoBeamFilm};
 use optics::batch::{LayerOf, Media, Powers, StackBatch, StackOf, evaluate};
-use optics::{Complex64, Layer, Polarised, ThicknessDerivative};
+use optics::{Complex64, Layer, Polarized, ThicknessDerivative};
 use rayon::prelude::*;
 use spectra::wording::number;
 use thiserror::Error;
@@ -19,9 +19,9 @@ pub struct Sampled {
 }
 
 /// Absorptance A = 1 − R − T of a whole stack.
-pub fn absorptance(powers: Powers) -> Polarised {
+pub fn absorptance(powers: Powers) -> Polarized {
     let (r, t) = (powers.reflectance, powers.transmittance);
-    Polarised {
+    Polarized {
         s: 1.0 - r.s - t.s,
         p: 1.0 - r.p - t.p,
     }
@@ -246,7 +246,7 @@ impl Sampled {
     ///
     /// # Panics
     /// When there is not one thickness per layer.
-    pub fn absorptances(&self, thicknesses_nm: &[f64], angle: Angle) -> Vec<Vec<Polarised>> {
+    pub fn absorptances(&self, thicknesses_nm: &[f64], angle: Angle) -> Vec<Vec<Polarized>> {
         self.each(thicknesses_nm, |n0, layers, substrate, nm| {
             optics::absorptance(n0, layers, substrate, nm, angle.cosine())
         })

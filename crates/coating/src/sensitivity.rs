@@ -1,38 +1,38 @@
-//! How fast the colour changes with each layer's thickness.
+//! How fast the color changes with each layer's thickness.
 
-use crate::colour::{Colour, StackColour};
 use crate::response::Angle;
+use crate::stack_color::{Color, StackColor};
 use colorimetry::Lab;
 use colorimetry::lab::delta_e_2000_rate;
 use optics::ThicknessDerivative;
 
-/// How the colour of a stack hangs on its thicknesses, to first order.
+/// How the color of a stack hangs on its thicknesses, to first order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
-    /// The colour itself.
-    pub colour: Colour,
+    /// The color itself.
+    pub color: Color,
     /// For each layer.
     pub layers: Vec<LayerSensitivity>,
 }
 
-/// What one more nanometre of a layer does to the colour, to first order.
+/// What one more nanometer of a layer does to the color, to first order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LayerSensitivity {
     /// Change of XYZ per nm.
     pub xyz_per_nm: [f64; 3],
     /// Change of CIELAB per nm.
     pub lab_per_nm: Lab,
-    /// Colour difference ΔE₀₀ per nm.
+    /// Color difference ΔE₀₀ per nm.
     pub delta_e_per_nm: f64,
 }
 
-/// The derivative of the colour with respect to each thickness: through XYZ, a sum over wavelength, CIELAB, and the
-/// form that ΔE₀₀ becomes between neighbours.
+/// The derivative of the color with respect to each thickness: through XYZ, a sum over wavelength, CIELAB, and the
+/// form that ΔE₀₀ becomes between neighbors.
 ///
 /// # Panics
 /// When there is not one thickness per layer.
-pub fn sensitivity(stack: &StackColour, thicknesses_nm: &[f64], angle: Angle) -> Sensitivity {
-    let colour = stack.at(thicknesses_nm, angle);
+pub fn sensitivity(stack: &StackColor, thicknesses_nm: &[f64], angle: Angle) -> Sensitivity {
+    let color = stack.at(thicknesses_nm, angle);
     let share = |d: &ThicknessDerivative| stack.view().of(d.reflectance, d.transmittance);
     // At each wavelength, of each layer.
     let places = stack.places(thicknesses_nm, angle);
@@ -43,15 +43,15 @@ pub fn sensitivity(stack: &StackColour, thicknesses_nm: &[f64], angle: Angle) ->
         for (share, weight) in shares.zip(&places.weights) {
             xyz_per_nm = std::array::from_fn(|i| xyz_per_nm[i] + share * weight[i]);
         }
-        let lab_per_nm = Lab::derivative(colour.xyz, colour.white, xyz_per_nm);
+        let lab_per_nm = Lab::derivative(color.xyz, color.white, xyz_per_nm);
         LayerSensitivity {
             xyz_per_nm,
             lab_per_nm,
-            delta_e_per_nm: delta_e_2000_rate(colour.lab(), lab_per_nm),
+            delta_e_per_nm: delta_e_2000_rate(color.lab(), lab_per_nm),
         }
     };
     Sensitivity {
-        colour,
+        color,
         layers: (0..thicknesses_nm.len()).map(of_layer).collect(),
     }
 }
@@ -62,9 +62,9 @@ mod tests {
     use crate::{Light, Side, Stack, View};
     use colorimetry::lab::delta_e_2000;
 
-    /// The derivative stands against plain differences of colours.
+    /// The derivative stands against plain differences of colors.
     #[test]
-    fn a_nanometre_more_moves_the_colour_as_predicted() {
+    fn a_nanometer_more_moves_the_color_as_predicted() {
         let line = "1 | 2.4 60nm | silica 90nm | 2.1+0.01i 40nm | bk7";
         let stack = Stack::parse(line).unwrap();
         for (side, angle_deg) in [
@@ -72,20 +72,20 @@ mod tests {
             (Side::Reflected, 55.0),
             (Side::Transmitted, 30.0),
         ] {
-            let colour = {
+            let color = {
                 let view = View {
                     side,
                     ..View::default()
                 };
-                StackColour::new(&stack, Light::named("D65").unwrap(), view).unwrap()
+                StackColor::new(&stack, Light::named("D65").unwrap(), view).unwrap()
             };
             let angle = Angle::from_degrees(angle_deg).unwrap();
-            let found = sensitivity(&colour, stack.thicknesses_nm(), angle);
+            let found = sensitivity(&color, stack.thicknesses_nm(), angle);
             for (layer, found) in found.layers.iter().enumerate() {
                 let at = |by_nm: f64| {
                     let mut thicknesses = stack.thicknesses_nm().to_vec();
                     thicknesses[layer] += by_nm;
-                    colour.at(&thicknesses, angle).lab()
+                    color.at(&thicknesses, angle).lab()
                 };
                 let h = 1e-4;
                 let (up, down) = (at(h), at(-h));

@@ -13,7 +13,7 @@ const LABEL_UNITS: u32 = 20;
 
 /// Codes of what stands around the pictures, for the display that they are for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SheetColours {
+pub struct SheetColors {
     /// Behind pictures and labels.
     pub ground: [u8; 3],
     /// Of the labels.
@@ -23,7 +23,7 @@ pub struct SheetColours {
 struct Label<'a> {
     text: &'a str,
     width: u32,
-    colours: SheetColours,
+    colors: SheetColors,
 }
 
 impl Drawing for Label<'_> {
@@ -33,8 +33,8 @@ impl Drawing for Label<'_> {
 
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: Scale) -> Drawn<B> {
         let rgb = |[r, g, b]: [u8; 3]| RGBColor(r, g, b);
-        area.fill(&rgb(self.colours.ground))?;
-        let ink = rgb(self.colours.text);
+        area.fill(&rgb(self.colors.ground))?;
+        let ink = rgb(self.colors.text);
         let style = scale.text(13.0).color(&ink);
         let style = style.pos(Pos::new(HPos::Left, VPos::Center));
         let middle = scale.px(0.5 * f64::from(LABEL_UNITS));
@@ -46,7 +46,7 @@ impl Drawing for Label<'_> {
 /// allows. The pictures' codes stay as they are.
 ///
 /// `None` where there is no picture, or they differ in size.
-pub fn contact_sheet(pictures: &[(String, RgbImage8)], colours: SheetColours) -> Option<RgbImage8> {
+pub fn contact_sheet(pictures: &[(String, RgbImage8)], colors: SheetColors) -> Option<RgbImage8> {
     let (_, first) = pictures.first()?;
     let (width, height) = (first.width(), first.height());
     if pictures
@@ -62,7 +62,7 @@ pub fn contact_sheet(pictures: &[(String, RgbImage8)], colours: SheetColours) ->
     let mut sheet = Sheet::new(
         columns * cell_width + GAP,
         rows * cell_height + GAP,
-        colours.ground,
+        colors.ground,
     );
     for (index, (text, picture)) in (0..).zip(pictures) {
         let x = GAP + (index % columns) * cell_width;
@@ -72,7 +72,7 @@ pub fn contact_sheet(pictures: &[(String, RgbImage8)], colours: SheetColours) ->
             &picture::pixels(&Label {
                 text,
                 width: units,
-                colours,
+                colors,
             }),
             (x, y),
             width,
@@ -113,7 +113,7 @@ mod tests {
     use super::*;
 
     const GROUND: u8 = 40;
-    const COLOURS: SheetColours = SheetColours {
+    const COLORS: SheetColors = SheetColors {
         ground: [GROUND; 3],
         text: [255; 3],
     };
@@ -127,7 +127,7 @@ mod tests {
         let pictures: Vec<(String, RgbImage8)> = (1..=3)
             .map(|i| (format!("D{i}5"), filled(61, 30, 100 + i)))
             .collect();
-        let sheet = contact_sheet(&pictures, COLOURS).unwrap();
+        let sheet = contact_sheet(&pictures, COLORS).unwrap();
         assert_eq!((sheet.width(), sheet.height()), (2 * 73 + 12, 2 * 82 + 12));
         for (index, (x, y)) in [(12, 52), (85, 52), (12, 134)].into_iter().enumerate() {
             let code = 101 + index as u8;
@@ -149,10 +149,8 @@ mod tests {
     #[test]
     fn pictures_of_different_sizes_make_no_sheet() {
         let named = |p| (String::new(), p);
-        assert!(contact_sheet(&[], COLOURS).is_none());
-        assert!(
-            contact_sheet(&[named(filled(4, 4, 0)), named(filled(4, 5, 0))], COLOURS).is_none()
-        );
-        assert!(contact_sheet(&[named(filled(1, 1, 0))], COLOURS).is_some());
+        assert!(contact_sheet(&[], COLORS).is_none());
+        assert!(contact_sheet(&[named(filled(4, 4, 0)), named(filled(4, 5, 0))], COLORS).is_none());
+        assert!(contact_sheet(&[named(filled(1, 1, 0))], COLORS).is_some());
     }
 }

@@ -30,7 +30,7 @@ pub struct Series {
     pub values: Vec<f64>,
     /// The standard deviation of each of them, where it is known.
     pub deviation: Option<Vec<f64>>,
-    /// Its colour on a display, as a swatch beside its name.
+    /// Its color on a display, as a swatch beside its name.
     pub codes: Option<[u8; 3]>,
 }
 
@@ -151,18 +151,18 @@ impl Drawing for SpectrumPlot {
             (first, last),
         )?;
         for (index, series) in self.series.iter().enumerate() {
-            let colour = ink(index, self.series.len());
+            let color = ink(index, self.series.len());
             let shown = |(nm, value): (f64, f64)| (nm, value / unit);
             if let Some(deviation) = &series.deviation {
                 for (band, (value, half)) in (0..).zip(series.values.iter().zip(deviation)) {
-                    let nm = self.bands.centre_nm(band);
+                    let nm = self.bands.center_nm(band);
                     let bar = [(nm, value - half), (nm, value + half)].map(shown);
-                    let style = scale.line(colour, 0.8);
+                    let style = scale.line(color, 0.8);
                     chart.draw_series(LineSeries::new(bar, style))?;
                 }
             }
             let points = self.steps(&series.values).into_iter().map(shown);
-            chart.draw_series(LineSeries::new(points, scale.line(colour, 1.8)))?;
+            chart.draw_series(LineSeries::new(points, scale.line(color, 1.8)))?;
         }
         self.draw_legend(&legend, scale)
     }
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_shown_is_labelled() {
+    fn what_is_shown_is_labeled() {
         let svg = plot(0.3).svg();
         for words in [
             "bubble.exr",

@@ -394,15 +394,15 @@ impl Stack {
 
     /// The stack in one line, for people.
     pub fn label(&self) -> String {
-        self.labelled(None)
+        self.labeled(None)
     }
 
     /// The stack in one line, for people, where one layer (counted from 0) has the thickness d.
     pub fn label_with_varied(&self, varied: usize) -> String {
-        self.labelled(Some(varied))
+        self.labeled(Some(varied))
     }
 
-    fn labelled(&self, varied: Option<usize>) -> String {
+    fn labeled(&self, varied: Option<usize>) -> String {
         let layer = |(place, layer): (usize, &Layer)| match varied {
             Some(varied) if varied == place => format!("{} d", layer.medium.label()),
             _ => layer.label(),

@@ -1,7 +1,7 @@
-//! How the colour scatters when thicknesses come out wrong.
+//! How the color scatters when thicknesses come out wrong.
 
-use crate::colour::{Colour, StackColour};
 use crate::response::Angle;
+use crate::stack_color::{Color, StackColor};
 use colorimetry::Lab;
 use colorimetry::lab::delta_e_2000;
 use rand_chacha::ChaCha8Rng;
@@ -35,7 +35,7 @@ pub enum ToleranceError {
     NoLayers,
 }
 
-/// Colour differences ΔE₀₀ from the nominal colour, by the share of the trials that stay below.
+/// Color differences ΔE₀₀ from the nominal color, by the share of the trials that stay below.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantiles {
     /// Of half of the trials.
@@ -50,14 +50,14 @@ pub struct Quantiles {
     pub max: f64,
 }
 
-/// How the colour scatters.
+/// How the color scatters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spread {
-    /// The colour with the thicknesses as they should be.
-    pub nominal: Colour,
+    /// The color with the thicknesses as they should be.
+    pub nominal: Color,
     /// The mean of the trials' XYZ.
-    pub mean: Colour,
-    /// Colour difference of the mean from the nominal colour.
+    pub mean: Color,
+    /// Color difference of the mean from the nominal color.
     pub mean_delta_e: f64,
     /// When all layers vary.
     pub all: Quantiles,
@@ -112,7 +112,7 @@ impl Tolerance {
 /// The most thicknesses that are in memory at a time.
 const MOST_THICKNESSES: usize = 1 << 16;
 
-/// Draws stacks with wrong thicknesses and looks at their colours.
+/// Draws stacks with wrong thicknesses and looks at their colors.
 ///
 /// # Errors
 /// When the tolerance makes no sense.
@@ -120,7 +120,7 @@ const MOST_THICKNESSES: usize = 1 << 16;
 /// # Panics
 /// When there is not one thickness per layer.
 pub fn tolerance(
-    stack: &StackColour,
+    stack: &StackColor,
     thicknesses_nm: &[f64],
     angle: Angle,
     tolerance: Tolerance,
@@ -129,7 +129,7 @@ pub fn tolerance(
     let nominal = stack.at(thicknesses_nm, angle);
     let drawn = |trial: u32| tolerance.drawn(trial, thicknesses_nm);
     let all = scatter(stack, &nominal, angle, tolerance.trials, drawn);
-    let mean = stack.colour(all.mean);
+    let mean = stack.color(all.mean);
     let alone = (0..thicknesses_nm.len()).map(|layer| {
         let one_wrong = |trial: u32| {
             let mut thicknesses = thicknesses_nm.to_vec();
@@ -155,10 +155,10 @@ struct Scatter {
     quantiles: Quantiles,
 }
 
-/// Looks at trials part by part: of most only the colour difference is kept.
+/// Looks at trials part by part: of most only the color difference is kept.
 fn scatter(
-    stack: &StackColour,
-    nominal: &Colour,
+    stack: &StackColor,
+    nominal: &Color,
     angle: Angle,
     trials: u32,
     drawn: impl Fn(u32) -> Vec<f64>,
@@ -208,11 +208,11 @@ mod tests {
     use super::*;
     use crate::{Light, Stack, View, sensitivity};
 
-    fn colour(line: &str) -> (StackColour, Vec<f64>) {
+    fn color(line: &str) -> (StackColor, Vec<f64>) {
         let stack = Stack::parse(line).unwrap();
         let light = Light::named("D65").unwrap();
-        let colour = StackColour::new(&stack, light, View::default()).unwrap();
-        (colour, stack.thicknesses_nm().to_vec())
+        let color = StackColor::new(&stack, light, View::default()).unwrap();
+        (color, stack.thicknesses_nm().to_vec())
     }
 
     const SMALL: Tolerance = Tolerance {
@@ -225,9 +225,9 @@ mod tests {
     /// 0.674, 1.645, 1.960, 2.576 of the deviation.
     #[test]
     fn small_errors_scatter_as_the_derivative_says() {
-        let (colour, thicknesses) = colour("1 | silica 300nm | silicon");
-        let spread = tolerance(&colour, &thicknesses, Angle::NORMAL, SMALL).unwrap();
-        let rate = sensitivity(&colour, &thicknesses, Angle::NORMAL).layers[0].delta_e_per_nm;
+        let (color, thicknesses) = color("1 | silica 300nm | silicon");
+        let spread = tolerance(&color, &thicknesses, Angle::NORMAL, SMALL).unwrap();
+        let rate = sensitivity(&color, &thicknesses, Angle::NORMAL).layers[0].delta_e_per_nm;
         let deviation = rate * SMALL.relative_sigma * thicknesses[0];
         let found = spread.all;
         for (found, expected) in [
@@ -248,14 +248,14 @@ mod tests {
 
     #[test]
     fn the_same_seed_draws_the_same_and_the_worst_layer_is_named() {
-        let (colour, thicknesses) = colour("1 | 2.4 60nm | 1.46 90nm | 2.4 0.5nm | 1.52");
+        let (color, thicknesses) = color("1 | 2.4 60nm | 1.46 90nm | 2.4 0.5nm | 1.52");
         let draw = |seed| {
             let few = Tolerance {
                 trials: 200,
                 seed,
                 relative_sigma: 0.02,
             };
-            tolerance(&colour, &thicknesses, Angle::NORMAL, few).unwrap()
+            tolerance(&color, &thicknesses, Angle::NORMAL, few).unwrap()
         };
         assert_eq!(draw(1), draw(1));
         assert_ne!(draw(1).all, draw(2).all);
@@ -263,7 +263,7 @@ mod tests {
         assert_ne!(
             spread.worst_layer(),
             Some(2),
-            "half a nanometre matters least: {spread:?}"
+            "half a nanometer matters least: {spread:?}"
         );
     }
 
@@ -284,10 +284,10 @@ mod tests {
     /// A mean over several parts is that over all trials.
     #[test]
     fn parts_make_up_the_whole() {
-        let (colour, thicknesses) = colour("1 | 1.9 120nm | silicon");
-        let found = tolerance(&colour, &thicknesses, Angle::NORMAL, SMALL).unwrap();
+        let (color, thicknesses) = color("1 | 1.9 120nm | silicon");
+        let found = tolerance(&color, &thicknesses, Angle::NORMAL, SMALL).unwrap();
         let drawn = (0..SMALL.trials).map(|trial| SMALL.drawn(trial, &thicknesses));
-        let all = colour.xyz_of_all(&drawn.collect::<Vec<_>>(), &[Angle::NORMAL]);
+        let all = color.xyz_of_all(&drawn.collect::<Vec<_>>(), &[Angle::NORMAL]);
         for i in 0..3 {
             let mean = all.iter().map(|xyz| xyz[i]).sum::<f64>() / f64::from(SMALL.trials);
             assert!((found.mean.xyz[i] - mean).abs() < 1e-12);
@@ -296,8 +296,8 @@ mod tests {
 
     #[test]
     fn what_makes_no_sense_is_refused() {
-        let (colour, thicknesses) = colour("1 | 1.5 60nm | 1.52");
-        let refused = |asked| tolerance(&colour, &thicknesses, Angle::NORMAL, asked).unwrap_err();
+        let (color, thicknesses) = color("1 | 1.5 60nm | 1.52");
+        let refused = |asked| tolerance(&color, &thicknesses, Angle::NORMAL, asked).unwrap_err();
         for relative_sigma in [0.0, -0.1, 1.5, f64::NAN] {
             let asked = Tolerance {
                 relative_sigma,
@@ -307,7 +307,7 @@ mod tests {
         }
         let none = Tolerance { trials: 0, ..SMALL };
         assert_eq!(refused(none), ToleranceError::Trials(0));
-        let bare = super::tests::colour("1 | 1.5").0;
+        let bare = super::tests::color("1 | 1.5").0;
         assert_eq!(
             tolerance(&bare, &[], Angle::NORMAL, SMALL),
             Err(ToleranceError::NoLayers)

@@ -26,7 +26,7 @@ fn losses(line: &str, illuminant: &str, step_nm: usize) -> [f64; 2] {
             .collect();
         let sampled = stack.sampled(&nm).unwrap();
         let powers = sampled.powers(stack.thicknesses_nm(), Angle::NORMAL);
-        let shares = powers.iter().map(|p| p.reflectance.unpolarised());
+        let shares = powers.iter().map(|p| p.reflectance.unpolarized());
         Tabulated::new(nm.iter().copied().zip(shares).collect()).unwrap()
     };
     let light = find_illuminant(illuminant).unwrap().data;

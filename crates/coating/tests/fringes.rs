@@ -2,7 +2,7 @@
 
 use colorimetry::Lab;
 use colorimetry::lab::delta_e_2000;
-use pellicle_coating::{Angle, Light, Side, Stack, StackColour, View, sensitivity};
+use pellicle_coating::{Angle, Light, Side, Stack, StackColor, View, sensitivity};
 use proptest::prelude::*;
 
 /// What the properties allow.
@@ -59,8 +59,8 @@ fn lab(xyz: [f64; 3], light: &Light) -> Lab {
 }
 
 fn found(stack: &Stack, light: &Light, side: Side, at: Angle) -> Lab {
-    let colour = StackColour::new(stack, light.clone(), view(side)).unwrap();
-    colour.at(stack.thicknesses_nm(), at).lab()
+    let color = StackColor::new(stack, light.clone(), view(side)).unwrap();
+    color.at(stack.thicknesses_nm(), at).lab()
 }
 
 fn difference(line: &str, lamp: &str, side: Side, deg: f64, per_nm: u32) -> f64 {
@@ -124,13 +124,13 @@ fn a_line_filter_lets_through_what_its_line_does() {
         [back; 6].join(" | ")
     );
     let stack = Stack::parse(&line).unwrap();
-    let colour = StackColour::new(
+    let color = StackColor::new(
         &stack,
         Light::named("D65").unwrap(),
         view(Side::Transmitted),
     )
     .unwrap();
-    let y = colour.at(stack.thicknesses_nm(), angle(0.0)).xyz[1];
+    let y = color.at(stack.thicknesses_nm(), angle(0.0)).xyz[1];
     assert!((y - 0.01799).abs() < 1e-5, "{y}");
 }
 
@@ -163,10 +163,10 @@ fn thin_films_keep_the_sums_of_the_cie() {
         ("1 | 1.5", "D5500K"),
     ] {
         let (stack, light) = (Stack::parse(line).unwrap(), Light::named(lamp).unwrap());
-        let colour = StackColour::new(&stack, light.clone(), View::default()).unwrap();
-        let powers = colour.sampled().powers(stack.thicknesses_nm(), angle(20.0));
-        let sum = light.xyz(powers.iter().map(|p| p.reflectance.unpolarised()));
-        let found = colour.at(stack.thicknesses_nm(), angle(20.0)).xyz;
+        let color = StackColor::new(&stack, light.clone(), View::default()).unwrap();
+        let powers = color.sampled().powers(stack.thicknesses_nm(), angle(20.0));
+        let sum = light.xyz(powers.iter().map(|p| p.reflectance.unpolarized()));
+        let found = color.at(stack.thicknesses_nm(), angle(20.0)).xyz;
         assert_eq!(found, sum, "{line} under {lamp}");
     }
 }
@@ -174,17 +174,17 @@ fn thin_films_keep_the_sums_of_the_cie() {
 #[test]
 fn many_at_once_are_the_same_as_each_alone() {
     let stack = Stack::parse("1 | 1.52 19000nm | 1.46 3um | silicon").unwrap();
-    let colour = StackColour::new(&stack, Light::named("FL11").unwrap(), View::default()).unwrap();
+    let color = StackColor::new(&stack, Light::named("FL11").unwrap(), View::default()).unwrap();
     let sets = [
         vec![19_000.0, 3000.0],
         vec![200.0, 0.0],
         vec![95_000.0, 1.0],
     ];
     let angles = [angle(0.0), angle(60.0)];
-    let all = colour.xyz_of_all(&sets, &angles);
+    let all = color.xyz_of_all(&sets, &angles);
     let each = sets
         .iter()
-        .flat_map(|set| angles.map(|at| colour.at(set, at).xyz));
+        .flat_map(|set| angles.map(|at| color.at(set, at).xyz));
     for (found, expected) in all.into_iter().zip(each) {
         for (found, expected) in found.into_iter().zip(expected) {
             assert!((found - expected).abs() < 1e-9, "{found} {expected}");
@@ -197,16 +197,15 @@ fn many_at_once_are_the_same_as_each_alone() {
 fn thick_films_change_color_as_their_derivative_says() {
     let stack = Stack::parse("1 | 1.52 8um | 2.0 90nm | silicon").unwrap();
     for (lamp, layer) in [("D65", 0), ("D65", 1), ("FL11", 0), ("FL11", 1)] {
-        let colour =
-            StackColour::new(&stack, Light::named(lamp).unwrap(), View::default()).unwrap();
+        let color = StackColor::new(&stack, Light::named(lamp).unwrap(), View::default()).unwrap();
         let at = |by: f64| {
             let mut thicknesses = stack.thicknesses_nm().to_vec();
             thicknesses[layer] += by;
-            colour.at(&thicknesses, angle(0.0)).xyz
+            color.at(&thicknesses, angle(0.0)).xyz
         };
         let h = 0.5;
         let (up, down) = (at(h), at(-h));
-        let found = sensitivity(&colour, stack.thicknesses_nm(), angle(0.0));
+        let found = sensitivity(&color, stack.thicknesses_nm(), angle(0.0));
         let found = found.layers[layer].xyz_per_nm;
         for i in 0..3 {
             let rate = (up[i] - down[i]) / (2.0 * h);

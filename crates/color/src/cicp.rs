@@ -1,4 +1,4 @@
-//! Coding-independent code points: numbers for colour spaces that are known by name.
+//! Coding-independent code points: numbers for color spaces that are known by name.
 
 use colorimetry::Display;
 use colorimetry::chromaticity::xy_of_xyz;

@@ -1,4 +1,4 @@
-//! PNG files that say which colour space they are in.
+//! PNG files that say which color space they are in.
 
 use std::borrow::Cow;
 use std::fs::File;
@@ -74,7 +74,7 @@ pub fn write_for_display<C: PngCode>(
     write_tagged(path, image, &tags, Compression::Fast)
 }
 
-/// What a file says about its colour space.
+/// What a file says about its color space.
 struct Tags {
     is_srgb: bool,
     cicp: Option<[u8; 4]>,
@@ -186,8 +186,8 @@ mod tests {
 
     fn picture(width: u32, height: u32) -> RgbImage8 {
         let luminance = equal_energy_luminance() as f32;
-        let colour = |i: u32| [(i % width) as f32 / 20.0, (i / width) as f32 / 10.0, 0.2];
-        let xyz = (0..width * height).map(|i| colour(i).map(|v| v * luminance));
+        let color = |i: u32| [(i % width) as f32 / 20.0, (i / width) as f32 / 10.0, 0.2];
+        let xyz = (0..width * height).map(|i| color(i).map(|v| v * luminance));
         let image = XyzImage::new(width, height, xyz.collect()).unwrap();
         develop(&image, &DevelopSettings::srgb(0.0)).unwrap()
     }
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_is_read_again_with_its_colour_space() {
+    fn what_is_written_is_read_again_with_its_color_space() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("picture.png");
         let picture = picture(17, 9);

@@ -40,7 +40,7 @@ impl Region {
     }
 
     /// The place of its middle, in pixels from the left and the top.
-    pub fn centre(&self) -> [f64; 2] {
+    pub fn center(&self) -> [f64; 2] {
         let middle = |start: u32, size: u32| f64::from(start) + 0.5 * f64::from(size);
         [middle(self.x, self.width), middle(self.y, self.height)]
     }
@@ -247,7 +247,7 @@ mod tests {
         assert_eq!(found.radiance, [6.5, 1.0]);
         assert_eq!((found.samples, found.left_out), (32, 0));
         assert!((found.deviation.unwrap()[0] - 0.1).abs() < 1e-6);
-        assert_eq!(region.centre(), [2.0, 1.0]);
+        assert_eq!(region.center(), [2.0, 1.0]);
     }
 
     #[test]

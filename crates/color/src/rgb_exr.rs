@@ -144,8 +144,8 @@ mod tests {
     use crate::develop::{DevelopSettings, Exposure, GamutMapping, expose};
 
     fn image(width: u32, height: u32) -> (LinearImage, Display) {
-        let colour = |i: u32| [0.3 * i as f32, 0.2, 20.0 / (1 + i) as f32];
-        let xyz = (0..width * height).map(colour).collect();
+        let color = |i: u32| [0.3 * i as f32, 0.2, 20.0 / (1 + i) as f32];
+        let xyz = (0..width * height).map(color).collect();
         let image = XyzImage::new(width, height, xyz).unwrap();
         let display = Display::named("display_p3").unwrap();
         let settings = DevelopSettings {

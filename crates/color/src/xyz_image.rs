@@ -1,4 +1,4 @@
-//! An image of colours without their spectra.
+//! An image of colors without their spectra.
 
 use rayon::prelude::*;
 use spectra::{Observer, SpectralImage};
@@ -14,7 +14,7 @@ pub struct XyzImage {
 }
 
 impl XyzImage {
-    /// An image of these colours, Y in cd/m² up to the scene's scale, row by row; `None` unless there are `width` × `height` of
+    /// An image of these colors, Y in cd/m² up to the scene's scale, row by row; `None` unless there are `width` × `height` of
     /// them.
     pub fn new(width: u32, height: u32, xyz: Vec<[f32; 3]>) -> Option<Self> {
         (xyz.len() == width as usize * height as usize).then_some(Self { width, height, xyz })
@@ -37,7 +37,7 @@ impl XyzImage {
 }
 
 impl XyzImage {
-    /// The colours that the bands of an image sum up to ([`BandWeights::observed`]). Those that the image carries are summed at the very
+    /// The colors that the bands of an image sum up to ([`BandWeights::observed`]). Those that the image carries are summed at the very
     /// wavelengths drawn, and are nearer to the truth.
     pub fn of_bands(image: &SpectralImage) -> Self {
         let observer = BandWeights::observed(image.bands(), Observer::Cie1931Deg2);

@@ -1,8 +1,8 @@
-//! The coefficients of smooth reflectances for colours, and how well the colours come back.
+//! The coefficients of smooth reflectances for colors, and how well the colors come back.
 //!
 //! ```sh
 //! cargo run --release -p pellicle-colorimetry --example lift_rgb -- 0.8,0.2,0.1   # codes of sRGB from 0 to 1
-//! cargo run --release -p pellicle-colorimetry --example lift_rgb                  # all colours in steps of 1/32
+//! cargo run --release -p pellicle-colorimetry --example lift_rgb                  # all colors in steps of 1/32
 //! ```
 
 use pellicle_colorimetry::lab::{Lab, delta_e_2000};
@@ -11,17 +11,14 @@ use pellicle_colorimetry::srgb::{decode, white_xyz, xyz_from_linear};
 use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let colours: Vec<String> = std::env::args().skip(1).collect();
-    for colour in &colours {
-        let codes: Vec<f64> = colour
-            .split(',')
-            .map(str::parse)
-            .collect::<Result<_, _>>()?;
-        let codes: [f64; 3] = codes.try_into().map_err(|_| "a colour is three numbers")?;
+    let colors: Vec<String> = std::env::args().skip(1).collect();
+    for color in &colors {
+        let codes: Vec<f64> = color.split(',').map(str::parse).collect::<Result<_, _>>()?;
+        let codes: [f64; 3] = codes.try_into().map_err(|_| "a color is three numbers")?;
         let reflectance = SigmoidReflectance::of_linear_srgb(codes.map(decode));
-        println!("{colour}: {:?}", reflectance.coefficients);
+        println!("{color}: {:?}", reflectance.coefficients);
     }
-    if colours.is_empty() {
+    if colors.is_empty() {
         survey(32);
     }
     Ok(())
@@ -47,7 +44,7 @@ fn survey(steps: u32) {
     };
     let worst = cube.iter().zip(&lifted).map(error).fold(0.0, f64::max);
     println!(
-        "{} colours, {each:?} each, ΔE2000 at most {worst:.1e}",
+        "{} colors, {each:?} each, ΔE2000 at most {worst:.1e}",
         cube.len()
     );
 }

@@ -1,4 +1,4 @@
-//! Chromatic adaptation: what a colour seen under one white looks like under another.
+//! Chromatic adaptation: what a color seen under one white looks like under another.
 
 use std::fmt;
 use std::str::FromStr;
@@ -11,7 +11,7 @@ use crate::matrix::{IDENTITY, Matrix3, inverse, product, times};
 /// the other; completely, whatever the luminance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Adaptation {
-    /// Not at all: colours stay as the light makes them.
+    /// Not at all: colors stay as the light makes them.
     None,
     /// In the sharpened responses of Lam, Metamerism and Colour Constancy (Bradford, 1985), linear as in ICC.1:2022, annex E.
     #[default]
@@ -107,9 +107,9 @@ mod tests {
         }
     }
 
-    /// A colour from A to D65, by colour-science 0.4.7 (`chromatic_adaptation_VonKries`).
+    /// A color from A to D65, by colour-science 0.4.7 (`chromatic_adaptation_VonKries`).
     #[test]
-    fn colours_equal_an_independent_computation() {
+    fn colors_equal_an_independent_computation() {
         for (adaptation, expected) in [
             (
                 Adaptation::Cat16,
@@ -131,16 +131,16 @@ mod tests {
     }
 
     #[test]
-    fn whites_become_one_another_and_back_is_the_same_colour() {
+    fn whites_become_one_another_and_back_is_the_same_color() {
         for adaptation in [Adaptation::Bradford, Adaptation::Cat16] {
             let there = adaptation.matrix(A, D65);
             for (found, white) in times(&there, A).into_iter().zip(D65) {
                 assert!((found - white).abs() < 1e-14, "{adaptation}: {found}");
             }
-            let colour = [0.2, 0.5, 0.1];
-            let back = times(&adaptation.matrix(D65, A), times(&there, colour));
-            for (found, colour) in back.into_iter().zip(colour) {
-                assert!((found - colour).abs() < 1e-14, "{adaptation}: {found}");
+            let color = [0.2, 0.5, 0.1];
+            let back = times(&adaptation.matrix(D65, A), times(&there, color));
+            for (found, color) in back.into_iter().zip(color) {
+                assert!((found - color).abs() < 1e-14, "{adaptation}: {found}");
             }
         }
         assert_eq!(Adaptation::None.matrix(A, D65), IDENTITY);

@@ -1,4 +1,4 @@
-//! Chromaticity: colour without its amount.
+//! Chromaticity: color without its amount.
 
 /// Chromaticity x, y of XYZ (CIE 015:2018, equation 7.5); not finite for black.
 pub fn xy_of_xyz([x, y, z]: [f64; 3]) -> [f64; 2] {

@@ -1,8 +1,8 @@
-//! CIECAM16: what a colour looks like under given conditions, and which colour looks like that.
+//! CIECAM16: what a color looks like under given conditions, and which color looks like that.
 //!
 //! CIE 248:2022, The CIE 2016 colour appearance model for colour management systems: the model of Li et al., Comprehensive color
 //! solutions: CAM16, CAT16, and CAM16-UCS, Color Res. Appl. 42, 703 (2017), with responses that go on as straight lines below
-//! q = 0.26 and above q = 150, so that very saturated colours have a look too.
+//! q = 0.26 and above q = 150, so that very saturated colors have a look too.
 
 use crate::adaptation::CAT16;
 use crate::matrix::{inverse, times};
@@ -10,7 +10,7 @@ use crate::matrix::{inverse, times};
 /// How light the surroundings of a picture are (CIE 248:2022, table 1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Surround {
-    /// As light as the picture: surface colours, offices.
+    /// As light as the picture: surface colors, offices.
     #[default]
     Average,
     /// Darker than the picture: television.
@@ -30,7 +30,7 @@ impl Surround {
     }
 }
 
-/// What a colour looks like.
+/// What a color looks like.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Appearance {
     /// Lightness J: 0 for black, 100 for the white.
@@ -39,7 +39,7 @@ pub struct Appearance {
     pub c: f64,
     /// Hue angle h in degrees, 0 to 360.
     pub h: f64,
-    /// Colourfulness M.
+    /// Colorfulness M.
     pub m: f64,
     /// Saturation s.
     pub s: f64,
@@ -47,7 +47,7 @@ pub struct Appearance {
     pub q: f64,
 }
 
-/// A colour in the uniform space CAM16-UCS: J′, a′, b′, whose distances are differences of colour (Li et al. 2017).
+/// A color in the uniform space CAM16-UCS: J′, a′, b′, whose distances are differences of color (Li et al. 2017).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ucs {
     /// Lightness J′ = 1.7 J / (1 + 0.007 J), 0 to 100.
@@ -59,14 +59,14 @@ pub struct Ucs {
 }
 
 impl Ucs {
-    /// The distance, a difference of colour.
+    /// The distance, a difference of color.
     pub fn distance(self, other: Self) -> f64 {
         let [dj, da, db] = [self.j - other.j, self.a - other.a, self.b - other.b];
         (dj * dj + da * da + db * db).sqrt()
     }
 }
 
-/// The conditions under which colours are seen.
+/// The conditions under which colors are seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViewingConditions {
     /// What the adapted responses to the white scale R, G and B by.
@@ -126,7 +126,7 @@ impl ViewingConditions {
         let hue = yellow.atan2(red);
         let t = self.eccentricity(hue) * red.hypot(yellow) / (r + g + 21.0 / 20.0 * b + 0.305);
         let root_j = (self.achromatic([r, g, b]) / self.a_w).powf(0.5 * self.c * self.z);
-        // Beyond the spectrum's violet the denominator may fall below 0; such a colour has no chroma to speak of.
+        // Beyond the spectrum's violet the denominator may fall below 0; such a color has no chroma to speak of.
         let c = t.max(0.0).powf(0.9) * root_j * self.chroma_factor();
         let q = 4.0 / self.c * root_j * (self.a_w + 4.0) * self.f_l.powf(0.25);
         let m = c * self.f_l.powf(0.25);
@@ -293,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn a_colour_comes_back_from_its_looks() {
+    fn a_color_comes_back_from_its_looks() {
         for (xyz, white, _) in APPEARANCES {
             for surround in [Surround::Average, Surround::Dim, Surround::Dark] {
                 let conditions = ViewingConditions::new(white, 64.0, 20.0, surround);
@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn black_and_colours_beyond_the_spectrum_have_numbers() {
+    fn black_and_colors_beyond_the_spectrum_have_numbers() {
         let conditions =
             ViewingConditions::new([95.05, 100.0, 108.88], 64.0, 20.0, Surround::Average);
         assert_eq!(conditions.appearance([0.0; 3]).j, 0.0);

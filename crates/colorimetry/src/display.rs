@@ -99,7 +99,7 @@ impl Primaries {
         let is_mixed = amounts
             .iter()
             .all(|&amount| amount > 0.0 && amount.is_finite());
-        // Of three colours on a line.
+        // Of three colors on a line.
         let is_flat = determinant(&columns).abs() < 1e-9 * columns[1].iter().product::<f64>();
         if is_mixed && !is_flat {
             Ok(amounts)
@@ -234,7 +234,7 @@ impl Display {
     }
 
     /// XYZ that the screen shows at code 0, its black level and the ambient light that it reflects; relative to the white's
-    /// Y = 1. It adds to every colour.
+    /// Y = 1. It adds to every color.
     pub fn black_xyz(&self) -> [f64; 3] {
         self.black
     }

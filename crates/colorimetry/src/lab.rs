@@ -1,10 +1,10 @@
-//! CIELAB and the colour differences ΔE of 1976, 1994 and 2000.
+//! CIELAB and the color differences ΔE of 1976, 1994 and 2000.
 //!
 //! Lightness L*, and a*, b* from green to red and from blue to yellow (CIE 015:2018, section 8.2.1). All in `f64`.
 
 use std::f64::consts::PI;
 
-/// A colour in CIELAB: L* (0 for black, 100 for the white), a*, b*.
+/// A color in CIELAB: L* (0 for black, 100 for the white), a*, b*.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lab {
     /// Lightness L*.
@@ -62,7 +62,7 @@ impl Lab {
         std::array::from_fn(|i| white[i] * f_inverse(roots[i]))
     }
 
-    /// The colour of a lightness L*, chroma C* and hue angle in degrees: [`Self::chroma`] and [`Self::hue_deg`] backwards.
+    /// The color of a lightness L*, chroma C* and hue angle in degrees: [`Self::chroma`] and [`Self::hue_deg`] backwards.
     pub fn from_lch(l: f64, chroma: f64, hue_deg: f64) -> Self {
         let (sin, cos) = hue_deg.to_radians().sin_cos();
         Self {
@@ -92,7 +92,7 @@ impl Lab {
         self.a.hypot(self.b)
     }
 
-    /// Hue angle in degrees, 0 to 360; 0 for a grey.
+    /// Hue angle in degrees, 0 to 360; 0 for a gray.
     pub fn hue_deg(self) -> f64 {
         hue(self.a, self.b).to_degrees()
     }
@@ -104,13 +104,13 @@ fn hue(a: f64, b: f64) -> f64 {
     if angle < 0.0 { angle + 2.0 * PI } else { angle }
 }
 
-/// The colour difference ΔE*₇₆, the distance in CIELAB (CIE 015:2018, equation 8.17).
+/// The color difference ΔE*₇₆, the distance in CIELAB (CIE 015:2018, equation 8.17).
 pub fn delta_e_76(first: Lab, second: Lab) -> f64 {
     let [l, a, b] = [first.l - second.l, first.a - second.a, first.b - second.b];
     (l * l + a * a + b * b).sqrt()
 }
 
-/// The colour difference ΔE*₉₄ with k_L = k_C = k_H = 1, for graphic arts (CIE 116-1995). `first` is the standard, whose chroma
+/// The color difference ΔE*₉₄ with k_L = k_C = k_H = 1, for graphic arts (CIE 116-1995). `first` is the standard, whose chroma
 /// says how much differences of chroma and hue weigh: the other way round it is another number.
 pub fn delta_e_94(first: Lab, second: Lab) -> f64 {
     let standard = first.chroma();
@@ -122,7 +122,7 @@ pub fn delta_e_94(first: Lab, second: Lab) -> f64 {
     (dl * dl + (dc / s_c).powi(2) + dh2 / (s_h * s_h)).sqrt()
 }
 
-/// The colour difference ΔE₀₀ with k_L = k_C = k_H = 1 (CIE 142-2001; as written out, branches of the hue included, in
+/// The color difference ΔE₀₀ with k_L = k_C = k_H = 1 (CIE 142-2001; as written out, branches of the hue included, in
 /// Sharma, Wu and Dalal, The CIEDE2000 color-difference formula, Color Res. Appl. 30, 21 (2005), equations 2 to 22).
 pub fn delta_e_2000(first: Lab, second: Lab) -> f64 {
     let stretch = red_green_stretch(f64::midpoint(first.chroma(), second.chroma()));
@@ -130,17 +130,17 @@ pub fn delta_e_2000(first: Lab, second: Lab) -> f64 {
     let (c1, c2) = (a1.hypot(first.b), a2.hypot(second.b));
     let (h1, h2) = (hue(a1, first.b), hue(a2, second.b));
 
-    // Between greys hue has no meaning: no difference of hue, and the mean is the other's hue.
-    let is_grey = c1 * c2 == 0.0;
+    // Between grays hue has no meaning: no difference of hue, and the mean is the other's hue.
+    let is_gray = c1 * c2 == 0.0;
     let turn = h2 - h1;
     let dh = match turn {
-        _ if is_grey => 0.0,
+        _ if is_gray => 0.0,
         _ if turn > PI => turn - 2.0 * PI,
         _ if turn < -PI => turn + 2.0 * PI,
         _ => turn,
     };
     let mean_hue = match h1 + h2 {
-        sum if is_grey => sum,
+        sum if is_gray => sum,
         sum if turn.abs() <= PI => 0.5 * sum,
         sum if sum < 2.0 * PI => 0.5 * sum + PI,
         sum => 0.5 * sum - PI,
@@ -154,10 +154,10 @@ pub fn delta_e_2000(first: Lab, second: Lab) -> f64 {
     weights.length(second.l - first.l, c2 - c1, dh_chord)
 }
 
-/// How fast a colour moves away from `at`, in ΔE₀₀ per unit of t, when CIELAB moves by `d_lab` per unit of t: the limit of
+/// How fast a color moves away from `at`, in ΔE₀₀ per unit of t, when CIELAB moves by `d_lab` per unit of t: the limit of
 /// ΔE₀₀(at, at + t d_lab) / t for t → 0 from above.
 pub fn delta_e_2000_rate(at: Lab, d_lab: Lab) -> f64 {
-    // Both colours of the pair share the stretch, so that its own change is of second order.
+    // Both colors of the pair share the stretch, so that its own change is of second order.
     let stretch = red_green_stretch(at.chroma());
     let (a, da) = (stretch * at.a, stretch * d_lab.a);
     let c = a.hypot(at.b);
@@ -170,13 +170,13 @@ pub fn delta_e_2000_rate(at: Lab, d_lab: Lab) -> f64 {
     weights.length(d_lab.l, dc, dh)
 }
 
-/// 1 + G with G = (1 − √(C⁷ / (C⁷ + 25⁷))) / 2, by which a* is stretched near grey.
+/// 1 + G with G = (1 − √(C⁷ / (C⁷ + 25⁷))) / 2, by which a* is stretched near gray.
 fn red_green_stretch(chroma: f64) -> f64 {
-    1.0 + 0.5 * (1.0 - towards_saturation(chroma))
+    1.0 + 0.5 * (1.0 - toward_saturation(chroma))
 }
 
 /// √(C⁷ / (C⁷ + 25⁷)).
-fn towards_saturation(chroma: f64) -> f64 {
+fn toward_saturation(chroma: f64) -> f64 {
     let c7 = chroma.powi(7);
     (c7 / (c7 + 25.0_f64.powi(7))).sqrt()
 }
@@ -202,7 +202,7 @@ impl Weights {
             s_l: 1.0 + 0.015 * dl2 / (20.0 + dl2).sqrt(),
             s_c: 1.0 + 0.045 * c,
             s_h: 1.0 + 0.015 * c * t,
-            r_t: -(2.0 * 30.0_f64.to_radians() * blue).sin() * 2.0 * towards_saturation(c),
+            r_t: -(2.0 * 30.0_f64.to_radians() * blue).sin() * 2.0 * toward_saturation(c),
         }
     }
 
@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn greys_have_no_hue() {
+    fn grays_have_no_hue() {
         assert_eq!(
             delta_e_2000(lab([50.0, 0.0, 0.0]), lab([50.0, 0.0, 0.0])),
             0.0
@@ -259,8 +259,8 @@ mod tests {
     fn lightness_has_its_fixed_points() {
         let white = [0.950_42, 1.0, 1.088_6];
         assert_eq!(Lab::from_xyz(white, white), lab([100.0, 0.0, 0.0]));
-        let grey = white.map(|v| v * (66.0_f64 / 116.0).powi(3));
-        let found = Lab::from_xyz(grey, white);
+        let gray = white.map(|v| v * (66.0_f64 / 116.0).powi(3));
+        let found = Lab::from_xyz(gray, white);
         assert!((found.l - 50.0).abs() < 1e-13 && found.chroma() < 1e-12);
         // Near black: L* = (29/3)³ Y.
         let black = Lab::from_xyz([0.0, 0.001, 0.0], white);
@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_come_back() {
+    fn colors_come_back() {
         let white = [0.95, 1.0, 1.09];
         for xyz in [
             [0.05, 0.07, 0.2],
@@ -344,10 +344,10 @@ mod tests {
                 "{rate} {difference}"
             );
         }
-        let grey = lab([40.0, 0.0, 0.0]);
-        let rate = delta_e_2000_rate(grey, lab([1.0, 2.0, 3.0]));
+        let gray = lab([40.0, 0.0, 0.0]);
+        let rate = delta_e_2000_rate(gray, lab([1.0, 2.0, 3.0]));
         let h = 1e-6;
-        let difference = delta_e_2000(grey, lab([40.0 + h, 2.0 * h, 3.0 * h])) / h;
+        let difference = delta_e_2000(gray, lab([40.0 + h, 2.0 * h, 3.0 * h])) / h;
         assert!(
             (rate / difference - 1.0).abs() < 1e-4,
             "{rate} {difference}"

@@ -4,7 +4,7 @@
 //! spectrum
 //!   -> tristimulus    XYZ under a light for an observer, by sums at 5 or 1 nm
 //!   -> chromaticity   x, y and u', v'; temperature, of the nearest black body
-//!   -> lab, oklab, ciecam16   what it looks like, and how different two colours look
+//!   -> lab, oklab, ciecam16   what it looks like, and how different two colors look
 //!   -> adaptation     the same under another white
 //!   -> Display        amounts of a display's primaries -> its codes
 //! ```
@@ -17,11 +17,11 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let lamp = find_illuminant("A")?.data;
 //! let light = Weights::new(&lamp, Observer::Cie1931Deg2, Rule::OneNm)?;
-//! let grey = light.xyz_of(&Spectrum::Constant(0.184))?;
-//! assert!((Lab::from_xyz(grey, light.white()).l - 50.0).abs() < 0.1);
+//! let gray = light.xyz_of(&Spectrum::Constant(0.184))?;
+//! assert!((Lab::from_xyz(gray, light.white()).l - 50.0).abs() < 0.1);
 //!
 //! let crt = Display::open("crt_1997")?;
-//! let adapted = times(&Adaptation::Bradford.matrix(light.white(), crt.white_xyz()), grey);
+//! let adapted = times(&Adaptation::Bradford.matrix(light.white(), crt.white_xyz()), gray);
 //! let amounts = times(crt.rgb_from_xyz(), adapted);
 //! let codes: [f64; 3] = std::array::from_fn(|i| crt.responses()[i].code(amounts[i]));
 //! assert!(codes.iter().all(|code| (code - codes[0]).abs() < 1e-12));

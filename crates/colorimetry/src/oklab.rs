@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use crate::matrix::{Matrix3, inverse, times};
 
-/// A colour in Oklab: lightness L (0 for black, 1 for the white D65), a, b.
+/// A color in Oklab: lightness L (0 for black, 1 for the white D65), a, b.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Oklab {
     /// Lightness L.
@@ -32,8 +32,8 @@ pub const LAB_FROM_ROOTS: Matrix3 = [
 ];
 
 impl Oklab {
-    /// Oklab of XYZ relative to the white D65, Y = 1. A colour seen under another white is adapted to D65 first. XYZ outside the
-    /// cone of real colours have an Oklab too: roots keep their sign.
+    /// Oklab of XYZ relative to the white D65, Y = 1. A color seen under another white is adapted to D65 first. XYZ outside the
+    /// cone of real colors have an Oklab too: roots keep their sign.
     pub fn from_xyz(xyz: [f64; 3]) -> Self {
         let roots = times(&LMS_FROM_XYZ, xyz).map(f64::cbrt);
         let [l, a, b] = times(&LAB_FROM_ROOTS, roots);
@@ -54,12 +54,12 @@ impl Oklab {
         self.a.hypot(self.b)
     }
 
-    /// Hue angle in degrees, 0 to 360; 0 for a grey.
+    /// Hue angle in degrees, 0 to 360; 0 for a gray.
     pub fn hue_deg(self) -> f64 {
         self.b.atan2(self.a).to_degrees().rem_euclid(360.0)
     }
 
-    /// The colour of a lightness, chroma and hue angle in degrees.
+    /// The color of a lightness, chroma and hue angle in degrees.
     pub fn from_lch(l: f64, chroma: f64, hue_deg: f64) -> Self {
         let (sin, cos) = hue_deg.to_radians().sin_cos();
         Self {
@@ -76,7 +76,7 @@ mod tests {
 
     /// The pairs that Ottosson (2020) prints for checking.
     #[test]
-    fn published_colours_have_their_coordinates() {
+    fn published_colors_have_their_coordinates() {
         for (xyz, lab) in [
             ([0.950, 1.000, 1.089], [1.000, 0.000, 0.000]),
             ([1.000, 0.000, 0.000], [0.450, 1.236, -0.019]),
@@ -92,7 +92,7 @@ mod tests {
 
     /// A red, a green and a blue, by colour-science 0.4.7.
     #[test]
-    fn colours_equal_an_independent_computation() {
+    fn colors_equal_an_independent_computation() {
         for (xyz, lab) in [
             (
                 [0.206_540_08, 0.121_972_25, 0.051_369_52],
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn there_and_back_is_the_same_colour() {
+    fn there_and_back_is_the_same_color() {
         for xyz in [
             [0.95, 1.0, 1.089],
             [0.2, 0.1, 0.7],

@@ -2,7 +2,7 @@
 //!
 //! Primaries, white and curve are those of IEC 61966-2-1:1999. XYZ enters relative to the display's
 //! white, Y = 1. No chromatic adaptation is done: a spectrum whose chromaticity is that of D65 is
-//! white, every other light keeps its own colour.
+//! white, every other light keeps its own color.
 
 use std::sync::OnceLock;
 
@@ -21,7 +21,7 @@ pub fn rgb_from_xyz() -> &'static Matrix3 {
     MATRIX.get_or_init(|| inverse(&xyz_from_rgb_of(PRIMARIES, WHITE)))
 }
 
-/// Linear RGB of XYZ. Colours that the display cannot show have values below 0 or above 1.
+/// Linear RGB of XYZ. Colors that the display cannot show have values below 0 or above 1.
 pub fn linear_from_xyz(xyz: [f64; 3]) -> [f64; 3] {
     times(rgb_from_xyz(), xyz)
 }
@@ -103,7 +103,7 @@ mod tests {
 
     /// XYZ (100 for a perfect mirror) and linear sRGB of films and metals under several lights, by
     /// double-precision sums at 1 nm computed apart from this code (tmm, numpy).
-    const COLOURS: [([f64; 3], [f64; 3]); 6] = [
+    const COLORS: [([f64; 3], [f64; 3]); 6] = [
         // Soap film, 500 nm, normal, D65; then at 80° under A; at 30° under D65.
         (
             [3.260_339_054_46, 5.648_028_124_08, 1.741_707_246_9],
@@ -143,7 +143,7 @@ mod tests {
 
     #[test]
     fn films_have_the_rgb_of_an_independent_computation() {
-        for (xyz, expected) in COLOURS {
+        for (xyz, expected) in COLORS {
             let rgb = linear_from_xyz(xyz.map(|v| v / 100.0));
             for (found, expected) in rgb.into_iter().zip(expected) {
                 // The figures have ten to twelve digits.
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn xyz_and_back_is_the_same_colour() {
+    fn xyz_and_back_is_the_same_color() {
         for rgb in [[1.0, 1.0, 1.0], [0.2, -0.1, 0.9], [0.0; 3]] {
             for (back, there) in linear_from_xyz(xyz_from_linear(rgb)).into_iter().zip(rgb) {
                 assert!((back - there).abs() < 1e-14, "{back} {there}");
@@ -174,7 +174,7 @@ mod tests {
     #[test]
     fn the_curve_meets_itself_and_its_published_points() {
         assert!((encode(0.003_130_8) - 0.040_45).abs() < 1e-5);
-        // Mid grey: code 0.5 is linear 0.21404.
+        // Mid gray: code 0.5 is linear 0.21404.
         assert!((decode(0.5) - 0.214_041_14).abs() < 1e-8);
         for i in 0..=1000 {
             let v = f64::from(i) / 1000.0;

@@ -1,4 +1,4 @@
-//! Correlated colour temperature.
+//! Correlated color temperature.
 
 use std::sync::OnceLock;
 
@@ -7,21 +7,21 @@ use spectra::{Observer, black_body};
 use crate::chromaticity::uv_of_xyz;
 use crate::tristimulus::Rule;
 
-/// A colour beside the black bodies.
+/// A color beside the black bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Temperature {
-    /// Correlated colour temperature: that of the black body whose chromaticity is nearest in u, v of CIE 1960, K.
+    /// Correlated color temperature: that of the black body whose chromaticity is nearest in u, v of CIE 1960, K.
     pub kelvin: f64,
     /// The distance from it, positive above the line of black bodies: greener than they.
     pub duv: f64,
 }
 
-/// The farthest that a colour may lie from the black bodies to have a temperature (CIE 015:2018, section 9.5).
+/// The farthest that a color may lie from the black bodies to have a temperature (CIE 015:2018, section 9.5).
 const FARTHEST: f64 = 0.05;
 /// Reciprocal temperatures among which is looked, per 10⁶ K: 1000 to 100000 K.
 const MIRED: (f64, f64) = (10.0, 1000.0);
 
-/// The correlated colour temperature of a chromaticity x, y for the CIE 1931 observer (CIE 015:2018, section 9.5); `None` farther than
+/// The correlated color temperature of a chromaticity x, y for the CIE 1931 observer (CIE 015:2018, section 9.5); `None` farther than
 /// 0.05 from the black bodies or beyond those of 1000 to 100000 K.
 pub fn correlated_temperature(xy: [f64; 2]) -> Option<Temperature> {
     let [u, v] = uv_1960([xy[0], xy[1], 1.0 - xy[0] - xy[1]]);
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn saturated_colours_have_none() {
+    fn saturated_colors_have_none() {
         for xy in [[0.64, 0.33], [0.3, 0.6], [0.15, 0.06], [0.7, 0.29]] {
             assert_eq!(correlated_temperature(xy), None, "{xy:?}");
         }

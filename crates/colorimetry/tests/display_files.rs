@@ -72,7 +72,7 @@ fn a_file_says_everything() {
             other => panic!("{other:?}"),
         });
     assert_eq!(gammas, [(2.1, 0.02), (2.2, 0.02), (2.3, 0.02)]);
-    // 100 π lx on a hundredth is 1 cd/m², of A's colour; black adds 0.2 of the white's.
+    // 100 π lx on a hundredth is 1 cd/m², of A's color; black adds 0.2 of the white's.
     let black = display.black_xyz();
     assert!((black[1] - 1.2 / 200.0).abs() < 1e-12);
     assert!(
@@ -109,7 +109,7 @@ fn refused(cases: impl IntoIterator<Item = (String, &'static str)>) {
 }
 
 #[test]
-fn mistakes_of_colours_say_where_and_what_would_be_right() {
+fn mistakes_of_colors_say_where_and_what_would_be_right() {
     refused([
         (String::new(), "missing field `primaries`"),
         ("what = [".to_owned(), "line 1"),

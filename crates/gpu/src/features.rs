@@ -129,13 +129,17 @@ fn of_lights(scene: &Scene) -> Vec<Named> {
         })
     };
     let is_delta = |source: &LightSource| matches!(source.kind, SourceKind::Light(_));
-    let is_disc = |part: &EnvironmentPart| matches!(part.shape, EnvironmentShape::Disc { .. });
+    let is_distant_disk =
+        |part: &EnvironmentPart| matches!(part.shape, EnvironmentShape::DistantDisk { .. });
     let direct = scene.settings().direct_light;
     vec![
         ("HAS_SPHERE_LIGHTS", light(is_sphere)),
         ("HAS_DISK_LIGHTS", light(is_disk)),
         ("HAS_DELTA_LIGHTS", sources.iter().any(is_delta)),
-        ("HAS_DISCS", surroundings.iter().any(is_disc)),
+        (
+            "HAS_DISTANT_DISKS",
+            surroundings.iter().any(is_distant_disk),
+        ),
         ("HAS_LIGHTS", !sources.is_empty()),
         ("HAS_LIGHT_CHOICE", sources.len() > 1),
         (

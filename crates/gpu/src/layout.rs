@@ -152,10 +152,10 @@ constants! { CONSTANTS;
     pub const EMITTER_HORIZON = 17;
     /// Emitter: surroundings by the cosine with `axis`, where it is above 0.
     pub const EMITTER_POLE = 18;
-    /// Emitter: surroundings by a picture, its middle towards `axis`, its right half towards `tangent`.
+    /// Emitter: surroundings by a picture, its middle toward `axis`, its right half toward `tangent`.
     pub const EMITTER_PICTURE = 19;
-    /// Emitter: a disc in the sky about `axis`.
-    pub const EMITTER_DISC = 24;
+    /// Emitter: a disk in the sky about `axis`.
+    pub const EMITTER_DISTANT_DISK = 24;
     /// Emitter: light from the direction `axis` alone. Those of a single direction at each place are greater.
     pub const EMITTER_DIRECTION = 25;
     /// Emitter: a point that shines to all sides. Those that lie at a place are greater.
@@ -189,7 +189,7 @@ constants! { CONSTANTS;
     pub const GRAIN_NONE = 0;
     /// Grain: along a direction in space.
     pub const GRAIN_ALONG = 1;
-    /// Grain: around an axis through the object's centre.
+    /// Grain: around an axis through the object's center.
     pub const GRAIN_AROUND = 2;
     /// Cosines for which a rough coat has its reflectance, even in their roots.
     pub const COAT_COSINES = CoatedBody::COSINES as u32;
@@ -214,7 +214,7 @@ constants! { CONSTANTS;
     pub const FIELD_SUM = 6;
     /// Field: the product of the two values before it.
     pub const FIELD_PRODUCT = 7;
-    /// A field runs along the polar angle about a sphere's centre.
+    /// A field runs along the polar angle about a sphere's center.
     pub const ALONG_POLAR_ANGLE = 0;
     /// A field runs along a line in space.
     pub const ALONG_LINE = 1;
@@ -287,9 +287,9 @@ structs! { STRUCTS, Struct;
         pub image_size: [u32; 2],
         /// Steps that a band is divided into by the spectra's knots.
         pub steps: u32,
-        /// 1 where each sample draws its wavelengths, 0 where they lie at the bands' centres.
+        /// 1 where each sample draws its wavelengths, 0 where they lie at the bands' centers.
         pub draws_wavelengths: u32,
-        /// First of the numbers of the emitters that are parts of the surroundings, discs in the sky among them.
+        /// First of the numbers of the emitters that are parts of the surroundings, disks in the sky among them.
         pub first_environment: u32,
         /// First of the observer's three spectra.
         pub observer: u32,
@@ -417,11 +417,11 @@ records! { EMITTERS;
         pub position: [f32; 3],
         /// An `EMITTER_` tag.
         pub kind: u32,
-        /// Unit vector: normal of a rectangle or disk, towards a pole, a disc, a direction or a picture's middle, where a spot shines to.
+        /// Unit vector: normal of a rectangle or disk, toward a pole, a disk, a direction or a picture's middle, where a spot shines to.
         pub axis: [f32; 3],
         /// Radius of a sphere or disk.
         pub radius: f32,
-        /// First axis of a rectangle or disk; towards a picture's right half.
+        /// First axis of a rectangle or disk; toward a picture's right half.
         pub tangent: [f32; 3],
         /// Half the width of a rectangle, along `tangent`; a disk's radius.
         pub half_width: f32,
@@ -439,7 +439,7 @@ records! { EMITTERS;
         pub object: u32,
         /// 1 − cos of the angle with `axis` within which a spot shines fully.
         pub full_height: f32,
-        /// 1 − cos of the angle with `axis` beyond which a spot does not shine, or a disc in the sky ends.
+        /// 1 − cos of the angle with `axis` beyond which a spot does not shine, or a disk in the sky ends.
         pub edge_height: f32,
         /// The row of its node in the tree of emitters.
         pub node: u32,

@@ -197,7 +197,7 @@ mod tests {
         let text: Vec<_> = shader.text().lines().collect();
         let line = text
             .iter()
-            .position(|l| l.starts_with("fn reflectance_unpolarised"))
+            .position(|l| l.starts_with("fn reflectance_unpolarized"))
             .unwrap();
         let (file, in_file) = shader.origin_of_line(line + 1);
         assert_eq!(file, "shaders/fresnel.wgsl");

@@ -159,7 +159,7 @@ impl TileBuffers {
     }
 }
 
-/// Whether all samples of all pixels were taken, by the count that stands beside the first light group's colours.
+/// Whether all samples of all pixels were taken, by the count that stands beside the first light group's colors.
 fn check_count(tile: Tile, colors: &[[f32; 4]], samples: u32) -> Result<(), RenderError> {
     let counts = colors.iter().take(tile.pixels() as usize);
     match counts.map(|color| color[3]).find(|&n| n != samples as f32) {

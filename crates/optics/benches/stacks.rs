@@ -1,4 +1,4 @@
-//! Stack evaluations per second: one evaluation is R and T of one stack at one wavelength, angle and polarisation.
+//! Stack evaluations per second: one evaluation is R and T of one stack at one wavelength, angle and polarization.
 //!
 //! `cargo bench -p pellicle-optics` measures this crate; `python crates/optics/benches/stacks_numpy.py` the same stacks in
 //! numpy. Machines drift: compare only what ran in turn.
@@ -8,7 +8,7 @@ use pellicle_optics::batch::{LayerOf, Media, Powers, StackBatch, StackOf, evalua
 use pellicle_optics::{Complex64, Layer, stack};
 use std::hint::black_box;
 
-const POLARISATIONS: u64 = 2;
+const POLARIZATIONS: u64 = 2;
 
 /// Media 0 and 1 of the layers and 2 of the substrate, with the dispersion of Cauchy's n = a + b/λ² (λ in µm), `k` in
 /// medium 1.
@@ -75,7 +75,7 @@ fn batches(criterion: &mut Criterion) {
             let tables = Tables::new(stacks, layers, k);
             let batch = tables.batch();
             let mut powers = vec![Powers::default(); batch.len()];
-            group.throughput(Throughput::Elements(batch.len() as u64 * POLARISATIONS));
+            group.throughput(Throughput::Elements(batch.len() as u64 * POLARIZATIONS));
             group.bench_function(BenchmarkId::from_parameter(layers), |bencher| {
                 bencher.iter(|| evaluate_into(black_box(&batch), &mut powers));
             });
@@ -95,7 +95,7 @@ fn single(criterion: &mut Criterion) {
             thickness_nm: of.thickness_nm,
         };
         let layers_of: Vec<Layer> = tables.layers.iter().map(layer).collect();
-        group.throughput(Throughput::Elements(90 * POLARISATIONS));
+        group.throughput(Throughput::Elements(90 * POLARIZATIONS));
         group.bench_function(BenchmarkId::from_parameter(layers), |bencher| {
             bencher.iter(|| {
                 let at = |&cosine| stack(1.0, &layers_of, of_medium(2), 550.0, cosine);
@@ -133,7 +133,7 @@ fn million(criterion: &mut Criterion) {
     };
     let mut powers = vec![Powers::default(); batch.len()];
     let mut group = criterion.benchmark_group("a million random stacks");
-    group.throughput(Throughput::Elements(u64::from(count) * POLARISATIONS));
+    group.throughput(Throughput::Elements(u64::from(count) * POLARIZATIONS));
     group.sample_size(20);
     group.bench_function(BenchmarkId::from_parameter(5), |bencher| {
         bencher.iter(|| evaluate_into(black_box(&batch), &mut powers));

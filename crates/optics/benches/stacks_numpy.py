@@ -1,5 +1,5 @@
 """Stack evaluations per second in numpy, beside `cargo bench -p pellicle-optics`: the same stacks, one evaluation being R and T of
-one stack at one wavelength, angle and polarisation.
+one stack at one wavelength, angle and polarization.
 
     pip install numpy            (tmm and tmm_fast are measured too where they are installed)
     python crates/optics/benches/stacks_numpy.py [--layers 1 5 21] [--seconds 1]
@@ -29,8 +29,8 @@ def evaluate(media, order, thickness_nm, wavelengths, cosines):
     sine2 = (1.0 - cosines**2)[:, None]
     normal = [np.sqrt(n * n - sine2) for n in media]
     found = []
-    for polarisation in "sp":
-        eta = [q if polarisation == "s" else q / (n * n) for q, n in zip(normal, media)]
+    for polarization in "sp":
+        eta = [q if polarization == "s" else q / (n * n) for q, n in zip(normal, media)]
         below, r, t = eta[2], None, None
         for medium, d in zip(order[::-1], thickness_nm[::-1]):
             here = eta[medium]

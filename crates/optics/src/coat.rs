@@ -1,10 +1,10 @@
 //! A diffuse body below a coat without absorption.
 
-use crate::reflectance_unpolarised;
+use crate::reflectance_unpolarized;
 use crate::wide::Real;
 use num_complex::Complex64;
 
-/// Reflectance of a smooth surface of `index` for diffuse unpolarised light from vacuum: ∫ F(θ) 2 cos θ sin θ dθ, by Gauss's rule of
+/// Reflectance of a smooth surface of `index` for diffuse unpolarized light from vacuum: ∫ F(θ) 2 cos θ sin θ dθ, by Gauss's rule of
 /// order 16 on eight equal parts of √cos θ, which resolves the steep rise at grazing.
 ///
 /// Of glass (1.5) it is 0.0918 (Judd 1942, J. Res. NBS 29, 329, table 1). The reflectance from within follows from it:
@@ -16,7 +16,7 @@ pub fn hemispherical_reflectance(index: Complex64) -> f64 {
         for (x, weight) in GAUSS_16.iter().flat_map(|&(x, w)| [(x, w), (-x, w)]) {
             // cos θ = t²: 2 c dc = 4 t³ dt.
             let t = (f64::from(part) + 0.5 + 0.5 * x) / f64::from(PARTS);
-            sum += weight * 4.0 * t.powi(3) * reflectance_unpolarised(index, (t * t).max(1e-9));
+            sum += weight * 4.0 * t.powi(3) * reflectance_unpolarized(index, (t * t).max(1e-9));
         }
     }
     0.5 * sum / f64::from(PARTS)

@@ -1,6 +1,6 @@
 //! The reflection model of Cook and Torrance as Suzuki, Yokoi and Toriwaki print it (section 3-1), piece by piece.
 //!
-//! I_r = I_a R_a + Σ I_l dω_l R_s with R_s = F D G / (π (N·E)); the cosine N·L of the irradiance is cancelled against that of
+//! I_r = I_a R_a + Σ I_l dω_l R_s with R_s = F D G / (π (N·E)); the cosine N·L of the irradiance is canceled against that of
 //! the denominator already. G is [`v_groove_g`](crate::v_groove_g). Two forms of D are printed: [`gaussian_d1`] with an arbitrary
 //! constant, and [`beckmann_d2`], whose projected area is π and not 1: with the printed π in place of the 4 of facets that mirror
 //! (Torrance and Sparrow 1967) and D₂ in place of D₂/π, R_s is four times as large.
@@ -17,10 +17,10 @@ pub fn index_from_normal_reflectance(normal_reflectance: f64) -> f64 {
     (1.0 + root) / (1.0 - root)
 }
 
-/// Fresnel's reflectance of unpolarised light from a real index `n` ≥ 1, with c the cosine at the facet and g² = n² + c² − 1:
+/// Fresnel's reflectance of unpolarized light from a real index `n` ≥ 1, with c the cosine at the facet and g² = n² + c² − 1:
 /// F = ½ (g − c)² / (g + c)² {1 + (c (g + c) − 1)² / (c (g − c) + 1)²} (Cook and Torrance 1982, with c = E·H).
 ///
-/// The print has c = N·E and a garbled g. It is the same function as [`reflectance_unpolarised`](crate::reflectance_unpolarised)
+/// The print has c = N·E and a garbled g. It is the same function as [`reflectance_unpolarized`](crate::reflectance_unpolarized)
 /// of an index without absorption.
 ///
 /// Domain: 0 ≤ c ≤ 1, and not both n = 1 and c = 0, where g + c is 0 and the result is NaN.
@@ -104,7 +104,7 @@ fn angle_of(cosine: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Complex64, reflectance_unpolarised, v_groove_g};
+    use crate::{Complex64, reflectance_unpolarized, v_groove_g};
 
     fn close(found: f64, expected: f64, tolerance: f64) {
         assert!((found - expected).abs() <= tolerance, "{found} {expected}");
@@ -132,7 +132,7 @@ mod tests {
     fn fresnel_is_that_of_an_index_without_absorption() {
         for n in [1.0, 1.333, 1.5, 3.0, 19.0, 300.0] {
             for c in [1e-6, 0.1, 0.5, 0.9, 1.0] {
-                let exact = reflectance_unpolarised(Complex64::from(n), c);
+                let exact = reflectance_unpolarized(Complex64::from(n), c);
                 close(fresnel_by_g_and_c(n, c), exact, 1e-12);
             }
         }

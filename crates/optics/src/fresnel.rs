@@ -50,10 +50,10 @@ pub fn fresnel(n1: Complex64, cos1: Complex64, n2: Complex64, cos2: Complex64) -
     }
 }
 
-/// Reflectance of a half space of complex index `index` seen from vacuum, for unpolarised light.
+/// Reflectance of a half space of complex index `index` seen from vacuum, for unpolarized light.
 ///
 /// `cos_incident` in (0, 1].
-pub fn reflectance_unpolarised(index: Complex64, cos_incident: f64) -> f64 {
+pub fn reflectance_unpolarized(index: Complex64, cos_incident: f64) -> f64 {
     let cos1 = Complex64::from(cos_incident);
     let sine = ((1.0 - cos_incident) * (1.0 + cos_incident)).sqrt();
     let vacuum = Complex64::ONE;
@@ -86,13 +86,13 @@ mod tests {
         assert!(a.r_s.norm() > 0.3);
     }
 
-    /// A published value: aluminium, n = 0.82 + 5.99i at 546 nm, has R = 0.9163 at normal incidence
+    /// A published value: aluminum, n = 0.82 + 5.99i at 546 nm, has R = 0.9163 at normal incidence
     /// by ((n − 1)² + k²) / ((n + 1)² + k²).
     #[test]
     fn a_metal_at_normal_incidence_follows_the_closed_form() {
         let (n, k) = (0.82, 5.99);
         let expected = ((n - 1.0_f64).powi(2) + k * k) / ((n + 1.0_f64).powi(2) + k * k);
-        let found = reflectance_unpolarised(Complex64::new(n, k), 1.0);
+        let found = reflectance_unpolarized(Complex64::new(n, k), 1.0);
         assert!((found - expected).abs() < 1e-15);
     }
 
@@ -108,7 +108,7 @@ mod tests {
 
     #[test]
     fn everything_reflects_at_grazing() {
-        let r = reflectance_unpolarised(Complex64::new(0.2, 3.4), 1e-9);
+        let r = reflectance_unpolarized(Complex64::new(0.2, 3.4), 1e-9);
         assert!((r - 1.0).abs() < 1e-7);
     }
 }

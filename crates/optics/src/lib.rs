@@ -10,7 +10,7 @@
 //! | R and T of many stacks at many angles and wavelengths, fast | [`batch::evaluate`] |
 //! | the formulas of your own loop over wavelengths, in registers | [`wide`] |
 //! | a film by the two beams of Suzuki, Yokoi and Toriwaki | [`two_beam`] |
-//! | one boundary | [`fresnel`], [`reflectance_unpolarised`] |
+//! | one boundary | [`fresnel`], [`reflectance_unpolarized`] |
 //! | Cook's model as printed in 1981 and after | [`gaussian_d1`], [`beckmann_d2`], [`index_from_normal_reflectance`] |
 //! | a diffuse body below a coat | [`hemispherical_reflectance`], [`coated_albedo_factor`] |
 //! | rough surfaces | [`Microsurface`], [`multiple_color`] |
@@ -32,7 +32,7 @@
 //! assert!((r + t + absorbed[0].s + absorbed[1].s - 1.0).abs() < 1e-14);
 //! assert_eq!(absorbed[0].s, 0.0); // silica takes nothing
 //!
-//! // A nanometre more of silica changes R by the derivative, to first order.
+//! // A nanometer more of silica changes R by the derivative, to first order.
 //! let slope = thickness_derivatives(1.0, &layers, glass, 550.0, cosine)[0];
 //! let thicker = [Layer { thickness_nm: 81.0, ..layers[0] }, layers[1]];
 //! let change = stack(1.0, &thicker, glass, 550.0, cosine).reflectance.s - r;
@@ -40,10 +40,10 @@
 //! ```
 //!
 //! **Sign convention.** A complex index is n + ik and waves vary as exp(i(k·x − ωt)), so k ≥ 0
-//! absorbs. Wavelengths are vacuum wavelengths. Lengths of a film and wavelengths are both in nanometres. A cosine is
+//! absorbs. Wavelengths are vacuum wavelengths. Lengths of a film and wavelengths are both in nanometers. A cosine is
 //! that of the angle between a ray and the normal, measured in the medium that the ray is in.
 //!
-//! s is the polarisation whose electric field is perpendicular to the plane of incidence, p the one
+//! s is the polarization whose electric field is perpendicular to the plane of incidence, p the one
 //! whose field lies in it. r_p is the ratio that equals −r_s at normal incidence.
 
 pub mod batch;
@@ -62,7 +62,7 @@ pub use cook::{
     beckmann_d2, fresnel_by_g_and_c, gaussian_constant, gaussian_d1, gaussian_pdf, gaussian_share,
     index_from_normal_reflectance, sample_gaussian,
 };
-pub use fresnel::{Amplitudes, cos_refracted, fresnel, reflectance_unpolarised};
+pub use fresnel::{Amplitudes, cos_refracted, fresnel, reflectance_unpolarized};
 pub use microfacet::{beckmann_d, half_vector_pdf, sample_beckmann, v_groove_g};
 pub use microsurface::{
     Distribution, MEAN_COSINES, Microsurface, mean_reflectance, multiple_color,
@@ -73,19 +73,19 @@ pub use stack::{
 };
 pub use two_beam::{PathDifference, TwoBeam, two_beam};
 
-/// A power for s and for p polarised light.
+/// A power for s and for p polarized light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
-pub struct Polarised {
-    /// For s polarised light.
+pub struct Polarized {
+    /// For s polarized light.
     pub s: f64,
-    /// For p polarised light.
+    /// For p polarized light.
     pub p: f64,
 }
 
-impl Polarised {
-    /// For unpolarised light: the mean of both.
-    pub fn unpolarised(self) -> f64 {
+impl Polarized {
+    /// For unpolarized light: the mean of both.
+    pub fn unpolarized(self) -> f64 {
         0.5 * (self.s + self.p)
     }
 }

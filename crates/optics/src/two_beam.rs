@@ -1,6 +1,6 @@
 //! A film by two beams: what its two surfaces reflect once each.
 
-use crate::{Amplitudes, Polarised, fresnel};
+use crate::{Amplitudes, Polarized, fresnel};
 use std::f64::consts::TAU;
 
 /// The difference l between the ways of the two beams.
@@ -16,9 +16,9 @@ pub enum PathDifference {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoBeam {
     /// Reflectance with interference; may exceed 1.
-    pub reflectance: Polarised,
+    pub reflectance: Polarized,
     /// Transmittance without interference, t² = (t_b t_c)².
-    pub transmittance: Polarised,
+    pub transmittance: Polarized,
 }
 
 /// A film of real `index` in air by the two-beam formula of Suzuki, Yokoi and Toriwaki ("Study on Color Computation in Computer
@@ -26,13 +26,13 @@ pub struct TwoBeam {
 ///
 /// r² = r_c² + (t_a r_b t_c)² + 2 r_c t_a r_b t_c cos(2πl/λ − π), with the magnitudes of Fresnel's amplitudes in (a) and out (c)
 /// through the upper surface and at the lower one (b). Here r_b = r_c = r and t_a t_c = 1 − r², hence R = r² + ((1 − r²) r)² −
-/// 2 r² (1 − r²) cos(2πl/λ) and T = (1 − r²)². The printed text calls the amplitude of s polarised light ∥ and the other ⊥; here s and
+/// 2 r² (1 − r²) cos(2πl/λ) and T = (1 − r²)². The printed text calls the amplitude of s polarized light ∥ and the other ⊥; here s and
 /// p are what they are everywhere.
 ///
 /// **Where it fails.** The light that is reflected more often is left out, and T does not interfere, so that energy is not
 /// conserved: R + T ≠ 1. For a film of index 4/3 with the optical path difference (figures from this crate's tests):
 /// at normal incidence R is off by at most 0.0016 (0.0800 instead of 0.0784 at the crest of a fringe), and R + T runs from 0.96 to 1.04.
-/// At steep angles the crests exceed 1, as soon as r > (√5 − 1)/2: beyond 77.6° for s, beyond 81.5° for unpolarised light, up to 32/27 =
+/// At steep angles the crests exceed 1, as soon as r > (√5 − 1)/2: beyond 77.6° for s, beyond 81.5° for unpolarized light, up to 32/27 =
 /// 1.185. Use [`film`](crate::film), except to reproduce pictures made with the formula.
 ///
 /// Domain: `index` real, ≥ 1; `thickness_nm` ≥ 0; `wavelength_nm` > 0; `cos_incident` in (0, 1].
@@ -55,11 +55,11 @@ pub fn two_beam(
     let (s, p) = (r_s.norm_sqr(), r_p.norm_sqr());
     let reflected = |r2: f64| r2 * (1.0 + (1.0 - r2) * (1.0 - r2 - 2.0 * cos_phase));
     TwoBeam {
-        reflectance: Polarised {
+        reflectance: Polarized {
             s: reflected(s),
             p: reflected(p),
         },
-        transmittance: Polarised {
+        transmittance: Polarized {
             s: (1.0 - s).powi(2),
             p: (1.0 - p).powi(2),
         },
@@ -98,7 +98,7 @@ mod tests {
     #[test]
     fn the_reflectance_exceeds_one_where_the_docs_say() {
         assert!((reaches_one(|beams| beams.reflectance.s) - 77.6).abs() < 0.05);
-        assert!((reaches_one(|beams| beams.reflectance.unpolarised()) - 81.5).abs() < 0.05);
+        assert!((reaches_one(|beams| beams.reflectance.unpolarized()) - 81.5).abs() < 0.05);
         // r = (√5 − 1)/2 solves r (2 − r²) = 1; the greatest r²(2 − r²)² is 32/27, at r² = 2/3.
         let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
         assert!((golden * (2.0 - golden * golden) - 1.0).abs() < 1e-15);

@@ -1,4 +1,4 @@
-//! 3. What a spectral image knows about a pixel: its spectrum, how sure that is, its colour.
+//! 3. What a spectral image knows about a pixel: its spectrum, how sure that is, its color.
 //!
 //! `cargo run --release --example read_a_pixel [FILE.exr [X Y]]`; without a file a small picture is rendered.
 
@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err(format!("there is no pixel ({x}, {y}) in an image of {size:?}").into());
     }
 
-    // Per-band data is pixel-major: the bands of a pixel are neighbours.
+    // Per-band data is pixel-major: the bands of a pixel are neighbors.
     let bands = image.bands();
     let pixel = (y * image.width() + x) as usize;
     let first = pixel * bands.count() as usize;
@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (band, &radiance) in (0..).zip(image.pixel(x, y)) {
         // The variance is that of the mean, so its root is the standard error of the value.
         let error = image.variance()[first + band as usize].sqrt();
-        let nm = bands.centre_nm(band);
+        let nm = bands.center_nm(band);
         println!("{nm:>8.2}  {radiance:>12.5e}  {error:>12.2e}");
     }
     let [cx, cy, cz] = image.xyz()[pixel];

@@ -1,4 +1,4 @@
-//! A spectral renderer for the colour of thin films and metals, on the GPU and verified against `f64`.
+//! A spectral renderer for the color of thin films and metals, on the GPU and verified against `f64`.
 //!
 //! # A render's way
 //!
@@ -13,7 +13,7 @@
 //!
 //! A [`scene::Scene`] comes from a file ([`scene::SceneFile`]) or from a [`scene::description::Description`] that a
 //! program fills in. [`Renderer::open`] finds an adapter, [`Renderer::render`] gives a
-//! [`spectra::SpectralImage`]: radiance per pixel and band, in W m⁻² sr⁻¹ nm⁻¹ up to the scene's scale. Colour comes last and
+//! [`spectra::SpectralImage`]: radiance per pixel and band, in W m⁻² sr⁻¹ nm⁻¹ up to the scene's scale. Color comes last and
 //! exists once, in [`color`], so that a picture can be developed again without rendering again.
 //!
 //! ```no_run

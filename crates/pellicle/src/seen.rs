@@ -184,7 +184,7 @@ mod tests {
             size = [1, 1]
             samples = 1
             bands = 8
-            sampling = "centre"
+            sampling = "center"
             [materials.plate]
             {material}
             layers = [{{ index = 2.4, thickness_nm = 60 }}, {{ index = [1.4, 0.2], thickness_nm = 180 }}]
@@ -226,13 +226,13 @@ mod tests {
                 panic!("a coating");
             };
             let bands = &scene.settings().bands;
-            let nm: Vec<f64> = (0..bands.count()).map(|b| bands.centre_nm(b)).collect();
+            let nm: Vec<f64> = (0..bands.count()).map(|b| bands.center_nm(b)).collect();
             let powers = film.stack.sampled(&nm).unwrap();
             let powers = powers.powers(film.stack.thicknesses_nm(), film.angle);
             let image = reference::render(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
             for (rendered, powers) in image.pixel(0, 0).iter().zip(powers) {
                 // Silver's table is linear between knots of 1 nm in the render, and the image is of f32.
-                let expected = powers.reflectance.unpolarised();
+                let expected = powers.reflectance.unpolarized();
                 let off = f64::from(*rendered) - expected;
                 assert!(off.abs() < 1e-4, "from {side}: {rendered} {expected}");
             }

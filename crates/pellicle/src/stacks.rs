@@ -1,7 +1,7 @@
 //! Film stacks without a scene, on the CPU in `f64` or on a GPU in `f32`.
 
 use crate::Renderer;
-use optics::Polarised;
+use optics::Polarized;
 use optics::batch::{self, BatchError, Media, Powers, StackBatch};
 use thiserror::Error;
 
@@ -64,7 +64,7 @@ pub fn evaluate(renderer: &Renderer, batch: &StackBatch<'_>) -> Result<Vec<Power
 }
 
 fn widened([r_s, r_p, t_s, t_p]: gpu::StackPowers) -> Powers {
-    let pair = |s: f32, p: f32| Polarised {
+    let pair = |s: f32, p: f32| Polarized {
         s: f64::from(s),
         p: f64::from(p),
     };

@@ -29,14 +29,14 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// A direction from `point` towards it.
+    /// A direction from `point` toward it.
     pub fn sample(&self, point: DVec3, u: f64, v: f64) -> DVec3 {
         match *self {
             Self::Shape(shape) => sample_shape(shape, point, u, v),
             Self::Environment(part) => sample_environment(part, u, v),
-            Self::Delta(LightShape::Direction { towards } | LightShape::Disc { towards, .. }) => {
-                towards
-            }
+            Self::Delta(
+                LightShape::Direction { toward } | LightShape::DistantDisk { toward, .. },
+            ) => toward,
             Self::Delta(LightShape::Point { position } | LightShape::Spot { position, .. }) => {
                 (position - point).normalize()
             }
@@ -52,12 +52,12 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Factor of its emission towards `point`: the share of a part of the environment; of a point and of a spot what makes their
+    /// Factor of its emission toward `point`: the share of a part of the environment; of a point and of a spot what makes their
     /// intensity an irradiance.
     pub fn strength(&self, point: DVec3, direction: DVec3) -> f64 {
         match *self {
             Self::Shape(_)
-            | Self::Delta(LightShape::Direction { .. } | LightShape::Disc { .. }) => 1.0,
+            | Self::Delta(LightShape::Direction { .. } | LightShape::DistantDisk { .. }) => 1.0,
             Self::Environment(part) => environment_share(part, direction),
             Self::Delta(LightShape::Point { position }) => 1.0 / point.distance_squared(position),
             Self::Delta(LightShape::Spot {
@@ -100,12 +100,12 @@ impl<'a> Emitter<'a> {
 fn shape_weight(shape: &Shape, point: DVec3, normal: DVec3) -> f64 {
     match *shape {
         Shape::Sphere { center, radius } => {
-            let towards = center - point;
-            let distance2 = towards.length_squared();
+            let toward = center - point;
+            let distance2 = toward.length_squared();
             if distance2 <= radius * radius * INSIDE {
                 return PI;
             }
-            let largest = most_cosine(towards.normalize().dot(normal), radius / distance2.sqrt());
+            let largest = most_cosine(toward.normalize().dot(normal), radius / distance2.sqrt());
             TAU * cone_height(radius, distance2) * largest
         }
         Shape::Rectangle {
@@ -134,15 +134,15 @@ fn shape_weight(shape: &Shape, point: DVec3, normal: DVec3) -> f64 {
     }
 }
 
-fn plane_weight(towards: DVec3, (across, normal): (DVec3, DVec3), reach: f64, area: f64) -> f64 {
-    let distance = towards.length();
+fn plane_weight(toward: DVec3, (across, normal): (DVec3, DVec3), reach: f64, area: f64) -> f64 {
+    let distance = toward.length();
     let distance2 = distance * distance;
-    let facing = (towards.dot(across).abs() * distance + reach * reach) / distance2.max(1e-20);
+    let facing = (toward.dot(across).abs() * distance + reach * reach) / distance2.max(1e-20);
     let solid_angle = area * facing.min(1.0) / (distance2 + area / TAU);
     if distance <= reach {
         return solid_angle;
     }
-    solid_angle * most_cosine(towards.dot(normal) / distance, reach / distance)
+    solid_angle * most_cosine(toward.dot(normal) / distance, reach / distance)
 }
 
 fn environment_weight(part: EnvironmentShape<'_>, normal: DVec3) -> f64 {
@@ -150,9 +150,9 @@ fn environment_weight(part: EnvironmentShape<'_>, normal: DVec3) -> f64 {
         EnvironmentShape::Everywhere | EnvironmentShape::Picture(_) => PI,
         EnvironmentShape::Horizon => FRAC_PI_2,
         EnvironmentShape::Pole(pole) => FRAC_PI_3 * (1.0 + pole.dot(normal)).max(0.0),
-        EnvironmentShape::Disc { towards, height } => {
+        EnvironmentShape::DistantDisk { toward, height } => {
             let sine = (height * (2.0 - height)).sqrt();
-            TAU * height * most_cosine(towards.dot(normal), sine)
+            TAU * height * most_cosine(toward.dot(normal), sine)
         }
     }
 }

@@ -53,7 +53,7 @@ pub fn choose_emitter(pmfs: impl Iterator<Item = f64>, random: f64) -> Option<Em
     })
 }
 
-/// Part of the variance of places that counts as squared distance: within a group the light does not grow towards its middle.
+/// Part of the variance of places that counts as squared distance: within a group the light does not grow toward its middle.
 /// Between 0.2 and 0.7 the quality of the choice is the same to within 1 %.
 const SOFTENING: f64 = 0.4;
 /// 2/(3π). Of heights with a normal distribution about 0, the mean of max(0, h) is √(2/π)/2 of the standard deviation, which is
@@ -70,15 +70,15 @@ const EDGE: f64 = 1e-4;
 /// over squared distance, with the mean in place of the largest cosine: outside a ball, the mean of cos θ / r² over it is that of its
 /// center (Newton's shell theorem).
 pub(crate) fn group_weight(node: &LightNode, place: Place) -> f64 {
-    let towards = node.center - place.position;
-    let height = towards.dot(place.normal);
-    let distance2 = towards.length_squared();
-    if height + node.reach <= 0.0 || is_outside_cone(node, towards, distance2) {
+    let toward = node.center - place.position;
+    let height = toward.dot(place.normal);
+    let distance2 = toward.length_squared();
+    if height + node.reach <= 0.0 || is_outside_cone(node, toward, distance2) {
         return 0.0;
     }
     let soft = distance2 + SOFTENING * node.variance;
     let above = mean_above(height, HORIZON * node.variance);
-    node.power * sent_towards(node, towards, distance2) * above / (soft * soft.sqrt())
+    node.power * sent_toward(node, toward, distance2) * above / (soft * soft.sqrt())
 }
 
 /// About the mean of max(0, h) over heights h with a mean and a squared width, without a difference of like numbers.
@@ -92,15 +92,15 @@ fn mean_above(mean: f64, width2: f64) -> f64 {
 }
 
 /// What part of its power a group sends to a point: of near points the direction is not known well.
-fn sent_towards(node: &LightNode, towards: DVec3, distance2: f64) -> f64 {
-    let along = towards.dot(node.axis);
+fn sent_toward(node: &LightNode, toward: DVec3, distance2: f64) -> f64 {
+    let along = toward.dot(node.axis);
     let third = node.variance / 3.0;
     let square = (along * along + third) / (distance2 + node.variance);
     (node.even + node.along * square).sqrt()
 }
 
-/// Whether the cone in which a group shines, as wide as the group is seen, holds no direction towards a point.
-fn is_outside_cone(node: &LightNode, towards: DVec3, distance2: f64) -> bool {
+/// Whether the cone in which a group shines, as wide as the group is seen, holds no direction toward a point.
+fn is_outside_cone(node: &LightNode, toward: DVec3, distance2: f64) -> bool {
     let reach2 = node.reach * node.reach;
     if node.cone <= -1.0 || distance2 <= reach2 {
         return false;
@@ -113,7 +113,7 @@ fn is_outside_cone(node: &LightNode, towards: DVec3, distance2: f64) -> bool {
         return false;
     }
     let edge = node.cone * cosine - cone_sine * sine;
-    -towards.dot(node.axis) < (edge - EDGE) * distance2.sqrt()
+    -toward.dot(node.axis) < (edge - EDGE) * distance2.sqrt()
 }
 
 /// Whether a group is looked into from here.

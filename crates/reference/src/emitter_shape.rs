@@ -1,4 +1,4 @@
-//! Shapes that directions are drawn towards: emitting spheres, rectangles and disks.
+//! Shapes that directions are drawn toward: emitting spheres, rectangles and disks.
 
 use crate::{cone_height, frame_of, sample_cone};
 use glam::DVec3;
@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 /// A point this close to a sphere's surface, relative to its squared radius, counts as inside.
 pub(crate) const INSIDE: f64 = 1.000_01;
 
-/// A direction from `point` towards a shape: uniform in the solid angle of a sphere (over all directions from
+/// A direction from `point` toward a shape: uniform in the solid angle of a sphere (over all directions from
 /// inside it), uniform over the area of a rectangle or disk.
 ///
 /// # Panics
@@ -17,13 +17,13 @@ pub(crate) const INSIDE: f64 = 1.000_01;
 pub fn sample_shape(shape: &Shape, point: DVec3, u: f64, v: f64) -> DVec3 {
     match *shape {
         Shape::Sphere { center, radius } => {
-            let towards = center - point;
-            let distance2 = towards.length_squared();
+            let toward = center - point;
+            let distance2 = toward.length_squared();
             if distance2 <= radius * radius * INSIDE {
                 return sample_cone(u, v, 2.0);
             }
             let height = cone_height(radius, distance2);
-            frame_of(towards.normalize()) * sample_cone(u, v, height)
+            frame_of(toward.normalize()) * sample_cone(u, v, height)
         }
         Shape::Rectangle {
             center,

@@ -13,13 +13,13 @@ pub fn environment_share(part: EnvironmentShape<'_>, direction: DVec3) -> f64 {
         EnvironmentShape::Everywhere | EnvironmentShape::Picture(_) => 1.0,
         EnvironmentShape::Horizon => (1.0 - direction.y.abs()).max(0.0),
         EnvironmentShape::Pole(pole) => direction.dot(pole).clamp(0.0, 1.0),
-        EnvironmentShape::Disc { towards, height } => f64::from(u8::from(
-            (direction - towards).length_squared() <= 2.0 * height,
+        EnvironmentShape::DistantDisk { toward, height } => f64::from(u8::from(
+            (direction - toward).length_squared() <= 2.0 * height,
         )),
     }
 }
 
-/// A direction towards a part of the surroundings, by the density of [`environment_pdf`].
+/// A direction toward a part of the surroundings, by the density of [`environment_pdf`].
 pub fn sample_environment(part: EnvironmentShape<'_>, u: f64, v: f64) -> DVec3 {
     match part {
         EnvironmentShape::Everywhere => sample_cone(u, v, 2.0),
@@ -37,7 +37,9 @@ pub fn sample_environment(part: EnvironmentShape<'_>, u: f64, v: f64) -> DVec3 {
         }
         EnvironmentShape::Picture(picture) => sample_picture(picture, u, v),
         EnvironmentShape::Pole(pole) => frame_of(pole) * sample_cosine_hemisphere(u, v),
-        EnvironmentShape::Disc { towards, height } => frame_of(towards) * sample_cone(u, v, height),
+        EnvironmentShape::DistantDisk { toward, height } => {
+            frame_of(toward) * sample_cone(u, v, height)
+        }
     }
 }
 
@@ -49,6 +51,6 @@ pub fn environment_pdf(part: EnvironmentShape<'_>, direction: DVec3) -> f64 {
         EnvironmentShape::Horizon => share / TAU,
         EnvironmentShape::Pole(_) => share * FRAC_1_PI,
         EnvironmentShape::Picture(picture) => picture_pdf(picture, direction),
-        EnvironmentShape::Disc { height, .. } => share / (TAU * height),
+        EnvironmentShape::DistantDisk { height, .. } => share / (TAU * height),
     }
 }

@@ -313,8 +313,8 @@ mod tests {
             let mut from = None;
             if i % 3 == 0 {
                 let object = (pick * 701.0) as usize;
-                let towards = one_by_one(&many, 0..=object, &ray, None);
-                if let Some(hit) = towards {
+                let toward = one_by_one(&many, 0..=object, &ray, None);
+                if let Some(hit) = toward {
                     ray.origin += ray.direction * hit.distance;
                     from = Some(hit.object);
                 }

@@ -10,7 +10,7 @@ pub struct PreparedScene<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) tables: Tables,
     surfaces: Vec<Surface<'a>>,
-    /// What the environment is made of, discs of distant lights included.
+    /// What the environment is made of, disks of distant lights included.
     pub(crate) environment: Vec<EnvironmentPart<'a>>,
     /// All that is sampled for direct light.
     pub(crate) emitters: Vec<SceneEmitter<'a>>,

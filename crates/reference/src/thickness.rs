@@ -78,7 +78,7 @@ fn picture_value(picture: &Picture, shape: &Shape, position: DVec3) -> f64 {
     picture.black_nm + (picture.white_nm - picture.black_nm) * value
 }
 
-/// Linear between the centres of the pixels.
+/// Linear between the centers of the pixels.
 fn bilinear(picture: &Picture, [across, down]: [f64; 2], wraps: bool) -> f64 {
     let file = &*picture.file;
     let (width, height) = (f64::from(file.width), f64::from(file.height));
@@ -148,7 +148,7 @@ mod tests {
         assert!((found - expected).abs() < 1e-9, "{found} for {expected}");
     }
 
-    /// The middle of the picture looks to +Z, its right half lies towards +X, its top at +Y, and it closes behind.
+    /// The middle of the picture looks to +Z, its right half lies toward +X, its top at +Y, and it closes behind.
     #[test]
     fn a_picture_lies_on_a_sphere_as_a_map_on_a_globe() {
         let globe = |place| at(&picture(None), &GLOBE, place);

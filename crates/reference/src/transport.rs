@@ -13,7 +13,7 @@ pub(crate) enum Side {
     Transmitted,
 }
 
-/// Light that something emits towards a path.
+/// Light that something emits toward a path.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Emitted<'a> {
     /// Its spectrum, scale and light group.

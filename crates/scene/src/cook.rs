@@ -3,7 +3,7 @@
 use crate::{Emission, SpectrumId};
 use std::f64::consts::PI;
 
-/// A surface by Cook's model (Cook and Torrance 1981; Suzuki, Yokoi and Toriwaki, section 3-1): towards the eye goes
+/// A surface by Cook's model (Cook and Torrance 1981; Suzuki, Yokoi and Toriwaki, section 3-1): toward the eye goes
 /// F(E·H) G / ((N·L) (N·E)) Σ wⱼ Dⱼ, and `diffuse` of the light evenly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cook1981 {
@@ -23,14 +23,14 @@ pub struct Cook1981 {
 
 impl Cook1981 {
     /// How many times the light that falls along the normal a white metal's facets would send back, were nothing hidden: s with the
-    /// normalised constants, 4 s with the printed π and D₂.
+    /// normalized constants, 4 s with the printed π and D₂.
     pub fn gain(&self) -> f64 {
         let gain = |facets: &CookFacets| {
-            let normalised = match self.distribution {
+            let normalized = match self.distribution {
                 CookDistribution::Gaussian => optics::gaussian_constant(facets.slope),
                 CookDistribution::Beckmann => PI.recip(),
             };
-            4.0 * facets.weight / normalised
+            4.0 * facets.weight / normalized
         };
         self.facets.iter().map(gain).sum()
     }

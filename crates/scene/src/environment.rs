@@ -66,10 +66,10 @@ pub enum EnvironmentShape<'a> {
     Pole(DVec3),
     /// By a picture.
     Picture(&'a EnvironmentPicture),
-    /// A disc about a unit vector.
-    Disc {
-        /// Towards its middle.
-        towards: DVec3,
+    /// A disk about a unit vector.
+    DistantDisk {
+        /// Toward its middle.
+        toward: DVec3,
         /// 1 − cos of the angle between middle and edge, > 0.
         height: f64,
     },

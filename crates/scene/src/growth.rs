@@ -1,11 +1,11 @@
-//! Oxides that a process grows, as numbers. Sources and limits: [`Anodising`](crate::description::Anodising) and
+//! Oxides that a process grows, as numbers. Sources and limits: [`Anodizing`](crate::description::Anodizing) and
 //! [`HeatTint`](crate::description::HeatTint).
 
 /// The gas constant, J/(mol K) (CODATA 2018, exact).
 const GAS_CONSTANT: f64 = 8.314_462_618;
-/// Fitted to the temper colours: nm²/s.
+/// Fitted to the temper colors: nm²/s.
 const TINT_RATE: f64 = 1.06e6;
-/// Fitted to the temper colours: J/mol.
+/// Fitted to the temper colors: J/mol.
 const TINT_ENERGY: f64 = 60e3;
 
 /// Square of the thickness of a heat tint on carbon steel, nm².

@@ -16,7 +16,7 @@
 //! [`optical_constants`] reads an index of refraction alone.
 //!
 //! Space: right-handed, lengths in scene units, +Y up by custom. Angles are radians here and
-//! degrees in files. Wavelengths and film thicknesses are nanometres.
+//! degrees in files. Wavelengths and film thicknesses are nanometers.
 
 mod camera;
 mod coated_body;

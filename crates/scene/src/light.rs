@@ -8,24 +8,24 @@ use glam::DVec3;
 pub struct Light {
     /// Where it is.
     pub shape: LightShape,
-    /// Radiance of a disc, irradiance of a surface that faces light from a direction, intensity of a point and of a spot on its axis.
+    /// Radiance of a disk, irradiance of a surface that faces light from a direction, intensity of a point and of a spot on its axis.
     pub emission: Emission,
 }
 
 /// Where a light that is no object is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightShape {
-    /// A disc in the sky, seen where nothing is in front of it.
-    Disc {
-        /// Unit vector towards its middle.
-        towards: DVec3,
+    /// A disk in the sky, seen where nothing is in front of it.
+    DistantDisk {
+        /// Unit vector toward its middle.
+        toward: DVec3,
         /// 1 − cos of the angle between middle and edge, > 0.
         height: f64,
     },
     /// Light from a single direction.
     Direction {
-        /// Unit vector towards the light.
-        towards: DVec3,
+        /// Unit vector toward the light.
+        toward: DVec3,
     },
     /// A point that shines to all sides alike.
     Point {
@@ -63,7 +63,7 @@ pub enum SourceKind {
     Object(usize),
     /// One of [`Scene::surroundings`].
     Environment(usize),
-    /// One of [`Scene::lights`] that is no disc.
+    /// One of [`Scene::lights`] that is no disk.
     Light(usize),
 }
 
@@ -85,7 +85,7 @@ impl Scene {
         let is_uneven = |shape: &EnvironmentShape| {
             matches!(
                 shape,
-                EnvironmentShape::Disc { .. } | EnvironmentShape::Picture(_)
+                EnvironmentShape::DistantDisk { .. } | EnvironmentShape::Picture(_)
             )
         };
         let parts = parts.filter(|(_, part)| sends_only || is_uneven(&part.shape));
@@ -97,8 +97,8 @@ impl Scene {
             (SourceKind::Environment(index), part.emission, mean)
         });
         let lights = self.lights().iter().enumerate();
-        let is_disc = |light: &Light| matches!(light.shape, LightShape::Disc { .. });
-        let lights = lights.filter(|(_, light)| !is_disc(light));
+        let is_distant_disk = |light: &Light| matches!(light.shape, LightShape::DistantDisk { .. });
+        let lights = lights.filter(|(_, light)| !is_distant_disk(light));
         let lights = lights.map(|(index, light)| (SourceKind::Light(index), light.emission, 1.0));
         objects
             .chain(parts)
@@ -112,11 +112,11 @@ impl Scene {
             .collect()
     }
 
-    /// What a ray sees that leaves the scene: the parts of the surroundings, then the discs of distant lights.
+    /// What a ray sees that leaves the scene: the parts of the surroundings, then the disks of distant lights.
     pub fn surroundings(&self) -> Vec<EnvironmentPart<'_>> {
-        let discs = self.lights().iter().filter_map(|light| match light.shape {
-            LightShape::Disc { towards, height } => Some(EnvironmentPart {
-                shape: EnvironmentShape::Disc { towards, height },
+        let disks = self.lights().iter().filter_map(|light| match light.shape {
+            LightShape::DistantDisk { toward, height } => Some(EnvironmentPart {
+                shape: EnvironmentShape::DistantDisk { toward, height },
                 emission: light.emission,
             }),
             _ => None,
@@ -124,7 +124,7 @@ impl Scene {
         self.environment()
             .parts()
             .into_iter()
-            .chain(discs)
+            .chain(disks)
             .collect()
     }
 

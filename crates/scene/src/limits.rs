@@ -60,7 +60,7 @@ impl fmt::Display for Shown {
 pub const COORDINATE: Range = Range::new(-1e6, 1e6, "");
 /// A radius, side or height.
 pub const LENGTH: Range = Range::new(1e-6, 1e6, "");
-/// Length of a direction vector before it is normalised, and distance between two points that define one.
+/// Length of a direction vector before it is normalized, and distance between two points that define one.
 pub const MIN_DISTANCE: f64 = 1e-6;
 /// Sine of the smallest angle between two directions that span a plane (about 0.006°).
 pub const MIN_SINE: f64 = 1e-4;
@@ -104,11 +104,11 @@ pub const DENSITY_KG_M3: Range = Range::new(1.0, 25_000.0, " kg/m³");
 pub const FILM_SIZE_M: Range = Range::new(1e-6, 1e3, " m");
 /// Thickness of a draining film at the start. What gathers at a bubble's lowest point is cut off at the end of the range.
 pub const DRAINING_NM: Range = Range::new(0.0, 20_000.0, " nm");
-/// Anodising voltage: titanium's films break down at some 100 to 150 V.
+/// Anodizing voltage: titanium's films break down at some 100 to 150 V.
 pub const VOLTS: Range = Range::new(0.0, 150.0, " V");
 /// Growth of an anodic film. Valve metals have 1 to 3.
 pub const NM_PER_VOLT: Range = Range::new(0.1, 10.0, " nm/V");
-/// Temperature of a heat tint: where the temper colours of carbon steel lie, with some room.
+/// Temperature of a heat tint: where the temper colors of carbon steel lie, with some room.
 pub const HEAT_TINT_C: Range = Range::new(150.0, 400.0, " °C");
 /// Time of a heat tint.
 pub const MINUTES: Range = Range::new(0.0, 600.0, " min");
@@ -142,7 +142,7 @@ pub const SPOT_SHARPEST: f64 = 0.99;
 /// The most lights that are no objects.
 pub const MAX_LIGHTS: usize = 1024;
 /// The most distant lights with a diameter: what escapes the scene looks at each of them.
-pub const MAX_DISCS_OF_LIGHT: usize = 16;
+pub const MAX_DISTANT_DISKS: usize = 16;
 /// Roughness where it is not 0. The highlight's exponent (tan θ / m)² has a relative error of about 2⁻²³ / m²
 /// in `f32`: 3e-4 at m = 0.02, and growing to where the highlight of a smoother surface is mostly rounding.
 pub const ROUGHNESS: Range = Range::new(0.02, 1.0, "");

@@ -176,12 +176,12 @@ pub struct Emission {
 pub enum Pattern {
     /// The same everywhere.
     Uniform(SpectrumId),
-    /// Squares (on planes, rectangles and disks, in the surface's two axes from its centre) or cubes (on
-    /// spheres, from the centre) of two reflectances: `even` where the sum of ⌊coordinate / size⌋ is even.
+    /// Squares (on planes, rectangles and disks, in the surface's two axes from its center) or cubes (on
+    /// spheres, from the center) of two reflectances: `even` where the sum of ⌊coordinate / size⌋ is even.
     Checker {
-        /// Reflectance of the square whose corner is the centre.
+        /// Reflectance of the square whose corner is the center.
         even: SpectrumId,
-        /// Reflectance of its neighbours.
+        /// Reflectance of its neighbors.
         odd: SpectrumId,
         /// Side of a square, > 0.
         size: f64,

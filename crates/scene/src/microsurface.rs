@@ -25,7 +25,7 @@ pub enum Grain {
     None,
     /// Along a unit vector, as far as that lies in the surface.
     Along(DVec3),
-    /// In circles about an axis of this direction, a unit vector, through the object's centre.
+    /// In circles about an axis of this direction, a unit vector, through the object's center.
     Around(DVec3),
 }
 

@@ -30,7 +30,7 @@ impl Scene {
         all.filter(|&emission| self.shines(emission)).count()
     }
 
-    /// Whether light comes from around the objects, the discs of distant lights not counted.
+    /// Whether light comes from around the objects, the disks of distant lights not counted.
     pub fn is_lit_by_surroundings(&self) -> bool {
         let parts = self.environment().parts();
         parts.iter().any(|part| self.shines(part.emission))
@@ -66,7 +66,7 @@ impl Scene {
 
     /// Lights without a size, and nothing that scatters what comes from them.
     fn note_on_mirrors(&self) -> Option<String> {
-        let has_no_size = |shape: &LightShape| !matches!(shape, LightShape::Disc { .. });
+        let has_no_size = |shape: &LightShape| !matches!(shape, LightShape::DistantDisk { .. });
         let mut lights = self
             .lights()
             .iter()

@@ -18,7 +18,7 @@ pub struct Object {
 pub enum Shape {
     /// A sphere.
     Sphere {
-        /// Centre.
+        /// Center.
         center: DVec3,
         /// Radius, > 0.
         radius: f64,
@@ -36,7 +36,7 @@ pub enum Shape {
     },
     /// A plane bounded to a rectangle.
     Rectangle {
-        /// Centre, the origin of its two axes.
+        /// Center, the origin of its two axes.
         center: DVec3,
         /// Unit normal.
         normal: DVec3,
@@ -51,7 +51,7 @@ pub enum Shape {
     },
     /// A plane bounded to a disk.
     Disk {
-        /// Centre, the origin of its two axes.
+        /// Center, the origin of its two axes.
         center: DVec3,
         /// Unit normal.
         normal: DVec3,

@@ -71,7 +71,7 @@ pub struct Problem {
     pub help: Option<String>,
     /// Where in the file; `None` when the value does not come from a file.
     pub location: Option<Location>,
-    /// Other values that the judgement rests on.
+    /// Other values that the judgment rests on.
     pub(crate) involves: Vec<FieldPath>,
 }
 
@@ -95,7 +95,7 @@ impl Problem {
         self
     }
 
-    /// Names another value that the judgement rests on: where that one is broken, this problem is not shown.
+    /// Names another value that the judgment rests on: where that one is broken, this problem is not shown.
     pub(crate) fn involving(mut self, field: FieldPath) -> Self {
         self.involves.push(field);
         self

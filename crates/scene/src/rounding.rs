@@ -271,12 +271,12 @@ impl RoundToF32 for Light {
 impl RoundToF32 for LightShape {
     fn rounded(&self) -> Self {
         match self {
-            Self::Disc { towards, height } => Self::Disc {
-                towards: towards.rounded(),
+            Self::DistantDisk { toward, height } => Self::DistantDisk {
+                toward: toward.rounded(),
                 height: height.rounded(),
             },
-            Self::Direction { towards } => Self::Direction {
-                towards: towards.rounded(),
+            Self::Direction { toward } => Self::Direction {
+                toward: toward.rounded(),
             },
             Self::Point { position } => Self::Point {
                 position: position.rounded(),

@@ -54,8 +54,8 @@ impl RenderSettings {
 pub enum WavelengthSampling {
     /// One offset is drawn per sample, for all bands: a band holds the mean over its width.
     Random,
-    /// Always the centre of the band: fixed wavelengths.
-    Centre,
+    /// Always the center of the band: fixed wavelengths.
+    Center,
 }
 
 /// How the light that falls on a surface straight from a light is found.

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-/// Colours on a grid, as both renderers look them up.
+/// Colors on a grid, as both renderers look them up.
 ///
-/// A pixel is one texel or several. Of a colour in RGB the texel is `[c₀, c₁, c₂, scale]`: a smooth spectrum
+/// A pixel is one texel or several. Of a color in RGB the texel is `[c₀, c₁, c₂, scale]`: a smooth spectrum
 /// ([`SigmoidReflectance`](colorimetry::lifting::SigmoidReflectance)) and a factor.
 #[derive(Clone, PartialEq)]
 pub struct Texels {

@@ -15,7 +15,7 @@ pub enum Thickness {
         /// Thickness, nm.
         nm: f64,
     },
-    /// Linear in the polar angle θ seen from a sphere's centre: `pole_nm` at θ = 0, `equator_nm` at
+    /// Linear in the polar angle θ seen from a sphere's center: `pole_nm` at θ = 0, `equator_nm` at
     /// θ = 90°, and on at the same rate (Suzuki, Yokoi and Toriwaki, section 4-4 (2)).
     Polar {
         /// Direction of the pole, a unit vector.
@@ -129,7 +129,7 @@ fn extent_of(numbers: &[f64]) -> (f64, f64) {
 /// What a [`Profile`] runs along.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Coordinate {
-    /// The polar angle seen from the surface's centre: 0 at the pole, 1 at the opposite one.
+    /// The polar angle seen from the surface's center: 0 at the pole, 1 at the opposite one.
     Polar {
         /// Direction of the pole, a unit vector.
         axis: DVec3,

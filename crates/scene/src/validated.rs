@@ -101,7 +101,7 @@ impl Scene {
         &self.spectra[id.index()]
     }
 
-    /// The CIE 1931 2° colour-matching functions x̄, ȳ, z̄.
+    /// The CIE 1931 2° color-matching functions x̄, ȳ, z̄.
     pub fn observer(&self) -> &[BandTable; 3] {
         &self.observer
     }
@@ -163,7 +163,7 @@ impl Scene {
         &self.light_tree
     }
 
-    /// Lights that are no objects, discs first. See [`Scene::light_sources`] for all that shines.
+    /// Lights that are no objects, disks first. See [`Scene::light_sources`] for all that shines.
     pub fn lights(&self) -> &[Light] {
         &self.lights
     }

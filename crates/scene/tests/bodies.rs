@@ -31,11 +31,11 @@ fn constants_and_weights_become_one_weight() {
     assert_eq!(plain.facets.len(), 1);
     assert!((plain.facets[0].weight - 1.0 / PI).abs() < 1e-15);
     assert!(plain.diffuse.is_none() && plain.ambient.is_none());
-    let normalised = cook(
+    let normalized = cook(
         "'gold'",
-        "model = { cook1981 = { normalisation = 'normalised', specular = 0.5, slopes = [{ m = 0.2, weight = 0.25 }, { m = 0.5, weight = 0.75 }] } }",
+        "model = { cook1981 = { normalization = 'normalized', specular = 0.5, slopes = [{ m = 0.2, weight = 0.25 }, { m = 0.5, weight = 0.75 }] } }",
     );
-    assert!((normalised.facets[1].weight - 0.5 * 0.75 / (4.0 * PI)).abs() < 1e-15);
+    assert!((normalized.facets[1].weight - 0.5 * 0.75 / (4.0 * PI)).abs() < 1e-15);
     let gaussian = cook(
         "'gold'",
         "roughness = 0.3, model = { cook1981 = { distribution = 'gaussian', constant = 2 } }",
@@ -86,7 +86,7 @@ fn real_glasses_are_clear_coats() {
     assert!((lost(20e3) - 0.01).abs() < 2e-4 && (lost(100e3) - 0.049).abs() < 1e-3);
 }
 
-/// The part of light from `degrees` that facets reflecting everything send back with the normalised constant: ∫ D̂ G (E·H) / (N·E)
+/// The part of light from `degrees` that facets reflecting everything send back with the normalized constant: ∫ D̂ G (E·H) / (N·E)
 /// dω over the facets whose mirror image of E is above the surface.
 fn albedo(distribution: &str, slope: f64, degrees: f64) -> f64 {
     let is_gaussian = distribution == "gaussian";
@@ -118,7 +118,7 @@ fn albedo(distribution: &str, slope: f64, degrees: f64) -> f64 {
 
 /// The figures of docs/metals.md.
 #[test]
-fn what_the_normalised_model_loses() {
+fn what_the_normalized_model_loses() {
     for (distribution, slope, returned) in [
         ("beckmann", 0.3, 0.984),
         ("beckmann", 0.5, 0.878),
@@ -142,7 +142,7 @@ fn the_gain_of_the_printed_constants() {
     let gain = |model: &str| cook("'gold'", &format!("roughness = 0.3, model = {model}")).gain();
     assert!((gain("'cook1981'") - 4.0).abs() < 1e-12);
     assert!(
-        (gain("{ cook1981 = { normalisation = 'normalised', specular = 0.7 } }") - 0.7).abs()
+        (gain("{ cook1981 = { normalization = 'normalized', specular = 0.7 } }") - 0.7).abs()
             < 1e-12
     );
     let printed = gain("{ cook1981 = { distribution = 'gaussian' } }");

@@ -193,8 +193,11 @@ fn an_index_alone_is_read_and_its_mistakes_are_told() {
         "{missing}"
     );
     assert!(missing.contains("absent.csv"), "{missing}");
-    let misspelt = said(&Index::Name("glod".to_owned()));
-    assert!(misspelt.contains("did you mean \"gold\"?"), "{misspelt}");
+    let misspelled = said(&Index::Name("glod".to_owned()));
+    assert!(
+        misspelled.contains("did you mean \"gold\"?"),
+        "{misspelled}"
+    );
     assert!(said(&Index::Complex([1.0, -1.0])).contains("[1]: found -1"));
 }
 

@@ -319,7 +319,7 @@ fn scenes_are_refused_only_where_their_bands_meet_a_fault() {
         scene(&format!("{{ yaml = '{}' }}", path.display()))
     };
     assert!(check(rows("0.5 1.5 0")).is_ok());
-    // Between the knots of the bands, which are whole nanometres apart.
+    // Between the knots of the bands, which are whole nanometers apart.
     let narrow = rows("0.5001 1.5 0\n        0.5002 1.5 -1\n        0.5003 1.5 0");
     let problems = check(narrow).unwrap_err();
     let said = format!("{problems:#}");

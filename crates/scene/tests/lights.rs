@@ -294,7 +294,7 @@ fn a_scene_that_may_not_be_meant_is_noted() {
     );
     for (rest, segments) in [
         ("", 2),
-        ("normalisation = 'normalised'", 12),
+        ("normalization = 'normalized'", 12),
         ("specular = 0.25", 12),
     ] {
         assert_eq!(
@@ -343,11 +343,11 @@ fn bad_shapes_of_lights_are_told() {
 }
 
 #[test]
-fn the_sun_is_half_a_degree_wide_and_discs_come_first() {
+fn the_sun_is_half_a_degree_wide_and_disks_come_first() {
     let text = "[[lights]]\ntype = 'point'\nposition = [0, 1, 0]\nemission = { constant = 1 }\nlight_group = 'lamp'\n\
                 [[lights]]\ntype = 'distant'\ndirection = [0, 2, 0]\nemission = { constant = 3 }\nlight_group = 'sun'\n";
     let scene = scene(text);
-    let LightShape::Disc { height, .. } = scene.lights()[0].shape else {
+    let LightShape::DistantDisk { height, .. } = scene.lights()[0].shape else {
         panic!("{:?}", scene.lights());
     };
     let half: f64 = (1.0 - height).acos().to_degrees();

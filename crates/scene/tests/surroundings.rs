@@ -254,7 +254,7 @@ fn pixels_that_are_no_light_are_told_by_their_place() {
     }
 }
 
-/// Colours outside of sRGB have parts below 0, and so has the ringing of filters: they are cut off.
+/// Colors outside of sRGB have parts below 0, and so has the ringing of filters: they are cut off.
 #[test]
 fn what_is_below_0_counts_as_0() {
     let directory = TempDir::new().unwrap();
@@ -309,7 +309,7 @@ fn chromaticities(points: [[f32; 2]; 4]) -> Chromaticities {
 
 /// ACES primaries AP1 (S-2014-004): the white stays the white of D60, and red is redder than that of sRGB.
 #[test]
-fn the_primaries_of_a_file_are_honoured() {
+fn the_primaries_of_a_file_are_honored() {
     let directory = TempDir::new().unwrap();
     let ap1 = chromaticities([
         [0.713, 0.293],
@@ -353,7 +353,7 @@ fn the_primaries_of_a_file_are_honoured() {
 fn textures_that_cannot_be_used_are_told() {
     let directory = TempDir::new().unwrap();
     let folder = directory.path();
-    let png = include_bytes!("../../../tests/data/colours.png");
+    let png = include_bytes!("../../../tests/data/colors.png");
     fs::write(folder.join("cut.png"), &png[..png.len() / 2]).unwrap();
     fs::write(
         folder.join("other.png"),
@@ -406,11 +406,11 @@ fn the_sun_is_there_unless_it_is_left_out() {
     let [sun] = with.lights() else {
         panic!("{:?}", with.lights());
     };
-    let LightShape::Disc { towards, .. } = sun.shape else {
+    let LightShape::DistantDisk { toward, .. } = sun.shape else {
         panic!("{sun:?}");
     };
-    // 90° is towards +X.
-    assert!((towards - glam::DVec3::new(0.75_f64.sqrt(), 0.5, 0.0)).length() < 1e-12);
+    // 90° is toward +X.
+    assert!((toward - glam::DVec3::new(0.75_f64.sqrt(), 0.5, 0.0)).length() < 1e-12);
     let without = sky(", sun = false").unwrap();
     assert!(without.lights().is_empty());
     // The ground is lit by the sun all the same.

@@ -79,10 +79,7 @@ fn a_bubble_drains_from_its_top() {
     let thinning = 998.2 * 9.806_65 * 30.0 / (3.0 * 1e-6 * 0.03) * 1e-18;
     let top = 1.0 / (1e-6 + thinning);
     assert!((profile.squares_nm2[0] / top - 1.0).abs() < 1e-12);
-    assert!(
-        profile.squares_nm2.is_sorted(),
-        "thicker towards the bottom"
-    );
+    assert!(profile.squares_nm2.is_sorted(), "thicker toward the bottom");
     assert_eq!(
         profile.squares_nm2.last(),
         Some(&4e8),
@@ -171,10 +168,10 @@ fn swirls_count_the_lives_that_have_passed() {
 }
 
 #[test]
-fn process_knobs_become_nanometres() {
+fn process_knobs_become_nanometers() {
     let volts = |volts: &str| {
         thickness(&format!(
-            "{{ anodising = {{ metal = 'titanium', volts = {volts} }} }}"
+            "{{ anodizing = {{ metal = 'titanium', volts = {volts} }} }}"
         ))
     };
     assert_eq!(volts("60"), Thickness::Constant { nm: 152.0 });
@@ -270,9 +267,9 @@ fn values_out_of_range_are_told_where_they_stand() {
             &["found 7", "1 to 6"],
         ),
         (
-            "{ anodising = { metal = 'titanium', volts = 200 } }",
+            "{ anodizing = { metal = 'titanium', volts = 200 } }",
             60,
-            ".anodising.volts",
+            ".anodizing.volts",
             &["0 to 150 V"],
         ),
         (
@@ -324,9 +321,9 @@ fn what_does_not_fit_the_format_is_told_at_any_depth() {
             &["is missing"],
         ),
         (
-            "{ anodising = { metal = 'tin', volts = 3 } }",
+            "{ anodizing = { metal = 'tin', volts = 3 } }",
             40,
-            ".anodising.metal",
+            ".anodizing.metal",
             &["\"tin\"", "\"titanium\""],
         ),
     ];
@@ -360,7 +357,7 @@ fn nesting_and_length_are_bounded() {
     assert_refused(&long(64), 16, "", &["65 parts", "at most 64"]);
 }
 
-/// Four grey values of 16 bits, as a PNG file.
+/// Four gray values of 16 bits, as a PNG file.
 fn write_picture(path: &Path) {
     let values: Vec<u16> = vec![0, 65_535, 13_107, 26_214];
     let picture = image::ImageBuffer::<image::Luma<u16>, _>::from_raw(2, 2, values).unwrap();
@@ -371,8 +368,8 @@ fn write_picture(path: &Path) {
 fn a_picture_is_read_as_numbers() {
     let directory = TempDir::new().unwrap();
     write_picture(&directory.path().join("map.png"));
-    let grey = image::ImageBuffer::<image::Luma<u8>, _>::from_raw(1, 2, vec![51_u8, 255]).unwrap();
-    grey.save(directory.path().join("grey.png")).unwrap();
+    let gray = image::ImageBuffer::<image::Luma<u8>, _>::from_raw(1, 2, vec![51_u8, 255]).unwrap();
+    gray.save(directory.path().join("gray.png")).unwrap();
     let values = |name: &str| {
         let written = format!("{{ image = '{name}', min = 10, max = 400, size = [2, 1] }}");
         match thickness_in(&written, directory.path()) {
@@ -391,7 +388,7 @@ fn a_picture_is_read_as_numbers() {
         }
     };
     assert_eq!(values("map.png"), (2, 2, vec![0.0, 1.0, 0.2, 0.4]));
-    assert_eq!(values("grey.png"), (1, 2, vec![0.2, 1.0]));
+    assert_eq!(values("gray.png"), (1, 2, vec![0.2, 1.0]));
 }
 
 #[test]

@@ -290,7 +290,7 @@ fn only_layer(material: &Material) -> (&Thickness, bool) {
 }
 
 #[test]
-fn n_and_k_are_neighbours_and_equal_spectra_are_one() {
+fn n_and_k_are_neighbors_and_equal_spectra_are_one() {
     let scene = scene(MATERIALS);
     let pairs: Vec<_> = scene
         .materials()
@@ -338,12 +338,12 @@ emission = { constant = 1, scale = 0 }
 [materials.black]
 type = 'emitter'
 emission = { constant = 0 }
-[materials.grey]
+[materials.gray]
 type = 'diffuse'
 reflectance = 0.5
 ";
     let objects = [
-        object("grey", sphere),
+        object("gray", sphere),
         object("on", sphere),
         object("off", sphere),
         object("black", rectangle),

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 /// N uniform bands over a range of wavelengths.
 ///
-/// Band `b` covers `[min + b·width, min + (b + 1)·width)` nanometres.
+/// Band `b` covers `[min + b·width, min + (b + 1)·width)` nanometers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BandGrid {
     min_nm: f64,
@@ -91,7 +91,7 @@ impl BandGrid {
     }
 
     /// The wavelength in the middle of a band, nm.
-    pub fn centre_nm(&self, band: u32) -> f64 {
+    pub fn center_nm(&self, band: u32) -> f64 {
         self.wavelength_nm(band, 0.5)
     }
 }
@@ -101,10 +101,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn default_bands_are_ten_nanometres_wide() {
+    fn default_bands_are_ten_nanometers_wide() {
         let grid = BandGrid::visible(40).unwrap();
         assert_eq!(grid.width_nm(), 10.0);
-        assert_eq!(grid.centre_nm(0), 385.0);
+        assert_eq!(grid.center_nm(0), 385.0);
         assert_eq!(grid.wavelength_nm(39, 1.0), 780.0);
     }
 

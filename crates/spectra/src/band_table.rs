@@ -18,7 +18,7 @@ impl BandTable {
     /// The widest distance between knots, nm.
     pub const KNOT_NM: f64 = 1.0;
 
-    /// Number of steps that a band of `grid` is divided into: even, so that the centre is a knot,
+    /// Number of steps that a band of `grid` is divided into: even, so that the center is a knot,
     /// and at least as fine as [`Self::KNOT_NM`].
     pub fn steps_of(grid: &BandGrid) -> u32 {
         let halves = (grid.width_nm() / (2.0 * Self::KNOT_NM) - 1e-9).ceil();

@@ -1,6 +1,6 @@
 //! Numbers over wavelength.
 //!
-//! Wavelengths are vacuum wavelengths in nanometres. Everything is `f64` until a renderer fills a
+//! Wavelengths are vacuum wavelengths in nanometers. Everything is `f64` until a renderer fills a
 //! [`SpectralImage`], which holds `f32`.
 //!
 //! * [`Tabulated`] is a table over wavelength, linear between its points, [`DispersionFormula`] an index by coefficients;

@@ -12,7 +12,7 @@ pub struct LightGroup {
     pub lamp: Option<Tabulated>,
 }
 
-/// Words that name other things in files of spectral images: components of polarised light, transmission, our own layer.
+/// Words that name other things in files of spectral images: components of polarized light, transmission, our own layer.
 const RESERVED: [&str; 6] = ["S0", "S1", "S2", "S3", "T", "pellicle"];
 
 impl LightGroup {
@@ -58,7 +58,7 @@ impl BandGrid {
         Tabulated::new(points).ok()
     }
 
-    /// The knots of a [`BandTable`], rising; neighbouring bands share one.
+    /// The knots of a [`BandTable`], rising; neighboring bands share one.
     fn knots_nm(&self) -> impl Iterator<Item = f64> + '_ {
         let steps = BandTable::steps_of(self);
         let offset = move |step| f64::from(step) / f64::from(steps);
@@ -70,7 +70,7 @@ impl BandGrid {
     }
 }
 
-/// The points without those that lie on the line between their neighbours, up to rounding: a table of 5 nm keeps its size.
+/// The points without those that lie on the line between their neighbors, up to rounding: a table of 5 nm keeps its size.
 fn without_collinear(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let peak = points.iter().fold(0.0_f64, |peak, p| peak.max(p.1.abs()));
     let mut kept: Vec<(f64, f64)> = Vec::new();

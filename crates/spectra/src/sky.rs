@@ -3,7 +3,7 @@
 //! A. J. Preetham, P. Shirley and B. Smits, A Practical Analytic Model for Daylight, SIGGRAPH 1999: luminance and chromaticity of
 //! the sky fitted to a simulation of multiple scattering (appendix A.2), the spectrum as CIE daylight of that chromaticity
 //! (appendix A.5), and sunlight as it is left by the air (appendix A.1, after M. Iqbal, An Introduction to Solar Radiation, 1983).
-//! The fit was made for turbidities of 2 to 6; near the sun and towards the horizon real skies differ.
+//! The fit was made for turbidities of 2 to 6; near the sun and toward the horizon real skies differ.
 
 use crate::Spectrum;
 use crate::data::{KM_LUMENS_PER_WATT, daylight_components, observer_1931};
@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 mod figures;
 
-use figures::{GASES, OZONE, PEREZ, SUN, VAPOUR, ZENITH_X, ZENITH_Y};
+use figures::{GASES, OZONE, PEREZ, SUN, VAPOR, ZENITH_X, ZENITH_Y};
 
 /// Angular diameter of the sun, degrees.
 pub const SUN_DIAMETER_DEG: f64 = 0.533;
@@ -64,7 +64,7 @@ impl ClearSky {
 
     /// Luminance in cd/m² and chromaticity x, y in a direction above the horizon: the cosine of its angle from the zenith, and its
     /// angle from the sun.
-    pub fn colour(&self, cosine: f64, from_sun: f64) -> [f64; 3] {
+    pub fn color(&self, cosine: f64, from_sun: f64) -> [f64; 3] {
         let [luminance, x, y] = std::array::from_fn(|i| {
             let perez = &self.perez[i];
             let here = distribution(perez, cosine, from_sun);
@@ -75,7 +75,7 @@ impl ClearSky {
 
     /// Light from a direction above the horizon.
     pub fn light(&self, cosine: f64, from_sun: f64) -> SkyLight {
-        let [luminance, x, y] = self.colour(cosine, from_sun);
+        let [luminance, x, y] = self.color(cosine, from_sun);
         // M₁ and M₂ of a chromaticity (CIE 015:2018, equations 4.8 and 4.9).
         let below = 0.0241 + 0.2562 * x - 0.7341 * y;
         let m1 = (-1.3515 - 1.7703 * x + 5.9114 * y) / below;
@@ -87,7 +87,7 @@ impl ClearSky {
         }
     }
 
-    /// Radiance of the sun's disc as it arrives, W m⁻² sr⁻¹ nm⁻¹. The tables reach from 380 to 750 nm.
+    /// Radiance of the sun's disk as it arrives, W m⁻² sr⁻¹ nm⁻¹. The tables reach from 380 to 750 nm.
     pub fn sun_radiance(&self, nm: f64) -> f64 {
         let um = nm / 1000.0;
         // Relative optical mass (Kasten 1966).
@@ -100,9 +100,9 @@ impl ClearSky {
         let ozone = mass * OZONE_CM * linear(&OZONE, nm);
         let gases = linear(&GASES, nm) * mass;
         let gases = 1.41 * gases / (1.0 + 118.93 * gases).powf(0.45);
-        let vapour = linear(&VAPOUR, nm) * WATER_CM * mass;
-        let vapour = 0.2385 * vapour / (1.0 + 20.07 * vapour).powf(0.45);
-        100.0 * sun_above_the_air(nm) * (-(rayleigh + aerosol + ozone + gases + vapour)).exp()
+        let vapor = linear(&VAPOR, nm) * WATER_CM * mass;
+        let vapor = 0.2385 * vapor / (1.0 + 20.07 * vapor).powf(0.45);
+        100.0 * sun_above_the_air(nm) * (-(rayleigh + aerosol + ozone + gases + vapor)).exp()
     }
 }
 
@@ -124,9 +124,9 @@ pub fn daylight_basis() -> [Spectrum; 3] {
 
 /// (1 + A exp(B / cos θ)) (1 + C exp(D γ) + E cos² γ) (Perez et al. 1993, as the model's equation 3).
 fn distribution(&[a, b, c, d, e]: &[f64; 5], cosine: f64, from_sun: f64) -> f64 {
-    let towards = from_sun.cos();
+    let toward = from_sun.cos();
     (1.0 + a * (b / cosine.max(1e-3)).exp())
-        * (1.0 + c * (d * from_sun).exp() + e * towards * towards)
+        * (1.0 + c * (d * from_sun).exp() + e * toward * toward)
 }
 
 /// Kₘ Σ S ȳ Δλ of each component, by sums at 1 nm from 380 to 780 nm.
@@ -182,12 +182,12 @@ mod tests {
 
     /// The spectrum has the luminance and the chromaticity that the fit says; what is cut off below 0 moves neither.
     #[test]
-    fn spectra_have_the_colours_of_the_fit() {
+    fn spectra_have_the_colors_of_the_fit() {
         for (sun_deg, turbidity) in [(30.0_f64, 2.0), (60.0, 3.0), (80.0, 6.0)] {
             let sky = ClearSky::new(sun_deg.to_radians(), turbidity);
             for (angle_deg, from_sun_deg) in [(0.0_f64, sun_deg), (45.0, 40.0), (85.0, 100.0_f64)] {
                 let (cosine, from_sun) = (angle_deg.to_radians().cos(), from_sun_deg.to_radians());
-                let [luminance, x, y] = sky.colour(cosine, from_sun);
+                let [luminance, x, y] = sky.color(cosine, from_sun);
                 let [fx, fy, fz] = xyz(spectrum(sky.light(cosine, from_sun)));
                 let sum = fx + fy + fz;
                 assert!((fy / luminance - 1.0).abs() < 1e-3, "{fy} {luminance}");
@@ -205,7 +205,7 @@ mod tests {
     #[test]
     fn the_zenith_has_the_luminance_of_the_formula() {
         let sky = ClearSky::new(60.0_f64.to_radians(), 3.0);
-        let [luminance, x, y] = sky.colour(1.0, 60.0_f64.to_radians());
+        let [luminance, x, y] = sky.color(1.0, 60.0_f64.to_radians());
         assert!((luminance - 5139.16).abs() < 0.02, "{luminance}");
         // Bluer than any daylight of 10 000 K (x = 0.2788, y = 0.2920, CIE 015:2018, equations 4.5 to 4.7).
         assert!(x < 0.2788 && y < 0.2920, "{x} {y}");
@@ -219,9 +219,9 @@ mod tests {
         assert!((lux / 127.5e3 - 1.0).abs() < 0.05, "{lux}");
     }
 
-    /// Sunlight reddens and dims towards the horizon, and never grows by the air.
+    /// Sunlight reddens and dims toward the horizon, and never grows by the air.
     #[test]
-    fn sunlight_reddens_towards_the_horizon() {
+    fn sunlight_reddens_toward_the_horizon() {
         let redness = |degrees: f64| {
             let sky = ClearSky::new(degrees.to_radians(), 2.5);
             let [x, y, z] = xyz(|nm| sky.sun_radiance(nm));
@@ -254,10 +254,10 @@ mod tests {
             let angle = FRAC_PI_2 * (f64::from(i) + 0.5) / f64::from(steps);
             for j in 0..4 * steps {
                 let turn = PI * (f64::from(j) + 0.5) / f64::from(2 * steps);
-                let towards = sun.cos() * angle.cos() + sun.sin() * angle.sin() * turn.cos();
+                let toward = sun.cos() * angle.cos() + sun.sin() * angle.sin() * turn.cos();
                 let solid_angle =
                     angle.sin() * FRAC_PI_2 / f64::from(steps) * PI / f64::from(2 * steps);
-                let [luminance, ..] = sky.colour(angle.cos(), towards.clamp(-1.0, 1.0).acos());
+                let [luminance, ..] = sky.color(angle.cos(), toward.clamp(-1.0, 1.0).acos());
                 assert!(luminance > 0.0, "{sun} {turbidity}: {luminance}");
                 lux += luminance * angle.cos() * solid_angle;
             }

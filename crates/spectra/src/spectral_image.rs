@@ -2,7 +2,7 @@
 
 use crate::{BandGrid, LightGroup};
 
-/// Radiance per pixel and band, with its uncertainty and its colour, in total and by light group.
+/// Radiance per pixel and band, with its uncertainty and its color, in total and by light group.
 ///
 /// Row 0 is on top. Per-band data is pixel-major: the value of band `b` at (x, y) stands at
 /// `(y·width + x)·bands + b`.
@@ -187,7 +187,7 @@ impl SpectralImage {
         let groups = self.light_groups.len();
         let bands = self.bands.count() as usize;
         assert_eq!(radiance.len(), groups * bands, "one value per band");
-        assert_eq!(xyz.len(), groups, "one colour per light group");
+        assert_eq!(xyz.len(), groups, "one color per light group");
         let (values, pixel) = (self.values_of(x, y), self.pixel_index(x, y));
         let total = &mut self.radiance[values.clone()];
         total.copy_from_slice(&radiance[..bands]);

@@ -9,7 +9,7 @@ const STEPS_NM: [f64; 2] = [10.0, 20.0];
 const LEAST: usize = 6;
 
 /// What is divided by 209 to go on beyond the ends by one and by two steps, from the first six values (CIE 167:2005, table 1; Westland,
-/// Ripamonti and Cheung, Computational Colour Science, second edition, 2012, section 4.3).
+/// Ripamonti and Cheung, Computational Color Science, second edition, 2012, section 4.3).
 const NEXT: [f64; 6] = [508.0, -540.0, 488.0, -367.0, 144.0, -24.0];
 const AFTER_NEXT: [f64; 6] = [884.0, -1960.0, 3033.0, -2648.0, 1080.0, -180.0];
 

@@ -36,7 +36,7 @@ const WORDS: [&str; 44] = [
     "{ cauchy = [1.5, 0.004] }",
     "{ sellmeier = { b = [1], c_um2 = [0.3] } }",
     "{ mixture = 'bruggeman', of = [1, 'gold'], fraction = 0.5 }",
-    "{ texture = 'colours.png' }",
+    "{ texture = 'colors.png' }",
     "{ csv = 'glass.csv' }",
     "{ yaml = 'glass.yml' }",
     "{ image = 'thickness.png', min = 100, max = 900 }",
@@ -115,7 +115,7 @@ pub(crate) fn read(text: &str, folder: &Path) -> Outcome {
 /// A folder with the files that the words and scenes name.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    for name in ["colours.png", "thickness.png", "surroundings.hdr"] {
+    for name in ["colors.png", "thickness.png", "surroundings.hdr"] {
         fs::copy(
             root().join("tests/data").join(name),
             folder.path().join(name),

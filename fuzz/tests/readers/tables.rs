@@ -79,7 +79,7 @@ fn read<const N: usize>(text: &str, quantities: [Quantity; N], options: &Options
 fn read_all(bytes: &[u8]) -> Outcome {
     let text = text(bytes);
     let plain = Options::default();
-    let micrometres = Options {
+    let micrometers = Options {
         unit: Some(Unit::Um),
         is_percent: true,
         columns: Vec::new(),
@@ -90,7 +90,7 @@ fn read_all(bytes: &[u8]) -> Outcome {
     ];
     let outcomes = [
         read(&text, [Quantity::REFLECTANCE], &plain),
-        read(&text, [Quantity::REFLECTANCE], &micrometres),
+        read(&text, [Quantity::REFLECTANCE], &micrometers),
         read(&text, [Quantity::POWER], &plain),
         read(&text, index, &plain),
         read(&text, [Quantity::plain("a", (-1e9, 1e9)); 3], &plain),

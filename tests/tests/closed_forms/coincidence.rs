@@ -32,7 +32,7 @@ type = "diffuse"
 reflectance = 0
 "#;
 
-const RENDER: &str = "[render]\nsize = [16, 16]\nsamples = 64\nbands = 4\nsampling = \"centre\"\nlight_groups = \"single\"\n";
+const RENDER: &str = "[render]\nsize = [16, 16]\nsamples = 64\nbands = 4\nsampling = \"center\"\nlight_groups = \"single\"\n";
 /// No coordinate of these has few digits.
 const TILTED: &str = "normal = [0.31, 0.52, 1.07]\nup = [0.1, 1, 0.2]";
 
@@ -177,7 +177,7 @@ fn mean_reflectance(image: &SpectralImage, band: u32) -> f64 {
     };
     let nm = image.bands().wavelength_nm(band, 0.5);
     let film = optics::stack(1.0, &[layer], Complex64::ONE, nm, 1.0);
-    film.reflectance.unpolarised()
+    film.reflectance.unpolarized()
 }
 
 /// A plane below a film in the same plane: from the front light comes through the film, is sent back and comes through again, and none

@@ -45,7 +45,7 @@ fn a_film_dims_a_light_without_extent() {
         check(&gpu, what, &lit, CLOSED_FORM, |band| {
             let through = |nm| {
                 let film = optics::film(index, thickness_nm, nm, cosine);
-                film.transmittance.unpolarised()
+                film.transmittance.unpolarized()
             };
             ALBEDO / PI * cosine * band_mean(&lit, band, through)
         });
@@ -74,17 +74,17 @@ impl Printed {
     }
 }
 
-/// I = E (s F D₂ G / (π (N·E)) + (N·L) d ρ / π), and with the light from everywhere Iₐ (s F₀ + d ρ); normalised, a quarter of the
+/// I = E (s F D₂ G / (π (N·E)) + (N·L) d ρ / π), and with the light from everywhere Iₐ (s F₀ + d ρ); normalized, a quarter of the
 /// specular part.
 #[test]
 fn cooks_model_is_lit_as_printed() {
     let gpu = open();
     let surface = Printed { n: 1.8, slope: 0.3 };
-    for (normalisation, factor) in [("printed", 1.0), ("normalised", 0.25)] {
+    for (normalization, factor) in [("printed", 1.0), ("normalized", 0.25)] {
         for degrees in [10.0_f64, 40.0, 70.0] {
             let material = format!(
                 "[materials.cook]\ntype = \"conductor\"\nindex = 1.8\nroughness = 0.3\n\
-                 [materials.cook.model.cook1981]\nnormalisation = \"{normalisation}\"\nspecular = 0.6\ndiffuse = 0.3\ndiffuse_reflectance = 0.5\n\
+                 [materials.cook.model.cook1981]\nnormalization = \"{normalization}\"\nspecular = 0.6\ndiffuse = 0.3\ndiffuse_reflectance = 0.5\n\
                  ambient = {{ constant = 0.25 }}\n"
             );
             let lit = scene(&[
@@ -101,7 +101,7 @@ fn cooks_model_is_lit_as_printed() {
             let expected = factor * s * surface.specular(angle)
                 + angle.cos() * diffuse / PI
                 + 0.25 * (s * normal + diffuse);
-            let what = format!("{normalisation}, {degrees}°");
+            let what = format!("{normalization}, {degrees}°");
             check(&gpu, &what, &lit, CLOSED_FORM_EXACT, |_| expected);
         }
     }

@@ -27,7 +27,7 @@ fn a_sphere_light_over_a_floor() {
 }
 
 /// Form factor of a differential element to a parallel rectangle whose near corner lies straight over it, sides `x` and `z`
-/// at height 1; odd in both (Siegel and Howell; Howell's catalogue, B-3).
+/// at height 1; odd in both (Siegel and Howell; Howell's catalog, B-3).
 fn corner_factor(x: f64, z: f64) -> f64 {
     let part = |a: f64, b: f64| {
         let root = (1.0 + a * a).sqrt();
@@ -147,7 +147,7 @@ size = [0.02, 0.02]
         check(&gpu, what, &lit, NEARLY_NORMAL, |band| {
             let through = |nm| {
                 let film = optics::film(index, thickness_nm, nm, 1.0);
-                film.transmittance.unpolarised().powi(crossings)
+                film.transmittance.unpolarized().powi(crossings)
             };
             bare * band_mean(&lit, band, through)
         });

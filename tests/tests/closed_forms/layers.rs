@@ -41,7 +41,7 @@ fn a_film_of_two_layers_has_two_faces() {
     let layers = [GLASS, METAL];
     let shown = |layers: &[Layer], nm: f64| {
         let film = optics::stack(1.0, layers, Complex64::ONE, nm, 1.0);
-        film.reflectance.unpolarised() + film.transmittance.unpolarised()
+        film.reflectance.unpolarized() + film.transmittance.unpolarized()
     };
     let reversed = [METAL, GLASS];
     assert!(shown(&layers, 550.0) - shown(&reversed, 550.0) < -0.05);
@@ -75,7 +75,7 @@ fn a_coating_reflects_as_its_stack() {
         check(&gpu, &format!("normal {up}"), &drawn, CLOSED_FORM, |band| {
             band_mean(&drawn, band, |nm| {
                 let stack = optics::stack(1.0, &layers, substrate, nm, 1.0);
-                stack.reflectance.unpolarised()
+                stack.reflectance.unpolarized()
             })
         });
     }
@@ -98,7 +98,7 @@ fn two_beams_show_what_the_formula_says() {
         check(&gpu, name, &drawn, CLOSED_FORM, |band| {
             band_mean(&drawn, band, |nm| {
                 let film = optics::two_beam(index, thickness_nm, nm, 1.0, path);
-                film.reflectance.unpolarised() + film.transmittance.unpolarised()
+                film.reflectance.unpolarized() + film.transmittance.unpolarized()
             })
         });
     }

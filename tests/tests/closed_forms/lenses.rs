@@ -34,25 +34,25 @@ fn lit(image: &SpectralImage) -> impl Iterator<Item = ([f64; 2], f64)> {
     })
 }
 
-/// Similar triangles: at the plane of focus a point at distance z becomes the lens's disc times |1 − f/z|. Its mean r² is half of the
-/// radius squared; the lamp's own disc adds as much of its own, and sorting into pixels a twelfth of a pixel squared for each axis
+/// Similar triangles: at the plane of focus a point at distance z becomes the lens's disk times |1 − f/z|. Its mean r² is half of the
+/// radius squared; the lamp's own disk adds as much of its own, and sorting into pixels a twelfth of a pixel squared for each axis
 /// (Sheppard).
 #[test]
-fn out_of_focus_a_lamp_becomes_the_disc_of_the_lens() {
+fn out_of_focus_a_lamp_becomes_the_disk_of_the_lens() {
     const LENS: f64 = 0.1;
     let gpu = open();
-    // The lamp's own disc there, in pixels.
+    // The lamp's own disk there, in pixels.
     let own = 1.0_f64;
     for distance in [2.0, 2.5, 20.0] {
         let lens = format!("lens = {{ radius = {LENS}, focus_distance = {FOCUS} }}");
         let blurred = lamp_on_the_axis(&lens, 16_384, distance, own * PIXEL * distance / FOCUS);
-        let disc = LENS * (1.0 - FOCUS / distance).abs() / PIXEL;
+        let disk = LENS * (1.0 - FOCUS / distance).abs() / PIXEL;
         for (who, image) in pictures(&gpu, &blurred) {
             let light: f64 = lit(&image).map(|(_, value)| value).sum();
             let spread = lit(&image).map(|([x, y], value)| value * (x * x + y * y));
             let (found, expected) = (
                 spread.sum::<f64>() / light,
-                f64::midpoint(disc * disc, own * own) + 1.0 / 6.0,
+                f64::midpoint(disk * disk, own * own) + 1.0 / 6.0,
             );
             println!(
                 "lamp at {distance}, {who}: mean r² {found:.4}, expected {expected:.4} pixels²; light {light:.4}"
@@ -61,14 +61,14 @@ fn out_of_focus_a_lamp_becomes_the_disc_of_the_lens() {
                 (found / expected - 1.0).abs() < OUT_OF_FOCUS,
                 "lamp at {distance}, {who}: {found} instead of {expected}"
             );
-            // The lens takes no light and adds none: the lamp's own disc, spread.
+            // The lens takes no light and adds none: the lamp's own disk, spread.
             let whole = PI * own * own;
             assert!(
                 (light / whole - 1.0).abs() < OUT_OF_FOCUS,
                 "lamp at {distance}, {who}: {light} instead of {whole}"
             );
             let beyond = |([x, y], value): &([f64; 2], f64)| {
-                *value > 0.0 && x.hypot(*y) > disc + own + 0.5_f64.sqrt()
+                *value > 0.0 && x.hypot(*y) > disk + own + 0.5_f64.sqrt()
             };
             assert!(lit(&image).find(beyond).is_none(), "{distance}, {who}");
         }
@@ -88,7 +88,7 @@ fn in_focus_a_lamp_is_a_point() {
     }
 }
 
-/// Each pixel has of a small lamp what its filter weighs there, mean over the lamp's disc. Gaussian: exp(−x²/2σ²), σ half a pixel;
+/// Each pixel has of a small lamp what its filter weighs there, mean over the lamp's disk. Gaussian: exp(−x²/2σ²), σ half a pixel;
 /// Harris's window over 3 pixels (1978, equation 33).
 #[test]
 fn a_lamp_is_weighed_by_the_filter_of_the_pixels() {
@@ -107,7 +107,7 @@ fn a_lamp_is_weighed_by_the_filter_of_the_pixels() {
         ("blackman_harris", &window),
     ] {
         let weight = |[x, y]: [f64; 2]| {
-            let on_disc = |i: u32| {
+            let on_disk = |i: u32| {
                 let (radius, angle) = (
                     LAMP * (f64::from(i / 32) + 0.5).sqrt() / 32.0_f64.sqrt(),
                     f64::from(i % 32) / 32.0 * TAU,
@@ -119,7 +119,7 @@ fn a_lamp_is_weighed_by_the_filter_of_the_pixels() {
                     0.0
                 }
             };
-            (0..1024).map(on_disc).sum::<f64>() / 1024.0
+            (0..1024).map(on_disk).sum::<f64>() / 1024.0
         };
         let seen = lamp_on_the_axis(&format!("filter = \"{name}\""), 16_384, FOCUS, LAMP * PIXEL);
         for (who, image) in pictures(&gpu, &seen) {

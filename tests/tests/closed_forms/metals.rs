@@ -53,19 +53,19 @@ height = 0.01
 "#;
     let gpu = open();
     for (what, camera, cosine) in [("from above", DOWN, 1.0), ("aslant", ASLANT, 0.5)] {
-        let reflectance = |index| optics::reflectance_unpolarised(index, cosine);
+        let reflectance = |index| optics::reflectance_unpolarized(index, cosine);
         let drawn = scene(&[camera, &render(64, 2, "random"), GOLD, METAL_FLOOR, WHITE]);
         check(&gpu, what, &drawn, CLOSED_FORM, |band| {
             metal_mean(&drawn, band, reflectance)
         });
-        let fixed = scene(&[camera, &render(4, 2, "centre"), GOLD, METAL_FLOOR, WHITE]);
+        let fixed = scene(&[camera, &render(4, 2, "center"), GOLD, METAL_FLOOR, WHITE]);
         check(&gpu, what, &fixed, CLOSED_FORM_EXACT, |band| {
             reflectance(metal(&fixed, band, 0.5))
         });
     }
 }
 
-/// Directional albedo of a rough conductor seen along its normal: ∫ f R cos θ dω by quadrature, and of what is left the colour of
+/// Directional albedo of a rough conductor seen along its normal: ∫ f R cos θ dω by quadrature, and of what is left the color of
 /// light that met several facets. Under the environment the light comes by scattering alone, in a luminous sphere by
 /// connections too.
 #[test]
@@ -96,11 +96,11 @@ radius = 10
                 let angle = (f64::from(i) + 0.5) / f64::from(steps) * FRAC_PI_2;
                 let light = [angle.sin(), 0.0, angle.cos()];
                 let facet = surface.reflection([0.0, 0.0, 1.0], light);
-                let fresnel = optics::reflectance_unpolarised(index, (angle / 2.0).cos());
+                let fresnel = optics::reflectance_unpolarized(index, (angle / 2.0).cos());
                 facet * fresnel * angle.cos() * angle.sin()
             };
             let once = TAU * (0..steps).map(at).sum::<f64>() * FRAC_PI_2 / f64::from(steps);
-            let mean = optics::mean_reflectance(|c| optics::reflectance_unpolarised(index, c));
+            let mean = optics::mean_reflectance(|c| optics::reflectance_unpolarized(index, c));
             once + lost * optics::multiple_color(mean, mean_energy)
         };
         for (where_, light) in [("environment", WHITE), ("shell", SHELL)] {

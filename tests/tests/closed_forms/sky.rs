@@ -32,8 +32,8 @@ fn amounts_on_the_ground(elevation_deg: f64) -> [f64; 3] {
         |ends: f64| (0..STEPS).map(move |i| ends * (f64::from(i) + 0.5) / f64::from(STEPS));
     for angle in places(FRAC_PI_2) {
         for turn in places(PI) {
-            let towards = sun.cos() * angle.cos() + sun.sin() * angle.sin() * turn.cos();
-            let light = sky.light(angle.cos(), towards.clamp(-1.0, 1.0).acos());
+            let toward = sun.cos() * angle.cos() + sun.sin() * angle.sin() * turn.cos();
+            let light = sky.light(angle.cos(), toward.clamp(-1.0, 1.0).acos());
             let cell = PI * PI / f64::from(STEPS * STEPS);
             for (sum, amount) in sums.iter_mut().zip(light.amounts) {
                 *sum += amount * angle.cos() * angle.sin() * cell;
@@ -49,7 +49,7 @@ fn by_sky(amounts: [f64; 3], components: &[Spectrum; 3], nm: f64) -> f64 {
     terms.map(|(amount, of)| amount * of.at(nm).unwrap()).sum()
 }
 
-/// Irradiance of flat ground by the sun: its radiance times ∫ cos dω over its disc, π sin² of half of its diameter times the sine of
+/// Irradiance of flat ground by the sun: its radiance times ∫ cos dω over its disk, π sin² of half of its diameter times the sine of
 /// its elevation.
 fn by_sun(elevation_deg: f64, nm: f64) -> f64 {
     let solid = PI * (0.5 * SUN_DIAMETER_DEG).to_radians().sin().powi(2);
@@ -75,7 +75,7 @@ fn ground_under_the_sky_and_its_sun() {
     }
 }
 
-/// A view into the middle of the disc: its radiance, of which the sky before it is some 1e-5.
+/// A view into the middle of the disk: its radiance, of which the sky before it is some 1e-5.
 #[test]
 fn the_sun_has_its_radiance_where_it_stands() {
     let gpu = open();

@@ -58,7 +58,7 @@ horizon = { constant = 1 }
 ground = { constant = 0.25 }
 "#;
     let gpu = open();
-    for (towards, up, expected) in [
+    for (toward, up, expected) in [
         ("[0, 1, 0]", "[0, 0, 1]", 3.0),
         ("[0, 0, -1]", "[0, 1, 0]", 1.0),
         ("[1, 0, 0]", "[0, 1, 0]", 1.0),
@@ -67,9 +67,9 @@ ground = { constant = 0.25 }
         ("[0.8, -0.6, 0]", "[0, 1, 0]", 0.6 * 0.25 + 0.4),
     ] {
         let camera = format!(
-            "[camera]\ntype = \"orthographic\"\nposition = [0, 0, 0]\nlook_at = {towards}\nup = {up}\nheight = 1\n"
+            "[camera]\ntype = \"orthographic\"\nposition = [0, 0, 0]\nlook_at = {toward}\nup = {up}\nheight = 1\n"
         );
         let sky = scene(&[&camera, &render(4, 1, "random"), SKY]);
-        check(&gpu, towards, &sky, CLOSED_FORM_EXACT, |_| expected);
+        check(&gpu, toward, &sky, CLOSED_FORM_EXACT, |_| expected);
     }
 }

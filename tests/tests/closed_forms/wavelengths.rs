@@ -1,4 +1,4 @@
-//! Wavelengths drawn in their bands, or fixed at the centres.
+//! Wavelengths drawn in their bands, or fixed at the centers.
 
 use crate::comparison::{
     BANDS, DOWN, Estimate, WHITE, band_mean, check, film, pictures, render, scene,
@@ -32,14 +32,14 @@ normal = [0, 1, 0]
 fn fringe(wavelength_nm: f64) -> f64 {
     let (index, thickness_nm) = FRINGES;
     let film = optics::film(index.into(), thickness_nm, wavelength_nm, 1.0);
-    film.reflectance.unpolarised()
+    film.reflectance.unpolarized()
 }
 
 /// The choice between reflection and transmission is the same in all bands, so the bands' ratios have no noise at all.
-fn has_ratios_of_centres(image: &SpectralImage) -> bool {
+fn has_ratios_of_centers(image: &SpectralImage) -> bool {
     let found: Vec<f64> = (0..BANDS).map(|b| Estimate::of(image, b).mean).collect();
     let sought: Vec<f64> = (0..BANDS)
-        .map(|b| fringe(image.bands().centre_nm(b)))
+        .map(|b| fringe(image.bands().center_nm(b)))
         .collect();
     let (total, of) = (found.iter().sum::<f64>(), sought.iter().sum::<f64>());
     let error = |(f, s): (&f64, &f64)| (f / total / (s / of) - 1.0).abs();
@@ -48,23 +48,23 @@ fn has_ratios_of_centres(image: &SpectralImage) -> bool {
 }
 
 #[test]
-fn fixed_wavelengths_are_the_centres_of_the_bands() {
+fn fixed_wavelengths_are_the_centers_of_the_bands() {
     let gpu = open();
-    let fixed = fringes("centre");
-    check(&gpu, "centres", &fixed, CLOSED_FORM_FILM, |band| {
-        fringe(fixed.settings().bands.centre_nm(band))
+    let fixed = fringes("center");
+    check(&gpu, "centers", &fixed, CLOSED_FORM_FILM, |band| {
+        fringe(fixed.settings().bands.center_nm(band))
     });
     let drawn = fringes("random");
     check(&gpu, "bands", &drawn, CLOSED_FORM_FILM, |band| {
         band_mean(&drawn, band, fringe)
     });
     for (who, image) in pictures(&gpu, &fixed) {
-        assert!(has_ratios_of_centres(&image), "{who}");
+        assert!(has_ratios_of_centers(&image), "{who}");
     }
     for (who, image) in pictures(&gpu, &drawn) {
         assert!(
-            !has_ratios_of_centres(&image),
-            "{who}: means pass for centres"
+            !has_ratios_of_centers(&image),
+            "{who}: means pass for centers"
         );
     }
 }

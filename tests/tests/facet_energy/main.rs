@@ -147,7 +147,7 @@ impl Facet {
 
     fn bare(&self, nm: f64) -> impl Fn(f64) -> f64 {
         let metal = Self::index(self.metal, nm);
-        move |cosine| optics::reflectance_unpolarised(metal, cosine)
+        move |cosine| optics::reflectance_unpolarized(metal, cosine)
     }
 
     fn reflectance(&self, nm: f64) -> impl Fn(f64) -> f64 {
@@ -159,7 +159,7 @@ impl Facet {
         move |cosine| {
             let layers = layer.as_slice();
             let found = optics::stack(1.0, layers, metal, nm, cosine.clamp(1e-6, 1.0));
-            found.reflectance.unpolarised()
+            found.reflectance.unpolarized()
         }
     }
 }
@@ -169,12 +169,12 @@ const STEP_NM: u32 = 10;
 const COUNT: usize = 41;
 type Spectrum = [f64; COUNT];
 
-fn nanometres(i: usize) -> f64 {
+fn nanometers(i: usize) -> f64 {
     f64::from(FIRST_NM + STEP_NM * i as u32)
 }
 
 fn spectrum(f: impl Fn(f64) -> f64) -> Spectrum {
-    std::array::from_fn(|i| f(nanometres(i)))
+    std::array::from_fn(|i| f(nanometers(i)))
 }
 
 /// XYZ under D65, Y = 1 for what reflects everything.
@@ -187,7 +187,7 @@ fn xyz(reflectance: &Spectrum) -> [f64; 3] {
     pellicle_tests::colorimetry::xyz("D65", at).map(|x| 0.01 * x)
 }
 
-/// Y, and the colour beside what reflects everything.
+/// Y, and the color beside what reflects everything.
 fn seen(reflectance: &Spectrum) -> (f64, Lab) {
     let found = xyz(reflectance);
     (found[1], Lab::from_xyz(found, xyz(&[1.0; COUNT])))
@@ -202,7 +202,7 @@ impl Table {
     fn new(facet: &Facet) -> Self {
         let mut rows = vec![[0.0; COUNT]; Self::STEPS + 1];
         for i in 0..COUNT {
-            let reflectance = facet.reflectance(nanometres(i));
+            let reflectance = facet.reflectance(nanometers(i));
             for (row, values) in rows.iter_mut().enumerate() {
                 values[i] = reflectance(row as f64 / Self::STEPS as f64);
             }
@@ -224,9 +224,9 @@ struct Returned {
     term: Spectrum,
     /// Without the light between facets.
     none: Spectrum,
-    /// Its colour taken from the mean of all wavelengths' reflectances (those of Y).
-    grey: Spectrum,
-    /// Its colour taken from the metal without its film.
+    /// Its color taken from the mean of all wavelengths' reflectances (those of Y).
+    gray: Spectrum,
+    /// Its color taken from the metal without its film.
     bare: Spectrum,
 }
 
@@ -288,7 +288,7 @@ fn returned(surface: &Microsurface, degrees: f64, tables: &[Table], seed: u32) -
         Returned {
             walk: with(&|j| (1.0 - once).max(0.0) * several[i][j]),
             term: with(&|j| between(films[j])),
-            grey: with(&|_| between(luminous)),
+            gray: with(&|_| between(luminous)),
             bare: with(&|j| between(metals[j])),
             none,
         }
@@ -302,14 +302,14 @@ struct Worst(f64, f64);
 
 impl Worst {
     fn meet(&mut self, found: &Spectrum, expected: &Spectrum) {
-        let ((y, colour), (sought, other)) = (seen(found), seen(expected));
+        let ((y, color), (sought, other)) = (seen(found), seen(expected));
         self.0 = self.0.max((y - sought).abs());
-        self.1 = self.1.max(delta_e_2000(colour, other));
+        self.1 = self.1.max(delta_e_2000(color, other));
     }
 }
 
-/// The figures of docs/surfaces.md: the worst over angles and both distributions. Without the light between facets, with grey in its
-/// place, or with the colour of the metal without its film, they are far larger.
+/// The figures of docs/surfaces.md: the worst over angles and both distributions. Without the light between facets, with gray in its
+/// place, or with the color of the metal without its film, they are far larger.
 #[test]
 fn the_term_between_facets_has_a_stated_error() {
     let tables = FACETS.each_ref().map(Table::new);
@@ -328,18 +328,18 @@ fn the_term_between_facets_has_a_stated_error() {
                     walk,
                     term,
                     none,
-                    grey,
+                    gray,
                     bare,
                 } = &returned[i];
-                for (k, other) in [term, none, grey, bare].into_iter().enumerate() {
+                for (k, other) in [term, none, gray, bare].into_iter().enumerate() {
                     worst[k].meet(other, walk);
                     all[k].meet(other, walk);
                 }
             }
-            let [term, none, grey, bare] = worst;
+            let [term, none, gray, bare] = worst;
             println!(
                 "| {}, {roughness} | {:.3} | {:.1} | {:.3} | {:.1} | {:.1} | {:.1} |",
-                facet.name, term.0, term.1, none.0, none.1, grey.1, bare.1
+                facet.name, term.0, term.1, none.0, none.1, gray.1, bare.1
             );
             assert!(
                 term.0 < 0.04 && term.1 < 2.0,
@@ -347,6 +347,6 @@ fn the_term_between_facets_has_a_stated_error() {
             );
         }
     }
-    let [_, none, grey, bare] = all;
-    assert!(none.1 > 20.0 && grey.1 > 12.0 && bare.1 > 15.0, "{all:?}");
+    let [_, none, gray, bare] = all;
+    assert!(none.1 > 20.0 && gray.1 > 12.0 && bare.1 > 15.0, "{all:?}");
 }

@@ -70,7 +70,7 @@ fn visible_facet(surface: &Microsurface, eye: [f64; 3], u: f64, v: f64) -> [f64;
 /// By the slope's cumulated distribution, F(x) = cos θ erfc(−x) + sin θ exp(−x²) / √π up to x = cot θ (Heitz and d'Eon 2014), halved
 /// down to rounding.
 fn visible_beckmann_facet([along, across]: [f64; 2], eye: [f64; 3], u: f64, v: f64) -> [f64; 3] {
-    let stretched = normalised([along * eye[0], across * eye[1], eye[2]]);
+    let stretched = normalized([along * eye[0], across * eye[1], eye[2]]);
     let sine = stretched[0].hypot(stretched[1]);
     // Straight from above any azimuth will do.
     let (x, y) = if sine > 0.0 {
@@ -93,11 +93,11 @@ fn visible_beckmann_facet([along, across]: [f64; 2], eye: [f64; 3], u: f64, v: f
         }
         low
     };
-    let towards = below(stretched[2], sine, u);
+    let toward = below(stretched[2], sine, u);
     let aside = below(1.0, 0.0, v);
-    normalised([
-        -along * (x * towards - y * aside),
-        -across * (y * towards + x * aside),
+    normalized([
+        -along * (x * toward - y * aside),
+        -across * (y * toward + x * aside),
         1.0,
     ])
 }
@@ -109,7 +109,7 @@ pub(crate) fn direction(cosine: f64, turns: f64) -> [f64; 3] {
     [sine * x, sine * y, cosine]
 }
 
-fn normalised(v: [f64; 3]) -> [f64; 3] {
+fn normalized(v: [f64; 3]) -> [f64; 3] {
     let length = dot(v, v).sqrt();
     v.map(|x| x / length)
 }

@@ -225,7 +225,7 @@ fn coats() -> [Check; 3] {
                 &[(1.0, 3.0), (0.0, 1.0)],
                 &[&[1.5, 0.0], &[1.0, 0.0], &[1.0, 1.0]],
             ),
-            twin: |a| vec![1.0 - optics::reflectance_unpolarised(a[0].into(), a[1].max(1e-6))],
+            twin: |a| vec![1.0 - optics::reflectance_unpolarized(a[0].into(), a[1].max(1e-6))],
             tolerance: FRESNEL,
         },
         Check {

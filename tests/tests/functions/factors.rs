@@ -127,12 +127,12 @@ fn factor_twin(a: &[f64]) -> Vec<f64> {
     let values = |band| match kind {
         FACTOR_DIFFUSE => [value_of(spectrum, band, a[5]); 2],
         FACTOR_INTERFACE => {
-            [a[2], a[3] / 2000.0].map(|cosine| optics::reflectance_unpolarised(index(band), cosine))
+            [a[2], a[3] / 2000.0].map(|cosine| optics::reflectance_unpolarized(index(band), cosine))
         }
         _ => {
             let grid = &everything().scene.settings().bands;
             let film = optics::film(index(band), a[3], grid.wavelength_nm(band, a[5]), a[2]);
-            [film.reflectance, film.transmittance].map(optics::Polarised::unpolarised)
+            [film.reflectance, film.transmittance].map(optics::Polarized::unpolarized)
         }
     };
     let both = bands_of(a[4]).map(values);
@@ -211,7 +211,7 @@ fn factors() -> Vec<Check> {
     ]
 }
 
-/// The tables hold what they are for: each colour of a pattern, each kind of factor.
+/// The tables hold what they are for: each color of a pattern, each kind of factor.
 #[test]
 fn every_factor_occurs() {
     assert_eq!(
@@ -228,7 +228,7 @@ fn every_factor_occurs() {
     assert_eq!(kinds, [1, 3, 7, 8].into());
 }
 
-/// The comparison can fail: a checker with its colours changed over.
+/// The comparison can fail: a checker with its colors changed over.
 #[test]
 fn a_pattern_out_of_place_is_noticed() {
     let mut check = diffuse_factor();

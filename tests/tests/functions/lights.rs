@@ -1,4 +1,4 @@
-//! light.wgsl: directions towards the lights that are objects, and their densities.
+//! light.wgsl: directions toward the lights that are objects, and their densities.
 
 use crate::Check;
 use crate::world::{center_of, everything, pick, rounded, rows, unit, vector};
@@ -162,7 +162,7 @@ pub(crate) fn checks() -> Vec<Check> {
     ]
 }
 
-/// Spheres with squared distances from their centres: anywhere, and close to the one that decides, but not within the
+/// Spheres with squared distances from their centers: anywhere, and close to the one that decides, but not within the
 /// rounding of a product.
 fn squared_distances() -> Vec<f32> {
     let world = everything();

@@ -157,7 +157,7 @@ fn a_wrong_twin_is_noticed() {
         .expect("exists");
     check.twin = |a| {
         let wrong = optics::film((1.01 * a[0]).into(), a[1], a[2], a[3].max(1e-6));
-        vec![wrong.reflectance.unpolarised()]
+        vec![wrong.reflectance.unpolarized()]
     };
     assert!(check.run().is_err());
     let mut checks = numbers::checks();

@@ -21,9 +21,9 @@ fn surfaces() -> Vec<Check> {
     vec![Check {
         probe: pure(
             (3, 1),
-            "put(0u, reflectance_unpolarised(vec4f(a(0u)), vec4f(a(1u)), a(2u)).x);",
+            "put(0u, reflectance_unpolarized(vec4f(a(0u)), vec4f(a(1u)), a(2u)).x);",
         ),
-        proves: &["reflectance_unpolarised"],
+        proves: &["reflectance_unpolarized"],
         inputs: table(
             &[(0.02, 5.0), (0.0, 8.0), (SHALLOW, 1.0)],
             &[
@@ -37,7 +37,7 @@ fn surfaces() -> Vec<Check> {
             ],
         ),
         twin: |a| {
-            vec![optics::reflectance_unpolarised(
+            vec![optics::reflectance_unpolarized(
                 Complex64::new(a[0], a[1]),
                 a[2],
             )]
@@ -50,15 +50,15 @@ fn transparent_film(a: &[f64]) -> Vec<f64> {
     vec![
         optics::film(a[0].into(), a[1], a[2], a[3])
             .reflectance
-            .unpolarised(),
+            .unpolarized(),
     ]
 }
 
 fn lossy_film(a: &[f64]) -> Vec<f64> {
     let film = optics::film(Complex64::new(a[0], a[1]), a[2], a[3], a[4]);
     vec![
-        film.reflectance.unpolarised(),
-        film.transmittance.unpolarised(),
+        film.reflectance.unpolarized(),
+        film.transmittance.unpolarized(),
     ]
 }
 

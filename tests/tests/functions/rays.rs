@@ -86,7 +86,7 @@ fn is_clear(shape: &Shape, ray: &Ray, starts_here: bool) -> bool {
     }
 }
 
-/// A ray made of nine numbers: from anywhere or from the surface of an object, mostly towards one.
+/// A ray made of nine numbers: from anywhere or from the surface of an object, mostly toward one.
 fn ray_of(u: &[f64]) -> (Option<usize>, Ray) {
     let world = everything();
     let all = objects_where(|_, _| true);

@@ -146,9 +146,9 @@ fn two_beams() -> Vec<Check> {
             let optical = beams(PathDifference::Optical);
             let printed = beams(PathDifference::AsPrinted);
             vec![
-                optical.reflectance.unpolarised(),
-                printed.reflectance.unpolarised(),
-                optical.transmittance.unpolarised(),
+                optical.reflectance.unpolarized(),
+                printed.reflectance.unpolarized(),
+                optical.transmittance.unpolarized(),
             ]
         },
         tolerance: FILM,

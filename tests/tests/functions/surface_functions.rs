@@ -27,7 +27,7 @@ const MATERIALS: &[&str] = &[
     "type = 'conductor', index = 'gold', roughness = 0.3, model = 'cook1981'",
     "type = 'conductor', index = { normal_reflectance = 0.7 }, model = { cook1981 = { distribution = 'gaussian',
      slopes = [{ m = 0.2, weight = 0.4 }, { m = 0.6, weight = 0.6 }], specular = 0.7, diffuse = 0.3, diffuse_reflectance = 'red' } }",
-    "type = 'conductor', index = 'aluminium', model = { cook1981 = { normalisation = 'normalised',
+    "type = 'conductor', index = 'aluminum', model = { cook1981 = { normalization = 'normalized',
      slopes = [{ m = 0.2, weight = 0.5 }, { m = 0.9, weight = 0.5 }], specular = 0.9, diffuse = 0.1, diffuse_reflectance = 0.5 } }",
 ];
 

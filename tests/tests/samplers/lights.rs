@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 /// How many of the tests are here.
 pub(crate) const TESTS: usize = 4 + 3 + 3 + 6;
 
-/// Spheres: the angle to the centre over the cone that holds them; from inside the whole sphere of directions.
+/// Spheres: the angle to the center over the cone that holds them; from inside the whole sphere of directions.
 #[test]
 fn spheres_are_drawn_by_shape_pdf() {
     let center = DVec3::new(0.3, -0.2, 1.5);
@@ -101,7 +101,7 @@ fn rectangles_are_drawn_by_shape_pdf() {
     }
 }
 
-/// Disks: by the square of the distance from the centre and the azimuth, in which they are even.
+/// Disks: by the square of the distance from the center and the azimuth, in which they are even.
 #[test]
 fn disks_are_drawn_by_shape_pdf() {
     let normal = DVec3::new(0.2, -0.5, 1.0).normalize();
@@ -151,18 +151,18 @@ fn disks_are_drawn_by_shape_pdf() {
     }
 }
 
-/// Parts of the surroundings and discs in the sky: by the height about an axis and the azimuth.
+/// Parts of the surroundings and disks in the sky: by the height about an axis and the azimuth.
 #[test]
 fn surroundings_are_drawn_by_environment_pdf() {
-    let towards = DVec3::new(0.3, 0.8, -0.4).normalize();
-    let disc = |height| EnvironmentShape::Disc { towards, height };
+    let toward = DVec3::new(0.3, 0.8, -0.4).normalize();
+    let disk = |height| EnvironmentShape::DistantDisk { toward, height };
     for (seed, part, axis, least) in [
         (81, EnvironmentShape::Everywhere, DVec3::Y, -1.0),
         (82, EnvironmentShape::Horizon, DVec3::Y, -1.0),
         (83, EnvironmentShape::Pole(DVec3::Y), DVec3::Y, 0.0),
         (84, EnvironmentShape::Pole(DVec3::NEG_Y), DVec3::NEG_Y, 0.0),
-        (85, disc(1.1e-5), towards, 1.0 - 1.1e-5),
-        (86, disc(0.3), towards, 0.7),
+        (85, disk(1.1e-5), toward, 1.0 - 1.1e-5),
+        (86, disk(0.3), toward, 0.7),
     ] {
         let frame = frame_of(axis);
         let depth = 1.0 - least;

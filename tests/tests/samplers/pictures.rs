@@ -12,9 +12,9 @@ use std::f64::consts::{PI, TAU};
 pub(crate) const TESTS: usize = 3;
 
 /// Surroundings of 48 × 24 pixels, for all of which rays are sent: what is brighter than the mean are too few cells to judge.
-fn painted(colour: impl Fn(u32, u32) -> f32) -> Scene {
+fn painted(color: impl Fn(u32, u32) -> f32) -> Scene {
     let folder = tempfile::tempdir().expect("a folder");
-    let picture = ImageBuffer::from_fn(48, 24, |x, y| Rgb([colour(x, y); 3]));
+    let picture = ImageBuffer::from_fn(48, 24, |x, y| Rgb([color(x, y); 3]));
     picture
         .save(folder.path().join("sky.exr"))
         .expect("written");

@@ -3,7 +3,7 @@
 use super::ROUNDS;
 use crate::print;
 use miette::IntoDiagnostic;
-use pellicle::color::develop::{DevelopSettings, expose, gamut, quantise};
+use pellicle::color::develop::{DevelopSettings, expose, gamut, quantize};
 use pellicle::color::spectral_exr::{self, Metadata, WriteOptions};
 use pellicle::color::{XyzImage, png};
 use pellicle::spectra::{BandGrid, SpectralImage};
@@ -13,10 +13,10 @@ use std::time::Instant;
 const SIZE: [u32; 2] = [1920, 1080];
 const BANDS: u32 = 40;
 
-/// The steps that are timed, and whether each is on the way from all bands, and on the way from the file's own colours.
+/// The steps that are timed, and whether each is on the way from all bands, and on the way from the file's own colors.
 const STEPS: [(&str, bool, bool); 5] = [
     ("read every band", true, false),
-    ("read the colours alone", false, true),
+    ("read the colors alone", false, true),
     ("sum the bands", true, false),
     ("develop", true, true),
     ("write the PNG", true, true),
@@ -47,9 +47,9 @@ pub(super) fn run() -> miette::Result<()> {
     let totals = [total(|step| step.1), total(|step| step.2)];
     print::result(format_args!(
         "{:<24}{:>8}{:>18}{:>18}",
-        "step", "seconds", "share, all bands", "share, colours"
+        "step", "seconds", "share, all bands", "share, colors"
     ))?;
-    for ((name, in_all, in_colours), seconds) in STEPS.into_iter().zip(best) {
+    for ((name, in_all, in_colors), seconds) in STEPS.into_iter().zip(best) {
         let share = |counts: bool, total: f64| {
             if counts {
                 format!("{:.0} %", 100.0 * seconds / total)
@@ -60,7 +60,7 @@ pub(super) fn run() -> miette::Result<()> {
         print::result(format_args!(
             "{name:<24}{seconds:>8.3}{:>18}{:>18}",
             share(in_all, totals[0]),
-            share(in_colours, totals[1])
+            share(in_colors, totals[1])
         ))?;
     }
     print::result(format_args!(
@@ -80,25 +80,25 @@ fn round(files: &Files) -> miette::Result<[f64; STEPS.len()]> {
     let (spectra, _) = spectral_exr::read(&files.spectral).into_diagnostic()?;
     let read = lap();
     let (_, _) = spectral_exr::read_xyz(&files.spectral).into_diagnostic()?;
-    let read_colours = lap();
-    let colours = XyzImage::of_bands(&spectra);
+    let read_colors = lap();
+    let colors = XyzImage::of_bands(&spectra);
     let sum = lap();
     let settings = DevelopSettings::srgb(3.0);
-    let mut linear = expose(&colours, &settings).into_diagnostic()?;
+    let mut linear = expose(&colors, &settings).into_diagnostic()?;
     gamut::map(&mut linear, &settings);
-    let codes = quantise::codes::<u8>(&linear, &settings.display, settings.dither);
+    let codes = quantize::codes::<u8>(&linear, &settings.display, settings.dither);
     let develop = lap();
     png::write_for_display(&files.picture, &codes, &settings.display).into_diagnostic()?;
-    Ok([read, read_colours, sum, develop, lap()])
+    Ok([read, read_colors, sum, develop, lap()])
 }
 
-/// A wedge of soap film with noise, a third of it black: many of its colours lie outside sRGB.
+/// A wedge of soap film with noise, a third of it black: many of its colors lie outside sRGB.
 fn films() -> SpectralImage {
     let [width, height] = SIZE;
     let grid = BandGrid::visible(BANDS).expect("the visible range has bands");
     let mut image = SpectralImage::new(width, height, grid);
     let waves: Vec<f32> = (0..BANDS)
-        .map(|band| (4.0 * std::f64::consts::PI * 1.33 / grid.centre_nm(band)) as f32)
+        .map(|band| (4.0 * std::f64::consts::PI * 1.33 / grid.center_nm(band)) as f32)
         .collect();
     let mut random = 1_u32;
     let mut radiance = [0.0; BANDS as usize];

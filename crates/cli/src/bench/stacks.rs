@@ -12,8 +12,8 @@ use std::time::Instant;
 const LAYERS: [u32; 3] = [1, 5, 21];
 const WAVELENGTHS: u32 = 81;
 const ANGLES: u32 = 90;
-/// Polarisations: an evaluation is R and T of one stack at one wavelength, angle and polarisation.
-const POLARISATIONS: f64 = 2.0;
+/// Polarizations: an evaluation is R and T of one stack at one wavelength, angle and polarization.
+const POLARIZATIONS: f64 = 2.0;
 
 /// Prints a table of million evaluations per second.
 pub(super) fn run(renderers: &[Renderer], seconds: f64) -> miette::Result<()> {
@@ -106,6 +106,6 @@ fn rate(renderer: &Renderer, layers: u32, seconds: f64) -> miette::Result<f64> {
         stacks::evaluate(renderer, &all.batch()).into_diagnostic()?;
         calls += 1.0;
     }
-    let each = f64::from(WAVELENGTHS * ANGLES) * f64::from(count) * POLARISATIONS;
+    let each = f64::from(WAVELENGTHS * ANGLES) * f64::from(count) * POLARIZATIONS;
     Ok(calls * each / started.elapsed().as_secs_f64() * 1e-6)
 }

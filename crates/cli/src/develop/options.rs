@@ -45,7 +45,7 @@ pub(crate) struct Options {
     /// For the star: where its arms have fallen to 1/e, as a share of the picture's height [default: 0.05]
     #[arg(long, value_name = "SHARE", value_parser = star_length)]
     star_length: Option<f64>,
-    /// What becomes of colours that the display cannot show: chroma taken away at constant hue and lightness, mixed with white at
+    /// What becomes of colors that the display cannot show: chroma taken away at constant hue and lightness, mixed with white at
     /// constant luminance, clipped, or kept, for .exr [default: perceptual, for .exr keep]
     #[arg(long, value_enum)]
     pub(super) gamut: Option<GamutName>,
@@ -58,7 +58,7 @@ pub(crate) struct Options {
     /// Bits of a channel: 8 or 16 in a .png, 16 or 32 in an .exr [default: 8 and 16]
     #[arg(long, value_name = "8|16|32", value_parser = bits)]
     pub(super) bits: Option<u8>,
-    /// Spread the rounding to codes over neighbouring pixels, so that gradients show no steps
+    /// Spread the rounding to codes over neighboring pixels, so that gradients show no steps
     #[arg(long)]
     dither: bool,
 }
@@ -148,7 +148,7 @@ impl Options {
         self.lamps.observer()
     }
 
-    /// Whether the spectra are needed, or colours are enough.
+    /// Whether the spectra are needed, or colors are enough.
     pub(super) fn needs_spectra(&self) -> bool {
         let needs_lamp = self.adapt != Adaptation::None && self.adapt_from.is_none();
         let needs_bands = matches!(self.glare, GlareName::Mesopic | GlareName::Scotopic);

@@ -5,7 +5,7 @@ use crate::output::is_stream;
 use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::color::develop::{
-    DevelopSettings, GamutMapping, GamutReport, Latent, LinearImage, expose, gamut, quantise,
+    DevelopSettings, GamutMapping, GamutReport, Latent, LinearImage, expose, gamut, quantize,
 };
 use pellicle::color::rgb_exr::Samples;
 use pellicle::color::{png, rgb_exr};
@@ -92,11 +92,11 @@ impl Options {
         let (display, dither) = (&settings.display, settings.dither);
         match format {
             Format::Png8 => {
-                let codes = quantise::codes::<u8>(&linear, display, dither);
+                let codes = quantize::codes::<u8>(&linear, display, dither);
                 png::write_for_display(path, &codes, display).into_diagnostic()
             }
             Format::Png16 => {
-                let codes = quantise::codes::<u16>(&linear, display, dither);
+                let codes = quantize::codes::<u16>(&linear, display, dither);
                 png::write_for_display(path, &codes, display).into_diagnostic()
             }
             Format::Exr(samples) => {

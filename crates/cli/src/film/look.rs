@@ -1,36 +1,36 @@
-//! How colours of stacks are looked at.
+//! How colors of stacks are looked at.
 
 use super::numbers;
 use crate::lamp::Lamp;
 use clap::ValueEnum;
 use miette::miette;
-use pellicle::coating::{Light, Polarisation, Side, View};
+use pellicle::coating::{Light, Polarization, Side, View};
 use pellicle::spectra::Observer;
 
-/// How colours are looked at.
+/// How colors are looked at.
 #[derive(clap::Args)]
 pub(super) struct Look {
-    /// The light that colours are seen in: D65, A, FL11, LED-B3, D5700K, blackbody_3000K ..., or a file of wavelength_nm,power (.csv, .spd, .spdx ...);
+    /// The light that colors are seen in: D65, A, FL11, LED-B3, D5700K, blackbody_3000K ..., or a file of wavelength_nm,power (.csv, .spd, .spdx ...);
     /// swatches and codes of sRGB are not adapted to it: under A white looks orange
     #[arg(long, value_name = "NAME|FILE", default_value = "D65", value_parser = Lamp::unscaled)]
     pub(super) illuminant: Lamp,
-    /// The observer of colours: 1931_2, 1964_10, 2015_2 or 2015_10
+    /// The observer of colors: 1931_2, 1964_10, 2015_2 or 2015_10
     #[arg(long, value_name = "NAME", default_value_t = Observer::Cie1931Deg2)]
     pub(super) observer: Observer,
-    /// Stops by which colours are shown brighter: a soap film reflects 8 % at most
+    /// Stops by which colors are shown brighter: a soap film reflects 8 % at most
     #[arg(long, value_name = "EV", default_value = "0", value_parser = numbers::number, allow_hyphen_values = true)]
     pub(super) exposure: f64,
     /// Look at the light that passes, not at the reflected
     #[arg(long)]
     transmitted: bool,
-    /// Polarisation of the light of colours and plots
-    #[arg(long, value_enum, default_value_t = PolarisationName::Unpolarised)]
-    polarisation: PolarisationName,
+    /// Polarization of the light of colors and plots
+    #[arg(long, value_enum, default_value_t = PolarizationName::Unpolarized)]
+    polarization: PolarizationName,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
-pub(super) enum PolarisationName {
-    Unpolarised,
+pub(super) enum PolarizationName {
+    Unpolarized,
     S,
     P,
 }
@@ -54,10 +54,10 @@ impl Look {
             } else {
                 Side::Reflected
             },
-            polarisation: match self.polarisation {
-                PolarisationName::Unpolarised => Polarisation::Unpolarised,
-                PolarisationName::S => Polarisation::S,
-                PolarisationName::P => Polarisation::P,
+            polarization: match self.polarization {
+                PolarizationName::Unpolarized => Polarization::Unpolarized,
+                PolarizationName::S => Polarization::S,
+                PolarizationName::P => Polarization::P,
             },
         }
     }

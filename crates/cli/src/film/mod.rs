@@ -15,14 +15,14 @@ use look::Look;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use model::{ModelName, PathName};
 use numbers::{List, Vary};
-use pellicle::coating::{Angle, Light, MatchBy, Model, Stack, StackColour, parse_srgb};
+use pellicle::coating::{Angle, Light, MatchBy, Model, Stack, StackColor, parse_srgb};
 use pellicle::gpu::AdapterChoice;
 use pellicle::spectra::Observer;
 use pellicle::spectra::wording::number;
 use pellicle::{Backend, Renderer, coating, stacks};
 use std::path::PathBuf;
 
-/// What a stack of thin films does to light: spectra, colours, plots, tolerances.
+/// What a stack of thin films does to light: spectra, colors, plots, tolerances.
 ///
 /// STACK is a stack file (TOML), - for one from standard input, or a stack in one line such as "air | silica 300nm | silicon": the medium that light comes from,
 /// layers with thicknesses in nm or um, the substrate. A medium is a material's name, a number 1.5, 1.5+0.1i (n + ik, k > 0
@@ -72,24 +72,24 @@ pub(crate) struct Arguments {
     backend: BackendName,
     #[command(flatten)]
     look: Look,
-    /// Write a plot of R, T and A over wavelength with the colour of each angle (.svg or .png)
+    /// Write a plot of R, T and A over wavelength with the color of each angle (.svg or .png)
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// Write a chart of the colour over thickness and angle of one layer (.png): of --vary [default: layer 1 from 0 to 1000 nm, or to
+    /// Write a chart of the color over thickness and angle of one layer (.png): of --vary [default: layer 1 from 0 to 1000 nm, or to
     /// twice its thickness]; with several --angles, between the smallest and the largest
     #[arg(long, value_name = "FILE")]
     chart: Option<PathBuf>,
     /// A layer's number from 1 and its thicknesses in nm, for --chart and --match
     #[arg(long, value_name = "LAYER:FROM:TO", value_parser = Vary::parse, allow_hyphen_values = true)]
     vary: Option<Vary>,
-    /// Find the thickness of --vary whose colour is nearest to this one of sRGB, like "#2e6fd0"
-    #[arg(id = "wanted", long = "match", value_name = "COLOUR", value_parser = wanted, requires = "vary")]
+    /// Find the thickness of --vary whose color is nearest to this one of sRGB, like "#2e6fd0"
+    #[arg(id = "wanted", long = "match", value_name = "COLOR", value_parser = wanted, requires = "vary")]
     wanted: Option<Wanted>,
-    /// What has to match: the whole colour, lightness included, at --exposure; or its chromaticity, each film first made as bright as
-    /// the wanted colour
-    #[arg(long, value_enum, default_value_t = MatchByName::Colour, requires = "wanted")]
+    /// What has to match: the whole color, lightness included, at --exposure; or its chromaticity, each film first made as bright as
+    /// the wanted color
+    #[arg(long, value_enum, default_value_t = MatchByName::Color, requires = "wanted")]
     match_by: MatchByName,
-    /// Scatter of the colour when each layer's thickness is off by a random error of this standard deviation, like 2%
+    /// Scatter of the color when each layer's thickness is off by a random error of this standard deviation, like 2%
     #[arg(long, value_name = "PERCENT", value_parser = numbers::percent, allow_hyphen_values = true)]
     tolerance: Option<f64>,
     /// How many stacks --tolerance draws
@@ -98,7 +98,7 @@ pub(crate) struct Arguments {
     /// Which stacks --tolerance draws
     #[arg(long, default_value_t = 0, requires = "tolerance")]
     seed: u64,
-    /// Colour difference per nm of each layer, and dR/dd at --design
+    /// Color difference per nm of each layer, and dR/dd at --design
     #[arg(long)]
     sensitivity: bool,
     /// The wavelength at which --sensitivity tells dR/dd, nm
@@ -108,7 +108,7 @@ pub(crate) struct Arguments {
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Format {
-    /// For people, with the colour of each angle
+    /// For people, with the color of each angle
     Table,
     /// wavelength_nm,angle_deg,Rs,Rp,Ts,Tp with 17 digits
     Csv,
@@ -124,11 +124,11 @@ enum BackendName {
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum MatchByName {
-    Colour,
+    Color,
     Chromaticity,
 }
 
-/// A wanted colour as it was written and as XYZ.
+/// A wanted color as it was written and as XYZ.
 #[derive(Clone, Debug)]
 struct Wanted {
     xyz: [f64; 3],
@@ -276,13 +276,13 @@ impl<'a> Film<'a> {
 
     /// Says what was assumed of a light whose table is too coarse for the film's fringes.
     fn note_light(&self) -> miette::Result<()> {
-        /// Colour differences that can be seen.
+        /// Color differences that can be seen.
         const SEEN: f64 = 0.5;
-        if self.light.step_nm() == 1.0 || self.arguments.shows_no_colour() {
+        if self.light.step_nm() == 1.0 || self.arguments.shows_no_color() {
             return Ok(());
         }
-        let colour = self.colour()?;
-        let doubt = |&angle: &Angle| colour.doubt(self.stack.thicknesses_nm(), angle);
+        let color = self.color()?;
+        let doubt = |&angle: &Angle| color.doubt(self.stack.thicknesses_nm(), angle);
         let most = self.angles.iter().map(doubt).fold(0.0, f64::max);
         if most > SEEN {
             let (name, step) = (self.light.name(), self.light.step_nm());
@@ -294,9 +294,9 @@ impl<'a> Film<'a> {
         Ok(())
     }
 
-    /// Says that colours are shown as the light makes them. D65 is the display's own white.
+    /// Says that colors are shown as the light makes them. D65 is the display's own white.
     fn note_adaptation(&self) {
-        let only_csv = self.arguments.shows_no_colour();
+        let only_csv = self.arguments.shows_no_color();
         let observer = self.arguments.look.observer;
         if observer != Observer::Cie1931Deg2 && !only_csv {
             print::note(format_args!(
@@ -329,10 +329,10 @@ impl<'a> Film<'a> {
         Ok(per_angle.map(<[_]>::to_vec).collect())
     }
 
-    fn colour(&self) -> miette::Result<StackColour> {
-        StackColour::new(&self.stack, self.light.clone(), self.arguments.look.view())
+    fn color(&self) -> miette::Result<StackColor> {
+        StackColor::new(&self.stack, self.light.clone(), self.arguments.look.view())
             .map_err(miette::Report::from)
-            .wrap_err("a colour needs data from 380 to 780 nm")
+            .wrap_err("a color needs data from 380 to 780 nm")
     }
 
     /// The layer of --vary, counted from 0.
@@ -355,7 +355,7 @@ impl<'a> Film<'a> {
 
     fn match_by(&self) -> MatchBy {
         match self.arguments.match_by {
-            MatchByName::Colour => MatchBy::Colour,
+            MatchByName::Color => MatchBy::Color,
             MatchByName::Chromaticity => MatchBy::Chromaticity,
         }
     }

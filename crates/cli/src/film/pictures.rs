@@ -69,13 +69,13 @@ pub(crate) fn write(film: &Film) -> miette::Result<()> {
 fn plot(film: &Film) -> miette::Result<Plot> {
     let wavelengths_nm = film.wavelengths_nm(1)?;
     let powers = film.powers(&film.renderer()?, &film.stack.sampled(&wavelengths_nm)?)?;
-    // A stack that is known outside visible light alone has curves, but no colours.
-    let colour = film.colour().ok();
+    // A stack that is known outside visible light alone has curves, but no colors.
+    let color = film.color().ok();
     let thicknesses = film.stack.thicknesses_nm();
     let curve = |(&angle, powers): (&Angle, Vec<_>)| Curve {
         angle,
         powers,
-        colour: colour.as_ref().map(|colour| colour.at(thicknesses, angle)),
+        color: color.as_ref().map(|color| color.at(thicknesses, angle)),
     };
     Ok(Plot {
         title: film.title(),
@@ -102,11 +102,7 @@ fn chart(film: &Film) -> miette::Result<Chart> {
         angles: range_of_angles(&film.angles)?,
         exposure_ev: film.exposure_ev,
     };
-    Ok(Chart::new(
-        &film.colour()?,
-        film.stack.thicknesses_nm(),
-        &of,
-    ))
+    Ok(Chart::new(&film.color()?, film.stack.thicknesses_nm(), &of))
 }
 
 /// Layer 1, from 0 to 1000 nm, or to twice its thickness.

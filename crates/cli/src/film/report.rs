@@ -1,4 +1,4 @@
-//! What the colour hangs on: matches, tolerances, sensitivities.
+//! What the color hangs on: matches, tolerances, sensitivities.
 
 use super::spectra::{described, seen};
 use super::swatch::swatch;
@@ -6,7 +6,7 @@ use super::{Film, Vary, Wanted};
 use crate::print;
 use miette::miette;
 use pellicle::coating::{
-    self, Angle, Match, MatchBy, MatchPlace, Matching, Quantiles, StackColour, Tolerance,
+    self, Angle, Match, MatchBy, MatchPlace, Matching, Quantiles, StackColor, Tolerance,
 };
 use pellicle::colorimetry::srgb;
 use std::fmt::Write;
@@ -27,15 +27,15 @@ pub(crate) fn print(film: &Film) -> miette::Result<()> {
             trials: arguments.trials,
             seed: arguments.seed,
         };
-        let colour = film.colour()?;
+        let color = film.color()?;
         for &angle in &film.angles {
-            reports.push(tolerance(film, &colour, angle, errors)?);
+            reports.push(tolerance(film, &color, angle, errors)?);
         }
     }
     if arguments.sensitivity {
-        let colour = film.colour()?;
+        let color = film.color()?;
         for &angle in &film.angles {
-            reports.push(sensitivity(film, &colour, angle)?);
+            reports.push(sensitivity(film, &color, angle)?);
         }
     }
     for (index, report) in reports.iter().enumerate() {
@@ -57,7 +57,7 @@ fn matches(film: &Film, wanted: &Wanted, vary: &Vary) -> miette::Result<String> 
     };
     if film.match_by() == MatchBy::Chromaticity && wanted.xyz[1] <= 0.0 {
         return Err(miette!(
-            help = "leave --match-by out, or ask for a colour",
+            help = "leave --match-by out, or ask for a color",
             "--match-by chromaticity: black has no chromaticity"
         ));
     }
@@ -70,7 +70,7 @@ fn matches(film: &Film, wanted: &Wanted, vary: &Vary) -> miette::Result<String> 
         by: film.match_by(),
     };
     let found = coating::matches(
-        &film.colour()?,
+        &film.color()?,
         film.stack.thicknesses_nm(),
         *angle,
         &matching,
@@ -97,7 +97,7 @@ fn matches(film: &Film, wanted: &Wanted, vary: &Vary) -> miette::Result<String> 
     {
         let _ = writeln!(
             text,
-            "the colour does not depend on this layer: ΔE2000 {:.3} at any of these thicknesses, {}",
+            "the color does not depend on this layer: ΔE2000 {:.3} at any of these thicknesses, {}",
             only.delta_e,
             code(only)
         );
@@ -105,7 +105,7 @@ fn matches(film: &Film, wanted: &Wanted, vary: &Vary) -> miette::Result<String> 
     }
     let _ = writeln!(
         text,
-        "{:>4} {:>14} {:>10} {:>9}  colour",
+        "{:>4} {:>14} {:>10} {:>9}  color",
         "", "thickness / nm", "ΔE2000", "shown at"
     );
     for (index, found) in found.iter().take(MOST_MATCHES).enumerate() {
@@ -131,7 +131,7 @@ fn line_of_match(number: usize, found: &Match) -> String {
     )
 }
 
-/// The colour of a match: swatch and code.
+/// The color of a match: swatch and code.
 fn code(found: &Match) -> String {
     let codes = srgb::linear_from_xyz(found.xyz).map(srgb::to_u8);
     format!("{}{}", swatch(codes), hex(codes))
@@ -143,12 +143,12 @@ fn hex([r, g, b]: [u8; 3]) -> String {
 
 fn tolerance(
     film: &Film,
-    colour: &StackColour,
+    color: &StackColor,
     angle: Angle,
     errors: Tolerance,
 ) -> miette::Result<String> {
     let thicknesses = film.stack.thicknesses_nm();
-    let spread = coating::tolerance(colour, thicknesses, angle, errors)
+    let spread = coating::tolerance(color, thicknesses, angle, errors)
         .map_err(|error| miette!("--tolerance: {error}"))?;
     let mut text = format!(
         "at {}°, thicknesses off by {} % (standard deviation), {} trials, seed {}\n",
@@ -193,9 +193,9 @@ fn layer_name(film: &Film, layer: usize) -> String {
     format!("{} {}", layer + 1, film.stack.layers()[layer].label())
 }
 
-fn sensitivity(film: &Film, colour: &StackColour, angle: Angle) -> miette::Result<String> {
+fn sensitivity(film: &Film, color: &StackColor, angle: Angle) -> miette::Result<String> {
     let thicknesses = film.stack.thicknesses_nm();
-    let found = coating::sensitivity(colour, thicknesses, angle);
+    let found = coating::sensitivity(color, thicknesses, angle);
     let design_nm = film.arguments.design;
     let at_design = film
         .stack
@@ -204,7 +204,7 @@ fn sensitivity(film: &Film, colour: &StackColour, angle: Angle) -> miette::Resul
     let mut text = format!(
         "at {}°: {}\n",
         angle.degrees(),
-        described(film, &found.colour)
+        described(film, &found.color)
     );
     if found.layers.is_empty() {
         return Err(miette!(
@@ -228,7 +228,7 @@ fn sensitivity(film: &Film, colour: &StackColour, angle: Angle) -> miette::Resul
             .arguments
             .look
             .view()
-            .polarisation
+            .polarization
             .of(at_design[0][layer].reflectance);
         let _ = writeln!(
             text,

@@ -3,8 +3,8 @@
 use super::swatch::swatch;
 use super::{Film, Format};
 use crate::print;
-use pellicle::coating::{Angle, Colour, Model, Powers, Sampled, Side, absorptance};
-use pellicle::optics::{Complex64, Polarised};
+use pellicle::coating::{Angle, Color, Model, Powers, Sampled, Side, absorptance};
+use pellicle::optics::{Complex64, Polarized};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -21,9 +21,9 @@ struct AtAngle {
     angle: Angle,
     powers: Vec<Powers>,
     /// At each wavelength of each layer; empty where it was not asked for.
-    absorptances: Vec<Vec<Polarised>>,
+    absorptances: Vec<Vec<Polarized>>,
     /// `None` where the stack's data do not cover visible light.
-    colour: Option<Colour>,
+    color: Option<Color>,
 }
 
 /// Computes and prints.
@@ -41,7 +41,7 @@ impl<'a> Spectra<'a> {
         let sampled = film.stack.sampled(&film.wavelengths_nm(10)?)?;
         let renderer = film.renderer()?;
         let powers = film.powers(&renderer, &sampled)?;
-        let colour = film.colour().ok();
+        let color = film.color().ok();
         let thicknesses = film.stack.thicknesses_nm();
         let at_angle = |(&angle, powers): (&Angle, Vec<Powers>)| AtAngle {
             angle,
@@ -51,7 +51,7 @@ impl<'a> Spectra<'a> {
             } else {
                 Vec::new()
             },
-            colour: colour.as_ref().map(|colour| colour.at(thicknesses, angle)),
+            color: color.as_ref().map(|color| color.at(thicknesses, angle)),
         };
         let angles = film.angles.iter().zip(powers).map(at_angle).collect();
         Ok(Self {
@@ -66,7 +66,7 @@ impl<'a> Spectra<'a> {
     fn rows<'b>(
         &'b self,
         at: &'b AtAngle,
-    ) -> impl Iterator<Item = (f64, &'b Powers, &'b [Polarised])> {
+    ) -> impl Iterator<Item = (f64, &'b Powers, &'b [Polarized])> {
         let numbered = self.sampled.wavelengths_nm().iter().enumerate();
         numbered.map(|(w, &nm)| {
             let absorptances = at.absorptances.get(w).map_or(&[][..], Vec::as_slice);
@@ -100,10 +100,10 @@ impl<'a> Spectra<'a> {
             for (nm, powers, absorptances) in self.rows(at) {
                 let (r, t) = (powers.reflectance, powers.transmittance);
                 // Two beams have no absorptance.
-                let a = is_exact.then(|| absorptance(*powers).unpolarised());
+                let a = is_exact.then(|| absorptance(*powers).unpolarized());
                 let _ = write!(text, "{nm:>9}");
-                let layers = absorptances.iter().map(|a| a.unpolarised());
-                let figures = [r.s, r.p, r.unpolarised(), t.s, t.p, t.unpolarised()];
+                let layers = absorptances.iter().map(|a| a.unpolarized());
+                let figures = [r.s, r.p, r.unpolarized(), t.s, t.p, t.unpolarized()];
                 for figure in figures.into_iter().chain(a).chain(layers) {
                     // A rounding of 0 is shown without a sign.
                     let _ = write!(text, " {:>9.6}", (figure * 1e6).round() / 1e6 + 0.0);
@@ -116,10 +116,10 @@ impl<'a> Spectra<'a> {
 
     fn heading(&self, at: &AtAngle) -> String {
         let angle = format!("{}°", at.angle.degrees());
-        let Some(colour) = at.colour else {
-            return format!("{angle}: no colour, the data do not cover 380 to 780 nm");
+        let Some(color) = at.color else {
+            return format!("{angle}: no color, the data do not cover 380 to 780 nm");
         };
-        format!("{angle}: {}", described(self.film, &colour))
+        format!("{angle}: {}", described(self.film, &color))
     }
 
     fn csv(&self) -> String {
@@ -154,7 +154,7 @@ impl<'a> Spectra<'a> {
         };
         let layers: Vec<Value> = self.sampled.layers().iter().map(|l| complex(l)).collect();
         let mut value = json!({
-            "about": "power reflectance R and transmittance T (into the substrate) of a stack of thin films for s and p polarised light; \
+            "about": "power reflectance R and transmittance T (into the substrate) of a stack of thin films for s and p polarized light; \
                       index n + ik, k >= 0 absorbs; wavelengths in vacuum",
             "program": concat!("pellicle ", env!("CARGO_PKG_VERSION")),
             "backend": self.backend,
@@ -186,7 +186,7 @@ impl<'a> Spectra<'a> {
         });
         if !at.absorptances.is_empty() {
             let of_layer = |layer: usize| {
-                let column = |of: &dyn Fn(&Polarised) -> f64| -> Vec<f64> {
+                let column = |of: &dyn Fn(&Polarized) -> f64| -> Vec<f64> {
                     at.absorptances
                         .iter()
                         .map(|layers| of(&layers[layer - 1]) + 0.0)
@@ -196,17 +196,17 @@ impl<'a> Spectra<'a> {
             };
             value["layers"] = self.layers().map(of_layer).collect();
         }
-        if let Some(colour) = at.colour {
-            let lab = colour.lab();
-            value["colour"] = json!({
+        if let Some(color) = at.color {
+            let lab = color.lab();
+            value["color"] = json!({
                 "seen": seen(self.film),
                 "illuminant": self.film.light.name(),
                 "observer": self.film.arguments.look.observer.name(),
-                "XYZ": colour.xyz,
+                "XYZ": color.xyz,
                 "Lab": [lab.l, lab.a, lab.b],
                 "exposure_ev": self.film.exposure_ev,
-                "linear_srgb": colour.linear_srgb(self.film.exposure_ev),
-                "srgb": colour.hex(self.film.exposure_ev),
+                "linear_srgb": color.linear_srgb(self.film.exposure_ev),
+                "srgb": color.hex(self.film.exposure_ev),
             });
         }
         value
@@ -221,20 +221,20 @@ pub(crate) fn seen(film: &Film) -> &'static str {
     }
 }
 
-/// A colour in a line: swatch, code, CIELAB, how it is looked at.
-pub(crate) fn described(film: &Film, colour: &Colour) -> String {
-    let lab = colour.lab();
+/// A color in a line: swatch, code, CIELAB, how it is looked at.
+pub(crate) fn described(film: &Film, color: &Color) -> String {
+    let lab = color.lab();
     format!(
         "{}{}  L* {:.2}  a* {:.2}  b* {:.2}  ({} under {}{}{})",
-        swatch(colour.srgb8(film.exposure_ev)),
-        colour.hex(film.exposure_ev),
+        swatch(color.srgb8(film.exposure_ev)),
+        color.hex(film.exposure_ev),
         lab.l,
         lab.a,
         lab.b,
         seen(film),
         film.light.name(),
         exposure(film.exposure_ev),
-        if colour.is_in_srgb(film.exposure_ev) {
+        if color.is_in_srgb(film.exposure_ev) {
             ""
         } else {
             "; sRGB clips it"

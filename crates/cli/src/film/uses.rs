@@ -17,7 +17,7 @@ impl Arguments {
         let asked = self.wavelengths.iter().flat_map(|list| list.0.iter());
         let design = self.sensitivity.then_some(&self.design);
         let visible = match self.wavelengths {
-            Some(_) if self.shows_no_colour() => &[][..],
+            Some(_) if self.shows_no_color() => &[][..],
             _ => &[380.0, 780.0],
         };
         let used = asked.chain(design).chain(visible);
@@ -26,8 +26,8 @@ impl Arguments {
         })
     }
 
-    /// CSV has no colours.
-    pub(super) fn shows_no_colour(&self) -> bool {
+    /// CSV has no colors.
+    pub(super) fn shows_no_color(&self) -> bool {
         self.format == Some(Format::Csv) && self.plot.is_none() && self.chart.is_none()
     }
 
@@ -55,7 +55,7 @@ impl Arguments {
             (
                 "--wavelengths",
                 self.wavelengths.is_some() && !spectra_or_plot,
-                "R and T, printed or with --plot; colours are sums from 380 to 780 nm",
+                "R and T, printed or with --plot; colors are sums from 380 to 780 nm",
             ),
             (
                 "--absorptance",

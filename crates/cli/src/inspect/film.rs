@@ -137,7 +137,7 @@ impl KnownScene {
     }
 
     fn seen(&self, inspection: &Inspection, probe: &Probe) -> miette::Result<FilmSeen> {
-        let place = probe.region.centre();
+        let place = probe.region.center();
         let seen = seen::seen(&self.file.description, &self.scene, &self.directory, place);
         let seen = seen.map_err(|problems| {
             let said: Vec<String> = problems.iter().map(ToString::to_string).collect();

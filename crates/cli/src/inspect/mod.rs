@@ -14,11 +14,11 @@ use pellicle::color::{Probe, Region, probe};
 use pellicle::spectra::SpectralImage;
 use std::path::PathBuf;
 
-/// What a spectral image holds: spectrum, noise and colour of pixels and regions, and the film that they show.
+/// What a spectral image holds: spectrum, noise and color of pixels and regions, and the film that they show.
 ///
 /// Without --at and --region it is the mean of the whole image. A film is looked for where --scene tells the scene that was
 /// rendered, which knows the film and the angle at each pixel, or where --film tells a stack. The nearest thicknesses are those
-/// whose spectrum has the same shape, and those of the same colour, up to a scale; what is left is told with them.
+/// whose spectrum has the same shape, and those of the same color, up to a scale; what is left is told with them.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The spectral image (.exr)
@@ -29,7 +29,7 @@ pub(crate) struct Arguments {
     /// A rectangle of pixels, whose mean is taken; can be repeated
     #[arg(long, value_name = "X,Y,WIDTH,HEIGHT", value_parser = region)]
     region: Vec<Region>,
-    /// Stops by which colours are shown brighter [default: those of the file]
+    /// Stops by which colors are shown brighter [default: those of the file]
     #[arg(long, value_name = "EV", allow_hyphen_values = true)]
     exposure: Option<f64>,
     /// How the figures are printed

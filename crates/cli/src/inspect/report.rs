@@ -13,7 +13,7 @@ use std::fmt::Write;
 /// The most thicknesses that are told.
 const MOST_FITS: usize = 3;
 
-/// The colour of a place.
+/// The color of a place.
 pub(super) struct Seen {
     /// Y = 1 for the display's white.
     xyz: [f64; 3],
@@ -59,7 +59,7 @@ impl Inspection<'_> {
         }
         for place in &self.places {
             text.push('\n');
-            self.colour(&mut text, place);
+            self.color(&mut text, place);
             if let Some(film) = &place.film {
                 film.describe(&mut text);
             }
@@ -72,7 +72,7 @@ impl Inspection<'_> {
         print::result(text.trim_end())
     }
 
-    fn colour(&self, text: &mut String, place: &Place) {
+    fn color(&self, text: &mut String, place: &Place) {
         let (seen, probe) = (self.seen(place), &place.probe);
         let [r, g, b] = seen.codes;
         let _ = writeln!(
@@ -137,7 +137,7 @@ impl Inspection<'_> {
         }
         text.push('\n');
         for band in 0..self.image.bands().count() {
-            let _ = write!(text, "{:>9.2}", self.image.bands().centre_nm(band));
+            let _ = write!(text, "{:>9.2}", self.image.bands().center_nm(band));
             for place in &self.places {
                 let band = band as usize;
                 let _ = write!(text, " {:>13.6e}", place.probe.radiance[band]);
@@ -160,7 +160,7 @@ impl Inspection<'_> {
             let _ = write!(text, ",radiance_{name},deviation_{name}");
         }
         for band in 0..self.image.bands().count() {
-            let _ = write!(text, "\n{}", self.image.bands().centre_nm(band));
+            let _ = write!(text, "\n{}", self.image.bands().center_nm(band));
             for place in &self.places {
                 let (band, probe) = (band as usize, &place.probe);
                 let _ = write!(text, ",{:.9e},", probe.radiance[band]);
@@ -174,8 +174,8 @@ impl Inspection<'_> {
 
     pub(super) fn print_json(&self) -> miette::Result<()> {
         let bands = self.image.bands();
-        let centres: Vec<f64> = (0..bands.count())
-            .map(|band| bands.centre_nm(band))
+        let centers: Vec<f64> = (0..bands.count())
+            .map(|band| bands.center_nm(band))
             .collect();
         let value = json!({
             "about": "means over bands and regions; deviation is the standard deviation of the mean by the renderer's noise; \
@@ -188,7 +188,7 @@ impl Inspection<'_> {
             "notes": self.metadata.notes,
             "units": self.metadata.emissive_units,
             "range_nm": [bands.min_nm(), bands.max_nm()],
-            "centres_nm": centres,
+            "centers_nm": centers,
             "exposure_ev": self.exposure_ev,
             "places": self.places.iter().map(|place| self.json_of(place)).collect::<Vec<_>>(),
         });
@@ -269,7 +269,7 @@ impl Fitted {
             "        {:<10} {:>14} {:>8} {:>9} {:>8} {:>10}",
             "nearest", "thickness / nm", "±", "residual", "ΔE2000", "of lamp"
         );
-        for (name, found) in [("by shape", &fits.by_shape), ("by colour", &fits.by_colour)] {
+        for (name, found) in [("by shape", &fits.by_shape), ("by color", &fits.by_color)] {
             for (index, fit) in found.iter().take(MOST_FITS).enumerate() {
                 let name = if index == 0 { name } else { "" };
                 text.push_str(&line(name, fit));
@@ -328,7 +328,7 @@ impl Fitted {
             "residual_of_lamp": self.fits.as_ref().map(|fits| fits.of_lamp),
             "residual_of_noise": self.fits.as_ref().and_then(|fits| fits.of_noise),
             "by_shape": self.fits.as_ref().map(|fits| all(&fits.by_shape)),
-            "by_colour": self.fits.as_ref().map(|fits| all(&fits.by_colour)),
+            "by_color": self.fits.as_ref().map(|fits| all(&fits.by_color)),
         })
     }
 }

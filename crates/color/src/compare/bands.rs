@@ -9,7 +9,7 @@ use super::CompareError;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BandDifference {
     /// The wavelength in the middle of the band, nm.
-    pub centre_nm: f64,
+    pub center_nm: f64,
     /// Mean radiance of the first image.
     pub reference_mean: f64,
     /// Root mean square difference.
@@ -71,7 +71,7 @@ pub fn bands(
     let grid = reference.bands();
     let sums = sums(reference, test);
     let of_band =
-        |(band, sums): (u32, &Sums)| sums.difference(grid.centre_nm(band), pixels, knows_noise);
+        |(band, sums): (u32, &Sums)| sums.difference(grid.center_nm(band), pixels, knows_noise);
     Ok((0..).zip(&sums).map(of_band).collect())
 }
 
@@ -124,14 +124,14 @@ impl Sums {
         self.variance += variance;
     }
 
-    fn difference(&self, centre_nm: f64, pixels: usize, knows_noise: bool) -> BandDifference {
+    fn difference(&self, center_nm: f64, pixels: usize, knows_noise: bool) -> BandDifference {
         let count = self.count as f64;
         let noise = Noise {
             rmse: (self.variance / count).sqrt(),
             bias_sigmas: self.difference / self.variance.sqrt(),
         };
         BandDifference {
-            centre_nm,
+            center_nm,
             reference_mean: self.reference / count,
             rmse: (self.squared / count).sqrt(),
             bias: self.difference / count,
@@ -161,7 +161,7 @@ mod tests {
         let test = image([[1.1, 2.0], [3.3, 4.0]], 0.03);
         let found = bands(&reference, &test).unwrap();
         let first = found[0];
-        assert_eq!((first.centre_nm, first.reference_mean), (480.0, 2.0));
+        assert_eq!((first.center_nm, first.reference_mean), (480.0, 2.0));
         assert!((first.bias - 0.2).abs() < 1e-6);
         assert!((first.rmse - 0.05_f64.sqrt()).abs() < 1e-6);
         let noise = first.noise.unwrap();

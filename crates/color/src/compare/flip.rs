@@ -14,7 +14,7 @@ use super::{CompareError, Picture};
 /// Pixels per degree of a 0.7 m wide screen of 3840 pixels at 0.7 m, the paper's default.
 const PIXELS_PER_DEGREE: f64 = 3840.0 * PI / 180.0;
 
-/// The difference at each pixel: ΔE_c^(1 − ΔE_f), of colour and of features (equation 15 of the paper). What the display does
+/// The difference at each pixel: ΔE_c^(1 − ΔE_f), of color and of features (equation 15 of the paper). What the display does
 /// not show is clipped, and what is not a number is black.
 ///
 /// # Errors
@@ -26,11 +26,11 @@ pub fn flip(reference: &Picture, test: &Picture) -> Result<Vec<f64>, CompareErro
     let seen = planes.each_ref().map(|p| as_seen(p, size));
     let features = planes.each_ref().map(|p| features(&p[0], size));
     let at = |i: usize| {
-        let colour = redistributed(hyab(seen[0][i], seen[1][i]).powf(0.7));
+        let color = redistributed(hyab(seen[0][i], seen[1][i]).powf(0.7));
         let edge = (features[0][i][0] - features[1][i][0]).abs();
         let point = (features[0][i][1] - features[1][i][1]).abs();
         let feature = (edge.max(point) / 2.0_f64.sqrt()).sqrt();
-        colour.powf(1.0 - feature)
+        color.powf(1.0 - feature)
     };
     let pixels = reference.linear().len();
     Ok((0..pixels).into_par_iter().map(at).collect())
@@ -42,7 +42,7 @@ fn relative_xyz(linear: [f64; 3]) -> [f64; 3] {
     [xyz[0] / white[0], xyz[1] / white[1], xyz[2] / white[2]]
 }
 
-/// The planes Y, Cx and Cz of a linearised L*a*b* (section 4.1.1).
+/// The planes Y, Cx and Cz of a linearized L*a*b* (section 4.1.1).
 fn opponent_planes(picture: &Picture) -> [Vec<f64>; 3] {
     let pixels: Vec<[f64; 3]> = picture
         .shown()
@@ -160,7 +160,7 @@ fn linear_of_opponents([y, cx, cz]: [f64; 3]) -> [f64; 3] {
     linear_from_xyz(xyz).map(|v| v.clamp(0.0, 1.0))
 }
 
-/// CIE L*a*b*, a* and b* times L*/100: colours of dark pixels count less (equation 7).
+/// CIE L*a*b*, a* and b* times L*/100: colors of dark pixels count less (equation 7).
 fn hunt_lab(linear: [f64; 3]) -> [f64; 3] {
     const DELTA: f64 = 6.0 / 29.0;
     let [x, y, z] = relative_xyz(linear).map(|t| {
@@ -254,7 +254,7 @@ mod tests {
         assert!((found - 1.0).abs() < 1e-9, "{found}");
     }
 
-    /// Without features FLIP is the redistributed colour difference alone: 100 in L* is 100^0.7 = 25.1189 of the largest
+    /// Without features FLIP is the redistributed color difference alone: 100 in L* is 100^0.7 = 25.1189 of the largest
     /// 203.36^0.7 = 41.28, thus 0.95 + 0.05 (25.1189 − 16.51) / 24.77 = 0.9674.
     #[test]
     fn black_and_white_differ_as_computed_by_hand() {
@@ -280,7 +280,7 @@ mod tests {
         assert!(little > 0.02 && much > 4.0 * little, "{little} {much}");
     }
 
-    /// The same difference of colour counts more where it makes an edge (section 4.2).
+    /// The same difference of color counts more where it makes an edge (section 4.2).
     #[test]
     fn a_feature_raises_the_difference() {
         let base = filled([100; 3]);

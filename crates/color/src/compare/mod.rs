@@ -1,4 +1,4 @@
-//! How far two images are from each other: per band, in colour, and to the eye.
+//! How far two images are from each other: per band, in color, and to the eye.
 //!
 //! ```text
 //! two spectral images -> bands      RMSE, bias and noise of each band

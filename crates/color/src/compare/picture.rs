@@ -1,4 +1,4 @@
-//! Pictures to compare, and how far their colours are apart.
+//! Pictures to compare, and how far their colors are apart.
 
 use std::fs::File;
 use std::hash::{DefaultHasher, Hasher};
@@ -97,7 +97,7 @@ impl Picture {
         &self.linear
     }
 
-    /// What the file says its colours are, where that is not sRGB. Files with different ICC profiles have different tags.
+    /// What the file says its colors are, where that is not sRGB. Files with different ICC profiles have different tags.
     pub fn tag(&self) -> Option<&str> {
         self.tag.as_deref()
     }
@@ -172,7 +172,7 @@ fn too_large() -> ::png::DecodingError {
     ::png::DecodingError::LimitsExceeded
 }
 
-/// What a file says its colours are, where that is not sRGB. Of several chunks the one that a reader must heed first
+/// What a file says its colors are, where that is not sRGB. Of several chunks the one that a reader must heed first
 /// (PNG specification, third edition, section 4.3).
 fn tag(info: &::png::Info<'_>) -> Option<String> {
     if let Some(points) = &info.coding_independent_code_points {
@@ -196,8 +196,8 @@ fn icc_tag(profile: &[u8]) -> String {
     format!("an ICC profile{name} of {bytes} bytes (hash {hash:016x})")
 }
 
-/// The colour difference ΔE₀₀ at each pixel, CIELAB under the white of sRGB, colours beyond the display included; not a number
-/// where a colour is none.
+/// The color difference ΔE₀₀ at each pixel, CIELAB under the white of sRGB, colors beyond the display included; not a number
+/// where a color is none.
 ///
 /// # Errors
 /// When the pictures differ in size or are empty.
@@ -237,27 +237,27 @@ pub fn psnr(reference: &Picture, test: &Picture) -> Result<f64, CompareError> {
 mod tests {
     use super::*;
 
-    fn grey(code: u8) -> Picture {
+    fn gray(code: u8) -> Picture {
         Picture::of_codes(&RgbImage8::new(4, 3, vec![code; 36]).unwrap())
     }
 
     #[test]
     fn equal_pictures_do_not_differ() {
-        let grey = grey(90);
-        assert_eq!(delta_e(&grey, &grey).unwrap(), [0.0; 12]);
-        assert_eq!(psnr(&grey, &grey).unwrap(), f64::INFINITY);
+        let gray = gray(90);
+        assert_eq!(delta_e(&gray, &gray).unwrap(), [0.0; 12]);
+        assert_eq!(psnr(&gray, &gray).unwrap(), f64::INFINITY);
     }
 
     /// Black and white differ by 1 in every code, and by L* = 100 with S_L = 1 + 0.015·0/√20 = 1.
     #[test]
     fn black_and_white_differ_as_computed_by_hand() {
-        let (black, white) = (grey(0), grey(255));
+        let (black, white) = (gray(0), gray(255));
         assert!(psnr(&black, &white).unwrap().abs() < 1e-9);
         for found in delta_e(&black, &white).unwrap() {
             assert!((found - 100.0).abs() < 1e-6, "{found}");
         }
         // A step of one code: 20 log10(255).
-        let step = psnr(&grey(100), &grey(101)).unwrap();
+        let step = psnr(&gray(100), &gray(101)).unwrap();
         assert!((step - 48.130_803_6).abs() < 1e-6, "{step}");
     }
 
@@ -266,27 +266,27 @@ mod tests {
         let mut codes = vec![100; 36];
         codes[3 * 7] = 140;
         let other = Picture::of_codes(&RgbImage8::new(4, 3, codes).unwrap());
-        let found = delta_e(&grey(100), &other).unwrap();
+        let found = delta_e(&gray(100), &other).unwrap();
         for (index, value) in found.into_iter().enumerate() {
             assert_eq!(value > 5.0, index == 7, "{index}: {value}");
         }
-        assert!(psnr(&grey(100), &other).unwrap() < 40.0);
+        assert!(psnr(&gray(100), &other).unwrap() < 40.0);
     }
 
     #[test]
     fn what_is_not_a_number_is_told() {
-        let mut other = grey(100);
+        let mut other = gray(100);
         other.linear[2] = [f64::NAN, 0.1, f64::INFINITY];
-        let found = delta_e(&grey(100), &other).unwrap();
+        let found = delta_e(&gray(100), &other).unwrap();
         assert!(found[2].is_nan() && found[3] == 0.0);
-        assert!(psnr(&grey(100), &other).unwrap().is_finite());
-        assert!(super::super::flip(&grey(100), &other).unwrap()[0].is_finite());
+        assert!(psnr(&gray(100), &other).unwrap().is_finite());
+        assert!(super::super::flip(&gray(100), &other).unwrap()[0].is_finite());
     }
 
     #[test]
     fn pictures_of_different_sizes_do_not_compare() {
         let wide = Picture::of_codes(&RgbImage8::new(6, 2, vec![0; 36]).unwrap());
-        assert!(delta_e(&grey(0), &wide).is_err() && psnr(&grey(0), &wide).is_err());
+        assert!(delta_e(&gray(0), &wide).is_err() && psnr(&gray(0), &wide).is_err());
     }
 
     #[test]

@@ -13,8 +13,8 @@ use super::DevelopError;
 pub enum SceneWhite {
     /// This chromaticity x, y.
     Chromaticity([f64; 2]),
-    /// That of the image's mean XYZ, which is grey for a world that is grey on average (Buchsbaum, A spatial processor model for
-    /// object colour perception, J. Franklin Inst. 310, 1 (1980)). A picture of one strong colour is no such world.
+    /// That of the image's mean XYZ, which is gray for a world that is gray on average (Buchsbaum, A spatial processor model for
+    /// object color perception, J. Franklin Inst. 310, 1 (1980)). A picture of one strong color is no such world.
     Mean,
 }
 

@@ -7,7 +7,7 @@
 //!   -> glare        light that the eye scatters, or a star about what is too bright
 //!   -> LinearImage  red, green and blue of the display, linear, of any size          -> rgb_exr
 //!   -> gamut        what the display cannot show becomes what it can
-//!   -> quantise     black level taken off, response of each channel, codes, dither  -> png
+//!   -> quantize     black level taken off, response of each channel, codes, dither  -> png
 //! ```
 //!
 //! [`DevelopSettings`] switches each step; one that is off costs nothing. Arithmetic is `f64`. Between the steps a pixel is kept
@@ -17,7 +17,7 @@ pub mod adaptation;
 pub mod exposure;
 pub mod gamut;
 pub mod glare;
-pub mod quantise;
+pub mod quantize;
 
 use colorimetry::matrix::{product, times};
 use colorimetry::{Display, Matrix3};
@@ -29,11 +29,11 @@ pub use adaptation::{SceneWhite, WhiteAdaptation};
 pub use exposure::Exposure;
 pub use gamut::{Gamut, GamutMapping, GamutReport};
 pub use glare::{EyeGlare, Glare, StarGlare, Vision};
-pub use quantise::Code;
+pub use quantize::Code;
 
 use crate::{RgbImage8, XyzImage};
 
-/// How a picture is developed. The default is the sRGB display at 0 EV, out of gamut colours mapped, all else off.
+/// How a picture is developed. The default is the sRGB display at 0 EV, out of gamut colors mapped, all else off.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DevelopSettings {
     /// The display that the picture is for.
@@ -43,15 +43,15 @@ pub struct DevelopSettings {
     pub observer: Observer,
     /// How much light becomes its white.
     pub exposure: Exposure,
-    /// From which white to its own; `None` leaves colours as the light makes them.
+    /// From which white to its own; `None` leaves colors as the light makes them.
     pub adaptation: Option<WhiteAdaptation>,
     /// What bright light does to its surroundings.
     pub glare: Glare,
-    /// What becomes of colours that it cannot show.
+    /// What becomes of colors that it cannot show.
     pub gamut: GamutMapping,
     /// Mark the pixels that it cannot show with stripes.
     pub gamut_warning: bool,
-    /// Spread the rounding to codes over neighbouring pixels.
+    /// Spread the rounding to codes over neighboring pixels.
     pub dither: bool,
 }
 
@@ -88,10 +88,10 @@ impl DevelopSettings {
 #[non_exhaustive]
 pub enum DevelopError {
     /// The glare depends on wavelength, and the image has no spectra.
-    #[error("this glare depends on wavelength, and the image is one of colours without spectra")]
+    #[error("this glare depends on wavelength, and the image is one of colors without spectra")]
     NoSpectrum,
-    /// The scene's white is to be the mean colour of an image that has none.
-    #[error("the mean colour of the image is no white to adapt from: it is black, or no number")]
+    /// The scene's white is to be the mean color of an image that has none.
+    #[error("the mean color of the image is no white to adapt from: it is black, or no number")]
     NoWhite,
     /// The exposure is to follow the image, which has no light.
     #[error(
@@ -178,7 +178,7 @@ impl LinearImage {
     }
 }
 
-/// Develops an image into 8-bit codes: [`expose`], [`gamut::map`], [`quantise::codes`].
+/// Develops an image into 8-bit codes: [`expose`], [`gamut::map`], [`quantize::codes`].
 ///
 /// # Errors
 /// As [`expose`].
@@ -188,7 +188,7 @@ pub fn develop<'a>(
 ) -> Result<RgbImage8, DevelopError> {
     let mut linear = expose(image, settings)?;
     gamut::map(&mut linear, settings);
-    Ok(quantise::codes(&linear, &settings.display, settings.dither))
+    Ok(quantize::codes(&linear, &settings.display, settings.dither))
 }
 
 /// Exposes, adapts and adds glare: the picture in the display's red, green and blue, before anything is cut off.

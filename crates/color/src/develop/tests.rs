@@ -3,24 +3,24 @@ use crate::xyz::equal_energy_luminance;
 use colorimetry::display::Response;
 use colorimetry::srgb;
 
-/// An image of one row with these colours, XYZ relative to the white's Y = 1.
-pub(crate) fn row(colours: &[[f64; 3]]) -> XyzImage {
-    let xyz = colours
+/// An image of one row with these colors, XYZ relative to the white's Y = 1.
+pub(crate) fn row(colors: &[[f64; 3]]) -> XyzImage {
+    let xyz = colors
         .iter()
-        .map(|colour| colour.map(|v| (v * equal_energy_luminance()) as f32));
-    XyzImage::new(colours.len() as u32, 1, xyz.collect()).unwrap()
+        .map(|color| color.map(|v| (v * equal_energy_luminance()) as f32));
+    XyzImage::new(colors.len() as u32, 1, xyz.collect()).unwrap()
 }
 
 const D65: [f64; 3] = [0.3127 / 0.3290, 1.0, (1.0 - 0.3127 - 0.3290) / 0.3290];
 
-fn developed(colours: &[[f64; 3]], stops: f64) -> RgbImage8 {
-    develop(&row(colours), &DevelopSettings::srgb(stops)).unwrap()
+fn developed(colors: &[[f64; 3]], stops: f64) -> RgbImage8 {
+    develop(&row(colors), &DevelopSettings::srgb(stops)).unwrap()
 }
 
 #[test]
-fn white_black_and_grey_get_their_codes() {
-    let grey = D65.map(|v| v * srgb::from_u8(119));
-    let picture = developed(&[D65, [0.0; 3], grey], 0.0);
+fn white_black_and_gray_get_their_codes() {
+    let gray = D65.map(|v| v * srgb::from_u8(119));
+    let picture = developed(&[D65, [0.0; 3], gray], 0.0);
     assert_eq!((picture.width(), picture.height()), (3, 1));
     assert_eq!(picture.data(), [255, 255, 255, 0, 0, 0, 119, 119, 119]);
     assert_eq!(picture.pixel(2, 0), Some([119; 3]));
@@ -41,7 +41,7 @@ fn what_is_not_a_number_is_black_and_stays_alone() {
     assert_eq!(picture.pixel(1, 0), Some([255; 3]));
 }
 
-/// Every code of each channel alone, of greys, and mixed ones.
+/// Every code of each channel alone, of grays, and mixed ones.
 fn all_codes() -> Vec<[u8; 3]> {
     let alone = (0..=255).flat_map(|v| [[v, 0, 0], [0, v, 0], [0, 0, v], [v; 3]]);
     let mixed = (0..4096_u32).map(|i| i.wrapping_mul(2_654_435_761).to_le_bytes());
@@ -63,11 +63,11 @@ fn every_code_comes_back() {
         let codes: Vec<[u8; 3]> = all_codes()
             .into_iter()
             .filter(|codes| codes.iter().all(is_own))
-            // In XYZ of 24 bits, colours fifty times as bright as the white have no room for the darkest codes of PQ.
+            // In XYZ of 24 bits, colors fifty times as bright as the white have no room for the darkest codes of PQ.
             .filter(|codes| display.peak() == 1.0 || codes.iter().all(|code| *code == codes[0]))
             .collect();
         assert!(codes.len() > 250, "{name} {}", codes.len());
-        let colours: Vec<[f64; 3]> = codes
+        let colors: Vec<[f64; 3]> = codes
             .iter()
             .map(|codes| {
                 let light = std::array::from_fn(|i| {
@@ -96,7 +96,7 @@ fn every_code_comes_back() {
                     dither,
                     ..DevelopSettings::new(display.clone())
                 };
-                let picture = develop(&row(&colours), &settings).unwrap();
+                let picture = develop(&row(&colors), &settings).unwrap();
                 let expected: Vec<u8> = codes.iter().flatten().copied().collect();
                 let wrong = picture
                     .data()

@@ -13,7 +13,7 @@ const GAUSS: [(f64, f64); 3] = [
 ];
 
 impl Knots {
-    /// Those of lamps, and the whole nanometres, which are those of the observers.
+    /// Those of lamps, and the whole nanometers, which are those of the observers.
     pub(super) fn new(grid: &BandGrid, lamps: &[&Tabulated]) -> Self {
         let (first, last) = (grid.min_nm().ceil() as i32, grid.max_nm() as i32);
         let mut knots: Vec<f64> = (first..=last).map(f64::from).collect();
@@ -26,7 +26,7 @@ impl Knots {
     }
 
     /// Calls `add` with wavelengths and what they stand for. The sum is exact for what is a polynomial of degree 5 between
-    /// neighbouring knots: a lamp times a parabola times an observer has degree 4.
+    /// neighboring knots: a lamp times a parabola times an observer has degree 4.
     pub(super) fn integrate(&self, from_nm: f64, to_nm: f64, mut add: impl FnMut(f64, f64)) {
         let first = self.0.partition_point(|&nm| nm <= from_nm);
         let inner = self.0[first..].iter().copied();

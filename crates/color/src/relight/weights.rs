@@ -10,13 +10,13 @@ use crate::xyz::equal_energy_luminance;
 ///
 /// Light of a lamp S(λ) reaches a pixel as L(λ) = T(λ) S(λ), with T the transfer of the scene (all reflections and
 /// transmissions along all paths), which no lamp changes. A band holds the mean of T S over its width. T is reconstructed
-/// from these means: within a band as the parabola whose means, weighted by S, over the band itself and its two neighbours are
+/// from these means: within a band as the parabola whose means, weighted by S, over the band itself and its two neighbors are
 /// those of the image (at the ends of the grid, over the last three bands), so that the band's own value is kept exactly.
 /// Then X′ = Kₘ ∫ T S′ x̄ dλ and L′ᵦ = ∫ᵦ T S′ dλ / Δλ. All of this is linear in the bands: one weight per band for
 /// each of X, Y, Z and for each band.
 ///
 /// It is exact where T is a parabola over three bands. Where S is no guide (its lines lie too close to a common edge of two
-/// bands, or a neighbour is dark) the parabola is a line, or a constant; where it gives no light at all a band stays dark.
+/// bands, or a neighbor is dark) the parabola is a line, or a constant; where it gives no light at all a band stays dark.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BandWeights {
     /// X, Y, Z per band.
@@ -89,7 +89,7 @@ impl BandWeights {
             let mut own = [0.0; 3];
             knots.integrate(from_nm, to_nm, |nm, d_nm| {
                 let light = after(nm) * d_nm;
-                let shares = stencil.shares((nm - grid.centre_nm(band as u32)) / grid.width_nm());
+                let shares = stencil.shares((nm - grid.center_nm(band as u32)) / grid.width_nm());
                 let seen = observer.at(nm);
                 for (i, share) in shares.into_iter().enumerate() {
                     let power = before.means.get(stencil.first + i).copied();
@@ -188,7 +188,7 @@ fn ends_of(grid: &BandGrid, band: usize) -> (f64, f64) {
 struct Lamp {
     /// Its mean over each band.
     means: Vec<f64>,
-    /// Its centroid in each band, in band widths from the first band's centre.
+    /// Its centroid in each band, in band widths from the first band's center.
     centroids: Vec<f64>,
     /// The mean square of the place about the centroid, likewise.
     spreads: Vec<f64>,
@@ -200,7 +200,7 @@ impl Lamp {
             let (from_nm, to_nm) = ends_of(grid, band as usize);
             let mut moments = [0.0; 3];
             knots.integrate(from_nm, to_nm, |nm, d_nm| {
-                let place = (nm - grid.centre_nm(band)) / grid.width_nm();
+                let place = (nm - grid.center_nm(band)) / grid.width_nm();
                 let power = power(nm) * d_nm / grid.width_nm();
                 let powers = [power, power * place, power * place * place];
                 moments = std::array::from_fn(|i| moments[i] + powers[i]);
@@ -244,7 +244,7 @@ impl Lamp {
         if !(first..first + 3).all(|i| is_lit(&i)) || !apart(first) || !apart(first + 1) {
             return None;
         }
-        // Means of 1, u and u², with u from the band's centre.
+        // Means of 1, u and u², with u from the band's center.
         let rows: [[f64; 3]; 3] = std::array::from_fn(|i| {
             let u = self.centroids[first + i] - band as f64;
             [1.0, u, u * u + self.spreads[first + i]]
@@ -255,7 +255,7 @@ impl Lamp {
         })
     }
 
-    /// The line through the band's weighted mean with the slope of its neighbours, or towards the one that is lit.
+    /// The line through the band's weighted mean with the slope of its neighbors, or toward the one that is lit.
     fn line(&self, band: usize, first: usize) -> Option<Stencil> {
         let pairs = [
             (first, first + 2),
@@ -301,7 +301,7 @@ impl Stencil {
         }
     }
 
-    /// The share of each of the bands in the transfer at `u`, in band widths from the band's centre.
+    /// The share of each of the bands in the transfer at `u`, in band widths from the band's center.
     fn shares(&self, u: f64) -> [f64; 3] {
         let [one, slope, bend] = &self.coefficients;
         std::array::from_fn(|i| one[i] + u * (slope[i] + u * bend[i]))

@@ -56,7 +56,7 @@ const UNIFORM_WITHIN: f64 = 1e-3;
 /// A band that reaches beyond [`BandGrid::LIMITS_NM`] is left out unless some of it is in this range, where people see.
 const SEEN_NM: (f64, f64) = (380.0, 780.0);
 
-/// The layer of the emissive, unpolarised radiance: the first Stokes component.
+/// The layer of the emissive, unpolarized radiance: the first Stokes component.
 const PREFIX: &str = "S0.";
 
 /// A wavelength as the layout writes it: `385,000000nm`.
@@ -64,16 +64,16 @@ pub(super) fn wavelength_text(nm: f64) -> String {
     format!("{nm:.6}nm").replace('.', ",")
 }
 
-/// The band whose centre this text is, as [`wavelength_text`] writes it.
+/// The band whose center this text is, as [`wavelength_text`] writes it.
 pub(super) fn band_of_text(text: &str, grid: &BandGrid) -> Option<usize> {
     let nm: f64 = text.strip_suffix("nm")?.replace(',', ".").parse().ok()?;
     let band = ((nm - grid.min_nm()) / grid.width_nm()).floor();
     // A cast takes what is negative or not a number to 0, and the text then differs.
     let band = (band as u32).min(grid.count() - 1);
-    (wavelength_text(grid.centre_nm(band)) == text).then_some(band as usize)
+    (wavelength_text(grid.center_nm(band)) == text).then_some(band as usize)
 }
 
-/// The name of the channel of the band with centre `nm`.
+/// The name of the channel of the band with center `nm`.
 pub(super) fn radiance_name(nm: f64) -> String {
     format!("{PREFIX}{}", wavelength_text(nm))
 }
@@ -101,23 +101,23 @@ impl Bands {
         places: &[Place],
         range_nm: Option<(f64, f64)>,
     ) -> Result<Self, BandLayoutError> {
-        let centres: Vec<f64> = places.iter().map(|place| place.centre_nm()).collect();
-        if let Some(pair) = centres.windows(2).find(|p| p[1] - p[0] <= 1e-9 * p[1]) {
+        let centers: Vec<f64> = places.iter().map(|place| place.center_nm()).collect();
+        if let Some(pair) = centers.windows(2).find(|p| p[1] - p[0] <= 1e-9 * p[1]) {
             return Err(BandLayoutError::Duplicate(pair[1]));
         }
         if let Some((min_nm, max_nm)) = range_nm {
-            let grid = BandGrid::new(min_nm, max_nm, centres.len() as u32)?;
-            return match furthest_off(&grid, &centres) {
+            let grid = BandGrid::new(min_nm, max_nm, centers.len() as u32)?;
+            return match furthest_off(&grid, &centers) {
                 Some((nm, off_nm)) => Err(BandLayoutError::NotUniform { nm, off_nm }),
                 None => Ok(Self {
                     grid,
-                    used: 0..centres.len(),
+                    used: 0..centers.len(),
                     shares: None,
                     ends_nm: None,
                 }),
             };
         }
-        let edges = edges(places, &centres)?;
+        let edges = edges(places, &centers)?;
         let used = used(&edges)?;
         Self::of_edges(&edges[used.start..=used.end], used)
     }
@@ -127,8 +127,8 @@ impl Bands {
         let cut: Vec<f64> = edges.iter().map(|nm| nm.clamp(low, high)).collect();
         let (first, last) = (cut[0], cut[cut.len() - 1]);
         let grid = BandGrid::new(first, last, used.len() as u32)?;
-        let centres: Vec<f64> = cut.windows(2).map(|e| f64::midpoint(e[0], e[1])).collect();
-        if furthest_off(&grid, &centres).is_none() {
+        let centers: Vec<f64> = cut.windows(2).map(|e| f64::midpoint(e[0], e[1])).collect();
+        if furthest_off(&grid, &centers).is_none() {
             return Ok(Self {
                 grid,
                 used,
@@ -209,24 +209,24 @@ impl Bands {
     }
 }
 
-/// A centre that is not on the grid, and how far off it is.
-fn furthest_off(grid: &BandGrid, centres: &[f64]) -> Option<(f64, f64)> {
+/// A center that is not on the grid, and how far off it is.
+fn furthest_off(grid: &BandGrid, centers: &[f64]) -> Option<(f64, f64)> {
     let off = (0..)
-        .zip(centres)
-        .map(|(band, &nm)| (nm, (nm - grid.centre_nm(band)).abs()));
+        .zip(centers)
+        .map(|(band, &nm)| (nm, (nm - grid.center_nm(band)).abs()));
     let off = off.max_by(|a, b| a.1.total_cmp(&b.1))?;
     (off.1 > UNIFORM_WITHIN * grid.width_nm()).then_some(off)
 }
 
-/// Where bands end. Between two centres that is half way, as the layout has it for channels without a response curve; the first
+/// Where bands end. Between two centers that is half way, as the layout has it for channels without a response curve; the first
 /// and the last band are symmetrical.
-fn edges(places: &[Place], centres: &[f64]) -> Result<Vec<f64>, BandLayoutError> {
+fn edges(places: &[Place], centers: &[f64]) -> Result<Vec<f64>, BandLayoutError> {
     if let [Place::Range(first, _), ..] = places {
         let mut edges = vec![*first];
         for place in places {
             let (low, high) = match *place {
                 Place::Range(low, high) => (low, high),
-                Place::Centre(nm) => (nm, nm),
+                Place::Center(nm) => (nm, nm),
             };
             let end_nm = edges[edges.len() - 1];
             // Names have two decimals.
@@ -238,14 +238,14 @@ fn edges(places: &[Place], centres: &[f64]) -> Result<Vec<f64>, BandLayoutError>
         }
         return Ok(edges);
     }
-    let &[first, second, ..] = centres else {
-        let nm = centres.first().copied().unwrap_or_default();
+    let &[first, second, ..] = centers else {
+        let nm = centers.first().copied().unwrap_or_default();
         return Err(BandLayoutError::SingleBand(nm));
     };
-    let (before, last) = (centres[centres.len() - 2], centres[centres.len() - 1]);
+    let (before, last) = (centers[centers.len() - 2], centers[centers.len() - 1]);
     let mut edges = vec![first - 0.5 * (second - first)];
     edges.extend(
-        centres
+        centers
             .windows(2)
             .map(|pair| f64::midpoint(pair[0], pair[1])),
     );
@@ -288,8 +288,8 @@ mod tests {
     use super::*;
     use crate::spectral_exr::wavelength::spectral_channel;
 
-    fn centres(nm: &[f64]) -> Vec<Place> {
-        nm.iter().copied().map(Place::Centre).collect()
+    fn centers(nm: &[f64]) -> Vec<Place> {
+        nm.iter().copied().map(Place::Center).collect()
     }
 
     fn uniform(min_nm: f64, max_nm: f64, used: std::ops::Range<usize>) -> Bands {
@@ -308,11 +308,11 @@ mod tests {
     }
 
     #[test]
-    fn even_centres_give_their_grid_back() {
+    fn even_centers_give_their_grid_back() {
         for count in [2, 31, 40, 48, 61] {
             let grid = BandGrid::visible(count).unwrap();
             let place = |band| {
-                let name = radiance_name(grid.centre_nm(band));
+                let name = radiance_name(grid.center_nm(band));
                 spectral_channel(&name).unwrap().unwrap().1
             };
             let places: Vec<Place> = (0..count).map(place).collect();
@@ -331,16 +331,16 @@ mod tests {
     fn bands_beyond_vision_are_left_out() {
         // 300 to 900 nm by 5: half of 357.5 to 362.5 nm is beyond the limit, and people do not see it.
         let nm: Vec<f64> = (60..=180).map(|i| 5.0 * f64::from(i)).collect();
-        let found = Bands::new(&centres(&nm), None).unwrap();
+        let found = Bands::new(&centers(&nm), None).unwrap();
         assert_eq!(found, uniform(362.5, 827.5, 13..106));
-        let beyond = Bands::new(&centres(&[900.0, 910.0]), None);
+        let beyond = Bands::new(&centers(&[900.0, 910.0]), None);
         assert!(matches!(beyond, Err(BandLayoutError::OutOfRange { .. })));
     }
 
     /// A wide band that reaches into the violet is cut at the limit, and keeps its radiance there.
     #[test]
     fn a_wide_band_is_cut_at_the_limit() {
-        let found = Bands::new(&centres(&[350.0, 450.0, 550.0]), None).unwrap();
+        let found = Bands::new(&centers(&[350.0, 450.0, 550.0]), None).unwrap();
         assert_eq!((found.grid.min_nm(), found.grid.max_nm()), (360.0, 600.0));
         assert_eq!(found.grid.count(), 6);
         let shares = found.shares.unwrap();
@@ -352,7 +352,7 @@ mod tests {
     #[test]
     fn uneven_bands_keep_their_integral() {
         let nm = [400.0, 410.0, 430.0, 435.0, 500.0];
-        let found = Bands::new(&centres(&nm), None).unwrap();
+        let found = Bands::new(&centers(&nm), None).unwrap();
         let edges = [395.0, 405.0, 420.0, 432.5, 467.5, 532.5];
         let values = [1.0, 3.0, 0.5, 7.0, 2.0];
         let integral: f64 = (0..5).map(|i| values[i] * (edges[i + 1] - edges[i])).sum();
@@ -383,7 +383,7 @@ mod tests {
             (360.0, 5.0, 95, (382.5, 777.5, 79), None),
         ] {
             let nm: Vec<f64> = (0..count).map(|i| from + step * f64::from(i)).collect();
-            let found = Bands::new(&centres(&nm), None).unwrap();
+            let found = Bands::new(&centers(&nm), None).unwrap();
             let places = found.used.len() - 1;
             let found = found.reaching_the_ends().unwrap();
             let (low, high, bands) = grid;
@@ -392,13 +392,13 @@ mod tests {
             assert_eq!((found.grid.count(), found.ends_nm), (bands, ends));
             // Each band is the one of the file that it lies in, or the nearest.
             for (band, shares) in (0..).zip(found.shares.unwrap()) {
-                let place = (found.grid.centre_nm(band) - nm[found.used.start]) / step;
+                let place = (found.grid.center_nm(band) - nm[found.used.start]) / step;
                 let place = place.round().clamp(0.0, places as f64) as usize;
                 assert_eq!(shares, [(place, 1.0)], "{band}");
             }
         }
         let whole: Vec<f64> = (0..40).map(|i| 385.0 + 10.0 * f64::from(i)).collect();
-        let whole = Bands::new(&centres(&whole), None).unwrap();
+        let whole = Bands::new(&centers(&whole), None).unwrap();
         assert_eq!(whole.clone().reaching_the_ends().unwrap(), whole);
     }
 
@@ -417,7 +417,7 @@ mod tests {
     #[test]
     fn bands_that_make_no_grid_are_refused() {
         use BandLayoutError as E;
-        let of = |nm: &[f64], range| Bands::new(&centres(nm), range);
+        let of = |nm: &[f64], range| Bands::new(&centers(nm), range);
         assert_eq!(of(&[400.0, 400.0, 410.0], None), Err(E::Duplicate(400.0)));
         assert_eq!(of(&[400.0], None), Err(E::SingleBand(400.0)));
         assert!(of(&[400.0], Some((395.0, 405.0))).is_ok());

@@ -49,7 +49,7 @@ impl Content {
     }
 }
 
-/// Name of the variance channel of the band with centre `nm`.
+/// Name of the variance channel of the band with center `nm`.
 fn variance_name(nm: f64) -> String {
     format!("{OWN}{VARIANCE}{}", wavelength_text(nm))
 }
@@ -92,7 +92,7 @@ impl Channels {
         let mut named: Vec<(String, Content)> = plain().collect();
         named.extend(lights::channels(light_groups, grid));
         for band in 0..grid.count() {
-            let (nm, index) = (grid.centre_nm(band), band as usize);
+            let (nm, index) = (grid.center_nm(band), band as usize);
             named.push((radiance_name(nm), Content::Radiance(index)));
             if variance {
                 named.push((variance_name(nm), Content::Variance(index)));

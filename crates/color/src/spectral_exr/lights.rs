@@ -33,7 +33,7 @@ pub(super) fn channels(groups: &[LightGroup], grid: &BandGrid) -> Vec<(String, C
             add(format!("{LAYER}{name}.{xyz}"), LightContent::Xyz(i));
         }
         for band in 0..grid.count() {
-            let wavelength = wavelength_text(grid.centre_nm(band));
+            let wavelength = wavelength_text(grid.center_nm(band));
             let content = LightContent::Radiance(band as usize);
             add(format!("{LAYER}{name}.{wavelength}"), content);
         }

@@ -5,7 +5,7 @@
 //!
 //! | channel | type | content |
 //! | --- | --- | --- |
-//! | `S0.385,000000nm` … | float | mean radiance over the band with this centre, W m⁻² sr⁻¹ nm⁻¹ |
+//! | `S0.385,000000nm` … | float | mean radiance over the band with this center, W m⁻² sr⁻¹ nm⁻¹ |
 //! | `R`, `G`, `B` | float | developed linear sRGB for viewers, not clipped |
 //! | `pellicle.cieX`, `.cieY`, `.cieZ` | float | CIE 1931 XYZ of the pixel, cd/m² |
 //! | `pellicle.samples` | uint | number of samples of the pixel |
@@ -28,7 +28,7 @@
 //! Light groups have channels where there are several; the sum of their bands is `S0.…`. Lamps are told in any case.
 //!
 //! Our own channels stand in a layer of their own, so that neither an ordinary viewer nor a reader
-//! of the layout takes them for colour, depth or spectrum.
+//! of the layout takes them for color, depth or spectrum.
 //!
 //! Files of other origin are read too: wavelengths with any prefix of the SI or as frequencies, in any order, with a comma or a
 //! dot; bands of different widths; half floats; several parts; units that are a scale away; reflectances (`T.550nm`) and bands

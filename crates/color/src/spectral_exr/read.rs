@@ -13,14 +13,14 @@ use super::metadata::Metadata;
 use crate::XyzImage;
 use crate::exr_file::{self, Context, each_block, guard};
 
-mod colours;
+mod colors;
 mod pixels;
 mod plan;
 mod reflectances;
 
 pub use crate::exr_file::guard::MAX_BYTES;
 
-use colours::Colours;
+use colors::Colors;
 use pixels::Pixels;
 use plan::Plan;
 
@@ -90,7 +90,7 @@ pub enum ReadExrError {
 
 /// Reads a spectral file: one written by [`write`](super::write()), or one of other origin in the same layout.
 ///
-/// The bands of others may have any widths. Each is taken as constant from half way to its neighbour on one side to half way
+/// The bands of others may have any widths. Each is taken as constant from half way to its neighbor on one side to half way
 /// on the other, as the layout has it; where the widths differ, the bands are read onto even ones as narrow as the narrowest
 /// (1024 at most), which keeps the integral over wavelength. Bands beyond 360 to 830 nm are left out, and one that reaches over
 /// an end from where people see (380 to 780 nm) is cut there.
@@ -104,7 +104,7 @@ pub enum ReadExrError {
 /// 780 nm, the reflectance stays what it is at the ends (CIE 15:2018, 7.2.3).
 ///
 /// The image is the file's display window: pixels of it that the data window lacks are black and have 0 samples, those outside are
-/// cut off. Polarised components, light emitted at another wavelength than it was absorbed at,
+/// cut off. Polarized components, light emitted at another wavelength than it was absorbed at,
 /// and other channels are passed over. What was assumed or changed is in the metadata's notes.
 ///
 /// # Errors
@@ -127,7 +127,7 @@ pub fn read_size(path: &Path) -> Result<([u32; 2], BandGrid), ReadExrError> {
     Ok(([side(width), side(height)], plan.grid))
 }
 
-/// Reads the colours of a spectral file, without its spectra: the same XYZ as [`read`] gives, sooner.
+/// Reads the colors of a spectral file, without its spectra: the same XYZ as [`read`] gives, sooner.
 ///
 /// # Errors
 /// As [`read`].
@@ -135,11 +135,11 @@ pub fn read_xyz(path: &Path) -> Result<(XyzImage, Metadata), ReadExrError> {
     let (reader, plan, metadata) = open(path)?;
     let context = Context { path };
     let image = if plan.has_xyz() {
-        let mut colours = Colours::new(&plan);
+        let mut colors = Colors::new(&plan);
         each_block(&context, reader, plan.layer, |block, channels| {
-            colours.insert(&plan, block, channels)
+            colors.insert(&plan, block, channels)
         })?;
-        colours.finish(&plan)
+        colors.finish(&plan)
     } else {
         Some(XyzImage::from(&pixels(&context, reader, plan)?))
     };

@@ -34,7 +34,7 @@ const PREFIXES: [(&str, i32); 22] = [
 /// What a spectral channel holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Quantity {
-    /// Emissive and unpolarised, the first Stokes component: `S0.550nm`.
+    /// Emissive and unpolarized, the first Stokes component: `S0.550nm`.
     Radiance,
     /// Reflective: `T.550nm`.
     Reflectance,
@@ -45,17 +45,17 @@ pub(super) enum Quantity {
 /// Where in the spectrum a channel lies, nm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Place {
-    /// A band around this wavelength; its neighbours tell how wide it is.
-    Centre(f64),
+    /// A band around this wavelength; its neighbors tell how wide it is.
+    Center(f64),
     /// A band from one wavelength to another.
     Range(f64, f64),
 }
 
 impl Place {
     /// The middle of the band.
-    pub(super) fn centre_nm(self) -> f64 {
+    pub(super) fn center_nm(self) -> f64 {
         match self {
-            Self::Centre(nm) => nm,
+            Self::Center(nm) => nm,
             Self::Range(low, high) => f64::midpoint(low, high),
         }
     }
@@ -65,7 +65,7 @@ impl Place {
 pub(super) fn spectral_channel(name: &str) -> Option<Result<(Quantity, Place), BandLayoutError>> {
     if let Some(text) = name.strip_prefix("S0.") {
         return match wavelength_nm(text) {
-            Some(nm) => Some(Ok((Quantity::Radiance, Place::Centre(nm)))),
+            Some(nm) => Some(Ok((Quantity::Radiance, Place::Center(nm)))),
             // Light that is absorbed at one wavelength and emitted at another.
             None if is_reradiation(text) => None,
             None => Some(Err(BandLayoutError::NotAWavelength(name.to_owned()))),
@@ -80,8 +80,8 @@ pub(super) fn spectral_channel(name: &str) -> Option<Result<(Quantity, Place), B
         (low < high).then_some((Quantity::Range, Place::Range(low, high)))
     };
     let found = bare
-        .map(|nm| (Quantity::Radiance, Place::Centre(nm)))
-        .or_else(|| reflective().map(|nm| (Quantity::Reflectance, Place::Centre(nm))))
+        .map(|nm| (Quantity::Radiance, Place::Center(nm)))
+        .or_else(|| reflective().map(|nm| (Quantity::Reflectance, Place::Center(nm))))
         .or_else(range)?;
     Some(Ok(found))
 }
@@ -136,7 +136,7 @@ pub(super) fn number(text: &str) -> Option<f64> {
 /// A unit is written like `mW.cm^-2.sr^-1.um^-1`. The layout's own example, `W.m^-2.sr^-1`, which most programs write, says
 /// nothing of the wavelength and means per nm.
 pub(super) fn radiance_scale(unit: &str) -> Option<f64> {
-    let (mut exponent, mut metres, mut watts, mut steradians) = (0_i32, 0_i32, 0_i32, 0_i32);
+    let (mut exponent, mut meters, mut watts, mut steradians) = (0_i32, 0_i32, 0_i32, 0_i32);
     for factor in unit.split(['.', '*', ' ', '\u{b7}']) {
         let (base, power) = match factor.split_once('^') {
             Some((base, power)) => (base, power.parse::<i32>().ok()?),
@@ -148,7 +148,7 @@ pub(super) fn radiance_scale(unit: &str) -> Option<f64> {
         }
         let (prefix, count) = match base.strip_suffix('W') {
             Some(prefix) => (prefix, &mut watts),
-            None => (base.strip_suffix('m')?, &mut metres),
+            None => (base.strip_suffix('m')?, &mut meters),
         };
         *count = count.checked_add(power)?;
         let mut known = PREFIXES.iter().filter(|(name, _)| *name == prefix);
@@ -158,7 +158,7 @@ pub(super) fn radiance_scale(unit: &str) -> Option<f64> {
         };
         exponent = exponent.checked_add(ten.checked_mul(power)?)?;
     }
-    match (watts, metres, steradians) {
+    match (watts, meters, steradians) {
         (1, -3, -1) => Some(power_of_ten(exponent - 9)),
         (1, -2, -1) => Some(power_of_ten(exponent)),
         _ => None,
@@ -171,7 +171,7 @@ mod tests {
 
     fn radiance_at(name: &str) -> f64 {
         match spectral_channel(name) {
-            Some(Ok((Quantity::Radiance, Place::Centre(nm)))) => nm,
+            Some(Ok((Quantity::Radiance, Place::Center(nm)))) => nm,
             other => panic!("{name}: {other:?}"),
         }
     }
@@ -203,7 +203,7 @@ mod tests {
 
     #[test]
     fn other_kinds_of_channel_are_told_apart() {
-        let reflectance = Some(Ok((Quantity::Reflectance, Place::Centre(450.0))));
+        let reflectance = Some(Ok((Quantity::Reflectance, Place::Center(450.0))));
         assert_eq!(spectral_channel("T.450nm"), reflectance);
         assert_eq!(spectral_channel("T450nm"), reflectance);
         let range = Some(Ok((Quantity::Range, Place::Range(400.0, 410.5))));

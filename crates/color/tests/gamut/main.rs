@@ -1,4 +1,4 @@
-//! Which space keeps hue: against what observers saw, and on interference colours that no display shows.
+//! Which space keeps hue: against what observers saw, and on interference colors that no display shows.
 
 use color::BandWeights;
 use color::develop::{Gamut, GamutMapping};
@@ -12,7 +12,7 @@ use pellicle_color as color;
 use spectra::BandGrid;
 use std::collections::BTreeMap;
 
-/// Colours seen in the same hue, by its name, and their white.
+/// Colors seen in the same hue, by its name, and their white.
 struct Loci {
     white: [f64; 3],
     hues: BTreeMap<&'static str, Vec<[f64; 3]>>,
@@ -87,9 +87,9 @@ fn spaces(white: [f64; 3]) -> [Space; 3] {
     ]
 }
 
-/// How far each colour moves, in ΔE₀₀, when it takes the mean hue of those seen alike.
-fn errors(space: &Space, colours: &[[f64; 3]], white: [f64; 3]) -> Vec<f64> {
-    let own: Vec<[f64; 3]> = colours.iter().map(|&xyz| (space.of_xyz)(xyz)).collect();
+/// How far each color moves, in ΔE₀₀, when it takes the mean hue of those seen alike.
+fn errors(space: &Space, colors: &[[f64; 3]], white: [f64; 3]) -> Vec<f64> {
+    let own: Vec<[f64; 3]> = colors.iter().map(|&xyz| (space.of_xyz)(xyz)).collect();
     let directions = own
         .iter()
         .map(|[_, a, b]| [a / a.hypot(*b), b / a.hypot(*b)]);
@@ -100,7 +100,7 @@ fn errors(space: &Space, colours: &[[f64; 3]], white: [f64; 3]) -> Vec<f64> {
         (space.to_xyz)([l, chroma * a, chroma * b])
     });
     let lab = |xyz| Lab::from_xyz(xyz, white);
-    let pairs = moved.zip(colours);
+    let pairs = moved.zip(colors);
     pairs
         .map(|(moved, &xyz)| delta_e_2000(lab(moved), lab(xyz)))
         .collect()
@@ -137,7 +137,7 @@ fn oklab_keeps_hue_best() {
         let found: usize = loci.hues.values().map(Vec::len).sum();
         assert_eq!(found, count);
         for (space, line) in spaces(loci.white).iter().zip(table) {
-            let of_hue = |colours: &Vec<[f64; 3]>| errors(space, colours, loci.white);
+            let of_hue = |colors: &Vec<[f64; 3]>| errors(space, colors, loci.white);
             let mut all: Vec<f64> = loci.hues.values().flat_map(of_hue).collect();
             let [mean, p95, max] = summary(&mut all);
             let blue = loci.hues.get("blue").map_or_else(String::new, |blue| {
@@ -160,7 +160,7 @@ fn films(index: f64) -> Vec<[f64; 3]> {
     let film = |thickness_nm: f64| {
         let radiance: Vec<f32> = (0..grid.count())
             .map(|band| {
-                let nm = grid.centre_nm(band);
+                let nm = grid.center_nm(band);
                 let f = 4.0 * r2 / (1.0 - r2).powi(2)
                     * (2.0 * std::f64::consts::PI * index * thickness_nm / nm)
                         .sin()
@@ -175,7 +175,7 @@ fn films(index: f64) -> Vec<[f64; 3]> {
 
 /// A judge that none of the mappings was made with: the hue angle of CIECAM16.
 #[test]
-fn interference_colours_keep_their_hue() {
+fn interference_colors_keep_their_hue() {
     let display = Display::named("srgb").unwrap();
     let gamut = Gamut::new(&display);
     let white = display.white_xyz().map(|v| 100.0 * v);

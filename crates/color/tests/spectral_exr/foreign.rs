@@ -165,7 +165,7 @@ fn the_first_part_with_radiances_is_read() {
         Layer::new((3, 2), attributes, Encoding::FAST_LOSSLESS, channels)
     };
     let layers = [
-        layer("colour", &["R", "G", "B"], 1.0),
+        layer("color", &["R", "G", "B"], 1.0),
         layer("reflectance", &["T.450nm", "T.460nm"], 2.0),
         layer("left", &["S0.450nm", "S0.460nm"], 3.0),
         layer("right", &["S0.450nm", "S0.460nm"], 4.0),

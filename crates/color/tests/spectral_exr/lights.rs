@@ -150,9 +150,9 @@ fn a_unit_that_is_a_scale_away_is_that_of_all_light() {
         1e-3,
     );
     check(found.radiance(), written.radiance(), 1e-3);
-    let (colours, _) = spectral_exr::read_xyz(&path).unwrap();
+    let (colors, _) = spectral_exr::read_xyz(&path).unwrap();
     check(
-        colours.xyz().as_flattened(),
+        colors.xyz().as_flattened(),
         written.xyz().as_flattened(),
         1e-3,
     );

@@ -22,7 +22,7 @@ fn what_is_written_is_read_again_to_the_bit() {
 }
 
 #[test]
-fn bands_that_are_no_whole_nanometres_keep_their_grid() {
+fn bands_that_are_no_whole_nanometers_keep_their_grid() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("image.exr");
     for grid in [
@@ -103,7 +103,7 @@ fn channels_and_attributes_are_those_of_the_layout() {
         .map(|c| c.name.to_string())
         .collect();
     let mut expected = vec!["B".to_owned(), "G".to_owned(), "R".to_owned()];
-    // Fichet, Pacanowski and Wilkie (2021), section 4: centres with a comma, unit nm.
+    // Fichet, Pacanowski and Wilkie (2021), section 4: centers with a comma, unit nm.
     expected.extend((0..40).map(|band| format!("S0.{},000000nm", 385 + 10 * band)));
     expected.extend(["cieX", "cieY", "cieZ", "samples"].map(|name| format!("pellicle.{name}")));
     expected.extend((0..40).map(|band| format!("pellicle.variance.{},000000nm", 385 + 10 * band)));
@@ -139,7 +139,7 @@ fn channels_and_attributes_are_those_of_the_layout() {
 }
 
 #[test]
-fn viewers_get_the_developed_colour() {
+fn viewers_get_the_developed_color() {
     use exr::prelude::read_first_flat_layer_from_file;
 
     let directory = tempfile::tempdir().unwrap();
@@ -188,7 +188,7 @@ fn a_failure_to_write_leaves_no_file() {
 }
 
 #[test]
-fn colours_alone_are_those_of_the_whole_image() {
+fn colors_alone_are_those_of_the_whole_image() {
     let directory = tempfile::tempdir().unwrap();
     let (path, image) = write_noisy(directory.path(), true);
     let (found, found_metadata) = spectral_exr::read_xyz(&path).unwrap();

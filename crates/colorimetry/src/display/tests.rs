@@ -1,6 +1,6 @@
 use super::*;
 
-/// M by name: from the primaries and whites of the standards with colour-science 0.4.7 (`normalised_primary_matrix`, numpy). The
+/// M by name: from the primaries and whites of the standards with colour-science 0.4.7 (`normalized_primary_matrix`, numpy). The
 /// same figures, to the digits that they print: W3C, CSS Color Module Level 4 (srgb, display_p3, adobe_rgb, bt2020), SMPTE EG
 /// 432-1:2010 (dci_p3, ten digits), C. Poynton, Frequently asked questions about color (1997; smpte_c, six digits).
 const PUBLISHED: [(&str, [[f64; 3]; 3]); 9] = [

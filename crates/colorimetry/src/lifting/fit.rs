@@ -1,4 +1,4 @@
-//! Finding the coefficients of a colour.
+//! Finding the coefficients of a color.
 
 use super::{SigmoidReflectance, place};
 use crate::chromaticity::xy_of_xyz;
@@ -14,14 +14,14 @@ use std::sync::OnceLock;
 const MOST_STEPS: u32 = 60;
 /// A residual below this, in linear sRGB, is none.
 const GOOD_ENOUGH: f64 = 1e-6;
-/// The start is a grey from this to 1 minus this.
+/// The start is a gray from this to 1 minus this.
 const DARKEST: f64 = 1e-3;
 /// Coefficients stay within this: a reflectance hardly changes beyond it.
 const LARGEST: f64 = 2000.0;
 
 /// What a reflectance is in linear sRGB: sums at 5 nm under D65.
 #[derive(Clone, Debug)]
-pub(super) struct Colours {
+pub(super) struct Colors {
     arch: Arch,
     /// t at each wavelength, filled up with places of no weight.
     places: Vec<f64>,
@@ -31,7 +31,7 @@ pub(super) struct Colours {
     half: [f64; 3],
 }
 
-/// A reflectance, its colour in linear sRGB, and the derivatives of that by the coefficients: a row for each colour.
+/// A reflectance, its color in linear sRGB, and the derivatives of that by the coefficients: a row for each color.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Known {
     pub(super) coefficients: [f64; 3],
@@ -42,10 +42,10 @@ pub(super) struct Known {
 /// A list is filled up to a multiple of this: of the lanes of every vector.
 const MOST_LANES: usize = 8;
 
-impl Colours {
+impl Colors {
     /// The one that all fits share.
     pub(super) fn shared() -> &'static Self {
-        static SHARED: OnceLock<Colours> = OnceLock::new();
+        static SHARED: OnceLock<Colors> = OnceLock::new();
         SHARED.get_or_init(Self::new)
     }
 
@@ -70,14 +70,14 @@ impl Colours {
             arch: Arch::new(),
             places: terms.iter().map(|(t, _)| *t).collect(),
             weights: std::array::from_fn(|index| list(index).collect()),
-            half: std::array::from_fn(|colour| 0.5 * list(colour).sum::<f64>()),
+            half: std::array::from_fn(|color| 0.5 * list(color).sum::<f64>()),
         }
     }
 
     /// What is to know of a reflectance.
     pub(super) fn known(&self, coefficients: [f64; 3]) -> Known {
         let sums = self.arch.dispatch(Sums {
-            colours: self,
+            colors: self,
             coefficients,
         });
         Known {
@@ -91,7 +91,7 @@ impl Colours {
 /// With x the quadratic: the sums of x/√(1 + x²) with the weights, and of its derivative by 2x, (1 + x²)^(−3/2) / 2, with the weights times
 /// 1, t and t².
 struct Sums<'a> {
-    colours: &'a Colours,
+    colors: &'a Colors,
     coefficients: [f64; 3],
 }
 
@@ -106,9 +106,9 @@ impl WithSimd for Sums<'_> {
     fn with_simd<S: Simd>(self, simd: S) -> [f64; 12] {
         let [c0, c1, c2] = self.coefficients.map(|c| simd.splat_f64s(c));
         let [one, half] = [1.0, 0.5].map(|x| simd.splat_f64s(x));
-        let (places, _) = S::as_simd_f64s(&self.colours.places);
+        let (places, _) = S::as_simd_f64s(&self.colors.places);
         let weights = self
-            .colours
+            .colors
             .weights
             .each_ref()
             .map(|list| S::as_simd_f64s(list).0);
@@ -119,8 +119,8 @@ impl WithSimd for Sums<'_> {
             let sine = simd.mul_f64s(x, cosine);
             let square = simd.mul_f64s(cosine, cosine);
             let slope = simd.mul_f64s(simd.mul_f64s(half, cosine), square);
-            for colour in 0..3 {
-                sums[colour] = simd.mul_add_e_f64s(weights[colour][i], sine, sums[colour]);
+            for color in 0..3 {
+                sums[color] = simd.mul_add_e_f64s(weights[color][i], sine, sums[color]);
             }
             for moment in 0..9 {
                 let sum = &mut sums[3 + moment];
@@ -131,12 +131,12 @@ impl WithSimd for Sums<'_> {
     }
 }
 
-/// The reflectance of a colour in \[0, 1\]³, by the method of Levenberg and Marquardt from a grey that is as bright.
-pub(super) fn fit(colours: &Colours, rgb: [f64; 3]) -> Fit {
+/// The reflectance of a color in \[0, 1\]³, by the method of Levenberg and Marquardt from a gray that is as bright.
+pub(super) fn fit(colors: &Colors, rgb: [f64; 3]) -> Fit {
     // S⁻¹(g) = (g − 1/2) / √(g (1 − g)), kept from the ends, where the derivatives vanish.
-    let grey = (rgb.iter().sum::<f64>() / 3.0).clamp(DARKEST, 1.0 - DARKEST);
-    let flat = [0.0, 0.0, (grey - 0.5) / (grey * (1.0 - grey)).sqrt()];
-    fit_from(colours, rgb, colours.known(flat))
+    let gray = (rgb.iter().sum::<f64>() / 3.0).clamp(DARKEST, 1.0 - DARKEST);
+    let flat = [0.0, 0.0, (gray - 0.5) / (gray * (1.0 - gray)).sqrt()];
+    fit_from(colors, rgb, colors.known(flat))
 }
 
 /// What a fit comes to.
@@ -145,12 +145,12 @@ pub(super) struct Fit {
     pub(super) reflectance: SigmoidReflectance,
     /// The last reflectance that was worked out, at most a short step from the result.
     pub(super) last: Known,
-    /// Whether it comes to the colour.
+    /// Whether it comes to the color.
     pub(super) is_good: bool,
 }
 
 /// The same from another start.
-pub(super) fn fit_from(colours: &Colours, rgb: [f64; 3], start: Known) -> Fit {
+pub(super) fn fit_from(colors: &Colors, rgb: [f64; 3], start: Known) -> Fit {
     let mut best = start;
     let mut error = residual(rgb, best.rgb);
     let mut before = f64::INFINITY;
@@ -170,7 +170,7 @@ pub(super) fn fit_from(colours: &Colours, rgb: [f64; 3], start: Known) -> Fit {
                 is_good: true,
             };
         }
-        let next = colours.known(next);
+        let next = colors.known(next);
         let next_error = residual(rgb, next.rgb);
         if squares(next_error) < squares(error) {
             before = squares(error);

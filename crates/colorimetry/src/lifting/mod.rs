@@ -1,13 +1,13 @@
-//! Smooth reflectances for RGB colours: "lifting".
+//! Smooth reflectances for RGB colors: "lifting".
 //!
 //! W. Jakob and J. Hanika, A Low-Dimensional Function Space for Efficient Spectral Upsampling, Computer Graphics Forum 38 (2),
 //! 2019: a reflectance is the sigmoid of a quadratic in wavelength,
 //!
 //! R(λ) = S(c₀ t² + c₁ t + c₂), S(x) = 1/2 + x / (2 √(1 + x²)) (equations 4 and 5), with t = (λ − 580 nm) / 200 nm here.
 //!
-//! It always lies between 0 and 1, and every colour of linear sRGB within \[0, 1\]³ has one. The authors tabulate coefficients
-//! and interpolate; here each colour's own are worked out by their method of fitting (section 4), which takes microseconds and is
-//! exact. A colour is what the reflectance has under D65 for the observer of 1931, and (1, 1, 1) is the perfect reflector's: greys
+//! It always lies between 0 and 1, and every color of linear sRGB within \[0, 1\]³ has one. The authors tabulate coefficients
+//! and interpolate; here each color's own are worked out by their method of fitting (section 4), which takes microseconds and is
+//! exact. A color is what the reflectance has under D65 for the observer of 1931, and (1, 1, 1) is the perfect reflector's: grays
 //! come out flat.
 //!
 //! ```
@@ -20,7 +20,7 @@
 
 mod fit;
 
-use fit::{Colours, Known, fit, fit_from};
+use fit::{Colors, Known, fit, fit_from};
 
 /// The sigmoid of a quadratic in wavelength: a smooth reflectance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -35,14 +35,14 @@ impl SigmoidReflectance {
     /// By how much λ grows from t = 0 to t = 1, nm.
     pub const HALF_RANGE_NM: f64 = 200.0;
 
-    /// The reflectance of a colour in linear sRGB. What lies outside \[0, 1\] is taken to the nearest end.
+    /// The reflectance of a color in linear sRGB. What lies outside \[0, 1\] is taken to the nearest end.
     pub fn of_linear_srgb(rgb: [f64; 3]) -> Self {
-        fit(Colours::shared(), within(rgb)).reflectance
+        fit(Colors::shared(), within(rgb)).reflectance
     }
 
-    /// Its colour in linear sRGB.
+    /// Its color in linear sRGB.
     pub fn linear_srgb(self) -> [f64; 3] {
-        Colours::shared().known(self.coefficients).rgb
+        Colors::shared().known(self.coefficients).rgb
     }
 
     /// The reflectance at a wavelength, from 0 to 1.
@@ -53,24 +53,24 @@ impl SigmoidReflectance {
     }
 }
 
-/// Reflectances of colours one after another, each found sooner where it is near the one before.
+/// Reflectances of colors one after another, each found sooner where it is near the one before.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Lifting {
-    /// The colour before, its reflectance, and where its fit ended.
+    /// The color before, its reflectance, and where its fit ended.
     before: Option<([f64; 3], SigmoidReflectance, Known)>,
 }
 
 impl Lifting {
-    /// The reflectance of the next colour in linear sRGB, like [`SigmoidReflectance::of_linear_srgb`]'s.
+    /// The reflectance of the next color in linear sRGB, like [`SigmoidReflectance::of_linear_srgb`]'s.
     pub fn next(&mut self, rgb: [f64; 3]) -> SigmoidReflectance {
-        let (colours, rgb) = (Colours::shared(), within(rgb));
+        let (colors, rgb) = (Colors::shared(), within(rgb));
         let near = match self.before {
             Some((before, reflectance, _)) if before == rgb => return reflectance,
-            Some((_, _, known)) => Some(fit_from(colours, rgb, known)),
+            Some((_, _, known)) => Some(fit_from(colors, rgb, known)),
             None => None,
         };
         let near = near.filter(|fit| fit.is_good);
-        let found = near.unwrap_or_else(|| fit(colours, rgb));
+        let found = near.unwrap_or_else(|| fit(colors, rgb));
         self.before = Some((rgb, found.reflectance, found.last));
         found.reflectance
     }
@@ -100,7 +100,7 @@ mod tests {
     use crate::tristimulus::{Rule, Weights};
     use spectra::Observer;
 
-    /// ΔE2000 between colours and what their reflectances have by sums at 1 nm, the largest over steps of 1/16 of the codes.
+    /// ΔE2000 between colors and what their reflectances have by sums at 1 nm, the largest over steps of 1/16 of the codes.
     fn largest_error(lift: impl Fn([f64; 3]) -> SigmoidReflectance) -> f64 {
         const STEPS: u32 = 16;
         let d65 = spectra::illuminant("D65").unwrap().data;
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn every_colour_of_srgb_comes_back() {
+    fn every_color_of_srgb_comes_back() {
         let error = largest_error(SigmoidReflectance::of_linear_srgb);
         assert!(error < 0.1, "{error}");
     }
@@ -147,11 +147,11 @@ mod tests {
     }
 
     #[test]
-    fn greys_are_flat_and_black_and_white_are_the_ends() {
-        for grey in [0.01, 0.2, 0.5, 0.9] {
-            let reflectance = SigmoidReflectance::of_linear_srgb([grey; 3]);
+    fn grays_are_flat_and_black_and_white_are_the_ends() {
+        for gray in [0.01, 0.2, 0.5, 0.9] {
+            let reflectance = SigmoidReflectance::of_linear_srgb([gray; 3]);
             for nm in [380.0, 550.0, 780.0] {
-                assert!((reflectance.at(nm) - grey).abs() < 1e-5, "{grey}");
+                assert!((reflectance.at(nm) - gray).abs() < 1e-5, "{gray}");
             }
         }
         for end in [0.0, 1.0] {
@@ -184,9 +184,9 @@ mod tests {
         }
     }
 
-    /// Small steps, leaps, repetitions and the ends: each colour comes back, whatever was before it.
+    /// Small steps, leaps, repetitions and the ends: each color comes back, whatever was before it.
     #[test]
-    fn colours_one_after_another_come_back() {
+    fn colors_one_after_another_come_back() {
         let step = |i: u32| 0.5 * f64::from(i) / 200.0;
         let near = (0..200).map(|i| [0.5, 0.45 - 0.8 * step(i), 0.05 + 0.7 * step(i)]);
         let leaps = (0..200).map(|i| [step(i * 37 % 200), 0.5, step(i * 91 % 200)]);

@@ -108,21 +108,23 @@ fn surrounding(shape: EnvironmentShape<'_>, tables: &mut Tables) -> layout::Emit
                 ..plain(layout::EMITTER_PICTURE)
             }
         }
-        EnvironmentShape::Disc { towards, height } => layout::Emitter {
-            axis: vec3(towards),
+        EnvironmentShape::DistantDisk { toward, height } => layout::Emitter {
+            axis: vec3(toward),
             edge_height: height as f32,
-            ..plain(layout::EMITTER_DISC)
+            ..plain(layout::EMITTER_DISTANT_DISK)
         },
     }
 }
 
-/// A light of a single direction at each place. A disc is a part of the surroundings.
+/// A light of a single direction at each place. A disk is a part of the surroundings.
 fn single_direction(shape: LightShape) -> layout::Emitter {
     match shape {
-        LightShape::Disc { towards, .. } | LightShape::Direction { towards } => layout::Emitter {
-            axis: vec3(towards),
-            ..plain(layout::EMITTER_DIRECTION)
-        },
+        LightShape::DistantDisk { toward, .. } | LightShape::Direction { toward } => {
+            layout::Emitter {
+                axis: vec3(toward),
+                ..plain(layout::EMITTER_DIRECTION)
+            }
+        }
         LightShape::Point { position } => layout::Emitter {
             position: vec3(position),
             ..plain(layout::EMITTER_POINT)

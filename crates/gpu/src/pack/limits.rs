@@ -21,7 +21,7 @@ pub(super) fn of(scene: &Scene) -> RecordLimits {
     // What a surface emits has a vertex of its own. Of a gradient a direction sees two parts, of which one stands for the segment that
     // escapes.
     let glowing = if glows(scene) { surfaces } else { 0 };
-    let vertices = surfaces + glowing + (discs(scene) << splits);
+    let vertices = surfaces + glowing + (disks(scene) << splits);
     RecordLimits {
         vertices,
         crossings: u32::max(crossings, 1),
@@ -76,11 +76,12 @@ fn crossings(scene: &Scene, segments: u32, splits: u32) -> u32 {
     (0..=splits).map(|i| of_path(1 + i) << i).max().unwrap_or(0)
 }
 
-/// Number of discs in the sky.
-fn discs(scene: &Scene) -> u32 {
+/// Number of disks in the sky.
+fn disks(scene: &Scene) -> u32 {
     let parts = scene.surroundings();
-    let is_disc = |part: &&EnvironmentPart| matches!(part.shape, EnvironmentShape::Disc { .. });
-    parts.iter().filter(is_disc).count() as u32
+    let is_distant_disk =
+        |part: &&EnvironmentPart| matches!(part.shape, EnvironmentShape::DistantDisk { .. });
+    parts.iter().filter(is_distant_disk).count() as u32
 }
 
 fn is_film(material: &Material) -> bool {

@@ -4,7 +4,7 @@ use super::surface::Passes;
 use crate::modules::RecordLimits;
 use scene::Scene;
 
-/// Passes of the two searches by which a direction towards a picture of the surroundings is drawn, among 1024 and 512.
+/// Passes of the two searches by which a direction toward a picture of the surroundings is drawn, among 1024 and 512.
 const SEARCHES: u64 = 1 + 10 + 1 + 9;
 
 /// A bound on the passes of all loops of one sample: those of tracing it (every segment and every film on the way to a light looks

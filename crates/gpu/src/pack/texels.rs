@@ -74,12 +74,12 @@ mod tests {
         position = [0, 0, 5]
         look_at = [0, 0, 0]
         fov_deg = 40
-        [materials.grey]
+        [materials.gray]
         type = "diffuse"
         reflectance = 0.5
         [[objects]]
         type = "sphere"
-        material = "grey"
+        material = "gray"
         center = [0, 0, 0]
         radius = 1
     "#;

@@ -26,8 +26,8 @@
 //! assert_eq!(powers.len(), 3 * 2 * 3);
 //! let at = |stack: usize, angle: usize, wavelength: usize| powers[(stack * 2 + angle) * 3 + wavelength];
 //! // At 550 nm, 94 nm of silica are a quarter wave, which quenches the 0.37 of silicon, and 188 nm change nothing.
-//! assert!(at(0, 0, 1).reflectance.unpolarised() < 0.11);
-//! assert!(at(1, 0, 1).reflectance.unpolarised() > 0.35);
+//! assert!(at(0, 0, 1).reflectance.unpolarized() < 0.11);
+//! assert!(at(1, 0, 1).reflectance.unpolarized() > 0.35);
 //! # Ok::<(), pellicle_optics::batch::BatchError>(())
 //! ```
 
@@ -44,7 +44,7 @@ mod tests;
 
 pub use check::BatchError;
 
-use crate::Polarised;
+use crate::Polarized;
 use crate::wide::{Lanes, MOST};
 use bytemuck::{Pod, Zeroable};
 use num_complex::Complex64;
@@ -102,9 +102,9 @@ pub struct StackOf {
 #[repr(C)]
 pub struct Powers {
     /// Share of the power that returns.
-    pub reflectance: Polarised,
+    pub reflectance: Polarized,
     /// Share of the power that enters the substrate.
-    pub transmittance: Polarised,
+    pub transmittance: Polarized,
 }
 
 impl StackBatch<'_> {
@@ -212,11 +212,11 @@ fn write<S: pulp::Simd>(lanes: [Lanes<S>; 4], powers: &mut [Powers]) {
     }
     for (place, power) in powers.iter_mut().enumerate() {
         *power = Powers {
-            reflectance: Polarised {
+            reflectance: Polarized {
                 s: rows[0][place],
                 p: rows[1][place],
             },
-            transmittance: Polarised {
+            transmittance: Polarized {
                 s: rows[2][place],
                 p: rows[3][place],
             },

@@ -4,7 +4,7 @@
 //! along the grain of a brushed surface, the second across it.
 //!
 //! A distribution of width α along and across the grain is one of width 1 stretched. The amount of facets that a direction w sees
-//! is (1 + Λ(w)) cos θ, with Λ of Smith (1967); heights of neighbouring facets are taken for independent, those of the facet
+//! is (1 + Λ(w)) cos θ, with Λ of Smith (1967); heights of neighboring facets are taken for independent, those of the facet
 //! seen and lit for the same (Heitz, Understanding the Masking-Shadowing Function, JCGT 3(2), 2014, equations 83, 86 and 99).
 
 mod erf;
@@ -52,7 +52,7 @@ impl Microsurface {
         }
     }
 
-    /// Smith's Λ: 1 / (1 + Λ) of the facets that turn towards a direction are seen from there. With a = cot θ over the width
+    /// Smith's Λ: 1 / (1 + Λ) of the facets that turn toward a direction are seen from there. With a = cot θ over the width
     /// in the direction's azimuth, Λ is (exp(−a²) / (a √π) − erfc a) / 2 for Beckmann and (√(1 + 1/a²) − 1) / 2 for GGX
     /// (Heitz 2014, equations 68 and 72).
     pub fn lambda(&self, direction: [f64; 3]) -> f64 {
@@ -113,12 +113,12 @@ impl Microsurface {
     pub fn sample(&self, eye: [f64; 3], u: f64, v: f64) -> [f64; 3] {
         let [along, across] = self.alpha;
         // The same surface stretched to α = 1.
-        let stretched = normalised([along * eye[0], across * eye[1], eye[2]]);
+        let stretched = normalized([along * eye[0], across * eye[1], eye[2]]);
         let facet = match self.distribution {
             Distribution::Beckmann => slopes::sample_beckmann(stretched, u, v),
             Distribution::Ggx => slopes::sample_ggx(stretched, u, v),
         };
-        normalised([along * facet[0], across * facet[1], facet[2].max(0.0)])
+        normalized([along * facet[0], across * facet[1], facet[2].max(0.0)])
     }
 
     /// The part of the light that leaves at once of what comes from `eye` onto facets that reflect everything. 1 minus this
@@ -172,10 +172,10 @@ fn mirrored(eye: [f64; 3], facet: [f64; 3]) -> [f64; 3] {
 }
 
 fn half_vector(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    normalised([a[0] + b[0], a[1] + b[1], a[2] + b[2]])
+    normalized([a[0] + b[0], a[1] + b[1], a[2] + b[2]])
 }
 
-fn normalised(v: [f64; 3]) -> [f64; 3] {
+fn normalized(v: [f64; 3]) -> [f64; 3] {
     let length = dot(v, v).sqrt();
     v.map(|x| x / length)
 }

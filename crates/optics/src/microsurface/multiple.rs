@@ -1,4 +1,4 @@
-//! The colour of light that meets several facets.
+//! The color of light that meets several facets.
 
 use crate::wide::Real;
 
@@ -29,7 +29,7 @@ pub fn multiple_color<T: Real>(mean_reflectance: T, mean_energy: f64) -> T {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Complex64, Layer, reflectance_unpolarised, stack};
+    use crate::{Complex64, Layer, reflectance_unpolarized, stack};
 
     fn finely(reflectance: impl Fn(f64) -> f64) -> f64 {
         let steps = 20_000;
@@ -54,7 +54,7 @@ mod tests {
         let metals = [(0.25, 3.1), (0.05, 3.9), (2.7, 3.8), (0.9, 6.5), (1.5, 0.0)];
         for (n, k) in metals {
             let index = Complex64::new(n, k);
-            let bare = |cosine| reflectance_unpolarised(index, cosine);
+            let bare = |cosine| reflectance_unpolarized(index, cosine);
             assert!((mean_reflectance(bare) - finely(bare)).abs() < 0.002);
             for (thickness_nm, most) in [(100.0, 0.003), (300.0, 0.003), (1000.0, 0.05)] {
                 let layer = Layer {
@@ -63,7 +63,7 @@ mod tests {
                 };
                 let under = |cosine| {
                     let found = stack(1.0, &[layer], index, 550.0, cosine);
-                    found.reflectance.unpolarised()
+                    found.reflectance.unpolarized()
                 };
                 let error = (mean_reflectance(under) - finely(under)).abs();
                 assert!(error < most, "{index} {thickness_nm}: {error}");
@@ -73,7 +73,7 @@ mod tests {
 
     /// Each facet takes its share: the sum of F (F (1 − E))ⁿ F E over n = 0, 1, …, and nothing is lost where F = 1.
     #[test]
-    fn the_colour_is_that_of_a_series() {
+    fn the_color_is_that_of_a_series() {
         for (f, e) in [(0.9_f64, 0.7_f64), (0.5, 0.4), (0.04, 0.9)] {
             let series: f64 = (0..200).map(|n| f * (f * (1.0 - e)).powi(n) * f * e).sum();
             assert!((multiple_color(f, e) - series).abs() < 1e-12);

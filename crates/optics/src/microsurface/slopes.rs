@@ -16,10 +16,10 @@ pub(super) fn sample_ggx(eye: [f64; 3], u: f64, v: f64) -> [f64; 3] {
     let (sin_phi, cos_phi) = sin_cos_turns(u);
     let z = (1.0 - v) * (1.0 + eye[2]) - eye[2];
     let sine = (1.0 - z * z).max(0.0).sqrt();
-    super::normalised([sine * cos_phi + eye[0], sine * sin_phi + eye[1], z + eye[2]])
+    super::normalized([sine * cos_phi + eye[0], sine * sin_phi + eye[1], z + eye[2]])
 }
 
-/// A visible facet of a Beckmann surface: its slope towards the eye by [`visible_slope`], that aside by the normal
+/// A visible facet of a Beckmann surface: its slope toward the eye by [`visible_slope`], that aside by the normal
 /// distribution alone (Heitz and d'Eon, Importance Sampling Microfacet-Based BSDFs Using the Distribution of Visible Normals,
 /// 2014, appendix).
 pub(super) fn sample_beckmann(eye: [f64; 3], u: f64, v: f64) -> [f64; 3] {
@@ -29,11 +29,11 @@ pub(super) fn sample_beckmann(eye: [f64; 3], u: f64, v: f64) -> [f64; 3] {
     } else {
         (1.0, 0.0)
     };
-    let towards = visible_slope(eye[2], sine, u);
+    let toward = visible_slope(eye[2], sine, u);
     let aside = inverse_erf_of_share(v.max(LEAST_SHARE));
-    let x = cos_phi * towards - sin_phi * aside;
-    let y = sin_phi * towards + cos_phi * aside;
-    super::normalised([-x, -y, 1.0])
+    let x = cos_phi * toward - sin_phi * aside;
+    let y = sin_phi * toward + cos_phi * aside;
+    super::normalized([-x, -y, 1.0])
 }
 
 /// The slope x below which the share u of what is seen from θ lies: the density of x is that of exp(−x²) (cos θ − x sin θ) up to

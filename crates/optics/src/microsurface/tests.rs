@@ -49,7 +49,7 @@ fn over_facets(surface: &Microsurface, f: impl Fn([f64; 3]) -> f64) -> f64 {
                 surface.alpha[0] * r * cos_phi,
                 surface.alpha[1] * r * sin_phi,
             ];
-            let facet = normalised([-slope[0], -slope[1], 1.0]);
+            let facet = normalized([-slope[0], -slope[1], 1.0]);
             let area = surface.alpha[0] * surface.alpha[1] * half_rate * rate;
             sum += f(facet) * surface.density(facet) * area * facet[2].powi(3);
         }

@@ -1,8 +1,8 @@
 //! How much of the light each layer takes.
 
-use super::fields::{Field, Medium, Polarisation, Slab};
+use super::fields::{Field, Medium, Polarization, Slab};
 use super::incident_admittance;
-use crate::{Layer, Polarised};
+use crate::{Layer, Polarized};
 use num_complex::Complex64;
 
 /// Absorptance of each layer: the share of the incident power that turns to heat in it, in the order of `layers`.
@@ -19,18 +19,18 @@ pub fn absorptance(
     substrate: Complex64,
     wavelength_nm: f64,
     cos_incident: f64,
-) -> Vec<Polarised> {
+) -> Vec<Polarized> {
     let bottom = Medium::new(substrate, incident, cos_incident);
     let slab = |layer| Slab::new(layer, incident, cos_incident, wavelength_nm);
     let slabs: Vec<Slab> = layers.iter().map(slab).collect();
-    let of = |polarisation| {
-        let boundaries = Boundaries::new(polarisation, &slabs, &bottom);
-        boundaries.absorbed(incident_admittance(polarisation, incident, cos_incident))
+    let of = |polarization| {
+        let boundaries = Boundaries::new(polarization, &slabs, &bottom);
+        boundaries.absorbed(incident_admittance(polarization, incident, cos_incident))
     };
-    let (s, p) = (of(Polarisation::S), of(Polarisation::P));
+    let (s, p) = (of(Polarization::S), of(Polarization::P));
     let taken = |((layer, s), p): ((&Layer, f64), f64)| {
         let absorbs = if layer.index.im > 0.0 { 1.0 } else { 0.0 };
-        Polarised {
+        Polarized {
             s: absorbs * s,
             p: absorbs * p,
         }
@@ -38,7 +38,7 @@ pub fn absorptance(
     layers.iter().zip(s).zip(p).map(taken).collect()
 }
 
-/// The field of one polarisation at every boundary of a stack.
+/// The field of one polarization at every boundary of a stack.
 pub(super) struct Boundaries {
     /// From the top to the substrate, one more than layers, each in units of its own.
     pub(super) fields: Vec<Field>,
@@ -47,11 +47,11 @@ pub(super) struct Boundaries {
 }
 
 impl Boundaries {
-    pub(super) fn new(polarisation: Polarisation, slabs: &[Slab], substrate: &Medium) -> Self {
-        let mut fields = vec![Field::leaving(polarisation.admittance(substrate))];
+    pub(super) fn new(polarization: Polarization, slabs: &[Slab], substrate: &Medium) -> Self {
+        let mut fields = vec![Field::leaving(polarization.admittance(substrate))];
         let mut factors = Vec::with_capacity(slabs.len());
         for slab in slabs.iter().rev() {
-            let (field, factor) = slab.lift(polarisation, fields[fields.len() - 1]);
+            let (field, factor) = slab.lift(polarization, fields[fields.len() - 1]);
             fields.push(field);
             factors.push(factor);
         }
@@ -130,7 +130,7 @@ mod tests {
     fn a_clear_layer_takes_nothing() {
         let layers = [layer(1.0, 0.0, 90.0), layer(0.06, 3.6, 20.0)];
         let found = absorptance(1.52, &layers, 1.52.into(), 550.0, 0.5);
-        assert_eq!(found[0], Polarised { s: 0.0, p: 0.0 });
+        assert_eq!(found[0], Polarized { s: 0.0, p: 0.0 });
         assert!(found[1].s > 1e-3 && found[1].p > 1e-3, "{found:?}");
     }
 }

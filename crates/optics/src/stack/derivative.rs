@@ -1,9 +1,9 @@
 //! How R and T change with the thickness of each layer.
 
 use super::absorptance::Boundaries;
-use super::fields::{Field, Medium, Polarisation, Slab};
+use super::fields::{Field, Medium, Polarization, Slab};
 use super::incident_admittance;
-use crate::{Layer, Polarised};
+use crate::{Layer, Polarized};
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 
@@ -11,9 +11,9 @@ use std::f64::consts::TAU;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThicknessDerivative {
     /// ∂R/∂d, nm⁻¹.
-    pub reflectance: Polarised,
+    pub reflectance: Polarized,
     /// ∂T/∂d, nm⁻¹.
-    pub transmittance: Polarised,
+    pub transmittance: Polarized,
 }
 
 /// ∂R/∂d and ∂T/∂d for the thickness d of every layer, in the order of `layers`, by one sweep up and one down.
@@ -25,7 +25,7 @@ pub struct ThicknessDerivative {
 /// those. Furman and Tikhonravov, Basics of Optics of Multilayer Systems, 1992, give equivalent forms.)
 /// The first form has no difference of near equals beneath an opaque layer.
 ///
-/// The derivative of a colour is the sum of ∂R/∂d at its wavelengths with the weights that make the colour of R.
+/// The derivative of a color is the sum of ∂R/∂d at its wavelengths with the weights that make the color of R.
 ///
 /// Arguments and domain as for [`stack`](crate::stack).
 pub fn thickness_derivatives(
@@ -38,24 +38,24 @@ pub fn thickness_derivatives(
     let bottom = Medium::new(substrate, incident, cos_incident);
     let slab = |layer| Slab::new(layer, incident, cos_incident, wavelength_nm);
     let slabs: Vec<Slab> = layers.iter().map(slab).collect();
-    let of = |polarisation| {
+    let of = |polarization| {
         let light = Light {
-            polarisation,
-            eta: incident_admittance(polarisation, incident, cos_incident),
+            polarization,
+            eta: incident_admittance(polarization, incident, cos_incident),
             wave_number: TAU / wavelength_nm,
         };
         light.derivatives(&slabs, &bottom)
     };
     let both = |((r_s, t_s), (r_p, t_p)): ((f64, f64), (f64, f64))| ThicknessDerivative {
-        reflectance: Polarised { s: r_s, p: r_p },
-        transmittance: Polarised { s: t_s, p: t_p },
+        reflectance: Polarized { s: r_s, p: r_p },
+        transmittance: Polarized { s: t_s, p: t_p },
     };
-    let pairs = of(Polarisation::S).into_iter().zip(of(Polarisation::P));
+    let pairs = of(Polarization::S).into_iter().zip(of(Polarization::P));
     pairs.map(both).collect()
 }
 
 struct Light {
-    polarisation: Polarisation,
+    polarization: Polarization,
     eta: f64,
     /// 2π/λ, nm⁻¹.
     wave_number: f64,
@@ -64,12 +64,12 @@ struct Light {
 impl Light {
     /// (∂R/∂d, ∂T/∂d) of each layer.
     fn derivatives(&self, slabs: &[Slab], substrate: &Medium) -> Vec<(f64, f64)> {
-        let boundaries = Boundaries::new(self.polarisation, slabs, substrate);
+        let boundaries = Boundaries::new(self.polarization, slabs, substrate);
         let whole = boundaries.incident(self.eta);
         let top = boundaries.fields[0];
         let r = (self.eta * top.u - top.v) / whole;
         let scale: f64 = boundaries.factors.iter().product();
-        let leaving = self.polarisation.admittance(substrate).re;
+        let leaving = self.polarization.admittance(substrate).re;
         let transmittance = 4.0 * self.eta * leaving * (scale / whole.norm()).powi(2);
 
         let mut row = Field {
@@ -87,7 +87,7 @@ impl Light {
             let of_r = self.of_r(slab, *field, reaching);
             let of_ln_t = self.of_ln_t(slab, *field, row);
             found.push((2.0 * (r.conj() * of_r).re, 2.0 * transmittance * of_ln_t.re));
-            row = slab.lower(self.polarisation, row);
+            row = slab.lower(self.polarization, row);
             above *= factor;
         }
         found
@@ -95,14 +95,14 @@ impl Light {
 
     /// ∂r/∂d, from the field on top of the layer and 1/D in its units.
     fn of_r(&self, slab: &Slab, field: Field, reaching: Complex64) -> Complex64 {
-        let (over, times) = self.polarisation.regular(&slab.medium);
+        let (over, times) = self.polarization.regular(&slab.medium);
         let (u, v) = (field.u * reaching, field.v * reaching);
         -2.0 * self.eta * self.wave_number * Complex64::I * (over * v * v - times * u * u)
     }
 
     /// ∂ ln t/∂d.
     fn of_ln_t(&self, slab: &Slab, field: Field, row: Field) -> Complex64 {
-        let (over, times) = self.polarisation.regular(&slab.medium);
+        let (over, times) = self.polarization.regular(&slab.medium);
         let change = over * row.u * field.v + times * row.v * field.u;
         Complex64::I * self.wave_number * change / (row.u * field.u + row.v * field.v)
     }
@@ -200,7 +200,7 @@ mod tests {
         }
     }
 
-    /// The comparison above notices derivatives of a stack that differs by a nanometre in one layer.
+    /// The comparison above notices derivatives of a stack that differs by a nanometer in one layer.
     #[test]
     fn the_comparison_can_fail() {
         let mut layers = [layer(1.46, 0.0, 120.0), layer(2.4, 0.0, 57.0)];

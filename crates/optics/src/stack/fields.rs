@@ -4,14 +4,14 @@ use crate::Layer;
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 
-/// The polarisation of light that meets a stack.
+/// The polarization of light that meets a stack.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Polarisation {
+pub(crate) enum Polarization {
     S,
     P,
 }
 
-impl Polarisation {
+impl Polarization {
     /// V/U of a wave that runs downwards (η): q for s, q/n² for p.
     pub(crate) fn admittance(self, medium: &Medium) -> Complex64 {
         match self {
@@ -132,8 +132,8 @@ impl Slab {
 
     /// The field on top of the layer from the field beneath it, and the factor by which it is smaller than in the units
     /// of the field beneath.
-    pub(crate) fn lift(&self, polarisation: Polarisation, below: Field) -> (Field, f64) {
-        let eta = polarisation.admittance(&self.medium);
+    pub(crate) fn lift(&self, polarization: Polarization, below: Field) -> (Field, f64) {
+        let eta = polarization.admittance(&self.medium);
         let field = Field {
             u: self.cosine * below.u + self.sine / eta * below.v,
             v: self.cosine * below.v + self.sine * eta * below.u,
@@ -147,8 +147,8 @@ impl Slab {
     }
 
     /// The row vector (a, b) times the matrix. Only its direction is meant: it is scaled down where it has grown.
-    pub(crate) fn lower(&self, polarisation: Polarisation, row: Field) -> Field {
-        let eta = polarisation.admittance(&self.medium);
+    pub(crate) fn lower(&self, polarization: Polarization, row: Field) -> Field {
+        let eta = polarization.admittance(&self.medium);
         let lowered = Field {
             u: row.u * self.cosine + row.v * self.sine * eta,
             v: row.v * self.cosine + row.u * self.sine / eta,

@@ -7,8 +7,8 @@ mod fields;
 pub use absorptance::absorptance;
 pub use derivative::{ThicknessDerivative, thickness_derivatives};
 
-use crate::{Amplitudes, Polarised};
-use fields::{Field, Medium, Polarisation, Slab};
+use crate::{Amplitudes, Polarized};
+use fields::{Field, Medium, Polarization, Slab};
 use num_complex::Complex64;
 
 /// One layer of a stack.
@@ -26,9 +26,9 @@ pub struct StackAmplitudes {
     /// Amplitude reflection and transmission of the whole.
     pub amplitudes: Amplitudes,
     /// Reflectance: share of the power that returns.
-    pub reflectance: Polarised,
+    pub reflectance: Polarized,
     /// Transmittance: share of the power that enters the substrate.
-    pub transmittance: Polarised,
+    pub transmittance: Polarized,
 }
 
 /// A stack of `layers`, the first beside the incident medium, between two half spaces.
@@ -53,7 +53,7 @@ pub struct StackAmplitudes {
 /// // A quarter wave of MgF2 on glass at its design wavelength: R = ((n₀n_s − n₁²)/(n₀n_s + n₁²))².
 /// let layer = Layer { index: 1.38.into(), thickness_nm: 550.0 / (4.0 * 1.38) };
 /// let found = stack(1.0, &[layer], 1.52.into(), 550.0, 1.0);
-/// assert!((found.reflectance.unpolarised() - 0.012_601).abs() < 1e-6);
+/// assert!((found.reflectance.unpolarized() - 0.012_601).abs() < 1e-6);
 /// ```
 pub fn stack(
     incident: f64,
@@ -63,8 +63,8 @@ pub fn stack(
     cos_incident: f64,
 ) -> StackAmplitudes {
     let bottom = Medium::new(substrate, incident, cos_incident);
-    let mut s = Sweep::new(Polarisation::S, &bottom);
-    let mut p = Sweep::new(Polarisation::P, &bottom);
+    let mut s = Sweep::new(Polarization::S, &bottom);
+    let mut p = Sweep::new(Polarization::P, &bottom);
     for layer in layers.iter().rev() {
         let slab = Slab::new(layer, incident, cos_incident, wavelength_nm);
         s.pass(&slab);
@@ -80,11 +80,11 @@ pub fn stack(
             // The p equations give the ratio of magnetic fields, and H = n E.
             t_p: p.t * incident / substrate,
         },
-        reflectance: Polarised {
+        reflectance: Polarized {
             s: s.r.norm_sqr(),
             p: p.r.norm_sqr(),
         },
-        transmittance: Polarised {
+        transmittance: Polarized {
             s: s.transmittance,
             p: p.transmittance,
         },
@@ -105,9 +105,9 @@ pub fn film(
     stack(1.0, &[layer], Complex64::ONE, wavelength_nm, cos_incident)
 }
 
-/// The way of one polarisation from the substrate up.
+/// The way of one polarization from the substrate up.
 struct Sweep {
-    polarisation: Polarisation,
+    polarization: Polarization,
     substrate: Complex64,
     field: Field,
     /// By how much the field is smaller than in units in which U is 1 at the substrate.
@@ -122,10 +122,10 @@ struct Ratios {
 }
 
 impl Sweep {
-    fn new(polarisation: Polarisation, substrate: &Medium) -> Self {
-        let substrate = polarisation.admittance(substrate);
+    fn new(polarization: Polarization, substrate: &Medium) -> Self {
+        let substrate = polarization.admittance(substrate);
         Self {
-            polarisation,
+            polarization,
             substrate,
             field: Field::leaving(substrate),
             scale: 1.0,
@@ -133,13 +133,13 @@ impl Sweep {
     }
 
     fn pass(&mut self, slab: &Slab) {
-        let (field, factor) = slab.lift(self.polarisation, self.field);
+        let (field, factor) = slab.lift(self.polarization, self.field);
         self.field = field;
         self.scale *= factor;
     }
 
     fn ratios(&self, incident: f64, cos_incident: f64) -> Ratios {
-        let eta = incident_admittance(self.polarisation, incident, cos_incident);
+        let eta = incident_admittance(self.polarization, incident, cos_incident);
         let Field { u, v } = self.field;
         let whole = eta * u + v;
         let t = 2.0 * eta * self.scale / whole;
@@ -152,10 +152,10 @@ impl Sweep {
 }
 
 /// η of the incident medium.
-fn incident_admittance(polarisation: Polarisation, incident: f64, cos_incident: f64) -> f64 {
-    match polarisation {
-        Polarisation::S => incident * cos_incident,
-        Polarisation::P => cos_incident / incident,
+fn incident_admittance(polarization: Polarization, incident: f64, cos_incident: f64) -> f64 {
+    match polarization {
+        Polarization::S => incident * cos_incident,
+        Polarization::P => cos_incident / incident,
     }
 }
 
@@ -219,8 +219,8 @@ mod tests {
     fn an_opaque_layer_stays_finite() {
         let gold = Complex64::new(0.4, 2.6);
         let thick = film(gold, 1e6, 550.0, 0.5);
-        let bulk = crate::reflectance_unpolarised(gold, 0.5);
-        assert!(close(thick.reflectance.unpolarised(), bulk));
+        let bulk = crate::reflectance_unpolarized(gold, 0.5);
+        assert!(close(thick.reflectance.unpolarized(), bulk));
         assert!(thick.transmittance.s.abs() < 1e-300);
     }
 }

@@ -87,7 +87,7 @@ mod tests {
             (closed
                 - film(index.into(), nm, wavelength, cosine)
                     .reflectance
-                    .unpolarised())
+                    .unpolarized())
             .abs()
         };
         let (steep, all) = ([0.1, 0.3, 0.6, 0.9, 1.0], [1e-6, 1e-4, 0.01, 0.05]);
@@ -96,7 +96,7 @@ mod tests {
         let shifted = |n: f64, nm: f64, wavelength: f64, cosine: f64| {
             let closed = clear_film_reflectance(n, 2.0 * nm, wavelength.recip(), cosine * cosine);
             let other = film((n * (1.0 + 1e-9)).into(), nm, wavelength, cosine);
-            (closed - other.reflectance.unpolarised()).abs()
+            (closed - other.reflectance.unpolarized()).abs()
         };
         assert!(worst(shifted, &steep) > 1e-10, "another index is seen");
     }
@@ -107,8 +107,8 @@ mod tests {
             let off = |n: f64, nm: f64, wavelength: f64, cosine: f64| {
                 let found = two_beam_powers(n, 2.0 * nm, wavelength.recip(), cosine, path);
                 let expected = two_beam(n, nm, wavelength, cosine, path);
-                let r = (found.0 - expected.reflectance.unpolarised()).abs();
-                r.max((found.1 - expected.transmittance.unpolarised()).abs())
+                let r = (found.0 - expected.reflectance.unpolarized()).abs();
+                r.max((found.1 - expected.transmittance.unpolarized()).abs())
             };
             let found = worst(off, &[1e-3, 0.1, 0.6, 1.0]);
             assert!(found < 1e-12, "{path:?} {found:e}");

@@ -46,7 +46,7 @@ mod tests {
         ] {
             for cosine in [1e-6, 1e-3, 0.1, 0.3, 0.555, 0.8, 1.0] {
                 let expected = stack(1.0, &[], Complex64::new(n, k), 500.0, cosine).reflectance;
-                let off = interface_reflectance(n, k, cosine) - expected.unpolarised();
+                let off = interface_reflectance(n, k, cosine) - expected.unpolarized();
                 worst = worst.max(off.abs());
             }
         }

@@ -4,7 +4,7 @@
 //! machine hold ([`Lanes`]). It is inlined into a loop over wavelengths that was compiled for an instruction set found at run time:
 //! implement [`pulp::WithSimd`] on a struct. (A closure passed to `Arch::dispatch` is not inlined and runs without AVX.)
 //!
-//! Everything here is independent of [`stack`](crate::stack) and [`reflectance_unpolarised`](crate::reflectance_unpolarised), which are
+//! Everything here is independent of [`stack`](crate::stack) and [`reflectance_unpolarized`](crate::reflectance_unpolarized), which are
 //! written on complex amplitudes with the standard library's functions and are what this module is tested against.
 //!
 //! Where a machine multiplies and adds with one rounding, [`Real::mul_add`] does so: results on AVX2, AVX-512 and NEON are the same

@@ -108,19 +108,19 @@ fn add(lamps: &mut Vec<SceneLamp>, name: &str, power: Vec<f64>) {
     }
 }
 
-/// Where each of [`Scene::lights`] is written: discs come first, the sun of a sky is the last of them.
+/// Where each of [`Scene::lights`] is written: disks come first, the sun of a sky is the last of them.
 fn names(description: &Description, scene: &Scene) -> Vec<String> {
     let lights = || description.lights.iter().enumerate();
-    let is_disc = |light: &description::Light| matches!(light, description::Light::Distant { diameter_deg, .. } if *diameter_deg > 0.0);
-    let discs = lights().filter(|(_, light)| is_disc(light));
-    let others = lights().filter(|(_, light)| !is_disc(light));
+    let is_distant_disk = |light: &description::Light| matches!(light, description::Light::Distant { diameter_deg, .. } if *diameter_deg > 0.0);
+    let disks = lights().filter(|(_, light)| is_distant_disk(light));
+    let others = lights().filter(|(_, light)| !is_distant_disk(light));
     let name = |(index, _)| format!("lights[{index}]");
     let has_sun = scene.lights().len() > description.lights.len();
     let sun = has_sun.then(|| "the sun".to_owned());
-    discs.map(name).chain(sun).chain(others.map(name)).collect()
+    disks.map(name).chain(sun).chain(others.map(name)).collect()
 }
 
-/// What the surroundings have in a direction, given by a unit vector, the discs of distant lights among them; `None` where that is dark.
+/// What the surroundings have in a direction, given by a unit vector, the disks of distant lights among them; `None` where that is dark.
 pub(super) fn of_surroundings(scene: &Scene, direction: glam::DVec3) -> Option<SceneLamp> {
     let parts = scene.surroundings();
     let seen = |part: &EnvironmentPart<'_>| environment_share(part.shape, direction) > 0.0;
@@ -381,9 +381,9 @@ emission = {{ illuminant = 'FL11' }}"
         }
     }
 
-    /// A disc that the film mirrors, beside surroundings that it does not.
+    /// A disk that the film mirrors, beside surroundings that it does not.
     #[test]
-    fn a_disc_is_seen_in_the_mirror_with_what_is_around_it() {
+    fn a_disk_is_seen_in_the_mirror_with_what_is_around_it() {
         let found = found(&film(
             r#"
             environment = { type = "constant", emission = { illuminant = "D65", scale = 0.1 } }
@@ -400,7 +400,7 @@ emission = {{ illuminant = 'FL11' }}"
             &found.lamps.surroundings[0].power,
             &found.lamps.lights[0].power,
         );
-        // What the disc lights a surface with comes from 2π (1 − cos 20°) sr, and the surroundings shine there as well.
+        // What the disk lights a surface with comes from 2π (1 − cos 20°) sr, and the surroundings shine there as well.
         let radiance = found.scene.lights()[0].emission.scale;
         let solid_angle = 2.0 * PI * (1.0 - 20_f64.to_radians().cos());
         assert!((radiance * solid_angle - 1.0).abs() < 0.05, "{radiance}");

@@ -64,7 +64,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         sum
     }
 
-    /// Chooses an emitter and a direction towards it.
+    /// Chooses an emitter and a direction toward it.
     fn sample_emitter(&mut self, place: Place, weight_sum: f64) -> Option<EmitterSample<'a>> {
         let random = self.random(Use::Emitter);
         let weighed = (&self.weighed[..], weight_sum);

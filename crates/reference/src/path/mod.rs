@@ -94,7 +94,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         };
         self.transport.begin(match settings.sampling {
             WavelengthSampling::Random => numbers.get(2),
-            WavelengthSampling::Centre => 0.5,
+            WavelengthSampling::Center => 0.5,
         });
         let ray = sampled_camera_ray(scene, pixel, [numbers.get(0), numbers.get(1)], on_lens);
         self.path = PathState::new(ray, settings.film_splits);

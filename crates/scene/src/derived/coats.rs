@@ -115,7 +115,7 @@ impl Seen {
 
     /// What a coat of index `n` reflects of the light.
     fn reflectance(&self, n: f64) -> f64 {
-        let fresnel = |cosine: f64| optics::reflectance_unpolarised(n.into(), cosine.max(1e-6));
+        let fresnel = |cosine: f64| optics::reflectance_unpolarized(n.into(), cosine.max(1e-6));
         let facets = self.weights.iter().enumerate();
         let once: f64 = facets
             .map(|(facet, weight)| weight * fresnel(cosine_of(facet, FACET_COSINES)))
@@ -177,7 +177,7 @@ mod tests {
     fn a_nearly_smooth_coat_is_smooth() {
         let (knots, mean) = coat(0.02, 1.5);
         for (knot, of_knot) in knots.iter().enumerate().skip(12) {
-            let exact = optics::reflectance_unpolarised(1.5.into(), cosine_of(knot, COSINES));
+            let exact = optics::reflectance_unpolarized(1.5.into(), cosine_of(knot, COSINES));
             let found = of_knot.extent().0;
             assert!(
                 (found - exact).abs() < 0.01 * exact + 1e-3,

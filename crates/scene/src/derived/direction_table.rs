@@ -11,7 +11,7 @@ const NEARLY_EVEN: f64 = 1.0 + 1e-6;
 
 /// A density of directions that is constant within the cells of a grid of longitude and latitude.
 ///
-/// All numbers are `f32`: differences of neighbouring ones are the very probabilities that a search among them has.
+/// All numbers are `f32`: differences of neighboring ones are the very probabilities that a search among them has.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectionTable {
     /// Cells around.
@@ -137,7 +137,7 @@ impl Brightness<'_> {
         means
     }
 
-    /// Bilinear between the centres of pixels, at a place in pixels.
+    /// Bilinear between the centers of pixels, at a place in pixels.
     fn between(&self, x: f64, y: f64) -> f64 {
         let [width, height] = self.size;
         let (x, y) = (x - 0.5, (y - 0.5).clamp(0.0, (height - 1) as f64));

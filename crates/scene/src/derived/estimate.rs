@@ -79,7 +79,7 @@ fn of_material(scene: &Scene, material: &Material) -> Estimate {
                     let (own, nm) = stack_of(scene, layers, band, fraction);
                     let substrate = index_at(scene, (n, k), band);
                     let found = optics::stack(1.0, &own, substrate, nm, cosine);
-                    found.reflectance.unpolarised()
+                    found.reflectance.unpolarized()
                 })
             };
             COSINES.into_iter().map(reflectance).sum::<f64>() / COSINES.len() as f64
@@ -137,14 +137,14 @@ fn film_at(
         };
         let found = optics::two_beam(own[0].index.re, own[0].thickness_nm, nm, cosine, path);
         return (
-            found.reflectance.unpolarised(),
-            found.transmittance.unpolarised(),
+            found.reflectance.unpolarized(),
+            found.transmittance.unpolarized(),
         );
     }
     let found = optics::stack(1.0, &own, Complex64::ONE, nm, cosine);
     (
-        found.reflectance.unpolarised(),
-        found.transmittance.unpolarised(),
+        found.reflectance.unpolarized(),
+        found.transmittance.unpolarized(),
     )
 }
 
@@ -192,7 +192,7 @@ fn stack_of(
         }
     };
     let own = layers.iter().enumerate().map(layer).collect();
-    (own, scene.settings().bands.centre_nm(band))
+    (own, scene.settings().bands.center_nm(band))
 }
 
 fn index_at(scene: &Scene, (n, k): (SpectrumId, SpectrumId), band: u32) -> Complex64 {

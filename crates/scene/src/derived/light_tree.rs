@@ -199,7 +199,7 @@ impl Lamp {
 
     fn with_light(self, shape: LightShape) -> Option<Self> {
         match shape {
-            LightShape::Disc { .. } | LightShape::Direction { .. } => None,
+            LightShape::DistantDisk { .. } | LightShape::Direction { .. } => None,
             LightShape::Point { position } => Some(Self {
                 center: position,
                 ..self

@@ -31,7 +31,7 @@ pub enum Camera {
     Panorama {
         /// Where the camera stands.
         position: [f64; 3],
-        /// The point in the middle of the picture; straight towards −Z when absent.
+        /// The point in the middle of the picture; straight toward −Z when absent.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         look_at: Option<[f64; 3]>,
         /// A direction that points upwards in the picture.

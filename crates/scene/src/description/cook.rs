@@ -46,7 +46,7 @@ pub struct Cook1981 {
     pub slopes: Option<Vec<Slope>>,
     /// Whether the constant is the printed one.
     #[serde(default)]
-    pub normalisation: CookNormalisation,
+    pub normalization: CookNormalization,
     /// The share s of light that is reflected by facets; 1 when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]
@@ -89,10 +89,10 @@ pub enum CookDistribution {
 /// The constant of the specular reflection.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum CookNormalisation {
+pub enum CookNormalization {
     /// Rs = F D G / (π (N·E)) with D2 and c D1 as they are: with D2 it is four times what the facets can send.
     #[default]
     Printed,
     /// F D G / (4 (N·E)) with D so that the facets cover the surface once: D2 / π, or D1 with c such that ∫ D1 cos a dω = 1.
-    Normalised,
+    Normalized,
 }

@@ -63,7 +63,7 @@ pub enum EmissionSpectrum {
 }
 
 /// How much light of a spectrum: at most one of these; `scale = 1` where none is written. Sums run over the wavelengths of the
-/// scene, and a unit of length of the scene counts as a metre.
+/// scene, and a unit of length of the scene counts as a meter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct Strength {

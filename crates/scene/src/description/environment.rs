@@ -20,14 +20,14 @@ pub enum Environment {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         light_group: Option<String>,
     },
-    /// A picture of all directions by longitude and latitude. Its middle is towards −Z, its right half towards +X, its top towards
+    /// A picture of all directions by longitude and latitude. Its middle is toward −Z, its right half toward +X, its top toward
     /// +Y.
     Image {
-        /// A Radiance file (.hdr) or an OpenEXR file; relative to the scene file. Colours are linear with the primaries of sRGB: each
+        /// A Radiance file (.hdr) or an OpenEXR file; relative to the scene file. Colors are linear with the primaries of sRGB: each
         /// becomes a smooth spectrum times the illuminant's, so that (1, 1, 1) is the illuminant. The spectra of a spectral
         /// OpenEXR file are taken as they are.
         image: PathBuf,
-        /// The layer of colours to take from an OpenEXR file of several: what stands before the last dot of its channels' names, as
+        /// The layer of colors to take from an OpenEXR file of several: what stands before the last dot of its channels' names, as
         /// "ViewLayer.Combined" does in `ViewLayer.Combined.R`. When absent, the only one, or plain R, G and B.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         layer: Option<String>,
@@ -38,7 +38,7 @@ pub enum Environment {
         /// The illuminant that white light in the picture has; "D65" when absent. Not for a spectral file.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         illuminant: Option<String>,
-        /// By how many degrees the surroundings are turned about +Y, from +Z towards +X.
+        /// By how many degrees the surroundings are turned about +Y, from +Z toward +X.
         #[serde(default)]
         #[schemars(range(min = limits::ROTATION_DEG.low, max = limits::ROTATION_DEG.high))]
         rotation_deg: f64,
@@ -52,7 +52,7 @@ pub enum Environment {
         /// Height of the sun over the horizon in degrees.
         #[schemars(range(min = limits::SUN_ELEVATION_DEG.low, max = limits::SUN_ELEVATION_DEG.high))]
         sun_elevation_deg: f64,
-        /// Direction of the sun in degrees: 0 towards −Z, 90 towards +X.
+        /// Direction of the sun in degrees: 0 toward −Z, 90 toward +X.
         #[serde(default)]
         #[schemars(range(min = limits::ROTATION_DEG.low, max = limits::ROTATION_DEG.high))]
         sun_azimuth_deg: f64,
@@ -60,10 +60,10 @@ pub enum Environment {
         #[serde(default = "clear")]
         #[schemars(range(min = limits::TURBIDITY.low, max = limits::TURBIDITY.high))]
         turbidity: f64,
-        /// Whether the sun's disc is there, which is seen and lights objects. Without it objects have skylight alone.
+        /// Whether the sun's disk is there, which is seen and lights objects. Without it objects have skylight alone.
         #[serde(default = "yes")]
         sun: bool,
-        /// Reflectance of the ground, which is lit by the sun, whether its disc is there or not, and by the sky; 0.2 when absent.
+        /// Reflectance of the ground, which is lit by the sun, whether its disk is there or not, and by the sky; 0.2 when absent.
         #[serde(default = "ground")]
         ground: Reflectance,
         /// Factor of all radiance.
@@ -74,7 +74,7 @@ pub enum Environment {
         /// with this spectrum.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         light_group: Option<String>,
-        /// The light group of the sun's disc; that of the sky when absent.
+        /// The light group of the sun's disk; that of the sky when absent.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         sun_light_group: Option<String>,
     },

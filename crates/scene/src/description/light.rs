@@ -14,7 +14,7 @@ pub enum Light {
     Distant {
         /// What it emits.
         emission: Emission,
-        /// Direction towards the light.
+        /// Direction toward the light.
         direction: [f64; 3],
         /// Angle under which it is seen: the sun's 0.533° when absent; 0 is light from a single direction.
         #[serde(default = "sun")]

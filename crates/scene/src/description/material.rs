@@ -188,7 +188,7 @@ pub enum PathDifference {
 pub enum DiffuseReflectance {
     /// The same everywhere.
     Uniform(Reflectance),
-    /// Squares of two reflectances in the axes of a plane, rectangle or disk, or cubes around a sphere's centre.
+    /// Squares of two reflectances in the axes of a plane, rectangle or disk, or cubes around a sphere's center.
     Checker {
         /// The two reflectances; the square whose lower corner is the origin has the first.
         checker: [Reflectance; 2],
@@ -196,8 +196,8 @@ pub enum DiffuseReflectance {
         #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
         size: f64,
     },
-    /// A picture of colours, each of which becomes a smooth reflectance with that colour under D65. On planes, rectangles
-    /// and disks it lies upright in the middle; on spheres it lies like a map on a globe, with its middle towards +Z.
+    /// A picture of colors, each of which becomes a smooth reflectance with that color under D65. On planes, rectangles
+    /// and disks it lies upright in the middle; on spheres it lies like a map on a globe, with its middle toward +Z.
     Texture {
         /// A PNG file of 8 or 16 bits, in the codes that it says (cICP, iCCP, gAMA and cHRM), else of sRGB; relative to the scene
         /// file.

@@ -58,7 +58,7 @@ pub enum Brushed {
         /// The direction; its part in the surface counts.
         along: [f64; 3],
     },
-    /// In circles about an axis through the object's centre, as a lathe leaves it.
+    /// In circles about an axis through the object's center, as a lathe leaves it.
     Around {
         /// Direction of the axis.
         around: [f64; 3],

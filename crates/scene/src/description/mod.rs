@@ -20,7 +20,7 @@ mod thickness;
 pub use crate::settings::DirectLight;
 pub use camera::{Camera, Filter, Lens};
 pub use cook::{
-    ConductorModel, ConductorModelName, Cook1981, CookDistribution, CookNormalisation, Slope,
+    ConductorModel, ConductorModelName, Cook1981, CookDistribution, CookNormalization, Slope,
 };
 pub use emission::{Emission, EmissionSpectrum, Strength};
 pub use environment::Environment;
@@ -32,7 +32,7 @@ pub use render::{LightGroups, Render, Sampler, WavelengthSampling};
 pub use spectrum::{Extrapolate, Index, MixtureRule, Reflectance, SellmeierTerms};
 pub use table_file::{IndexColumns, TableColumn};
 pub use thickness::{
-    AnodisedMetal, Anodising, Drainage, HeatTint, PictureChannel, Quantity, Steel, Steps, Swirls,
+    AnodizedMetal, Anodizing, Drainage, HeatTint, PictureChannel, Quantity, Steel, Steps, Swirls,
     Thickness,
 };
 
@@ -43,7 +43,7 @@ use std::collections::BTreeMap;
 /// A Pellicle scene.
 ///
 /// Right-handed space with +Y up, lengths in scene units, angles in degrees, wavelengths and film
-/// thicknesses in nanometres.
+/// thicknesses in nanometers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Pellicle scene")]

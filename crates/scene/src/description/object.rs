@@ -12,7 +12,7 @@ pub enum Object {
     Sphere {
         /// The name of one of the `materials`.
         material: String,
-        /// Centre.
+        /// Center.
         center: [f64; 3],
         /// Radius.
         #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
@@ -31,7 +31,7 @@ pub enum Object {
     Rectangle {
         /// The name of one of the `materials`.
         material: String,
-        /// Centre.
+        /// Center.
         center: [f64; 3],
         /// A direction at right angles to the rectangle.
         normal: [f64; 3],
@@ -46,7 +46,7 @@ pub enum Object {
     Disk {
         /// The name of one of the `materials`.
         material: String,
-        /// Centre.
+        /// Center.
         center: [f64; 3],
         /// A direction at right angles to the disk.
         normal: [f64; 3],

@@ -41,7 +41,7 @@ pub struct Render {
     /// Segments after which Russian roulette may end a path that carries little light. What is left of the light is right on average.
     #[schemars(range(min = 1, max = RenderSettings::MAX_PATH_SEGMENTS))]
     pub roulette_after: u32,
-    /// The largest radiance that a sample may bring in any band, in W m⁻² sr⁻¹ nm⁻¹: brighter samples are dimmed to it, with their colour. That takes
+    /// The largest radiance that a sample may bring in any band, in W m⁻² sr⁻¹ nm⁻¹: brighter samples are dimmed to it, with their color. That takes
     /// away rare bright dots, and some of the light with them. Without it the picture is right on average.
     #[schemars(range(min = limits::CLAMP.low, max = limits::CLAMP.high))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -65,8 +65,8 @@ pub enum WavelengthSampling {
     /// One offset is drawn per sample, for all bands: a band holds the mean over its width.
     #[default]
     Random,
-    /// Always the centre of the band: fixed wavelengths.
-    Centre,
+    /// Always the center of the band: fixed wavelengths.
+    Center,
 }
 
 /// Where the numbers come from that paths are drawn by.

@@ -25,13 +25,13 @@ pub enum Reflectance {
     Constant(#[schemars(range(min = 0.0, max = 1.0))] f64),
     /// The name of a reflectance that Pellicle carries, such as `white_9_5` of the `ColorChecker`.
     Name(String),
-    /// A smooth reflectance with the colour of these codes of sRGB (IEC 61966-2-1) under D65.
+    /// A smooth reflectance with the color of these codes of sRGB (IEC 61966-2-1) under D65.
     Srgb {
         /// Red, green and blue as pictures have them, from 0 to 1.
         #[schemars(inner(range(min = 0.0, max = 1.0)))]
         srgb: [f64; 3],
     },
-    /// A smooth reflectance with the colour of these amounts of sRGB's primaries under D65.
+    /// A smooth reflectance with the color of these amounts of sRGB's primaries under D65.
     LinearSrgb {
         /// Red, green and blue in proportion to light, from 0 to 1.
         #[schemars(inner(range(min = 0.0, max = 1.0)))]

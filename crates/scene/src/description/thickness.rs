@@ -32,7 +32,7 @@ pub enum Thickness {
     Constant(
         #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))] f64,
     ),
-    /// On spheres only, linear in the angle from an axis through the centre: grows (or shrinks) from the pole over
+    /// On spheres only, linear in the angle from an axis through the center: grows (or shrinks) from the pole over
     /// the equator and on to the other pole at the same rate.
     Polar {
         /// Thickness where the axis leaves the sphere, nm.
@@ -77,10 +77,10 @@ pub enum Thickness {
     Image {
         /// A PNG file, relative to the scene file. Its values are taken as numbers from 0 to 1 as they stand, without any
         /// transfer function, whatever the file says of its colors. On a sphere its left edge and its right edge meet behind,
-        /// towards −Z, its middle looks to +Z and its upper edge is the pole +Y.
+        /// toward −Z, its middle looks to +Z and its upper edge is the pole +Y.
         image: PathBuf,
         /// What of the picture is taken: one of its channels, or their luma (0.2126 r + 0.7152 g + 0.0722 b of the values).
-        /// Luma when absent, which is the value of a grey picture. glTF keeps thicknesses in "g".
+        /// Luma when absent, which is the value of a gray picture. glTF keeps thicknesses in "g".
         #[serde(default, skip_serializing_if = "Option::is_none")]
         channel: Option<PictureChannel>,
         /// Thickness where the picture is black, nm.
@@ -105,10 +105,10 @@ pub enum Thickness {
         /// What is multiplied.
         product: Vec<Thickness>,
     },
-    /// The oxide that anodising leaves.
-    Anodising {
+    /// The oxide that anodizing leaves.
+    Anodizing {
         /// The process.
-        anodising: Anodising,
+        anodizing: Anodizing,
     },
     /// The oxide that heating steel in air leaves.
     HeatTint {
@@ -217,7 +217,7 @@ pub enum Drainage {
 /// Turbulent streaks: gradient noise (Perlin 2002) of several octaves, carried along the surface by a flow whose stream
 /// function is noise too, so that it has no sources (curl noise: Bridson, Houriham and Nordenstam 2007).
 ///
-/// On spheres it is solid noise at the direction from the centre, on planes it lies in the surface's two axes and time runs
+/// On spheres it is solid noise at the direction from the center, on planes it lies in the surface's two axes and time runs
 /// across them. It imitates the look of a stirred film; no equation of motion is solved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -232,7 +232,7 @@ pub struct Swirls {
     /// Size of the largest streaks: in scene units on planes, in radii on spheres.
     #[schemars(range(min = limits::SWIRL_SCALE.low, max = limits::SWIRL_SCALE.high))]
     pub scale: f64,
-    /// Chooses the pattern. The octaves take the seeds from this one on, so patterns of neighbouring seeds have lattices in
+    /// Chooses the pattern. The octaves take the seeds from this one on, so patterns of neighboring seeds have lattices in
     /// common: leave `octaves` between the seeds of patterns that should have nothing to do with each other.
     #[serde(default)]
     pub seed: u32,
@@ -269,16 +269,16 @@ pub enum Quantity {
     },
 }
 
-/// Anodising: an oxide that grows in proportion to the voltage, d = `native` + `nm_per_volt` · V.
+/// Anodizing: an oxide that grows in proportion to the voltage, d = `native` + `nm_per_volt` · V.
 ///
 /// On titanium 2.4 to 2.8 nm/V, by electrolyte, were measured by ellipsometry up to 7.5 V (Ohtsuka, Masuda and Sato,
-/// J. Electrochem. Soc. 132, 787, 1985); the sequence of colours up to some 120 V follows the same line, but rougher and
+/// J. Electrochem. Soc. 132, 787, 1985); the sequence of colors up to some 120 V follows the same line, but rougher and
 /// partly crystalline films above about 10 V depart from it by electrolyte and current.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Anodising {
+pub struct Anodizing {
     /// The metal.
-    pub metal: AnodisedMetal,
+    pub metal: AnodizedMetal,
     /// The voltage, V, from 0 to 150; a number or linear along a line.
     pub volts: Quantity,
     /// Growth of the oxide, nm/V.
@@ -291,10 +291,10 @@ pub struct Anodising {
     pub native: f64,
 }
 
-/// A metal that can be anodised to colours.
+/// A metal that can be anodized to colors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum AnodisedMetal {
+pub enum AnodizedMetal {
     /// Titanium.
     Titanium,
 }
@@ -303,7 +303,7 @@ pub enum AnodisedMetal {
 /// 570 °C by del Campo, Pérez-Sáez and Tello, Corros. Sci. 50, 194, 2008) with k = k₀ exp(−E / (R T)).
 ///
 /// k₀ = 1.06e6 nm²/s and E = 60 kJ/mol are no material constants: they are fitted here, for ten minutes, so that magnetite
-/// (Querry 1985) on iron (Johnson and Christy 1974) goes through the temper colours of carbon steel at their temperatures
+/// (Querry 1985) on iron (Johnson and Christy 1974) goes through the temper colors of carbon steel at their temperatures
 /// (Machinery's Handbook: straw 230, brown-yellow 260, purple 282, blue 293 to 299, light blue 338 °C). The thinnest oxides grow
 /// more slowly with time than this (McAdam and Geil, J. Res. Natl. Bur. Stand. 23, 63, 1939), so trust it from some minutes to an
 /// hour. Alloyed and stainless steels need other temperatures.

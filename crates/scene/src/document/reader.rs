@@ -365,7 +365,7 @@ impl Reader<'_> {
         suggestion
     }
 
-    /// Fills in a field that is not there, and says so unless a misspelt field already has.
+    /// Fills in a field that is not there, and says so unless a misspelled field already has.
     fn missing_field(&mut self, name: &str, field: &Field, place: &Place, said: bool) -> Value {
         let at = Place {
             field: place.field.key(name),
@@ -439,7 +439,7 @@ impl Reader<'_> {
     }
 }
 
-/// How many of a table's required fields are there, misspelt or not, and how many of all its fields.
+/// How many of a table's required fields are there, misspelled or not, and how many of all its fields.
 fn likeness(fields: &Fields, table: &DeTable<'_>) -> (usize, usize) {
     let names = || table.iter().map(|(key, _)| key.get_ref().as_ref());
     let required = fields

@@ -139,7 +139,7 @@ impl Checks {
         None
     }
 
-    /// The part of the unit vector `up` that is at right angles to the unit vector `axis`, normalised.
+    /// The part of the unit vector `up` that is at right angles to the unit vector `axis`, normalized.
     pub(crate) fn across(
         &mut self,
         (field, up): (&FieldPath, DVec3),

@@ -4,7 +4,7 @@ use super::checks::Checks;
 use super::microsurface::Told;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
-use crate::description::{self, CookNormalisation, Finish, Roughness, Slope};
+use crate::description::{self, CookNormalization, Finish, Roughness, Slope};
 use crate::limits::{self, Shown};
 use crate::problem::{Problem, ProblemKind};
 use crate::{
@@ -45,7 +45,7 @@ pub(super) fn check(
     let ((n, k), slopes, constant) = (surface.index?, slopes?, constant?);
     let ((specular, diffuse), reflectance) = (shares?, reflectance.ok()?);
     let facets = slopes.iter().map(|slope| {
-        let constant = constant_of(distribution, written.normalisation, constant, slope.m);
+        let constant = constant_of(distribution, written.normalization, constant, slope.m);
         CookFacets {
             slope: slope.m,
             weight: specular * slope.weight * constant,
@@ -101,17 +101,17 @@ fn check_gain(checks: &mut Checks, field: &FieldPath, constant: f64, gain: f64) 
 /// What stands before D with one slope: the printed 1 / π, with D₁ times c; or 1/4, with D made to cover the surface once.
 fn constant_of(
     distribution: CookDistribution,
-    normalisation: CookNormalisation,
+    normalization: CookNormalization,
     printed: f64,
     slope: f64,
 ) -> f64 {
-    match (normalisation, distribution) {
-        (CookNormalisation::Printed, CookDistribution::Gaussian) => printed / PI,
-        (CookNormalisation::Printed, CookDistribution::Beckmann) => 1.0 / PI,
-        (CookNormalisation::Normalised, CookDistribution::Gaussian) => {
+    match (normalization, distribution) {
+        (CookNormalization::Printed, CookDistribution::Gaussian) => printed / PI,
+        (CookNormalization::Printed, CookDistribution::Beckmann) => 1.0 / PI,
+        (CookNormalization::Normalized, CookDistribution::Gaussian) => {
             0.25 * optics::gaussian_constant(slope)
         }
-        (CookNormalisation::Normalised, CookDistribution::Beckmann) => 0.25 / PI,
+        (CookNormalization::Normalized, CookDistribution::Beckmann) => 0.25 / PI,
     }
 }
 
@@ -218,13 +218,13 @@ fn check_constant(
         return Some(1.0);
     };
     let field = own.key("constant");
-    let is_printed = written.normalisation == CookNormalisation::Printed;
+    let is_printed = written.normalization == CookNormalization::Printed;
     if is_printed && written.distribution == description::CookDistribution::Gaussian {
         return checks.number(&field, constant, &limits::COOK_CONSTANT);
     }
     let message = "only D1 as printed has a constant to choose";
     let problem = Problem::new(ProblemKind::Inconsistent, &field, message);
-    let help = "leave it out, or write distribution = \"gaussian\" and normalisation = \"printed\"";
+    let help = "leave it out, or write distribution = \"gaussian\" and normalization = \"printed\"";
     checks.report(problem.help(help));
     None
 }
@@ -297,7 +297,7 @@ fn ambient_light(
 ) -> Option<Emission> {
     let light = spectra.emission(checks, field, written, Radiator::Ambient)?;
     let normal = spectra.combined([n, k], |[n, k]| {
-        specular * optics::reflectance_unpolarised(optics::Complex64::new(n, k), 1.0)
+        specular * optics::reflectance_unpolarized(optics::Complex64::new(n, k), 1.0)
     });
     let returned = match diffuse {
         Some(diffuse) => {

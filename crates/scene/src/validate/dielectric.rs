@@ -76,7 +76,7 @@ fn report_absorption(checks: &mut Checks, field: &FieldPath, index: &Index, (k, 
         Shown(CLEAR_COAT_K)
     );
     let help = format!(
-        "leave out `base` for an opaque body of this index, or write the real part alone, such as index = {n:.3}, for a coat without colour"
+        "leave out `base` for an opaque body of this index, or write the real part alone, such as index = {n:.3}, for a coat without color"
     );
     let problem = Problem::new(ProblemKind::Inconsistent, field, message);
     checks.report(problem.help(help));

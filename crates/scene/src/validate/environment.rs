@@ -124,7 +124,7 @@ fn check_sky(
     let sunlight = ("sun".to_owned(), Some(checked.sunlight));
     let strength = (&factor.strength, Radiator::Surroundings);
     let sun = Light {
-        shape: checked.disc,
+        shape: checked.disk,
         emission: spectra.emission_of(checks, &top, sunlight, strength)?,
     };
     Some((sky, Some(sun)))

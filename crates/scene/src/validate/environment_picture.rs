@@ -53,7 +53,7 @@ pub(super) fn read(
         checks.note(field, format_args!("{}: {note}", file.display()));
     }
     let message = match found {
-        Ok(LightFile::Colours { width, rgb }) => match lifted(width, &rgb) {
+        Ok(LightFile::Colors { width, rgb }) => match lifted(width, &rgb) {
             Ok(sphere) => return Some(sphere),
             Err(pixel) => format!("{}: {pixel}", path.display()),
         },
@@ -99,17 +99,17 @@ fn check_pixels(values: &[f32], per_pixel: usize, width: u32) -> Result<(), BadP
     }
 }
 
-/// Colours as smooth spectra: each is a factor, twice its largest part, times a reflectance of at most a half, which makes it
+/// Colors as smooth spectra: each is a factor, twice its largest part, times a reflectance of at most a half, which makes it
 /// smoother than a brighter one would be.
 fn lifted(width: u32, rgb: &[[f32; 3]]) -> Result<Sphere, BadPixel> {
     check_pixels(rgb.as_flattened(), 3, width)?;
     let fill_row = |(texels, row): (&mut [[f32; 4]], &[[f32; 3]])| {
         let mut lifting = Lifting::default();
-        for (texel, colour) in texels.iter_mut().zip(row) {
-            let colour = colour.map(|value| f64::from(value.max(0.0)));
-            let scale = 2.0 * colour.into_iter().fold(0.0, f64::max);
+        for (texel, color) in texels.iter_mut().zip(row) {
+            let color = color.map(|value| f64::from(value.max(0.0)));
+            let scale = 2.0 * color.into_iter().fold(0.0, f64::max);
             let reflectance = if scale > 0.0 {
-                lifting.next(colour.map(|value| value / scale))
+                lifting.next(color.map(|value| value / scale))
             } else {
                 SigmoidReflectance::default()
             };
@@ -122,8 +122,8 @@ fn lifted(width: u32, rgb: &[[f32; 3]]) -> Result<Sphere, BadPixel> {
     let rows = rgb.par_chunks(width as usize);
     let texels = values.par_chunks_mut(width as usize);
     texels.zip(rows).for_each(fill_row);
-    let brightness = rgb.iter().map(|colour| {
-        let sum: f32 = colour.iter().map(|value| value.max(0.0)).sum();
+    let brightness = rgb.iter().map(|color| {
+        let sum: f32 = color.iter().map(|value| value.max(0.0)).sum();
         sum / 3.0
     });
     Ok(Sphere {

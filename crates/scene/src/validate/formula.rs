@@ -70,7 +70,7 @@ fn are_in_range(checks: &mut Checks, field: &FieldPath, coefficients: &[f64]) ->
     found.fold(Some(()), Option::and)
 }
 
-/// From 100 nm to 30 µm, every nanometre to 2.5 µm and every tenth one beyond.
+/// From 100 nm to 30 µm, every nanometer to 2.5 µm and every tenth one beyond.
 fn wavelengths_nm() -> impl Iterator<Item = f64> {
     let fine = (100..2500).map(f64::from);
     fine.chain((250..=3000).map(|tens| 10.0 * f64::from(tens)))
@@ -140,7 +140,7 @@ pub(crate) fn without_gaps(formula: &DispersionFormula, line: usize) -> Option<D
     Some(formula.clone().with_faults(faults))
 }
 
-/// From 30 µm to the end of all tables, every micrometre.
+/// From 30 µm to the end of all tables, every micrometer.
 fn far_wavelengths_nm() -> impl Iterator<Item = f64> {
     (31..=1000).map(|um| 1e3 * f64::from(um))
 }

@@ -127,7 +127,7 @@ fn reflecting<'w>(
     let (reflectance, advice) = read_reflectance(checks, range, field, written)?;
     let points = points_of(&reflectance);
     if let Some((nm, value)) = points.iter().find(|(_, value)| !range.contains(*value)) {
-        // Numbers have been looked at where they are written: this is a name or a colour.
+        // Numbers have been looked at where they are written: this is a name or a color.
         let message = format!("found {value:.4} at {nm} nm; it must be from {range}");
         checks.report(Problem::new(ProblemKind::OutOfRange, field, message));
         return None;
@@ -158,7 +158,7 @@ fn points_of(spectrum: &Spectrum) -> Vec<(f64, f64)> {
     }
 }
 
-/// The same line through more points, at most a nanometre apart where the table is not longer than scenes can use: the index bends
+/// The same line through more points, at most a nanometer apart where the table is not longer than scenes can use: the index bends
 /// where the reflectance runs straight.
 fn finely(points: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> {
     const MOST: f64 = 1000.0;

@@ -1,7 +1,7 @@
-//! Colours: from codes to smooth reflectances.
+//! Colors: from codes to smooth reflectances.
 
 use super::checks::Checks;
-use super::picture_file::read_colours;
+use super::picture_file::read_colors;
 use crate::limits;
 use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, Texels};
@@ -14,7 +14,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Red, green and blue from 0 to 1.
-pub(super) fn colour(checks: &mut Checks, field: &FieldPath, rgb: [f64; 3]) -> Option<[f64; 3]> {
+pub(super) fn color(checks: &mut Checks, field: &FieldPath, rgb: [f64; 3]) -> Option<[f64; 3]> {
     let checked: Vec<_> = (0..3)
         .map(|i| checks.number(&field.index(i), rgb[i], &limits::REFLECTANCE))
         .collect();
@@ -24,7 +24,7 @@ pub(super) fn colour(checks: &mut Checks, field: &FieldPath, rgb: [f64; 3]) -> O
         .then_some(rgb)
 }
 
-/// The smooth reflectance of a colour, as a table at every nm that bands may cover.
+/// The smooth reflectance of a color, as a table at every nm that bands may cover.
 pub(super) fn reflectance(linear_rgb: [f64; 3]) -> Spectrum {
     let reflectance = SigmoidReflectance::of_linear_srgb(linear_rgb);
     let (first, last) = BandGrid::LIMITS_NM;
@@ -33,11 +33,11 @@ pub(super) fn reflectance(linear_rgb: [f64; 3]) -> Spectrum {
     Spectrum::Table(Tabulated::new(points.collect()).expect("its wavelengths rise"))
 }
 
-/// The texels of a picture's colours.
+/// The texels of a picture's colors.
 pub(super) fn picture(checks: &mut Checks, field: &FieldPath, file: &Path) -> Option<Arc<Texels>> {
     let path = checks.path(field, file)?;
     let mut notes = Vec::new();
-    let (picture, meaning) = match read_colours(&path, &mut notes) {
+    let (picture, meaning) = match read_colors(&path, &mut notes) {
         Ok(found) => found,
         Err(error) => {
             let message = format!("{}: {error}", path.display());
@@ -45,15 +45,15 @@ pub(super) fn picture(checks: &mut Checks, field: &FieldPath, file: &Path) -> Op
             return None;
         }
     };
-    let mut colours: Vec<[u16; 3]> = picture.pixels().map(|pixel| pixel.0).collect();
-    colours.sort_unstable();
-    colours.dedup();
-    let beyond = colours
+    let mut colors: Vec<[u16; 3]> = picture.pixels().map(|pixel| pixel.0).collect();
+    colors.sort_unstable();
+    colors.dedup();
+    let beyond = colors
         .par_iter()
         .filter(|&&codes| is_beyond(&meaning, codes));
     let beyond = beyond.count();
     if beyond > 0 {
-        let of = colours.len();
+        let of = colors.len();
         notes.push(format!(
             "{beyond} of its {of} colors lie beyond those of sRGB, and are clipped to them"
         ));
@@ -61,7 +61,7 @@ pub(super) fn picture(checks: &mut Checks, field: &FieldPath, file: &Path) -> Op
     for note in notes {
         checks.note(field, format_args!("{}: {note}", file.display()));
     }
-    let texels: HashMap<[u16; 3], [f32; 4]> = colours
+    let texels: HashMap<[u16; 3], [f32; 4]> = colors
         .into_par_iter()
         .map(|codes| (codes, texel(meaning.linear_srgb(codes))))
         .collect();

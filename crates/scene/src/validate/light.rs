@@ -56,19 +56,22 @@ pub(crate) fn check_way(checks: &mut Checks, description: &Description) {
     }
 }
 
-/// The same with the sun of a sky, discs first; no more discs than are possible.
+/// The same with the sun of a sky, disks first; no more disks than are possible.
 pub(crate) fn with_sun<'a>(
     checks: &mut Checks,
     mut lights: Vec<Named<'a>>,
     sun: Option<Named<'a>>,
 ) -> Option<Vec<Named<'a>>> {
     lights.extend(sun);
-    lights.sort_by_key(|(light, _)| !is_disc(light));
-    let discs = lights.iter().filter(|(light, _)| is_disc(light)).count();
-    if discs > limits::MAX_DISCS_OF_LIGHT {
+    lights.sort_by_key(|(light, _)| !is_distant_disk(light));
+    let disks = lights
+        .iter()
+        .filter(|(light, _)| is_distant_disk(light))
+        .count();
+    if disks > limits::MAX_DISTANT_DISKS {
         let message = format!(
-            "found {discs} distant lights with a diameter, the sun of a sky counted; at most {} are possible",
-            limits::MAX_DISCS_OF_LIGHT
+            "found {disks} distant lights with a diameter, the sun of a sky counted; at most {} are possible",
+            limits::MAX_DISTANT_DISKS
         );
         let top = FieldPath::root().key("lights");
         checks.report(Problem::new(ProblemKind::TooLarge, &top, message));
@@ -77,8 +80,8 @@ pub(crate) fn with_sun<'a>(
     Some(lights)
 }
 
-fn is_disc(light: &Light) -> bool {
-    matches!(light.shape, LightShape::Disc { .. })
+fn is_distant_disk(light: &Light) -> bool {
+    matches!(light.shape, LightShape::DistantDisk { .. })
 }
 
 fn check(
@@ -128,7 +131,7 @@ fn any_radiator(light: &description::Light) -> Radiator {
 fn radiator(shape: LightShape) -> Radiator {
     match shape {
         // ∫ cos dω = π sin² of the angle at the edge.
-        LightShape::Disc { height, .. } => Radiator::Distant(PI * height * (2.0 - height)),
+        LightShape::DistantDisk { height, .. } => Radiator::Distant(PI * height * (2.0 - height)),
         LightShape::Direction { .. } => Radiator::Distant(0.0),
         LightShape::Point { .. } => Radiator::Point(2.0 * TAU),
         // The smooth edge is odd about its middle, so that half of it counts.
@@ -146,11 +149,11 @@ fn distant(
     direction: [f64; 3],
     diameter_deg: f64,
 ) -> Option<LightShape> {
-    let towards = checks.direction(&field.key("direction"), direction);
+    let toward = checks.direction(&field.key("direction"), direction);
     let at = field.key("diameter_deg");
     let diameter = checks.number(&at, diameter_deg, &limits::ANGULAR_DIAMETER_DEG)?;
     if diameter == 0.0 {
-        return Some(LightShape::Direction { towards: towards? });
+        return Some(LightShape::Direction { toward: toward? });
     }
     if diameter < limits::MIN_ANGULAR_DIAMETER_DEG {
         let message = format!(
@@ -160,8 +163,8 @@ fn distant(
         checks.report(Problem::new(ProblemKind::OutOfRange, &at, message));
         return None;
     }
-    Some(LightShape::Disc {
-        towards: towards?,
+    Some(LightShape::DistantDisk {
+        toward: toward?,
         height: 2.0 * (0.25 * diameter.to_radians()).sin().powi(2),
     })
 }

@@ -123,7 +123,7 @@ fn has_transparency(picture: &DynamicImage) -> bool {
 pub(crate) type Codes = ImageBuffer<Rgb<u16>, Vec<u16>>;
 
 /// The codes of red, green and blue of 16 bits of a PNG file of 8 or 16 bits, and the colors that they are.
-pub(crate) fn read_colours(
+pub(crate) fn read_colors(
     path: &Path,
     notes: &mut Vec<String>,
 ) -> Result<(Codes, CodeColors), PictureFileError> {
@@ -140,13 +140,13 @@ pub(crate) fn read_colours(
 /// Light from all directions as a file has it.
 pub(crate) enum LightFile {
     /// Linear red, green and blue of the primaries of sRGB, row by row.
-    Colours { width: u32, rgb: Vec<[f32; 3]> },
+    Colors { width: u32, rgb: Vec<[f32; 3]> },
     /// Spectra.
     Spectra(Box<SpectralImage>),
 }
 
-/// Reads a picture of all directions for these bands: a Radiance file or an OpenEXR file, of colours or of spectra. `layer` is
-/// that of an OpenEXR file of several, and is then one of colours. What is assumed goes into `notes`.
+/// Reads a picture of all directions for these bands: a Radiance file or an OpenEXR file, of colors or of spectra. `layer` is
+/// that of an OpenEXR file of several, and is then one of colors. What is assumed goes into `notes`.
 pub(crate) fn read_light(
     path: &Path,
     layer: Option<&str>,
@@ -161,10 +161,10 @@ pub(crate) fn read_light(
         };
     }
     match image::guess_format(&start).ok() {
-        Some(ImageFormat::OpenExr) if layer.is_some() => read_exr_colours(path, layer, notes),
+        Some(ImageFormat::OpenExr) if layer.is_some() => read_exr_colors(path, layer, notes),
         Some(ImageFormat::OpenExr) => match color::spectral_exr::read_size(path) {
             Ok(found) => read_spectra(path, found, grid, notes),
-            Err(ReadExrError::NoSpectrum { .. }) => read_exr_colours(path, None, notes),
+            Err(ReadExrError::NoSpectrum { .. }) => read_exr_colors(path, None, notes),
             Err(error) => Err(PictureFileError::Exr(chain(&error))),
         },
         _ => Err(PictureFileError::NotLight),
@@ -179,10 +179,10 @@ fn read_radiance(path: &Path, notes: &mut Vec<String>) -> Result<LightFile, Pict
     let rgb = picture.pixels()?;
     notes.extend_from_slice(picture.notes());
     let width = picture.width();
-    Ok(LightFile::Colours { width, rgb })
+    Ok(LightFile::Colors { width, rgb })
 }
 
-fn read_exr_colours(
+fn read_exr_colors(
     path: &Path,
     layer: Option<&str>,
     notes: &mut Vec<String>,
@@ -195,7 +195,7 @@ fn read_exr_colours(
     notes.extend_from_slice(file.notes());
     let rgb = file.read();
     let rgb = rgb.map_err(|error| PictureFileError::Exr(chain(&error)))?;
-    Ok(LightFile::Colours { width, rgb })
+    Ok(LightFile::Colors { width, rgb })
 }
 
 fn read_spectra(

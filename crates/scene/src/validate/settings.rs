@@ -78,7 +78,7 @@ pub(crate) fn check(checks: &mut Checks, render: &Render) -> Checked {
 fn sampling(written: description::WavelengthSampling) -> WavelengthSampling {
     match written {
         description::WavelengthSampling::Random => WavelengthSampling::Random,
-        description::WavelengthSampling::Centre => WavelengthSampling::Centre,
+        description::WavelengthSampling::Center => WavelengthSampling::Center,
     }
 }
 

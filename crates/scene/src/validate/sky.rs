@@ -1,4 +1,4 @@
-//! A clear sky: from the sun's height to a picture of all directions with the sun's azimuth in its middle, and the sun's disc.
+//! A clear sky: from the sun's height to a picture of all directions with the sun's azimuth in its middle, and the sun's disk.
 
 use super::checks::Checks;
 use super::environment_picture::{Sphere, banded};
@@ -26,10 +26,10 @@ pub(super) struct Sky<'a> {
 pub(super) struct Checked {
     /// The sky over its ground.
     pub(super) sphere: Sphere,
-    /// The radiance of the sun's disc.
+    /// The radiance of the sun's disk.
     pub(super) sunlight: Spectrum,
     /// Where that is.
-    pub(super) disc: LightShape,
+    pub(super) disk: LightShape,
 }
 
 impl Sky<'_> {
@@ -61,15 +61,15 @@ impl Sky<'_> {
         Some(Checked {
             sphere: sky.over(&ground, &of_sun),
             sunlight,
-            disc: LightShape::Disc {
-                towards: DVec3::new(radius * sin_a, height, -radius * cos_a),
+            disk: LightShape::DistantDisk {
+                toward: DVec3::new(radius * sin_a, height, -radius * cos_a),
                 height: 2.0 * (0.25 * SUN_DIAMETER_DEG.to_radians()).sin().powi(2),
             },
         })
     }
 }
 
-/// Radiance of the sun's disc at every nm that bands may cover.
+/// Radiance of the sun's disk at every nm that bands may cover.
 fn sunlight(sky: &ClearSky) -> Spectrum {
     let (first, last) = BandGrid::LIMITS_NM;
     let points = (first as u32..=last as u32).map(f64::from);
@@ -94,7 +94,7 @@ fn means(grid: &BandGrid, table: &BandTable) -> Vec<f64> {
     (0..grid.count()).map(of_band).collect()
 }
 
-/// A sky with the sun towards the middle of its picture.
+/// A sky with the sun toward the middle of its picture.
 struct BandedSky<'a> {
     sky: &'a ClearSky,
     sun_angle: f64,
@@ -136,9 +136,9 @@ impl<'a> BandedSky<'a> {
     fn pixel(&self, column: u32, row: u32) -> Vec<f32> {
         let angle = angle_of(row);
         let turn = TAU * ((f64::from(column) + 0.5) / f64::from(SIZE[0]) - 0.5);
-        let towards =
+        let toward =
             self.sun_angle.cos() * angle.cos() + self.sun_angle.sin() * angle.sin() * turn.cos();
-        let light = self.sky.light(angle.cos(), towards.clamp(-1.0, 1.0).acos());
+        let light = self.sky.light(angle.cos(), toward.clamp(-1.0, 1.0).acos());
         let components = self.components.iter();
         components
             .map(|&values| light.of_components(values) as f32)

@@ -311,11 +311,11 @@ pub(super) fn read_reflectance<'w>(
             Advice::Name(name),
         ),
         Reflectance::Srgb { srgb } => {
-            let rgb = lifted::colour(checks, &field.key("srgb"), *srgb)?;
+            let rgb = lifted::color(checks, &field.key("srgb"), *srgb)?;
             (lifted::reflectance(rgb.map(decode)), Advice::None)
         }
         Reflectance::LinearSrgb { linear_srgb } => {
-            let rgb = lifted::colour(checks, &field.key("linear_srgb"), *linear_srgb)?;
+            let rgb = lifted::color(checks, &field.key("linear_srgb"), *linear_srgb)?;
             (lifted::reflectance(rgb), Advice::None)
         }
         Reflectance::Named { name, extrapolate } => (
@@ -423,8 +423,8 @@ fn check_brightness(
         amount.value * (most / found),
     );
     let mut problem = Problem::new(ProblemKind::OutOfRange, &amount.field, message);
-    let falls_from_small_disc = !matches!(amount.unit, "radiance" | "luminance_cd_m2");
-    if matches!(radiator, Radiator::Distant(solid) if solid > 0.0) && falls_from_small_disc {
+    let falls_from_small_disk = !matches!(amount.unit, "radiance" | "luminance_cd_m2");
+    if matches!(radiator, Radiator::Distant(solid) if solid > 0.0) && falls_from_small_disk {
         let help =
             "a larger `diameter_deg` allows more, and so does 0, light from a single direction";
         problem = problem.help(help);

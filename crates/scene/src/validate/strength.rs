@@ -235,7 +235,7 @@ impl Amount {
     }
 }
 
-/// ∫ f g dλ over the bands as a render sums it: over all wavelengths, or at the bands' centres.
+/// ∫ f g dλ over the bands as a render sums it: over all wavelengths, or at the bands' centers.
 fn integral(
     f: &BandTable,
     g: &BandTable,
@@ -245,7 +245,7 @@ fn integral(
     let bands = 0..grid.count();
     let value = |band, offset| (f.at(band, offset), g.at(band, offset));
     match sampling {
-        description::WavelengthSampling::Centre => {
+        description::WavelengthSampling::Center => {
             let products = bands.map(|band| {
                 let (f, g) = value(band, 0.5);
                 f * g

@@ -100,8 +100,8 @@ fn part(
         Written::Product { product } => {
             combined(checks, &field.key("product"), product).map(Thickness::Product)
         }
-        Written::Anodising { anodising } => {
-            growth::anodised(checks, &field.key("anodising"), anodising)
+        Written::Anodizing { anodizing } => {
+            growth::anodized(checks, &field.key("anodizing"), anodizing)
         }
         Written::HeatTint { heat_tint } => {
             growth::tinted(checks, &field.key("heat_tint"), heat_tint)

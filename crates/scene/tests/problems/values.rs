@@ -50,9 +50,9 @@ fn numbers_out_of_range_are_told_with_the_range() {
             &["at least 1 nm"],
         ),
         (
-            "sampling = 'center'",
+            "sampling = 'centre'",
             "sampling",
-            &["\"center\"", "did you mean \"centre\"?"],
+            &["\"centre\"", "did you mean \"center\"?"],
         ),
     ];
     for (line, field, phrases) in cases {

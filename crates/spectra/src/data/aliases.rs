@@ -3,7 +3,7 @@
 /// A name and the set of figures that it stands for, sorted by name.
 pub(super) const ALIASES: [(&str, &str); 44] = [
     ("Ag", "silver"),
-    ("Al", "aluminium"),
+    ("Al", "aluminum"),
     ("Al2O3", "alumina"),
     ("Au", "gold"),
     ("BK7", "bk7"),
@@ -44,7 +44,7 @@ pub(super) const ALIASES: [(&str, &str); 44] = [
     ("ZnO", "zinc_oxide"),
     ("ZnS", "zinc_sulfide"),
     ("ZrO2", "zirconia"),
-    ("aluminum", "aluminium"),
+    ("aluminium", "aluminum"),
     ("sapphire", "alumina"),
 ];
 

@@ -26,18 +26,18 @@ fn luminance(spectrum: &Spectrum) -> Result<f64, OutOfRange> {
 }
 
 /// The same spectrum with the luminance of the equal-energy spectrum of value 1.
-fn normalised(table: &Tabulated) -> Result<Spectrum, OutOfRange> {
+fn normalized(table: &Tabulated) -> Result<Spectrum, OutOfRange> {
     let own = luminance(&Spectrum::Table(table.clone()))?;
     let factor = luminance(&Spectrum::Constant(1.0))? / own;
     Ok(Spectrum::Table(table.scaled(factor)))
 }
 
-/// The same set, normalised.
+/// The same set, normalized.
 ///
 /// # Panics
 /// When the table does not cover 380 to 780 nm, which the project's own do: the test that loads every set stands before that.
-fn normalised_set(set: DataSet<Tabulated>) -> DataSet<Spectrum> {
-    let data = normalised(&set.data).unwrap_or_else(|gap| panic!("illuminant {}: {gap}", set.name));
+fn normalized_set(set: DataSet<Tabulated>) -> DataSet<Spectrum> {
+    let data = normalized(&set.data).unwrap_or_else(|gap| panic!("illuminant {}: {gap}", set.name));
     DataSet {
         name: set.name,
         citation: set.citation,
@@ -70,7 +70,7 @@ fn all() -> &'static BTreeMap<Cow<'static, str>, DataSet<Spectrum>> {
         sets.extend(table!("illuminants/fluorescent.csv"));
         sets.extend(table!("illuminants/led.csv"));
         sets.extend(table!("illuminants/discharge.csv"));
-        let mut sets: Vec<_> = sets.into_iter().map(normalised_set).collect();
+        let mut sets: Vec<_> = sets.into_iter().map(normalized_set).collect();
         sets.push(DataSet {
             name: Cow::Borrowed("E"),
             citation: "Equal-energy spectrum: CIE 015:2018, Colorimetry, 4th edition, DOI 10.25039/TR.015.2018."
@@ -122,7 +122,7 @@ fn suggestion(nearest: Option<&str>) -> String {
 ///   ([`is_line_lamp`]): read as linear between the points, as here, their chromaticity y moves by about 2e-4 from the published
 ///   one, and a mercury line is as wide as the table's step. 380 to 780 nm.
 /// * `LED-B1` to `LED-B5`, `LED-BH1`, `LED-RGB1`, `LED-V1`, `LED-V2`: 5 nm tables too, of smooth lamps; 380 to 780 nm.
-/// * `D5700K`: the CIE's daylight of that correlated colour temperature, 4000 to 25000 K; 300 to 830 nm. D65 itself lies near 6504 K.
+/// * `D5700K`: the CIE's daylight of that correlated color temperature, 4000 to 25000 K; 300 to 830 nm. D65 itself lies near 6504 K.
 /// * `blackbody_3000K`: Planck's law with c₂ = 1.4388e-2 m K, 1000 to 100000 K; 300 to 830 nm.
 ///
 /// # Errors
@@ -135,7 +135,7 @@ pub fn find_illuminant(name: &str) -> Result<DataSet<Spectrum>, IlluminantError>
         return Ok(set.clone());
     }
     match radiators::by_temperature(name)? {
-        Some(set) => Ok(normalised_set(set)),
+        Some(set) => Ok(normalized_set(set)),
         None => Err(IlluminantError::Unknown {
             name: name.chars().take(64).collect(),
             nearest: nearest(name, illuminant_names()).map(str::to_owned),

@@ -21,9 +21,9 @@ const FILES: [(&str, &str); 69] = [
     material!("air"),
     material!("alumina"),
     material!("alumina_film"),
-    material!("aluminium"),
-    material!("aluminium_cheng"),
-    material!("aluminium_mcpeak"),
+    material!("aluminum"),
+    material!("aluminum_cheng"),
+    material!("aluminum_mcpeak"),
     material!("anatase"),
     material!("bk7"),
     material!("brass"),
@@ -105,7 +105,7 @@ pub struct MaterialInfo {
     /// The publication in full.
     pub citation: &'static str,
     /// The terms under which the figures came here.
-    pub licence: &'static str,
+    pub license: &'static str,
     /// What is to be known before the figures are used.
     pub notes: &'static str,
     /// First and last wavelength where both n and k have a value, nm.
@@ -165,7 +165,7 @@ fn entry(name: &'static str, table: &Table) -> Result<Entry, TableError> {
         data_set: table.head("name")?,
         paper: table.head("paper")?,
         citation: table.head("citation")?,
-        licence: table.head("licence")?,
+        license: table.head("license")?,
         notes: table.head("notes")?,
         range_nm: data.range_nm().unwrap_or((0.0, f64::INFINITY)),
     };
@@ -193,7 +193,7 @@ fn find(name: &str) -> Option<&'static Entry> {
 ///
 /// | kind | names |
 /// | --- | --- |
-/// | metals | `aluminium`, `brass`, `chromium`, `cobalt`, `copper`, `gold`, `gold_silver`, `iron`, `nickel`, `niobium`, `platinum`, `silver`, `titanium`, `tungsten`, `zinc` |
+/// | metals | `aluminum`, `brass`, `chromium`, `cobalt`, `copper`, `gold`, `gold_silver`, `iron`, `nickel`, `niobium`, `platinum`, `silver`, `titanium`, `tungsten`, `zinc` |
 /// | oxides | `alumina`, `anatase`, `hafnia`, `hematite`, `magnetite`, `niobia`, `rutile`, `silica`, `silicon_monoxide`, `tantala`, `titania`, `tungsten_trioxide`, `zinc_oxide`, `zirconia` |
 /// | nitrides | `silicon_nitride`, `titanium_nitride` |
 /// | fluorides | `calcium_fluoride`, `magnesium_fluoride` |
@@ -207,7 +207,7 @@ fn find(name: &str) -> Option<&'static Entry> {
 /// [`material_aliases`].
 ///
 /// A name with an ending (`gold_olmon`, `copper_mcpeak`, `silica_film`) is another set of figures of the same material. The
-/// choice of set moves a metal's colour by more than any numerics: name it beside a result.
+/// choice of set moves a metal's color by more than any numerics: name it beside a result.
 ///
 /// Tables are linear between their points, n and k each on its own; formulas are evaluated where they are asked for.
 /// Asked for outside its range, a material is an error; some begin within the visible range (`polystyrene` at 400 nm).
@@ -306,7 +306,7 @@ mod tests {
             let info = material_info(name).unwrap();
             let year = |text: &str| text.contains("19") || text.contains("20");
             assert!(year(info.paper) && year(info.citation), "{info:?}");
-            assert!(info.licence.starts_with("CC0 1.0"), "{info:?}");
+            assert!(info.license.starts_with("CC0 1.0"), "{info:?}");
             assert!(
                 !info.material.is_empty() && !info.data_set.is_empty(),
                 "{info:?}"
@@ -328,7 +328,7 @@ mod tests {
             // The database's own name of the substance says the same as the alias, save for names in words and of glasses.
             let head = info.data_set.split('-').next().unwrap();
             let written = alias.replace("N-", "N");
-            let in_words = ["aluminum", "sapphire", "PS", "BK7", "SF11"].contains(&alias);
+            let in_words = ["aluminium", "sapphire", "PS", "BK7", "SF11"].contains(&alias);
             assert!(in_words || written == head, "{alias}: {head}");
         }
         for stranger in ["au", "AU", "sio2", "SIO2", "Hg", "", "N-BK10"] {

@@ -1,6 +1,6 @@
 //! The tables that the project carries, by name.
 //!
-//! The figures stand in `data/` beside this crate's `src/`, each file with its source and licence
+//! The figures stand in `data/` beside this crate's `src/`, each file with its source and license
 //! in the head; see [`table`] for the form. They are part of the program: nothing is read at run time.
 
 use std::borrow::Cow;
@@ -32,7 +32,7 @@ pub const KM_LUMENS_PER_WATT: f64 = 683.0;
 pub struct DataSet<T> {
     /// The name by which scenes ask for it.
     pub name: Cow<'static, str>,
-    /// The publication that the figures come from, and the licence where one applies.
+    /// The publication that the figures come from, and the license where one applies.
     pub citation: String,
     /// The figures.
     pub data: T,

@@ -49,7 +49,7 @@ impl Observer {
         }
     }
 
-    /// The colour-matching functions x̄, ȳ, z̄ at 1 nm: from 360 nm those of 1931 and 1964, from 390 nm those of 2015, to 830 nm.
+    /// The color-matching functions x̄, ȳ, z̄ at 1 nm: from 360 nm those of 1931 and 1964, from 390 nm those of 2015, to 830 nm.
     /// Where a table ends the functions are 0: see [`Self::at`].
     pub fn functions(self) -> &'static [Tabulated; 3] {
         macro_rules! table {
@@ -98,7 +98,7 @@ fn read(table: &Table) -> Result<[Tabulated; 3], TableError> {
     ])
 }
 
-/// The CIE 1931 2° colour-matching functions x̄, ȳ, z̄ at 1 nm, 360 to 830 nm.
+/// The CIE 1931 2° color-matching functions x̄, ȳ, z̄ at 1 nm, 360 to 830 nm.
 ///
 /// Source: CIE (2019), DOI 10.25039/CIE.DS.xvudnb9b.
 pub fn observer_1931() -> &'static [Tabulated; 3] {
@@ -130,7 +130,7 @@ mod tests {
 
     #[test]
     fn the_three_functions_have_nearly_equal_sums() {
-        // The functions are normalised so that equal energy is white: X = Y = Z.
+        // The functions are normalized so that equal energy is white: X = Y = Z.
         // The rounding of the table leaves 3e-4.
         for observer in Observer::ALL {
             let sums = observer

@@ -24,7 +24,7 @@ pub(super) fn by_temperature(name: &str) -> Result<Option<DataSet<Tabulated>>, I
     ) =
         kelvin("D")
     {
-        let citation = "CIE daylight of a correlated colour temperature: CIE 015:2018, Colorimetry, 4th edition, section 4.1.2";
+        let citation = "CIE daylight of a correlated color temperature: CIE 015:2018, Colorimetry, 4th edition, section 4.1.2";
         ("daylight", DAYLIGHT_K, daylight, temperature, citation)
     } else if let Some(temperature) = kelvin("blackbody_") {
         let citation = "Planck's law with c2 = 1.4388e-2 m K: CIE 015:2018, Colorimetry, 4th edition, section 4.1.1";
@@ -52,7 +52,7 @@ pub(super) fn by_temperature(name: &str) -> Result<Option<DataSet<Tabulated>>, I
     }))
 }
 
-/// CIE daylight, S = S₀ + M₁ S₁ + M₂ S₂, 100 at 560 nm, of a correlated colour temperature from 4000 to 25000 K; at 5 nm, linear
+/// CIE daylight, S = S₀ + M₁ S₁ + M₂ S₂, 100 at 560 nm, of a correlated color temperature from 4000 to 25000 K; at 5 nm, linear
 /// between the points (CIE 015:2018, equations 4.5 to 4.9; M₁ and M₂ are not rounded to three decimals, as the CIE did for the
 /// tables of D50 to D75).
 fn daylight(kelvin: f64) -> Tabulated {
@@ -65,7 +65,7 @@ fn daylight(kelvin: f64) -> Tabulated {
     tabulated(points.map(|(((nm, s0), (_, s1)), (_, s2))| (nm, s0 + m1 * s1 + m2 * s2)))
 }
 
-/// Chromaticity of daylight of a correlated colour temperature (CIE 015:2018, equations 4.5 to 4.7).
+/// Chromaticity of daylight of a correlated color temperature (CIE 015:2018, equations 4.5 to 4.7).
 fn daylight_xy(kelvin: f64) -> [f64; 2] {
     let x = if kelvin <= 7000.0 {
         -4.6070e9 / kelvin.powi(3) + 2.9678e6 / kelvin.powi(2) + 0.09911e3 / kelvin + 0.244_063

@@ -60,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn patches_have_the_colour_of_their_name() {
+    fn patches_have_the_color_of_their_name() {
         let at = |name, nm| reflectance(name).unwrap().data.at(nm).unwrap();
         assert!(at("red", 650.0) > 5.0 * at("red", 500.0));
         assert!(at("green", 530.0) > 2.0 * at("green", 650.0));

@@ -3,7 +3,7 @@
 //! ```text
 //! # name: Au-Johnson
 //! # citation: who measured it, where it was published
-//! # licence: under which terms the figures came here
+//! # license: under which terms the figures came here
 //! nm,n,k
 //! 300.9,1.53,1.889
 //! ```
@@ -106,13 +106,13 @@ impl Table {
             .ok_or(TableError::MissingKey(key))
     }
 
-    /// The name of the set, its source and its licence, as one text.
+    /// The name of the set, its source and its license, as one text.
     pub(super) fn citation(&self) -> Result<String, TableError> {
         Ok(format!(
-            "{}: {}. Licence: {}.",
+            "{}: {}. License: {}.",
             self.head("name")?,
             self.head("citation")?,
-            self.head("licence")?
+            self.head("license")?
         ))
     }
 
@@ -204,9 +204,9 @@ mod tests {
     #[test]
     fn head_blocks_and_gaps_are_read() {
         let table =
-            Table::parse("# name: a set\n# citation: x: y\n# licence: z\nb,c\n1,2\n\nnm,p,q\n400,1,\n410,2,5e-1\n")
+            Table::parse("# name: a set\n# citation: x: y\n# license: z\nb,c\n1,2\n\nnm,p,q\n400,1,\n410,2,5e-1\n")
                 .unwrap();
-        assert_eq!(table.citation().unwrap(), "a set: x: y. Licence: z.");
+        assert_eq!(table.citation().unwrap(), "a set: x: y. License: z.");
         assert_eq!(table.series_names(), ["c"]);
         assert!(table.column("c").is_empty() && table.column("r").is_empty());
         let formula = Table::parse("coefficient\n1\n2e-3\n\nnm,k\n400,0\n").unwrap();

@@ -142,8 +142,8 @@ pub(super) const OZONE: [(f64, f64); 53] = [
 /// Absorption of the mixed gases, above all of oxygen.
 pub(super) const GASES: [(f64, f64); 4] = [(759.0, 0.0), (760.0, 3.0), (770.0, 0.21), (771.0, 0.0)];
 
-/// Absorption of water vapour.
-pub(super) const VAPOUR: [(f64, f64); 13] = [
+/// Absorption of water vapor.
+pub(super) const VAPOR: [(f64, f64); 13] = [
     (689.0, 0.0),
     (690.0, 0.016),
     (700.0, 0.024),

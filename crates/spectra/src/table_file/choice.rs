@@ -116,8 +116,8 @@ fn unit_of(
     let is_short = points
         .clone()
         .any(|point| point.place < super::finish::SHORTEST_NM);
-    let micrometres = (Unit::Um, "as refractiveindex.info writes below wl");
-    Ok((is_database && is_short).then_some(micrometres))
+    let micrometers = (Unit::Um, "as refractiveindex.info writes below wl");
+    Ok((is_database && is_short).then_some(micrometers))
 }
 
 /// Refuses rows that have other columns than the head, or whose commas may be decimal ones.

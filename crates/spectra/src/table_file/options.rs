@@ -4,9 +4,9 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Unit {
-    /// Nanometres.
+    /// Nanometers.
     Nm,
-    /// Micrometres.
+    /// Micrometers.
     Um,
     /// Ångström, 0.1 nm.
     Angstrom,

@@ -374,7 +374,7 @@ fn two_tables_of_the_database_are_n_and_k() {
 }
 
 const CGATS: &str = "CGATS.17\nORIGINATOR \"a program\"\nNUMBER_OF_FIELDS 4\nBEGIN_DATA_FORMAT\nSAMPLE_ID SAMPLE_NAME SPECTRAL_NM380 SPECTRAL_NM390\n\
-                     END_DATA_FORMAT\nNUMBER_OF_SETS 2\nBEGIN_DATA\n1 \"light grey\" 0.5 0.25\n2 \"dark\" 0.125 0.0625\nEND_DATA\n";
+                     END_DATA_FORMAT\nNUMBER_OF_SETS 2\nBEGIN_DATA\n1 \"light gray\" 0.5 0.25\n2 \"dark\" 0.125 0.0625\nEND_DATA\n";
 
 #[test]
 fn samples_of_cgats_are_chosen() {
@@ -385,7 +385,7 @@ fn samples_of_cgats_are_chosen() {
     let name = |name: &str| options(ColumnChoice::Name(name.to_owned()));
     let light = vec![(380.0, 0.5), (390.0, 0.25)];
     let dark = vec![(380.0, 0.125), (390.0, 0.0625)];
-    assert_eq!(with(CGATS, &name("light grey")), Ok(light));
+    assert_eq!(with(CGATS, &name("light gray")), Ok(light));
     assert_eq!(with(CGATS, &name("2")), Ok(dark.clone()));
     assert_eq!(
         with(CGATS, &options(ColumnChoice::Number(2))),
@@ -398,13 +398,13 @@ fn samples_of_cgats_are_chosen() {
     );
     let said = with(CGATS, &name("none")).unwrap_err();
     assert!(
-        said.contains("no column \"none\"") && said.contains("\"light grey\""),
+        said.contains("no column \"none\"") && said.contains("\"light gray\""),
         "{said}"
     );
     for prefix in ["SPEC_", "nm", "SPECTRAL_", "NM_"] {
         let one_sample = CGATS
             .replace("SPECTRAL_NM", prefix)
-            .replace("1 \"light grey\" 0.5 0.25\n", "");
+            .replace("1 \"light gray\" 0.5 0.25\n", "");
         assert_eq!(
             points(&one_sample),
             (dark.clone(), String::new()),
@@ -413,7 +413,7 @@ fn samples_of_cgats_are_chosen() {
     }
     let tabs = CGATS
         .replace("SAMPLE_NAME ", "")
-        .replace("1 \"light grey\" 0.5 0.25\n", "")
+        .replace("1 \"light gray\" 0.5 0.25\n", "")
         .replace("2 \"dark\" 0.125 0.0625", "2\t0,125\t0,0625");
     assert_eq!(points(&tabs), (dark, "read with decimal commas".to_owned()));
 }
@@ -421,7 +421,7 @@ fn samples_of_cgats_are_chosen() {
 #[test]
 fn percent_of_cgats_is_what_the_file_says() {
     let text = CGATS
-        .replace("1 \"light grey\" 0.5 0.25\n", "")
+        .replace("1 \"light gray\" 0.5 0.25\n", "")
         .replace("0.125 0.0625", "12.5 6.25");
     let said = one(&text).unwrap_err().to_string();
     assert!(said.contains("line 9: found reflectance 12.5"), "{said}");
@@ -449,7 +449,7 @@ fn broken_cgats_is_refused() {
         ),
     ] {
         let text = CGATS
-            .replace("1 \"light grey\" 0.5 0.25\n", "\n")
+            .replace("1 \"light gray\" 0.5 0.25\n", "\n")
             .replace(from, to);
         let error = one(&text).unwrap_err().to_string();
         assert!(error.contains(said), "{error}");

@@ -9,9 +9,9 @@ use super::Gamut;
 /// A display's primaries in Oklab, adapted to its white.
 ///
 /// Oklab is made for the white D65. Its responses are divided here by those to the display's white (von Kries 1902), so that the
-/// greys of every display are the greys of the space; for a display of white D65 that changes nothing.
+/// grays of every display are the grays of the space; for a display of white D65 that changes nothing.
 ///
-/// With l, m, s the responses, Oklab is linear in their roots r = (∛l, ∛m, ∛s), and its grey of lightness L is r = (L, L, L).
+/// With l, m, s the responses, Oklab is linear in their roots r = (∛l, ∛m, ∛s), and its gray of lightness L is r = (L, L, L).
 /// A line of constant hue and lightness is therefore r = L + t k, and red, green and blue along it are cubics in t.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Perceptual {
@@ -32,15 +32,15 @@ impl Perceptual {
         }
     }
 
-    /// The most chroma that the display shows of a colour's hue and lightness, of that colour's chroma at most. A colour darker
-    /// or lighter than every grey of the display takes the lightness of the nearest grey.
+    /// The most chroma that the display shows of a color's hue and lightness, of that color's chroma at most. A color darker
+    /// or lighter than every gray of the display takes the lightness of the nearest gray.
     pub(super) fn map(&self, rgb: [f64; 3], gamut: &Gamut) -> [f64; 3] {
         let roots = times(&self.lms_from_rgb, rgb).map(f64::cbrt);
         let lightness: f64 = (0..3).map(|i| LAB_FROM_ROOTS[0][i] * roots[i]).sum();
-        let [darkest, lightest] = gamut.greys().map(f64::cbrt);
-        let grey = lightness.max(darkest).min(lightest);
+        let [darkest, lightest] = gamut.grays().map(f64::cbrt);
+        let gray = lightness.max(darkest).min(lightest);
         let k = roots.map(|root| root - lightness);
-        let channels: [Cubic; 3] = self.rgb_from_lms.map(|row| Cubic::along(row, grey, k));
+        let channels: [Cubic; 3] = self.rgb_from_lms.map(|row| Cubic::along(row, gray, k));
 
         let mut end = 1.0;
         for (i, channel) in channels.iter().enumerate() {
@@ -62,7 +62,7 @@ impl Cubic {
     /// Σ mᵢ (L + t kᵢ)³ with m a row of the matrix from responses to a channel.
     fn along(m: [f64; 3], l: f64, k: [f64; 3]) -> Self {
         let moment = |power: i32| -> f64 { (0..3).map(|i| m[i] * k[i].powi(power)).sum() };
-        // The rows of the matrix have the sum 1: grey is grey.
+        // The rows of the matrix have the sum 1: gray is gray.
         Self([
             l * l * l,
             3.0 * l * l * moment(1),

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::{Gamut, xyz_of};
 use crate::develop::{DevelopSettings, LinearImage};
 
-/// How much of a picture lies outside the gamut of its display, and how far the mapping moves it: ΔE₀₀ between the colour asked
+/// How much of a picture lies outside the gamut of its display, and how far the mapping moves it: ΔE₀₀ between the color asked
 /// for and the one shown, under the display's white.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GamutReport {
@@ -15,7 +15,7 @@ pub struct GamutReport {
     pub pixels: usize,
     /// Those that the display cannot show.
     pub outside: usize,
-    /// Those among them of more luminance than the display has for any colour: too bright, whatever their saturation.
+    /// Those among them of more luminance than the display has for any color: too bright, whatever their saturation.
     pub too_bright: usize,
     /// Those among them that are no numbers, and are not in the figures below.
     pub not_finite: usize,
@@ -84,7 +84,7 @@ impl Outside {
         let shown = gamut.clipped(gamut.map(settings.gamut, rgb));
         let delta_e = delta_e_2000(lab(rgb), lab(shown));
         Self {
-            too_bright: luminance > gamut.greys()[1],
+            too_bright: luminance > gamut.grays()[1],
             delta_e: delta_e.is_finite().then_some(delta_e),
         }
     }

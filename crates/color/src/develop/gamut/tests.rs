@@ -11,8 +11,8 @@ fn display() -> Display {
     Display::named("srgb").unwrap()
 }
 
-/// Colours in and around the gamut of sRGB, far outside too.
-fn colours() -> impl Iterator<Item = [f64; 3]> {
+/// Colors in and around the gamut of sRGB, far outside too.
+fn colors() -> impl Iterator<Item = [f64; 3]> {
     let steps = (-6..=18).map(|i| f64::from(i) / 8.0);
     steps.clone().flat_map(move |r| {
         let steps = steps.clone();
@@ -31,9 +31,9 @@ fn oklab(rgb: [f64; 3]) -> Oklab {
 }
 
 #[test]
-fn mapped_colours_are_shown_and_shown_ones_stay() {
+fn mapped_colors_are_shown_and_shown_ones_stay() {
     let gamut = Gamut::new(&display());
-    for rgb in colours() {
+    for rgb in colors() {
         for mapping in MAPPINGS {
             let mapped = gamut.map(mapping, rgb);
             let is_inside = rgb.iter().all(|v| (0.0..=1.0).contains(v));
@@ -53,7 +53,7 @@ fn mapped_colours_are_shown_and_shown_ones_stay() {
 #[test]
 fn toward_white_keeps_luminance() {
     let gamut = Gamut::new(&display());
-    for rgb in colours() {
+    for rgb in colors() {
         let mapped = gamut.map(GamutMapping::TowardWhite, rgb);
         let (found, expected) = (luminance(mapped), luminance(rgb).clamp(0.0, 1.0));
         assert!((found - expected).abs() < 1e-9, "{rgb:?} {mapped:?}");
@@ -64,7 +64,7 @@ fn toward_white_keeps_luminance() {
 fn perceptual_keeps_hue_and_lightness_and_takes_the_least_chroma() {
     let gamut = Gamut::new(&display());
     let mut changed = 0;
-    for rgb in colours().filter(|&rgb| !gamut.contains(rgb)) {
+    for rgb in colors().filter(|&rgb| !gamut.contains(rgb)) {
         let (from, to) = (oklab(rgb), oklab(gamut.map(GamutMapping::Perceptual, rgb)));
         // The white of Ottosson's matrix and that of sRGB differ in the fourth digit.
         let lightness = from.l.clamp(0.0, 1.0);
@@ -91,7 +91,7 @@ fn perceptual_keeps_hue_and_lightness_and_takes_the_least_chroma() {
 }
 
 #[test]
-fn what_is_no_colour_is_clipped() {
+fn what_is_no_color_is_clipped() {
     let gamut = Gamut::new(&display());
     for mapping in MAPPINGS {
         let odd = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];

@@ -38,7 +38,7 @@ impl Vision {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EyeGlare {
     /// The angle that a pixel in the middle of the picture takes of the view. The same angle is taken everywhere, which a
-    /// picture of a wide view stretches towards its corners.
+    /// picture of a wide view stretches toward its corners.
     pub degrees_per_pixel: f64,
     /// The state of the eye.
     pub vision: Vision,
@@ -76,7 +76,7 @@ const MEAN_NM: f64 = 568.0;
 ///
 /// The spread is cut at the picture's size and scaled to the sum 1, so that no light is lost; beyond the picture the scene is
 /// taken to go on as in mirrors. Only the halo depends on wavelength: it is spread band by band, the rest once. Where the bands
-/// do not sum up to the picture's colour, the remainder is spread as light of 568 nm. What is not a number does not scatter.
+/// do not sum up to the picture's color, the remainder is spread as light of 568 nm. What is not a number does not scatter.
 pub(super) fn add(
     image: &mut LinearImage,
     latent: &Latent<'_>,
@@ -91,7 +91,7 @@ pub(super) fn add(
         let bands = Bands::new(grid, radiance, rgb_from_xyz, observer);
         kernels.of_spectrum(image, &bands)
     } else {
-        kernels.of_colours(image)
+        kernels.of_colors(image)
     };
     let planes = spectra.map(|spectrum| kernels.mirror.picture(spectrum));
     image.rgb.par_iter_mut().enumerate().for_each(|(i, rgb)| {
@@ -152,7 +152,7 @@ impl Kernels {
     }
 
     /// The transforms of red, green and blue, scattered without a halo.
-    fn of_colours(&self, image: &LinearImage) -> [Spectrum; 3] {
+    fn of_colors(&self, image: &LinearImage) -> [Spectrum; 3] {
         let (kernel, sum) = &self.common;
         std::array::from_fn(|channel| {
             let plane = image.rgb.iter().map(|&rgb| finite(rgb)[channel] / sum);
@@ -167,10 +167,10 @@ impl Kernels {
         // Light of a band is scaled by the sum of its own spread; the remainder by that of the middle.
         let middle = self.mirror.of_kernel(self.halo(MEAN_NM));
         let middle_scale = self.scale(MEAN_NM);
-        let scales: Vec<f64> = bands.centres_nm.iter().map(|&nm| self.scale(nm)).collect();
+        let scales: Vec<f64> = bands.centers_nm.iter().map(|&nm| self.scale(nm)).collect();
 
         let mut sums: [Spectrum; 3] = std::array::from_fn(|channel| {
-            let rest = |i: usize| finite(image.rgb[i])[channel] - bands.colour(i, channel, None);
+            let rest = |i: usize| finite(image.rgb[i])[channel] - bands.color(i, channel, None);
             let pixels = 0..image.rgb.len();
             let rest: Vec<f64> = pixels
                 .clone()
@@ -179,14 +179,14 @@ impl Kernels {
                 .collect();
             let all = pixels
                 .into_par_iter()
-                .map(|i| rest[i] + bands.colour(i, channel, Some(&scales)));
+                .map(|i| rest[i] + bands.color(i, channel, Some(&scales)));
             let mut sum = self.mirror.of_picture(all.collect());
             add_product(None, &mut sum, &self.common.0);
             let rest = self.mirror.of_picture(rest);
             add_product(Some(&rest), &mut sum, &middle);
             sum
         });
-        for (band, (&nm, scale)) in bands.centres_nm.iter().zip(&scales).enumerate() {
+        for (band, (&nm, scale)) in bands.centers_nm.iter().zip(&scales).enumerate() {
             let halo = self.mirror.of_kernel(self.halo(nm));
             let spectrum = self.mirror.of_picture(bands.plane(band));
             let weights = bands.weights[band].map(|w| w * scale);
@@ -213,7 +213,7 @@ fn add_product(other: Option<&Spectrum>, sum: &mut Spectrum, kernel: &Spectrum) 
     }
 }
 
-/// A colour, or black where it is no number.
+/// A color, or black where it is no number.
 fn finite(rgb: [f32; 3]) -> [f64; 3] {
     if rgb.iter().all(|v| v.is_finite()) {
         rgb.map(f64::from)
@@ -262,7 +262,7 @@ fn over_pixel(
 /// The bands of an image and what each gives of red, green and blue.
 struct Bands<'a> {
     radiance: &'a [f32],
-    centres_nm: Vec<f64>,
+    centers_nm: Vec<f64>,
     weights: Vec<[f64; 3]>,
 }
 
@@ -278,13 +278,13 @@ impl<'a> Bands<'a> {
         let rgb = |&xyz: &[f64; 3]| times(rgb_from_xyz, xyz);
         Self {
             radiance,
-            centres_nm: (0..grid.count()).map(|band| grid.centre_nm(band)).collect(),
+            centers_nm: (0..grid.count()).map(|band| grid.center_nm(band)).collect(),
             weights: observer.weights().iter().map(rgb).collect(),
         }
     }
 
     /// The bands' sum of a channel at a pixel, each band times its scale.
-    fn colour(&self, pixel: usize, channel: usize, scales: Option<&[f64]>) -> f64 {
+    fn color(&self, pixel: usize, channel: usize, scales: Option<&[f64]>) -> f64 {
         let bands = self.weights.len();
         let values = &self.radiance[pixel * bands..(pixel + 1) * bands];
         let scale = |band: usize| scales.map_or(1.0, |scales| scales[band]);

@@ -8,7 +8,7 @@ use colorimetry::Display;
 
 use super::LinearImage;
 
-/// A star with four arms about each pixel whose luminance is above the display's brightest white. A saturated colour that is no
+/// A star with four arms about each pixel whose luminance is above the display's brightest white. A saturated color that is no
 /// brighter than that is left to gamut mapping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StarGlare {
@@ -56,15 +56,15 @@ pub(super) fn add(image: &mut LinearImage, star: StarGlare, display: &Display) {
     }
 }
 
-/// What of a colour exceeds the peak, which is left: a multiple of the colour, so that both have its chromaticity.
+/// What of a color exceeds the peak, which is left: a multiple of the color, so that both have its chromaticity.
 fn excess(rgb: &mut [f32; 3], luminance: [f64; 3], peak: f64) -> [f64; 3] {
-    let colour = rgb.map(f64::from);
-    let y: f64 = (0..3).map(|i| luminance[i] * colour[i]).sum();
+    let color = rgb.map(f64::from);
+    let y: f64 = (0..3).map(|i| luminance[i] * color[i]).sum();
     if !(y > peak && y.is_finite()) {
         return [0.0; 3];
     }
-    *rgb = colour.map(|v| (v * peak / y) as f32);
-    colour.map(|v| v * (1.0 - peak / y))
+    *rgb = color.map(|v| (v * peak / y) as f32);
+    color.map(|v| v * (1.0 - peak / y))
 }
 
 #[cfg(test)]
@@ -101,7 +101,7 @@ mod tests {
             assert!((after / before - 1.0).abs() < 1e-6, "{before} {after}");
         }
         let at = |x: usize, y: usize| after.rgb[y * 201 + x];
-        // The centre has the luminance of the white and its share of each arm.
+        // The center has the luminance of the white and its share of each arm.
         let share = f64::from(at(101, 50)[0] - 0.25) / (-1.0 / (0.02 * 101.0_f64)).exp();
         let y = 0.212_639 * 40.0 + 0.715_169 * 20.0 + 0.072_192 * 4.0;
         let expected = 40.0 / y + 4.0 * share;
@@ -119,7 +119,7 @@ mod tests {
             let nearer = at(100 + d - 1, 50);
             assert!(d == 1 || arm[0] <= nearer[0]);
             assert!(d > 25 || arm[0] > 0.25);
-            // The colour of the excess.
+            // The color of the excess.
             assert!((2.0 * (arm[1] - 0.25) - (arm[0] - 0.25)).abs() < 1e-6);
         }
     }

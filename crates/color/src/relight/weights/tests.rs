@@ -55,7 +55,7 @@ const FILMS: [(f64, [f64; 3]); 3] = [
 
 /// From the bands of the film under D65 itself, and from those under another lamp.
 #[test]
-fn films_have_the_colour_of_an_independent_computation() {
+fn films_have_the_color_of_an_independent_computation() {
     for (thickness_nm, expected) in FILMS {
         for (count, tolerance) in [(400, 2e-4), (80, 2e-4), (40, 1e-3)] {
             let grid = BandGrid::visible(count).unwrap();
@@ -172,7 +172,7 @@ fn dark_bands_that_nobody_sees_stay_dark() {
     assert!(relit.iter().skip(1).all(|&value| value > 0.1));
 }
 
-/// A lamp with a line between two knots: the image holds what the knots burnt, and a transfer that is a parabola comes back to
+/// A lamp with a line between two knots: the image holds what the knots burned, and a transfer that is a parabola comes back to
 /// the rounding of the image's f32. The lamp's own points give another result.
 #[test]
 fn a_line_between_knots_is_the_one_that_was_rendered() {

@@ -156,9 +156,9 @@ impl Row {
         let bands = self.bands;
         radiance.clear();
         xyz.clear();
-        for (radiances, colours) in &self.lights {
+        for (radiances, colors) in &self.lights {
             radiance.extend(&radiances[x * bands..(x + 1) * bands]);
-            xyz.push(colours[x]);
+            xyz.push(colors[x]);
         }
     }
 

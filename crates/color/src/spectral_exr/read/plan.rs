@@ -133,7 +133,7 @@ impl Spectral {
             }
         }
         // Other writers need not pad their numbers, so that the order of names is not that of wavelengths.
-        channels.sort_by(|a, b| a.0.centre_nm().total_cmp(&b.0.centre_nm()));
+        channels.sort_by(|a, b| a.0.center_nm().total_cmp(&b.0.center_nm()));
         Ok(Self { quantity, channels })
     }
 }

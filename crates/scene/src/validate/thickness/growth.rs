@@ -8,12 +8,12 @@ use crate::validate::checks::Checks;
 use crate::{Coordinate, FieldPath, Profile, Thickness};
 
 /// Linear in the voltage, so it is linear where the voltage is.
-pub(super) fn anodised(
+pub(super) fn anodized(
     checks: &mut Checks,
     field: &FieldPath,
-    written: &description::Anodising,
+    written: &description::Anodizing,
 ) -> Option<Thickness> {
-    let description::AnodisedMetal::Titanium = written.metal;
+    let description::AnodizedMetal::Titanium = written.metal;
     let growth = field.key("nm_per_volt");
     let nm_per_volt = checks.number(&growth, written.nm_per_volt, &limits::NM_PER_VOLT);
     let native_nm = checks.number(&field.key("native"), written.native, &limits::THICKNESS_NM);

@@ -172,7 +172,7 @@ fn direct(image: &SpectralImage, eye: EyeGlare, observer: Observer) -> Vec<[f64;
         )
     };
     for band in 0..BANDS as usize {
-        let nm = image.bands().centre_nm(band as u32);
+        let nm = image.bands().center_nm(band as u32);
         spread(nm, &|i| band_rgb(i, band));
     }
     spread(MEAN_NM, &|i| {
@@ -283,7 +283,7 @@ fn an_even_picture_stays_even_and_what_is_no_number_stays_alone() {
 }
 
 #[test]
-fn colours_without_spectra_have_no_halo() {
+fn colors_without_spectra_have_no_halo() {
     let image = crate::XyzImage::from(&image(50.0, 3));
     let with = |vision| DevelopSettings {
         glare: Glare::Eye(eye(vision)),

@@ -44,7 +44,7 @@ pub(super) fn black_rgb(display: &Display) -> [f64; 3] {
 /// The codes by which a display shows a picture. What lies outside its range is clipped; what is not a number is 0.
 ///
 /// Without dither a code is the nearest. With it, a value between two codes is the upper one in as many pixels, of a small
-/// neighbourhood, as it lies close to it, so that means are kept and gradients show no steps; a value that is a code stays
+/// neighborhood, as it lies close to it, so that means are kept and gradients show no steps; a value that is a code stays
 /// that code, to 1 % of a step. The pattern depends on the place alone: the same picture is the same file.
 pub fn codes<C: Code>(image: &LinearImage, display: &Display, dither: bool) -> RgbImage<C> {
     let black = black_rgb(display);

@@ -1,12 +1,12 @@
-//! Colours of stacks against a computation apart from this code, from the one-line stack to linear sRGB.
+//! Colors of stacks against a computation apart from this code, from the one-line stack to linear sRGB.
 
 use colorimetry::lab::delta_e_2000;
 use colorimetry::tristimulus::Rule;
 use colorimetry::{Adaptation, matrix::times, srgb};
-use pellicle_coating::{Angle, Colour, Light, Stack, StackColour, View};
+use pellicle_coating::{Angle, Color, Light, Stack, StackColor, View};
 use spectra::Observer;
 
-const TABLE: &str = include_str!("data/stack_colours.csv");
+const TABLE: &str = include_str!("data/stack_colors.csv");
 
 /// The stack, angle, illuminant and rule of a row, and its twelve figures.
 fn rows() -> impl Iterator<Item = (&'static str, f64, &'static str, Rule, [f64; 12])> {
@@ -26,27 +26,27 @@ fn figures(stack: &str, angle_deg: f64, illuminant: &str, rule: Rule) -> [f64; 1
     let lamp = spectra::find_illuminant(illuminant).unwrap().data;
     let light = Light::new(illuminant, &lamp, Observer::Cie1931Deg2, rule).unwrap();
     let adaptation = Adaptation::Bradford.matrix(light.white(), srgb::white_xyz());
-    let colour = StackColour::new(&stack, light, View::default()).unwrap();
+    let color = StackColor::new(&stack, light, View::default()).unwrap();
     let angle = Angle::from_degrees(angle_deg).unwrap();
-    let integral = colour.at(stack.thicknesses_nm(), angle);
-    let powers = colour.sampled().powers(stack.thicknesses_nm(), angle);
-    let shares = powers.iter().map(|p| p.reflectance.unpolarised());
-    let xyz = colour.light().xyz(shares);
-    let colour = Colour { xyz, ..integral };
+    let integral = color.at(stack.thicknesses_nm(), angle);
+    let powers = color.sampled().powers(stack.thicknesses_nm(), angle);
+    let shares = powers.iter().map(|p| p.reflectance.unpolarized());
+    let xyz = color.light().xyz(shares);
+    let color = Color { xyz, ..integral };
     // Sums at 1 nm are the integral, but for less than can be seen; at 5 nm they are not.
-    let aside = delta_e_2000(colour.lab(), integral.lab());
+    let aside = delta_e_2000(color.lab(), integral.lab());
     let most = if rule == Rule::OneNm { 0.005 } else { 0.3 };
     assert!(aside < most, "{aside}");
     let (xyz, lab, rgb) = (
-        colour.xyz.map(|v| 100.0 * v),
-        colour.lab(),
-        colour.linear_srgb(0.0),
+        color.xyz.map(|v| 100.0 * v),
+        color.lab(),
+        color.linear_srgb(0.0),
     );
     let mut figures = [0.0; 12];
     figures[..3].copy_from_slice(&xyz);
     figures[3..6].copy_from_slice(&[lab.l, lab.a, lab.b]);
     figures[6..9].copy_from_slice(&rgb);
-    let adapted = srgb::linear_from_xyz(times(&adaptation, colour.xyz));
+    let adapted = srgb::linear_from_xyz(times(&adaptation, color.xyz));
     figures[9..].copy_from_slice(&adapted);
     figures
 }
@@ -63,7 +63,7 @@ fn difference(found: [f64; 12], expected: [f64; 12]) -> f64 {
 }
 
 #[test]
-fn stacks_have_the_colours_of_an_independent_computation() {
+fn stacks_have_the_colors_of_an_independent_computation() {
     let mut count = 0;
     for (stack, angle_deg, illuminant, rule, expected) in rows() {
         let found = figures(stack, angle_deg, illuminant, rule);
@@ -77,7 +77,7 @@ fn stacks_have_the_colours_of_an_independent_computation() {
     assert_eq!(count, 14 * 4 * 3 * 2);
 }
 
-/// The comparison notices a hundredth of a nanometre, a hundredth of a degree and another light.
+/// The comparison notices a hundredth of a nanometer, a hundredth of a degree and another light.
 #[test]
 fn a_slightly_different_stack_is_noticed() {
     let worst = |stack, angle_deg, illuminant| {

@@ -1,4 +1,4 @@
-//! The colours that processes are known to give: heat tints of steel and anodised titanium, from the process's own figures in a
+//! The colors that processes are known to give: heat tints of steel and anodized titanium, from the process's own figures in a
 //! scene to a hue.
 
 use color::BandWeights;
@@ -21,7 +21,7 @@ fn scene(oxide: &str, metal: &str, process: &str) -> Scene {
 }
 
 /// Lightness, chroma and hue angle in degrees (CIELAB, white equal energy) of the oxide on its metal, seen straight on.
-fn colour(scene: &Scene) -> [f64; 3] {
+fn color(scene: &Scene) -> [f64; 3] {
     let Material::Conductor {
         n, k, ref layers, ..
     } = scene.materials()[0]
@@ -44,7 +44,7 @@ fn colour(scene: &Scene) -> [f64; 3] {
         light.push(
             stack(1.0, &[oxide], metal, nm, 1.0)
                 .reflectance
-                .unpolarised() as f32,
+                .unpolarized() as f32,
         );
         white.push(1.0);
     }
@@ -67,12 +67,12 @@ fn is_named([lightness, chroma, hue]: [f64; 3], (_, light, least, hues): Named) 
     within(lightness, light) && chroma >= least && (within(hue, hues) || within(hue + 360.0, hues))
 }
 
-fn assert_colours(found: &[([f64; 3], Named, String)]) {
+fn assert_colors(found: &[([f64; 3], Named, String)]) {
     let mut wrong = String::new();
-    for (colour, named, process) in found {
-        let [l, c, h] = colour;
+    for (color, named, process) in found {
+        let [l, c, h] = color;
         println!("{process}: L {l:.0}, C {c:.0}, h {h:.0}, {}", named.0);
-        if !is_named(*colour, *named) {
+        if !is_named(*color, *named) {
             wrong += &format!(
                 "{process}: L {l:.0}, C {c:.0}, h {h:.0} is no {}\n",
                 named.0
@@ -84,13 +84,13 @@ fn assert_colours(found: &[([f64; 3], Named, String)]) {
 
 fn tinted(celsius: f64) -> [f64; 3] {
     let process = format!("{{ heat_tint = {{ temperature_c = {celsius}, minutes = 10 }} }}");
-    colour(&scene("'magnetite'", "'iron'", &process))
+    color(&scene("'magnetite'", "'iron'", &process))
 }
 
-/// Temper colours of carbon steel (Machinery's Handbook): pale straw 232, brown-yellow 260, full purple 282, dark blue
+/// Temper colors of carbon steel (Machinery's Handbook): pale straw 232, brown-yellow 260, full purple 282, dark blue
 /// 299, light blue 338 °C.
 #[test]
-fn heat_tints_of_steel_are_the_temper_colours() {
+fn heat_tints_of_steel_are_the_temper_colors() {
     let expected = [
         (232.0, STRAW),
         (260.0, BROWN),
@@ -99,18 +99,18 @@ fn heat_tints_of_steel_are_the_temper_colours() {
         (338.0, LIGHT_BLUE),
     ];
     let found = expected.map(|(c, named)| (tinted(c), named, format!("{c} °C")));
-    assert_colours(&found);
+    assert_colors(&found);
 }
 
-fn anodised(volts: f64) -> [f64; 3] {
-    let process = format!("{{ anodising = {{ metal = 'titanium', volts = {volts} }} }}");
-    colour(&scene("2.3", "'titanium'", &process))
+fn anodized(volts: f64) -> [f64; 3] {
+    let process = format!("{{ anodizing = {{ metal = 'titanium', volts = {volts} }} }}");
+    color(&scene("2.3", "'titanium'", &process))
 }
 
-/// The sequence of colours of titanium anodised up to some 120 V, as Diamanti, Del Curto and Pedeferri (Color Res. Appl. 33, 221,
-/// 2008) and suppliers' charts have it. Each colour's voltage depends on the electrolyte; the order does not.
+/// The sequence of colors of titanium anodized up to some 120 V, as Diamanti, Del Curto and Pedeferri (Color Res. Appl. 33, 221,
+/// 2008) and suppliers' charts have it. Each color's voltage depends on the electrolyte; the order does not.
 #[test]
-fn anodised_titanium_has_its_sequence_of_colours() {
+fn anodized_titanium_has_its_sequence_of_colors() {
     let anywhere = [30.0, 90.0];
     let expected: [(f64, Named); 10] = [
         (10.0, ("gold", anywhere, 25.0, [65.0, 95.0])),
@@ -124,15 +124,15 @@ fn anodised_titanium_has_its_sequence_of_colours() {
         (81.0, ("green", anywhere, 25.0, [130.0, 180.0])),
         (105.0, ("pink again", anywhere, 40.0, [330.0, 370.0])),
     ];
-    let found = expected.map(|(v, named)| (anodised(v), named, format!("{v} V")));
-    assert_colours(&found);
-    let [_, chroma, _] = anodised(36.0);
+    let found = expected.map(|(v, named)| (anodized(v), named, format!("{v} V")));
+    assert_colors(&found);
+    let [_, chroma, _] = anodized(36.0);
     assert!(chroma < 10.0, "silver has chroma {chroma}");
 }
 
-/// The names can be refused: no temper colour has another's.
+/// The names can be refused: no temper color has another's.
 #[test]
-fn a_colour_has_only_its_own_name() {
+fn a_color_has_only_its_own_name() {
     let names = [STRAW, BROWN, PURPLE, BLUE, LIGHT_BLUE];
     for (index, celsius) in [232.0, 260.0, 282.0, 338.0].into_iter().enumerate() {
         let index = if index == 3 { 4 } else { index };

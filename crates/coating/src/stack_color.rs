@@ -1,4 +1,4 @@
-//! The colour of a stack.
+//! The color of a stack.
 
 use crate::fringes::{Fringes, Places};
 use crate::response::{Angle, Sampled};
@@ -6,7 +6,7 @@ use crate::{Light, SampleError, Stack};
 use colorimetry::lab::delta_e_2000;
 use colorimetry::{Lab, srgb};
 use optics::batch::Powers;
-use optics::{Complex64, Polarised};
+use optics::{Complex64, Polarized};
 use rayon::prelude::*;
 use thiserror::Error;
 
@@ -20,23 +20,23 @@ pub enum Side {
     Transmitted,
 }
 
-/// How the light is polarised.
+/// How the light is polarized.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Polarisation {
+pub enum Polarization {
     /// Not at all: the mean of both.
     #[default]
-    Unpolarised,
+    Unpolarized,
     /// s: the electric field is perpendicular to the plane of incidence.
     S,
     /// p: it lies in that plane.
     P,
 }
 
-impl Polarisation {
-    /// The power in light of this polarisation.
-    pub fn of(self, power: Polarised) -> f64 {
+impl Polarization {
+    /// The power in light of this polarization.
+    pub fn of(self, power: Polarized) -> f64 {
         match self {
-            Self::Unpolarised => power.unpolarised(),
+            Self::Unpolarized => power.unpolarized(),
             Self::S => power.s,
             Self::P => power.p,
         }
@@ -49,29 +49,29 @@ pub struct View {
     /// From which side.
     pub side: Side,
     /// In which light.
-    pub polarisation: Polarisation,
+    pub polarization: Polarization,
 }
 
 impl View {
     /// What is seen of a reflected and a transmitted power, or of their derivatives.
-    pub fn of(self, reflected: Polarised, transmitted: Polarised) -> f64 {
-        self.polarisation.of(match self.side {
+    pub fn of(self, reflected: Polarized, transmitted: Polarized) -> f64 {
+        self.polarization.of(match self.side {
             Side::Reflected => reflected,
             Side::Transmitted => transmitted,
         })
     }
 }
 
-/// A colour seen in a light: XYZ, relative to the light's Y = 1.
+/// A color seen in a light: XYZ, relative to the light's Y = 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Colour {
+pub struct Color {
     /// X, Y, Z; Y = 1 for a perfect mirror.
     pub xyz: [f64; 3],
     /// XYZ of the light itself.
     pub white: [f64; 3],
 }
 
-impl Colour {
+impl Color {
     /// CIELAB under the light's own white.
     pub fn lab(&self) -> Lab {
         Lab::from_xyz(self.xyz, self.white)
@@ -111,17 +111,17 @@ impl Colour {
     }
 }
 
-/// Why a text is not a colour.
+/// Why a text is not a color.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("{0:?} is not a colour; one of sRGB is written like #2e6fd0")]
-pub struct ParseColourError(String);
+#[error("{0:?} is not a color; one of sRGB is written like #2e6fd0")]
+pub struct ParseColorError(String);
 
-/// XYZ, Y = 1 for the display's white, of a colour of sRGB such as `#2e6fd0` or `#28c`.
+/// XYZ, Y = 1 for the display's white, of a color of sRGB such as `#2e6fd0` or `#28c`.
 ///
 /// # Errors
 /// When it is not written so.
-pub fn parse_srgb(text: &str) -> Result<[f64; 3], ParseColourError> {
-    let refuse = || ParseColourError(text.chars().take(40).collect());
+pub fn parse_srgb(text: &str) -> Result<[f64; 3], ParseColorError> {
+    let refuse = || ParseColorError(text.chars().take(40).collect());
     let digits = text.strip_prefix('#').unwrap_or(text);
     if !digits.chars().all(|c| c.is_ascii_hexdigit()) {
         return Err(refuse());
@@ -135,9 +135,9 @@ pub fn parse_srgb(text: &str) -> Result<[f64; 3], ParseColourError> {
     Ok(srgb::xyz_from_linear(codes.map(srgb::from_u8)))
 }
 
-/// A stack that is looked at in a light: what gives its colour for any thicknesses and angle.
+/// A stack that is looked at in a light: what gives its color for any thicknesses and angle.
 #[derive(Clone, Debug, PartialEq)]
-pub struct StackColour {
+pub struct StackColor {
     sampled: Sampled,
     /// At every nm.
     fine: Sampled,
@@ -147,7 +147,7 @@ pub struct StackColour {
     view: View,
 }
 
-impl StackColour {
+impl StackColor {
     /// Reads the stack's media where the light's sums are taken.
     ///
     /// # Errors
@@ -170,14 +170,14 @@ impl StackColour {
         })
     }
 
-    /// The colour with these thicknesses, nm, one per layer, at an angle: of any thickness, with fringes as fine as they may be. The
+    /// The color with these thicknesses, nm, one per layer, at an angle: of any thickness, with fringes as fine as they may be. The
     /// weights of the light's sums are taken as linear between their wavelengths.
     ///
     /// # Panics
     /// When there is not one thickness per layer.
-    pub fn at(&self, thicknesses_nm: &[f64], angle: Angle) -> Colour {
+    pub fn at(&self, thicknesses_nm: &[f64], angle: Angle) -> Color {
         let shares = self.shares(thicknesses_nm, angle);
-        self.colour(self.fringes(thicknesses_nm, angle).xyz(&shares))
+        self.color(self.fringes(thicknesses_nm, angle).xyz(&shares))
     }
 
     /// What is seen at each wavelength of the sums.
@@ -201,17 +201,17 @@ impl StackColour {
         }
     }
 
-    /// How much of the colour hangs on what the light's table does not say: ΔE₀₀ between the colour, for which its power is linear between
+    /// How much of the color hangs on what the light's table does not say: ΔE₀₀ between the color, for which its power is linear between
     /// the points of its table, and the sum over those points alone. 0 where the film's spectrum is smooth.
     pub fn doubt(&self, thicknesses_nm: &[f64], angle: Angle) -> f64 {
         let shares = self.shares(thicknesses_nm, angle);
         let of_points = self.light.xyz(shares.iter().copied());
         let integral = self.fringes(thicknesses_nm, angle).xyz(&shares);
-        let [a, b] = [of_points, integral].map(|xyz| self.colour(xyz).lab());
+        let [a, b] = [of_points, integral].map(|xyz| self.color(xyz).lab());
         delta_e_2000(a, b)
     }
 
-    /// Where its colour with these thicknesses is summed up.
+    /// Where its color with these thicknesses is summed up.
     pub(crate) fn places(&self, thicknesses_nm: &[f64], angle: Angle) -> Places {
         let shares = self.shares(thicknesses_nm, angle);
         self.fringes(thicknesses_nm, angle).places(&shares)
@@ -243,8 +243,8 @@ impl StackColour {
             .collect()
     }
 
-    pub(crate) fn colour(&self, xyz: [f64; 3]) -> Colour {
-        Colour {
+    pub(crate) fn color(&self, xyz: [f64; 3]) -> Color {
+        Color {
             xyz,
             white: self.light.white(),
         }
@@ -271,7 +271,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_are_written_with_three_or_six_digits() {
+    fn colors_are_written_with_three_or_six_digits() {
         let white = parse_srgb("#ffffff").unwrap();
         for (found, expected) in white.into_iter().zip(srgb::white_xyz()) {
             assert!((found - expected).abs() < 1e-14);
@@ -282,26 +282,26 @@ mod tests {
         ] {
             assert!(parse_srgb(bad).is_err(), "{bad:?}");
         }
-        let colour = Colour {
+        let color = Color {
             xyz: parse_srgb("#2e6fd0").unwrap(),
             white: srgb::white_xyz(),
         };
-        assert_eq!(colour.hex(0.0), "#2e6fd0");
-        assert!(colour.is_in_srgb(0.0) && !colour.is_in_srgb(1.0));
+        assert_eq!(color.hex(0.0), "#2e6fd0");
+        assert!(color.is_in_srgb(0.0) && !color.is_in_srgb(1.0));
     }
 
     /// A mirror is white: the sums at 1 nm leave it a rounding beside the display's white.
     #[test]
     fn a_perfect_mirror_is_not_clipped() {
         let white = Light::named("D65").unwrap().white();
-        let times = |by: f64| Colour {
+        let times = |by: f64| Color {
             xyz: white.map(|v| by * v),
             white,
         };
         assert!(times(1.0).is_in_srgb(0.0) && times(1.002).is_in_srgb(0.0));
         assert!(!times(1.01).is_in_srgb(0.0));
         let lamp = Light::named("A").unwrap().white();
-        let orange = Colour {
+        let orange = Color {
             xyz: lamp,
             white: lamp,
         };
@@ -309,19 +309,19 @@ mod tests {
     }
 
     #[test]
-    fn a_bare_surface_of_glass_is_grey_and_dark() {
+    fn a_bare_surface_of_glass_is_gray_and_dark() {
         let stack = Stack::parse("1 | 1.5").unwrap();
-        let colour = |side| {
+        let color = |side| {
             let view = View {
                 side,
                 ..View::default()
             };
-            StackColour::new(&stack, Light::named("D65").unwrap(), view)
+            StackColor::new(&stack, Light::named("D65").unwrap(), view)
                 .unwrap()
                 .at(&[], Angle::NORMAL)
         };
-        let reflected = colour(Side::Reflected);
+        let reflected = color(Side::Reflected);
         assert!((reflected.xyz[1] - 0.04).abs() < 1e-14 && reflected.lab().chroma() < 1e-10);
-        assert!((colour(Side::Transmitted).xyz[1] - 0.96).abs() < 1e-14);
+        assert!((color(Side::Transmitted).xyz[1] - 0.96).abs() < 1e-14);
     }
 }

@@ -8,15 +8,15 @@ use crate::XyzImage;
 use crate::exr_file::each_sample;
 use crate::spectral_exr::channels::Content;
 
-/// The colours of an image that is being read.
-pub(super) struct Colours {
+/// The colors of an image that is being read.
+pub(super) struct Colors {
     size: (usize, usize),
     xyz: Vec<[f32; 3]>,
     /// How many samples of X, Y and Z have been written.
     filled: usize,
 }
 
-impl Colours {
+impl Colors {
     pub(super) fn new(plan: &Plan) -> Self {
         let (width, height) = plan.window.size();
         Self {
@@ -56,7 +56,7 @@ impl Colours {
         Some(())
     }
 
-    /// The colours, if every sample came.
+    /// The colors, if every sample came.
     pub(super) fn finish(self, plan: &Plan) -> Option<XyzImage> {
         let (width, height) = self.size;
         let held = plan.window.data();
