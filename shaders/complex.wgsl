@@ -27,7 +27,7 @@ fn complex_div(a: Complex4, b: Complex4) -> Complex4 {
 }
 
 /// 1 / a; where a is 0, a large number.
-fn complex_inverse(a: Complex4) -> Complex4 {
+fn complex_recip(a: Complex4) -> Complex4 {
     let scale = 1.0 / max(a.re * a.re + a.im * a.im, vec4f(1e-37));
     return Complex4(a.re * scale, -a.im * scale);
 }
@@ -37,13 +37,13 @@ fn complex_scale(factor: f32, a: Complex4) -> Complex4 {
 }
 
 /// |a|².
-fn complex_norm2(a: Complex4) -> vec4f {
+fn complex_norm_sqr(a: Complex4) -> vec4f {
     return a.re * a.re + a.im * a.im;
 }
 
 /// The root with real part ≥ 0; where that is 0, with imaginary part ≥ 0.
 fn complex_sqrt(a: Complex4) -> Complex4 {
-    let modulus = sqrt(complex_norm2(a));
+    let modulus = sqrt(complex_norm_sqr(a));
     // The larger of the two parts has no cancellation; the other follows from 2 re·im = Im a.
     let large = sqrt(max(0.5 * (modulus + abs(a.re)), vec4f(1e-36)));
     let small = 0.5 * a.im / large;

@@ -9,58 +9,58 @@ struct EmitterSample {
     /// Density of the direction, 1 where light comes from a single one.
     density: f32,
     /// The sum of all emitters' estimates.
-    estimates: f32,
+    emitter_weight_sum: f32,
     /// The texel of the emitter's picture, 0 where it has none.
     texel: u32,
 }
 
 /// Chooses an emitter and a direction toward it.
 fn sample_emitter(path: PathState, sample: Sample, point: SurfacePoint) -> EmitterSample {
-    if (!HAS_LIGHTS || !SENDS_LIGHT || path.segment + 1u > MAX_PATH_SEGMENTS) {
+    if (!HAS_EMITTERS || !SAMPLES_EMITTERS || path.segment + 1u > MAX_PATH_SEGMENTS) {
         return EmitterSample(NONE, point.normal, 0.0, 0.0, 0.0, 0u);
     }
     let random = random_at(sample, path, FOR_EMITTER);
     let choice = choose_emitter(point.position, point.normal, random.x);
     if (choice.emitter == NONE) {
-        return EmitterSample(NONE, point.normal, 0.0, 0.0, choice.total, 0u);
+        return EmitterSample(NONE, point.normal, 0.0, 0.0, choice.weight_sum, 0u);
     }
-    let direction = sample_light(choice.emitter, point.position, random.y, random.z);
+    let direction = emitter_sample(choice.emitter, point.position, random.y, random.z);
     if (dot(direction, point.normal) <= 0.0) {
-        return EmitterSample(choice.emitter, direction, 0.0, 0.0, choice.total, 0u);
+        return EmitterSample(choice.emitter, direction, 0.0, 0.0, choice.weight_sum, 0u);
     }
     var density = 1.0;
-    if (!is_single_direction(choice.emitter)) {
-        density = light_pdf(choice.emitter, point.position, direction);
+    if (!is_delta(choice.emitter)) {
+        density = emitter_pdf(choice.emitter, point.position, direction);
     }
     var texel = 0u;
     if (HAS_ENVIRONMENT_PICTURE && emitter_at(choice.emitter).kind == EMITTER_PICTURE) {
-        texel = environment_texel(choice.emitter, direction, random.w);
+        texel = environment_pixel(choice.emitter, direction, random.w);
     }
-    return EmitterSample(choice.emitter, direction, choice.pmf, density, choice.total, texel);
+    return EmitterSample(choice.emitter, direction, choice.pmf, density, choice.weight_sum, texel);
 }
 
 /// Adds to the vertex that is being made what arrives from the emitter, by its weight.
 fn connect(path: PathState, object: u32, point: SurfacePoint, sampled: EmitterSample, toward: BsdfEval) {
     let emitter = sampled.emitter;
-    let strength = light_share(emitter, point.position, sampled.direction);
-    if (weight_of(toward.lobes) <= 0.0 || strength <= 0.0) {
+    let strength = emitter_strength(emitter, point.position, sampled.direction);
+    if (lobes_sum(toward.lobes) <= 0.0 || strength <= 0.0) {
         return;
     }
     let first_crossing = crossing_count;
     let first_thickness = thickness_count;
     let allowed = MAX_PATH_SEGMENTS - path.segment - 1u;
-    if (!arrives(Ray(point.position, sampled.direction), object, emitter, allowed)) {
+    if (!is_visible(Ray(point.position, sampled.direction), object, emitter, allowed)) {
         crossing_count = first_crossing;
         thickness_count = first_thickness;
         return;
     }
     var mis = 1.0;
-    if (MEETS_LIGHT && !is_single_direction(emitter)) {
+    if (SAMPLES_BSDF && !is_delta(emitter)) {
         mis = mis_weight_emitter(emitter, toward.pdf, sampled.pmf, sampled.density);
     }
     pending.crossings = (first_crossing << CROSSING_BITS) | (crossing_count - first_crossing);
-    pending.light = emitter_at(emitter).light;
-    pending.marks |= SCATTERS_LIGHT;
+    pending.emission = emitter_at(emitter).emission;
+    pending.marks |= SCATTERS_EMISSION;
     if (HAS_ENVIRONMENT_PICTURE) {
         pending_texel = sampled.texel;
     }
@@ -69,28 +69,28 @@ fn connect(path: PathState, object: u32, point: SurfacePoint, sampled: EmitterSa
 
 /// Puts how a surface scatters the light that joins it into the vertex that is being made.
 fn record_lit(lobes: Lobes, factor: f32) {
-    pending.light_weight = lobes.single * factor;
-    pending.light_cosine = lobes.cosine;
-    if (HAS_SHEENS) {
-        pending_sheen.light_weight = lobes.multiple * factor;
+    pending.emission_weight = lobes.single * factor;
+    pending.emission_cosine = lobes.cosine;
+    if (HAS_MULTIPLE_SCATTERING) {
+        pending_multiple.emission_weight = lobes.multiple * factor;
     }
     if (HAS_BASES) {
-        pending_body.light_weight = lobes.body * factor;
-        pending_body.light_wi_cosine = lobes.wi_cosine;
+        pending_body.emission_weight = lobes.body * factor;
+        pending_body.emission_wi_cosine = lobes.wi_cosine;
     }
 }
 
 /// Follows a ray to an emitter, recording the films that it crosses; false where something opaque is in the way
 /// or more films than `allowed`.
-fn arrives(ray_in: Ray, from_object: u32, emitter: u32, allowed: u32) -> bool {
+fn is_visible(ray_in: Ray, from_object: u32, emitter: u32, allowed: u32) -> bool {
     if (!HAS_FILMS) {
-        return is_reached(ray_in, emitter, nearest_hit(ray_in, from_object));
+        return has_arrived(ray_in, emitter, nearest_hit(ray_in, from_object));
     }
     var ray = ray_in;
     var from_now = from_object;
     for (var crossed = 0u; crossed <= allowed; crossed++) {
         let hit = nearest_hit(ray, from_now);
-        if (is_reached(ray, emitter, hit)) {
+        if (has_arrived(ray, emitter, hit)) {
             return true;
         }
         if (hit.object == NONE || crossed == allowed) {
@@ -109,11 +109,11 @@ fn arrives(ray_in: Ray, from_object: u32, emitter: u32, allowed: u32) -> bool {
 }
 
 /// Whether nothing lies before an emitter, by what the ray toward it hits.
-fn is_reached(ray: Ray, emitter: u32, hit: Hit) -> bool {
+fn has_arrived(ray: Ray, emitter: u32, hit: Hit) -> bool {
     if (emitter_at(emitter).object != NONE) {
         return hit.object == emitter_at(emitter).object;
     }
-    if (HAS_DELTA_LIGHTS && emitter_at(emitter).kind >= EMITTER_POINT) {
+    if (HAS_DELTA_EMITTERS && emitter_at(emitter).kind >= EMITTER_POINT) {
         // A lamp may lie on a surface: what is hit just before it, within rounding, does not hide it.
         return hit.object == NONE || hit.distance >= 0.99999 * length(emitter_at(emitter).position - ray.origin);
     }
@@ -122,13 +122,13 @@ fn is_reached(ray: Ray, emitter: u32, hit: Hit) -> bool {
 
 /// Weight of an emitter that a path happens to meet: the rest is what emitter sampling brings.
 fn mis_weight_of_meeting(path: PathState, emitter: u32) -> f32 {
-    if (!HAS_LIGHTS || path.scatter_pdf <= 0.0 || emitter_at(emitter).brightness <= 0.0) {
+    if (!HAS_EMITTERS || path.scatter_pdf <= 0.0 || emitter_at(emitter).brightness <= 0.0) {
         return 1.0;
     }
-    if (!MEETS_LIGHT || !SENDS_LIGHT) {
-        return select(0.0, 1.0, MEETS_LIGHT);
+    if (!SAMPLES_BSDF || !SAMPLES_EMITTERS) {
+        return select(0.0, 1.0, SAMPLES_BSDF);
     }
-    let pmf = emitter_pmf(emitter, path.scattered_at, path.scattered_normal, path.estimates);
-    let density = light_pdf(emitter, path.scattered_at, path.ray.direction);
+    let pmf = emitter_pmf(emitter, path.scattered_at, path.scattered_normal, path.emitter_weight_sum);
+    let density = emitter_pdf(emitter, path.scattered_at, path.ray.direction);
     return 1.0 - mis_weight_emitter(emitter, path.scatter_pdf, pmf, density);
 }

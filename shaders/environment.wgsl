@@ -1,35 +1,35 @@
 // What surrounds the scene, in parts that light can be sent from one by one. A part is an emitter; its radiance in
 // a direction is its emission times its share there.
 
-/// The emitter that a part of the surroundings is.
+/// The emitter that a part of the environment is.
 fn environment_part(part: u32) -> u32 {
     return u32(number_at(frame.first_environment + part));
 }
 
 /// The share of a part's radiance that comes from a direction; a picture has its own.
-fn environment_share(light: u32, direction: vec3f) -> f32 {
-    if (emitter_at(light).kind == EMITTER_EVERYWHERE || (HAS_ENVIRONMENT_PICTURE && emitter_at(light).kind == EMITTER_PICTURE)) {
+fn environment_strength(emitter: u32, direction: vec3f) -> f32 {
+    if (emitter_at(emitter).kind == EMITTER_EVERYWHERE || (HAS_ENVIRONMENT_PICTURE && emitter_at(emitter).kind == EMITTER_PICTURE)) {
         return 1.0;
     }
-    if (emitter_at(light).kind == EMITTER_HORIZON) {
+    if (emitter_at(emitter).kind == EMITTER_HORIZON) {
         return max(1.0 - abs(direction.y), 0.0);
     }
-    if (HAS_DISTANT_DISKS && emitter_at(light).kind == EMITTER_DISTANT_DISK) {
-        let aside = direction - emitter_at(light).axis;
-        return select(0.0, 1.0, dot(aside, aside) <= 2.0 * emitter_at(light).edge_height);
+    if (HAS_DISTANT_DISKS && emitter_at(emitter).kind == EMITTER_DISTANT_DISK) {
+        let aside = direction - emitter_at(emitter).axis;
+        return select(0.0, 1.0, dot(aside, aside) <= 2.0 * emitter_at(emitter).edge_height);
     }
-    return clamp(dot(direction, emitter_at(light).axis), 0.0, 1.0);
+    return clamp(dot(direction, emitter_at(emitter).axis), 0.0, 1.0);
 }
 
-/// A direction toward a part of the surroundings, by the density of environment_pdf.
-fn sample_environment(light: u32, random: vec2f) -> vec3f {
-    if (HAS_ENVIRONMENT_PICTURE && emitter_at(light).kind == EMITTER_PICTURE) {
-        return sample_environment_picture(light, random);
+/// A direction toward a part of the environment, by the density of environment_pdf.
+fn sample_environment(emitter: u32, random: vec2f) -> vec3f {
+    if (HAS_ENVIRONMENT_PICTURE && emitter_at(emitter).kind == EMITTER_PICTURE) {
+        return sample_environment_picture(emitter, random);
     }
-    if (emitter_at(light).kind == EMITTER_EVERYWHERE) {
+    if (emitter_at(emitter).kind == EMITTER_EVERYWHERE) {
         return sample_cone(random.x, random.y, 2.0);
     }
-    if (emitter_at(light).kind == EMITTER_HORIZON) {
+    if (emitter_at(emitter).kind == EMITTER_HORIZON) {
         // |h| with density 2 (1 − |h|), above the horizon by the first half of the numbers.
         let upwards = random.x < 0.5;
         let t = 2.0 * random.x - select(1.0, 0.0, upwards);
@@ -37,26 +37,26 @@ fn sample_environment(light: u32, random: vec2f) -> vec3f {
         let around = sqrt((1.0 - height) * (1.0 + height)) * direction_of_turn(random.y);
         return vec3f(around.x, select(-height, height, upwards), around.y);
     }
-    if (HAS_DISTANT_DISKS && emitter_at(light).kind == EMITTER_DISTANT_DISK) {
-        return normalize(frame_of(emitter_at(light).axis) * sample_cone(random.x, random.y, emitter_at(light).edge_height));
+    if (HAS_DISTANT_DISKS && emitter_at(emitter).kind == EMITTER_DISTANT_DISK) {
+        return normalize(frame_of(emitter_at(emitter).axis) * sample_cone(random.x, random.y, emitter_at(emitter).edge_height));
     }
-    return frame_of(emitter_at(light).axis) * sample_cosine_hemisphere(random.x, random.y);
+    return frame_of(emitter_at(emitter).axis) * sample_cosine_hemisphere(random.x, random.y);
 }
 
-/// Density with which sample_environment draws a direction, sr⁻¹: in proportion to environment_share.
-fn environment_pdf(light: u32, direction: vec3f) -> f32 {
-    if (HAS_ENVIRONMENT_PICTURE && emitter_at(light).kind == EMITTER_PICTURE) {
-        return environment_picture_pdf(light, direction);
+/// Density with which sample_environment draws a direction, sr⁻¹: in proportion to environment_strength.
+fn environment_pdf(emitter: u32, direction: vec3f) -> f32 {
+    if (HAS_ENVIRONMENT_PICTURE && emitter_at(emitter).kind == EMITTER_PICTURE) {
+        return environment_picture_pdf(emitter, direction);
     }
-    let share = environment_share(light, direction);
-    if (emitter_at(light).kind == EMITTER_EVERYWHERE) {
+    let share = environment_strength(emitter, direction);
+    if (emitter_at(emitter).kind == EMITTER_EVERYWHERE) {
         return share * (0.25 / PI);
     }
-    if (emitter_at(light).kind == EMITTER_HORIZON) {
+    if (emitter_at(emitter).kind == EMITTER_HORIZON) {
         return share * (0.5 / PI);
     }
-    if (HAS_DISTANT_DISKS && emitter_at(light).kind == EMITTER_DISTANT_DISK) {
-        return share * (0.5 / PI) / emitter_at(light).edge_height;
+    if (HAS_DISTANT_DISKS && emitter_at(emitter).kind == EMITTER_DISTANT_DISK) {
+        return share * (0.5 / PI) / emitter_at(emitter).edge_height;
     }
     return share / PI;
 }

@@ -14,26 +14,26 @@ struct DirectionTable {
     conditional: u32,
 }
 
-fn direction_table(light: u32) -> DirectionTable {
-    let picture = load_panorama(emitter_at(light).picture);
+fn direction_table(emitter: u32) -> DirectionTable {
+    let picture = load_panorama(emitter_at(emitter).picture);
     let heights = picture.first_number;
     let marginal = heights + picture.rows + 1u;
     return DirectionTable(picture.columns, picture.rows, picture.even_density, heights, marginal, marginal + picture.rows + 1u);
 }
 
 /// Place of a direction in the picture, from its upper left corner in its width and height.
-fn environment_place(light: u32, direction: vec3f) -> vec2f {
-    let aside = dot(direction, emitter_at(light).tangent);
+fn environment_place(emitter: u32, direction: vec3f) -> vec2f {
+    let aside = dot(direction, emitter_at(emitter).tangent);
     // Straight up and down every longitude is right.
-    let angle = polar_angle(dot(direction, emitter_at(light).axis), max(abs(aside), 1e-30));
+    let angle = polar_angle(dot(direction, emitter_at(emitter).axis), max(abs(aside), 1e-30));
     let longitude = select(angle, -angle, aside < 0.0) / (2.0 * PI);
     return vec2f(0.5 + longitude, polar_angle(direction.y, length(direction.xz)) / PI);
 }
 
 /// The first texel of the pixel that a path takes for a direction, by a random number.
-fn environment_texel(light: u32, direction: vec3f, random: f32) -> u32 {
-    let picture = load_panorama(emitter_at(light).picture);
-    let pixel = chosen_pixel(picture.head, environment_place(light, direction), true, random);
+fn environment_pixel(emitter: u32, direction: vec3f, random: f32) -> u32 {
+    let picture = load_panorama(emitter_at(emitter).picture);
+    let pixel = chosen_pixel(picture.head, environment_place(emitter, direction), true, random);
     return picture.head + 1u + pixel * picture.per_pixel;
 }
 
@@ -59,8 +59,8 @@ fn place_in_interval(edge: u32, u: f32) -> f32 {
 }
 
 /// A direction drawn in proportion to the brightness of the cells of the picture's table.
-fn sample_environment_picture(light: u32, random: vec2f) -> vec3f {
-    let table = direction_table(light);
+fn sample_environment_picture(emitter: u32, random: vec2f) -> vec3f {
+    let table = direction_table(emitter);
     let row = interval_of(table.marginal, table.rows, random.x);
     let top = number_at(table.heights + row);
     let bottom = number_at(table.heights + row + 1u);
@@ -69,13 +69,13 @@ fn sample_environment_picture(light: u32, random: vec2f) -> vec3f {
     let column = interval_of(cells, table.columns, random.y);
     let turn = (f32(column) + place_in_interval(cells + column, random.y)) / f32(table.columns) - 0.5;
     let around = sqrt(max((1.0 - height) * (1.0 + height), 0.0)) * direction_of_turn(turn);
-    return around.y * emitter_at(light).tangent + around.x * emitter_at(light).axis + vec3f(0.0, height, 0.0);
+    return around.y * emitter_at(emitter).tangent + around.x * emitter_at(emitter).axis + vec3f(0.0, height, 0.0);
 }
 
 /// Density of sample_environment_picture, sr⁻¹: the probability of the direction's cell over its solid angle.
-fn environment_picture_pdf(light: u32, direction: vec3f) -> f32 {
-    let table = direction_table(light);
-    let place = environment_place(light, direction);
+fn environment_picture_pdf(emitter: u32, direction: vec3f) -> f32 {
+    let table = direction_table(emitter);
+    let place = environment_place(emitter, direction);
     let row = min(u32(place.y * f32(table.rows)), table.rows - 1u);
     let column = min(u32(place.x * f32(table.columns)), table.columns - 1u);
     let cell = table.conditional + row * (table.columns + 1u) + column;

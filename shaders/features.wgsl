@@ -9,7 +9,7 @@ override HAS_DISKS: bool = true;
 override HAS_LARGE_SPHERES: bool = true;
 override HAS_STACKED_SHAPES: bool = true;
 override HAS_HIERARCHY: bool = true;
-override HAS_LIGHT_TREE: bool = true;
+override HAS_EMITTER_TREE: bool = true;
 override HAS_BSDFS: bool = true;
 override HAS_SCATTERING: bool = true;
 override HAS_SPECULAR: bool = true;
@@ -29,12 +29,12 @@ override HAS_LINE_FIELDS: bool = true;
 override HAS_SAMPLED_FIELDS: bool = true;
 override HAS_SWIRLS: bool = true;
 override HAS_PICTURES: bool = true;
-override HAS_SPHERE_LIGHTS: bool = true;
-override HAS_DISK_LIGHTS: bool = true;
-override HAS_DELTA_LIGHTS: bool = true;
+override HAS_SPHERE_EMITTERS: bool = true;
+override HAS_DISK_EMITTERS: bool = true;
+override HAS_DELTA_EMITTERS: bool = true;
 override HAS_DISTANT_DISKS: bool = true;
-override HAS_LIGHTS: bool = true;
-override HAS_LIGHT_CHOICE: bool = true;
+override HAS_EMITTERS: bool = true;
+override HAS_EMITTER_CHOICE: bool = true;
 override HAS_ENVIRONMENT: bool = true;
 override HAS_ENVIRONMENT_PICTURE: bool = true;
 override HAS_SPECTRAL_PICTURE: bool = true;
@@ -47,8 +47,8 @@ override HAS_CLAMP: bool = true;
 override HAS_LENS: bool = true;
 override HAS_FILTER: bool = true;
 // How light is found: by sending rays to lights, by meeting them by chance, or both.
-override SENDS_LIGHT: bool = true;
-override MEETS_LIGHT: bool = true;
+override SAMPLES_EMITTERS: bool = true;
+override SAMPLES_BSDF: bool = true;
 // How much of it there is. Conditions depend on these, never on a constant place of a uniform buffer: llvmpipe takes what it finds
 // there for a constant and compiles the pipeline anew for each dispatch.
 /// Objects that rays meet.
@@ -56,8 +56,8 @@ override OBJECT_COUNT: u32 = 1u;
 /// Rows of the hierarchy of boxes around them.
 override HIERARCHY_ROWS: u32 = 1u;
 /// Lights that are chosen from.
-override LIGHT_COUNT: u32 = 1u;
-/// Parts of the surroundings, disks in the sky among them.
+override EMITTER_COUNT: u32 = 1u;
+/// Parts of the environment, disks in the sky among them.
 override ENVIRONMENT_COUNT: u32 = 1u;
 /// Groups of four bands; the last may be padded with dark bands.
 override GROUPS: u32 = 1u;

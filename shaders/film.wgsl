@@ -11,7 +11,7 @@ const GRAZING: f32 = 1e-6;
 /// Airy's sum R = F sin²φ / (1 + F sin²φ), φ = 2π n d cos θ₂ / λ (Born and Wolf, 7th ed., section 7.6,
 /// equation 15), with F written out, where everything but sin² φ cancels:
 /// R_s = (n² − 1)² S / (4 cos²θ (n² − sin²θ) + (n² − 1)² S), and for p with n² cos²θ − cos²θ₂ in place of n² − 1.
-fn film_reflectance(n: vec4f, thickness_nm: f32, inverse_wavelength: vec4f, cosine: f32) -> vec4f {
+fn clear_film_reflectance(n: vec4f, thickness_nm: f32, inverse_wavelength: vec4f, cosine: f32) -> vec4f {
     let c = max(cosine, GRAZING);
     let n2 = n * n;
     let n2_cos2 = (n2 - 1.0) + c * c; // (n cos θ₂)² = n² − sin²θ, which would cancel near grazing
@@ -60,9 +60,9 @@ fn film_powers(n: vec4f, k: vec4f, thickness_nm: f32, inverse_wavelength: vec4f,
 fn film_of_boundary(r: Complex4, beta2: Complex4) -> FilmPowers {
     let one = Complex4(vec4f(1.0), vec4f(0.0));
     let r2 = complex_mul(r, r);
-    let denominator = max(complex_norm2(complex_sub(one, complex_mul(r2, beta2))), vec4f(1e-30));
-    let reflected = complex_norm2(r) * complex_norm2(complex_sub(one, beta2));
-    let beta_norm2 = sqrt(complex_norm2(beta2));
-    let transmitted = complex_norm2(complex_sub(one, r2)) * beta_norm2;
+    let denominator = max(complex_norm_sqr(complex_sub(one, complex_mul(r2, beta2))), vec4f(1e-30));
+    let reflected = complex_norm_sqr(r) * complex_norm_sqr(complex_sub(one, beta2));
+    let beta_norm2 = sqrt(complex_norm_sqr(beta2));
+    let transmitted = complex_norm_sqr(complex_sub(one, r2)) * beta_norm2;
     return FilmPowers(reflected / denominator, transmitted / denominator);
 }

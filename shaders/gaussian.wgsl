@@ -15,7 +15,7 @@ fn facet_angle(cosine: f32) -> f32 {
 }
 
 /// Z = 1 − exp(−π² / 4m²): the share of a Gaussian in the plane that lies above the horizon.
-fn gaussian_share(slope: f32) -> f32 {
+fn gaussian_fraction(slope: f32) -> f32 {
     return 1.0 - exp(-0.25 * PI * PI / (slope * slope));
 }
 
@@ -23,7 +23,7 @@ fn gaussian_share(slope: f32) -> f32 {
 fn sample_gaussian(u: f32, v: f32, slope: f32) -> vec3f {
     // 1 − u Z, without the cancellation where Z is all but 1 and u too.
     let rest = (1.0 - u) + u * exp(-0.25 * PI * PI / (slope * slope));
-    let logarithm = select(log(rest), log_one_minus(u * gaussian_share(slope)), u < 0.03125);
+    let logarithm = select(log(rest), log_one_minus(u * gaussian_fraction(slope)), u < 0.03125);
     let angle = min(slope * sqrt(-logarithm), 0.5 * PI);
     let polar = direction_of_turn(angle * (0.5 / PI));
     return vec3f(polar.y * direction_of_turn(v), polar.x);
@@ -37,5 +37,5 @@ fn gaussian_pdf(cos_facet: f32, slope: f32) -> f32 {
     let angle = facet_angle(cos_facet);
     let sine = sqrt(max((1.0 - cos_facet) * (1.0 + cos_facet), 0.0));
     let widening = select(1.0, angle / max(sine, 1e-30), sine > 1e-6);
-    return gaussian_d1(cos_facet, slope) * widening / (PI * slope * slope * gaussian_share(slope));
+    return gaussian_d1(cos_facet, slope) * widening / (PI * slope * slope * gaussian_fraction(slope));
 }

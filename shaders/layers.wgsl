@@ -76,10 +76,10 @@ fn with_layers(below: Stack, layers: Layers, incident: Incident, last_first: boo
 }
 
 /// Reflectance and transmittance of a free film, in the four bands of a group; `first` is the spectrum of the factor's number.
-fn film_spectrum(film: FilmAt, first: vec4f, at: Place) -> FilmPowers {
+fn film_value(film: FilmAt, first: vec4f, at: Place) -> FilmPowers {
     let tag = factor_tag(film.factor);
     if (HAS_STACKS && tag >= FACTOR_STACK) {
-        return stack_spectrum(film, at);
+        return stack_value(film, at);
     }
     let inverse = inverse_wavelengths(at.group, at.wavelengths);
     if (HAS_TWO_BEAM_FILMS && tag >= FACTOR_TWO_BEAM) {
@@ -93,12 +93,12 @@ fn film_spectrum(film: FilmAt, first: vec4f, at: Place) -> FilmPowers {
         let k = spectrum_at(factor_number(film.factor) + 1u, at.group, at.wavelengths);
         return film_powers(first, k, film.thickness_nm, inverse, film.cosine);
     }
-    let reflectance = film_reflectance(first, film.thickness_nm, inverse, film.cosine);
+    let reflectance = clear_film_reflectance(first, film.thickness_nm, inverse, film.cosine);
     return FilmPowers(reflectance, 1.0 - reflectance);
 }
 
 /// A free film of several layers. What it transmits is the same from both sides.
-fn stack_spectrum(film: FilmAt, at: Place) -> FilmPowers {
+fn stack_value(film: FilmAt, at: Place) -> FilmPowers {
     let record = load_film(factor_number(film.factor));
     let layers = Layers(record.first_layer, record.layer_count, record.varying_layers, film.first_thickness);
     let incident = air_above(film.cosine);

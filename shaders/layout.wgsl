@@ -31,16 +31,16 @@ const EMITTER_RECTANGLE: u32 = 1u;
 /// Emitter: a disk.
 const EMITTER_DISK: u32 = 2u;
 
-/// Emitter: surroundings of the same radiance from everywhere. Those of the surroundings are greater.
+/// Emitter: environment of the same radiance from everywhere. Those of the environment are greater.
 const EMITTER_EVERYWHERE: u32 = 16u;
 
-/// Emitter: surroundings by 1 − |h|, with h the height of the direction.
+/// Emitter: environment by 1 − |h|, with h the height of the direction.
 const EMITTER_HORIZON: u32 = 17u;
 
-/// Emitter: surroundings by the cosine with `axis`, where it is above 0.
+/// Emitter: environment by the cosine with `axis`, where it is above 0.
 const EMITTER_POLE: u32 = 18u;
 
-/// Emitter: surroundings by a picture, its middle toward `axis`, its right half toward `tangent`.
+/// Emitter: environment by a picture, its middle toward `axis`, its right half toward `tangent`.
 const EMITTER_PICTURE: u32 = 19u;
 
 /// Emitter: a disk in the sky about `axis`.
@@ -220,7 +220,7 @@ struct Frame {
     steps: u32,
     /// 1 where each sample draws its wavelengths, 0 where they lie at the bands' centers.
     draws_wavelengths: u32,
-    /// First of the numbers of the emitters that are parts of the surroundings, disks in the sky among them.
+    /// First of the numbers of the emitters that are parts of the environment, disks in the sky among them.
     first_environment: u32,
     /// First of the observer's three spectra.
     observer: u32,
@@ -237,9 +237,9 @@ struct Frame {
     /// First of the numbers that spread a pixel's samples by its filter.
     first_filter: u32,
     /// The row of the first node of the tree of emitters.
-    first_light_node: u32,
+    first_emitter_node: u32,
     /// The row after its last one.
-    end_light_node: u32,
+    end_emitter_node: u32,
     /// Fills the size up to that of its alignment.
     padding: vec2u,
 }

@@ -14,12 +14,12 @@ fn beckmann_d(cos_facet: f32, slope: f32) -> f32 {
 }
 
 /// Shadowing and masking of a symmetric V-shaped groove (Torrance and Sparrow 1967; Cook and Torrance 1982).
-fn v_groove_g(cos_facet: f32, cos_eye: f32, cos_light: f32, eye_dot_facet: f32) -> f32 {
-    if (cos_eye <= 0.0 || cos_light <= 0.0 || eye_dot_facet <= 0.0) {
+fn v_groove_g(cos_facet: f32, cos_wo: f32, cos_wi: f32, wo_dot_facet: f32) -> f32 {
+    if (cos_wo <= 0.0 || cos_wi <= 0.0 || wo_dot_facet <= 0.0) {
         return 0.0;
     }
-    let groove = 2.0 * cos_facet / eye_dot_facet;
-    return min(1.0, groove * min(cos_eye, cos_light));
+    let groove = 2.0 * cos_facet / wo_dot_facet;
+    return min(1.0, groove * min(cos_wo, cos_wi));
 }
 
 /// A facet normal drawn with density D cos α from two uniform numbers: tan²α = −m² ln(1 − u).

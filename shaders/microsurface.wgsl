@@ -26,7 +26,7 @@ fn scaled_erfc(x: f32) -> f32 {
 
 /// Density D of facet normals, sr⁻¹: with s² = (x/αx)² + (y/αy)² and c the cosine, exp(−s²/c²) / (π αx αy c⁴) for Beckmann and
 /// 1 / (π αx αy (s² + c²)²) for GGX.
-fn facet_density(surface: Microsurface, facet: vec3f) -> f32 {
+fn microsurface_density(surface: Microsurface, facet: vec3f) -> f32 {
     if (facet.z <= 0.0) {
         return 0.0;
     }
@@ -43,7 +43,7 @@ fn facet_density(surface: Microsurface, facet: vec3f) -> f32 {
 /// Smith's Λ: 1 / (1 + Λ) of the facets that turn toward a direction are seen from there. With a = cot θ over the width in the
 /// direction's azimuth, (exp(−a²) / (a √π) − erfc a) / 2 for Beckmann and (√(1 + 1/a²) − 1) / 2 for GGX
 /// (Heitz 2014, equations 68 and 72).
-fn smith_lambda(surface: Microsurface, direction: vec3f) -> f32 {
+fn microsurface_lambda(surface: Microsurface, direction: vec3f) -> f32 {
     let width = length(surface.alpha * direction.xy);
     let a = abs(direction.z) / max(width, 1e-12);
     if (HAS_GGX && (!HAS_BECKMANN || surface.distribution == FACETS_GGX)) {
@@ -59,7 +59,7 @@ fn smith_lambda(surface: Microsurface, direction: vec3f) -> f32 {
 struct Reflection {
     /// D G / (4 (N·E)): the reflection function of facets that reflect everything times the light's cosine, sr⁻¹.
     value: f32,
-    /// Density with which a facet drawn by sample_facet mirrors the eye to the light, sr⁻¹.
+    /// Density with which a facet drawn by microsurface_sample mirrors the eye to the light, sr⁻¹.
     pdf: f32,
     /// E·H: the cosine at the facet.
     cosine: f32,
@@ -67,45 +67,45 @@ struct Reflection {
 
 /// What facets mirror from `light` to `eye`, both above the surface: G = 1 / (1 + Λ(E) + Λ(L)), the density
 /// D / (4 (N·E) (1 + Λ(E))) (Heitz 2014, equations 99 and 17).
-fn reflection_between(surface: Microsurface, eye: vec3f, light: vec3f) -> Reflection {
-    let facet = normalize(eye + light);
-    let density = facet_density(surface, facet) / (4.0 * eye.z);
-    let lambda = smith_lambda(surface, eye);
-    let seen = 1.0 + lambda + smith_lambda(surface, light);
-    return Reflection(density / seen, density / (1.0 + lambda), dot(eye, facet));
+fn microsurface_reflection(surface: Microsurface, wo: vec3f, wi: vec3f) -> Reflection {
+    let facet = normalize(wo + wi);
+    let density = microsurface_density(surface, facet) / (4.0 * wo.z);
+    let lambda = microsurface_lambda(surface, wo);
+    let seen = 1.0 + lambda + microsurface_lambda(surface, wi);
+    return Reflection(density / seen, density / (1.0 + lambda), dot(wo, facet));
 }
 
 /// A facet normal as often as `eye` sees it, from two uniform numbers.
-fn sample_facet(surface: Microsurface, eye: vec3f, u: f32, v: f32) -> vec3f {
+fn microsurface_sample(surface: Microsurface, wo: vec3f, u: f32, v: f32) -> vec3f {
     // The same surface stretched to α = 1.
-    let stretched = normalize(vec3f(surface.alpha * eye.xy, eye.z));
+    let stretched = normalize(vec3f(surface.alpha * wo.xy, wo.z));
     var facet: vec3f;
     if (HAS_GGX && (!HAS_BECKMANN || surface.distribution == FACETS_GGX)) {
-        facet = sample_ggx_facet(stretched, u, v);
+        facet = sample_visible_ggx(stretched, u, v);
     } else {
-        facet = sample_beckmann_facet(stretched, u, v);
+        facet = sample_visible_beckmann(stretched, u, v);
     }
     return normalize(vec3f(surface.alpha * facet.xy, max(facet.z, 0.0)));
 }
 
 /// A visible facet of a GGX surface of α = 1: the half of a point of the sphere's lit cap and the eye (Dupuy and Benyoub,
 /// Sampling Visible GGX Normals with Spherical Caps, 2023, listing 3).
-fn sample_ggx_facet(eye: vec3f, u: f32, v: f32) -> vec3f {
+fn sample_visible_ggx(wo: vec3f, u: f32, v: f32) -> vec3f {
     // v of the cap's height lies above the point, the rest below, and 1 − cos θ of the sphere below the cap: no digits are lost where it is
     // flat, at the top and at the bottom. The facet's height is what lies below.
-    let above = v * (1.0 + eye.z);
-    let below = (1.0 - v) * (1.0 + eye.z);
-    let sine = sqrt(above * (below + max(1.0 - eye.z, 0.0)));
-    return vec3f(sine * direction_of_turn(u) + eye.xy, below);
+    let above = v * (1.0 + wo.z);
+    let below = (1.0 - v) * (1.0 + wo.z);
+    let sine = sqrt(above * (below + max(1.0 - wo.z, 0.0)));
+    return vec3f(sine * direction_of_turn(u) + wo.xy, below);
 }
 
 /// A visible facet of a Beckmann surface of α = 1: its slope toward the eye by visible_slope, that aside by the normal
 /// distribution alone (Heitz and d'Eon, Importance Sampling Microfacet-Based BSDFs Using the Distribution of Visible Normals,
 /// 2014, appendix).
-fn sample_beckmann_facet(eye: vec3f, u: f32, v: f32) -> vec3f {
-    let sine = length(eye.xy);
-    let along = select(vec2f(1.0, 0.0), eye.xy / max(sine, 1e-30), sine > 0.0);
-    let toward = visible_slope(eye.z, sine, u);
+fn sample_visible_beckmann(wo: vec3f, u: f32, v: f32) -> vec3f {
+    let sine = length(wo.xy);
+    let along = select(vec2f(1.0, 0.0), wo.xy / max(sine, 1e-30), sine > 0.0);
+    let toward = visible_slope(wo.z, sine, u);
     let aside = visible_slope(1.0, 0.0, v);
     return vec3f(-along * toward - vec2f(-along.y, along.x) * aside, 1.0);
 }

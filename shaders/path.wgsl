@@ -48,17 +48,17 @@ fn extend_path(path: PathState, sample: Sample) -> PathState {
     next = shade_object(path, sample, hit);
     next.alive = next.alive && path.segment < MAX_PATH_SEGMENTS;
     if (HAS_ROULETTE && next.alive && path.segment >= ROULETTE_AFTER) {
-        next = play_roulette(next, sample);
+        next = russian_roulette(next, sample);
     }
     next.segment += 1u;
     return next;
 }
 
-/// The path leaves the scene: the radiance of the surroundings, part by part.
+/// The path leaves the scene: the radiance of the environment, part by part.
 fn shade_environment(path: PathState, sample: Sample) {
     for (var i = 0u; i < ENVIRONMENT_COUNT; i++) {
         let part = environment_part(i);
-        let share = environment_share(part, path.ray.direction);
+        let share = environment_strength(part, path.ray.direction);
         if (share > 0.0) {
             if (is_pending) {
                 write_vertex();
@@ -66,9 +66,9 @@ fn shade_environment(path: PathState, sample: Sample) {
             }
             var texel = 0u;
             if (HAS_ENVIRONMENT_PICTURE && emitter_at(part).kind == EMITTER_PICTURE) {
-                texel = environment_texel(part, path.ray.direction, random_at(sample, path, FOR_EMITTER).w);
+                texel = environment_pixel(part, path.ray.direction, random_at(sample, path, FOR_EMITTER).w);
             }
-            add_emission(emitter_at(part).light, texel, emitter_at(part).scale * share * mis_weight_of_meeting(path, part));
+            add_emission(emitter_at(part).emission, texel, emitter_at(part).scale * share * mis_weight_of_meeting(path, part));
         }
     }
 }
@@ -78,12 +78,12 @@ fn shade_object(path: PathState, sample: Sample, hit: Hit) -> PathState {
     let material = shape_at(hit.object).material;
     let head = material_at(material);
     let point = surface_point(hit.object, path.ray, hit.distance);
-    if (head.light_scale > 0.0) {
+    if (head.emission_scale > 0.0) {
         var mis = 1.0;
-        if (HAS_LIGHTS && shape_at(hit.object).emitter != NONE) {
+        if (HAS_EMITTERS && shape_at(hit.object).emitter != NONE) {
             mis = mis_weight_of_meeting(path, shape_at(hit.object).emitter);
         }
-        add_emission(head.light, 0u, head.light_scale * mis);
+        add_emission(head.emission, 0u, head.emission_scale * mis);
     }
     if (head.surface == SURFACE_BLACK) {
         var ended = path;
@@ -112,8 +112,8 @@ fn shade_object(path: PathState, sample: Sample, hit: Hit) -> PathState {
 fn shade_film(path: PathState, object: u32, point: SurfacePoint, random: vec4f) -> PathState {
     let material = shape_at(object).material;
     let albedo = material_at(material).albedo;
-    let reflected = reflected_part(material, point.cosine);
-    var mirror = send_on(path, object, point, mirrored(path.ray.direction, point.normal), 0.0, 0.0);
+    let reflected = reflected_at(material, point.cosine);
+    var mirror = scatter(path, object, point, mirrored_at(path.ray.direction, point.normal), 0.0, 0.0);
     var through = pass_through(path, object, point);
     mirror.rr_throughput *= albedo * reflected;
     through.rr_throughput *= albedo * (1.0 - reflected);
@@ -132,7 +132,7 @@ fn shade_film(path: PathState, object: u32, point: SurfacePoint, random: vec4f) 
         pending.marks |= (wait(through) + 1u) << SPLITS_TO;
         return mirror;
     }
-    let share = reflected_share(reflected);
+    let share = reflection_probability(reflected);
     let reflects = random.x < share;
     let chance = select(1.0 - share, share, reflects);
     pending.weight = 1.0 / chance;
@@ -157,10 +157,10 @@ fn shade_surface(path: PathState, sample: Sample, object: u32, point: SurfacePoi
         pending_body.wo_cosine = wo.z;
     }
 
-    var estimates = 0.0;
+    var emitter_weight_sum = 0.0;
     if (HAS_SCATTERING && specular < 1.0) {
         let sampled = sample_emitter(path, sample, point);
-        estimates = sampled.estimates;
+        emitter_weight_sum = sampled.emitter_weight_sum;
         if (sampled.pmf * sampled.density > 0.0) {
             connect(path, object, point, sampled, bsdf_eval(material, wo, sampled.direction * world_from_local));
         }
@@ -168,18 +168,18 @@ fn shade_surface(path: PathState, sample: Sample, object: u32, point: SurfacePoi
 
     if (HAS_SPECULAR && (!HAS_SCATTERING || random.z < specular)) {
         pending.weight = 1.0 / specular;
-        var mirror = send_on(path, object, point, mirrored(path.ray.direction, point.normal), 0.0, 0.0);
+        var mirror = scatter(path, object, point, mirrored_at(path.ray.direction, point.normal), 0.0, 0.0);
         mirror.rr_throughput *= material_at(material).albedo;
         return mirror;
     }
     let wi = bsdf_sample(material, wo, random);
     let onward = bsdf_eval(material, wo, wi);
-    var next = send_on(path, object, point, normalize(world_from_local * wi), onward.pdf, estimates);
+    var next = scatter(path, object, point, normalize(world_from_local * wi), onward.pdf, emitter_weight_sum);
     next.splits = 0u;
     next.alive = onward.pdf > 0.0;
     let inverse_pdf = select(0.0, 1.0 / onward.pdf, next.alive);
     record_onward(onward.lobes, inverse_pdf);
-    next.rr_throughput *= weight_of(onward.lobes) * inverse_pdf * material_at(material).albedo;
+    next.rr_throughput *= lobes_sum(onward.lobes) * inverse_pdf * material_at(material).albedo;
     return next;
 }
 
@@ -187,11 +187,29 @@ fn shade_surface(path: PathState, sample: Sample, object: u32, point: SurfacePoi
 fn record_onward(lobes: Lobes, factor: f32) {
     pending.weight = lobes.single * factor;
     pending.cosine = lobes.cosine;
-    if (HAS_SHEENS) {
-        pending_sheen.weight = lobes.multiple * factor;
+    if (HAS_MULTIPLE_SCATTERING) {
+        pending_multiple.weight = lobes.multiple * factor;
     }
     if (HAS_BASES) {
         pending_body.weight = lobes.body * factor;
         pending_body.wi_cosine = lobes.wi_cosine;
     }
+}
+
+/// Russian roulette: ends the path by chance, or lets the vertex that is being made count for more.
+fn russian_roulette(path: PathState, sample: Sample) -> PathState {
+    let chance = rr_survival_probability(path.rr_throughput);
+    var next = path;
+    if (chance < 1.0) {
+        next.alive = random_at(sample, path, FOR_ROULETTE).x < chance;
+        next.rr_throughput /= chance;
+        pending.weight /= chance;
+        if (HAS_MULTIPLE_SCATTERING) {
+            pending_multiple.weight /= chance;
+        }
+        if (HAS_BASES) {
+            pending_body.weight /= chance;
+        }
+    }
+    return next;
 }

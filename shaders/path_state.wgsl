@@ -11,7 +11,7 @@ struct PathState {
     scatter_pdf: f32,
     /// The normal there, and the sum of all emitters' estimates.
     scattered_normal: vec3f,
-    estimates: f32,
+    emitter_weight_sum: f32,
     /// Segments so far; the camera ray is the first.
     segment: u32,
     alive: bool,
@@ -49,14 +49,14 @@ fn random_at(sample: Sample, path: PathState, use_of: u32) -> vec4f {
 }
 
 /// The path as a surface sends it on in a new direction, drawn with density `pdf`, or mirrored, where that is 0.
-fn send_on(path: PathState, object: u32, point: SurfacePoint, direction: vec3f, pdf: f32, estimates: f32) -> PathState {
+fn scatter(path: PathState, object: u32, point: SurfacePoint, direction: vec3f, pdf: f32, emitter_weight_sum: f32) -> PathState {
     var next = path;
     next.ray = Ray(point.position, direction);
     next.from_object = object;
     next.scattered_at = point.position;
     next.scatter_pdf = pdf;
     next.scattered_normal = point.normal;
-    next.estimates = estimates;
+    next.emitter_weight_sum = emitter_weight_sum;
     return next;
 }
 
@@ -69,6 +69,6 @@ fn pass_through(path: PathState, object: u32, point: SurfacePoint) -> PathState 
 }
 
 /// Mirrors a direction that runs against `normal`.
-fn mirrored(direction: vec3f, normal: vec3f) -> vec3f {
+fn mirrored_at(direction: vec3f, normal: vec3f) -> vec3f {
     return normalize(reflect(direction, normal));
 }

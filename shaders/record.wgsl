@@ -14,19 +14,19 @@ struct Vertex {
     /// Thickness of a film's only layer, nm.
     thickness_nm: f32,
     /// A light that joins the path here: its spectrum and its light group.
-    light: u32,
+    emission: u32,
     /// Its weight: 0 where there is none.
-    light_weight: f32,
+    emission_weight: f32,
     /// The cosine for which the factor is taken where the surface scatters that light.
-    light_cosine: f32,
+    emission_cosine: f32,
     /// Films that the light passes through on its way: their number, and from bit 12 on the first of them.
     crossings: u32,
-    /// Bits: SCATTERS_LIGHT, TRANSMITS; and the places of waiting light (`splits_to`, `resumes_from`).
+    /// Bits: SCATTERS_EMISSION, TRANSMITS; and the places of waiting light (`splits_to`, `resumes_from`).
     marks: u32,
 }
 
 /// The light is scattered by the surface; else it joins before the factor.
-const SCATTERS_LIGHT: u32 = 1u;
+const SCATTERS_EMISSION: u32 = 1u;
 /// The path goes on through a film; else it is mirrored.
 const TRANSMITS: u32 = 2u;
 /// One more than the place where what a film transmits waits, from this bit on.
@@ -37,11 +37,11 @@ const RESUMES_FROM: u32 = 16u;
 const CROSSING_BITS: u32 = 12u;
 
 /// Light that met several facets of a rough surface.
-struct Sheen {
+struct MultipleScattering {
     /// Weight of what goes on along the path.
     weight: f32,
     /// Weight of the light that joins here.
-    light_weight: f32,
+    emission_weight: f32,
     /// Mean of the facets' albedo.
     mean_energy: f32,
 }
@@ -54,11 +54,11 @@ struct Body {
     material: u32,
     /// Weights of what goes on along the path, and of the light that joins here.
     weight: f32,
-    light_weight: f32,
+    emission_weight: f32,
     /// Cosines with the normal: toward the camera, toward the path's next vertex, toward the light that joins here.
     wo_cosine: f32,
     wi_cosine: f32,
-    light_wi_cosine: f32,
+    emission_wi_cosine: f32,
 }
 
 /// A film that light passes through on its way to a vertex.
@@ -71,10 +71,10 @@ struct Crossing {
 /// The path of this invocation. The sizes follow from the scene, so that none can overflow.
 var<private> vertices: array<Vertex, MAX_VERTICES>;
 var<private> vertex_count: u32;
-var<private> sheens: array<Sheen, MAX_VERTICES>;
+var<private> multiples: array<MultipleScattering, MAX_VERTICES>;
 var<private> bodies: array<Body, MAX_VERTICES>;
 /// The texel of a vertex's light, 0 where it has none.
-var<private> light_texels: array<u32, MAX_VERTICES>;
+var<private> emission_texels: array<u32, MAX_VERTICES>;
 /// Of a vertex with layers whose thicknesses vary, the first of them.
 var<private> first_thicknesses: array<u32, MAX_VERTICES>;
 
@@ -88,14 +88,14 @@ var<private> thickness_count: u32;
 
 /// The vertex that is being made. All are written at one place in the code: a store at a place that differs between paths is long.
 var<private> pending: Vertex;
-var<private> pending_sheen: Sheen;
+var<private> pending_multiple: MultipleScattering;
 var<private> pending_body: Body;
 var<private> pending_texel: u32;
 var<private> pending_thickness: u32;
 /// Whether it is worth being written.
 var<private> is_pending: bool;
 
-const HAS_SHEENS: bool = HAS_ROUGH_CONDUCTORS || HAS_ROUGH_COATS;
+const HAS_MULTIPLE_SCATTERING: bool = HAS_ROUGH_CONDUCTORS || HAS_ROUGH_COATS;
 
 fn factor_of(tag: u32, number: u32) -> u32 {
     return (tag << FACTOR_SHIFT) | number;
@@ -110,16 +110,16 @@ fn factor_number(factor: u32) -> u32 {
 }
 
 /// The spectrum of a light. A light has its light group in the bits above it.
-fn light_spectrum(light: u32) -> u32 {
-    return light & ((1u << LIGHT_GROUP_SHIFT) - 1u);
+fn emission_spectrum(emission: u32) -> u32 {
+    return emission & ((1u << LIGHT_GROUP_SHIFT) - 1u);
 }
 
 /// The light group of a light.
-fn light_group_of(light: u32) -> u32 {
+fn light_group_of(emission: u32) -> u32 {
     if (LIGHT_GROUPS == 1u) {
         return 0u;
     }
-    return light >> LIGHT_GROUP_SHIFT;
+    return emission >> LIGHT_GROUP_SHIFT;
 }
 
 fn begin_record() {
@@ -135,9 +135,9 @@ fn begin_record() {
 fn begin_vertex(resumes: u32) {
     is_pending = false;
     pending = Vertex(FACTOR_ONE, 1.0, 1.0, 0.0, 0u, 0.0, 1.0, 0u, resumes << RESUMES_FROM);
-    if (HAS_SHEENS) {
+    if (HAS_MULTIPLE_SCATTERING) {
         // Of no facets, whose color is finite whatever they reflect.
-        pending_sheen = Sheen(0.0, 0.0, 1.0);
+        pending_multiple = MultipleScattering(0.0, 0.0, 1.0);
     }
     if (HAS_BASES) {
         pending_body = Body(FACTOR_ONE, 0u, 0.0, 0.0, 1.0, 1.0, 1.0);
@@ -153,14 +153,14 @@ fn write_vertex() {
         return;
     }
     vertices[vertex_count] = pending;
-    if (HAS_SHEENS) {
-        sheens[vertex_count] = pending_sheen;
+    if (HAS_MULTIPLE_SCATTERING) {
+        multiples[vertex_count] = pending_multiple;
     }
     if (HAS_BASES) {
         bodies[vertex_count] = pending_body;
     }
     if (HAS_ENVIRONMENT_PICTURE) {
-        light_texels[vertex_count] = pending_texel;
+        emission_texels[vertex_count] = pending_texel;
     }
     if (RECORDS_THICKNESSES) {
         first_thicknesses[vertex_count] = pending_thickness;
@@ -170,10 +170,10 @@ fn write_vertex() {
 
 /// Lets radiance `weight` × the spectrum of `light` join the path before the vertex that is being made; and of a texel of its picture, where
 /// that is not 0.
-fn add_emission(light: u32, texel: u32, weight: f32) {
+fn add_emission(emission: u32, texel: u32, weight: f32) {
     if (weight > 0.0) {
-        pending.light = light;
-        pending.light_weight = weight;
+        pending.emission = emission;
+        pending.emission_weight = weight;
         is_pending = true;
         if (HAS_ENVIRONMENT_PICTURE) {
             pending_texel = texel;

@@ -70,7 +70,7 @@ struct Emitter {
     /// Half the height of a rectangle, along `bitangent`; a disk's radius.
     half_height: f32,
     /// Its light: spectrum and light group.
-    light: u32,
+    emission: u32,
     /// Factor of its light.
     scale: f32,
     /// How bright it is to the eye, which steers the choice among emitters; 0 where it is not sampled.
@@ -83,7 +83,7 @@ struct Emitter {
     edge_height: f32,
     /// The row of its node in the tree of emitters.
     node: u32,
-    /// The row of a picture of the surroundings among the records: a `Panorama`. NONE where it is no picture.
+    /// The row of a picture of the environment among the records: a `Panorama`. NONE where it is no picture.
     picture: u32,
 }
 const EMITTER_ROWS: u32 = 6u;
@@ -125,9 +125,9 @@ struct Material {
     /// About the part of the light that goes on from it.
     albedo: f32,
     /// Light that it emits.
-    light: u32,
+    emission: u32,
     /// Factor of what it emits; 0 where it emits nothing.
-    light_scale: f32,
+    emission_scale: f32,
     /// Fills the last row.
     padding: vec2u,
 }
@@ -183,7 +183,7 @@ struct Facets {
     /// Mean of that table over all directions.
     mean_energy: f32,
     /// First number of the table by which a brushed coat lets more through in some directions.
-    first_passage: u32,
+    first_transmittance_scale: u32,
     /// Fills the last row.
     padding: vec2u,
 }
@@ -406,7 +406,7 @@ fn load_field(row: u32) -> Field {
     );
 }
 
-/// A picture of the surroundings, and the table by which directions are drawn.
+/// A picture of the environment, and the table by which directions are drawn.
 struct Panorama {
     /// Where it is among the texels: the head, then its pixels.
     head: u32,
@@ -462,7 +462,7 @@ fn load_node(row: u32) -> Node {
 }
 
 /// A node of the tree of emitters, depth first: a group as seen from afar; or an emitter, of which only the last four count.
-struct LightNode {
+struct EmitterNode {
     /// Mean of the places of what the group holds.
     center: vec3f,
     /// All that the group holds is within this distance of the center.
@@ -488,13 +488,13 @@ struct LightNode {
     /// The emitter, or NONE of a group.
     emitter: u32,
 }
-const LIGHTNODE_ROWS: u32 = 4u;
-fn load_lightnode(row: u32) -> LightNode {
+const EMITTERNODE_ROWS: u32 = 4u;
+fn load_emitternode(row: u32) -> EmitterNode {
     let row_0 = trees_row(row + 0u);
     let row_1 = trees_row(row + 1u);
     let row_2 = trees_row(row + 2u);
     let row_3 = trees_row(row + 3u);
-    return LightNode(
+    return EmitterNode(
         vec3f(bitcast<f32>(row_0.x), bitcast<f32>(row_0.y), bitcast<f32>(row_0.z)),
         bitcast<f32>(row_0.w),
         vec3f(bitcast<f32>(row_1.x), bitcast<f32>(row_1.y), bitcast<f32>(row_1.z)),

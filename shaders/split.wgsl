@@ -1,7 +1,7 @@
 // Where paths divide: at a film into reflection and transmission, both or one of them; and where they end by chance.
 
 /// About the part of a film's light that it reflects, linear between the knots of its table.
-fn reflected_part(material: u32, cosine: f32) -> f32 {
+fn reflected_at(material: u32, cosine: f32) -> f32 {
     let steps = REFLECTED_KNOTS - 1u;
     let place = clamp(cosine, 0.0, 1.0) * f32(steps);
     let knot = min(u32(place), steps - 1u);
@@ -11,18 +11,18 @@ fn reflected_part(material: u32, cosine: f32) -> f32 {
 
 /// The least share of the paths that follow the reflection of a film, and the least that follow its transmission: what is seen
 /// faintly may be bright all the same.
-const LEAST_SHARE: f32 = 0.25;
+const LEAST_PROBABILITY: f32 = 0.25;
 
 /// A part of the light that is a rounding of none.
 const NOTHING: f32 = 1e-9;
 
 /// Share of the paths that follow the reflection of a film. It steers noise only: the weight undoes it. Nothing is drawn for a reflection
 /// that there is none of.
-fn reflected_share(reflected: f32) -> f32 {
+fn reflection_probability(reflected: f32) -> f32 {
     if (reflected <= NOTHING) {
         return 0.0;
     }
-    return clamp(reflected, LEAST_SHARE, 1.0 - LEAST_SHARE);
+    return clamp(reflected, LEAST_PROBABILITY, 1.0 - LEAST_PROBABILITY);
 }
 
 /// Paths that wait for the present one to end.
@@ -43,27 +43,9 @@ fn resume() -> PathState {
 }
 
 /// The least chance that a path has to go on at Russian roulette, which bounds its weight.
-const LEAST_CHANCE: f32 = 0.05;
+const LEAST_SURVIVAL: f32 = 0.05;
 
 /// Chance that a path goes on. The same for all its wavelengths, so that each is right on average.
-fn chance_to_go_on(throughput: f32) -> f32 {
-    return clamp(throughput, LEAST_CHANCE, 1.0);
-}
-
-/// Russian roulette: ends the path by chance, or lets the vertex that is being made count for more.
-fn play_roulette(path: PathState, sample: Sample) -> PathState {
-    let chance = chance_to_go_on(path.rr_throughput);
-    var next = path;
-    if (chance < 1.0) {
-        next.alive = random_at(sample, path, FOR_ROULETTE).x < chance;
-        next.rr_throughput /= chance;
-        pending.weight /= chance;
-        if (HAS_SHEENS) {
-            pending_sheen.weight /= chance;
-        }
-        if (HAS_BASES) {
-            pending_body.weight /= chance;
-        }
-    }
-    return next;
+fn rr_survival_probability(throughput: f32) -> f32 {
+    return clamp(throughput, LEAST_SURVIVAL, 1.0);
 }

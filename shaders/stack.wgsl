@@ -41,7 +41,7 @@ fn substrate_admittances(n: vec4f, k: vec4f, incident: Incident) -> Admittances 
     let index = Complex4(n, k);
     let index2 = complex_mul(index, index);
     let q = complex_sqrt(medium_q2(index2, incident));
-    return Admittances(q, complex_mul(q, complex_inverse(index2)));
+    return Admittances(q, complex_mul(q, complex_recip(index2)));
 }
 
 /// A substrate with nothing on it.
@@ -67,7 +67,7 @@ fn stack_layer(below: Stack, n: vec4f, k: vec4f, thickness: vec4f, incident: Inc
         below.p,
         phase,
         complex_mul(phase.sine_over_q, index2),
-        complex_mul(b, complex_inverse(index2)),
+        complex_mul(b, complex_recip(index2)),
     );
     return Stack(s, p);
 }
@@ -88,13 +88,13 @@ fn layer_phase(q: Complex4, thickness: vec4f) -> LayerPhase {
     // (exp(2x) − 1) / (2x) · 2π d / λ with x = iδ.
     let along = 2.0 * PI * thickness;
     let two_x = Complex4(-2.0 * along * q.im, 2.0 * along * q.re);
-    var shape = complex_mul(Complex4(beta2.re - 1.0, beta2.im), complex_inverse(two_x));
-    let is_small = complex_norm2(two_x) < vec4f(0.25);
+    var shape = complex_mul(Complex4(beta2.re - 1.0, beta2.im), complex_recip(two_x));
+    let is_small = complex_norm_sqr(two_x) < vec4f(0.25);
     if (any(is_small)) {
         let series = exponential_quotient(two_x);
         shape = Complex4(select(shape.re, series.re, is_small), select(shape.im, series.im, is_small));
     }
-    return LayerPhase(cosine, Complex4(along * shape.re, along * shape.im), sqrt(complex_norm2(beta2)));
+    return LayerPhase(cosine, Complex4(along * shape.re, along * shape.im), sqrt(complex_norm_sqr(beta2)));
 }
 
 /// (exp(z) − 1) / z = Σ zⁿ / (n + 1)! for |z| < 1/2; the remainder after z⁷ is below 2e-8.
@@ -118,7 +118,7 @@ fn fields_above(below: TangentialFields, phase: LayerPhase, a: Complex4, b: Comp
     let own_second = complex_mul(phase.cosine, below.second);
     let first = Complex4(own_first.re + from_second.im, own_first.im - from_second.re);
     let second = Complex4(own_second.re + from_first.im, own_second.im - from_first.re);
-    let scale = inverseSqrt(max(complex_norm2(first) + complex_norm2(second), vec4f(1e-30)));
+    let scale = inverseSqrt(max(complex_norm_sqr(first) + complex_norm_sqr(second), vec4f(1e-30)));
     return TangentialFields(
         Complex4(scale * first.re, scale * first.im),
         Complex4(scale * second.re, scale * second.im),
@@ -150,7 +150,7 @@ struct Powers {
 /// R = |η₀ F − G|² / |η₀ F + G|² and T = 4 η₀ Re η_substrate |F_substrate|² / |η₀ F + G|² of the fields F and G at the top.
 fn powers_of(at_top: TangentialFields, substrate: Complex4, incident: f32) -> Powers {
     let first = complex_scale(incident, at_top.first);
-    let sum = max(complex_norm2(complex_add(first, at_top.second)), vec4f(1e-30));
-    let reflected = complex_norm2(complex_sub(first, at_top.second));
+    let sum = max(complex_norm_sqr(complex_add(first, at_top.second)), vec4f(1e-30));
+    let reflected = complex_norm_sqr(complex_sub(first, at_top.second));
     return Powers(reflected / sum, 4.0 * incident * substrate.re * at_top.passed / sum);
 }

@@ -64,16 +64,16 @@ fn bsdf_factor(object: u32, point: SurfacePoint, random: f32) -> u32 {
 }
 
 /// The spectrum at a vertex in four bands; `first` is that of the factor's number.
-fn bsdf_spectrum(at: Place, vertex: Vertex, first: vec4f) -> Values {
+fn bsdf_value(at: Place, vertex: Vertex, first: vec4f) -> Values {
     let tag = factor_tag(vertex.factor);
     if ((HAS_COATED_BODIES || HAS_ROUGH_COATS) && tag == FACTOR_COATED) {
-        return coated_spectrum(at, vertex, first);
+        return coated_value(at, vertex, first);
     }
     if (HAS_COOK && tag == FACTOR_COOK) {
-        return cook_spectrum(at, vertex, first);
+        return cook_value(at, vertex, first);
     }
     if (HAS_INTERFACES && (tag == FACTOR_INTERFACE || tag == FACTOR_COATING)) {
-        return interface_spectrum(at, vertex, first);
+        return interface_value(at, vertex, first);
     }
-    return diffuse_spectrum(at, vertex, first);
+    return diffuse_value(at, vertex, first);
 }

@@ -89,17 +89,17 @@ fn cook_factor(material: u32) -> u32 {
     return factor_of(FACTOR_COOK, cook.spectrum);
 }
 
-fn cook_spectrum(at: Place, vertex: Vertex, n: vec4f) -> Values {
+fn cook_value(at: Place, vertex: Vertex, n: vec4f) -> Values {
     let k = spectrum_at(factor_number(vertex.factor) + 1u, at.group, at.wavelengths);
     var values = Values(
         vertex.weight * reflectance_unpolarized(n, k, vertex.cosine),
-        vertex.light_weight * reflectance_unpolarized(n, k, vertex.light_cosine),
+        vertex.emission_weight * reflectance_unpolarized(n, k, vertex.emission_cosine),
     );
     if (HAS_BASES) {
         let body = bodies[at.vertex];
         let base = spectrum_at(factor_number(body.base), at.group, at.wavelengths);
         values.onward += body.weight * base;
-        values.lit += body.light_weight * base;
+        values.lit += body.emission_weight * base;
     }
     return values;
 }

@@ -40,14 +40,14 @@ fn reflectance_spectrum(reflectance: Diffuse, object: u32, position: vec3f) -> u
 }
 
 /// The value of a reflectance's factor, where `first` is the spectrum of its number.
-fn reflectance_value(at: Place, factor: u32, first: vec4f) -> vec4f {
+fn reflectance_at(at: Place, factor: u32, first: vec4f) -> vec4f {
     if (HAS_TEXTURES && factor_tag(factor) == FACTOR_TEXTURE) {
         return smooth_value(texel_at(factor_number(factor)).xyz, at.group, at.wavelengths);
     }
     return first;
 }
 
-fn diffuse_spectrum(at: Place, vertex: Vertex, first: vec4f) -> Values {
-    let reflectance = reflectance_value(at, vertex.factor, first);
-    return Values(vertex.weight * reflectance, vertex.light_weight * reflectance);
+fn diffuse_value(at: Place, vertex: Vertex, first: vec4f) -> Values {
+    let reflectance = reflectance_at(at, vertex.factor, first);
+    return Values(vertex.weight * reflectance, vertex.emission_weight * reflectance);
 }

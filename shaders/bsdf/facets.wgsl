@@ -20,7 +20,7 @@ fn over_facets(first: u32, alpha: vec2f, direction: vec3f) -> f32 {
 }
 
 /// The directional albedo E of facets, were they to reflect everything. 1 − E of the light meets another facet.
-fn facet_albedo(facets: Facets, direction: vec3f) -> f32 {
+fn facets_albedo(facets: Facets, direction: vec3f) -> f32 {
     return over_facets(facets.first_energy, facets.alpha, direction);
 }
 
@@ -37,20 +37,20 @@ fn facets_eval(facets: Facets, wo: vec3f, wi: vec3f) -> BsdfEval {
     if (wo.z <= 0.0 || wi.z <= 0.0) {
         return dark(wi);
     }
-    let once = reflection_between(microsurface_of(facets), wo, wi);
-    let share = 1.0 - facet_albedo(facets, wo);
+    let once = microsurface_reflection(microsurface_of(facets), wo, wi);
+    let share = 1.0 - facets_albedo(facets, wo);
     let lost = max(1.0 - facets.mean_energy, 1e-6);
-    let again = share * (1.0 - facet_albedo(facets, wi)) / (PI * lost);
+    let again = share * (1.0 - facets_albedo(facets, wi)) / (PI * lost);
     let lobes = Lobes(once.value, again * wi.z, 0.0, once.cosine, wi.z);
     return BsdfEval(lobes, mix(once.pdf, 0.5 / PI, share));
 }
 
 /// A direction drawn by the density of facets_eval.
 fn facets_sample(facets: Facets, wo: vec3f, random: vec4f) -> vec3f {
-    if (random.z < 1.0 - facet_albedo(facets, wo)) {
+    if (random.z < 1.0 - facets_albedo(facets, wo)) {
         return sample_cone(random.x, random.y, 1.0);
     }
-    let facet = sample_facet(microsurface_of(facets), wo, random.x, random.y);
+    let facet = microsurface_sample(microsurface_of(facets), wo, random.x, random.y);
     return normalize(reflect(-wo, facet));
 }
 

@@ -20,8 +20,8 @@ fn interface_sample(material: u32, wo: vec3f, random: vec4f) -> vec3f {
 fn interface_factor(object: u32, point: SurfacePoint) -> u32 {
     let head = material_at(shape_at(object).material);
     let boundary = load_interface(head.record);
-    if (HAS_SHEENS && head.facets != NONE) {
-        pending_sheen.mean_energy = load_facets(head.facets).mean_energy;
+    if (HAS_MULTIPLE_SCATTERING && head.facets != NONE) {
+        pending_multiple.mean_energy = load_facets(head.facets).mean_energy;
     }
     if (HAS_COATINGS && boundary.layer_count > 0u) {
         pending_thickness = record_layers(boundary.first_layer, boundary.layer_count, object, point.position);
@@ -30,36 +30,36 @@ fn interface_factor(object: u32, point: SurfacePoint) -> u32 {
     return factor_of(FACTOR_INTERFACE, boundary.spectrum);
 }
 
-fn interface_spectrum(at: Place, vertex: Vertex, first: vec4f) -> Values {
+fn interface_value(at: Place, vertex: Vertex, first: vec4f) -> Values {
     if (HAS_COATINGS && factor_tag(vertex.factor) == FACTOR_COATING) {
-        return coating_spectrum(at, vertex);
+        return coating_value(at, vertex);
     }
-    return conductor_spectrum(at, vertex, first, spectrum_at(factor_number(vertex.factor) + 1u, at.group, at.wavelengths));
+    return bare_value(at, vertex, first, spectrum_at(factor_number(vertex.factor) + 1u, at.group, at.wavelengths));
 }
 
 /// A bare conductor of index n + ik.
-fn conductor_spectrum(at: Place, vertex: Vertex, n: vec4f, k: vec4f) -> Values {
+fn bare_value(at: Place, vertex: Vertex, n: vec4f, k: vec4f) -> Values {
     var values = Values(vertex.weight * reflectance_unpolarized(n, k, vertex.cosine), vec4f(0.0));
     if (HAS_SCATTERING) {
-        values.lit = vertex.light_weight * reflectance_unpolarized(n, k, vertex.light_cosine);
+        values.lit = vertex.emission_weight * reflectance_unpolarized(n, k, vertex.emission_cosine);
     }
-    if (HAS_SHEENS) {
+    if (HAS_MULTIPLE_SCATTERING) {
         var mean = MEAN_WEIGHTS.x * reflectance_unpolarized(n, k, MEAN_COSINES.x);
         mean += MEAN_WEIGHTS.y * reflectance_unpolarized(n, k, MEAN_COSINES.y);
         mean += MEAN_WEIGHTS.z * reflectance_unpolarized(n, k, MEAN_COSINES.z);
-        return with_sheen(values, sheens[at.vertex], mean);
+        return with_multiple(values, multiples[at.vertex], mean);
     }
     return values;
 }
 
 /// The values with light that met several facets, by the mean of the reflectance over a hemisphere.
-fn with_sheen(once: Values, sheen: Sheen, mean: vec4f) -> Values {
-    let several = multiple_color(mean, sheen.mean_energy);
-    return Values(once.onward + sheen.weight * several, once.lit + sheen.light_weight * several);
+fn with_multiple(once: Values, multiple: MultipleScattering, mean: vec4f) -> Values {
+    let several = multiple_color(mean, multiple.mean_energy);
+    return Values(once.onward + multiple.weight * several, once.lit + multiple.emission_weight * several);
 }
 
 /// Layers on a conductor, at one cosine after the other, so that their code is there once.
-fn coating_spectrum(at: Place, vertex: Vertex) -> Values {
+fn coating_value(at: Place, vertex: Vertex) -> Values {
     let boundary = load_interface(factor_number(vertex.factor));
     let n = spectrum_at(boundary.spectrum, at.group, at.wavelengths);
     let k = spectrum_at(boundary.spectrum + 1u, at.group, at.wavelengths);
@@ -71,13 +71,13 @@ fn coating_spectrum(at: Place, vertex: Vertex) -> Values {
     var values = Values(vec4f(0.0), vec4f(0.0));
     var mean = vec4f(0.0);
     var count = select(1u, 2u, HAS_SCATTERING);
-    if (HAS_SHEENS && sheens[at.vertex].weight + sheens[at.vertex].light_weight > 0.0) {
+    if (HAS_MULTIPLE_SCATTERING && multiples[at.vertex].weight + multiples[at.vertex].emission_weight > 0.0) {
         count = 5u;
     }
     var i = 0u;
     loop {
-        var cosine = select(vertex.light_cosine, vertex.cosine, i == 0u);
-        if (HAS_SHEENS && i >= 2u) {
+        var cosine = select(vertex.emission_cosine, vertex.cosine, i == 0u);
+        if (HAS_MULTIPLE_SCATTERING && i >= 2u) {
             cosine = MEAN_COSINES[i - 2u];
         }
         let incident = air_above(cosine);
@@ -88,8 +88,8 @@ fn coating_spectrum(at: Place, vertex: Vertex) -> Values {
         if (i == 0u) {
             values.onward = vertex.weight * reflectance;
         } else if (i == 1u) {
-            values.lit = vertex.light_weight * reflectance;
-        } else if (HAS_SHEENS) {
+            values.lit = vertex.emission_weight * reflectance;
+        } else if (HAS_MULTIPLE_SCATTERING) {
             mean += MEAN_WEIGHTS[i - 2u] * reflectance;
         }
         continuing {
@@ -97,8 +97,8 @@ fn coating_spectrum(at: Place, vertex: Vertex) -> Values {
             break if i >= count;
         }
     }
-    if (HAS_SHEENS) {
-        return with_sheen(values, sheens[at.vertex], mean);
+    if (HAS_MULTIPLE_SCATTERING) {
+        return with_multiple(values, multiples[at.vertex], mean);
     }
     return values;
 }

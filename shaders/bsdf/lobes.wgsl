@@ -26,7 +26,7 @@ fn dark(wi: vec3f) -> BsdfEval {
 }
 
 /// Sum of the weights.
-fn weight_of(lobes: Lobes) -> f32 {
+fn lobes_sum(lobes: Lobes) -> f32 {
     return lobes.single + lobes.multiple + lobes.body;
 }
 

@@ -7,6 +7,7 @@ pub mod device;
 pub mod frames;
 pub mod probe;
 pub mod scenes;
+pub mod sources;
 pub mod tables;
 pub mod tolerances;
 pub mod wgsl;

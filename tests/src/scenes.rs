@@ -38,7 +38,7 @@ pub const EVERYTHING: &str = include_str!("everything.toml");
 /// A scene with Cook's model in every form and with every kind of body below a coat.
 pub const EVERYTHING_BODIES: &str = include_str!("everything_bodies.toml");
 
-/// What they have not got: surroundings by a picture, a panorama.
+/// What they have not got: environment by a picture, a panorama.
 pub const EVERYTHING_PICTURED: &str = include_str!("everything_pictured.toml");
 
 /// The names of the scenes that are made for the suites.
@@ -85,50 +85,50 @@ pub fn small(name: &str, size: [u32; 2], samples: u32, bands: u32, seed: u32) ->
 pub const PROVED_ON_PATHS: &[&str] = &[
     "add_emission",
     "air_above",
-    "arrives",
+    "is_visible",
     "bsdf_sample",
     "bsdf_specular_probability",
     "coated_sample",
     "coated_specular_probability",
     "connect",
     "cook_sample",
-    "crossings_value",
+    "crossings_transmittance",
     "diffuse_sample",
     "dimming",
-    "environment_texel",
+    "environment_pixel",
     "extend_path",
     "film_at",
-    "film_passes",
+    "film_factor",
     "first_ray",
     "interface_sample",
     "interface_specular_probability",
-    "is_reached",
+    "has_arrived",
     "layer_varies",
     "light_group_of",
-    "light_spectrum",
-    "light_value",
+    "emission_spectrum",
+    "emission_value",
     "mis_weight_of_meeting",
     "numbers_of",
     "pass_through",
     "path_radiance",
-    "play_roulette",
+    "russian_roulette",
     "push_crossing",
     "push_thickness",
     "random_at",
     "record_layers",
     "resume",
     "sample_emitter",
-    "send_on",
+    "scatter",
     "shade_environment",
     "shade_film",
     "shade_object",
     "shade_surface",
-    "stack_spectrum",
+    "stack_value",
     "trace_path",
     "wait",
-    "weight_of",
+    "lobes_sum",
     "with_layers",
-    "with_light",
+    "with_emission",
 ];
 
 /// WGSL functions that the suite `stack_batches` proves: batches of film stacks.

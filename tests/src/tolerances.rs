@@ -62,7 +62,7 @@ pub const FRAME: Tolerance = of(5e-6, 0.0);
 /// Distances along rays: scaled by the coordinates (up to 10) and divided by a cosine.
 pub const DISTANCE: Tolerance = of(1e-5, 1e-5);
 /// Densities of lights: squares of distances over cosines.
-pub const LIGHT_PDF: Tolerance = of(1e-6, 3e-5);
+pub const EMITTER_PDF: Tolerance = of(1e-6, 3e-5);
 /// Thickness over a surface: the angle's error of 3e-7 times nm per radian, and the thickness's own rounding.
 pub const THICKNESS_NM: Tolerance = of(1e-3, 1e-6);
 /// Thickness by a picture of 12 × 7 pixels: a place off by 4e-7 of the picture, times 12 pixels of up to 600 nm contrast.
@@ -218,10 +218,10 @@ pub const PROVING_ERROR: f64 = 4e-3;
 pub const NEAR_LIGHT: Tolerance = of(5e-4, 5e-4);
 /// What lights bring: points keep 3e-7 of coordinates of some units, which a squared distance of a tenth makes 1e-5, and the edges of
 /// cones a little more.
-pub const LIGHT_ESTIMATE: Tolerance = of(5e-5, 1e-5);
+pub const EMITTER_WEIGHT: Tolerance = of(5e-5, 1e-5);
 /// The probability of one of many lights: a product of some eight quotients of sums, each rounded a few times. The estimates' own roundings
 /// cancel in quotients but for points very close to a group.
-pub const LIGHT_TREE: Tolerance = of(2e-5, 1e-7);
+pub const EMITTER_TREE: Tolerance = of(2e-5, 1e-7);
 /// Between two knots of a table of 33: the place is rounded by 2e-6 of a step, which near grazing changes R by up to a half.
 pub const ARITHMETIC_OF_TABLES: Tolerance = of(2e-6, 1e-6);
 /// A pixel filter's offset between two of 257 knots: the place is rounded by some 2e-5 of a step, and the longest steps, at the ends, are

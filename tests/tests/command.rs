@@ -250,11 +250,7 @@ fn check_tells_what_a_scene_is() {
     let said = ran.succeeded();
     told(
         &said.stdout,
-        &[
-            "film_wedge.toml: valid",
-            "bands",
-            "lit by its surroundings;",
-        ],
+        &["film_wedge.toml: valid", "bands", "lit by its environment;"],
         "check",
     );
     assert!(said.stderr.is_empty(), "{}", said.stderr);
@@ -323,7 +319,7 @@ fn files_that_are_no_scenes_are_refused() {
 }
 
 #[test]
-fn all_mistakes_of_a_scene_are_told_with_their_lines() {
+fn all_mistakes_of_a_scene_are_reported_with_their_lines() {
     let place = Place::default();
     let text = "[camera]\ntype = \"perspective\"\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nfov_deg = 200\n\n\
         [render]\nsampels = 4\n\n[[objects]]\ntype = \"sphere\"\nmaterial = \"gold\"\ncenter = [0, 0, 0]\nradius = -1\n";
@@ -470,7 +466,7 @@ fn a_sequence_has_a_numbered_file_for_each_frame_at_its_time() {
 }
 
 #[test]
-fn a_sequence_of_a_scene_that_stands_still_is_told() {
+fn a_sequence_of_a_scene_that_stands_still_is_reported() {
     let place = Place::default();
     let drainage = "{ drainage = { initial = 900, radius_m = 0.01, viscosity_pa_s = 1e-7 } }";
     assert!(GROWING.contains(drainage));

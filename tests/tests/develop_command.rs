@@ -184,7 +184,7 @@ fn files_have_the_depth_that_is_asked_for() {
 }
 
 #[test]
-fn what_cannot_be_is_told_and_nothing_is_written() {
+fn what_cannot_be_is_reported_and_nothing_is_written() {
     let place = place();
     std::fs::write(place.path("notes.txt"), "no image").unwrap();
     for (arguments, said) in [

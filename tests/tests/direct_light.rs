@@ -29,7 +29,7 @@ const LIGHTS: &[(&str, &str)] = &[
         "[[lights]]\ntype = \"distant\"\nemission = { constant = 1 }\ndirection = [0.1, 1, -0.9]\ndiameter_deg = 40\n",
     ),
     (
-        "constant surroundings",
+        "constant environment",
         "[environment]\ntype = \"constant\"\nemission = { constant = 1 }\n",
     ),
     (
@@ -38,7 +38,7 @@ const LIGHTS: &[(&str, &str)] = &[
     ),
     (
         "picture",
-        "[environment]\ntype = \"image\"\nimage = \"tests/data/surroundings.hdr\"\n",
+        "[environment]\ntype = \"image\"\nimage = \"tests/data/environment.hdr\"\n",
     ),
     (
         // Its sun is so small that scattered rays hardly ever find it.
@@ -161,8 +161,8 @@ fn three_ways_agree_and_both_together_are_never_much_noisier() {
     for (light_name, light) in LIGHTS {
         for (surface_name, surface) in SURFACES {
             let of = |direct| mean_and_variance(light, surface, direct);
-            let (both, lights) = (of(DirectLight::Both), of(DirectLight::Lights));
-            let surfaces = of(DirectLight::Surfaces);
+            let (both, lights) = (of(DirectLight::Both), of(DirectLight::Emitters));
+            let surfaces = of(DirectLight::Bsdf);
             let zs = [z(both, lights), z(both, surfaces), z(lights, surfaces)];
             let least = lights.1.min(surfaces.1);
             let relative =
@@ -194,7 +194,7 @@ fn light_from_a_single_direction_is_found_by_sending_alone() {
     for (light_name, light) in SINGLE_DIRECTIONS {
         for (surface_name, surface) in SURFACES {
             let of = |direct| mean_and_variance(light, surface, direct);
-            let (both, lights) = (of(DirectLight::Both), of(DirectLight::Lights));
+            let (both, lights) = (of(DirectLight::Both), of(DirectLight::Emitters));
             let name = format!("{light_name} × {surface_name}");
             assert!(
                 both.0 > 0.0 && z(both, lights).abs() < Z,
@@ -208,7 +208,7 @@ fn light_from_a_single_direction_is_found_by_sending_alone() {
 #[test]
 fn light_from_a_single_direction_is_refused_without_sending() {
     for (name, light) in SINGLE_DIRECTIONS {
-        let problems = read(light, SURFACES[0].1, DirectLight::Surfaces).expect_err(name);
+        let problems = read(light, SURFACES[0].1, DirectLight::Bsdf).expect_err(name);
         let fields: Vec<_> = problems.iter().map(|p| p.field.to_string()).collect();
         assert_eq!(fields, ["lights[0]"], "{name}: {problems:#}");
     }
@@ -219,6 +219,6 @@ fn light_from_a_single_direction_is_refused_without_sending() {
 fn a_wrong_light_is_noticed() {
     let (_, surface) = SURFACES[0];
     let right = mean_and_variance(SMALL_SPHERE, surface, DirectLight::Both);
-    let wrong = mean_and_variance(SMALL_SPHERE, surface, DirectLight::Lights);
+    let wrong = mean_and_variance(SMALL_SPHERE, surface, DirectLight::Emitters);
     assert!(z(right, (1.02 * wrong.0, 1.02 * wrong.1)).abs() > Z);
 }

@@ -302,7 +302,7 @@ fn a_wanted_color_is_found_again() {
 
 /// Nothing is seen of a layer below opaque gold.
 #[test]
-fn a_layer_that_is_not_seen_is_told() {
+fn a_layer_that_is_not_seen_is_reported() {
     let stack = "air | gold 500nm | silica 100nm | 1.5";
     let said = film(stack, "--match #2e6fd0 --vary 2:0:400").succeeded();
     told(&said.stdout, &["does not depend on this layer"], "");
@@ -340,7 +340,7 @@ fn tolerance_and_sensitivity_are_reported_per_layer() {
 }
 
 #[test]
-fn bad_stacks_are_told_with_their_place() {
+fn bad_stacks_are_reported_with_their_place() {
     for (stack, words) in [
         ("", vec!["no stack file", "air | silica 300nm | silicon"]),
         (
@@ -388,7 +388,7 @@ fn bad_stacks_are_told_with_their_place() {
 }
 
 #[test]
-fn bad_arguments_are_told_and_leave_no_file() {
+fn bad_arguments_are_reported_and_leave_no_file() {
     for (arguments, words) in [
         ("--angles 90", vec!["90°", "less than 90°"]),
         ("--angles -1", vec!["-1°"]),

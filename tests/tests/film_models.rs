@@ -43,7 +43,7 @@ fn two_beams_have_the_figures_of_an_independent_computation() {
     }
 }
 
-/// A film before black in surroundings of 1 is as bright as it reflects.
+/// A film before black in environment of 1 is as bright as it reflects.
 #[test]
 fn two_beams_are_those_of_scenes() {
     for path in ["optical", "as_printed"] {

@@ -111,7 +111,7 @@ fn same_colors(actual: &SpectralImage, expected: &SpectralImage) -> Result<Strin
 /// Lights found by one of the two ways alone.
 #[test]
 fn each_way_to_find_lights_gives_the_same_pictures() {
-    use scene::DirectLight::{Lights, Surfaces};
+    use scene::DirectLight::{Bsdf, Emitters};
     let wrong = failures_of(
         &["everything_bodies", "everything_pictured"],
         |gpu, name| {
@@ -126,7 +126,7 @@ fn each_way_to_find_lights_gives_the_same_pictures() {
                 same_numbers(Values::of(&actual), Values::of(&expected), &FRAMES)
                     .map_err(|report| format!("{way:?}: {report}"))
             };
-            vec![by_the_way(Lights), by_the_way(Surfaces)]
+            vec![by_the_way(Emitters), by_the_way(Bsdf)]
         },
     );
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

@@ -175,7 +175,7 @@ fn what_does_not_compare_is_one_clear_error() {
 }
 
 #[test]
-fn a_pixel_and_a_region_are_told_as_they_are() {
+fn a_pixel_and_a_region_are_reported_as_they_are() {
     let place = Place::default();
     let made = image([4, 3], 5, |x, y| {
         (0..5)
@@ -273,7 +273,7 @@ fn what_cannot_be_inspected_is_one_clear_error() {
 
 /// What `inspect --film` finds at pixel 0 (a film of 412 nm at 30° in FL11), 1 (a gray surface in it) and 2 (black).
 #[test]
-fn a_film_is_recognized_and_what_is_none_is_told() {
+fn a_film_is_recognized_and_what_is_none_is_reported() {
     let grid = BandGrid::visible(40).unwrap();
     let stack = Stack::parse("1 | water 0nm | 1").unwrap();
     let lamp = spectra::illuminant("FL11").unwrap().data;
@@ -374,7 +374,7 @@ fn the_scene_tells_which_film_a_pixel_shows() {
         assert!((best - known).abs() < 15.0, "{best} {known}");
     }
     told(
-        found["places"][2]["film"]["seen"].as_str().unwrap(),
+        found["places"][2]["film"]["other"].as_str().unwrap(),
         &["velvet"],
     );
     let other = root().join("scenes/film_wedge.toml");
@@ -393,7 +393,7 @@ fn the_scene_tells_which_film_a_pixel_shows() {
 
 /// What reading a file of other origin assumed is said once, on standard error.
 #[test]
-fn files_of_other_origin_are_told() {
+fn files_of_other_origin_are_reported() {
     use exr::prelude::*;
 
     let place = Place::default();

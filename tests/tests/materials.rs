@@ -149,7 +149,7 @@ fn a_part_of_a_name_or_of_a_paper_finds_materials() {
 }
 
 #[test]
-fn what_is_unknown_is_told_with_what_may_have_been_meant() {
+fn what_is_unknown_is_reported_with_what_may_have_been_meant() {
     for (arguments, said) in [
         (
             "glod",

@@ -141,7 +141,7 @@ fn a_distant_light_gives_its_illuminance_whatever_its_diameter() {
 }
 
 #[test]
-fn constant_surroundings_give_their_illuminance() {
+fn constant_environment_give_their_illuminance() {
     let light = format!(
         "{FLOOR}[environment]\ntype = \"constant\"\nemission = {{ illuminant = \"D65\", illuminance_lux = 500 }}\n"
     );

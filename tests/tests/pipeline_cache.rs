@@ -69,7 +69,7 @@ fn a_folder_that_cannot_be_written_is_no_error() {
 }
 
 #[test]
-fn a_compile_is_told_as_no_samples() {
+fn a_compile_is_reported_as_no_samples() {
     let gpu = open();
     let scene = small("film_wedge", [16, 8], 2, 4, 0);
     let stopped = gpu::render(&gpu, &scene, &mut |_| ControlFlow::Break(()));

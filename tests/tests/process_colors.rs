@@ -22,7 +22,7 @@ fn scene(oxide: &str, metal: &str, process: &str) -> Scene {
 
 /// Lightness, chroma and hue angle in degrees (CIELAB, white equal energy) of the oxide on its metal, seen straight on.
 fn color(scene: &Scene) -> [f64; 3] {
-    let Material::Conductor {
+    let Material::Interface {
         n, k, ref layers, ..
     } = scene.materials()[0]
     else {

@@ -48,7 +48,7 @@ fn lit_by(name: &str, lamp: &str) -> SceneFile {
             }
         }
         Some(Environment::Image { .. } | Environment::Sky { .. }) => {
-            panic!("{name} has surroundings without a lamp by name")
+            panic!("{name} has environment without a lamp by name")
         }
         None => {}
     }

@@ -242,7 +242,7 @@ fn the_wedge_is_exact() {
     const STEPS: u32 = 64;
     let scene = small("bench/wedge", [64, 48], 1024, 40, 1);
     let image = reference::render(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
-    let light = scene.spectrum(scene.surroundings()[0].emission.spectrum);
+    let light = scene.spectrum(scene.environment_parts()[0].emission.spectrum);
     let place = |i: u32| (f64::from(i) + 0.5) / f64::from(STEPS);
     let exact = |x: u32, band: u32, factor: f64| {
         let of = |i: u32, j: u32| {

@@ -1,7 +1,7 @@
 //! The ways to draw paths: each gives the same picture on average, and those that are said to leave less noise do.
 
 use gpu::Gpu;
-use pellicle::seen::{Seen, seen};
+use pellicle::pick::{Picked, pick};
 use pellicle_tests::device::open;
 use pellicle_tests::frames::same_expectation;
 use pellicle_tests::scenes::file;
@@ -115,8 +115,8 @@ fn shows_film(file: &SceneFile) -> Vec<bool> {
     let middle = |i: u32| [i % SIZE[0], i / SIZE[0]].map(|place| f64::from(place) + 0.5);
     (0..SIZE[0] * SIZE[1])
         .map(|i| {
-            let seen = seen(&file.description, &scene, &root(), middle(i));
-            matches!(seen, Ok(Seen::Film(_)))
+            let picked = pick(&file.description, &scene, &root(), middle(i));
+            matches!(picked, Ok(Picked::Film(_)))
         })
         .collect()
 }

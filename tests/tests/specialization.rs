@@ -183,7 +183,7 @@ fn what_was_removed_cannot_run() {
 fn what_another_scene_needs_can_run() {
     let wedge = made_for("film_wedge", false);
     let left = functions(&shader(&wedge).specialized("render").expect("valid"));
-    assert!(!left.contains("stack_layer") && left.contains("film_reflectance"));
+    assert!(!left.contains("stack_layer") && left.contains("clear_film_reflectance"));
     let features = wedge.features.with("HAS_STACKS", true);
     let with_stacks = Specialization { features, ..wedge };
     let reached = Walk::of(&shader(&with_stacks).parse().expect("valid"));

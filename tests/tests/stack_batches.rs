@@ -334,7 +334,7 @@ fn a_million_stacks_are_one_call() {
 }
 
 #[test]
-fn what_a_batch_cannot_be_is_told() {
+fn what_a_batch_cannot_be_is_reported() {
     let gpu = pellicle_tests::device::open();
     let with = |change: fn(&mut RandomStacks)| {
         let mut stacks = RandomStacks::new(3, 2, (100.0, 3.0), &[0.0]);
@@ -363,7 +363,7 @@ fn what_a_batch_cannot_be_is_told() {
 
 /// A path cannot remember any number of thicknesses: a scene that would need it is told before anything is compiled.
 #[test]
-fn a_record_that_is_too_long_is_told() {
+fn a_record_that_is_too_long_is_reported() {
     let gpu = pellicle_tests::device::open();
     let layer =
         "{ index = 1.5, thickness_nm = { start = 1, end = 9, from = [0, 0, 0], to = [1, 0, 0] } }";

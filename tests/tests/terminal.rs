@@ -108,7 +108,7 @@ fn messages_about_long_lines_are_short() {
 }
 
 #[test]
-fn numbers_are_told_as_they_were_written() {
+fn numbers_are_reported_as_they_were_written() {
     let place = Place::default();
     std::fs::write(
         place.path("s.toml"),
@@ -178,7 +178,7 @@ fn a_file_may_come_from_standard_input() {
 }
 
 #[test]
-fn what_is_wrong_with_standard_input_is_told() {
+fn what_is_wrong_with_standard_input_is_reported() {
     let place = Place::default();
     for (arguments, input, said) in [
         ("check -", "x = 1\n", "<standard input>:1:1"),

@@ -18,7 +18,7 @@ pub(crate) fn run(path: &Path, allow_outside: bool) -> miette::Result<()> {
         counted(settings.bands.count(), "band"),
         counted(settings.samples, "sample"),
         counted(scene.objects().len(), "object"),
-        light(scene.lamps(), scene.is_lit_by_surroundings()),
+        light(scene.lamps(), scene.is_lit_by_environment()),
         memory::of_picture(&scene),
     ))
 }
@@ -31,12 +31,12 @@ fn counted(count: impl TryInto<u64>, what: &str) -> String {
 }
 
 /// Where light comes from.
-fn light(lamps: usize, is_lit_by_surroundings: bool) -> String {
-    match (lamps, is_lit_by_surroundings) {
+fn light(lamps: usize, is_lit_by_environment: bool) -> String {
+    match (lamps, is_lit_by_environment) {
         (0, false) => "no light".to_owned(),
-        (0, true) => "lit by its surroundings".to_owned(),
+        (0, true) => "lit by its environment".to_owned(),
         (lamps, false) => counted(lamps, "light"),
-        (lamps, true) => format!("{}, and lit by its surroundings", counted(lamps, "light")),
+        (lamps, true) => format!("{}, and lit by its environment", counted(lamps, "light")),
     }
 }
 
@@ -45,14 +45,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn light_is_told_in_words() {
-        for (lamps, surroundings, words) in [
+    fn light_is_reported_in_words() {
+        for (lamps, environment, words) in [
             (0, false, "no light"),
-            (0, true, "lit by its surroundings"),
+            (0, true, "lit by its environment"),
             (1, false, "1 light"),
-            (2, true, "2 lights, and lit by its surroundings"),
+            (2, true, "2 lights, and lit by its environment"),
         ] {
-            assert_eq!(light(lamps, surroundings), words);
+            assert_eq!(light(lamps, environment), words);
         }
         assert_eq!(counted(1_u32, "object"), "1 object");
     }

@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_lamp_is_told() {
+    fn what_is_no_lamp_is_reported() {
         for (text, said) in [
             ("d65", "did you mean \"D65\"?"),
             ("", "known are"),

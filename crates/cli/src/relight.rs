@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_light_is_told() {
+    fn what_is_no_light_is_reported() {
         for (arguments, said) in [
             (["--light", "F11"], "key=F11"),
             (["--light", "=F11"], "key=F11"),

@@ -280,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn data_that_do_not_reach_are_told_with_their_range() {
+    fn data_that_do_not_reach_are_reported_with_their_range() {
         let error = parsed(SOUND).unwrap().sampled(&[500.0, 710.0]).unwrap_err();
         let said = error.to_string();
         for words in ["710 nm", "layer 1", "400 to 700 nm"] {
@@ -320,7 +320,7 @@ mod tests {
 
     /// Everything at once, each with line and column.
     #[test]
-    fn mistakes_are_told_together() {
+    fn mistakes_are_reported_together() {
         let text = "incident = \"gold\"\nsubstrat = 1.5\n[[layer]]\nindex = \"silca\"\nthickness_nm = -3\n\
                     [[layer]]\nindex = { nm = [1, 2], n = [1.5] }\nthickness_nm = \"4\"\n";
         let said = format!("{:#}", parsed(text).unwrap_err());

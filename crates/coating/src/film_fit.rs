@@ -413,7 +413,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_film_is_told_so() {
+    fn what_is_no_film_is_reported() {
         let stack = Stack::parse("1 | water 0nm | 1").unwrap();
         let bands = BandGrid::visible(40).unwrap();
         let lamp = lamp(&bands);

@@ -509,7 +509,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_too_short_is_told_in_the_form_of_the_stack_and_can_be_clamped() {
+    fn what_is_too_short_is_reported_in_the_form_of_the_stack_and_can_be_clamped() {
         let line = Stack::parse("1 | Au 30nm | rutile").unwrap();
         let help = |stack: &Stack| {
             let error = stack.sampled(&[400.0]).unwrap_err();
@@ -541,7 +541,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fault_of_a_file_is_told_where_it_is_asked_for() {
+    fn a_fault_of_a_file_is_reported_where_it_is_asked_for() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("mine.yml");
         let rows = "        0.3 1.5 0\n        0.9 1.5 0\n        12 1.5 -0.3\n";

@@ -36,7 +36,7 @@ mod xyz_image;
 
 pub use develop::{DevelopSettings, develop};
 pub use pending_file::{Destination, PendingFile};
-pub use probe::{LightShare, Probe, Region, RegionError, probe};
+pub use probe::{GroupProbe, Probe, Region, RegionError, probe};
 pub use relight::{BandWeights, DarkBand, Relight, RelightError, relight};
 pub use rgb_image::{RgbImage, RgbImage8, RgbImage16};
 pub use xyz_image::XyzImage;

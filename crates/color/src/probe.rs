@@ -90,7 +90,7 @@ pub struct Probe {
     /// Mean XYZ, cd/m² up to the scene's scale.
     pub xyz: [f64; 3],
     /// The share of each of the image's light groups in radiance and XYZ, in their order.
-    pub light_groups: Vec<LightShare>,
+    pub light_groups: Vec<GroupProbe>,
     /// Samples of all its pixels.
     pub samples: u64,
     /// Pixels that were left out because something in them is not a number.
@@ -99,7 +99,7 @@ pub struct Probe {
 
 /// The light of one light group.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LightShare {
+pub struct GroupProbe {
     /// Mean radiance of each band.
     pub radiance: Vec<f64>,
     /// Mean XYZ.
@@ -124,7 +124,7 @@ pub fn probe(image: &SpectralImage, region: Region) -> Result<Probe, RegionError
         });
     }
     let bands = image.bands().count() as usize;
-    let share = LightShare {
+    let share = GroupProbe {
         radiance: vec![0.0; bands],
         xyz: [0.0; 3],
     };
@@ -147,7 +147,7 @@ struct Sums {
     radiance: Vec<f64>,
     variance: Vec<f64>,
     xyz: [f64; 3],
-    light_groups: Vec<LightShare>,
+    light_groups: Vec<GroupProbe>,
     samples: u64,
     count: u64,
     left_out: u64,
@@ -192,7 +192,7 @@ impl Sums {
             light_groups: self
                 .light_groups
                 .iter()
-                .map(|share| LightShare {
+                .map(|share| GroupProbe {
                     radiance: share.radiance.iter().map(|sum| sum / count).collect(),
                     xyz: share.xyz.map(|sum| sum / count),
                 })
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn light_groups_are_told_apart() {
+    fn light_groups_are_distinguished() {
         let group = |name: &str| LightGroup {
             name: name.to_owned(),
             lamp: None,

@@ -7,7 +7,7 @@
 use crate::adaptation::CAT16;
 use crate::matrix::{inverse, times};
 
-/// How light the surroundings of a picture are (CIE 248:2022, table 1).
+/// How light the environment of a picture are (CIE 248:2022, table 1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Surround {
     /// As light as the picture: surface colors, offices.

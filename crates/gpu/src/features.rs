@@ -2,8 +2,8 @@
 
 use crate::pack::is_large;
 use scene::{
-    DirectLight, Environment, EnvironmentPart, EnvironmentShape, LightSource, LightTree, Material,
-    PictureSpectra, Projection, Sampler, Scene, Shape, SourceKind,
+    DirectLight, EmitterKind, EmitterSource, EmitterTree, Environment, EnvironmentPart,
+    EnvironmentShape, Material, PictureSpectra, Projection, Sampler, Scene, Shape,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -41,9 +41,9 @@ impl Features {
             self.add(&["HAS_HIERARCHY"]);
             self.counts.insert("HIERARCHY_ROWS", hierarchy_rows);
         }
-        let mut nodes = scene.light_tree().nodes.iter();
-        if nodes.any(|node| node.source == LightTree::NONE) {
-            self.add(&["HAS_LIGHT_TREE"]);
+        let mut nodes = scene.emitter_tree().nodes.iter();
+        if nodes.any(|node| node.source == EmitterTree::NONE) {
+            self.add(&["HAS_EMITTER_TREE"]);
         }
     }
 
@@ -82,8 +82,8 @@ fn counts(scene: &Scene) -> [(&'static str, u32); 6] {
     let length = |count: usize| count as u32;
     [
         ("OBJECT_COUNT", length(scene.objects().len())),
-        ("LIGHT_COUNT", length(scene.light_sources().len())),
-        ("ENVIRONMENT_COUNT", length(scene.surroundings().len())),
+        ("EMITTER_COUNT", length(scene.emitters().len())),
+        ("ENVIRONMENT_COUNT", length(scene.environment_parts().len())),
         ("GROUPS", settings.bands.count().div_ceil(4)),
         ("MAX_PATH_SEGMENTS", settings.max_path_segments),
         ("ROULETTE_AFTER", settings.roulette_after),
@@ -120,34 +120,31 @@ fn of_shapes(scene: &Scene) -> Vec<Named> {
 }
 
 fn of_lights(scene: &Scene) -> Vec<Named> {
-    let sources = scene.light_sources();
-    let surroundings = scene.surroundings();
+    let sources = scene.emitters();
+    let environment = scene.environment_parts();
     let light = |wanted: fn(&Shape) -> bool| {
         sources.iter().any(|source| match source.kind {
-            SourceKind::Object(index) => wanted(&scene.objects()[index].shape),
+            EmitterKind::Object(index) => wanted(&scene.objects()[index].shape),
             _ => false,
         })
     };
-    let is_delta = |source: &LightSource| matches!(source.kind, SourceKind::Light(_));
+    let is_delta = |source: &EmitterSource| matches!(source.kind, EmitterKind::Light(_));
     let is_distant_disk =
         |part: &EnvironmentPart| matches!(part.shape, EnvironmentShape::DistantDisk { .. });
     let direct = scene.settings().direct_light;
     vec![
-        ("HAS_SPHERE_LIGHTS", light(is_sphere)),
-        ("HAS_DISK_LIGHTS", light(is_disk)),
-        ("HAS_DELTA_LIGHTS", sources.iter().any(is_delta)),
-        (
-            "HAS_DISTANT_DISKS",
-            surroundings.iter().any(is_distant_disk),
-        ),
-        ("HAS_LIGHTS", !sources.is_empty()),
-        ("HAS_LIGHT_CHOICE", sources.len() > 1),
+        ("HAS_SPHERE_EMITTERS", light(is_sphere)),
+        ("HAS_DISK_EMITTERS", light(is_disk)),
+        ("HAS_DELTA_EMITTERS", sources.iter().any(is_delta)),
+        ("HAS_DISTANT_DISKS", environment.iter().any(is_distant_disk)),
+        ("HAS_EMITTERS", !sources.is_empty()),
+        ("HAS_EMITTER_CHOICE", sources.len() > 1),
         (
             "HAS_ENVIRONMENT",
-            surroundings.iter().any(|part| part.emission.scale > 0.0),
+            environment.iter().any(|part| part.emission.scale > 0.0),
         ),
-        ("SENDS_LIGHT", direct != DirectLight::Surfaces),
-        ("MEETS_LIGHT", direct != DirectLight::Lights),
+        ("SAMPLES_EMITTERS", direct != DirectLight::Bsdf),
+        ("SAMPLES_BSDF", direct != DirectLight::Emitters),
         (
             "HAS_ENVIRONMENT_PICTURE",
             picture_of(scene.environment()).is_some(),
@@ -187,7 +184,7 @@ fn of_paths(scene: &Scene) -> Vec<Named> {
     ]
 }
 
-/// What the pixels of surroundings hold that are a picture.
+/// What the pixels of environment hold that are a picture.
 fn picture_of(environment: &Environment) -> Option<PictureSpectra> {
     match environment {
         Environment::Picture { picture, .. } => Some(picture.spectra),

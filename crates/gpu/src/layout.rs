@@ -146,13 +146,13 @@ constants! { CONSTANTS;
     pub const EMITTER_RECTANGLE = 1;
     /// Emitter: a disk.
     pub const EMITTER_DISK = 2;
-    /// Emitter: surroundings of the same radiance from everywhere. Those of the surroundings are greater.
+    /// Emitter: environment of the same radiance from everywhere. Those of the environment are greater.
     pub const EMITTER_EVERYWHERE = 16;
-    /// Emitter: surroundings by 1 − |h|, with h the height of the direction.
+    /// Emitter: environment by 1 − |h|, with h the height of the direction.
     pub const EMITTER_HORIZON = 17;
-    /// Emitter: surroundings by the cosine with `axis`, where it is above 0.
+    /// Emitter: environment by the cosine with `axis`, where it is above 0.
     pub const EMITTER_POLE = 18;
-    /// Emitter: surroundings by a picture, its middle toward `axis`, its right half toward `tangent`.
+    /// Emitter: environment by a picture, its middle toward `axis`, its right half toward `tangent`.
     pub const EMITTER_PICTURE = 19;
     /// Emitter: a disk in the sky about `axis`.
     pub const EMITTER_DISTANT_DISK = 24;
@@ -289,7 +289,7 @@ structs! { STRUCTS, Struct;
         pub steps: u32,
         /// 1 where each sample draws its wavelengths, 0 where they lie at the bands' centers.
         pub draws_wavelengths: u32,
-        /// First of the numbers of the emitters that are parts of the surroundings, disks in the sky among them.
+        /// First of the numbers of the emitters that are parts of the environment, disks in the sky among them.
         pub first_environment: u32,
         /// First of the observer's three spectra.
         pub observer: u32,
@@ -306,9 +306,9 @@ structs! { STRUCTS, Struct;
         /// First of the numbers that spread a pixel's samples by its filter.
         pub first_filter: u32,
         /// The row of the first node of the tree of emitters.
-        pub first_light_node: u32,
+        pub first_emitter_node: u32,
         /// The row after its last one.
-        pub end_light_node: u32,
+        pub end_emitter_node: u32,
         /// Fills the size up to that of its alignment.
         pub padding: [u32; 2],
     }
@@ -430,7 +430,7 @@ records! { EMITTERS;
         /// Half the height of a rectangle, along `bitangent`; a disk's radius.
         pub half_height: f32,
         /// Its light: spectrum and light group.
-        pub light: u32,
+        pub emission: u32,
         /// Factor of its light.
         pub scale: f32,
         /// How bright it is to the eye, which steers the choice among emitters; 0 where it is not sampled.
@@ -443,7 +443,7 @@ records! { EMITTERS;
         pub edge_height: f32,
         /// The row of its node in the tree of emitters.
         pub node: u32,
-        /// The row of a picture of the surroundings among the records: a [`Panorama`]. NONE where it is no picture.
+        /// The row of a picture of the environment among the records: a [`Panorama`]. NONE where it is no picture.
         pub picture: u32,
     }
 }
@@ -460,9 +460,9 @@ records! { RECORDS;
         /// About the part of the light that goes on from it.
         pub albedo: f32,
         /// Light that it emits.
-        pub light: u32,
+        pub emission: u32,
         /// Factor of what it emits; 0 where it emits nothing.
-        pub light_scale: f32,
+        pub emission_scale: f32,
         /// Fills the last row.
         pub padding: [u32; 2],
     }
@@ -494,7 +494,7 @@ records! { RECORDS;
         /// Mean of that table over all directions.
         pub mean_energy: f32,
         /// First number of the table by which a brushed coat lets more through in some directions.
-        pub first_passage: u32,
+        pub first_transmittance_scale: u32,
         /// Fills the last row.
         pub padding: [u32; 2],
     }
@@ -613,7 +613,7 @@ records! { RECORDS;
         pub rows: u32,
     }
 
-    /// A picture of the surroundings, and the table by which directions are drawn.
+    /// A picture of the environment, and the table by which directions are drawn.
     pub struct Panorama {
         /// Where it is among the texels: the head, then its pixels.
         pub head: u32,
@@ -646,7 +646,7 @@ records! { TREES;
     }
 
     /// A node of the tree of emitters, depth first: a group as seen from afar; or an emitter, of which only the last four count.
-    pub struct LightNode {
+    pub struct EmitterNode {
         /// Mean of the places of what the group holds.
         pub center: [f32; 3],
         /// All that the group holds is within this distance of the center.

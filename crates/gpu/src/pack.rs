@@ -73,15 +73,15 @@ impl PackedScene {
         }
         let mut shapes: Vec<_> = shapes::pack_all(scene);
         let (mut emitters, first_environment) = emitters::pack(scene, &mut shapes, &mut tables);
-        let trees = Trees::new(scene.hierarchy(), scene.light_tree());
-        for (emitter, &node) in emitters.iter_mut().zip(&trees.light_nodes) {
+        let trees = Trees::new(scene.hierarchy(), scene.emitter_tree());
+        for (emitter, &node) in emitters.iter_mut().zip(&trees.emitter_nodes) {
             emitter.node = node;
         }
         features.set_trees(scene, trees.hierarchy_rows);
         let mut frame = Frame {
             first_environment,
-            first_light_node: trees.first_light_node,
-            end_light_node: trees.rows.len() as u32,
+            first_emitter_node: trees.first_emitter_node,
+            end_emitter_node: trees.rows.len() as u32,
             ..pack_frame(scene)
         };
         if let Some(offsets) = scene.camera().filter.offsets() {
@@ -137,7 +137,7 @@ fn id(spectrum: SpectrumId) -> u32 {
 }
 
 /// The most spectra of a scene: a material has n and k of its substrate and of each layer, or fewer of other kinds, and the
-/// surroundings have three.
+/// environment have three.
 const MAX_SPECTRA: usize = MAX_MATERIALS * 2 * (MAX_LAYERS + 1) + 3;
 
 // Numbers of spectra fit into the low bits of a light, those of light groups into the others.
@@ -148,7 +148,7 @@ const _: () = assert!(MAX_LIGHT_GROUPS <= 1 << (u32::BITS - layout::LIGHT_GROUP_
 ///
 /// # Panics
 /// When either does not fit, which the limits of scenes exclude: [`MAX_SPECTRA`] and [`MAX_LIGHT_GROUPS`].
-fn light(emission: Emission) -> u32 {
+fn emission_ref(emission: Emission) -> u32 {
     let (spectrum, group) = (id(emission.spectrum), emission.light_group.index() as u32);
     assert!(
         spectrum < 1 << layout::LIGHT_GROUP_SHIFT,

@@ -1,7 +1,7 @@
 //! The reflection model of Cook and Torrance as Suzuki, Yokoi and Toriwaki print it (section 3-1), piece by piece.
 //!
 //! I_r = I_a R_a + Σ I_l dω_l R_s with R_s = F D G / (π (N·E)); the cosine N·L of the irradiance is canceled against that of
-//! the denominator already. G is [`v_groove_g`](crate::v_groove_g). Two forms of D are printed: [`gaussian_d1`] with an arbitrary
+//! the denominator already. G is [`v_groove_g`](crate::v_groove_g). Two forms of D are printed: [`gaussian_d1`](crate::gaussian_d1) with an arbitrary
 //! constant, and [`beckmann_d2`], whose projected area is π and not 1: with the printed π in place of the 4 of facets that mirror
 //! (Torrance and Sparrow 1967) and D₂ in place of D₂/π, R_s is four times as large.
 
@@ -31,34 +31,6 @@ pub fn fresnel_by_g_and_c(n: f64, c: f64) -> f64 {
     0.5 * first * (1.0 + second)
 }
 
-/// D₁ = exp(−a² / m²), a the angle between facet and normal in radians, without its constant c: Gaussian in the angle (Blinn 1977).
-///
-/// Domain: `slope` m > 0, a root mean square slope without a unit; cosines of 0 and less give 0.
-pub fn gaussian_d1(cos_facet: f64, slope: f64) -> f64 {
-    if cos_facet <= 0.0 {
-        return 0.0;
-    }
-    let angle = angle_of(cos_facet);
-    (-(angle / slope).powi(2)).exp()
-}
-
-/// The constant c for which c D₁ covers the surface once: c ∫ exp(−a²/m²) cos a dω = 1, that is
-/// 1 / c = π ∫₀^{π/2} exp(−a²/m²) sin 2a da, by Simpson's rule.
-///
-/// Domain: `slope` m > 0.
-pub fn gaussian_constant(slope: f64) -> f64 {
-    const STEPS: u32 = 2000;
-    let end = (0.5 * PI).min(8.0 * slope);
-    let step = end / f64::from(STEPS);
-    let integrand = |i: u32| {
-        let angle = f64::from(i) * step;
-        (-(angle / slope).powi(2)).exp() * (2.0 * angle).sin()
-    };
-    let inner = (1..STEPS).map(|i| integrand(i) * if i % 2 == 1 { 4.0 } else { 2.0 });
-    let sum = integrand(0) + inner.sum::<f64>() + integrand(STEPS);
-    1.0 / (PI * sum * step / 3.0)
-}
-
 /// D₂ = exp(−tan²a / m²) / (m² cos⁴a), as printed: π times [`beckmann_d`].
 ///
 /// Domain: `slope` m > 0; cosines of 0 and less give 0.
@@ -66,45 +38,13 @@ pub fn beckmann_d2(cos_facet: f64, slope: f64) -> f64 {
     PI * beckmann_d(cos_facet, slope)
 }
 
-/// A facet normal drawn from two uniform numbers in [0, 1) so that the angle's square is as D₁ has it:
-/// a² = −m² ln(1 − u Z) with Z = 1 − exp(−π² / 4m²), which cuts it off at the horizon.
-///
-/// Domain: `slope` m > 0. The normal is a unit vector whose third component is the cosine with the surface's own.
-pub fn sample_gaussian(u: f64, v: f64, slope: f64) -> [f64; 3] {
-    let angle = slope * (-(-u * gaussian_share(slope)).ln_1p()).sqrt();
-    let (sine, cosine) = angle.min(0.5 * PI).sin_cos();
-    let (sin_phi, cos_phi) = (2.0 * PI * v).sin_cos();
-    [sine * cos_phi, sine * sin_phi, cosine]
-}
-
-/// Density of a facet normal drawn by [`sample_gaussian`], sr⁻¹: exp(−a²/m²) a / (π m² Z sin a).
-///
-/// Domain: `slope` m > 0; cosines of 0 and less give 0.
-pub fn gaussian_pdf(cos_facet: f64, slope: f64) -> f64 {
-    if cos_facet <= 0.0 {
-        return 0.0;
-    }
-    let angle = angle_of(cos_facet);
-    let sine = angle.sin();
-    let widening = if sine > 0.0 { angle / sine } else { 1.0 };
-    gaussian_d1(cos_facet, slope) * widening / (PI * slope * slope * gaussian_share(slope))
-}
-
-/// Z = 1 − exp(−π² / 4m²): the share of a Gaussian in the plane that lies above the horizon.
-pub fn gaussian_share(slope: f64) -> f64 {
-    -(-0.25 * PI * PI / (slope * slope)).exp_m1()
-}
-
-/// The angle of a cosine; near 0 it keeps the digits that are there.
-fn angle_of(cosine: f64) -> f64 {
-    let sine = ((1.0 - cosine) * (1.0 + cosine)).max(0.0).sqrt();
-    sine.atan2(cosine)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Complex64, reflectance_unpolarized, v_groove_g};
+    use crate::{
+        Complex64, gaussian_constant, gaussian_d1, gaussian_pdf, reflectance_unpolarized,
+        v_groove_g,
+    };
 
     fn close(found: f64, expected: f64, tolerance: f64) {
         assert!((found - expected).abs() <= tolerance, "{found} {expected}");

@@ -50,6 +50,7 @@ pub mod batch;
 mod coat;
 mod cook;
 mod fresnel;
+mod gaussian;
 mod microfacet;
 mod microsurface;
 mod stack;
@@ -58,11 +59,11 @@ pub mod wide;
 
 use bytemuck::{Pod, Zeroable};
 pub use coat::{coated_albedo_factor, hemispherical_reflectance};
-pub use cook::{
-    beckmann_d2, fresnel_by_g_and_c, gaussian_constant, gaussian_d1, gaussian_pdf, gaussian_share,
-    index_from_normal_reflectance, sample_gaussian,
-};
+pub use cook::{beckmann_d2, fresnel_by_g_and_c, index_from_normal_reflectance};
 pub use fresnel::{Amplitudes, cos_refracted, fresnel, reflectance_unpolarized};
+pub use gaussian::{
+    gaussian_constant, gaussian_d1, gaussian_fraction, gaussian_pdf, sample_gaussian,
+};
 pub use microfacet::{beckmann_d, half_vector_pdf, sample_beckmann, v_groove_g};
 pub use microsurface::{
     Distribution, MEAN_COSINES, Microsurface, mean_reflectance, multiple_color,

@@ -19,12 +19,12 @@ pub fn beckmann_d(cos_facet: f64, slope: f64) -> f64 {
 /// Shadowing and masking of a symmetric V-shaped groove:
 /// G = min(1, 2 (N·H)(N·E) / (E·H), 2 (N·H)(N·L) / (E·H))
 /// (Torrance and Sparrow 1967; Blinn 1977; Cook and Torrance 1982).
-pub fn v_groove_g(cos_facet: f64, cos_eye: f64, cos_light: f64, eye_dot_facet: f64) -> f64 {
-    if cos_eye <= 0.0 || cos_light <= 0.0 || eye_dot_facet <= 0.0 {
+pub fn v_groove_g(cos_facet: f64, cos_wo: f64, cos_wi: f64, wo_dot_facet: f64) -> f64 {
+    if cos_wo <= 0.0 || cos_wi <= 0.0 || wo_dot_facet <= 0.0 {
         return 0.0;
     }
-    let groove = 2.0 * cos_facet / eye_dot_facet;
-    (groove * cos_eye).min(groove * cos_light).min(1.0)
+    let groove = 2.0 * cos_facet / wo_dot_facet;
+    (groove * cos_wo).min(groove * cos_wi).min(1.0)
 }
 
 /// A facet normal drawn with density D cos α from two uniform numbers in [0, 1):

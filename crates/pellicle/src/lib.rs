@@ -35,8 +35,8 @@
 //! wavelength, [`gpu`] and [`mod@reference`] for the two renderers themselves.
 
 pub mod convergence;
+pub mod pick;
 mod renderer;
-pub mod seen;
 pub mod stacks;
 
 pub use coating;

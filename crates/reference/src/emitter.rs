@@ -2,10 +2,10 @@
 
 use crate::emitter_shape::INSIDE;
 use crate::{
-    cone_height, environment_pdf, environment_share, sample_environment, sample_shape, shape_pdf,
+    cone_height, environment_pdf, environment_strength, sample_environment, sample_shape, shape_pdf,
 };
 use glam::DVec3;
-use scene::{EnvironmentShape, LightShape, Scene, Shape, SourceKind};
+use scene::{EmitterKind, EnvironmentShape, LightShape, Scene, Shape};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI, TAU};
 
 /// What emits.
@@ -21,11 +21,13 @@ pub enum Emitter<'a> {
 
 impl<'a> Emitter<'a> {
     /// What an emitter of a scene is.
-    pub fn of(scene: &'a Scene, kind: SourceKind) -> Self {
+    pub fn of(scene: &'a Scene, kind: EmitterKind) -> Self {
         match kind {
-            SourceKind::Object(index) => Self::Shape(&scene.objects()[index].shape),
-            SourceKind::Environment(index) => Self::Environment(scene.surroundings()[index].shape),
-            SourceKind::Light(index) => Self::Delta(scene.lights()[index].shape),
+            EmitterKind::Object(index) => Self::Shape(&scene.objects()[index].shape),
+            EmitterKind::Environment(index) => {
+                Self::Environment(scene.environment_parts()[index].shape)
+            }
+            EmitterKind::Light(index) => Self::Delta(scene.lights()[index].shape),
         }
     }
 
@@ -58,7 +60,7 @@ impl<'a> Emitter<'a> {
         match *self {
             Self::Shape(_)
             | Self::Delta(LightShape::Direction { .. } | LightShape::DistantDisk { .. }) => 1.0,
-            Self::Environment(part) => environment_share(part, direction),
+            Self::Environment(part) => environment_strength(part, direction),
             Self::Delta(LightShape::Point { position }) => 1.0 / point.distance_squared(position),
             Self::Delta(LightShape::Spot {
                 position,
@@ -66,9 +68,8 @@ impl<'a> Emitter<'a> {
                 full_height,
                 edge_height,
             }) => {
-                let height = 0.5 * (direction + axis).length_squared();
-                let t = ((edge_height - height) / (edge_height - full_height)).clamp(0.0, 1.0);
-                t * t * (3.0 - 2.0 * t) / point.distance_squared(position)
+                spot_falloff(direction, axis, [full_height, edge_height])
+                    / point.distance_squared(position)
             }
         }
     }
@@ -94,6 +95,15 @@ impl<'a> Emitter<'a> {
             }
         }
     }
+}
+
+/// A spot's intensity against a direction, relative to that on its axis: 1 within the inner cone, 0 outside the outer one, between
+/// them 3t² − 2t³, t linear in the cosine (Pharr, Jakob and Humphreys, Physically Based Rendering, 4th edition, 2023, section 12.2.3).
+/// Heights are 1 − cos of a cone's half angle.
+fn spot_falloff(direction: DVec3, axis: DVec3, [full_height, edge_height]: [f64; 2]) -> f64 {
+    let height = 0.5 * (direction + axis).length_squared();
+    let t = ((edge_height - height) / (edge_height - full_height)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
 }
 
 /// Solid angle times the largest cosine in the cone that holds the shape.
@@ -161,43 +171,4 @@ fn environment_weight(part: EnvironmentShape<'_>, normal: DVec3) -> f64 {
 fn most_cosine(axis: f64, sine_of_half_angle: f64) -> f64 {
     let between = axis.clamp(-1.0, 1.0).acos() - sine_of_half_angle.min(1.0).asin();
     between.max(0.0).cos().max(0.0)
-}
-
-/// An emitter and the probability with which it is chosen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EmitterChoice {
-    /// Its number.
-    pub emitter: usize,
-    /// The probability.
-    pub pmf: f64,
-}
-
-/// BSDF sampling is left out where its density is less than this part of the other's.
-const CUTOFF: f64 = 0.1875;
-
-/// MIS weight of emitter sampling in a direction that it finds with `pmf` times `density`, and BSDF sampling with density `pdf_bsdf`,
-/// which has the rest.
-///
-/// Of a picture only what is brighter than the mean is sampled (MIS compensation, Karlík et al. 2019), and no more of the light than that
-/// belongs to emitter sampling. Against BSDF sampling counts the density with which all of the picture's light would be sampled: a mirror
-/// that finds an even picture without noise shall not leave the rim of what it mirrors to a few rays.
-pub fn mis_weight_emitter(emitter: Emitter<'_>, pdf_bsdf: f64, pmf: f64, density: f64) -> f64 {
-    if let Emitter::Environment(EnvironmentShape::Picture(picture)) = emitter {
-        let even = f64::from(picture.table.even_density);
-        if even > 0.0 {
-            let excess = density / even;
-            let pdf_emitter = pmf * excess / (4.0 * PI);
-            return excess / (1.0 + excess) * (1.0 - mis_weight_bsdf(pdf_bsdf, pdf_emitter));
-        }
-    }
-    1.0 - mis_weight_bsdf(pdf_bsdf, pmf * density)
-}
-
-/// MIS weight of BSDF sampling against emitter sampling: the power heuristic (Veach 1997, section 9.2.2), with a cutoff of BSDF sampling
-/// alone.
-pub fn mis_weight_bsdf(pdf_bsdf: f64, pdf_emitter: f64) -> f64 {
-    if pdf_bsdf < CUTOFF * pdf_emitter {
-        return 0.0;
-    }
-    pdf_bsdf * pdf_bsdf / (pdf_bsdf * pdf_bsdf + pdf_emitter * pdf_emitter)
 }

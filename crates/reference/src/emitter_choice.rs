@@ -1,8 +1,17 @@
 //! The choice of an emitter at a point of a surface, by an estimate of what each brings there; of many by a tree of groups.
 
-use crate::{EmitterChoice, PreparedScene};
+use crate::PreparedScene;
 use glam::DVec3;
-use scene::{LightNode, LightTree};
+use scene::{EmitterNode, EmitterTree};
+
+/// An emitter and the probability with which it is chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EmitterChoice {
+    /// Its number.
+    pub emitter: usize,
+    /// The probability.
+    pub pmf: f64,
+}
 
 /// A point of a surface at which emitters are weighed.
 #[derive(Clone, Copy, Debug)]
@@ -69,7 +78,7 @@ const EDGE: f64 = 1e-4;
 /// The measure is that of Pharr, Jakob and Humphreys (Physically Based Rendering, 4th edition, 2023, section 12.6.3), power times cosine
 /// over squared distance, with the mean in place of the largest cosine: outside a ball, the mean of cos θ / r² over it is that of its
 /// center (Newton's shell theorem).
-pub(crate) fn group_weight(node: &LightNode, place: Place) -> f64 {
+pub(crate) fn group_weight(node: &EmitterNode, place: Place) -> f64 {
     let toward = node.center - place.position;
     let height = toward.dot(place.normal);
     let distance2 = toward.length_squared();
@@ -78,7 +87,7 @@ pub(crate) fn group_weight(node: &LightNode, place: Place) -> f64 {
     }
     let soft = distance2 + SOFTENING * node.variance;
     let above = mean_above(height, HORIZON * node.variance);
-    node.power * sent_toward(node, toward, distance2) * above / (soft * soft.sqrt())
+    node.power * directional_weight(node, toward, distance2) * above / (soft * soft.sqrt())
 }
 
 /// About the mean of max(0, h) over heights h with a mean and a squared width, without a difference of like numbers.
@@ -92,7 +101,7 @@ fn mean_above(mean: f64, width2: f64) -> f64 {
 }
 
 /// What part of its power a group sends to a point: of near points the direction is not known well.
-fn sent_toward(node: &LightNode, toward: DVec3, distance2: f64) -> f64 {
+fn directional_weight(node: &EmitterNode, toward: DVec3, distance2: f64) -> f64 {
     let along = toward.dot(node.axis);
     let third = node.variance / 3.0;
     let square = (along * along + third) / (distance2 + node.variance);
@@ -100,7 +109,7 @@ fn sent_toward(node: &LightNode, toward: DVec3, distance2: f64) -> f64 {
 }
 
 /// Whether the cone in which a group shines, as wide as the group is seen, holds no direction toward a point.
-fn is_outside_cone(node: &LightNode, toward: DVec3, distance2: f64) -> bool {
+fn is_outside_cone(node: &EmitterNode, toward: DVec3, distance2: f64) -> bool {
     let reach2 = node.reach * node.reach;
     if node.cone <= -1.0 || distance2 <= reach2 {
         return false;
@@ -117,14 +126,14 @@ fn is_outside_cone(node: &LightNode, toward: DVec3, distance2: f64) -> bool {
 }
 
 /// Whether a group is looked into from here.
-fn is_near(node: &LightNode, place: Place) -> bool {
+fn is_near(node: &EmitterNode, place: Place) -> bool {
     node.center.distance_squared(place.position) < node.near * node.near
 }
 
 /// The node that is weighed for a node at a place: the outermost group around it that is not looked into, or itself.
-fn weighed_with(tree: &LightTree, mut node: u32, place: Place) -> u32 {
+fn weighed_with(tree: &EmitterTree, mut node: u32, place: Place) -> u32 {
     let mut top = node;
-    while tree.nodes[node as usize].parent != LightTree::NONE {
+    while tree.nodes[node as usize].parent != EmitterTree::NONE {
         node = tree.nodes[node as usize].parent;
         if !is_near(&tree.nodes[node as usize], place) {
             top = node;
@@ -166,7 +175,7 @@ impl PreparedScene<'_> {
     /// Weighs the emitters and groups of them that a place is not near to, which hold each emitter once. Returns the sum of their
     /// weights, or 1 where that is 0.
     pub(crate) fn weigh_emitters(&self, place: Place, weighed: &mut Vec<Weighed>) -> f64 {
-        let nodes = &self.scene.light_tree().nodes;
+        let nodes = &self.scene.emitter_tree().nodes;
         weighed.clear();
         let mut node = 0;
         while let Some(of) = nodes.get(node as usize) {
@@ -189,13 +198,13 @@ impl PreparedScene<'_> {
         (weighed, sum): (&[Weighed], f64),
         random: f64,
     ) -> Option<EmitterChoice> {
-        let tree = self.scene.light_tree();
+        let tree = self.scene.emitter_tree();
         let first = pick(weighed.iter().map(|of| of.weight / sum), random)?;
         let mut node = weighed[first.index].node;
         let (mut pmf, mut random) = (first.pmf, first.rest);
         loop {
             let of = &tree.nodes[node as usize];
-            if of.source != LightTree::NONE {
+            if of.source != EmitterTree::NONE {
                 let emitter = of.source as usize;
                 return Some(EmitterChoice { emitter, pmf });
             }
@@ -211,7 +220,7 @@ impl PreparedScene<'_> {
 
     /// Probability with which an emitter is chosen, `sum` being what [`Self::weigh_emitters`] returned.
     pub(crate) fn emitter_pmf(&self, emitter: usize, place: Place, sum: f64) -> f64 {
-        let tree = self.scene.light_tree();
+        let tree = self.scene.emitter_tree();
         let mut node = tree.leaves[emitter];
         let top = weighed_with(tree, node, place);
         let mut weight = self.node_weight(&tree.nodes[node as usize], place);
@@ -229,8 +238,8 @@ impl PreparedScene<'_> {
     }
 
     /// About what a node brings to a place. Where there is only one emitter, it is always chosen.
-    fn node_weight(&self, node: &LightNode, place: Place) -> f64 {
-        if node.source == LightTree::NONE {
+    fn node_weight(&self, node: &EmitterNode, place: Place) -> f64 {
+        if node.source == EmitterTree::NONE {
             return group_weight(node, place);
         }
         if self.emitters.len() == 1 {
@@ -463,7 +472,7 @@ mod tests {
     fn weighed_for(prepared: &PreparedScene<'_>, place: Place, random: f64) -> usize {
         let mut weighed = Vec::new();
         let sum = prepared.weigh_emitters(place, &mut weighed);
-        let tree = prepared.scene.light_tree();
+        let tree = prepared.scene.emitter_tree();
         let mut steps = 0;
         if let Some(choice) = prepared.choose_weighed(place, (&weighed, sum), random) {
             let mut node = tree.leaves[choice.emitter];

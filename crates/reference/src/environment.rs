@@ -1,6 +1,6 @@
 //! What surrounds the scene, in parts that light can be sent from one by one.
 
-use crate::environment_picture::{picture_pdf, sample_picture};
+use crate::environment_picture::{environment_picture_pdf, sample_environment_picture};
 use crate::{frame_of, sample_cone, sample_cosine_hemisphere};
 use glam::DVec3;
 use optics::wide::sin_cos_turns;
@@ -8,7 +8,7 @@ use scene::EnvironmentShape;
 use std::f64::consts::{FRAC_1_PI, TAU};
 
 /// The share of a part's radiance that comes from a direction; a picture has its own.
-pub fn environment_share(part: EnvironmentShape<'_>, direction: DVec3) -> f64 {
+pub fn environment_strength(part: EnvironmentShape<'_>, direction: DVec3) -> f64 {
     match part {
         EnvironmentShape::Everywhere | EnvironmentShape::Picture(_) => 1.0,
         EnvironmentShape::Horizon => (1.0 - direction.y.abs()).max(0.0),
@@ -19,7 +19,7 @@ pub fn environment_share(part: EnvironmentShape<'_>, direction: DVec3) -> f64 {
     }
 }
 
-/// A direction toward a part of the surroundings, by the density of [`environment_pdf`].
+/// A direction toward a part of the environment, by the density of [`environment_pdf`].
 pub fn sample_environment(part: EnvironmentShape<'_>, u: f64, v: f64) -> DVec3 {
     match part {
         EnvironmentShape::Everywhere => sample_cone(u, v, 2.0),
@@ -35,7 +35,7 @@ pub fn sample_environment(part: EnvironmentShape<'_>, u: f64, v: f64) -> DVec3 {
             let (sin_phi, cos_phi) = sin_cos_turns(v);
             DVec3::new(sine * cos_phi, side * height, sine * sin_phi)
         }
-        EnvironmentShape::Picture(picture) => sample_picture(picture, u, v),
+        EnvironmentShape::Picture(picture) => sample_environment_picture(picture, u, v),
         EnvironmentShape::Pole(pole) => frame_of(pole) * sample_cosine_hemisphere(u, v),
         EnvironmentShape::DistantDisk { toward, height } => {
             frame_of(toward) * sample_cone(u, v, height)
@@ -45,12 +45,12 @@ pub fn sample_environment(part: EnvironmentShape<'_>, u: f64, v: f64) -> DVec3 {
 
 /// Density with which [`sample_environment`] draws a direction, sr⁻¹: the share over its integral.
 pub fn environment_pdf(part: EnvironmentShape<'_>, direction: DVec3) -> f64 {
-    let share = environment_share(part, direction);
+    let share = environment_strength(part, direction);
     match part {
         EnvironmentShape::Everywhere => share / (2.0 * TAU),
         EnvironmentShape::Horizon => share / TAU,
         EnvironmentShape::Pole(_) => share * FRAC_1_PI,
-        EnvironmentShape::Picture(picture) => picture_pdf(picture, direction),
+        EnvironmentShape::Picture(picture) => environment_picture_pdf(picture, direction),
         EnvironmentShape::DistantDisk { height, .. } => share / (TAU * height),
     }
 }

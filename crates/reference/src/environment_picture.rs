@@ -1,4 +1,4 @@
-//! Surroundings by a picture of all directions.
+//! An environment given as a picture of all directions.
 
 use crate::picture::{chosen_pixel, half_turns};
 use glam::DVec3;
@@ -6,7 +6,7 @@ use scene::{DirectionTable, EnvironmentPicture};
 use std::f64::consts::TAU;
 
 /// Place of a direction in the picture, from its upper left corner in its width and height.
-pub(crate) fn place_of(picture: &EnvironmentPicture, direction: DVec3) -> [f64; 2] {
+pub(crate) fn environment_place(picture: &EnvironmentPicture, direction: DVec3) -> [f64; 2] {
     let longitude = direction
         .dot(picture.right)
         .atan2(direction.dot(picture.forward));
@@ -15,11 +15,16 @@ pub(crate) fn place_of(picture: &EnvironmentPicture, direction: DVec3) -> [f64; 
 
 /// The pixel that a path takes for a direction, by a random number.
 pub fn environment_pixel(picture: &EnvironmentPicture, direction: DVec3, random: f64) -> [u32; 2] {
-    chosen_pixel(&picture.texels, place_of(picture, direction), true, random)
+    chosen_pixel(
+        &picture.texels,
+        environment_place(picture, direction),
+        true,
+        random,
+    )
 }
 
 /// A direction drawn in proportion to the brightness of the cells of the picture's table.
-pub(crate) fn sample_picture(picture: &EnvironmentPicture, u: f64, v: f64) -> DVec3 {
+pub(crate) fn sample_environment_picture(picture: &EnvironmentPicture, u: f64, v: f64) -> DVec3 {
     let table = &picture.table;
     let (row, down) = inverted(&table.marginal, u);
     let (column, across) = inverted(columns_of(table, row), v);
@@ -31,10 +36,10 @@ pub(crate) fn sample_picture(picture: &EnvironmentPicture, u: f64, v: f64) -> DV
     around * radius + DVec3::Y * height
 }
 
-/// Density of [`sample_picture`], sr⁻¹: the probability of the direction's cell over its solid angle.
-pub(crate) fn picture_pdf(picture: &EnvironmentPicture, direction: DVec3) -> f64 {
+/// Density of [`sample_environment_picture`], sr⁻¹: the probability of the direction's cell over its solid angle.
+pub(crate) fn environment_picture_pdf(picture: &EnvironmentPicture, direction: DVec3) -> f64 {
     let table = &picture.table;
-    let [across, down] = place_of(picture, direction);
+    let [across, down] = environment_place(picture, direction);
     let cell =
         |place: f64, count: u32| ((place * f64::from(count)) as usize).min(count as usize - 1);
     let (row, column) = (cell(down, table.rows), cell(across, table.columns));

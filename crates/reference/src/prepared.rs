@@ -3,7 +3,7 @@
 use crate::Emitter;
 use crate::bsdf::Surface;
 use crate::spectral::Tables;
-use scene::{EnvironmentPart, LightSource, MaterialId, Scene, SourceKind};
+use scene::{EmitterKind, EmitterSource, EnvironmentPart, MaterialId, Scene};
 
 /// A scene that paths can be traced in.
 pub struct PreparedScene<'a> {
@@ -22,7 +22,7 @@ pub struct PreparedScene<'a> {
 /// One of a scene's emitters.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SceneEmitter<'a> {
-    pub(crate) source: LightSource,
+    pub(crate) source: EmitterSource,
     pub(crate) emitter: Emitter<'a>,
 }
 
@@ -34,17 +34,17 @@ impl<'a> PreparedScene<'a> {
         let surfaces = materials
             .map(|(material, estimate)| Surface::new(&mut tables, material, estimate))
             .collect();
-        let environment = scene.surroundings();
-        let sources = scene.light_sources();
+        let environment = scene.environment_parts();
+        let sources = scene.emitters();
         let object = |kind| match kind {
-            SourceKind::Object(index) => Some(index),
+            EmitterKind::Object(index) => Some(index),
             _ => None,
         };
         let part = |kind| match kind {
-            SourceKind::Environment(index) => Some(index),
+            EmitterKind::Environment(index) => Some(index),
             _ => None,
         };
-        let emitter = |source: &LightSource| SceneEmitter {
+        let emitter = |source: &EmitterSource| SceneEmitter {
             source: *source,
             emitter: Emitter::of(scene, source.kind),
         };
@@ -65,20 +65,20 @@ impl<'a> PreparedScene<'a> {
     }
 
     /// The number of the emitter that a path can meet here.
-    pub(crate) fn emitter_number(&self, kind: SourceKind) -> Option<usize> {
+    pub(crate) fn emitter_number(&self, kind: EmitterKind) -> Option<usize> {
         match kind {
-            SourceKind::Object(index) => self.object_emitters[index],
-            SourceKind::Environment(index) => self.environment_emitters[index],
-            SourceKind::Light(_) => None,
+            EmitterKind::Object(index) => self.object_emitters[index],
+            EmitterKind::Environment(index) => self.environment_emitters[index],
+            EmitterKind::Light(_) => None,
         }
     }
 }
 
 /// Which emitter each of some things is.
 fn numbers(
-    emitters: &[LightSource],
+    emitters: &[EmitterSource],
     things: usize,
-    thing: impl Fn(SourceKind) -> Option<usize>,
+    thing: impl Fn(EmitterKind) -> Option<usize>,
 ) -> Vec<Option<usize>> {
     let mut numbers = vec![None; things];
     for (number, emitter) in emitters.iter().enumerate() {

@@ -99,7 +99,7 @@ impl PreparedScene<'_> {
     /// Traces one sample of a pixel.
     pub fn sample(&self, pixel: [u32; 2], sample: u32) -> PathSample {
         let mut worker = Worker::new(SimdLevel::best(), self);
-        worker.trace(pixel, sample);
+        worker.trace_path(pixel, sample);
         let path = &worker.tracer.transport;
         PathSample {
             offset: path.offset(),
@@ -129,8 +129,8 @@ impl<'a> Worker<'a> {
         }
     }
 
-    fn trace(&mut self, pixel: [u32; 2], sample: u32) {
-        self.tracer.trace(pixel, sample);
+    fn trace_path(&mut self, pixel: [u32; 2], sample: u32) {
+        self.tracer.trace_path(pixel, sample);
         if let Some(most) = self.clamp {
             self.tracer.transport.dim(most);
         }
@@ -141,7 +141,7 @@ impl<'a> Worker<'a> {
         for pixel in tile.pixels() {
             self.pixel.clear();
             for sample in 0..self.samples {
-                self.trace(pixel, sample);
+                self.trace_path(pixel, sample);
                 self.pixel.add(&self.tracer.transport);
             }
             self.pixel.write(&mut values);

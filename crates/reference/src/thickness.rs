@@ -21,7 +21,7 @@ fn field_value(thickness: &Thickness, shape: &Shape, position: DVec3) -> f64 {
             pole_nm,
             equator_nm,
         } => {
-            let half_turns = coordinate(&Coordinate::Polar { axis }, shape, position);
+            let half_turns = field_coordinate(&Coordinate::Polar { axis }, shape, position);
             pole_nm + 2.0 * (equator_nm - pole_nm) * half_turns
         }
         Thickness::Linear {
@@ -30,16 +30,17 @@ fn field_value(thickness: &Thickness, shape: &Shape, position: DVec3) -> f64 {
             start_nm,
             end_nm,
         } => {
-            let along = coordinate(&Coordinate::Line { start, end }, shape, position);
+            let along = field_coordinate(&Coordinate::Line { start, end }, shape, position);
             start_nm + (end_nm - start_nm) * along
         }
         Thickness::Steps { start, end, ref nm } => {
-            let along = coordinate(&Coordinate::Line { start, end }, shape, position);
+            let along = field_coordinate(&Coordinate::Line { start, end }, shape, position);
             nm[((along * nm.len() as f64) as usize).min(nm.len() - 1)]
         }
-        Thickness::Profile(ref profile) => {
-            profile_value(profile, coordinate(&profile.coordinate, shape, position))
-        }
+        Thickness::Profile(ref profile) => profile_value(
+            profile,
+            field_coordinate(&profile.coordinate, shape, position),
+        ),
         Thickness::Swirls(ref field) => swirls(field, shape, position),
         Thickness::Picture(ref picture) => picture_value(picture, shape, position),
         Thickness::Sum(ref parts) => parts.iter().map(value_of).sum(),
@@ -48,7 +49,7 @@ fn field_value(thickness: &Thickness, shape: &Shape, position: DVec3) -> f64 {
 }
 
 /// What a field runs along, from 0 to 1.
-fn coordinate(coordinate: &Coordinate, shape: &Shape, position: DVec3) -> f64 {
+fn field_coordinate(coordinate: &Coordinate, shape: &Shape, position: DVec3) -> f64 {
     match *coordinate {
         Coordinate::Polar { axis } => half_turns(position - center_of(shape), axis),
         Coordinate::Line { start, end } => {

@@ -1,6 +1,6 @@
 //! A diffuse body below a clear coat, in a validated scene.
 
-use crate::derived::coats;
+use crate::prepared::coats;
 use crate::{FacetTable, Microsurface, Pattern, SpectrumId};
 use glam::DVec3;
 
@@ -23,7 +23,7 @@ pub struct CoatedBody {
     pub reflectances: Option<SpectrumId>,
     /// By how much more a brushed coat lets through in a direction: 1 − E is this times what [`Self::reflectances`] leave. None where all
     /// directions of the same cosine are alike.
-    pub passage: Option<FacetTable>,
+    pub transmittance_scale: Option<FacetTable>,
     /// What steers which way paths go: an index of the coat, and a reflectance of the body.
     pub estimate: CoatEstimate,
 }
@@ -32,9 +32,9 @@ impl CoatedBody {
     /// Number of cosines for which a rough coat has its reflectance.
     pub const COSINES: usize = coats::COSINES;
 
-    /// See [`Self::passage`]; 1 where there is none.
-    pub fn passage_at(&self, direction: DVec3) -> f64 {
-        let table = self.passage.as_ref();
+    /// See [`Self::transmittance_scale`]; 1 where there is none.
+    pub fn transmittance_scale_at(&self, direction: DVec3) -> f64 {
+        let table = self.transmittance_scale.as_ref();
         table.map_or(1.0, |table| table.at(direction.to_array()))
     }
 }

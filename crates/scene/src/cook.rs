@@ -16,7 +16,7 @@ pub struct Cook1981 {
     /// The slopes, at least one.
     pub facets: Vec<CookFacets>,
     /// What is reflected evenly; `None` is nothing.
-    pub diffuse: Option<DiffuseShare>,
+    pub diffuse: Option<DiffuseTerm>,
     /// Ia Ra: what comes of the ambient light, the same in every direction.
     pub ambient: Option<Emission>,
 }
@@ -58,7 +58,7 @@ pub struct CookFacets {
 
 /// A Lambertian share.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DiffuseShare {
+pub struct DiffuseTerm {
     /// Which part of the light, in (0, 1\].
     pub share: f64,
     /// Which share of the paths goes there, in (0, 1\].

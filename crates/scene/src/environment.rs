@@ -1,6 +1,6 @@
 //! What surrounds the objects, in a validated scene.
 
-use crate::derived::DirectionTable;
+use crate::prepared::DirectionTable;
 use crate::{Emission, Texels};
 use glam::DVec3;
 use std::sync::Arc;
@@ -41,7 +41,7 @@ pub struct EnvironmentPicture {
     /// The direction of the middle of its right half, horizontal.
     pub right: DVec3,
     /// Mean radiance, over all directions and wavelengths, of what light is sent for.
-    pub sent_mean: f64,
+    pub sampled_mean: f64,
     /// For drawing directions in proportion to that.
     pub table: DirectionTable,
 }
@@ -55,7 +55,7 @@ pub enum PictureSpectra {
     Bands,
 }
 
-/// Where the radiance of a part of the surroundings comes from.
+/// Where the radiance of a part of the environment comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EnvironmentShape<'a> {
     /// Every direction alike.
@@ -75,7 +75,7 @@ pub enum EnvironmentShape<'a> {
     },
 }
 
-/// A part of the surroundings: its radiance is its emission times the share that its shape has in the direction.
+/// A part of the environment: its radiance is its emission times the share that its shape has in the direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnvironmentPart<'a> {
     /// Where it comes from.
@@ -85,7 +85,7 @@ pub struct EnvironmentPart<'a> {
 }
 
 impl Environment {
-    /// The parts whose radiances add up to that of the surroundings, dark ones too.
+    /// The parts whose radiances add up to that of the environment, dark ones too.
     pub fn parts(&self) -> Vec<EnvironmentPart<'_>> {
         let part = |shape, emission| EnvironmentPart { shape, emission };
         match *self {

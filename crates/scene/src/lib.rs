@@ -21,7 +21,6 @@
 mod camera;
 mod coated_body;
 mod cook;
-mod derived;
 pub mod description;
 mod document;
 mod drainage;
@@ -37,6 +36,7 @@ mod material;
 mod microsurface;
 mod notes;
 mod object;
+mod prepared;
 mod problem;
 mod rounding;
 mod schema;
@@ -49,11 +49,7 @@ mod validated;
 
 pub use camera::{Camera, Lens, Projection};
 pub use coated_body::{CoatEstimate, CoatedBody};
-pub use cook::{Cook1981, CookDistribution, CookFacets, DiffuseShare};
-pub use derived::{
-    DirectionTable, Energy, Estimate, FacetTable, Hierarchy, LightNode, LightTree, Node,
-    PixelFilter, Sheet,
-};
+pub use cook::{Cook1981, CookDistribution, CookFacets, DiffuseTerm};
 pub use description::{Distribution, PathDifference, Sampler};
 pub use document::SourceFile;
 pub use environment::{
@@ -63,10 +59,14 @@ pub use field_path::{FieldPath, Step};
 pub use file::SceneFile;
 pub use folder::{Folder, OutsideError};
 pub use index::optical_constants;
-pub use light::{Light, LightShape, LightSource, SourceKind};
+pub use light::{EmitterKind, EmitterSource, Light, LightShape};
 pub use material::{Emission, Interference, Layer, Material, Pattern};
 pub use microsurface::{Grain, Microsurface};
 pub use object::{Object, Shape};
+pub use prepared::{
+    DirectionTable, EmitterNode, EmitterTree, Energy, Estimate, FacetTable, Hierarchy, Node,
+    PixelFilter, Sheet,
+};
 pub use problem::{Location, Problem, ProblemKind, Problems};
 pub use schema::schema;
 pub use settings::{DirectLight, RenderSettings, WavelengthSampling};

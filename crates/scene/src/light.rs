@@ -47,9 +47,9 @@ pub enum LightShape {
 
 /// Something that light can be sent from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LightSource {
+pub struct EmitterSource {
     /// What it is.
-    pub kind: SourceKind,
+    pub kind: EmitterKind,
     /// What it emits.
     pub emission: Emission,
     /// How bright that is to the eye, up to a factor that all sources share; never 0. It steers the choice among sources.
@@ -58,10 +58,10 @@ pub struct LightSource {
 
 /// Where a source of light stands in its list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SourceKind {
+pub enum EmitterKind {
     /// One of [`Scene::objects`], which has bounds.
     Object(usize),
-    /// One of [`Scene::surroundings`].
+    /// One of [`Scene::environment_parts`].
     Environment(usize),
     /// One of [`Scene::lights`] that is no disk.
     Light(usize),
@@ -69,41 +69,41 @@ pub enum SourceKind {
 
 impl Scene {
     /// All that light is sent from: emitting objects with bounds, what surrounds them, and lights. What emits nothing is not
-    /// among them, nor are constant surroundings and gradients, unless sending is the only way to find light: scattered rays
+    /// among them, nor are constant environment and gradients, unless sending is the only way to find light: scattered rays
     /// find them with less noise. (The density of a light after compensation for those rays is then 0: Karlík et al., MIS
     /// Compensation, ACM Transactions on Graphics 38(6), 2019.)
-    pub fn light_sources(&self) -> Vec<LightSource> {
+    pub fn emitters(&self) -> Vec<EmitterSource> {
         let objects = self.objects().iter().enumerate();
         let objects = objects
             .filter(|(_, object)| !matches!(object.shape, Shape::Plane { .. }))
             .filter_map(|(index, object)| {
                 let emission = self.material(object.material).emission()?;
-                Some((SourceKind::Object(index), emission, 1.0))
+                Some((EmitterKind::Object(index), emission, 1.0))
             });
-        let parts = self.surroundings().into_iter().enumerate();
-        let sends_only = self.settings().direct_light == DirectLight::Lights;
+        let parts = self.environment_parts().into_iter().enumerate();
+        let samples_emitters_alone = self.settings().direct_light == DirectLight::Emitters;
         let is_uneven = |shape: &EnvironmentShape| {
             matches!(
                 shape,
                 EnvironmentShape::DistantDisk { .. } | EnvironmentShape::Picture(_)
             )
         };
-        let parts = parts.filter(|(_, part)| sends_only || is_uneven(&part.shape));
+        let parts = parts.filter(|(_, part)| samples_emitters_alone || is_uneven(&part.shape));
         let parts = parts.map(|(index, part)| {
             let mean = match part.shape {
-                EnvironmentShape::Picture(picture) => picture.sent_mean,
+                EnvironmentShape::Picture(picture) => picture.sampled_mean,
                 _ => 1.0,
             };
-            (SourceKind::Environment(index), part.emission, mean)
+            (EmitterKind::Environment(index), part.emission, mean)
         });
         let lights = self.lights().iter().enumerate();
         let is_distant_disk = |light: &Light| matches!(light.shape, LightShape::DistantDisk { .. });
         let lights = lights.filter(|(_, light)| !is_distant_disk(light));
-        let lights = lights.map(|(index, light)| (SourceKind::Light(index), light.emission, 1.0));
+        let lights = lights.map(|(index, light)| (EmitterKind::Light(index), light.emission, 1.0));
         objects
             .chain(parts)
             .chain(lights)
-            .map(|(kind, emission, mean)| LightSource {
+            .map(|(kind, emission, mean)| EmitterSource {
                 kind,
                 emission,
                 brightness: mean * self.brightness(emission),
@@ -112,8 +112,8 @@ impl Scene {
             .collect()
     }
 
-    /// What a ray sees that leaves the scene: the parts of the surroundings, then the disks of distant lights.
-    pub fn surroundings(&self) -> Vec<EnvironmentPart<'_>> {
+    /// What a ray sees that leaves the scene: the parts of the environment, then the disks of distant lights.
+    pub fn environment_parts(&self) -> Vec<EnvironmentPart<'_>> {
         let disks = self.lights().iter().filter_map(|light| match light.shape {
             LightShape::DistantDisk { toward, height } => Some(EnvironmentPart {
                 shape: EnvironmentShape::DistantDisk { toward, height },

@@ -154,7 +154,7 @@ pub const TURBIDITY: Range = Range::new(
     spectra::sky::ClearSky::TURBIDITY.1,
     "",
 );
-/// A turn of the surroundings.
+/// A turn of the environment.
 pub const ROTATION_DEG: Range = Range::new(-360.0, 360.0, "°");
 /// The most slopes of a surface by Cook's model.
 pub const MAX_SLOPES: usize = 8;

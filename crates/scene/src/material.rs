@@ -15,7 +15,7 @@ pub enum Material {
         reflectance: Pattern,
     },
     /// An opaque metal (or any opaque medium) of complex index n + ik, under a stack of layers.
-    Conductor {
+    Interface {
         /// Real part of the index.
         n: SpectrumId,
         /// Imaginary part of the index, k ≥ 0.
@@ -51,7 +51,7 @@ impl Material {
     /// Its layers, the outermost first; none where it has none.
     pub fn layers(&self) -> &[Layer] {
         match self {
-            Self::Conductor { layers, .. } | Self::Film { layers, .. } => layers,
+            Self::Interface { layers, .. } | Self::Film { layers, .. } => layers,
             _ => &[],
         }
     }
@@ -59,7 +59,7 @@ impl Material {
     /// Its facets; none where it is smooth or diffuse.
     pub fn microsurface(&self) -> Option<&Microsurface> {
         match self {
-            Self::Conductor { microsurface, .. }
+            Self::Interface { microsurface, .. }
             | Self::CoatedBody(CoatedBody { microsurface, .. }) => microsurface.as_ref(),
             _ => None,
         }
@@ -77,7 +77,7 @@ impl Material {
     pub(crate) fn is_mirror(&self) -> bool {
         match self {
             Self::Film { .. } => true,
-            Self::Conductor { microsurface, .. } => microsurface.is_none(),
+            Self::Interface { microsurface, .. } => microsurface.is_none(),
             _ => false,
         }
     }
@@ -105,12 +105,12 @@ impl RoundToF32 for Material {
             Self::Diffuse { reflectance } => Self::Diffuse {
                 reflectance: reflectance.rounded(),
             },
-            Self::Conductor {
+            Self::Interface {
                 n,
                 k,
                 layers,
                 microsurface,
-            } => Self::Conductor {
+            } => Self::Interface {
                 n: *n,
                 k: *k,
                 layers: layers.iter().map(RoundToF32::rounded).collect(),

@@ -1,11 +1,11 @@
 //! What is worth saying of a scene that is sound.
 
-use crate::{Emission, LightShape, Material, Scene, derived};
+use crate::{Emission, LightShape, Material, Scene, prepared};
 
 impl Scene {
     /// What was assumed of files, and what may not be meant though it can be rendered: one line each.
     pub fn notes(&self) -> Vec<String> {
-        let dark = (self.lamps() == 0 && !self.is_lit_by_surroundings())
+        let dark = (self.lamps() == 0 && !self.is_lit_by_environment())
             .then(|| "nothing shines: the picture will be black".to_owned());
         let assumed = self.assumptions.iter().cloned();
         assumed
@@ -31,7 +31,7 @@ impl Scene {
     }
 
     /// Whether light comes from around the objects, the disks of distant lights not counted.
-    pub fn is_lit_by_surroundings(&self) -> bool {
+    pub fn is_lit_by_environment(&self) -> bool {
         let parts = self.environment().parts();
         parts.iter().any(|part| self.shines(part.emission))
     }
@@ -50,7 +50,7 @@ impl Scene {
                 .filter(|(_, other)| other.is_some_and(|other| other.stack == sheet.stack))
                 .find(|(other, _)| {
                     let shape = |object: usize| &self.objects()[object].shape;
-                    derived::overlap(shape(object), shape(*other))
+                    prepared::overlap(shape(object), shape(*other))
                 });
             let Some((other, _)) = over else { continue };
             if notes.iter().all(|(stack, _)| *stack != sheet.stack) {
@@ -72,8 +72,8 @@ impl Scene {
             .iter()
             .filter(|light| self.shines(light.emission));
         let only_points = self.lamps() > 0
-            && !self.is_lit_by_surroundings()
-            && self.emitters() == 0
+            && !self.is_lit_by_environment()
+            && self.emitting_objects() == 0
             && lights.all(|light| has_no_size(&light.shape));
         let mut objects = self.objects().iter();
         let only_mirrors = objects.all(|object| self.material(object.material).is_mirror());
@@ -85,7 +85,7 @@ impl Scene {
     }
 
     /// How many objects shine.
-    fn emitters(&self) -> usize {
+    fn emitting_objects(&self) -> usize {
         let emission = |object: &crate::Object| self.material(object.material).emission();
         let emissions = self.objects().iter().filter_map(emission);
         emissions.filter(|&emission| self.shines(emission)).count()

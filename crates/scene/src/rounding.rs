@@ -2,9 +2,9 @@
 
 use crate::EnvironmentPicture;
 use crate::{
-    Camera, CoatEstimate, CoatedBody, Cook1981, CookFacets, DiffuseShare, Emission, Environment,
-    Grain, Hierarchy, Layer, Lens, Light, LightNode, LightShape, LightTree, Microsurface, Object,
-    Pattern, Projection, RenderSettings, Scene, Shape,
+    Camera, CoatEstimate, CoatedBody, Cook1981, CookFacets, DiffuseTerm, Emission, EmitterNode,
+    EmitterTree, Environment, Grain, Hierarchy, Layer, Lens, Light, LightShape, Microsurface,
+    Object, Pattern, Projection, RenderSettings, Scene, Shape,
 };
 use glam::DVec3;
 use std::sync::Arc;
@@ -54,10 +54,10 @@ impl RoundToF32 for Scene {
             lights: self.lights.rounded(),
             environment: self.environment.rounded(),
             estimates: self.estimates.rounded(),
-            light_tree: LightTree::default(),
+            emitter_tree: EmitterTree::default(),
             assumptions: self.assumptions.clone(),
         };
-        scene.light_tree = LightTree::new(&scene).rounded();
+        scene.emitter_tree = EmitterTree::new(&scene).rounded();
         scene
     }
 }
@@ -109,7 +109,7 @@ impl RoundToF32 for CoatedBody {
         Self {
             microsurface: self.microsurface.as_ref().map(RoundToF32::rounded),
             base: self.base.rounded(),
-            passage: self.passage.as_ref().map(RoundToF32::rounded),
+            transmittance_scale: self.transmittance_scale.as_ref().map(RoundToF32::rounded),
             estimate: CoatEstimate {
                 n: self.estimate.n.rounded(),
                 base: self.estimate.base.rounded(),
@@ -140,7 +140,7 @@ impl RoundToF32 for CookFacets {
     }
 }
 
-impl RoundToF32 for DiffuseShare {
+impl RoundToF32 for DiffuseTerm {
     fn rounded(&self) -> Self {
         Self {
             share: self.share.rounded(),
@@ -296,7 +296,7 @@ impl RoundToF32 for LightShape {
     }
 }
 
-impl RoundToF32 for LightTree {
+impl RoundToF32 for EmitterTree {
     fn rounded(&self) -> Self {
         Self {
             nodes: self.nodes.rounded(),
@@ -305,7 +305,7 @@ impl RoundToF32 for LightTree {
     }
 }
 
-impl RoundToF32 for LightNode {
+impl RoundToF32 for EmitterNode {
     fn rounded(&self) -> Self {
         Self {
             center: self.center.rounded(),

@@ -58,15 +58,15 @@ pub enum WavelengthSampling {
     Center,
 }
 
-/// How the light that falls on a surface straight from a light is found.
+/// How the light that reaches a surface straight from an emitter is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DirectLight {
-    /// By rays to lights and by scattered rays that meet them, each where it is the better way.
+    /// By emitter sampling and by BSDF sampling, weighted against each other (multiple importance sampling).
     #[default]
     Both,
-    /// By rays to lights alone.
-    Lights,
-    /// By scattered rays alone. What comes from a point, a spot or a single direction is never found.
-    Surfaces,
+    /// By emitter sampling alone.
+    Emitters,
+    /// By BSDF sampling alone, which never finds light from a point, a spot or a single direction.
+    Bsdf,
 }

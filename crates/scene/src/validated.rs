@@ -3,8 +3,8 @@
 use crate::description::Description;
 use crate::rounding::RoundToF32;
 use crate::{
-    Camera, Environment, Estimate, Folder, Hierarchy, Light, LightTree, Material, Object, Problems,
-    RenderSettings, Sheet, validate,
+    Camera, EmitterTree, Environment, Estimate, Folder, Hierarchy, Light, Material, Object,
+    Problems, RenderSettings, Sheet, validate,
 };
 use spectra::{BandTable, LightGroup, SpectralImage};
 
@@ -66,7 +66,7 @@ pub struct Scene {
     /// Of each material.
     pub(crate) estimates: Vec<Estimate>,
     pub(crate) hierarchy: Hierarchy,
-    pub(crate) light_tree: LightTree,
+    pub(crate) emitter_tree: EmitterTree,
     /// What was assumed of its files, a line each.
     pub(crate) assumptions: Vec<String>,
 }
@@ -159,11 +159,11 @@ impl Scene {
     }
 
     /// Groups of what light is sent from.
-    pub fn light_tree(&self) -> &LightTree {
-        &self.light_tree
+    pub fn emitter_tree(&self) -> &EmitterTree {
+        &self.emitter_tree
     }
 
-    /// Lights that are no objects, disks first. See [`Scene::light_sources`] for all that shines.
+    /// Lights that are no objects, disks first. See [`Scene::emitters`] for all that shines.
     pub fn lights(&self) -> &[Light] {
         &self.lights
     }

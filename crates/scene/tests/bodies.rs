@@ -46,7 +46,7 @@ fn constants_and_weights_become_one_weight() {
 #[test]
 fn a_normal_reflectance_is_an_index() {
     let scene = scene("{ type = 'conductor', index = { normal_reflectance = 0.04 } }").unwrap();
-    let Material::Conductor { n, k, .. } = scene.materials()[0] else {
+    let Material::Interface { n, k, .. } = scene.materials()[0] else {
         panic!("{:?}", scene.materials());
     };
     let (low, high) = scene.spectrum(n).extent();
@@ -57,7 +57,7 @@ fn a_normal_reflectance_is_an_index() {
 #[test]
 fn a_dielectric_without_a_base_is_opaque() {
     let opaque = scene("{ type = 'dielectric', index = [1.5, 0.1] }").unwrap();
-    assert!(matches!(opaque.materials()[0], Material::Conductor { .. }));
+    assert!(matches!(opaque.materials()[0], Material::Interface { .. }));
     let enamel = scene("{ type = 'dielectric', index = 1.5, base = 0.5 }").unwrap();
     let Material::CoatedBody(body) = &enamel.materials()[0] else {
         panic!("{:?}", enamel.materials());
@@ -170,7 +170,7 @@ fn one_problem_each(cases: &[(String, &str, &str)]) {
 }
 
 #[test]
-fn what_does_not_fit_cooks_model_is_told() {
+fn what_does_not_fit_cooks_model_is_reported() {
     one_problem_each(&[
         (
             gold("model = 'cook1981'"),
@@ -227,7 +227,7 @@ fn what_does_not_fit_cooks_model_is_told() {
 }
 
 #[test]
-fn what_does_not_fit_an_index_is_told() {
+fn what_does_not_fit_an_index_is_reported() {
     one_problem_each(&[
         (
             "{ type = 'conductor', index = { normal_reflectance = 0.999 } }".to_owned(),

@@ -56,7 +56,7 @@ fn a_table_file_is_read_beside_the_scene() {
     let table = "\u{feff}# a metal of our own\nwavelength, n, k\n\n380, 0.5, 2\n 780 ; 0.5 ; 4\n";
     fs::write(directory.path().join("metal.csv"), table).unwrap();
     let scene = with_csv(directory.path(), "metal.csv").unwrap_or_else(|p| panic!("{}", told(&p)));
-    let Material::Conductor { n, k, .. } = scene.materials()[0] else {
+    let Material::Interface { n, k, .. } = scene.materials()[0] else {
         panic!("{:?}", scene.materials());
     };
     assert_eq!(scene.spectrum(n).at(3, 0.1), 0.5);
@@ -165,7 +165,7 @@ fn links_in_a_circle_and_devices_are_refused_at_once() {
 }
 
 #[test]
-fn an_index_alone_is_read_and_its_mistakes_are_told() {
+fn an_index_alone_is_read_and_its_mistakes_are_reported() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(
         folder.path().join("good.csv"),
@@ -217,7 +217,7 @@ fn with_picture(
 }
 
 #[test]
-fn the_brightest_pixel_of_surroundings_is_bounded_with_its_scale() {
+fn the_brightest_pixel_of_environment_is_bounded_with_its_scale() {
     let bright = image::Rgb([1e6, 1e6, 1e6]);
     let pixels = image::Rgb32FImage::from_pixel(2, 1, bright).into();
     let scene = |scale: &str| {

@@ -83,7 +83,7 @@ fn formulas_of_a_database_file_are_those_of_the_database() {
 }
 
 /// What is said about each of the texts is one line that names the file and has the phrase.
-fn assert_told(cases: &[(String, &str)]) {
+fn assert_reported(cases: &[(String, &str)]) {
     for (text, expected) in cases {
         let said = format!("{:#}", database(text).expect_err(text));
         assert!(
@@ -96,7 +96,7 @@ fn assert_told(cases: &[(String, &str)]) {
 }
 
 #[test]
-fn files_that_are_not_of_the_database_are_told() {
+fn files_that_are_not_of_the_database_are_reported() {
     let cases = [
         ("", "no `DATA` with a list of blocks"),
         ("just words", "no `DATA`"),
@@ -139,7 +139,7 @@ fn files_that_are_not_of_the_database_are_told() {
             "line 4: a second document begins",
         ),
     ];
-    assert_told(&cases.map(|(text, expected)| (text.to_owned(), expected)));
+    assert_reported(&cases.map(|(text, expected)| (text.to_owned(), expected)));
 }
 
 #[test]
@@ -182,7 +182,7 @@ fn tables_of_a_database_file_are_checked_line_by_line() {
         ),
     ];
     let table = |rows: &str| format!("DATA:\n  - type: tabulated nk\n    data: |\n{rows}");
-    assert_told(&cases.map(|(rows, expected)| (table(rows), expected)));
+    assert_reported(&cases.map(|(rows, expected)| (table(rows), expected)));
 }
 
 #[test]
@@ -216,12 +216,12 @@ fn formulas_of_a_database_file_are_checked() {
         ),
     ];
     let formula = |rest: String| format!("DATA:\n  - type: formula 1\n{rest}");
-    assert_told(&cases.map(|(rest, expected)| (formula(rest), expected)));
+    assert_reported(&cases.map(|(rest, expected)| (formula(rest), expected)));
 }
 
 /// What is said of a table of n and k where it is asked for, and where it is sound.
 #[test]
-fn a_fault_of_a_table_is_told_only_where_it_is_asked_for() {
+fn a_fault_of_a_table_is_reported_only_where_it_is_asked_for() {
     // Rows; a wavelength in the fault and what is said there; sound wavelengths around it.
     let cases: [(&str, f64, &str, &[f64]); 7] = [
         (
@@ -284,7 +284,7 @@ fn a_fault_of_a_table_is_told_only_where_it_is_asked_for() {
 }
 
 #[test]
-fn a_pole_of_a_formula_is_told_only_where_it_is_asked_for() {
+fn a_pole_of_a_formula_is_reported_only_where_it_is_asked_for() {
     let text = "DATA:\n  - type: formula 1\n    wavelength_range: 0.3 12\n    coefficients: 0 1.5 0.18 0.09 6.5919\n";
     let constants = database(text).unwrap();
     // √(1 + 1.5·0.25/(0.25 − 0.0324) + 0.09·0.25/(0.25 − 43.45314561)), by Python.
@@ -484,7 +484,7 @@ fn scene(index: &str) -> Result<pellicle_scene::Scene, Problems> {
 /// n and k of the scene's metal at the middle of band 17 of 40, 555 nm.
 fn at_555_nm(index: &str) -> (f64, f64) {
     let scene = scene(index).unwrap_or_else(|problems| panic!("{problems:#}"));
-    let pellicle_scene::Material::Conductor { n, k, .. } = scene.materials()[0] else {
+    let pellicle_scene::Material::Interface { n, k, .. } = scene.materials()[0] else {
         panic!("a conductor was asked for")
     };
     (scene.spectrum(n).at(17, 0.5), scene.spectrum(k).at(17, 0.5))
@@ -524,7 +524,7 @@ fn mixtures_lie_between_their_media_and_may_hold_mixtures() {
 }
 
 #[test]
-fn mistakes_in_an_index_are_told_where_they_are() {
+fn mistakes_in_an_index_are_reported_where_they_are() {
     let mix = |rest: &str| format!("{{ mixture = 'bruggeman', {rest} }}");
     let cases = [
         (
@@ -612,7 +612,7 @@ fn mistakes_in_an_index_are_told_where_they_are() {
 fn what_is_too_short_can_be_clamped() {
     let rutile = spectra::optical_constants("rutile").unwrap().data;
     let scene = scene("{ name = 'rutile', extrapolate = 'clamp' }").unwrap();
-    let pellicle_scene::Material::Conductor { n, .. } = scene.materials()[0] else {
+    let pellicle_scene::Material::Interface { n, .. } = scene.materials()[0] else {
         panic!("a conductor was asked for")
     };
     let first = scene.spectrum(n).at(0, 0.0);

@@ -52,7 +52,7 @@ fn a_stack_keeps_its_layers_in_order() {
 #[test]
 fn a_coating_lies_on_its_substrate() {
     let coated = format!("type = 'coated'\nsubstrate = 'gold'\nroughness = 0.25\n{TWO}");
-    let Material::Conductor {
+    let Material::Interface {
         layers,
         microsurface: Some(facets),
         ..
@@ -62,7 +62,7 @@ fn a_coating_lies_on_its_substrate() {
     };
     assert_eq!((layers.len(), facets.roughness), (2, [0.25; 2]));
     let single = "type = 'coated'\nsubstrate = 'titanium'\nindex = 2.4\nthickness_nm = 60";
-    assert!(matches!(material(single), Material::Conductor { layers, .. } if layers.len() == 1));
+    assert!(matches!(material(single), Material::Interface { layers, .. } if layers.len() == 1));
 }
 
 #[test]
@@ -83,7 +83,7 @@ fn two_beams_take_either_path_difference() {
 }
 
 #[test]
-fn what_is_wrong_with_layers_is_told() {
+fn what_is_wrong_with_layers_is_reported() {
     let many = vec!["{ index = 1.5, thickness_nm = 1 }"; limits::MAX_LAYERS + 1].join(", ");
     for (body, field, phrases) in [
         (

@@ -166,7 +166,7 @@ fn complaints(render: &str, emitters: &[(&str, &str)], environment: &str) -> Vec
 }
 
 #[test]
-fn bad_names_are_told() {
+fn bad_names_are_reported() {
     let emission = "emission = { constant = 1 }";
     let long = format!("{emission}\nlight_group = '{}'", "x".repeat(33));
     let odd = format!("{emission}\nlight_group = 'a.b'");
@@ -212,7 +212,7 @@ fn many_spectra_without_names_are_a_single_group() {
 }
 
 #[test]
-fn too_many_groups_and_too_much_memory_are_told() {
+fn too_many_groups_and_too_much_memory_are_reported() {
     let says: Vec<_> = (0..33)
         .map(|i| format!("emission = {{ constant = 1 }}\nlight_group = 'g{i}'"))
         .collect();

@@ -1,6 +1,6 @@
 //! Lights: units of emission, and lights that are no objects.
 
-use pellicle_scene::{LightShape, Problems, Scene, SceneFile, SourceKind};
+use pellicle_scene::{EmitterKind, LightShape, Problems, Scene, SceneFile};
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -44,7 +44,7 @@ const SPHERE: &str = "type = 'sphere'\ncenter = [0, 0, 0]\nradius = 0.5";
 const PLANE: &str = "type = 'plane'\npoint = [0, 0, 0]\nnormal = [0, 1, 0]";
 
 fn scale(scene: &Scene) -> f64 {
-    scene.light_sources()[0].emission.scale
+    scene.emitters()[0].emission.scale
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn each_object_has_the_power_of_its_material() {
     let small = "type = 'sphere'\ncenter = [2, 0, 0]\nradius = 0.25";
     let text = emitter("constant = 1, power_w = 10", SPHERE);
     let scene = scene(&format!("{text}[[objects]]\nmaterial = 'lamp'\n{small}\n"));
-    let sources = scene.light_sources();
+    let sources = scene.emitters();
     assert_eq!(sources.len(), 2);
     let ratio = sources[1].emission.scale / sources[0].emission.scale;
     assert!((ratio - 4.0).abs() < 1e-12, "{ratio}");
@@ -147,7 +147,7 @@ fn a_light_has_one_unit_and_one_that_fits() {
     refused(
         &sky("constant = 1, power_w = 1"),
         "environment.emission.power_w",
-        &["light from constant surroundings has no `power_w`"],
+        &["a constant environment has no `power_w`"],
     );
 }
 
@@ -187,7 +187,7 @@ fn white_at_no_exposure_and_what_d65_is_in_radiance() {
         "illuminant = 'D65', luminance_cd_m2 = 1000",
         SPHERE,
     ));
-    let emission = panel.light_sources()[0].emission;
+    let emission = panel.emitters()[0].emission;
     let peak = emission.scale * panel.spectrum(emission.spectrum).extent().1;
     assert!((peak - 0.0163).abs() < 5e-5, "{peak}");
 }
@@ -212,14 +212,14 @@ fn lights_that_no_ray_meets_are_refused_where_rays_alone_look_for_them() {
     ];
     for (light, what) in lights {
         refused(
-            &with("surfaces", light),
+            &with("bsdf", light),
             "lights[0]",
-            &[what, "\"surfaces\"", "would be dark"],
+            &[what, "\"bsdf\"", "would be dark"],
         );
         scene(&with("both", light));
-        scene(&with("lights", light));
+        scene(&with("emitters", light));
     }
-    scene(&with("surfaces", "type = 'distant'\ndirection = [0, 1, 0]"));
+    scene(&with("bsdf", "type = 'distant'\ndirection = [0, 1, 0]"));
 }
 
 /// A point is never seen in a smooth mirror.
@@ -278,7 +278,7 @@ fn a_scene_that_may_not_be_meant_is_noted() {
         let scene = scene(&lit);
         assert!(scene.notes().is_empty(), "{lit}: {:?}", scene.notes());
         assert_eq!(scene.lamps(), lamps, "{lit}");
-        assert_eq!(scene.is_lit_by_surroundings(), lit.starts_with("[env"));
+        assert_eq!(scene.is_lit_by_environment(), lit.starts_with("[env"));
     }
     let printed = |rest: &str, segments: u32| {
         notes(&format!(
@@ -306,7 +306,7 @@ fn a_scene_that_may_not_be_meant_is_noted() {
 }
 
 #[test]
-fn bad_shapes_of_lights_are_told() {
+fn bad_shapes_of_lights_are_reported() {
     let spot = |angles: &str| {
         format!(
             "[[lights]]\ntype = 'spot'\nposition = [0, 1, 0]\ndirection = [0, -1, 0]\nemission = {{ constant = 1 }}\n{angles}\n"
@@ -352,12 +352,8 @@ fn the_sun_is_half_a_degree_wide_and_disks_come_first() {
     };
     let half: f64 = (1.0 - height).acos().to_degrees();
     assert!((2.0 * half - 0.533).abs() < 1e-6, "{half}");
-    let kinds: Vec<_> = scene
-        .light_sources()
-        .iter()
-        .map(|source| source.kind)
-        .collect();
-    assert_eq!(kinds, [SourceKind::Environment(1), SourceKind::Light(1)]);
+    let kinds: Vec<_> = scene.emitters().iter().map(|source| source.kind).collect();
+    assert_eq!(kinds, [EmitterKind::Environment(1), EmitterKind::Light(1)]);
     let names: Vec<_> = scene
         .light_groups()
         .iter()

@@ -227,7 +227,7 @@ fn every_number_of_a_thickness_is_rounded() {
 }
 
 #[test]
-fn values_out_of_range_are_told_where_they_stand() {
+fn values_out_of_range_are_reported_where_they_stand() {
     let cases: &[(&str, usize, &str, &[&str])] = &[
         ("{ sum = [] }", 24, ".sum", &["at least one part"]),
         (
@@ -300,7 +300,7 @@ fn a_factor_of_nought_hides_no_overflow() {
 }
 
 #[test]
-fn what_does_not_fit_the_format_is_told_at_any_depth() {
+fn what_does_not_fit_the_format_is_reported_at_any_depth() {
     let cases: &[(&str, usize, &str, &[&str])] = &[
         (
             "{ sum = [1, { product = [2, { swirl = 3 }] }] }",
@@ -392,7 +392,7 @@ fn a_picture_is_read_as_numbers() {
 }
 
 #[test]
-fn pictures_that_cannot_be_used_are_told() {
+fn pictures_that_cannot_be_used_are_reported() {
     let directory = TempDir::new().unwrap();
     let path = |name: &str| directory.path().join(name);
     write_picture(&path("whole.png"));

@@ -7,8 +7,8 @@
 use glam::DVec3;
 use pellicle_scene::description::{self, Description};
 use pellicle_scene::{
-    Emission, Environment, Interference, Material, MaterialId, Pattern, Problems, Projection,
-    Scene, SceneFile, Shape, SourceKind, Thickness, WavelengthSampling,
+    Emission, EmitterKind, Environment, Interference, Material, MaterialId, Pattern, Problems,
+    Projection, Scene, SceneFile, Shape, Thickness, WavelengthSampling,
 };
 use std::path::Path;
 
@@ -56,9 +56,7 @@ fn defaults_are_the_documented_ones() {
     assert_eq!(settings.sampling, WavelengthSampling::Random);
     assert_eq!(settings.exposure_ev, 0.0);
     assert!(
-        scene.objects().is_empty()
-            && scene.materials().is_empty()
-            && scene.light_sources().is_empty()
+        scene.objects().is_empty() && scene.materials().is_empty() && scene.emitters().is_empty()
     );
     let Environment::Constant(Emission {
         spectrum, scale, ..
@@ -220,13 +218,13 @@ fn every_material_becomes_what_it_says() {
     assert_eq!((even, size), (quarter, 0.5));
     assert!(value(&scene, odd) > 0.8);
     let (
-        Material::Conductor {
+        Material::Interface {
             n,
             k,
             layers,
             microsurface: None,
         },
-        Material::Conductor {
+        Material::Interface {
             microsurface: Some(facets),
             ..
         },
@@ -296,7 +294,7 @@ fn n_and_k_are_neighbors_and_equal_spectra_are_one() {
         .materials()
         .iter()
         .filter_map(|material| match material {
-            Material::Conductor { n, k, .. } => Some((*n, *k)),
+            Material::Interface { n, k, .. } => Some((*n, *k)),
             Material::Film { layers, .. } => Some((layers[0].n, layers[0].k)),
             _ => None,
         })
@@ -351,8 +349,8 @@ reflectance = 0.5
         object("on", rectangle),
     ];
     let scene = scene(&format!("{materials}{}", objects.concat()));
-    let sources: Vec<_> = scene.light_sources().iter().map(|s| s.kind).collect();
-    assert_eq!(sources, [1, 5].map(SourceKind::Object));
+    let sources: Vec<_> = scene.emitters().iter().map(|s| s.kind).collect();
+    assert_eq!(sources, [1, 5].map(EmitterKind::Object));
     let names: [MaterialId; 2] = [scene.objects()[0].material, scene.objects()[1].material];
     assert!(matches!(scene.material(names[0]), Material::Diffuse { .. }));
     assert!(matches!(scene.material(names[1]), Material::Emitter { .. }));

@@ -298,7 +298,7 @@ mod tests {
     }
 
     #[test]
-    fn in_a_fault_there_is_no_value_and_its_reason_is_told() {
+    fn in_a_fault_there_is_no_value_and_its_reason_is_reported() {
         let fault = |from_nm, to_nm, reason: &str| Fault {
             from_nm,
             to_nm,

@@ -157,13 +157,13 @@ fn rgb_exr_files() {
 }
 
 #[test]
-fn exr_surroundings() {
+fn exr_environment() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("sky.exr");
     let text = surrounded("sky.exr");
     let campaign = Campaign {
         seeds: seeds(folder.path()),
-        ..Campaign::new("exr_surroundings", 300)
+        ..Campaign::new("exr_environment", 300)
     };
     campaign.run(|bytes| {
         fs::write(&path, bytes).unwrap();

@@ -1,4 +1,4 @@
-//! Radiance pictures, alone and as the surroundings of a scene.
+//! Radiance pictures, alone and as the environment of a scene.
 
 use crate::scenes;
 use crate::support::{expect, root};
@@ -90,7 +90,7 @@ fn seeds() -> Vec<Vec<u8>> {
     ]
     .concat();
     vec![
-        fs::read(root().join("tests/data/surroundings.hdr")).unwrap(),
+        fs::read(root().join("tests/data/environment.hdr")).unwrap(),
         plain(
             "FORMAT=32-bit_rle_rgbe",
             "-Y 1 +X 2",
@@ -121,14 +121,14 @@ fn radiance_pictures() {
 }
 
 #[test]
-fn radiance_surroundings() {
+fn radiance_environment() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("sky.hdr");
     let text = surrounded("sky.hdr");
     Campaign {
         seeds: seeds(),
         words: &WORDS,
-        ..Campaign::new("radiance_surroundings", 500)
+        ..Campaign::new("radiance_environment", 500)
     }
     .run(|bytes| {
         fs::write(&file, bytes).unwrap();

@@ -43,7 +43,7 @@ const WORDS: [&str; 44] = [
     "{ illuminant = 'A' }",
     "{ srgb = [0.1, 0.5, 1] }",
     "{ temperature_k = 3000 }",
-    "type = 'image'\nimage = 'surroundings.hdr'",
+    "type = 'image'\nimage = 'environment.hdr'",
     "type = 'film'",
     "type = 'conductor'",
     "type = 'dielectric'",
@@ -115,7 +115,7 @@ pub(crate) fn read(text: &str, folder: &Path) -> Outcome {
 /// A folder with the files that the words and scenes name.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    for name in ["colors.png", "thickness.png", "surroundings.hdr"] {
+    for name in ["colors.png", "thickness.png", "environment.hdr"] {
         fs::copy(
             root().join("tests/data").join(name),
             folder.path().join(name),

@@ -159,7 +159,7 @@ height = 1e-3
                 let bands = BANDS as usize;
                 let values = image.radiance().iter().skip(band as usize).step_by(bands);
                 let mean = values.map(|&v| f64::from(v)).sum::<f64>() / 256.0;
-                // What a film splits into reflection and passage is drawn, or followed: the mean has that noise.
+                // What a film splits into reflection and transmittance_scale is drawn, or followed: the mean has that noise.
                 assert!(
                     (mean - expected).abs() < 2e-3,
                     "{what}, {who}, band {band}: {mean} {expected}"

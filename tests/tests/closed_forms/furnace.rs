@@ -63,7 +63,7 @@ fn panels(metal: &str, samples: u32) -> Scene {
     let view = format!(
         "[camera]\ntype = 'orthographic'\nposition = [{x}, {y}, 5]\nlook_at = [{x}, {y}, 0]\nheight = {rows}\n\
          [render]\nsize = [{}, {}]\nsamples = {samples}\nbands = 2\n\
-         max_path_segments = 2\ndirect_light = 'surfaces'\n",
+         max_path_segments = 2\ndirect_light = 'bsdf'\n",
         columns * PIXELS,
         rows * PIXELS
     );

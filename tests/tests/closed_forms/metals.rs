@@ -25,7 +25,7 @@ size = [2, 2]
 /// Index of the one conductor at a wavelength, as the scene has it.
 fn metal(scene: &Scene, band: u32, offset: f64) -> Complex64 {
     let found = scene.materials().iter().find_map(|m| match *m {
-        scene::Material::Conductor { n, k, .. } => Some((n, k)),
+        scene::Material::Interface { n, k, .. } => Some((n, k)),
         _ => None,
     });
     let (n, k) = found.expect("there is a conductor");

@@ -41,10 +41,10 @@ fn eye(degrees: f64) -> [f64; 3] {
 fn the_walk_loses_nothing_and_begins_as_the_model_does() {
     const WALKS: u32 = 20_000;
     views().for_each(|(seed, surface, degrees)| {
-        let eye = eye(degrees);
+        let wo = eye(degrees);
         let (mut once, mut cosines) = (0.0, 0.0);
         for index in 0..WALKS {
-            let walk = Walk::new(&surface, eye, index, seed);
+            let walk = Walk::new(&surface, wo, index, seed);
             let left = walk.left.expect("every walk leaves");
             assert!(left[2] > 0.0);
             if walk.cosines.len() == 1 {
@@ -53,7 +53,7 @@ fn the_walk_loses_nothing_and_begins_as_the_model_does() {
             }
         }
         let (mut all, mut by_cosine, mut squares) = (0.0, 0.0, 0.0);
-        surface.each_reflection(eye, 128, |cosine, weight| {
+        surface.each_reflection(wo, 128, |cosine, weight| {
             all += weight;
             by_cosine += weight * cosine;
             squares += weight * cosine * cosine;
@@ -268,14 +268,14 @@ fn several(tables: &[Table], walks: &[Walk]) -> Vec<Spectrum> {
 
 fn returned(surface: &Microsurface, degrees: f64, tables: &[Table], seed: u32) -> Vec<Returned> {
     const WALKS: u32 = 20_000;
-    let eye = eye(degrees);
-    let walk = |index| Walk::new(surface, eye, index, seed);
+    let wo = eye(degrees);
+    let walk = |index| Walk::new(surface, wo, index, seed);
     let several = several(tables, &(0..WALKS).map(walk).collect::<Vec<_>>());
     let energy = energy(surface).energy;
-    let (lost, mean) = (1.0 - energy.at(eye), energy.mean());
+    let (lost, mean) = (1.0 - energy.at(wo), energy.mean());
     let of_facet = |(i, facet): (usize, &Facet)| {
         let (mut none, mut once) = ([0.0; COUNT], 0.0);
-        surface.each_reflection(eye, 64, |cosine, weight| {
+        surface.each_reflection(wo, 64, |cosine, weight| {
             let reflected = tables[i].at(cosine);
             none = std::array::from_fn(|j| none[j] + weight * reflected[j]);
             once += weight;

@@ -21,12 +21,12 @@ pub(crate) struct Walk {
 
 impl Walk {
     /// Light from `eye`, its numbers named by `index` and `seed`.
-    pub(crate) fn new(surface: &Microsurface, eye: [f64; 3], index: u32, seed: u32) -> Self {
+    pub(crate) fn new(surface: &Microsurface, wo: [f64; 3], index: u32, seed: u32) -> Self {
         let mut walk = Self {
             left: None,
             cosines: Vec::new(),
         };
-        let mut direction = eye.map(|x| -x);
+        let mut direction = wo.map(|x| -x);
         let mut below = 1.0;
         for step in 0..MOST {
             let [height, u, v, _] = random4([index % 4096, index / 4096], step, 9, seed);
@@ -59,18 +59,18 @@ fn next_height(surface: &Microsurface, direction: [f64; 3], below: f64, u: f64) 
 }
 
 /// A facet as often as a direction sees it, from below the horizon too.
-fn visible_facet(surface: &Microsurface, eye: [f64; 3], u: f64, v: f64) -> [f64; 3] {
+fn visible_facet(surface: &Microsurface, wo: [f64; 3], u: f64, v: f64) -> [f64; 3] {
     match surface.distribution {
         // Spherical caps hold for all directions (Dupuy and Benyoub 2023).
-        Distribution::Ggx => surface.sample(eye, u, v),
-        Distribution::Beckmann => visible_beckmann_facet(surface.alpha, eye, u, v),
+        Distribution::Ggx => surface.sample(wo, u, v),
+        Distribution::Beckmann => visible_beckmann_facet(surface.alpha, wo, u, v),
     }
 }
 
 /// By the slope's cumulated distribution, F(x) = cos θ erfc(−x) + sin θ exp(−x²) / √π up to x = cot θ (Heitz and d'Eon 2014), halved
 /// down to rounding.
-fn visible_beckmann_facet([along, across]: [f64; 2], eye: [f64; 3], u: f64, v: f64) -> [f64; 3] {
-    let stretched = normalized([along * eye[0], across * eye[1], eye[2]]);
+fn visible_beckmann_facet([along, across]: [f64; 2], wo: [f64; 3], u: f64, v: f64) -> [f64; 3] {
+    let stretched = normalized([along * wo[0], across * wo[1], wo[2]]);
     let sine = stretched[0].hypot(stretched[1]);
     // Straight from above any azimuth will do.
     let (x, y) = if sine > 0.0 {

@@ -5,7 +5,7 @@ use crate::{Check, pure, table};
 use pellicle_tests::tolerances::{
     ARITHMETIC, BECKMANN, DIRECTION, FACET, FACET_ENERGY, FRESNEL, TRIGONOMETRY,
 };
-use reference::{coat_share, cook_facets, sample_cook_facet};
+use reference::{coat_probability, cook_facets, sample_cook_facet};
 use scene::{CoatedBody, Cook1981, Material};
 use std::sync::OnceLock;
 
@@ -13,7 +13,7 @@ pub(crate) fn checks() -> Vec<Check> {
     let mut all = gaussian();
     all.extend([between_directions(), facets()]);
     all.extend(coats());
-    all.extend([rough_coats(), passages()]);
+    all.extend([rough_coats(), transmittance_scales()]);
     all
 }
 
@@ -60,10 +60,10 @@ fn gaussian() -> Vec<Check> {
             tolerance: TRIGONOMETRY,
         },
         Check {
-            probe: pure((1, 1), "put(0u, gaussian_share(a(0u)));"),
-            proves: &["gaussian_share"],
+            probe: pure((1, 1), "put(0u, gaussian_fraction(a(0u)));"),
+            proves: &["gaussian_fraction"],
             inputs: table(&[slopes], &[&[0.02], &[1.0]]),
-            twin: |a| vec![optics::gaussian_share(a[0])],
+            twin: |a| vec![optics::gaussian_fraction(a[0])],
             tolerance: ARITHMETIC,
         },
         Check {
@@ -171,9 +171,9 @@ fn rough_coats() -> Check {
     );
     Check {
         probe: world().probe((4, 1),
-            "put(0u, rough_coat_passes(coated_of(u32(a(0u))).coat_reflectances, a(1u), 1u, wavelengths_at(a(3u)))[u32(a(2u))]);",
+            "put(0u, rough_coat_transmittance(coated_of(u32(a(0u))).coat_reflectances, a(1u), 1u, wavelengths_at(a(3u)))[u32(a(2u))]);",
         ),
-        proves: &["coated_of", "rough_coat_passes"],
+        proves: &["coated_of", "rough_coat_transmittance"],
         inputs: rows(4, |u| {
             let lane = (4.0 * u[2]).floor();
             Some(vec![pick(&bodies, u[0]) as f64, u[1], lane, u[3]])
@@ -184,21 +184,21 @@ fn rough_coats() -> Check {
 }
 
 /// By how much more rough coats let through in a direction; one of them is brushed.
-fn passages() -> Check {
+fn transmittance_scales() -> Check {
     let bodies: Vec<usize> = indices_of(
         |material| matches!(material, Material::CoatedBody(body) if body.microsurface.is_some()),
     );
     Check {
         probe: world().probe(
             (3, 1),
-            "put(0u, coat_passage(load_facets(material_at(u32(a(0u))).facets), direction_at(1u)));",
+            "put(0u, coat_transmittance_scale(load_facets(material_at(u32(a(0u))).facets), direction_at(1u)));",
         ),
-        proves: &["coat_passage", "over_facets"],
+        proves: &["coat_transmittance_scale", "over_facets"],
         inputs: rows(3, |u| {
             Some(vec![pick(&bodies, u[0]) as f64, 0.02 + 0.98 * u[1], u[2]])
         }),
         twin: |a| match &world().scene.materials()[a[0] as usize] {
-            Material::CoatedBody(body) => vec![body.passage_at(direction(a[1], a[2]))],
+            Material::CoatedBody(body) => vec![body.transmittance_scale_at(direction(a[1], a[2]))],
             other => panic!("{other:?}"),
         },
         tolerance: FACET_ENERGY,
@@ -209,18 +209,21 @@ fn coats() -> [Check; 3] {
     let bodies: Vec<usize> = indices_of(|material| matches!(material, Material::CoatedBody(_)));
     [
         Check {
-            probe: world().probe((2, 1), "put(0u, coat_share(u32(a(0u)), a(1u)));"),
-            proves: &["coat_share"],
+            probe: world().probe((2, 1), "put(0u, coat_probability(u32(a(0u)), a(1u)));"),
+            proves: &["coat_probability"],
             inputs: rows(2, |u| Some(vec![pick(&bodies, u[0]) as f64, u[1]])),
             twin: |a| match &world().scene.materials()[a[0] as usize] {
-                Material::CoatedBody(body) => vec![coat_share(body, a[1])],
+                Material::CoatedBody(body) => vec![coat_probability(body, a[1])],
                 other => panic!("{other:?}"),
             },
             tolerance: FRESNEL,
         },
         Check {
-            probe: pure((2, 1), "put(0u, coat_passes(vec4f(a(0u)), a(1u)).x);"),
-            proves: &["coat_passes"],
+            probe: pure(
+                (2, 1),
+                "put(0u, coat_transmittance(vec4f(a(0u)), a(1u)).x);",
+            ),
+            proves: &["coat_transmittance"],
             inputs: table(
                 &[(1.0, 3.0), (0.0, 1.0)],
                 &[&[1.5, 0.0], &[1.0, 0.0], &[1.0, 1.0]],

@@ -3,11 +3,11 @@
 use crate::Check;
 use crate::world::{World, everything, pick, pictured, rounded, rows, unit, vector};
 use glam::DVec3;
-use pellicle_tests::tolerances::{ARITHMETIC, DIRECTION, LIGHT_PDF, NEAR_POLE};
+use pellicle_tests::tolerances::{ARITHMETIC, DIRECTION, EMITTER_PDF, NEAR_POLE};
 use scene::EnvironmentShape;
 use std::sync::OnceLock;
 
-/// Its surroundings are the same everywhere.
+/// Its environment are the same everywhere.
 fn furnace() -> &'static World {
     static WORLD: OnceLock<World> = OnceLock::new();
     WORLD.get_or_init(|| World::new("furnace"))
@@ -39,7 +39,7 @@ pub(crate) fn checks() -> Vec<Check> {
 type Twin = fn(&[f64]) -> Vec<f64>;
 
 fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
-    let parts: Vec<usize> = (0..world.scene.surroundings().len()).collect();
+    let parts: Vec<usize> = (0..world.scene.environment_parts().len()).collect();
     let others = parts.clone();
     // The density of a picture jumps from cell to cell.
     let is_picture = matches!(
@@ -75,21 +75,21 @@ fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
         },
         Check {
             probe: world.probe((4, 2),
-                "let e = environment_part(u32(a(0u))); put(0u, environment_pdf(e, a3(1u))); put(1u, environment_share(e, a3(1u)));",
+                "let e = environment_part(u32(a(0u))); put(0u, environment_pdf(e, a3(1u))); put(1u, environment_strength(e, a3(1u)));",
             ),
             proves: if is_picture {
                 &["environment_picture_pdf", "environment_place"]
             } else {
-                &["environment_part", "environment_pdf", "environment_share"]
+                &["environment_part", "environment_pdf", "environment_strength"]
             },
             inputs: directions,
             twin: density,
-            tolerance: if is_picture { LIGHT_PDF } else { ARITHMETIC },
+            tolerance: if is_picture { EMITTER_PDF } else { ARITHMETIC },
         },
     ]
 }
 
-/// What surroundings by a picture are made of.
+/// What environment by a picture are made of.
 const OF_PICTURES: &[&str] = &[
     "direction_table",
     "load_panorama",
@@ -99,7 +99,7 @@ const OF_PICTURES: &[&str] = &[
 ];
 
 fn part_of(world: &World, part: f64) -> EnvironmentShape<'_> {
-    world.scene.surroundings()[part as usize].shape
+    world.scene.environment_parts()[part as usize].shape
 }
 
 fn sampled(world: &World, a: &[f64]) -> Vec<f64> {
@@ -111,6 +111,6 @@ fn density(world: &World, a: &[f64]) -> Vec<f64> {
     let (part, direction) = (part_of(world, a[0]), vector(&a[1..]));
     vec![
         reference::environment_pdf(part, direction),
-        reference::environment_share(part, direction),
+        reference::environment_strength(part, direction),
     ]
 }

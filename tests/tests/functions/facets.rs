@@ -93,9 +93,9 @@ pub(crate) fn densities(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
         probe: pure(
             (5, 1),
             "let facet = direction_at(3u);
-             put(0u, facet_density(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), facet));",
+             put(0u, microsurface_density(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), facet));",
         ),
-        proves: &["facet_density"],
+        proves: &["microsurface_density"],
         inputs,
         twin: |a| vec![surface_of(a).density(direction(a[3], a[4]).to_array())],
         tolerance,
@@ -108,9 +108,9 @@ pub(crate) fn lambdas(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
         probe: pure(
             (5, 1),
             "let w = direction_at(3u);
-             put(0u, smith_lambda(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), w));",
+             put(0u, microsurface_lambda(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), w));",
         ),
-        proves: &["smith_lambda"],
+        proves: &["microsurface_lambda"],
         inputs,
         twin: |a| vec![surface_of(a).lambda(direction(a[3], a[4]).to_array())],
         tolerance,
@@ -122,23 +122,19 @@ pub(crate) fn reflections(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
     Check {
         probe: pure(
             (6, 3),
-            "let eye = vec3f(sqrt(1.0 - a(3u) * a(3u)), 0.0, a(3u));
-             let light = direction_at(4u);
-             let f = reflection_between(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), eye, light);
+            "let wo = vec3f(sqrt(1.0 - a(3u) * a(3u)), 0.0, a(3u));
+             let wi = direction_at(4u);
+             let f = microsurface_reflection(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), wo, wi);
              put(0u, f.value); put(1u, f.pdf); put(2u, f.cosine);",
         ),
-        proves: &["reflection_between"],
+        proves: &["microsurface_reflection"],
         inputs,
         twin: |a| {
-            let (eye, light) = (direction(a[3], 0.0), direction(a[4], a[5]));
-            let (e, l) = (eye.to_array(), light.to_array());
+            let (wo, wi) = (direction(a[3], 0.0), direction(a[4], a[5]));
+            let (e, l) = (wo.to_array(), wi.to_array());
             let surface = surface_of(a);
-            let cosine = eye.dot((eye + light).normalize());
-            vec![
-                surface.reflection(e, l) * light.z,
-                surface.pdf(e, l),
-                cosine,
-            ]
+            let cosine = wo.dot((wo + wi).normalize());
+            vec![surface.reflection(e, l) * wi.z, surface.pdf(e, l), cosine]
         },
         tolerance,
     }
@@ -182,8 +178,8 @@ fn surfaces() -> Vec<Check> {
 }
 
 fn sampled(a: &[f64]) -> Vec<f64> {
-    let eye = direction(a[3], a[4]).to_array();
-    surface_of(a).sample(eye, a[5], a[6]).to_vec()
+    let wo = direction(a[3], a[4]).to_array();
+    surface_of(a).sample(wo, a[5], a[6]).to_vec()
 }
 
 const SAMPLED: [(f32, f32); 4] = [(0.001, 1.0), (0.0, 1.0), (1e-6, 0.999), (1e-6, 0.999)];
@@ -192,10 +188,10 @@ const SAMPLED: [(f32, f32); 4] = [(0.001, 1.0), (0.0, 1.0), (1e-6, 0.999), (1e-6
 pub(crate) fn facet_draws(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
     Check {
         probe: pure((7, 3),
-            "let eye = direction_at(3u);
-             put3(0u, sample_facet(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), eye, a(5u), a(6u)));",
+            "let wo = direction_at(3u);
+             put3(0u, microsurface_sample(Microsurface(u32(a(0u)), vec2f(a(1u), a(2u))), wo, a(5u), a(6u)));",
         ),
-        proves: &["sample_facet"],
+        proves: &["microsurface_sample"],
         inputs,
         twin: sampled,
         tolerance,
@@ -240,10 +236,10 @@ fn samplers() -> Vec<Check> {
         Check {
             probe: pure(
                 (5, 3),
-                "let eye = direction_at(1u);
-                 put3(0u, normalize(sample_beckmann_facet(eye, a(3u), a(4u))));",
+                "let wo = direction_at(1u);
+                 put3(0u, normalize(sample_visible_beckmann(wo, a(3u), a(4u))));",
             ),
-            proves: &["sample_beckmann_facet"],
+            proves: &["sample_visible_beckmann"],
             inputs: of_unit_width(0.0),
             twin: upright,
             tolerance: FACET_DIRECTION,
@@ -251,11 +247,11 @@ fn samplers() -> Vec<Check> {
         Check {
             probe: pure(
                 (5, 3),
-                "let eye = direction_at(1u);
-                 let facet = normalize(sample_ggx_facet(eye, a(3u), a(4u)));
+                "let wo = direction_at(1u);
+                 let facet = normalize(sample_visible_ggx(wo, a(3u), a(4u)));
                  put3(0u, facet);",
             ),
-            proves: &["sample_ggx_facet"],
+            proves: &["sample_visible_ggx"],
             inputs: of_unit_width(1.0),
             twin: upright,
             tolerance: FACET_DIRECTION,
@@ -287,9 +283,9 @@ fn rough_rows() -> Vec<f32> {
     rows(8, move |u| {
         let object = pick(&rough, u[0]) as f64;
         // Not where the choice between the two samplers hangs on the last digit.
-        let eye = direction(0.02 + 0.98 * u[1], u[2]);
-        let lost = facets_of(object).sample(eye, [0.5, 0.5, u[7] + 1e-5])
-            == facets_of(object).sample(eye, [0.5, 0.5, u[7] - 1e-5]);
+        let wo = direction(0.02 + 0.98 * u[1], u[2]);
+        let lost = facets_of(object).sample(wo, [0.5, 0.5, u[7] + 1e-5])
+            == facets_of(object).sample(wo, [0.5, 0.5, u[7] - 1e-5]);
         let row = [
             object,
             u[1] * 0.98 + 0.02,
@@ -309,10 +305,10 @@ fn of_materials() -> Vec<Check> {
     vec![
         Check {
             probe: world.probe((8, 1),
-                "let eye = direction_at(1u);
-                 put(0u, facet_albedo(load_facets(material_at(shape_at(u32(a(0u))).material).facets), eye));",
+                "let wo = direction_at(1u);
+                 put(0u, facets_albedo(load_facets(material_at(shape_at(u32(a(0u))).material).facets), wo));",
             ),
-            proves: &["facet_albedo"],
+            proves: &["facets_albedo"],
             inputs: rough_rows(),
             twin: |a| {
                 let material = everything().material(a[0] as usize);
@@ -323,31 +319,31 @@ fn of_materials() -> Vec<Check> {
         },
         Check {
             probe: world.probe((8, 4),
-                "let eye = direction_at(1u);
-                 let light = direction_at(3u);
-                 let s = facets_eval(load_facets(material_at(shape_at(u32(a(0u))).material).facets), eye, light);
+                "let wo = direction_at(1u);
+                 let wi = direction_at(3u);
+                 let s = facets_eval(load_facets(material_at(shape_at(u32(a(0u))).material).facets), wo, wi);
                  put(0u, s.lobes.single); put(1u, s.lobes.multiple); put(2u, s.lobes.cosine); put(3u, s.pdf);",
             ),
             proves: &["facets_eval", "load_facets", "load_material", "material_at", "microsurface_of", "records_row"],
             inputs: rough_rows(),
             twin: |a| {
-                let (eye, light) = (direction(a[1], a[2]), direction(a[3], a[4]));
-                let found = facets_of(a[0]).eval(eye, light).expect("both are above");
+                let (wo, wi) = (direction(a[1], a[2]), direction(a[3], a[4]));
+                let found = facets_of(a[0]).eval(wo, wi).expect("both are above");
                 vec![found.single, found.multiple, found.cosine, found.pdf]
             },
             tolerance: FACETS,
         },
         Check {
             probe: world.probe((8, 3),
-                "let eye = direction_at(1u);
+                "let wo = direction_at(1u);
                  let random = vec4f(a(5u), a(6u), a(7u), 0.0);
-                 put3(0u, facets_sample(load_facets(material_at(shape_at(u32(a(0u))).material).facets), eye, random));",
+                 put3(0u, facets_sample(load_facets(material_at(shape_at(u32(a(0u))).material).facets), wo, random));",
             ),
             proves: &["facets_sample"],
             inputs: rough_rows(),
             twin: |a| {
-                let eye = direction(a[1], a[2]);
-                facets_of(a[0]).sample(eye, [a[5], a[6], a[7]]).to_array().to_vec()
+                let wo = direction(a[1], a[2]);
+                facets_of(a[0]).sample(wo, [a[5], a[6], a[7]]).to_array().to_vec()
             },
             tolerance: FACET_DIRECTION,
         },

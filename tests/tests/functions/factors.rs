@@ -109,12 +109,12 @@ const OF_SURFACE: &str = "
     let at = Place(0u, u32(a(4u)), wavelengths_at(a(5u)));
     begin_record();
     let v = Vertex(f, 1.0, a(2u), 0.0, 0u, 1.0, a(3u) / 2000.0, 0u, 0u);
-    let found = bsdf_spectrum(at, v, number_spectrum(f, at));
+    let found = bsdf_value(at, v, factor_spectrum(f, at));
     put4(0u, found.onward); put4(4u, found.lit);";
 const OF_FILM: &str = "
     let f = factor_of(u32(a(0u)), u32(a(1u)));
     let at = Place(0u, u32(a(4u)), wavelengths_at(a(5u)));
-    let found = film_spectrum(FilmAt(f, a(2u), a(3u), 0u), number_spectrum(f, at), at);
+    let found = film_value(FilmAt(f, a(2u), a(3u), 0u), factor_spectrum(f, at), at);
     put4(0u, found.reflectance); put4(4u, found.transmittance);";
 
 fn factor_twin(a: &[f64]) -> Vec<f64> {
@@ -163,7 +163,7 @@ fn factors() -> Vec<Check> {
     let (mut surfaces, mut films) = (Vec::new(), Vec::new());
     for material in world.scene.materials() {
         match *material {
-            Material::Conductor { n, .. } => surfaces.push((FACTOR_INTERFACE, n.index())),
+            Material::Interface { n, .. } => surfaces.push((FACTOR_INTERFACE, n.index())),
             Material::Diffuse {
                 reflectance:
                     scene::Pattern::Uniform(spectrum) | scene::Pattern::Checker { even: spectrum, .. },
@@ -196,18 +196,18 @@ fn factors() -> Vec<Check> {
     vec![
         check(
             &[
-                "bsdf_spectrum",
-                "conductor_spectrum",
-                "diffuse_spectrum",
-                "interface_spectrum",
-                "number_spectrum",
-                "reflectance_value",
+                "bsdf_value",
+                "bare_value",
+                "diffuse_value",
+                "interface_value",
+                "factor_spectrum",
+                "reflectance_at",
             ],
             OF_SURFACE,
             &surfaces,
             FRESNEL,
         ),
-        check(&["film_spectrum"], OF_FILM, &films, FILM),
+        check(&["film_value"], OF_FILM, &films, FILM),
     ]
 }
 

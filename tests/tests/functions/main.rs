@@ -2,13 +2,13 @@
 
 mod bodies;
 mod cameras;
+mod emitter_choices;
+mod emitters;
 mod environments;
 mod facet_edges;
 mod facets;
 mod factors;
-mod light_choices;
-mod lights;
-mod many_lights;
+mod many_emitters;
 mod numbers;
 mod optics_functions;
 mod rays;
@@ -93,9 +93,9 @@ fn checks() -> Vec<Check> {
         facet_edges::checks(),
         facets::checks(),
         factors::checks(),
-        light_choices::checks(),
-        lights::checks(),
-        many_lights::checks(),
+        emitter_choices::checks(),
+        emitters::checks(),
+        many_emitters::checks(),
         numbers::checks(),
         optics_functions::checks(),
         rays::checks(),
@@ -153,7 +153,7 @@ fn a_wrong_twin_is_noticed() {
     let mut checks = optics_functions::checks();
     let check = checks
         .iter_mut()
-        .find(|c| c.proves.contains(&"film_reflectance"))
+        .find(|c| c.proves.contains(&"clear_film_reflectance"))
         .expect("exists");
     check.twin = |a| {
         let wrong = optics::film((1.01 * a[0]).into(), a[1], a[2], a[3].max(1e-6));

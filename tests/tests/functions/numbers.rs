@@ -222,9 +222,9 @@ fn complex() -> Vec<Check> {
         Check {
             probe: pure(
                 (2, 1),
-                "put(0u, complex_norm2(Complex4(vec4f(a(0u)), vec4f(a(1u)))).w);",
+                "put(0u, complex_norm_sqr(Complex4(vec4f(a(0u)), vec4f(a(1u)))).w);",
             ),
-            proves: &["complex_norm2"],
+            proves: &["complex_norm_sqr"],
             inputs: roots(),
             twin: |a| vec![a[0] * a[0] + a[1] * a[1]],
             tolerance: ARITHMETIC,

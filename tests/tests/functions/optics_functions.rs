@@ -63,7 +63,7 @@ fn lossy_film(a: &[f64]) -> Vec<f64> {
 }
 
 const TRANSPARENT: &str =
-    "put(0u, film_reflectance(vec4f(a(0u)), a(1u), vec4f(1.0 / a(2u)), a(3u)).x);";
+    "put(0u, clear_film_reflectance(vec4f(a(0u)), a(1u), vec4f(1.0 / a(2u)), a(3u)).x);";
 const LOSSY: &str =
     "let f = film_powers(vec4f(a(0u)), vec4f(a(1u)), a(2u), vec4f(1.0 / a(3u)), a(4u));
     put(0u, f.reflectance.x); put(1u, f.transmittance.x);";
@@ -87,7 +87,7 @@ fn transparent_films() -> Vec<Check> {
     ];
     let check = |thickest, cosines, tolerance| Check {
         probe: pure((4, 1), TRANSPARENT),
-        proves: &["film_reflectance"],
+        proves: &["clear_film_reflectance"],
         inputs: table(
             &[(1.0, 2.5), (0.0, thickest), (360.0, 830.0), cosines],
             edges,

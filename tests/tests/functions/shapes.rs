@@ -65,8 +65,8 @@ fn directions() -> Vec<Check> {
             tolerance: pellicle_tests::tolerances::CONE,
         },
         Check {
-            probe: pure((6, 3), "put3(0u, mirrored(a3(0u), a3(3u)));"),
-            proves: &["mirrored"],
+            probe: pure((6, 3), "put3(0u, mirrored_at(a3(0u), a3(3u)));"),
+            proves: &["mirrored_at"],
             inputs: pairs_of_unit_vectors(),
             twin: |a| {
                 let (d, n) = (DVec3::from_slice(a), DVec3::from_slice(&a[3..]));

@@ -7,8 +7,8 @@ use pellicle_tests::tolerances::{ARITHMETIC, ARITHMETIC_OF_TABLES};
 pub(crate) fn checks() -> Vec<Check> {
     vec![
         Check {
-            probe: everything().probe((2, 1), "put(0u, reflected_part(u32(a(0u)), a(1u)));"),
-            proves: &["reflected_part"],
+            probe: everything().probe((2, 1), "put(0u, reflected_at(u32(a(0u)), a(1u)));"),
+            proves: &["reflected_at"],
             inputs: rows(2, |u| {
                 let materials = everything().scene.estimates();
                 let material = (u[0] * materials.len() as f64) as usize;
@@ -21,13 +21,13 @@ pub(crate) fn checks() -> Vec<Check> {
         Check {
             probe: everything().probe(
                 (1, 2),
-                "put(0u, reflected_share(a(0u))); put(1u, chance_to_go_on(a(0u)));",
+                "put(0u, reflection_probability(a(0u))); put(1u, rr_survival_probability(a(0u)));",
             ),
-            proves: &["chance_to_go_on", "reflected_share"],
+            proves: &["rr_survival_probability", "reflection_probability"],
             inputs: table(&[(0.0, 1.2)], &[&[0.0], &[1.0]]),
             twin: |a| {
-                let chance = reference::chance_to_go_on(a[0]);
-                vec![reference::reflected_share(a[0]), chance]
+                let chance = reference::rr_survival_probability(a[0]);
+                vec![reference::reflection_probability(a[0]), chance]
             },
             tolerance: ARITHMETIC,
         },

@@ -47,7 +47,7 @@ fn stack(cosines: (f32, f32), thickest: f32, tolerance: Tolerance) -> Check {
             "fields_above",
             "stack_powers",
             "powers_of",
-            "complex_inverse",
+            "complex_recip",
             "complex_scale",
         ],
         inputs: table(

@@ -1,4 +1,4 @@
-//! The whole reflection function of every surface that scatters, with its spectrum: against the reference, and with eye and light
+//! The whole reflection function of every surface that scatters, with its spectrum: against the reference, and with `wo` and `wi`
 //! changed over (Helmholtz's reciprocity). Smooth surfaces and films only mirror and let through, by a factor of the one cosine.
 
 use crate::Check;
@@ -82,12 +82,12 @@ const BODY: &str = "
         record_lit(eval.lobes, 2.0);
         is_pending = true;
         write_vertex();
-        let found = bsdf_spectrum(at, vertices[0], number_spectrum(vertices[0].factor, at));
+        let found = bsdf_value(at, vertices[0], factor_spectrum(vertices[0].factor, at));
         // Both ways in which a vertex uses it.
         put4(4u * i, 0.5 * (found.onward + 0.5 * found.lit) / wi.z);
     }";
 
-/// f(eye, light) in the four bands of a group, and f(light, eye).
+/// f(wo, wi) in the four bands of a group, and f(wi, wo).
 fn both_ways(a: &[f64]) -> Vec<f64> {
     static PREPARED: OnceLock<PreparedScene> = OnceLock::new();
     let (world, object) = (world(), a[0] as usize);
@@ -96,17 +96,17 @@ fn both_ways(a: &[f64]) -> Vec<f64> {
         panic!("only spheres are here");
     };
     let (first, second) = (DVec3::from_slice(&a[3..]), DVec3::from_slice(&a[6..]));
-    let one_way = |eye: DVec3, light: DVec3| {
+    let one_way = |wo: DVec3, wi: DVec3| {
         let point = SurfacePoint {
             position: center + radius * NORMAL,
             normal: NORMAL,
-            cosine: eye.z,
+            cosine: wo.z,
             is_front: true,
         };
         let surface = SurfaceFunction::new(prepared, object, &point, a[2], 0.5);
-        let values = surface.expect("all scatter").values(eye, light);
+        let values = surface.expect("all scatter").values(wo, wi);
         let bands = (0..4).map(|band| 4 * a[1] as usize + band);
-        bands.map(|band| values[band] / light.z).collect::<Vec<_>>()
+        bands.map(|band| values[band] / wi.z).collect::<Vec<_>>()
     };
     [one_way(first, second), one_way(second, first)].concat()
 }
@@ -137,11 +137,11 @@ pub(crate) fn checks() -> Vec<Check> {
             "bsdf_factor",
             "coated_eval",
             "coated_factor",
-            "coated_spectrum",
-            "coating_spectrum",
+            "coated_value",
+            "coating_value",
             "cook_eval",
             "cook_factor",
-            "cook_spectrum",
+            "cook_value",
             "dark",
             "diffuse_eval",
             "interface_eval",
@@ -151,7 +151,7 @@ pub(crate) fn checks() -> Vec<Check> {
             "multiple_color",
             "record_lit",
             "record_onward",
-            "with_sheen",
+            "with_multiple",
             "write_vertex",
         ],
         inputs,

@@ -51,7 +51,7 @@ pub(crate) fn everything() -> &'static World {
     WORLD.get_or_init(|| World::new("everything"))
 }
 
-/// Its surroundings are a picture, and its camera sees all directions.
+/// Its environment are a picture, and its camera sees all directions.
 pub(crate) fn pictured() -> &'static World {
     static WORLD: OnceLock<World> = OnceLock::new();
     WORLD.get_or_init(|| World::new("everything_pictured"))

@@ -80,7 +80,7 @@ fn facet_at(surface: &Microsurface, place: f64, turn: f64) -> (DVec3, f64) {
 fn scattered(
     surface: &Microsurface,
     claimed: &Microsurface,
-    eye: DVec3,
+    wo: DVec3,
     check: impl Fn(&Experiment),
 ) {
     let (facets, density_of) = (Facets::new(surface), Facets::new(claimed));
@@ -88,22 +88,22 @@ fn scattered(
     let draw = |u: f64, v: f64| {
         choice.set(choice.get() + 1);
         let [pick, ..] = random4([choice.get() % 4096, choice.get() / 4096], 3, 5, 77);
-        let light = facets.sample(eye, [u, v, pick]);
-        (light.z > 0.0).then(|| coordinates(surface, (eye + light).normalize()))
+        let wi = facets.sample(wo, [u, v, pick]);
+        (wi.z > 0.0).then(|| coordinates(surface, (wo + wi).normalize()))
     };
     let density = |place: f64, turn: f64| {
         let (facet, solid_angle) = facet_at(surface, place, turn);
-        let cosine = eye.dot(facet);
-        let light = 2.0 * cosine * facet - eye;
+        let cosine = wo.dot(facet);
+        let wi = 2.0 * cosine * facet - wo;
         if cosine <= 0.0 {
             return 0.0;
         }
-        let found = density_of.eval(eye, light);
+        let found = density_of.eval(wo, wi);
         found.map_or(0.0, |found| found.pdf * 4.0 * cosine * solid_angle)
     };
     check(&Experiment {
         name: format!(
-            "{:?} {:?} from {eye}",
+            "{:?} {:?} from {wo}",
             surface.distribution, surface.roughness
         ),
         ranges: [(0.0, 1.0), (0.0, 1.0)],
@@ -117,7 +117,7 @@ fn scattered(
 
 #[test]
 fn directions_are_drawn_by_their_density() {
-    each(|seed, surface, eye| scattered(surface, surface, eye, |right| right.holds(seed)));
+    each(|seed, surface, wo| scattered(surface, surface, wo, |right| right.holds(seed)));
 }
 
 #[test]
@@ -126,8 +126,8 @@ fn directions_of_another_roughness_are_noticed() {
         for roughness in [[0.1, 0.1], [0.1, 0.3]] {
             let surface = microsurface(distribution, roughness);
             let claimed = microsurface(distribution, roughness.map(|alpha| 0.93 * alpha));
-            let eye = direction(0.5, 0.13);
-            scattered(&surface, &claimed, eye, |wrong| wrong.is_refused(seed));
+            let wo = direction(0.5, 0.13);
+            scattered(&surface, &claimed, wo, |wrong| wrong.is_refused(seed));
         }
     }
 }
@@ -136,15 +136,15 @@ fn directions_of_another_roughness_are_noticed() {
 /// roughness from 0.05 to 1 and angles to 85°; where much is lost the first alone does not.
 #[test]
 fn a_lossless_surface_returns_everything() {
-    each(|seed, surface, eye| {
+    each(|seed, surface, wo| {
         let facets = Facets::new(surface);
         let (mut sum, mut squares, mut once) = (0.0, 0.0, 0.0);
         let mut count = 0.0;
         for (i, (u, v)) in (0..).zip(numbers(seed)) {
             let [pick, ..] = random4([i % 512, i / 512], 1, 5, seed);
-            let light = facets.sample(eye, [u, v, pick]);
+            let wi = facets.sample(wo, [u, v, pick]);
             count += 1.0;
-            if let Some(found) = facets.eval(eye, light) {
+            if let Some(found) = facets.eval(wo, wi) {
                 let weight = (found.single + found.multiple) / found.pdf;
                 sum += weight;
                 squares += weight * weight;
@@ -153,7 +153,7 @@ fn a_lossless_surface_returns_everything() {
         }
         let mean = sum / count;
         let error = ((squares / count - mean * mean) / count).sqrt();
-        let name = format!("{:?} {:?} {eye}", surface.distribution, surface.roughness);
+        let name = format!("{:?} {:?} {wo}", surface.distribution, surface.roughness);
         assert!(
             (mean - 1.0).abs() < 0.005 + 4.5 * error,
             "{name}: {mean} ± {error}"

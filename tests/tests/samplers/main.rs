@@ -5,8 +5,8 @@
 //! together raise a false alarm with a chance of [`FALSE_ALARM`] (Šidák); the numbers are fixed, so a pass stays a pass.
 
 mod chi_square;
+mod emitters;
 mod facets;
-mod lights;
 mod mixtures;
 mod pictures;
 mod slopes;
@@ -19,7 +19,7 @@ use std::f64::consts::{PI, TAU};
 const FALSE_ALARM: f64 = 1e-3;
 /// How many chi-square tests there are, those that must fail left out: the hemisphere, four cones, and those of each file.
 const TESTS: f64 =
-    (1 + 4 + lights::TESTS + slopes::TESTS + facets::TESTS + mixtures::TESTS + pictures::TESTS)
+    (1 + 4 + emitters::TESTS + slopes::TESTS + facets::TESTS + mixtures::TESTS + pictures::TESTS)
         as f64;
 
 #[test]

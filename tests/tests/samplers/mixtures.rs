@@ -68,7 +68,7 @@ fn of<'a>(prepared: &'a PreparedScene<'a>) -> SurfaceFunction<'a> {
 fn scattered(
     (surface, claimed): (&SurfaceFunction<'_>, &SurfaceFunction<'_>),
     roughness: f64,
-    eye: DVec3,
+    wo: DVec3,
     name: String,
     check: impl Fn(&Experiment),
 ) {
@@ -77,22 +77,22 @@ fn scattered(
     let draw = |u: f64, v: f64| {
         count.set(count.get() + 1);
         let [choice, pick, ..] = random4([count.get() % 4096, count.get() / 4096], 3, 5, 78);
-        let light = surface.sample(eye, [u, v, choice, pick]);
-        let facet = (eye + light).normalize();
+        let wi = surface.sample(wo, [u, v, choice, pick]);
+        let facet = (wo + wi).normalize();
         let r = facet.x.hypot(facet.y) / facet.z / scale;
-        (light.z > 0.0).then(|| [r / (1.0 + r), turns(facet)])
+        (wi.z > 0.0).then(|| [r / (1.0 + r), turns(facet)])
     };
     let density = |place: f64, turn: f64| {
         let r = place / (1.0 - place);
         let aside = direction(0.0, turn) * (scale * r);
         let facet = (DVec3::Z + aside).normalize();
-        let cosine = eye.dot(facet);
-        let light = 2.0 * cosine * facet - eye;
-        if cosine <= 0.0 || light.z <= 0.0 {
+        let cosine = wo.dot(facet);
+        let wi = 2.0 * cosine * facet - wo;
+        if cosine <= 0.0 || wi.z <= 0.0 {
             return 0.0;
         }
         let of_facets = scale * scale * r * TAU / (1.0 - place).powi(2) * facet.z.powi(3);
-        claimed.pdf(eye, light) * 4.0 * cosine * of_facets
+        claimed.pdf(wo, wi) * 4.0 * cosine * of_facets
     };
     check(&Experiment {
         name,
@@ -114,9 +114,9 @@ fn mixtures_are_drawn_by_their_density() {
         let prepared = PreparedScene::new(&scene);
         let surface = of(&prepared);
         for (j, degrees) in (0..).zip(DEGREES) {
-            let eye = direction(degrees.to_radians().cos(), 0.13);
+            let wo = direction(degrees.to_radians().cos(), 0.13);
             let name = format!("{kind:?} of {roughness} from {degrees}°");
-            scattered((&surface, &surface), roughness, eye, name, |right| {
+            scattered((&surface, &surface), roughness, wo, name, |right| {
                 right.holds(2000 + 5 * i as u32 + j);
             });
         }

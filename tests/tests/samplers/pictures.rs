@@ -20,7 +20,7 @@ fn painted(color: impl Fn(u32, u32) -> f32) -> Scene {
         .expect("written");
     let text = "camera = { type = \"panorama\", position = [0, 0, 0] }\n\
                 environment = { type = \"image\", image = \"sky.exr\", rotation_deg = 20 }\n\
-                render = { direct_light = \"lights\" }\n";
+                render = { direct_light = \"emitters\" }\n";
     let file = SceneFile::parse("painted.toml", text, folder.path());
     file.and_then(|file| file.validate())
         .unwrap_or_else(|e| panic!("{e:#}"))
@@ -29,7 +29,7 @@ fn painted(color: impl Fn(u32, u32) -> f32) -> Scene {
 fn picture_of(scene: &Scene) -> &EnvironmentPicture {
     match scene.environment() {
         Environment::Picture { picture, .. } => picture,
-        _ => panic!("the surroundings are no picture"),
+        _ => panic!("the environment are no picture"),
     }
 }
 

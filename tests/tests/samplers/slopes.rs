@@ -2,7 +2,7 @@
 
 use crate::chi_square::{Experiment, turns};
 use glam::DVec3;
-use optics::{gaussian_pdf, gaussian_share, half_vector_pdf, sample_beckmann, sample_gaussian};
+use optics::{gaussian_fraction, gaussian_pdf, half_vector_pdf, sample_beckmann, sample_gaussian};
 use std::f64::consts::TAU;
 
 const SLOPES: [f64; 6] = [0.05, 0.1, 0.2, 0.4, 0.7, 1.0];
@@ -49,7 +49,7 @@ fn facets_of_another_slope_are_noticed() {
 /// Facets of a Gaussian distribution of angles a, by q = (1 − exp(−a² / m²)) / Z and the azimuth; the density is taken for the slope
 /// `claimed`.
 fn gaussian_facets(slope: f64, claimed: f64, check: impl Fn(&Experiment)) {
-    let (share, m2) = (gaussian_share(slope), slope * slope);
+    let (share, m2) = (gaussian_fraction(slope), slope * slope);
     let draw = |u: f64, v: f64| {
         let h = DVec3::from_array(sample_gaussian(u, v, slope));
         let angle = h.x.hypot(h.y).atan2(h.z);

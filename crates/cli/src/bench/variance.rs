@@ -3,9 +3,9 @@
 use crate::print;
 use miette::IntoDiagnostic;
 use pellicle::Renderer;
+use pellicle::pick::{Picked, pick};
 use pellicle::scene::SceneFile;
 use pellicle::scene::description::{Render, Sampler};
-use pellicle::seen::{Seen, seen};
 use pellicle::spectra::SpectralImage;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -176,8 +176,8 @@ fn film_pixels(file: &SceneFile, directory: &Path) -> miette::Result<Vec<bool>> 
     for y in 0..height {
         for x in 0..width {
             let place = [f64::from(x) + 0.5, f64::from(y) + 0.5];
-            let seen = seen(&file.description, &scene, directory, place);
-            found.push(matches!(seen, Ok(Seen::Film(_))));
+            let picked = pick(&file.description, &scene, directory, place);
+            found.push(matches!(picked, Ok(Picked::Film(_))));
         }
     }
     Ok(found)

@@ -35,7 +35,7 @@ pub(crate) struct Options {
     /// own lamp]
     #[arg(long, value_name = "LAMP|X,Y|mean", value_parser = white)]
     adapt_from: Option<White>,
-    /// What bright light does to its surroundings: a star of what is too bright for the display, or the glare of an eye adapted to
+    /// What bright light does to its environment: a star of what is too bright for the display, or the glare of an eye adapted to
     /// light, to dusk or to dark
     #[arg(long, value_enum, default_value_t = GlareName::Off)]
     glare: GlareName,

@@ -1,6 +1,6 @@
 //! What the color hangs on: matches, tolerances, sensitivities.
 
-use super::spectra::{described, seen};
+use super::spectra::{described, side};
 use super::swatch::swatch;
 use super::{Film, Vary, Wanted};
 use crate::print;
@@ -85,7 +85,7 @@ fn matches(film: &Film, wanted: &Wanted, vary: &Vary) -> miette::Result<String> 
         vary.from_nm,
         vary.to_nm,
         angle.degrees(),
-        seen(film),
+        side(film),
         film.light.name(),
     );
     if let [

@@ -199,7 +199,7 @@ impl<'a> Spectra<'a> {
         if let Some(color) = at.color {
             let lab = color.lab();
             value["color"] = json!({
-                "seen": seen(self.film),
+                "side": side(self.film),
                 "illuminant": self.film.light.name(),
                 "observer": self.film.arguments.look.observer.name(),
                 "XYZ": color.xyz,
@@ -214,7 +214,7 @@ impl<'a> Spectra<'a> {
 }
 
 /// Which light is seen.
-pub(crate) fn seen(film: &Film) -> &'static str {
+pub(crate) fn side(film: &Film) -> &'static str {
     match film.arguments.look.view().side {
         Side::Reflected => "reflected",
         Side::Transmitted => "transmitted",
@@ -231,7 +231,7 @@ pub(crate) fn described(film: &Film, color: &Color) -> String {
         lab.l,
         lab.a,
         lab.b,
-        seen(film),
+        side(film),
         film.light.name(),
         exposure(film.exposure_ev),
         if color.is_in_srgb(film.exposure_ev) {

@@ -52,7 +52,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn swatches_are_told_from_other_escapes() {
+    fn swatches_are_reported_from_other_escapes() {
         let own = "\x1b[48;2;1;20;255m      \x1b[0m";
         let line = format!("a {own} b\x1b[31m{own}");
         let found: Vec<_> = parts(&line)

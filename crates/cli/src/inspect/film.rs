@@ -7,8 +7,8 @@ use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::coating::{Angle, FilmFits, FilmFitting, Measured, Stack, View};
 use pellicle::color::Probe;
 use pellicle::color::xyz::exposure_scale;
+use pellicle::pick::{self, Picked, SceneLamp, SceneLamps};
 use pellicle::scene::{Scene, SceneFile};
-use pellicle::seen::{self, SceneLamp, SceneLamps, Seen};
 use pellicle::spectra::{LightGroup, SpectralImage};
 use std::path::{Path, PathBuf};
 
@@ -30,7 +30,7 @@ pub(super) struct KnownScene {
 }
 
 /// What was found at a place.
-pub(super) enum FilmSeen {
+pub(super) enum FilmFinding {
     /// The scene has no film there, but this.
     Other(String),
     /// A film.
@@ -84,18 +84,18 @@ impl Films {
     }
 
     /// The film at a place; `None` where nothing was said of films.
-    pub(super) fn seen(
+    pub(super) fn find(
         &self,
         inspection: &Inspection,
         probe: &Probe,
-    ) -> miette::Result<Option<FilmSeen>> {
+    ) -> miette::Result<Option<FilmFinding>> {
         match self {
             Self::None => Ok(None),
             Self::Stack(stack, angle, lamps) => {
                 let fitted = fitted(inspection, probe, stack, *angle, lamps)?;
-                Ok(Some(FilmSeen::Film(Box::new(fitted))))
+                Ok(Some(FilmFinding::Film(Box::new(fitted))))
             }
-            Self::Scene(known) => known.seen(inspection, probe).map(Some),
+            Self::Scene(known) => known.find(inspection, probe).map(Some),
         }
     }
 }
@@ -136,23 +136,25 @@ impl KnownScene {
         })
     }
 
-    fn seen(&self, inspection: &Inspection, probe: &Probe) -> miette::Result<FilmSeen> {
+    fn find(&self, inspection: &Inspection, probe: &Probe) -> miette::Result<FilmFinding> {
         let place = probe.region.center();
-        let seen = seen::seen(&self.file.description, &self.scene, &self.directory, place);
-        let seen = seen.map_err(|problems| {
+        let picked = pick::pick(&self.file.description, &self.scene, &self.directory, place);
+        let picked = picked.map_err(|problems| {
             let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
             miette!("the film there cannot be computed: {}", said.join("; "))
         })?;
-        let film = match seen {
-            Seen::Surroundings => return Ok(FilmSeen::Other("the surroundings".to_owned())),
-            Seen::Bare(material) => {
-                return Ok(FilmSeen::Other(format!("{material:?}, which has no film")));
+        let film = match picked {
+            Picked::Environment => return Ok(FilmFinding::Other("the environment".to_owned())),
+            Picked::Bare(material) => {
+                return Ok(FilmFinding::Other(format!(
+                    "{material:?}, which has no film"
+                )));
             }
-            Seen::Film(film) => film,
+            Picked::Film(film) => film,
         };
         let lamps = self.lamps.of(&film);
         let fitted = fitted(inspection, probe, &film.stack, film.angle, &lamps)?;
-        Ok(FilmSeen::Film(Box::new(Fitted {
+        Ok(FilmFinding::Film(Box::new(Fitted {
             material: Some(film.material),
             ..fitted
         })))

@@ -7,7 +7,7 @@ mod report;
 use crate::film::numbers::{self, Vary};
 use crate::image_file;
 use clap::ValueEnum;
-use film::FilmSeen;
+use film::FilmFinding;
 use miette::IntoDiagnostic;
 use pellicle::color::spectral_exr::Metadata;
 use pellicle::color::{Probe, Region, probe};
@@ -90,7 +90,7 @@ struct Place {
     /// `320,200`, `10,10,40,40` or `the whole image`.
     label: String,
     probe: Probe,
-    film: Option<FilmSeen>,
+    film: Option<FilmFinding>,
 }
 
 /// Looks, prints and draws.
@@ -128,7 +128,7 @@ impl<'a> Inspection<'a> {
         let films = film::Films::new(&inspection)?;
         for (label, region) in regions {
             let probe = probe(&inspection.image, region).into_diagnostic()?;
-            let film = films.seen(&inspection, &probe)?;
+            let film = films.find(&inspection, &probe)?;
             inspection.places.push(Place { label, probe, film });
         }
         Ok(inspection)

@@ -1,6 +1,6 @@
 //! A plot of the spectra.
 
-use super::film::FilmSeen;
+use super::film::FilmFinding;
 use super::{Arguments, Inspection};
 use crate::{output, print};
 use miette::{IntoDiagnostic, WrapErr, miette};
@@ -63,10 +63,10 @@ fn plot(inspection: &Inspection) -> SpectrumPlot {
             label: place.label.clone(),
             values: place.probe.radiance.clone(),
             deviation: place.probe.deviation.clone(),
-            codes: Some(inspection.seen(place).codes),
+            codes: Some(inspection.color_of(place).codes),
         });
         // The film beside it, where there is room.
-        if let Some(FilmSeen::Film(fitted)) = &place.film
+        if let Some(FilmFinding::Film(fitted)) = &place.film
             && let (Some(model), Some(fits)) = (&fitted.model, &fitted.fits)
             && 2 * inspection.places.len() <= SpectrumPlot::MAX_SERIES
         {

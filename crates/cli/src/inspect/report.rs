@@ -1,6 +1,6 @@
 //! What was found, as a table, as CSV or as JSON.
 
-use super::film::{FilmSeen, Fitted};
+use super::film::{FilmFinding, Fitted};
 use super::{Inspection, Place};
 use crate::film::swatch::swatch;
 use crate::print;
@@ -14,7 +14,7 @@ use std::fmt::Write;
 const MOST_FITS: usize = 3;
 
 /// The color of a place.
-pub(super) struct Seen {
+pub(super) struct PlaceColor {
     /// Y = 1 for the display's white.
     xyz: [f64; 3],
     lab: Lab,
@@ -23,7 +23,7 @@ pub(super) struct Seen {
 }
 
 impl Inspection<'_> {
-    pub(super) fn seen(&self, place: &Place) -> Seen {
+    pub(super) fn color_of(&self, place: &Place) -> PlaceColor {
         let xyz = place
             .probe
             .xyz
@@ -31,7 +31,7 @@ impl Inspection<'_> {
         let linear = srgb::linear_from_xyz(xyz);
         // Half a code of 8 bits is a rounding.
         let is_shown = |v: &f64| (-1.5e-4..=1.0045).contains(v);
-        Seen {
+        PlaceColor {
             xyz,
             lab: Lab::from_xyz(xyz, srgb::white_xyz()),
             codes: linear.map(srgb::to_u8),
@@ -73,15 +73,15 @@ impl Inspection<'_> {
     }
 
     fn color(&self, text: &mut String, place: &Place) {
-        let (seen, probe) = (self.seen(place), &place.probe);
-        let [r, g, b] = seen.codes;
+        let (color, probe) = (self.color_of(place), &place.probe);
+        let [r, g, b] = color.codes;
         let _ = writeln!(
             text,
             "{}: {}#{r:02x}{g:02x}{b:02x} at {:+} EV{}",
             place.label,
-            swatch(seen.codes),
+            swatch(color.codes),
             self.exposure_ev,
-            if seen.is_clipped {
+            if color.is_clipped {
                 "; sRGB clips it"
             } else {
                 ""
@@ -94,7 +94,7 @@ impl Inspection<'_> {
             let [x, y] = chromaticity;
             let _ = writeln!(text, "  x, y  {x:.5} {y:.5}");
         }
-        let lab = seen.lab;
+        let lab = color.lab;
         let _ = writeln!(
             text,
             "  Lab   {:.3} {:.3} {:.3} (C* {:.3}, h {:.2}°; white of sRGB)",
@@ -196,8 +196,8 @@ impl Inspection<'_> {
     }
 
     fn json_of(&self, place: &Place) -> Value {
-        let (seen, probe) = (self.seen(place), &place.probe);
-        let [r, g, b] = seen.codes;
+        let (color, probe) = (self.color_of(place), &place.probe);
+        let [r, g, b] = color.codes;
         let region = probe.region;
         let xy = chromaticity::xy_of_xyz(probe.xyz);
         json!({
@@ -211,17 +211,17 @@ impl Inspection<'_> {
             "samples": probe.samples,
             "left_out": probe.left_out,
             "xyz": probe.xyz,
-            "xyz_shown": seen.xyz,
+            "xyz_shown": color.xyz,
             "xy": xy.iter().all(|v| v.is_finite()).then_some(xy),
-            "lab": [seen.lab.l, seen.lab.a, seen.lab.b],
+            "lab": [color.lab.l, color.lab.a, color.lab.b],
             "srgb": format!("#{r:02x}{g:02x}{b:02x}"),
-            "clipped": seen.is_clipped,
-            "film": place.film.as_ref().map(FilmSeen::json),
+            "clipped": color.is_clipped,
+            "film": place.film.as_ref().map(FilmFinding::json),
         })
     }
 }
 
-impl FilmSeen {
+impl FilmFinding {
     fn describe(&self, text: &mut String) {
         match self {
             Self::Other(what) => {
@@ -233,7 +233,7 @@ impl FilmSeen {
 
     fn json(&self) -> Value {
         match self {
-            Self::Other(what) => json!({ "seen": what }),
+            Self::Other(what) => json!({ "other": what }),
             Self::Film(fitted) => fitted.json(),
         }
     }

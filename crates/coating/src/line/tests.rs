@@ -58,7 +58,7 @@ fn files_have_their_endings() {
 }
 
 #[test]
-fn mistakes_are_told_with_their_place_and_what_would_be_right() {
+fn mistakes_are_reported_with_their_place_and_what_would_be_right() {
     for (line, words, place) in [
         ("1.5", "at least an incident medium", "1.5"),
         ("1 | silca 3nm | 2", "did you mean \"silica\"", "silca 3nm"),
@@ -188,7 +188,7 @@ fn groups_repeat_layers_and_definitions() {
 }
 
 #[test]
-fn mistakes_in_groups_are_told_where_they_are() {
+fn mistakes_in_groups_are_reported_where_they_are() {
     let defined = "H=2.3 60nm; L=1.46 90nm; HL=1 1nm; M=1.5; ";
     for (stack, words, place) in [
         ("1 | (H L^2 | 1", "this bracket is not closed", "("),

@@ -274,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_number_is_told() {
+    fn what_is_not_a_number_is_reported() {
         let mut other = gray(100);
         other.linear[2] = [f64::NAN, 0.1, f64::INFINITY];
         let found = delta_e(&gray(100), &other).unwrap();

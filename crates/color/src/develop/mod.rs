@@ -45,7 +45,7 @@ pub struct DevelopSettings {
     pub exposure: Exposure,
     /// From which white to its own; `None` leaves colors as the light makes them.
     pub adaptation: Option<WhiteAdaptation>,
-    /// What bright light does to its surroundings.
+    /// What bright light does to its environment.
     pub glare: Glare,
     /// What becomes of colors that it cannot show.
     pub gamut: GamutMapping,

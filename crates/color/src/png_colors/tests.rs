@@ -262,7 +262,7 @@ fn curves_of_profiles() {
 }
 
 #[test]
-fn profiles_that_cannot_be_used_are_told() {
+fn profiles_that_cannot_be_used_are_reported() {
     let mut tables = ColorProfile::new_srgb();
     tables.red_trc = None;
     let mut black = ColorProfile::new_srgb();

@@ -140,7 +140,7 @@ fn another_observer_sees_the_same_bands() {
 }
 
 #[test]
-fn what_cannot_be_relit_is_told_and_left() {
+fn what_cannot_be_relit_is_reported_and_left() {
     let before = image(&[("key", Some("D65")), ("sky", None)]);
     let narrow = Tabulated::new(vec![(400.0, 1.0), (700.0, 1.0)]).unwrap();
     let narrow = Relight {

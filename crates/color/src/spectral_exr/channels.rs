@@ -120,7 +120,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_channel_of_a_file_is_told_from_its_name() {
+    fn every_channel_of_a_file_is_reported_from_its_name() {
         let grid = BandGrid::visible(48).unwrap();
         let group = |name: &str| LightGroup {
             name: name.to_owned(),

@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn other_kinds_of_channel_are_told_apart() {
+    fn other_kinds_of_channel_are_distinguished() {
         let reflectance = Some(Ok((Quantity::Reflectance, Place::Center(450.0))));
         assert_eq!(spectral_channel("T.450nm"), reflectance);
         assert_eq!(spectral_channel("T450nm"), reflectance);

@@ -7,7 +7,7 @@ use pellicle_color::spectral_exr::{self, ReadExrError};
 use crate::support::{noise, write_noisy};
 
 #[test]
-fn what_is_no_exr_file_is_told_so() {
+fn what_is_no_exr_file_is_reported() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("text.exr");
     for content in ["", "v/1", "a longer text that is no image"] {

@@ -184,7 +184,7 @@ fn the_first_part_with_radiances_is_read() {
 }
 
 #[test]
-fn spectra_that_cannot_be_used_are_told_apart() {
+fn spectra_that_cannot_be_used_are_distinguished() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("foreign.exr");
     let fault = |names: &[&str]| {

@@ -1,31 +1,31 @@
-//! Emitters: objects that emit, the surroundings part by part, and lights that are no objects.
+//! Emitters: objects that emit, the environment part by part, and lights that are no objects.
 
 use super::tables::Tables;
-use super::{light, vec3};
+use super::{emission_ref, vec3};
 use crate::layout::{self, NONE};
-use scene::{Emission, EnvironmentShape, LightShape, LightSource, Scene, SourceKind};
+use scene::{Emission, EmitterKind, EmitterSource, EnvironmentShape, LightShape, Scene};
 
-/// All emitters: those that are sampled, in the order of the scene's sources of light, then parts of the surroundings that are not. The
-/// numbers of the surroundings' parts are added to the tables; the first of them is returned as well.
+/// All emitters: those that are sampled, in the order of the scene's sources of light, then parts of the environment that are not. The
+/// numbers of the environment' parts are added to the tables; the first of them is returned as well.
 pub(super) fn pack(
     scene: &Scene,
     shapes: &mut [layout::Shape],
     tables: &mut Tables,
 ) -> (Vec<layout::Emitter>, u32) {
-    let surroundings = scene.surroundings();
-    let mut numbers = vec![None; surroundings.len()];
+    let environment = scene.environment_parts();
+    let mut numbers = vec![None; environment.len()];
     let mut emitters = Vec::new();
-    for source in scene.light_sources() {
+    for source in scene.emitters() {
         let number = emitters.len() as u32;
         match source.kind {
-            SourceKind::Object(index) => shapes[index].emitter = number,
-            SourceKind::Environment(index) => numbers[index] = Some(number),
-            SourceKind::Light(_) => {}
+            EmitterKind::Object(index) => shapes[index].emitter = number,
+            EmitterKind::Environment(index) => numbers[index] = Some(number),
+            EmitterKind::Light(_) => {}
         }
         emitters.push(sampled(scene, source, shapes, tables));
     }
     let mut places = Vec::new();
-    for (part, number) in surroundings.iter().zip(numbers) {
+    for (part, number) in environment.iter().zip(numbers) {
         let number = number.unwrap_or_else(|| {
             emitters.push(emitter(surrounding(part.shape, tables), part.emission));
             emitters.len() as u32 - 1
@@ -37,14 +37,16 @@ pub(super) fn pack(
 
 fn sampled(
     scene: &Scene,
-    source: LightSource,
+    source: EmitterSource,
     shapes: &[layout::Shape],
     tables: &mut Tables,
 ) -> layout::Emitter {
     let shape = match source.kind {
-        SourceKind::Object(index) => object(index, &shapes[index]),
-        SourceKind::Environment(index) => surrounding(scene.surroundings()[index].shape, tables),
-        SourceKind::Light(index) => single_direction(scene.lights()[index].shape),
+        EmitterKind::Object(index) => object(index, &shapes[index]),
+        EmitterKind::Environment(index) => {
+            surrounding(scene.environment_parts()[index].shape, tables)
+        }
+        EmitterKind::Light(index) => single_direction(scene.lights()[index].shape),
     };
     layout::Emitter {
         brightness: source.brightness as f32,
@@ -54,7 +56,7 @@ fn sampled(
 
 fn emitter(shape: layout::Emitter, emission: Emission) -> layout::Emitter {
     layout::Emitter {
-        light: light(emission),
+        emission: emission_ref(emission),
         scale: emission.scale as f32,
         ..shape
     }
@@ -116,7 +118,7 @@ fn surrounding(shape: EnvironmentShape<'_>, tables: &mut Tables) -> layout::Emit
     }
 }
 
-/// A light of a single direction at each place. A disk is a part of the surroundings.
+/// A light of a single direction at each place. A disk is a part of the environment.
 fn single_direction(shape: LightShape) -> layout::Emitter {
     match shape {
         LightShape::DistantDisk { toward, .. } | LightShape::Direction { toward } => {

@@ -78,7 +78,7 @@ fn crossings(scene: &Scene, segments: u32, splits: u32) -> u32 {
 
 /// Number of disks in the sky.
 fn disks(scene: &Scene) -> u32 {
-    let parts = scene.surroundings();
+    let parts = scene.environment_parts();
     let is_distant_disk =
         |part: &&EnvironmentPart| matches!(part.shape, EnvironmentShape::DistantDisk { .. });
     parts.iter().filter(is_distant_disk).count() as u32

@@ -4,7 +4,7 @@ use super::surface::Passes;
 use crate::modules::RecordLimits;
 use scene::Scene;
 
-/// Passes of the two searches by which a direction toward a picture of the surroundings is drawn, among 1024 and 512.
+/// Passes of the two searches by which a direction toward a picture of the environment is drawn, among 1024 and 512.
 const SEARCHES: u64 = 1 + 10 + 1 + 9;
 
 /// A bound on the passes of all loops of one sample: those of tracing it (every segment and every film on the way to a light looks
@@ -26,8 +26,8 @@ pub(super) fn of_sample(scene: &Scene, limits: RecordLimits, surfaces: Passes) -
     // The clamp looks at the whole spectrum before it is added.
     let times = 1 + u64::from(scene.settings().clamp.is_some());
     let spectrum = times * groups * (1 + 2 * segments + factors + 2 * light_groups);
-    let environment = scene.surroundings().len() as u64 + 1 + segments * SEARCHES;
+    let environment = scene.environment_parts().len() as u64 + 1 + segments * SEARCHES;
     // The sum of the emitters' estimates and the choice among them, and the probability of one that is met.
-    let choices = segments * 3 * (2 + scene.light_tree().nodes.len() as u64);
+    let choices = segments * 3 * (2 + scene.emitter_tree().nodes.len() as u64);
     1 + trace + choices + environment + spectrum + 3 * light_groups
 }

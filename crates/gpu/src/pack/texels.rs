@@ -13,7 +13,7 @@ pub(super) struct Pictures {
 }
 
 impl Pictures {
-    /// A picture of the surroundings, whose table is added to the numbers.
+    /// A picture of the environment, whose table is added to the numbers.
     pub(super) fn add_environment(
         &mut self,
         picture: &EnvironmentPicture,
@@ -47,7 +47,7 @@ impl Pictures {
     }
 }
 
-/// A picture of the surroundings whose head and table begin at these places.
+/// A picture of the environment whose head and table begin at these places.
 fn panorama(picture: &EnvironmentPicture, head: usize, first_number: usize) -> Panorama {
     Panorama {
         head: head as u32,

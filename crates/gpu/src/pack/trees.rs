@@ -2,7 +2,7 @@
 
 use super::vec3;
 use crate::layout::{self, NONE, Record};
-use scene::{Hierarchy, LightTree};
+use scene::{EmitterTree, Hierarchy};
 
 /// The rows of both trees.
 #[derive(Debug, Default)]
@@ -11,13 +11,13 @@ pub(super) struct Trees {
     /// Rows of the hierarchy, which stands first; 0 where objects are few.
     pub(super) hierarchy_rows: u32,
     /// The row of the first node of the tree of emitters.
-    pub(super) first_light_node: u32,
+    pub(super) first_emitter_node: u32,
     /// The row of the node of each emitter.
-    pub(super) light_nodes: Vec<u32>,
+    pub(super) emitter_nodes: Vec<u32>,
 }
 
 impl Trees {
-    pub(super) fn new(hierarchy: &Hierarchy, lights: &LightTree) -> Self {
+    pub(super) fn new(hierarchy: &Hierarchy, lights: &EmitterTree) -> Self {
         let mut trees = Self::default();
         if !hierarchy.nodes.is_empty() {
             for &object in &hierarchy.everywhere {
@@ -26,7 +26,7 @@ impl Trees {
             trees.node(hierarchy, 0);
         }
         trees.hierarchy_rows = trees.rows.len() as u32;
-        trees.first_light_node = trees.hierarchy_rows;
+        trees.first_emitter_node = trees.hierarchy_rows;
         trees.lights(lights);
         trees
     }
@@ -74,18 +74,18 @@ impl Trees {
         self.rows[place..place + rows.len()].copy_from_slice(&rows);
     }
 
-    fn lights(&mut self, lights: &LightTree) {
-        let first = self.first_light_node;
-        let row = |node: u32| first + node * layout::LightNode::ROWS;
+    fn lights(&mut self, lights: &EmitterTree) {
+        let first = self.first_emitter_node;
+        let row = |node: u32| first + node * layout::EmitterNode::ROWS;
         let row_or_none = |node: u32| {
-            if node == LightTree::NONE {
+            if node == EmitterTree::NONE {
                 NONE
             } else {
                 row(node)
             }
         };
         for node in &lights.nodes {
-            self.push(layout::LightNode {
+            self.push(layout::EmitterNode {
                 center: vec3(node.center),
                 reach: node.reach as f32,
                 axis: vec3(node.axis),
@@ -97,13 +97,13 @@ impl Trees {
                 near: node.near as f32,
                 next: row(node.next),
                 parent: row_or_none(node.parent),
-                emitter: if node.source == LightTree::NONE {
+                emitter: if node.source == EmitterTree::NONE {
                     NONE
                 } else {
                     node.source
                 },
             });
         }
-        self.light_nodes = lights.leaves.iter().map(|&node| row(node)).collect();
+        self.emitter_nodes = lights.leaves.iter().map(|&node| row(node)).collect();
     }
 }

@@ -74,25 +74,25 @@ impl Microsurface {
 
     /// The reflection function of facets that reflect everything, sr⁻¹: D G / (4 (N·E)(N·L)) with
     /// G = 1 / (1 + Λ(E) + Λ(L)). What was shadowed is missing.
-    pub fn reflection(&self, eye: [f64; 3], light: [f64; 3]) -> f64 {
-        let Some(facet) = facet_between(eye, light) else {
+    pub fn reflection(&self, wo: [f64; 3], wi: [f64; 3]) -> f64 {
+        let Some(facet) = facet_between(wo, wi) else {
             return 0.0;
         };
-        let seen = 1.0 / (1.0 + self.lambda(eye) + self.lambda(light));
-        self.density(facet) * seen / (4.0 * eye[2] * light[2])
+        let seen = 1.0 / (1.0 + self.lambda(wo) + self.lambda(wi));
+        self.density(facet) * seen / (4.0 * wo[2] * wi[2])
     }
 
     /// Density with which a facet drawn by [`Self::sample`] mirrors `eye` to `light`, sr⁻¹: D / (4 (N·E) (1 + Λ(E)))
     /// (Heitz 2014, equations 16 and 17 with the Jacobian 1 / (4 E·H)).
-    pub fn pdf(&self, eye: [f64; 3], light: [f64; 3]) -> f64 {
-        if eye[2] <= 0.0 {
+    pub fn pdf(&self, wo: [f64; 3], wi: [f64; 3]) -> f64 {
+        if wo[2] <= 0.0 {
             return 0.0;
         }
-        let facet = half_vector(eye, light);
-        if dot(eye, facet) <= 0.0 {
+        let facet = half_vector(wo, wi);
+        if dot(wo, facet) <= 0.0 {
             return 0.0;
         }
-        self.density(facet) / (4.0 * eye[2] * (1.0 + self.lambda(eye)))
+        self.density(facet) / (4.0 * wo[2] * (1.0 + self.lambda(wo)))
     }
 
     /// [`Self::reflection`] and [`Self::pdf`], which share most of their work; 0 where a direction is below the surface.
@@ -110,13 +110,13 @@ impl Microsurface {
     ///
     /// GGX: Dupuy and Benyoub, Sampling Visible GGX Normals with Spherical Caps (2023). Beckmann: in the space of slopes
     /// (Heitz and d'Eon 2014).
-    pub fn sample(&self, eye: [f64; 3], u: f64, v: f64) -> [f64; 3] {
+    pub fn sample(&self, wo: [f64; 3], u: f64, v: f64) -> [f64; 3] {
         let [along, across] = self.alpha;
         // The same surface stretched to α = 1.
-        let stretched = normalized([along * eye[0], across * eye[1], eye[2]]);
+        let stretched = normalized([along * wo[0], across * wo[1], wo[2]]);
         let facet = match self.distribution {
-            Distribution::Beckmann => slopes::sample_beckmann(stretched, u, v),
-            Distribution::Ggx => slopes::sample_ggx(stretched, u, v),
+            Distribution::Beckmann => slopes::sample_visible_beckmann(stretched, u, v),
+            Distribution::Ggx => slopes::sample_visible_ggx(stretched, u, v),
         };
         normalized([along * facet[0], across * facet[1], facet[2].max(0.0)])
     }
@@ -125,9 +125,9 @@ impl Microsurface {
     /// meets another facet.
     ///
     /// By the rule of [`Self::each_reflection`].
-    pub fn albedo(&self, eye: [f64; 3], steps: u32) -> f64 {
+    pub fn albedo(&self, wo: [f64; 3], steps: u32) -> f64 {
         let mut sum = 0.0;
-        self.each_reflection(eye, steps, |_, weight| sum += weight);
+        self.each_reflection(wo, steps, |_, weight| sum += weight);
         sum
     }
 
@@ -135,24 +135,24 @@ impl Microsurface {
     ///
     /// By the midpoint rule with `steps`² facets, spread as often as they are seen on a GGX surface of the same α, more densely
     /// where they are steep.
-    pub fn each_reflection(&self, eye: [f64; 3], steps: u32, mut f: impl FnMut(f64, f64)) {
+    pub fn each_reflection(&self, wo: [f64; 3], steps: u32, mut f: impl FnMut(f64, f64)) {
         let spread = Self {
             distribution: Distribution::Ggx,
             ..*self
         };
         let place = |i: u32| (f64::from(i) + 0.5) / f64::from(steps);
-        let lambda_eye = self.lambda(eye);
-        let all = (1.0 + spread.lambda(eye)) / f64::from(steps * steps);
+        let lambda_wo = self.lambda(wo);
+        let all = (1.0 + spread.lambda(wo)) / f64::from(steps * steps);
         for i in 0..steps {
             for j in 0..steps {
                 // The last of the numbers gives the steep facets, in the long tail of the slopes.
                 let rest = place(j);
-                let facet = spread.sample(eye, place(i), 1.0 - rest * rest);
-                let light = mirrored(eye, facet);
-                if light[2] > 0.0 {
-                    let seen = 1.0 / (1.0 + lambda_eye + self.lambda(light));
+                let facet = spread.sample(wo, place(i), 1.0 - rest * rest);
+                let wi = mirrored(wo, facet);
+                if wi[2] > 0.0 {
+                    let seen = 1.0 / (1.0 + lambda_wo + self.lambda(wi));
                     let weight = 2.0 * rest * self.density(facet) / spread.density(facet) * seen;
-                    f(dot(eye, facet), weight * all);
+                    f(dot(wo, facet), weight * all);
                 }
             }
         }
@@ -160,15 +160,15 @@ impl Microsurface {
 }
 
 /// The facet that mirrors one direction into the other; none where either is below the surface.
-fn facet_between(eye: [f64; 3], light: [f64; 3]) -> Option<[f64; 3]> {
-    let is_above = eye[2] > 0.0 && light[2] > 0.0;
-    is_above.then(|| half_vector(eye, light))
+fn facet_between(wo: [f64; 3], wi: [f64; 3]) -> Option<[f64; 3]> {
+    let is_above = wo[2] > 0.0 && wi[2] > 0.0;
+    is_above.then(|| half_vector(wo, wi))
 }
 
 /// The direction opposite `eye` at a facet.
-fn mirrored(eye: [f64; 3], facet: [f64; 3]) -> [f64; 3] {
-    let twice = 2.0 * dot(eye, facet);
-    std::array::from_fn(|i| twice * facet[i] - eye[i])
+fn mirrored(wo: [f64; 3], facet: [f64; 3]) -> [f64; 3] {
+    let twice = 2.0 * dot(wo, facet);
+    std::array::from_fn(|i| twice * facet[i] - wo[i])
 }
 
 fn half_vector(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

@@ -9,28 +9,28 @@ const STEPS: u32 = 4;
 /// A step so small is the last: the next would be smaller than a rounding, as its third power is.
 const LAST_STEP: f64 = 1e-6;
 /// The least share of the slopes that is drawn.
-const LEAST_SHARE: f64 = 1e-7;
+const LEAST_PROBABILITY: f64 = 1e-7;
 
 /// A visible facet of a GGX surface: the half of a point of the sphere's lit cap and the eye (Dupuy and Benyoub 2023, listing 3).
-pub(super) fn sample_ggx(eye: [f64; 3], u: f64, v: f64) -> [f64; 3] {
+pub(super) fn sample_visible_ggx(wo: [f64; 3], u: f64, v: f64) -> [f64; 3] {
     let (sin_phi, cos_phi) = sin_cos_turns(u);
-    let z = (1.0 - v) * (1.0 + eye[2]) - eye[2];
+    let z = (1.0 - v) * (1.0 + wo[2]) - wo[2];
     let sine = (1.0 - z * z).max(0.0).sqrt();
-    super::normalized([sine * cos_phi + eye[0], sine * sin_phi + eye[1], z + eye[2]])
+    super::normalized([sine * cos_phi + wo[0], sine * sin_phi + wo[1], z + wo[2]])
 }
 
 /// A visible facet of a Beckmann surface: its slope toward the eye by [`visible_slope`], that aside by the normal
 /// distribution alone (Heitz and d'Eon, Importance Sampling Microfacet-Based BSDFs Using the Distribution of Visible Normals,
 /// 2014, appendix).
-pub(super) fn sample_beckmann(eye: [f64; 3], u: f64, v: f64) -> [f64; 3] {
-    let sine = eye[0].hypot(eye[1]);
+pub(super) fn sample_visible_beckmann(wo: [f64; 3], u: f64, v: f64) -> [f64; 3] {
+    let sine = wo[0].hypot(wo[1]);
     let (cos_phi, sin_phi) = if sine > 0.0 {
-        (eye[0] / sine, eye[1] / sine)
+        (wo[0] / sine, wo[1] / sine)
     } else {
         (1.0, 0.0)
     };
-    let toward = visible_slope(eye[2], sine, u);
-    let aside = inverse_erf_of_share(v.max(LEAST_SHARE));
+    let toward = visible_slope(wo[2], sine, u);
+    let aside = inverse_erf_of_share(v.max(LEAST_PROBABILITY));
     let x = cos_phi * toward - sin_phi * aside;
     let y = sin_phi * toward + cos_phi * aside;
     super::normalized([-x, -y, 1.0])
@@ -42,7 +42,7 @@ pub(super) fn sample_beckmann(eye: [f64; 3], u: f64, v: f64) -> [f64; 3] {
 /// A guess (Jakob, An Improved Visible Normal Sampling Routine for the Beckmann Distribution, 2014) is improved by Halley's rule until
 /// nothing changes.
 pub(super) fn visible_slope(cosine: f64, sine: f64, u: f64) -> f64 {
-    let u = u.max(LEAST_SHARE);
+    let u = u.max(LEAST_PROBABILITY);
     let steepest = if cosine < 6.0 * sine {
         cosine / sine
     } else {

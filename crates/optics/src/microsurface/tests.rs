@@ -77,16 +77,16 @@ fn visible_facets_fill_the_view() {
             (80.0, 0.9),
             (88.0, 0.0),
         ] {
-            let eye = direction(degrees, turns);
-            let turned = over_facets(&surface, |m| dot(eye, m).max(0.0));
-            let seen = turned / (1.0 + surface.lambda(eye));
+            let wo = direction(degrees, turns);
+            let turned = over_facets(&surface, |m| dot(wo, m).max(0.0));
+            let seen = turned / (1.0 + surface.lambda(wo));
             assert!(
-                (seen / eye[2] - 1.0).abs() < 2e-4,
+                (seen / wo[2] - 1.0).abs() < 2e-4,
                 "{surface:?} {degrees}: {seen} {}",
-                eye[2]
+                wo[2]
             );
             let masked_little = surface.alpha == [0.05; 2] || degrees < 70.0;
-            assert!(masked_little || (turned / eye[2] - 1.0).abs() > 2e-4);
+            assert!(masked_little || (turned / wo[2] - 1.0).abs() > 2e-4);
         }
     }
 }
@@ -131,18 +131,18 @@ fn reflection_is_reciprocal() {
 fn the_albedo_is_the_integral_of_the_reflection() {
     for surface in surfaces() {
         for degrees in [0.0, 30.0, 60.0, 80.0, 85.0] {
-            let eye = direction(degrees, 0.1);
+            let wo = direction(degrees, 0.1);
             let by_facets = over_facets(&surface, |m| {
-                let light = mirrored(eye, m);
-                let cosine = dot(eye, m);
-                if cosine <= 0.0 || light[2] <= 0.0 {
+                let wi = mirrored(wo, m);
+                let cosine = dot(wo, m);
+                if cosine <= 0.0 || wi[2] <= 0.0 {
                     return 0.0;
                 }
-                let whole = surface.reflection(eye, light) * light[2] * 4.0 * cosine;
+                let whole = surface.reflection(wo, wi) * wi[2] * 4.0 * cosine;
                 whole / surface.density(m)
             });
-            let albedo = surface.albedo(eye, 64);
-            let finer = surface.albedo(eye, 200);
+            let albedo = surface.albedo(wo, 64);
+            let finer = surface.albedo(wo, 200);
             assert!((albedo - by_facets).abs() < 1e-3, "{surface:?} {degrees}");
             assert!((finer - by_facets).abs() < 2e-4, "{surface:?} {degrees}");
         }

@@ -21,13 +21,13 @@ mod elementary;
 mod film;
 mod interface;
 mod lanes;
-mod layers;
 mod real;
+mod stack;
 
 pub(crate) use complex::WideComplex;
 pub use elementary::{decay, sin_cos_half_turns, sin_cos_turns, sin_half_turns};
 pub use film::{clear_film_reflectance, two_beam_powers};
 pub use interface::interface_reflectance;
 pub use lanes::{Lanes, MOST};
-pub use layers::{Index, SCALED_AFTER, Sweep, Wave};
 pub use real::Real;
+pub use stack::{Index, SCALED_AFTER, Sweep, Wave};

@@ -41,14 +41,14 @@ impl CoatedAt<'_> {
     /// A smooth coat mirrors.
     pub(super) fn specular_probability(&self, wo: DVec3) -> f64 {
         match self.coated.rough {
-            None => coat_share(self.coated.body, wo.z),
+            None => coat_probability(self.coated.body, wo.z),
             Some(_) => 0.0,
         }
     }
 
     pub(super) fn eval(&self, wo: DVec3, wi: DVec3) -> BsdfEval {
         let Coated { body, rough, .. } = self.coated;
-        let share = coat_share(body, wo.z);
+        let share = coat_probability(body, wo.z);
         let lambert = wi.z.max(0.0) * FRAC_1_PI;
         let mut eval = BsdfEval::dark(wo, wi);
         let Some(Rough { facets, .. }) = rough else {
@@ -60,7 +60,8 @@ impl CoatedAt<'_> {
             eval.lobes.single = found.single;
             eval.lobes.multiple = found.multiple;
             eval.lobes.cosine = found.cosine;
-            eval.lobes.body = body.passage_at(wo) * body.passage_at(wi) * lambert;
+            eval.lobes.body =
+                body.transmittance_scale_at(wo) * body.transmittance_scale_at(wi) * lambert;
             eval.pdf = share * found.pdf + (1.0 - share) * lambert;
         }
         eval
@@ -68,7 +69,7 @@ impl CoatedAt<'_> {
 
     pub(super) fn sample(&self, wo: DVec3, random: impl Fn(usize) -> f64) -> DVec3 {
         let (u, v) = (random(0), random(1));
-        let share = coat_share(self.coated.body, wo.z);
+        let share = coat_probability(self.coated.body, wo.z);
         match &self.coated.rough {
             Some(rough) if random(2) < share => rough.facets.sample(wo, [u, v, random(2) / share]),
             _ => sample_cosine_hemisphere(u, v),
@@ -127,7 +128,7 @@ fn rough_coat<S: Simd>(body: &CoatedBody, bands: &Bands<'_, S>, at: At, cosine: 
 
 /// Share of the paths that are mirrored by a smooth coat rather than sent on by the body below it: by an estimate of what either
 /// brings.
-pub fn coat_share(body: &CoatedBody, cosine: f64) -> f64 {
+pub fn coat_probability(body: &CoatedBody, cosine: f64) -> f64 {
     let reflected = interface_reflectance(body.estimate.n, 0.0, cosine.max(GRAZING));
     let share = reflected / (reflected + (1.0 - reflected) * body.estimate.base).max(1e-6);
     match body.microsurface {

@@ -1,7 +1,7 @@
 //! Lambertian reflection.
 
 use super::{BsdfEval, Lobes};
-use crate::picture::smooth_value;
+use crate::lifting::smooth_value;
 use crate::sample_cosine_hemisphere;
 use crate::spectral::{At, BandValue, Bands, Spectrum};
 use crate::surface::Reflectance;

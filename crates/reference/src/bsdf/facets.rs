@@ -15,7 +15,7 @@ pub struct Facets<'a> {
 
 /// How facets scatter between two directions, without their colors.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FacetScattering {
+pub struct FacetEval {
     /// Light that met one facet: D G / (4 cos θo), the BSDF times cos θi.
     pub single: f64,
     /// Light that met several, times cos θi.
@@ -51,14 +51,14 @@ impl<'a> Facets<'a> {
     /// Scattering from `wi` to `wo`; none where either is below the surface. The light that met several facets leaves by
     /// (1 − E(wo)) (1 − E(wi)) / (π (1 − E mean)), so that with the rest everything is there (Kelemen and Szirmay-Kalos 2001; Kulla and
     /// Conty 2017).
-    pub fn eval(&self, wo: DVec3, wi: DVec3) -> Option<FacetScattering> {
+    pub fn eval(&self, wo: DVec3, wi: DVec3) -> Option<FacetEval> {
         if wo.z <= 0.0 || wi.z <= 0.0 {
             return None;
         }
         let share = self.lost(wo);
         let all = (1.0 - self.energy.mean()).max(1e-6);
         let (reflection, pdf) = self.surface.scattering(wo.to_array(), wi.to_array());
-        Some(FacetScattering {
+        Some(FacetEval {
             single: reflection * wi.z,
             multiple: share * self.lost(wi) / (PI * all) * wi.z,
             cosine: wo.dot((wo + wi).normalize()),

@@ -8,15 +8,17 @@ mod cook;
 mod diffuse;
 mod facets;
 mod interface;
+mod lobes;
 mod rough;
 
-pub use coated::coat_share;
+pub use coated::coat_probability;
 use coated::{Coated, CoatedAt};
 use cook::Cook;
 pub use cook::{CookFacets, cook_facets, sample_cook_facet};
 use diffuse::Diffuse;
-pub use facets::{FacetScattering, Facets};
+pub use facets::{FacetEval, Facets};
 use interface::{Interface, InterfaceAt};
+pub(crate) use lobes::{BsdfEval, Lobes};
 use rough::Rough;
 
 use crate::SurfacePoint;
@@ -58,7 +60,7 @@ impl<'a> Surface<'a> {
                 Some(spectrum) => SurfaceKind::Diffuse(Pattern::Uniform(spectrum)),
                 None => SurfaceKind::Black,
             },
-            Material::Conductor {
+            Material::Interface {
                 n,
                 k,
                 layers,
@@ -128,68 +130,6 @@ pub(crate) enum Bsdf<'a> {
     Coated(CoatedAt<'a>),
     /// By the model of Cook and Torrance.
     Cook(&'a Cook<'a>),
-}
-
-/// A BSDF's value as weights of the spectra that it is made of.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Lobes {
-    /// Of the reflectance at `cosine`: light that met the surface once.
-    pub(crate) single: f64,
-    /// Of the color of light that met several facets of a rough surface.
-    pub(crate) multiple: f64,
-    /// Of the color of the base below a coat, or beside facets.
-    pub(crate) body: f64,
-    /// Cosine at the facet, or at a smooth surface.
-    pub(crate) cosine: f64,
-    /// Cosine of `wo` with the normal.
-    pub(crate) wo_cosine: f64,
-    /// Cosine of `wi` with the normal.
-    pub(crate) wi_cosine: f64,
-}
-
-/// A BSDF between two directions, without its specular part.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct BsdfEval {
-    /// The value.
-    pub(crate) lobes: Lobes,
-    /// Density with which [`Bsdf::sample`] finds `wi`, sr⁻¹.
-    pub(crate) pdf: f64,
-}
-
-impl BsdfEval {
-    /// Nothing.
-    fn dark(wo: DVec3, wi: DVec3) -> Self {
-        Self {
-            lobes: Lobes {
-                single: 0.0,
-                multiple: 0.0,
-                body: 0.0,
-                cosine: 1.0,
-                wo_cosine: wo.z,
-                wi_cosine: wi.z,
-            },
-            pdf: 0.0,
-        }
-    }
-}
-
-impl Lobes {
-    /// A smooth surface that mirrors.
-    pub(crate) fn specular(cosine: f64) -> Self {
-        Self {
-            single: 1.0,
-            multiple: 0.0,
-            body: 0.0,
-            cosine,
-            wo_cosine: cosine,
-            wi_cosine: cosine,
-        }
-    }
-
-    /// All weights together.
-    pub(crate) fn sum(&self) -> f64 {
-        self.single + self.multiple + self.body
-    }
 }
 
 impl Bsdf<'_> {

@@ -10,7 +10,7 @@ use crate::{
     surface_point,
 };
 use glam::{DMat3, DVec3};
-use scene::{DirectLight, EnvironmentShape, SourceKind};
+use scene::{DirectLight, EmitterKind, EnvironmentShape};
 
 /// A direction from which an emitter shines onto a surface, if nothing is in the way.
 struct EmitterSample<'a> {
@@ -35,7 +35,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         (local_from_world, wo): (DMat3, DVec3),
     ) -> f64 {
         let settings = self.settings();
-        let samples = settings.direct_light != DirectLight::Surfaces;
+        let samples = settings.direct_light != DirectLight::Bsdf;
         if !samples || self.path.segment >= settings.max_path_segments {
             return 0.0;
         }
@@ -66,7 +66,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
 
     /// Chooses an emitter and a direction toward it.
     fn sample_emitter(&mut self, place: Place, weight_sum: f64) -> Option<EmitterSample<'a>> {
-        let random = self.random(Use::Emitter);
+        let random = self.random_at(Use::Emitter);
         let weighed = (&self.weighed[..], weight_sum);
         let choice = self
             .prepared
@@ -133,14 +133,14 @@ impl<'a, T: Transport> PathTracer<'a, T> {
     }
 
     /// MIS weight of a path that happens to meet an emitter: the rest is what next-event estimation brings.
-    pub(super) fn mis_weight_of_meeting(&self, kind: SourceKind) -> f64 {
+    pub(super) fn mis_weight_of_meeting(&self, kind: EmitterKind) -> f64 {
         let number = self.prepared.emitter_number(kind);
         let (Some(scattered), Some(number)) = (&self.path.scattered, number) else {
             return 1.0;
         };
         match self.settings().direct_light {
-            DirectLight::Lights => 0.0,
-            DirectLight::Surfaces => 1.0,
+            DirectLight::Emitters => 0.0,
+            DirectLight::Bsdf => 1.0,
             DirectLight::Both => {
                 let place = Place {
                     position: scattered.position,
@@ -158,7 +158,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
 
 /// Whether a ray to an emitter meets nothing before it.
 fn has_arrived(ray: &Ray, emitter: &SceneEmitter<'_>, hit: Option<Hit>) -> bool {
-    if let SourceKind::Object(index) = emitter.source.kind {
+    if let EmitterKind::Object(index) = emitter.source.kind {
         return hit.is_some_and(|hit| hit.object == index);
     }
     match (emitter.emitter.distance(ray.origin), hit) {

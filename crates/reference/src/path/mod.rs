@@ -3,7 +3,7 @@
 //! A path is traced without its spectrum: what it meets it tells a [`Transport`].
 
 mod emitter_sampling;
-mod state;
+mod path_state;
 
 use crate::bsdf::{Bsdf, Lobes};
 use crate::emitter_choice::Weighed;
@@ -11,11 +11,12 @@ use crate::layers::FilmAt;
 use crate::sobol::{SobolNumbers, SobolPixel};
 use crate::transport::{Emitted, Side, Transport};
 use crate::{
-    Hit, PreparedScene, SurfacePoint, chance_to_go_on, environment_pixel, environment_share,
-    nearest_hit, random4, reflected_share, sampled_camera_ray, surface_frame, surface_point,
+    Hit, PreparedScene, SurfacePoint, environment_pixel, environment_strength, nearest_hit,
+    random4, reflection_probability, rr_survival_probability, sampled_camera_ray, surface_frame,
+    surface_point,
 };
-use scene::{EnvironmentShape, Estimate, RenderSettings, Sampler, SourceKind, WavelengthSampling};
-use state::{PathState, Scattered};
+use path_state::{PathState, Scattered};
+use scene::{EmitterKind, EnvironmentShape, Estimate, RenderSettings, Sampler, WavelengthSampling};
 
 /// Dimensions of a branch of a path: more than three for each of its segments.
 const BRANCH_DIMENSIONS: u32 = 128;
@@ -79,15 +80,15 @@ impl<'a, T: Transport> PathTracer<'a, T> {
     }
 
     /// Traces one sample of a pixel.
-    pub(crate) fn trace(&mut self, pixel: [u32; 2], sample: u32) {
+    pub(crate) fn trace_path(&mut self, pixel: [u32; 2], sample: u32) {
         let scene = self.prepared.scene;
         let settings = scene.settings();
         (self.pixel, self.sample) = (pixel, sample);
         self.sobol.begin(pixel);
-        let numbers = self.numbers(0);
+        let numbers = self.numbers_of(0);
         let on_lens = match scene.camera().lens {
             Some(_) => {
-                let numbers = self.numbers(LENS_DIMENSION);
+                let numbers = self.numbers_of(LENS_DIMENSION);
                 [numbers.get(0), numbers.get(1)]
             }
             None => [0.0; 2],
@@ -112,7 +113,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
 
     /// Four numbers in [0, 1) for a dimension of the sample.
     #[inline]
-    fn numbers(&mut self, dimension: u32) -> Numbers {
+    fn numbers_of(&mut self, dimension: u32) -> Numbers {
         let settings = self.settings();
         match settings.sampler {
             Sampler::Sobol => Numbers::Sobol(self.sobol.numbers(self.sample, dimension)),
@@ -123,9 +124,9 @@ impl<'a, T: Transport> PathTracer<'a, T> {
     }
 
     #[inline]
-    fn random(&mut self, use_of: Use) -> Numbers {
+    fn random_at(&mut self, use_of: Use) -> Numbers {
         let path = &self.path;
-        self.numbers(BRANCH_DIMENSIONS * path.branch + 3 * path.segment - 2 + use_of as u32)
+        self.numbers_of(BRANCH_DIMENSIONS * path.branch + 3 * path.segment - 2 + use_of as u32)
     }
 
     /// Follows the present path to its end.
@@ -142,7 +143,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
             }
             let is_last = self.path.segment == settings.max_path_segments;
             let plays = self.path.segment >= settings.roulette_after && !is_last;
-            if plays && !self.survives_roulette() {
+            if plays && !self.russian_roulette() {
                 return;
             }
             self.path.segment += 1;
@@ -150,10 +151,10 @@ impl<'a, T: Transport> PathTracer<'a, T> {
     }
 
     /// Russian roulette: ends the path by chance, or lets it count for more.
-    fn survives_roulette(&mut self) -> bool {
-        let chance = chance_to_go_on(self.path.rr_throughput);
+    fn russian_roulette(&mut self) -> bool {
+        let chance = rr_survival_probability(self.path.rr_throughput);
         if chance < 1.0 {
-            if self.random(Use::Roulette).get(0) >= chance {
+            if self.random_at(Use::Roulette).get(0) >= chance {
                 return false;
             }
             self.path.rr_throughput /= chance;
@@ -166,11 +167,11 @@ impl<'a, T: Transport> PathTracer<'a, T> {
     fn shade_environment(&mut self) {
         for (index, part) in self.prepared.environment.iter().enumerate() {
             let direction = self.path.ray.direction;
-            let share = environment_share(part.shape, direction);
-            let mis = self.mis_weight_of_meeting(SourceKind::Environment(index));
+            let share = environment_strength(part.shape, direction);
+            let mis = self.mis_weight_of_meeting(EmitterKind::Environment(index));
             let pixel = match part.shape {
                 EnvironmentShape::Picture(picture) => {
-                    let random = self.random(Use::Emitter).get(3);
+                    let random = self.random_at(Use::Emitter).get(3);
                     Some((picture, environment_pixel(picture, direction, random)))
                 }
                 _ => None,
@@ -193,7 +194,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         let surface = prepared.surface(object.material);
         let point = surface_point(&object.shape, &self.path.ray, hit.distance);
         if let Some(emission) = surface.emission {
-            let mis = self.mis_weight_of_meeting(SourceKind::Object(hit.object));
+            let mis = self.mis_weight_of_meeting(EmitterKind::Object(hit.object));
             let pixel = None;
             self.emit(&Emitted { emission, pixel }, mis);
         }
@@ -202,7 +203,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
             self.shade_film(hit.object, &point, &film, surface.estimate);
             return true;
         }
-        let random = || self.random(Use::Bsdf).get(3);
+        let random = || self.random_at(Use::Bsdf).get(3);
         let bsdf = surface.bsdf(&object.shape, &point, random);
         bsdf.is_some_and(|bsdf| self.shade_surface(hit.object, &point, &bsdf, surface.estimate))
     }
@@ -223,19 +224,19 @@ impl<'a, T: Transport> PathTracer<'a, T> {
             through.branch += 1 << through.splits;
             through.segment += 1;
             through.rr_throughput *= 1.0 - reflected;
-            through.pass(object, point);
+            through.pass_through(object, point);
             self.waiting.push(through);
             self.transport.split(film);
             self.path.rr_throughput *= reflected;
             self.path.mirror(object, point);
             return;
         }
-        let share = reflected_share(reflected);
-        let (side, part, chance) = if self.random(Use::Bsdf).get(0) < share {
+        let share = reflection_probability(reflected);
+        let (side, part, chance) = if self.random_at(Use::Bsdf).get(0) < share {
             self.path.mirror(object, point);
             (Side::Reflected, reflected, share)
         } else {
-            self.path.pass(object, point);
+            self.path.pass_through(object, point);
             (Side::Transmitted, 1.0 - reflected, 1.0 - share)
         };
         self.transport.film(film, side);
@@ -261,7 +262,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         if specular < 1.0 {
             emitter_weight_sum = self.connect(object, point, bsdf, (local_from_world, wo));
         }
-        let random = self.random(Use::Bsdf);
+        let random = self.random_at(Use::Bsdf);
         if specular > 0.0 && (specular >= 1.0 || random.get(2) < specular) {
             self.transport.scatter(bsdf, &Lobes::specular(point.cosine));
             self.path.weight /= specular;

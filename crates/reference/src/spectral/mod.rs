@@ -2,13 +2,13 @@
 //!
 //! Formulas come from `optics::wide`, written for one wavelength; here they are called in loops over the bands.
 
-mod path;
 mod pixel;
-mod tables;
+mod spectral_path;
+mod spectrum;
 
-pub(crate) use path::SpectralPath;
 pub(crate) use pixel::{Pixel, PixelValues};
-pub(crate) use tables::{Row, Tables};
+pub(crate) use spectral_path::SpectralPath;
+pub(crate) use spectrum::{Row, Tables};
 
 use bytemuck::{Pod, Zeroable};
 use optics::wide::{Lanes, MOST, Real};

@@ -72,11 +72,11 @@ pub struct Strength {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = limits::EMISSION.low, max = limits::EMISSION.high))]
     pub scale: Option<f64>,
-    /// Radiance in W m⁻² sr⁻¹: of emitters, surroundings, and distant lights with a diameter.
+    /// Radiance in W m⁻² sr⁻¹: of emitters, environment, and distant lights with a diameter.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
     pub radiance: Option<f64>,
-    /// Luminance in cd m⁻²: of emitters, surroundings, and distant lights with a diameter.
+    /// Luminance in cd m⁻²: of emitters, environment, and distant lights with a diameter.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
     pub luminance_cd_m2: Option<f64>,
@@ -90,11 +90,11 @@ pub struct Strength {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
     pub power_lm: Option<f64>,
-    /// Irradiance in W m⁻² of a surface that faces a distant light, or under constant surroundings.
+    /// Irradiance in W m⁻² of a surface that faces a distant light, or under constant environment.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
     pub irradiance_w_m2: Option<f64>,
-    /// Illuminance in lux of a surface that faces a distant light, or under constant surroundings.
+    /// Illuminance in lux of a surface that faces a distant light, or under constant environment.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
     pub illuminance_lux: Option<f64>,

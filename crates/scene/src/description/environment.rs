@@ -1,4 +1,4 @@
-//! The surroundings as written.
+//! The environment as written.
 
 use super::{Emission, Reflectance};
 use crate::limits;
@@ -38,7 +38,7 @@ pub enum Environment {
         /// The illuminant that white light in the picture has; "D65" when absent. Not for a spectral file.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         illuminant: Option<String>,
-        /// By how many degrees the surroundings are turned about +Y, from +Z toward +X.
+        /// By how many degrees the environment are turned about +Y, from +Z toward +X.
         #[serde(default)]
         #[schemars(range(min = limits::ROTATION_DEG.low, max = limits::ROTATION_DEG.high))]
         rotation_deg: f64,

@@ -26,7 +26,7 @@ pub struct Render {
     pub light_groups: LightGroups,
     /// Where the numbers come from that paths are drawn by.
     pub sampler: Sampler,
-    /// How light that surfaces scatter is found. What each way finds is the same, its noise is not; but "surfaces" never finds points,
+    /// How light that surfaces scatter is found. What each way finds is the same, its noise is not; but "bsdf" never finds points,
     /// spots and light from a single direction, and is refused with them.
     pub direct_light: DirectLight,
     /// Chooses the sequence of random numbers.

@@ -1,4 +1,4 @@
-//! Advice on words of other programs' scenes.
+//! Advice on words of other programs' scenes, and on names that changed.
 
 use crate::FieldPath;
 use crate::field_path::Step;
@@ -24,6 +24,25 @@ pub(super) fn of_field(field: &FieldPath, name: &str) -> Option<&'static str> {
         ),
         _ => None,
     }
+}
+
+/// Fields and words that are called otherwise now.
+const RENAMED: &[(&str, &str)] = &[
+    ("anodising", "anodizing"),
+    ("centre", "center"),
+    ("lights", "emitters"),
+    ("normalisation", "normalization"),
+    ("normalised", "normalized"),
+    ("surfaces", "bsdf"),
+];
+
+/// What an old name is called now, if that is one of those that are possible here.
+pub(super) fn renamed<'a>(
+    name: &str,
+    mut possible: impl Iterator<Item = &'a str>,
+) -> Option<&'a str> {
+    let (_, now) = RENAMED.iter().find(|(old, _)| *old == name)?;
+    possible.find(|known| known == now)
 }
 
 /// The part of the file that a field lies in.

@@ -348,10 +348,12 @@ impl Reader<'_> {
         name: &str,
         context: &Context<'_>,
     ) -> Option<&'f str> {
-        let free = fields.names().filter(|known| !table.contains_key(*known));
-        let suggestion = nearest(name, free);
+        let free = || fields.names().filter(|known| !table.contains_key(*known));
+        let renamed = advice::renamed(name, free());
+        let suggestion = renamed.or_else(|| nearest(name, free()));
         let message = match ((context.elsewhere)(name), suggestion) {
             (Some(owner), _) => format!("unknown field here: `{name}` {owner}"),
+            (None, Some(known)) if renamed.is_some() => format!("is called `{known}` now"),
             (None, Some(known)) => format!("unknown field; did you mean `{known}`?"),
             (None, None) => "unknown field".to_owned(),
         };
@@ -385,9 +387,12 @@ impl Reader<'_> {
 
     fn unknown_word(&mut self, words: &[String], word: &str, at: &Place) {
         let known = words.iter().map(String::as_str);
-        let suggestion = nearest(word, known)
-            .map(|known| format!("; did you mean {known:?}?"))
-            .unwrap_or_default();
+        let suggestion = match advice::renamed(word, known.clone()) {
+            Some(now) => format!("; it is called {now:?} now"),
+            None => nearest(word, known)
+                .map(|known| format!("; did you mean {known:?}?"))
+                .unwrap_or_default(),
+        };
         let message = format!(
             "found {}, expected {}{suggestion}",
             shortened(&format!("{word:?}")),

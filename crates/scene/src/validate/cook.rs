@@ -1,15 +1,13 @@
 //! Conductors by Cook's model: slopes and constants to weights.
 
 use super::checks::Checks;
-use super::microsurface::Told;
+use super::microsurface::Reported;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
 use crate::description::{self, CookNormalization, Finish, Roughness, Slope};
 use crate::limits::{self, Shown};
 use crate::problem::{Problem, ProblemKind};
-use crate::{
-    Cook1981, CookDistribution, CookFacets, DiffuseShare, Emission, FieldPath, SpectrumId,
-};
+use crate::{Cook1981, CookDistribution, CookFacets, DiffuseTerm, Emission, FieldPath, SpectrumId};
 use std::f64::consts::PI;
 
 /// The weights of slopes may sum to 1 with an error like that of 0.333 three times.
@@ -52,7 +50,7 @@ pub(super) fn check(
             part: slope.weight,
         }
     });
-    let diffuse = reflectance.map(|reflectance| DiffuseShare {
+    let diffuse = reflectance.map(|reflectance| DiffuseTerm {
         share: diffuse,
         chance: diffuse / (specular + diffuse),
         reflectance,
@@ -260,13 +258,13 @@ fn check_diffuse(
     spectra: &mut SpectrumList,
     own: &FieldPath,
     written: &description::Cook1981,
-) -> Result<Option<SpectrumId>, Told> {
+) -> Result<Option<SpectrumId>, Reported> {
     let field = own.key("diffuse_reflectance");
     let is_diffuse = written.diffuse.is_some_and(|share| share > 0.0);
     match (&written.diffuse_reflectance, is_diffuse) {
         (Some(reflectance), true) => {
             let id = spectra.reflectance(checks, &field, reflectance);
-            Ok(Some(id.ok_or(Told)?))
+            Ok(Some(id.ok_or(Reported)?))
         }
         (None, false) => Ok(None),
         (given, _) => {
@@ -282,7 +280,7 @@ fn check_diffuse(
             };
             let problem = Problem::new(kind, &field, message);
             checks.report(problem.involving(own.key("diffuse")));
-            Err(Told)
+            Err(Reported)
         }
     }
 }
@@ -293,7 +291,7 @@ fn ambient_light(
     spectra: &mut SpectrumList,
     field: &FieldPath,
     written: &description::Emission,
-    (specular, (n, k), diffuse): (f64, (SpectrumId, SpectrumId), Option<DiffuseShare>),
+    (specular, (n, k), diffuse): (f64, (SpectrumId, SpectrumId), Option<DiffuseTerm>),
 ) -> Option<Emission> {
     let light = spectra.emission(checks, field, written, Radiator::Ambient)?;
     let normal = spectra.combined([n, k], |[n, k]| {

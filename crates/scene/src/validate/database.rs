@@ -1,7 +1,7 @@
 //! n and k from files of the refractiveindex.info database.
 //!
 //! The database reaches from X-rays to radio waves, and its faults lie mostly far from what is asked for. A value that cannot be
-//! used is therefore not an error of the file: its surroundings, from the sound value before it to the next, become a
+//! used is therefore not an error of the file: its environment, from the sound value before it to the next, become a
 //! [`spectra::Fault`], and only what asks for these wavelengths is refused, with the line.
 
 use super::checks::Checks;

@@ -2,9 +2,9 @@
 
 use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
-use crate::derived::coats::RoughCoat;
 use crate::description::Index;
 use crate::limits::{CLEAR_COAT_K, Shown};
+use crate::prepared::coats::RoughCoat;
 use crate::problem::{Problem, ProblemKind};
 use crate::{CoatEstimate, CoatedBody, FieldPath, Material, Microsurface, Pattern, SpectrumId};
 
@@ -17,7 +17,7 @@ pub(super) fn check(
     base: Option<Pattern>,
 ) -> Option<Material> {
     let Some(base) = base else {
-        return Some(Material::Conductor {
+        return Some(Material::Interface {
             n,
             k,
             layers: Vec::new(),
@@ -31,7 +31,7 @@ pub(super) fn check(
         return None;
     }
     let (n, k) = spectra.without_absorption(n);
-    let (reflectances, passage, mean_reflectance) = match &microsurface {
+    let (reflectances, transmittance_scale, mean_reflectance) = match &microsurface {
         None => {
             let mean =
                 |[n, k]: [f64; 2]| optics::hemispherical_reflectance(optics::Complex64::new(n, k));
@@ -40,7 +40,11 @@ pub(super) fn check(
         Some(microsurface) => {
             let coat = RoughCoat::new(microsurface, spectra.table(n), spectra.mean(n));
             let first = spectra.run(coat.reflectances);
-            (Some(first), coat.passage, spectra.run([coat.mean]))
+            (
+                Some(first),
+                coat.transmittance_scale,
+                spectra.run([coat.mean]),
+            )
         }
     };
     let base_estimate = match base {
@@ -54,7 +58,7 @@ pub(super) fn check(
         microsurface,
         mean_reflectance,
         reflectances,
-        passage,
+        transmittance_scale,
         estimate: CoatEstimate {
             n: spectra.mean(n),
             base: base_estimate,

@@ -1,4 +1,4 @@
-//! The surroundings: from `[environment]` to emissions.
+//! The environment: from `[environment]` to emissions.
 
 use super::checks::Checks;
 use super::environment_picture::{self, Sphere};
@@ -6,9 +6,9 @@ use super::light::Named;
 use super::sky::Sky;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
-use crate::derived::Sent;
 use crate::description::{Description, Emission, EmissionSpectrum, Extrapolate, Strength};
 use crate::limits::Shown;
+use crate::prepared::Sampled;
 use crate::problem::{Problem, ProblemKind};
 use crate::{DirectLight, Environment, FieldPath, Light, PictureSpectra, description, limits};
 use std::path::Path;
@@ -22,13 +22,13 @@ pub(crate) fn check<'a>(
 ) -> Option<(Environment, Option<Named<'a>>)> {
     let environment = description.environment.as_ref();
     let sent = match description.render.direct_light {
-        DirectLight::Lights => Sent::All,
-        DirectLight::Both | DirectLight::Surfaces => Sent::Excess,
+        DirectLight::Emitters => Sampled::All,
+        DirectLight::Both | DirectLight::Bsdf => Sampled::Excess,
     };
     let top = FieldPath::root().key("environment");
     let radiator = match environment {
-        Some(description::Environment::Gradient { .. }) => Radiator::PartOfSurroundings,
-        _ => Radiator::Surroundings,
+        Some(description::Environment::Gradient { .. }) => Radiator::PartOfEnvironment,
+        _ => Radiator::Environment,
     };
     let mut emission =
         |name: &str, emission| spectra.emission(checks, &top.key(name), emission, radiator);
@@ -109,12 +109,12 @@ fn check_sky(
     checks: &mut Checks,
     spectra: &mut SpectrumList,
     sky: &Sky<'_>,
-    (scale, has_sun, sent): (f64, bool, Sent),
+    (scale, has_sun, sent): (f64, bool, Sampled),
 ) -> Option<(Environment, Option<Light>)> {
     let top = FieldPath::root().key("environment");
     let checked = sky.check(checks, spectra);
     let factor = times(EmissionSpectrum::Constant { constant: 1.0 }, scale);
-    let emission = spectra.emission(checks, &top, &factor, Radiator::Surroundings)?;
+    let emission = spectra.emission(checks, &top, &factor, Radiator::Environment)?;
     let checked = checked?;
     let picture = Arc::new(checked.sphere.turned(-sky.sun_azimuth_deg, sent));
     let sky = Environment::Picture { emission, picture };
@@ -122,7 +122,7 @@ fn check_sky(
         return Some((sky, None));
     }
     let sunlight = ("sun".to_owned(), Some(checked.sunlight));
-    let strength = (&factor.strength, Radiator::Surroundings);
+    let strength = (&factor.strength, Radiator::Environment);
     let sun = Light {
         shape: checked.disk,
         emission: spectra.emission_of(checks, &top, sunlight, strength)?,
@@ -155,7 +155,7 @@ impl Image<'_> {
         &self,
         checks: &mut Checks,
         spectra: &mut SpectrumList,
-        sent: Sent,
+        sent: Sampled,
     ) -> Option<Environment> {
         let top = FieldPath::root().key("environment");
         let turn = checks.number(
@@ -177,7 +177,7 @@ impl Image<'_> {
             }
         };
         let factor = times(lamp, self.scale);
-        let emission = spectra.emission(checks, &top, &factor, Radiator::Surroundings);
+        let emission = spectra.emission(checks, &top, &factor, Radiator::Environment);
         let (sphere, emission) = (sphere?, emission?);
         self.check_brightest(
             checks,

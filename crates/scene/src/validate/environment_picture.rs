@@ -1,9 +1,9 @@
-//! Pictures of the surroundings: from files to texels and a table of directions.
+//! Pictures of the environment: from files to texels and a table of directions.
 
 use super::checks::Checks;
 use super::picture_file::{LightFile, PictureFileError, read_light};
-use crate::derived::{DirectionTable, Sent};
 use crate::limits::{self, Shown};
+use crate::prepared::{DirectionTable, Sampled};
 use crate::problem::{Problem, ProblemKind};
 use crate::{EnvironmentPicture, FieldPath, PictureSpectra, Texels};
 use colorimetry::lifting::{Lifting, SigmoidReflectance};
@@ -23,16 +23,16 @@ pub(super) struct Sphere {
 
 impl Sphere {
     /// The picture with its middle turned from −Z by an angle.
-    pub(super) fn turned(self, rotation_deg: f64, sent: Sent) -> EnvironmentPicture {
+    pub(super) fn turned(self, rotation_deg: f64, sent: Sampled) -> EnvironmentPicture {
         let (sine, cosine) = rotation_deg.to_radians().sin_cos();
         let size = [self.texels.width, self.texels.height];
-        let (table, sent_mean) = DirectionTable::new(size, &self.brightness, sent);
+        let (table, sampled_mean) = DirectionTable::new(size, &self.brightness, sent);
         EnvironmentPicture {
             texels: self.texels,
             spectra: self.spectra,
             forward: DVec3::new(-sine, 0.0, -cosine),
             right: DVec3::new(cosine, 0.0, -sine),
-            sent_mean,
+            sampled_mean,
             table,
         }
     }

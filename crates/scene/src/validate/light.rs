@@ -32,7 +32,7 @@ pub(crate) fn check_all<'a>(
 
 /// Lights that no ray meets are found by sending to them alone.
 pub(crate) fn check_way(checks: &mut Checks, description: &Description) {
-    if description.render.direct_light != DirectLight::Surfaces {
+    if description.render.direct_light != DirectLight::Bsdf {
         return;
     }
     for (index, light) in description.lights.iter().enumerate() {
@@ -45,13 +45,13 @@ pub(crate) fn check_way(checks: &mut Checks, description: &Description) {
             description::Light::Distant { .. } => continue,
         };
         let message = format!(
-            "{what} is met by no scattered ray, and render.direct_light = \"surfaces\" looks for light by these alone: it would be dark"
+            "{what} is met by no scattered ray, and render.direct_light = \"bsdf\" looks for light by these alone: it would be dark"
         );
         let field = FieldPath::root().key("lights").index(index);
         let way = FieldPath::root().key("render").key("direct_light");
         let problem = Problem::new(ProblemKind::Inconsistent, &field, message).involving(way);
         checks.report(
-            problem.help("leave `render.direct_light` out, or write \"both\" or \"lights\""),
+            problem.help("leave `render.direct_light` out, or write \"both\" or \"emitters\""),
         );
     }
 }

@@ -154,7 +154,7 @@ fn report_too_many(checks: &mut Checks) {
     checks.report(Problem::new(ProblemKind::TooLarge, &field, message).help(help));
 }
 
-/// The emissions of objects and surroundings, each with the name of a light group where one is written.
+/// The emissions of objects and environment, each with the name of a light group where one is written.
 fn lights<'a>(
     description: &'a Description,
     parts: &'a mut Unlit<'_>,

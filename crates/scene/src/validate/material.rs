@@ -76,7 +76,7 @@ fn check(
             let layers = written.check(checks, spectra, field);
             let microsurface = finish.check(checks, field);
             let (n, k) = substrate?;
-            Some(Material::Conductor {
+            Some(Material::Interface {
                 n,
                 k,
                 layers: layers?,
@@ -130,7 +130,7 @@ fn conductor(
     }
     let microsurface = finish.check(checks, field);
     let (n, k) = index?;
-    Some(Material::Conductor {
+    Some(Material::Interface {
         n,
         k,
         layers: Vec::new(),

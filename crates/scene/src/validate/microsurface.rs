@@ -8,7 +8,7 @@ use crate::{FieldPath, Grain, Microsurface};
 
 /// A problem has been told.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Told;
+pub(super) struct Reported;
 
 impl Finish {
     /// The facets of the surface; none where it is smooth.
@@ -16,7 +16,7 @@ impl Finish {
         self,
         checks: &mut Checks,
         field: &FieldPath,
-    ) -> Result<Option<Microsurface>, Told> {
+    ) -> Result<Option<Microsurface>, Reported> {
         let brushed = self.check_brushed(checks, &field.key("brushed"));
         let roughness = self.check_roughness(checks, &field.key("roughness"))?;
         let Some(roughness) = roughness else {
@@ -37,7 +37,7 @@ impl Finish {
         self,
         checks: &mut Checks,
         field: &FieldPath,
-    ) -> Result<Option<[f64; 2]>, Told> {
+    ) -> Result<Option<[f64; 2]>, Reported> {
         match self.roughness {
             Roughness::Even(0.0) => Ok(None),
             Roughness::Even(even) => {
@@ -53,7 +53,11 @@ impl Finish {
     }
 
     /// None where nothing is said.
-    fn check_brushed(self, checks: &mut Checks, field: &FieldPath) -> Result<Option<Grain>, Told> {
+    fn check_brushed(
+        self,
+        checks: &mut Checks,
+        field: &FieldPath,
+    ) -> Result<Option<Grain>, Reported> {
         let grain = match self.brushed {
             None => return Ok(None),
             Some(Brushed::Along { along }) => {
@@ -65,7 +69,7 @@ impl Finish {
                 axis.map(Grain::Around)
             }
         };
-        grain.map(Some).ok_or(Told)
+        grain.map(Some).ok_or(Reported)
     }
 
     /// Two numbers and a direction belong together.
@@ -74,7 +78,7 @@ impl Finish {
         checks: &mut Checks,
         field: &FieldPath,
         brushed: Option<Grain>,
-    ) -> Result<Grain, Told> {
+    ) -> Result<Grain, Reported> {
         let is_even = matches!(self.roughness, Roughness::Even(_));
         let (place, other, message, help) = match brushed {
             None if is_even => return Ok(Grain::None),
@@ -94,11 +98,11 @@ impl Finish {
         };
         let problem = Problem::new(ProblemKind::Inconsistent, &field.key(place), message);
         checks.report(problem.help(help).involving(field.key(other)));
-        Err(Told)
+        Err(Reported)
     }
 
     /// A smooth surface has neither a distribution nor a grain.
-    fn nothing_is_lost(self, checks: &mut Checks, field: &FieldPath) -> Result<(), Told> {
+    fn nothing_is_lost(self, checks: &mut Checks, field: &FieldPath) -> Result<(), Reported> {
         let given = [
             ("distribution", self.distribution.is_some()),
             ("brushed", self.brushed.is_some()),
@@ -108,7 +112,7 @@ impl Finish {
             let message = format!("`{name}` is for a rough surface; this one has no roughness");
             let problem = Problem::new(ProblemKind::Inconsistent, &field.key(name), message);
             checks.report(problem.help("add a roughness from 0.02 to 1, or leave it out"));
-            result = Err(Told);
+            result = Err(Reported);
         }
         result
     }
@@ -120,11 +124,11 @@ fn check_number(
     field: &FieldPath,
     number: f64,
     or: &str,
-) -> Result<f64, Told> {
+) -> Result<f64, Reported> {
     if limits::ROUGHNESS.contains(number) {
         return Ok(number);
     }
     let message = format!("found {number}; it must be {or}from {}", limits::ROUGHNESS);
     checks.report(Problem::new(ProblemKind::OutOfRange, field, message));
-    Err(Told)
+    Err(Reported)
 }

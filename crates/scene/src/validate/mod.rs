@@ -30,7 +30,7 @@ mod thickness;
 use crate::description::{Description, Index};
 use crate::limits::{MAX_LIGHTS, MAX_MATERIALS, MAX_OBJECTS};
 use crate::problem::{Problem, ProblemKind};
-use crate::{FieldPath, Folder, Hierarchy, LightTree, Scene, derived};
+use crate::{EmitterTree, FieldPath, Folder, Hierarchy, Scene, prepared};
 use checks::Checks;
 use spectra::OpticalConstants;
 use spectrum_list::SpectrumList;
@@ -46,11 +46,11 @@ pub(crate) fn scene(description: &Description, folder: &Folder) -> Result<Scene,
     let objects = object::check_all(&mut checks, &description.materials, &description.objects);
     let lights = light::check_all(&mut checks, &mut spectra, &description.lights);
     light::check_way(&mut checks, description);
-    let surroundings = environment::check(&mut checks, &mut spectra, description);
+    let environment = environment::check(&mut checks, &mut spectra, description);
     let observer = spectra.observer(&mut checks);
     light_groups::check_names(&mut checks, description);
     let lit = (|| {
-        let (environment, sun) = surroundings?;
+        let (environment, sun) = environment?;
         let parts = light_groups::Unlit {
             materials: materials?,
             objects: objects?,
@@ -76,7 +76,7 @@ pub(crate) fn scene(description: &Description, folder: &Folder) -> Result<Scene,
             light_groups: lit.light_groups,
             materials: lit.parts.materials,
             hierarchy: Hierarchy::new(&lit.parts.objects),
-            sheets: derived::sheets(&lit.parts.objects),
+            sheets: prepared::sheets(&lit.parts.objects),
             objects: lit.parts.objects,
             lights: lit
                 .parts
@@ -86,14 +86,14 @@ pub(crate) fn scene(description: &Description, folder: &Folder) -> Result<Scene,
                 .collect(),
             environment: lit.parts.environment,
             estimates: Vec::new(),
-            light_tree: LightTree::default(),
+            emitter_tree: EmitterTree::default(),
             assumptions: Vec::new(),
         })
     };
     match assemble() {
         Some(mut scene) if checks.problems.is_empty() => {
-            scene.estimates = derived::estimates(&scene);
-            scene.light_tree = LightTree::new(&scene);
+            scene.estimates = prepared::estimates(&scene);
+            scene.emitter_tree = EmitterTree::new(&scene);
             scene.assumptions = checks.notes;
             Ok(scene)
         }

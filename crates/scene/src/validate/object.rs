@@ -86,7 +86,7 @@ fn only_on_spheres(material: &Material) -> Option<OnlyOnSpheres> {
     })
 }
 
-/// Told of the object: other objects may have the same material.
+/// Reported of the object: other objects may have the same material.
 fn check_is_sphere(
     checks: &mut Checks,
     field: &FieldPath,
@@ -119,7 +119,7 @@ fn grain(material: &Material) -> Option<Brushed> {
     }
 }
 
-/// Told of the object: on a flat one the grain must not point out of the surface everywhere.
+/// Reported of the object: on a flat one the grain must not point out of the surface everywhere.
 fn check_grain(
     checks: &mut Checks,
     (field, shape): (&FieldPath, &Shape),

@@ -13,10 +13,10 @@ use std::f64::consts::PI;
 pub(crate) enum Radiator {
     /// The material of objects. Its factor by power is that of an object of which πA = 1.
     Emitter,
-    /// Surroundings of the same radiance from everywhere.
-    Surroundings,
-    /// A part of surroundings that are brighter in some directions.
-    PartOfSurroundings,
+    /// Environment of the same radiance from everywhere.
+    Environment,
+    /// A part of environment that are brighter in some directions.
+    PartOfEnvironment,
     /// Light from everywhere that nothing hides.
     Ambient,
     /// A distant light: ∫ cos dω over it; 0 where it comes from a single direction.
@@ -85,12 +85,12 @@ impl Radiator {
             (Self::Distant(solid), "radiance" | "luminance_cd_m2") => (solid > 0.0).then_some(1.0),
             (_, "scale")
             | (
-                Self::Emitter | Self::Surroundings | Self::PartOfSurroundings | Self::Ambient,
+                Self::Emitter | Self::Environment | Self::PartOfEnvironment | Self::Ambient,
                 "radiance" | "luminance_cd_m2",
             )
             | (Self::Emitter, "power_w" | "power_lm")
             | (Self::Point(_), "intensity_w_sr" | "intensity_cd") => Some(1.0),
-            (Self::Surroundings | Self::Ambient, "irradiance_w_m2" | "illuminance_lux") => {
+            (Self::Environment | Self::Ambient, "irradiance_w_m2" | "illuminance_lux") => {
                 Some(1.0 / PI)
             }
             (Self::Point(solid), "power_w" | "power_lm") => Some(1.0 / solid),
@@ -101,8 +101,8 @@ impl Radiator {
     fn noun(self) -> &'static str {
         match self {
             Self::Emitter => "an emitter",
-            Self::Surroundings => "light from constant surroundings",
-            Self::PartOfSurroundings => "a part of a gradient",
+            Self::Environment => "a constant environment",
+            Self::PartOfEnvironment => "a part of a gradient",
             Self::Ambient => "ambient light",
             Self::Distant(0.0) => "a distant light without a diameter",
             Self::Distant(_) => "a distant light",
@@ -180,7 +180,7 @@ pub(crate) fn check(
     })
 }
 
-/// Told of the whole emission: none of its units is more wrong than the others.
+/// Reported of the whole emission: none of its units is more wrong than the others.
 fn report_several(
     checks: &mut Checks,
     field: &FieldPath,

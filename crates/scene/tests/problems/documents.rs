@@ -4,7 +4,7 @@ use crate::{assert_problems, problems_of, with_camera, with_material};
 use pellicle_scene::Problems;
 
 #[test]
-fn all_mistakes_of_a_file_are_told_at_once_in_its_order() {
+fn all_mistakes_of_a_file_are_reported_at_once_in_its_order() {
     let text = "\
 [camera]
 type = 'perspective'
@@ -111,7 +111,7 @@ type = 'constant'
 }
 
 #[test]
-fn missing_fields_are_told_at_their_table() {
+fn missing_fields_are_reported_at_their_table() {
     assert_problems(
         "[camera]\ntype = 'orthographic'\nposition = [0, 0, 5]\n[[objects]]\nmaterial = 'x'\n",
         &[
@@ -214,7 +214,7 @@ fn words_of_other_programs_are_advised_on() {
 }
 
 #[test]
-fn a_value_that_fits_no_form_is_told_all_of_them() {
+fn a_value_that_fits_no_form_is_reported_all_of_them() {
     assert_problems(
         &with_material("type = 'diffuse'\nreflectance = true"),
         &[(

@@ -15,7 +15,7 @@ fn assert_material_problems(cases: &[(String, &str, &str, &[&str])]) {
 }
 
 #[test]
-fn films_out_of_range_are_told() {
+fn films_out_of_range_are_reported() {
     let film = |rest: &str| format!("type = 'film'\nindex = 1.33\nthickness_nm = {rest}");
     let cases: &[(String, &str, &str, &[&str])] = &[
         (film("nan"), "9:16", "thickness_nm", &["found nan"]),
@@ -52,7 +52,7 @@ fn films_out_of_range_are_told() {
 }
 
 #[test]
-fn roughness_out_of_range_is_told() {
+fn roughness_out_of_range_is_reported() {
     let metal = |rest: &str| format!("type = 'conductor'\n{rest}");
     let cases: &[(String, &str, &str, &[&str])] = &[
         (
@@ -102,7 +102,7 @@ fn roughness_out_of_range_is_told() {
 }
 
 #[test]
-fn other_materials_out_of_range_are_told() {
+fn other_materials_out_of_range_are_reported() {
     let metal = |rest: &str| format!("type = 'conductor'\n{rest}");
     let cases: &[(String, &str, &str, &[&str])] = &[
         (
@@ -181,7 +181,7 @@ fn other_materials_out_of_range_are_told() {
 
 /// Flat objects on which a grain has no direction.
 #[test]
-fn a_grain_along_the_normal_is_told_of_the_object() {
+fn a_grain_along_the_normal_is_reported_of_the_object() {
     let scene = |brushed: &str, object: &str| {
         with_camera(&format!(
             "[materials.x]\ntype = 'conductor'\nindex = 'gold'\nroughness = [0.1, 0.2]\nbrushed = {{ {brushed} }}\n\

@@ -5,7 +5,7 @@ use pellicle_scene::SceneFile;
 use std::path::Path;
 
 #[test]
-fn numbers_out_of_range_are_told_with_the_range() {
+fn numbers_out_of_range_are_reported_with_the_range() {
     let cases: &[(&str, &str, &[&str])] = &[
         ("samples = 0", "samples", &["found 0", "1 to 16777216"]),
         ("samples = 16777217", "samples", &["found 16777217"]),
@@ -52,7 +52,12 @@ fn numbers_out_of_range_are_told_with_the_range() {
         (
             "sampling = 'centre'",
             "sampling",
-            &["\"centre\"", "did you mean \"center\"?"],
+            &["\"centre\"", "it is called \"center\" now"],
+        ),
+        (
+            "direct_light = 'surfaces'",
+            "direct_light",
+            &["\"surfaces\"", "it is called \"bsdf\" now"],
         ),
     ];
     for (line, field, phrases) in cases {
@@ -69,7 +74,7 @@ fn numbers_out_of_range_are_told_with_the_range() {
 }
 
 #[test]
-fn an_image_that_no_memory_holds_is_told_with_its_size() {
+fn an_image_that_no_memory_holds_is_reported_with_its_size() {
     assert_problems(
         &with_camera("[render]\nsize = [32768, 32768]\nbands = 1024\n"),
         &[(
@@ -184,7 +189,7 @@ fn a_named_spectrum_outside_its_table_says_how_to_go_on() {
 }
 
 #[test]
-fn directions_that_span_no_plane_are_told() {
+fn directions_that_span_no_plane_are_reported() {
     assert_problems(
         "[camera]\ntype = 'perspective'\nposition = [0, 3, 0]\nlook_at = [0, 0, 0]\nfov_deg = 180\n",
         &[

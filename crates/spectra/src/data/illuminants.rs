@@ -291,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn lamps_with_lines_are_told_by_either_name() {
+    fn lamps_with_lines_are_reported_by_either_name() {
         assert_eq!(illuminant("F11"), illuminant("FL11"));
         assert!(is_line_lamp("F11") && is_line_lamp("FL1") && is_line_lamp("HP5"));
         assert!(!is_line_lamp("F13") && !is_line_lamp("LED-B3") && !is_line_lamp("D65"));

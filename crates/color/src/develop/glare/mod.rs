@@ -1,4 +1,4 @@
-//! Glare: what bright light does to its surroundings in the eye that sees it.
+//! Glare: what bright light does to its environment in the eye that sees it.
 //!
 //! A display is never as bright as a lamp, and scatters less light in the eye than the lamp would. What the lamp would have
 //! scattered is put into the picture.
@@ -14,7 +14,7 @@ use super::{DevelopError, DevelopSettings, Latent, LinearImage};
 pub use eye::{EyeGlare, Vision, point_spread};
 pub use star::StarGlare;
 
-/// What bright light does to its surroundings.
+/// What bright light does to its environment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Glare {
     /// Nothing.

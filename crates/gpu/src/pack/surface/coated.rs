@@ -15,7 +15,8 @@ pub(super) fn pack(tables: &mut Tables, body: &CoatedBody) -> PackedSurface {
     match &body.microsurface {
         None => features.extend(["HAS_COATED_BODIES", "HAS_SPECULAR"]),
         Some(microsurface) => {
-            let (row, needed) = facets::pack(tables, microsurface, body.passage.as_ref());
+            let (row, needed) =
+                facets::pack(tables, microsurface, body.transmittance_scale.as_ref());
             facets_row = row;
             features.extend(needed);
             features.push("HAS_ROUGH_COATS");

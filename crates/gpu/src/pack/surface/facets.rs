@@ -9,11 +9,11 @@ use scene::{Distribution, FacetTable, Grain, Microsurface};
 /// Passes of drawing a facet: two slopes.
 pub(super) const SHADING: u64 = 2 * (1 + 4);
 
-/// The row of facets, and the features that they need; `passage` is the table of what a brushed coat lets through.
+/// The row of facets, and the features that they need; `transmittance_scale` is the table of what a brushed coat lets through.
 pub(super) fn pack(
     tables: &mut Tables,
     microsurface: &Microsurface,
-    passage: Option<&FacetTable>,
+    transmittance_scale: Option<&FacetTable>,
 ) -> (u32, Vec<&'static str>) {
     let (grain_kind, grain) = match microsurface.grain {
         Grain::None => (layout::GRAIN_NONE, DVec3::ZERO),
@@ -35,7 +35,8 @@ pub(super) fn pack(
         distribution,
         first_energy: tables.look_up(microsurface.energy.table().values()),
         mean_energy: microsurface.energy.mean() as f32,
-        first_passage: passage.map_or(0, |table| tables.look_up(table.values())),
+        first_transmittance_scale: transmittance_scale
+            .map_or(0, |table| tables.look_up(table.values())),
         ..Default::default()
     };
     (tables.push(&facets), features)

@@ -9,7 +9,7 @@ mod film;
 mod interface;
 
 use super::tables::Tables;
-use super::{id, light};
+use super::{emission_ref, id};
 use crate::layout;
 use scene::{Estimate, Material, Pattern, Scene};
 
@@ -62,7 +62,7 @@ pub(super) fn pack(
             Some(spectrum) => diffuse::pack(tables, &Pattern::Uniform(spectrum)),
             None => black(),
         },
-        Material::Conductor {
+        Material::Interface {
             n,
             layers,
             microsurface,
@@ -92,8 +92,8 @@ pub(super) fn pack(
         record: packed.record,
         facets: packed.facets,
         albedo: estimate.albedo as f32,
-        light: emission.map_or(0, light),
-        light_scale: emission.map_or(0.0, |emission| emission.scale as f32),
+        emission: emission.map_or(0, emission_ref),
+        emission_scale: emission.map_or(0.0, |emission| emission.scale as f32),
         ..Default::default()
     };
     tables.set_material(number, &head);

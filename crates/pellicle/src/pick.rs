@@ -12,25 +12,25 @@ pub use lamps::{SceneLamp, SceneLamps};
 
 /// What is seen at a place of a picture.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Seen {
-    /// The surroundings.
-    Surroundings,
+pub enum Picked {
+    /// The environment.
+    Environment,
     /// An object without layers, of this material.
     Bare(String),
     /// A film or a coated surface.
-    Film(Box<SeenFilm>),
+    Film(Box<PickedFilm>),
 }
 
 /// A film or a coated surface at a place of a picture.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SeenFilm {
+pub struct PickedFilm {
     /// The name of its material in the scene.
     pub material: String,
     /// Its layers, as thick as they are there, in the order in which the light meets them.
     pub stack: Stack,
     /// The angle at which it is seen.
     pub angle: Angle,
-    /// The light of the surroundings that it mirrors; none where an object stands there, or all is dark.
+    /// The light of the environment that it mirrors; none where an object stands there, or all is dark.
     pub mirrored: Option<SceneLamp>,
 }
 
@@ -39,15 +39,15 @@ pub struct SeenFilm {
 ///
 /// # Errors
 /// What is wrong with the layers as a stack.
-pub fn seen(
+pub fn pick(
     description: &Description,
     scene: &Scene,
     directory: &Path,
     [x, y]: [f64; 2],
-) -> Result<Seen, Vec<Problem>> {
+) -> Result<Picked, Vec<Problem>> {
     let ray = camera_ray(scene, [x as u32, y as u32], [x.fract(), y.fract()]);
     let Some(hit) = nearest_hit(scene, &ray, None) else {
-        return Ok(Seen::Surroundings);
+        return Ok(Picked::Environment);
     };
     let object = &scene.objects()[hit.object];
     let name = description.objects[hit.object].material();
@@ -62,7 +62,7 @@ pub fn seen(
             layers,
             ..
         }) => (substrate.clone(), media(index.as_ref(), layers.as_deref())),
-        _ => return Ok(Seen::Bare(name.to_owned())),
+        _ => return Ok(Picked::Bare(name.to_owned())),
     };
     let point = surface_point(&object.shape, &ray, hit.distance);
     let thicknesses = scene.material(object.material).thicknesses();
@@ -88,13 +88,13 @@ pub fn seen(
     };
     let is_open = nearest_hit(scene, &mirrored, Some(hit.object)).is_none();
     let deg = point.cosine.min(1.0).acos().to_degrees();
-    Ok(Seen::Film(Box::new(SeenFilm {
+    Ok(Picked::Film(Box::new(PickedFilm {
         material: name.to_owned(),
         stack: stack.check(directory)?,
         // A ray that grazes exactly meets nothing.
         angle: Angle::from_degrees(deg).unwrap_or(Angle::NORMAL),
         mirrored: is_open
-            .then(|| lamps::of_surroundings(scene, mirrored.direction))
+            .then(|| lamps::of_environment(scene, mirrored.direction))
             .flatten(),
     })))
 }
@@ -146,32 +146,32 @@ mod tests {
         emission = { illuminant = "D65" }
     "#;
 
-    fn at(place: [f64; 2]) -> Seen {
+    fn at(place: [f64; 2]) -> Picked {
         let file = SceneFile::parse("bubble.toml", BUBBLE, Path::new(".")).unwrap();
         let scene = file.validate().unwrap();
-        seen(&file.description, &scene, Path::new("."), place).unwrap()
+        pick(&file.description, &scene, Path::new("."), place).unwrap()
     }
 
     #[test]
     fn the_film_is_as_thick_and_as_oblique_as_geometry_says() {
         // The middle of the bubble: the equator, met at a right angle.
-        let Seen::Film(film) = at([50.5, 50.5]) else {
+        let Picked::Film(film) = at([50.5, 50.5]) else {
             panic!("a film");
         };
         assert_eq!(film.material, "soap");
         assert!((film.stack.thicknesses_nm()[0] - 1200.0).abs() < 1e-9);
         assert!(film.angle.degrees() < 1e-5);
         // Half a pixel further up the film is thinner, and seen obliquely.
-        let Seen::Film(up) = at([50.5, 40.5]) else {
+        let Picked::Film(up) = at([50.5, 40.5]) else {
             panic!("a film");
         };
         assert!(up.stack.thicknesses_nm()[0] < 1150.0 && up.angle.degrees() > 5.0);
-        assert_eq!(at([0.5, 100.5]), Seen::Surroundings);
-        assert_eq!(at([91.5, 9.5]), Seen::Bare("lamp".to_owned()));
+        assert_eq!(at([0.5, 100.5]), Picked::Environment);
+        assert_eq!(at([91.5, 9.5]), Picked::Bare("lamp".to_owned()));
     }
 
     /// Silver under 60 nm of n = 2.4 and 180 nm of n = 1.4, or the same layers free, seen at a right angle from a side.
-    fn plate(material: &str, side: f64) -> (Scene, Seen) {
+    fn plate(material: &str, side: f64) -> (Scene, Picked) {
         let text = format!(
             r#"
             environment = {{ type = "constant", emission = {{ constant = 1 }} }}
@@ -198,13 +198,13 @@ mod tests {
         );
         let file = SceneFile::parse("plate.toml", &text, Path::new(".")).unwrap();
         let scene = file.validate().unwrap();
-        let seen = seen(&file.description, &scene, Path::new("."), [0.5, 0.5]).unwrap();
-        (scene, seen)
+        let picked = pick(&file.description, &scene, Path::new("."), [0.5, 0.5]).unwrap();
+        (scene, picked)
     }
 
-    fn order(seen: &Seen) -> &[f64] {
-        match seen {
-            Seen::Film(film) => film.stack.thicknesses_nm(),
+    fn order(picked: &Picked) -> &[f64] {
+        match picked {
+            Picked::Film(film) => film.stack.thicknesses_nm(),
             other => panic!("{other:?}"),
         }
     }
@@ -216,13 +216,13 @@ mod tests {
         assert_eq!(order(&film(-5.0)), [180.0, 60.0]);
     }
 
-    /// In surroundings of radiance 1 a mirror's radiance is its reflectance, which the reference renders.
+    /// In environment of radiance 1 a mirror's radiance is its reflectance, which the reference renders.
     #[test]
     fn a_coated_plate_is_the_same_from_both_sides() {
         for side in [5.0, -5.0] {
-            let (scene, seen) = plate("type = 'coated'\nsubstrate = 'silver'", side);
-            assert_eq!(order(&seen), [60.0, 180.0], "from {side}");
-            let Seen::Film(film) = &seen else {
+            let (scene, picked) = plate("type = 'coated'\nsubstrate = 'silver'", side);
+            assert_eq!(order(&picked), [60.0, 180.0], "from {side}");
+            let Picked::Film(film) = &picked else {
                 panic!("a coating");
             };
             let bands = &scene.settings().bands;

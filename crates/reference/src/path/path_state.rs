@@ -54,11 +54,11 @@ impl PathState {
         let mirrored = direction - 2.0 * direction.dot(point.normal) * point.normal;
         self.ray.direction = mirrored.normalize();
         self.scattered = None;
-        self.pass(object, point);
+        self.pass_through(object, point);
     }
 
     /// Straight on through a film: what was known of the last scattering still holds.
-    pub(super) fn pass(&mut self, object: usize, point: &SurfacePoint) {
+    pub(super) fn pass_through(&mut self, object: usize, point: &SurfacePoint) {
         self.ray.origin = point.position;
         self.from_object = Some(object);
     }

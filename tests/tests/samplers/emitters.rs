@@ -1,4 +1,4 @@
-//! Lights and surroundings.
+//! Lights and environment.
 
 use crate::chi_square::{Experiment, direction, turns};
 use glam::DVec3;
@@ -151,9 +151,9 @@ fn disks_are_drawn_by_shape_pdf() {
     }
 }
 
-/// Parts of the surroundings and disks in the sky: by the height about an axis and the azimuth.
+/// Parts of the environment and disks in the sky: by the height about an axis and the azimuth.
 #[test]
-fn surroundings_are_drawn_by_environment_pdf() {
+fn environment_are_drawn_by_environment_pdf() {
     let toward = DVec3::new(0.3, 0.8, -0.4).normalize();
     let disk = |height| EnvironmentShape::DistantDisk { toward, height };
     for (seed, part, axis, least) in [

@@ -71,7 +71,7 @@ fn of_material(scene: &Scene, material: &Material) -> Estimate {
         // What a coat or Cook's model sends back depends on more than an estimate is worth.
         Material::CoatedBody(_) | Material::Cook(_) => albedo(1.0),
         Material::Emitter { reflectance, .. } => albedo(reflectance.map_or(0.0, brightest)),
-        &Material::Conductor {
+        &Material::Interface {
             n, k, ref layers, ..
         } => albedo(largest(scene, |band| {
             let reflectance = |cosine| {

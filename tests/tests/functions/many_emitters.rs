@@ -1,10 +1,10 @@
-//! The tree of emitters of light_choice.wgsl: the choice among many.
+//! The tree of emitters of emitter_choice.wgsl: the choice among many.
 
 use crate::Check;
 use crate::world::{World, rounded, rows, unit, vector};
 use glam::DVec3;
 use gpu::PackedScene;
-use pellicle_tests::tolerances::LIGHT_TREE;
+use pellicle_tests::tolerances::EMITTER_TREE;
 use reference::PreparedScene;
 use scene::SceneFile;
 use std::fmt::Write as _;
@@ -75,19 +75,19 @@ pub(crate) fn checks() -> Vec<Check> {
     vec![Check {
         probe: world().probe((7, 3),
             "let c = choose_emitter(a3(1u), a3(4u), a(0u));
-             put(0u, f32(c.emitter)); put(1u, c.pmf); put(2u, emitter_pmf(c.emitter, a3(1u), a3(4u), c.total));",
+             put(0u, f32(c.emitter)); put(1u, c.pmf); put(2u, emitter_pmf(c.emitter, a3(1u), a3(4u), c.weight_sum));",
         ),
         proves: &[
             "choose_in_tree",
-            "group_estimate",
+            "group_weight",
             "is_near",
             "is_outside_cone",
-            "load_lightnode",
+            "load_emitternode",
             "mean_above",
-            "node_estimate",
+            "node_weight",
             "rest_of",
             "tree_pmf",
-            "tree_total",
+            "weigh_tree",
             "trees_row",
         ],
         inputs: rows(6, |u| {
@@ -98,14 +98,14 @@ pub(crate) fn checks() -> Vec<Check> {
             is_clear(&row).then_some(row)
         }),
         twin: |a| choice(a).map_or(vec![-1.0; 3], |(emitter, pmf)| vec![emitter as f64, pmf, pmf]),
-        tolerance: LIGHT_TREE,
+        tolerance: EMITTER_TREE,
     }]
 }
 
 /// The tree is deep, most rows are clear, and many emitters are chosen.
 #[test]
 fn the_choice_among_many_is_looked_at() {
-    let nodes = world().scene.light_tree().nodes.len();
+    let nodes = world().scene.emitter_tree().nodes.len();
     assert!(nodes > 200, "{nodes}");
     let check = &checks()[0];
     let rows = check

@@ -3,7 +3,7 @@
 use super::{At, BandValue, Bands, Spectrum, Tables, Through};
 use crate::bsdf::{Bsdf, Lobes};
 use crate::layers::{FilmAt, Nanometers};
-use crate::picture::smooth_value;
+use crate::lifting::smooth_value;
 use crate::transport::{Emitted, Side, Transport};
 use optics::wide::{Lanes, Real};
 use pulp::{Arch, Simd, WithSimd};

@@ -1,9 +1,9 @@
 //! The lamps of a scene, as a fit of a film needs them.
 
-use super::SeenFilm;
+use super::PickedFilm;
 use coating::FilmFitting;
 use reference::{
-    environment_pdf, environment_pixel, environment_share, sample_environment, smooth_value,
+    environment_pdf, environment_pixel, environment_strength, sample_environment, smooth_value,
 };
 use scene::description::{self, Description};
 use scene::{
@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 /// A spectrum that the scene's lights burn with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneLamp {
-    /// What shines so: the name of a material, the place of a light, or the surroundings.
+    /// What shines so: the name of a material, the place of a light, or the environment.
     pub name: String,
     /// Relative power at each of [`FilmFitting::wavelengths_nm`] of the scene's bands.
     pub power: Vec<f64>,
@@ -25,13 +25,13 @@ pub struct SceneLamp {
 /// The different spectra that the scene's lights burn with.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneLamps {
-    /// Those of the surroundings: of each part of a gradient, and of a picture or a sky their mean over all directions.
-    pub surroundings: Vec<SceneLamp>,
+    /// Those of the environment: of each part of a gradient, and of a picture or a sky their mean over all directions.
+    pub environment: Vec<SceneLamp>,
     /// Those of lights, the sun of a sky among them, and of objects.
     pub lights: Vec<SceneLamp>,
 }
 
-const SURROUNDINGS: &str = "the surroundings";
+const SURROUNDINGS: &str = "the environment";
 /// Directions over which the mean of a picture is taken, half of them by its brightness.
 const DIRECTIONS: u32 = 8192;
 /// The golden ratio less 1: its multiples spread evenly.
@@ -45,7 +45,7 @@ impl SceneLamps {
         let mut found = Self::default();
         match scene.environment() {
             Environment::Constant(emission) => {
-                found.add_surroundings(SURROUNDINGS, power(scene, *emission));
+                found.add_environment(SURROUNDINGS, power(scene, *emission));
             }
             Environment::Gradient {
                 zenith,
@@ -53,12 +53,12 @@ impl SceneLamps {
                 ground,
             } => {
                 for emission in [zenith, horizon, ground] {
-                    found.add_surroundings(SURROUNDINGS, power(scene, *emission));
+                    found.add_environment(SURROUNDINGS, power(scene, *emission));
                 }
             }
             Environment::Picture { emission, picture } => {
                 let name = format!("{SURROUNDINGS}, their mean");
-                found.add_surroundings(&name, mean(scene, *emission, picture));
+                found.add_environment(&name, mean(scene, *emission, picture));
             }
         }
         for (light, name) in scene.lights().iter().zip(names(description, scene)) {
@@ -78,22 +78,22 @@ impl SceneLamps {
 
     /// Whether nothing shines.
     pub fn is_empty(&self) -> bool {
-        self.surroundings.is_empty() && self.lights.is_empty()
+        self.environment.is_empty() && self.lights.is_empty()
     }
 
-    /// The lamps in which a film may be seen: of the surroundings what it mirrors, where it mirrors them.
-    pub fn of(&self, film: &SeenFilm) -> Vec<SceneLamp> {
-        let surroundings = film.mirrored.as_ref().map(std::slice::from_ref);
-        let surroundings = surroundings.unwrap_or(&self.surroundings);
-        surroundings.iter().chain(&self.lights).cloned().collect()
+    /// The lamps in which a film may be seen: of the environment what it mirrors, where it mirrors them.
+    pub fn of(&self, film: &PickedFilm) -> Vec<SceneLamp> {
+        let environment = film.mirrored.as_ref().map(std::slice::from_ref);
+        let environment = environment.unwrap_or(&self.environment);
+        environment.iter().chain(&self.lights).cloned().collect()
     }
 
-    fn add_surroundings(&mut self, name: &str, power: Vec<f64>) {
-        add(&mut self.surroundings, name, power);
+    fn add_environment(&mut self, name: &str, power: Vec<f64>) {
+        add(&mut self.environment, name, power);
     }
 
     fn add_light(&mut self, name: &str, power: Vec<f64>) {
-        if self.surroundings.iter().all(|lamp| lamp.power != power) {
+        if self.environment.iter().all(|lamp| lamp.power != power) {
             add(&mut self.lights, name, power);
         }
     }
@@ -120,10 +120,10 @@ fn names(description: &Description, scene: &Scene) -> Vec<String> {
     disks.map(name).chain(sun).chain(others.map(name)).collect()
 }
 
-/// What the surroundings have in a direction, given by a unit vector, the disks of distant lights among them; `None` where that is dark.
-pub(super) fn of_surroundings(scene: &Scene, direction: glam::DVec3) -> Option<SceneLamp> {
-    let parts = scene.surroundings();
-    let seen = |part: &EnvironmentPart<'_>| environment_share(part.shape, direction) > 0.0;
+/// What the environment have in a direction, given by a unit vector, the disks of distant lights among them; `None` where that is dark.
+pub(super) fn of_environment(scene: &Scene, direction: glam::DVec3) -> Option<SceneLamp> {
+    let parts = scene.environment_parts();
+    let seen = |part: &EnvironmentPart<'_>| environment_strength(part.shape, direction) > 0.0;
     let is_even = |part: &EnvironmentPart<'_>| part.shape == EnvironmentShape::Everywhere;
     let name = if parts.iter().filter(|part| seen(part)).all(is_even) {
         SURROUNDINGS.to_owned()
@@ -132,7 +132,7 @@ pub(super) fn of_surroundings(scene: &Scene, direction: glam::DVec3) -> Option<S
     };
     let mut sum = Sum::new(scene);
     for part in &parts {
-        let share = part.emission.scale * environment_share(part.shape, direction);
+        let share = part.emission.scale * environment_strength(part.shape, direction);
         match part.shape {
             EnvironmentShape::Picture(picture) => {
                 let mut of_picture = Sum::new(scene);
@@ -248,7 +248,7 @@ fn power(scene: &Scene, emission: Emission) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Seen, seen};
+    use super::super::{Picked, pick};
     use super::*;
     use coating::{Measured, View};
     use scene::SceneFile;
@@ -286,16 +286,16 @@ mod tests {
     struct Found {
         scene: Scene,
         lamps: SceneLamps,
-        film: SeenFilm,
+        film: PickedFilm,
     }
 
     fn found(text: &str) -> Found {
         let file = SceneFile::parse("film.toml", text, Path::new(".")).unwrap();
         let scene = file.validate().unwrap();
         let lamps = SceneLamps::new(&file.description, &scene);
-        let seen = seen(&file.description, &scene, Path::new("."), [0.5, 0.5]).unwrap();
-        let Seen::Film(film) = seen else {
-            panic!("{seen:?}");
+        let picked = pick(&file.description, &scene, Path::new("."), [0.5, 0.5]).unwrap();
+        let Picked::Film(film) = picked else {
+            panic!("{picked:?}");
         };
         Found {
             scene,
@@ -371,7 +371,7 @@ emission = {{ illuminant = 'FL11' }}"
 {light}"
             )));
             assert_eq!(found.film.mirrored, None, "{light}");
-            assert!(found.lamps.surroundings.is_empty());
+            assert!(found.lamps.environment.is_empty());
             let (nm, residual, name) = thickness(&found);
             assert!(
                 (nm - 620.0).abs() < 1.0 && residual < 0.01,
@@ -381,7 +381,7 @@ emission = {{ illuminant = 'FL11' }}"
         }
     }
 
-    /// A disk that the film mirrors, beside surroundings that it does not.
+    /// A disk that the film mirrors, beside environment that it does not.
     #[test]
     fn a_disk_is_seen_in_the_mirror_with_what_is_around_it() {
         let found = found(&film(
@@ -394,13 +394,13 @@ emission = {{ illuminant = 'FL11' }}"
         let names: Vec<&str> = names.iter().map(|lamp| lamp.name.as_str()).collect();
         assert_eq!(
             names,
-            ["the surroundings in the mirror direction", "lights[0]"]
+            ["the environment in the mirror direction", "lights[0]"]
         );
         let (d65, fl11) = (
-            &found.lamps.surroundings[0].power,
+            &found.lamps.environment[0].power,
             &found.lamps.lights[0].power,
         );
-        // What the disk lights a surface with comes from 2π (1 − cos 20°) sr, and the surroundings shine there as well.
+        // What the disk lights a surface with comes from 2π (1 − cos 20°) sr, and the environment shine there as well.
         let radiance = found.scene.lights()[0].emission.scale;
         let solid_angle = 2.0 * PI * (1.0 - 20_f64.to_radians().cos());
         assert!((radiance * solid_angle - 1.0).abs() < 0.05, "{radiance}");
@@ -435,7 +435,7 @@ emission = {{ illuminant = 'FL11' }}"
         let names: Vec<&str> = names.iter().map(|lamp| lamp.name.as_str()).collect();
         assert_eq!(
             names,
-            ["the surroundings in the mirror direction", "the sun"]
+            ["the environment in the mirror direction", "the sun"]
         );
         let (nm, residual, _) = thickness(&found);
         assert!(
@@ -465,8 +465,8 @@ emission = {{ illuminant = 'FL11' }}"
                 }
             }
         }
-        let mean = &found.lamps.surroundings[0];
-        assert_eq!(mean.name, "the surroundings, their mean");
+        let mean = &found.lamps.environment[0];
+        assert_eq!(mean.name, "the environment, their mean");
         let factor = power(&found.scene, *emission);
         let bands = &found.scene.settings().bands;
         let nm = FilmFitting::wavelengths_nm(bands);
@@ -503,13 +503,10 @@ emission = {{ illuminant = 'FL11' }}"
         ));
         let names = found.lamps.of(&found.film);
         let names: Vec<&str> = names.iter().map(|lamp| lamp.name.as_str()).collect();
-        assert_eq!(
-            names,
-            ["the surroundings", "lights[4]", "lights[0]", "lamp"]
-        );
+        assert_eq!(names, ["the environment", "lights[4]", "lights[0]", "lamp"]);
         let nm = FilmFitting::wavelengths_nm(&found.scene.settings().bands);
         let d65 = spectra::illuminant("D65").unwrap().data;
-        for (found, nm) in found.lamps.surroundings[0].power.iter().zip(nm) {
+        for (found, nm) in found.lamps.environment[0].power.iter().zip(nm) {
             assert!((found / d65.at(nm).unwrap() - 1.0).abs() < 1e-3, "{nm}");
         }
     }

@@ -34,7 +34,7 @@ fn toward([x, y]: [u32; 2], [width, height]: [u32; 2], rotation_deg: f64) -> DVe
     )
 }
 
-/// A scene of surroundings alone, seen in parallel in one direction.
+/// A scene of environment alone, seen in parallel in one direction.
 fn looking(direction: DVec3, folder: &Path, environment: &str, bands: u32) -> Scene {
     let up = if direction.y.abs() > 0.9 {
         "[1, 0, 0]"
@@ -46,7 +46,7 @@ fn looking(direction: DVec3, folder: &Path, environment: &str, bands: u32) -> Sc
         "[camera]\ntype = \"orthographic\"\nposition = [0, 0, 0]\nlook_at = [{x}, {y}, {z}]\nup = {up}\nheight = 1\n\
          [render]\nsize = [4, 4]\nsamples = 16\nbands = {bands}\n[environment]\n{environment}\n"
     );
-    let file = SceneFile::parse("surroundings.toml", &text, folder);
+    let file = SceneFile::parse("environment.toml", &text, folder);
     let scene = file.and_then(|file| file.validate());
     scene.unwrap_or_else(|e| panic!("{e:#}")).rounded_to_f32()
 }
@@ -238,7 +238,7 @@ horizon = { illuminant = "A", scale = 2 }
 /// A scene seen by the panorama camera, written and read, gives the same panorama again: away from edges, where the picture is
 /// bilinear between pixels.
 #[test]
-fn a_panorama_is_the_surroundings_that_it_saw() {
+fn a_panorama_is_the_environment_that_it_saw() {
     let folder = TempDir::new().unwrap();
     let size = [64, 32];
     let text = format!(

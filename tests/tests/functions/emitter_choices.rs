@@ -1,15 +1,15 @@
-//! light_choice.wgsl, and what light.wgsl says of lights that are no objects.
+//! emitter_choice.wgsl, and what emitter.wgsl says of lights that are no objects.
 
 use crate::world::{everything, pictured, rounded, rows, unit, vector};
 use crate::{Check, pure, table};
-use pellicle_tests::tolerances::{ARITHMETIC, LIGHT_ESTIMATE};
+use pellicle_tests::tolerances::{ARITHMETIC, EMITTER_WEIGHT};
 use reference::{Emitter, PreparedScene, choose_emitter, mis_weight_bsdf, mis_weight_emitter};
-use scene::LightSource;
+use scene::EmitterSource;
 use std::sync::OnceLock;
 
-fn sources() -> &'static [LightSource] {
-    static SOURCES: OnceLock<Vec<LightSource>> = OnceLock::new();
-    SOURCES.get_or_init(|| everything().scene.light_sources())
+fn sources() -> &'static [EmitterSource] {
+    static SOURCES: OnceLock<Vec<EmitterSource>> = OnceLock::new();
+    SOURCES.get_or_init(|| everything().scene.emitters())
 }
 
 fn emitter_of(number: f64) -> Emitter<'static> {
@@ -32,44 +32,44 @@ pub(crate) fn checks() -> Vec<Check> {
     vec![
         Check {
             probe: world.probe((7, 1),
-                "put(0u, light_share(u32(a(0u)), a3(1u), a3(4u)));",
+                "put(0u, emitter_strength(u32(a(0u)), a3(1u), a3(4u)));",
             ),
             proves: &[
                 "emitter_at",
                 "emitters_row",
-                "is_single_direction",
-                "is_surrounding",
-                "light_share",
+                "is_delta",
+                "is_environment",
+                "emitter_strength",
                 "load_emitter",
-                "spot_share",
+                "spot_falloff",
             ],
             inputs: places(),
             twin: |a| vec![emitter_of(a[0]).strength(vector(&a[1..]), vector(&a[4..]))],
-            tolerance: LIGHT_ESTIMATE,
+            tolerance: EMITTER_WEIGHT,
         },
         Check {
             probe: world.probe((7, 1),
-                "let l = u32(a(0u)); put(0u, light_estimate(l, a3(1u), a3(4u)) / emitter_at(l).brightness);",
+                "let l = u32(a(0u)); put(0u, emitter_weight(l, a3(1u), a3(4u)) / emitter_at(l).brightness);",
             ),
             proves: &[
-                "light_estimate",
-                "plane_estimate",
+                "emitter_weight",
+                "plane_weight",
                 "plane_area",
-                "environment_estimate",
+                "environment_weight",
                 "most_cosine",
             ],
             inputs: places(),
             twin: |a| vec![emitter_of(a[0]).weight(vector(&a[1..]), vector(&a[4..]))],
-            tolerance: LIGHT_ESTIMATE,
+            tolerance: EMITTER_WEIGHT,
         },
         Check {
             probe: world.probe((7, 1),
-                "put(0u, emitter_pmf(u32(a(0u)), a3(1u), a3(4u), light_total(a3(1u), a3(4u))));",
+                "put(0u, emitter_pmf(u32(a(0u)), a3(1u), a3(4u), weigh_emitters(a3(1u), a3(4u))));",
             ),
-            proves: &["emitter_pmf", "light_total"],
+            proves: &["emitter_pmf", "weigh_emitters"],
             inputs: places(),
             twin: |a| vec![chances(a)[a[0] as usize]],
-            tolerance: LIGHT_ESTIMATE,
+            tolerance: EMITTER_WEIGHT,
         },
         Check {
             probe: world.probe((7, 2),
@@ -81,7 +81,7 @@ pub(crate) fn checks() -> Vec<Check> {
                 let chosen = choose_emitter(chances(a).into_iter(), a[0]).expect("one of them shines");
                 vec![chosen.emitter as f64, chosen.pmf]
             },
-            tolerance: LIGHT_ESTIMATE,
+            tolerance: EMITTER_WEIGHT,
         },
         Check {
             probe: pure_mis(),
@@ -96,13 +96,13 @@ pub(crate) fn checks() -> Vec<Check> {
             ),
             proves: &["mis_weight_emitter"],
             inputs: rows(4, |u| {
-                let number = (u[0] * pictured().scene.light_sources().len() as f64).floor();
+                let number = (u[0] * pictured().scene.emitters().len() as f64).floor();
                 let [scattered, density] = [u[1], u[3]].map(|u| 10.0_f64.powf(6.0 * u - 3.0));
                 Some(vec![number, scattered, u[2], density])
             }),
             twin: |a| {
                 let scene = &pictured().scene;
-                let emitter = Emitter::of(scene, scene.light_sources()[a[0] as usize].kind);
+                let emitter = Emitter::of(scene, scene.emitters()[a[0] as usize].kind);
                 vec![mis_weight_emitter(emitter, a[1], a[2], a[3])]
             },
             tolerance: ARITHMETIC,

@@ -1,12 +1,12 @@
 // The spectrum along a recorded path, four bands at a time.
 
 /// The spectrum of a vertex's light, times that of the texel of its picture. Texel 0 is none: a head stands there.
-fn light_value(light: u32, at: Place) -> vec4f {
-    let lamp = spectrum_at(light_spectrum(light), at.group, at.wavelengths);
+fn emission_value(emission: u32, at: Place) -> vec4f {
+    let lamp = spectrum_at(emission_spectrum(emission), at.group, at.wavelengths);
     if (!HAS_ENVIRONMENT_PICTURE) {
         return lamp;
     }
-    let texel = light_texels[at.vertex];
+    let texel = emission_texels[at.vertex];
     if (texel == 0u) {
         return lamp;
     }
@@ -18,8 +18,8 @@ fn light_value(light: u32, at: Place) -> vec4f {
 }
 
 /// What the films let through that a vertex's light passes.
-fn crossings_value(vertex: Vertex, at: Place) -> vec4f {
-    var passes = vec4f(1.0);
+fn crossings_transmittance(vertex: Vertex, at: Place) -> vec4f {
+    var transmittance = vec4f(1.0);
     let first = vertex.crossings >> CROSSING_BITS;
     let end = first + (vertex.crossings & ((1u << CROSSING_BITS) - 1u));
     for (var i = first; i < end; i++) {
@@ -28,13 +28,13 @@ fn crossings_value(vertex: Vertex, at: Place) -> vec4f {
         if (RECORDS_THICKNESSES) {
             film.first_thickness = crossing_thicknesses[i];
         }
-        passes *= film_spectrum(film, number_spectrum(crossing.factor, at), at).transmittance;
+        transmittance *= film_value(film, factor_spectrum(crossing.factor, at), at).transmittance;
     }
-    return passes;
+    return transmittance;
 }
 
 /// The spectrum of a factor's number, where it is one.
-fn number_spectrum(factor: u32, at: Place) -> vec4f {
+fn factor_spectrum(factor: u32, at: Place) -> vec4f {
     var number = factor_number(factor);
     let tag = factor_tag(factor);
     if ((HAS_STACKS && tag >= FACTOR_STACK) || (HAS_COATINGS && tag == FACTOR_COATING) || (HAS_TEXTURES && tag == FACTOR_TEXTURE)) {
@@ -45,7 +45,7 @@ fn number_spectrum(factor: u32, at: Place) -> vec4f {
 
 /// Radiance by light group with more of one of them. The loop has a fixed length, so that it is unrolled and the array stays in
 /// registers: an index that differs between invocations would put it into memory.
-fn with_light(
+fn with_emission(
     before: array<vec4f, LIGHT_GROUPS>,
     light_group: u32,
     more: vec4f,
@@ -58,7 +58,7 @@ fn with_light(
 }
 
 /// The light that waits where films split the path.
-var<private> waiting_light: array<vec4f, MAX_SPLITS>;
+var<private> waiting_throughput: array<vec4f, MAX_SPLITS>;
 
 /// By how much a sample is dimmed, so that its radiance is at most `frame.clamp` in every band.
 fn dimming(at: Wavelengths) -> f32 {
@@ -87,29 +87,29 @@ fn path_radiance(group: u32, wavelengths: Wavelengths) -> array<vec4f, LIGHT_GRO
     loop {
         let vertex = vertices[i];
         let at = Place(i, group, wavelengths);
-        let first = number_spectrum(vertex.factor, at);
+        let first = factor_spectrum(vertex.factor, at);
         let tag = factor_tag(vertex.factor);
         if (HAS_SPLITS) {
             let resumes = (vertex.marks >> RESUMES_FROM) & 0xffu;
-            throughput = select(throughput, waiting_light[max(resumes, 1u) - 1u], resumes > 0u);
+            throughput = select(throughput, waiting_throughput[max(resumes, 1u) - 1u], resumes > 0u);
         }
-        var values = Values(vec4f(vertex.weight), vec4f(vertex.light_weight));
+        var values = Values(vec4f(vertex.weight), vec4f(vertex.emission_weight));
         if (HAS_BSDFS && tag != FACTOR_ONE && (!HAS_FILMS || tag < FACTOR_FILM)) {
-            values = bsdf_spectrum(at, vertex, first);
+            values = bsdf_value(at, vertex, first);
         }
         if (HAS_FILMS && tag >= FACTOR_FILM) {
-            values.onward *= film_passes(at, vertex, first, throughput);
+            values.onward *= film_factor(at, vertex, first, throughput);
         }
-        var light = throughput * light_value(vertex.light, at);
+        var arriving = throughput * emission_value(vertex.emission, at);
         if (HAS_SCATTERING) {
             if (HAS_FILMS) {
-                light *= crossings_value(vertex, at);
+                arriving *= crossings_transmittance(vertex, at);
             }
-            light *= select(vec4f(vertex.light_weight), values.lit, (vertex.marks & SCATTERS_LIGHT) != 0u);
+            arriving *= select(vec4f(vertex.emission_weight), values.lit, (vertex.marks & SCATTERS_EMISSION) != 0u);
         } else {
-            light *= vertex.light_weight;
+            arriving *= vertex.emission_weight;
         }
-        radiance = with_light(radiance, light_group_of(vertex.light), light);
+        radiance = with_emission(radiance, light_group_of(vertex.emission), arriving);
         throughput *= values.onward;
         continuing {
             i++;
@@ -120,16 +120,16 @@ fn path_radiance(group: u32, wavelengths: Wavelengths) -> array<vec4f, LIGHT_GRO
 }
 
 /// What a film makes of the path that goes on from it. What it transmits of `throughput` waits, where it splits the path.
-fn film_passes(at: Place, vertex: Vertex, first: vec4f, throughput: vec4f) -> vec4f {
+fn film_factor(at: Place, vertex: Vertex, first: vec4f, throughput: vec4f) -> vec4f {
     var film = FilmAt(vertex.factor, vertex.cosine, vertex.thickness_nm, 0u);
     if (RECORDS_THICKNESSES) {
         film.first_thickness = first_thicknesses[at.vertex];
     }
-    let powers = film_spectrum(film, first, at);
+    let powers = film_value(film, first, at);
     if (HAS_SPLITS) {
         let splits = (vertex.marks >> SPLITS_TO) & 0xffu;
         if (splits > 0u) {
-            waiting_light[splits - 1u] = throughput * powers.transmittance;
+            waiting_throughput[splits - 1u] = throughput * powers.transmittance;
         }
     }
     return select(powers.reflectance, powers.transmittance, (vertex.marks & TRANSMITS) != 0u);

@@ -31,7 +31,7 @@ impl Energy {
             distribution: distribution.into(),
             alpha: roughness,
         };
-        let table = FacetTable::new(roughness, |eye| surface.albedo(eye, STEPS).min(1.0));
+        let table = FacetTable::new(roughness, |wo| surface.albedo(wo, STEPS).min(1.0));
         let mean = integrated(&table).rounded();
         Self { table, mean }
     }
@@ -108,9 +108,9 @@ mod tests {
                     let degrees = 85.0 * f64::from(i) / 59.0;
                     let azimuth = f64::from(i * 7 % 60) / 60.0 * PI;
                     let (sine, cosine) = f64::to_radians(degrees).sin_cos();
-                    let eye = [sine * azimuth.cos(), sine * azimuth.sin(), cosine];
-                    let once = surface.albedo(eye, 128);
-                    let more = (1.0 - table.at(eye)) * lost_by_all / (1.0 - table.mean());
+                    let wo = [sine * azimuth.cos(), sine * azimuth.sin(), cosine];
+                    let once = surface.albedo(wo, 128);
+                    let more = (1.0 - table.at(wo)) * lost_by_all / (1.0 - table.mean());
                     let error = (once + more - 1.0).abs();
                     assert!(
                         error < 0.005,

@@ -1,10 +1,10 @@
-//! light.wgsl: directions toward the lights that are objects, and their densities.
+//! emitter.wgsl: directions toward the lights that are objects, and their densities.
 
 use crate::Check;
 use crate::world::{center_of, everything, pick, rounded, rows, unit, vector};
 use glam::DVec3;
-use pellicle_tests::tolerances::{DIRECTION, EXACT, LIGHT_PDF, NEAR_LIGHT};
-use scene::{Shape, SourceKind};
+use pellicle_tests::tolerances::{DIRECTION, EMITTER_PDF, EXACT, NEAR_LIGHT};
+use scene::{EmitterKind, Shape};
 
 /// A point from which a light is seen, or that lies in it. Of a sphere: within half a radius and more of its surface
 /// when `far`, from just outside it otherwise, or anywhere inside. Of a rectangle: within some five units of it, but
@@ -48,16 +48,16 @@ fn close_points() -> Vec<f32> {
 
 fn lights_of(keep: impl Fn(&Shape) -> bool) -> Vec<usize> {
     let world = everything();
-    let sources = world.scene.light_sources().into_iter();
+    let sources = world.scene.emitters().into_iter();
     let objects = sources.filter_map(|source| match source.kind {
-        SourceKind::Object(index) => Some(index),
+        EmitterKind::Object(index) => Some(index),
         _ => None,
     });
     objects.filter(|&light| keep(world.shape(light))).collect()
 }
 
 /// Rows of a light, a point and two numbers.
-fn light_rows(far: bool) -> Vec<f32> {
+fn emitter_rows(far: bool) -> Vec<f32> {
     let world = everything();
     let lights = lights_of(|_| true);
     let mut all = rows(7, |u| {
@@ -122,9 +122,9 @@ pub(crate) fn checks() -> Vec<Check> {
     let sample = |inputs, tolerance| Check {
         probe: world.probe(
             (6, 3),
-            "put3(0u, sample_light(shape_at(u32(a(0u))).emitter, a3(1u), a(4u), a(5u)));",
+            "put3(0u, emitter_sample(shape_at(u32(a(0u))).emitter, a3(1u), a(4u), a(5u)));",
         ),
-        proves: &["sample_light"],
+        proves: &["emitter_sample"],
         inputs,
         twin: sampled,
         tolerance,
@@ -132,17 +132,17 @@ pub(crate) fn checks() -> Vec<Check> {
     let pdf = |points: &[f32], tolerance| Check {
         probe: world.probe(
             (7, 1),
-            "put(0u, light_pdf(shape_at(u32(a(0u))).emitter, a3(1u), a3(4u)));",
+            "put(0u, emitter_pdf(shape_at(u32(a(0u))).emitter, a3(1u), a3(4u)));",
         ),
-        proves: &["light_pdf"],
+        proves: &["emitter_pdf"],
         inputs: pdf_rows(points),
         twin: density,
         tolerance,
     };
     vec![
-        sample(light_rows(true), DIRECTION),
+        sample(emitter_rows(true), DIRECTION),
         sample(close_points(), NEAR_LIGHT),
-        pdf(&light_rows(false), LIGHT_PDF),
+        pdf(&emitter_rows(false), EMITTER_PDF),
         pdf(&close_points(), NEAR_LIGHT),
         Check {
             probe: world.probe(
@@ -194,7 +194,7 @@ fn squared_distances() -> Vec<f32> {
 fn a_wrong_density_of_a_light_is_noticed() {
     let mut check = checks()
         .into_iter()
-        .find(|check| check.proves.contains(&"light_pdf"))
+        .find(|check| check.proves.contains(&"emitter_pdf"))
         .expect("exists");
     assert!(check.run().is_ok());
     check.twin = |a| vec![1.001 * density(a)[0]];

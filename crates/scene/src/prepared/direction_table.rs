@@ -1,4 +1,4 @@
-//! Drawing directions in proportion to the brightness of a picture of the surroundings.
+//! Drawing directions in proportion to the brightness of a picture of the environment.
 
 use std::f64::consts::PI;
 
@@ -30,7 +30,7 @@ pub struct DirectionTable {
 
 /// For what of a picture's light rays are sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Sent {
+pub(crate) enum Sampled {
     /// For all of it.
     All,
     /// For what is brighter than the mean: scattered rays find the rest with less noise (Karlík, Šik, Vévoda, Skřivan and
@@ -41,7 +41,7 @@ pub(crate) enum Sent {
 impl DirectionTable {
     /// The table of a picture by longitude and latitude, of which `brightness` has a number ≥ 0 for each pixel, row by row; and
     /// the mean over all directions of the brightness that rays are sent for.
-    pub(crate) fn new([width, height]: [u32; 2], brightness: &[f32], sent: Sent) -> (Self, f64) {
+    pub(crate) fn new([width, height]: [u32; 2], brightness: &[f32], sent: Sampled) -> (Self, f64) {
         let (columns, rows) = (width.min(MOST[0]), height.min(MOST[1]));
         let picture = Brightness {
             size: [width as usize, height as usize],
@@ -59,14 +59,14 @@ impl DirectionTable {
         };
         let whole = mean(&cells);
         let (least, even) = match sent {
-            Sent::All => (0.0, EVEN * whole),
-            Sent::Excess => (NEARLY_EVEN * whole, 0.0),
+            Sampled::All => (0.0, EVEN * whole),
+            Sampled::Excess => (NEARLY_EVEN * whole, 0.0),
         };
         for cell in &mut cells {
             *cell = (*cell - least).max(0.0) + even;
         }
-        let sent_mean = mean(&cells);
-        if sent_mean <= 0.0 {
+        let sampled_mean = mean(&cells);
+        if sampled_mean <= 0.0 {
             cells.fill(1.0);
         }
         let in_rows = || cells.chunks(columns as usize).enumerate();
@@ -74,7 +74,7 @@ impl DirectionTable {
             .map(|(row, cells)| share(row) * cells.iter().sum::<f64>())
             .collect();
         let even_density = match sent {
-            Sent::Excess if sent_mean > 0.0 => whole / (4.0 * PI * sent_mean),
+            Sampled::Excess if sampled_mean > 0.0 => whole / (4.0 * PI * sampled_mean),
             _ => 0.0,
         };
         let table = Self {
@@ -87,7 +87,7 @@ impl DirectionTable {
                 .collect(),
             even_density: even_density as f32,
         };
-        (table, sent_mean)
+        (table, sampled_mean)
     }
 }
 
@@ -172,7 +172,7 @@ mod tests {
         let brightness: Vec<f32> = (0..16 * 8)
             .map(|i| if i < 16 * 4 { 3.0 } else { 1.0 })
             .collect();
-        let (all, mean) = DirectionTable::new(SIZE, &brightness, Sent::All);
+        let (all, mean) = DirectionTable::new(SIZE, &brightness, Sampled::All);
         assert!((mean - 2.0 * (1.0 + EVEN)).abs() < 1e-6, "{mean}");
         // Three quarters, less what the row at the edge has of the lower half.
         assert!(
@@ -180,7 +180,7 @@ mod tests {
             "{:?}",
             all.marginal
         );
-        let (excess, mean) = DirectionTable::new(SIZE, &brightness, Sent::Excess);
+        let (excess, mean) = DirectionTable::new(SIZE, &brightness, Sampled::Excess);
         // Half of the directions, one above the mean of 2; rows between the halves have something of both.
         assert!((0.4..=0.5).contains(&mean), "{mean}");
         let even = 2.0 / (4.0 * PI * mean);
@@ -193,7 +193,7 @@ mod tests {
     #[test]
     fn rays_are_not_sent_for_what_is_even() {
         for value in [0.0, 1.0, 0.1] {
-            let (table, mean) = DirectionTable::new(SIZE, &[value; 16 * 8], Sent::Excess);
+            let (table, mean) = DirectionTable::new(SIZE, &[value; 16 * 8], Sampled::Excess);
             assert_eq!(mean, 0.0, "{value}");
             // It is sound all the same.
             assert!(

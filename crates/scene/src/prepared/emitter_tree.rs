@@ -1,6 +1,6 @@
 //! A tree of what light is sent from, so that a few of many lights are weighed at a point.
 
-use crate::{LightShape, LightSource, Scene, Shape, SourceKind};
+use crate::{EmitterKind, EmitterSource, LightShape, Scene, Shape};
 use glam::{DMat3, DVec3};
 use std::f64::consts::PI;
 
@@ -11,10 +11,10 @@ use std::f64::consts::PI;
 /// node, and with the following node where it looks into one, needs no stack. Few sources, and those without a place, stand beside
 /// each other in their order, in no other node.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct LightTree {
+pub struct EmitterTree {
     /// The nodes, depth first.
-    pub nodes: Vec<LightNode>,
-    /// The node of each of [`Scene::light_sources`].
+    pub nodes: Vec<EmitterNode>,
+    /// The node of each of [`Scene::emitters`].
     pub leaves: Vec<u32>,
 }
 
@@ -22,7 +22,7 @@ pub struct LightTree {
 ///
 /// Of a source only `near`, which is 0, `next`, `parent` and `source` are meant: it is weighed by itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LightNode {
+pub struct EmitterNode {
     /// Mean of the places of what the group holds, by power.
     pub center: DVec3,
     /// All that the group holds is within this distance of the center, with a margin.
@@ -43,9 +43,9 @@ pub struct LightNode {
     pub near: f64,
     /// The node after all that the group holds.
     pub next: u32,
-    /// The group that holds it, or [`LightTree::NONE`].
+    /// The group that holds it, or [`EmitterTree::NONE`].
     pub parent: u32,
-    /// The source, by its number in [`Scene::light_sources`], or [`LightTree::NONE`] of a group.
+    /// The source, by its number in [`Scene::emitters`], or [`EmitterTree::NONE`] of a group.
     pub source: u32,
 }
 
@@ -129,7 +129,7 @@ impl Cone {
 
 impl Lamp {
     /// None of what has no place.
-    fn of(scene: &Scene, number: usize, source: &LightSource) -> Option<Self> {
+    fn of(scene: &Scene, number: usize, source: &EmitterSource) -> Option<Self> {
         let lamp = Self {
             source: number as u32,
             center: DVec3::ZERO,
@@ -141,9 +141,9 @@ impl Lamp {
             cone: Cone::ALL,
         };
         match source.kind {
-            SourceKind::Object(index) => lamp.with_shape(&scene.objects()[index].shape),
-            SourceKind::Environment(_) => None,
-            SourceKind::Light(index) => lamp.with_light(scene.lights()[index].shape),
+            EmitterKind::Object(index) => lamp.with_shape(&scene.objects()[index].shape),
+            EmitterKind::Environment(_) => None,
+            EmitterKind::Light(index) => lamp.with_emission(scene.lights()[index].shape),
         }
     }
 
@@ -197,7 +197,7 @@ impl Lamp {
         }
     }
 
-    fn with_light(self, shape: LightShape) -> Option<Self> {
+    fn with_emission(self, shape: LightShape) -> Option<Self> {
         match shape {
             LightShape::DistantDisk { .. } | LightShape::Direction { .. } => None,
             LightShape::Point { position } => Some(Self {
@@ -307,13 +307,13 @@ fn axis_of(form: DMat3) -> (DVec3, f64, f64) {
     (axis, even, (largest - even).max(0.0))
 }
 
-impl LightTree {
+impl EmitterTree {
     /// No node, or no source.
     pub const NONE: u32 = u32::MAX;
 
     /// That of a scene's sources.
     pub(crate) fn new(scene: &Scene) -> Self {
-        let sources = scene.light_sources();
+        let sources = scene.emitters();
         let lamps = sources.iter().enumerate();
         let mut lamps: Vec<Lamp> = lamps
             .filter_map(|(number, source)| Lamp::of(scene, number, source))
@@ -339,7 +339,7 @@ impl LightTree {
     fn add_leaf(&mut self, source: u32, parent: u32) {
         let node = self.nodes.len() as u32;
         self.leaves[source as usize] = node;
-        self.nodes.push(LightNode {
+        self.nodes.push(EmitterNode {
             next: node + 1,
             parent,
             source,
@@ -353,7 +353,7 @@ impl LightTree {
             return self.add_leaf(lamp.source, parent);
         }
         let node = self.nodes.len();
-        self.nodes.push(LightNode {
+        self.nodes.push(EmitterNode {
             parent,
             ..group_node(lamps)
         });
@@ -371,7 +371,7 @@ impl LightTree {
     }
 }
 
-const EMPTY: LightNode = LightNode {
+const EMPTY: EmitterNode = EmitterNode {
     center: DVec3::ZERO,
     reach: 0.0,
     axis: DVec3::Z,
@@ -382,12 +382,12 @@ const EMPTY: LightNode = LightNode {
     along: 0.0,
     near: 0.0,
     next: 0,
-    parent: LightTree::NONE,
-    source: LightTree::NONE,
+    parent: EmitterTree::NONE,
+    source: EmitterTree::NONE,
 };
 
 /// A group as it is seen from afar.
-fn group_node(lamps: &[Lamp]) -> LightNode {
+fn group_node(lamps: &[Lamp]) -> EmitterNode {
     let Group {
         power, form, cone, ..
     } = lamps
@@ -418,7 +418,7 @@ fn group_node(lamps: &[Lamp]) -> LightNode {
         Some(cone) => power / cone.share(),
         None => (power * power + uneven).sqrt(),
     };
-    LightNode {
+    EmitterNode {
         center,
         reach: reach + margin,
         axis,
@@ -516,11 +516,7 @@ mod tests {
     }
 
     fn lamp(scene: &Scene, source: u32) -> Option<Lamp> {
-        Lamp::of(
-            scene,
-            source as usize,
-            &scene.light_sources()[source as usize],
-        )
+        Lamp::of(scene, source as usize, &scene.emitters()[source as usize])
     }
 
     /// Every source once, in groups whose spheres and cones hold what is in them, also with the numbers that a GPU receives.
@@ -528,18 +524,18 @@ mod tests {
     fn groups_hold_their_sources() {
         let made = lamps(400);
         for scene in [&made, &made.rounded_to_f32()] {
-            let tree = scene.light_tree();
+            let tree = scene.emitter_tree();
             assert_eq!((tree.leaves.len(), tree.nodes.len()), (401, 800));
             for (source, &leaf) in tree.leaves.iter().enumerate() {
                 let node = &tree.nodes[leaf as usize];
                 assert_eq!((node.source as usize, node.next), (source, leaf + 1));
                 let Some(lamp) = lamp(scene, node.source) else {
-                    assert_eq!(node.parent, LightTree::NONE);
+                    assert_eq!(node.parent, EmitterTree::NONE);
                     continue;
                 };
                 let mut parent = node.parent;
-                assert_ne!(parent, LightTree::NONE);
-                while parent != LightTree::NONE {
+                assert_ne!(parent, EmitterTree::NONE);
+                while parent != EmitterTree::NONE {
                     let group = &tree.nodes[parent as usize];
                     assert!((parent..group.next).contains(&leaf));
                     assert!(lamp.center.distance(group.center) + lamp.reach <= group.reach);
@@ -556,10 +552,10 @@ mod tests {
     #[test]
     fn children_are_what_a_group_holds() {
         let scene = lamps(100);
-        let tree = scene.light_tree();
+        let tree = scene.emitter_tree();
         let mut met = 0;
         for (group, node) in (0..).zip(&tree.nodes) {
-            if node.source == LightTree::NONE {
+            if node.source == EmitterTree::NONE {
                 let [first, second] = tree.children(group);
                 assert_eq!(tree.nodes[second as usize].next, node.next);
                 for child in [first, second] {
@@ -574,9 +570,9 @@ mod tests {
     #[test]
     fn few_sources_stand_in_their_order() {
         let scene = lamps(15);
-        let tree = scene.light_tree();
+        let tree = scene.emitter_tree();
         assert_eq!(tree.leaves, (0..16).collect::<Vec<_>>());
-        let is_alone = |node: &LightNode| node.parent == LightTree::NONE;
+        let is_alone = |node: &EmitterNode| node.parent == EmitterTree::NONE;
         assert!(tree.nodes.iter().all(is_alone));
     }
 

@@ -1,4 +1,4 @@
-//! Pictures as surroundings and as textures, and the sky: what cannot be used is told once, with the file and what would be right.
+//! Pictures as environment and as textures, and the sky: what cannot be used is told once, with the file and what would be right.
 
 use color::spectral_exr::{Metadata, WriteOptions};
 use exr::math::Vec2;
@@ -31,7 +31,7 @@ fn surrounded_by(folder: &Path, image: &str) -> Result<Scene, Problems> {
 }
 
 /// There is one problem, at this field, that says all of it.
-fn assert_told(result: Result<Scene, Problems>, field: &str, phrases: &[&str]) {
+fn assert_reported(result: Result<Scene, Problems>, field: &str, phrases: &[&str]) {
     let Err(problems) = result else {
         panic!("it is accepted");
     };
@@ -85,10 +85,10 @@ fn write_spectra(path: &Path, [width, height]: [u32; 2], bands: BandGrid, value:
 }
 
 #[test]
-fn files_that_are_no_pictures_of_light_are_told() {
+fn files_that_are_no_pictures_of_light_are_reported() {
     let directory = TempDir::new().unwrap();
     let folder = directory.path();
-    let hdr = include_bytes!("../../../tests/data/surroundings.hdr");
+    let hdr = include_bytes!("../../../tests/data/environment.hdr");
     fs::write(folder.join("cut.hdr"), &hdr[..hdr.len() / 2]).unwrap();
     fs::write(folder.join("head.hdr"), &hdr[..20]).unwrap();
     fs::write(folder.join("text.hdr"), "a picture").unwrap();
@@ -130,7 +130,7 @@ fn files_that_are_no_pictures_of_light_are_told() {
         ("head.exr", "cut short"),
         ("few.exr", "cut short"),
     ] {
-        assert_told(
+        assert_reported(
             surrounded_by(folder, name),
             "environment.image",
             &[name, phrase],
@@ -140,7 +140,7 @@ fn files_that_are_no_pictures_of_light_are_told() {
 
 /// Luminance is gray, and a layer is chosen by its name: each texel's last number is twice its largest part.
 #[test]
-fn luminance_and_layers_of_openexr_are_surroundings() {
+fn luminance_and_layers_of_openexr_are_environment() {
     let directory = TempDir::new().unwrap();
     let folder = directory.path();
     let scale_of = |rest: &str| {
@@ -160,11 +160,11 @@ fn luminance_and_layers_of_openexr_are_surroundings() {
     assert_eq!(scale_of("image = 'layers.exr', layer = 'key'"), 0.5);
     let wrong = "environment = { type = 'image', image = 'layers.exr', layer = 'fill' }";
     let phrases = ["layers.exr", "no layer \"fill\"", "\"key\""];
-    assert_told(checked(folder, wrong), "environment.image", &phrases);
-    let hdr = include_bytes!("../../../tests/data/surroundings.hdr");
+    assert_reported(checked(folder, wrong), "environment.image", &phrases);
+    let hdr = include_bytes!("../../../tests/data/environment.hdr");
     fs::write(folder.join("sky.hdr"), hdr).unwrap();
     let radiance = "environment = { type = 'image', image = 'sky.hdr', layer = 'key' }";
-    assert_told(
+    assert_reported(
         checked(folder, radiance),
         "environment.image",
         &["sky.hdr", "no layers"],
@@ -172,7 +172,7 @@ fn luminance_and_layers_of_openexr_are_surroundings() {
 }
 
 #[test]
-fn pictures_of_a_wrong_size_are_told() {
+fn pictures_of_a_wrong_size_are_reported() {
     let directory = TempDir::new().unwrap();
     let folder = directory.path();
     let ball = ImageBuffer::from_pixel(64, 64, Rgb([1.0_f32; 3]));
@@ -202,7 +202,7 @@ fn pictures_of_a_wrong_size_are_told() {
     );
     let told = |name: &str, phrases: &[&str]| {
         let phrases = [&[name], phrases].concat();
-        assert_told(surrounded_by(folder, name), "environment.image", &phrases);
+        assert_reported(surrounded_by(folder, name), "environment.image", &phrases);
     };
     told("ball.exr", &["64 × 64", "twice as wide as high"]);
     told("square.exr", &["64 × 64", "twice as wide as high"]);
@@ -216,7 +216,7 @@ fn pictures_of_a_wrong_size_are_told() {
         "{CAMERA}render = {{ bands = 1024, size = [8, 8] }}\nenvironment = {{ type = 'image', image = 'fine.exr' }}\n"
     );
     let file = SceneFile::parse("scene.toml", &text, folder).unwrap();
-    assert_told(
+    assert_reported(
         file.validate(),
         "environment.image",
         &["fine.exr", "520 × 260", "1024 bands", "at most 131072"],
@@ -224,7 +224,7 @@ fn pictures_of_a_wrong_size_are_told() {
 }
 
 #[test]
-fn pixels_that_are_no_light_are_told_by_their_place() {
+fn pixels_that_are_no_light_are_reported_by_their_place() {
     let directory = TempDir::new().unwrap();
     let folder = directory.path();
     for (name, value, said) in [
@@ -237,7 +237,7 @@ fn pixels_that_are_no_light_are_told_by_their_place() {
         values[2 * 8 + 5] = value;
         write_exr(&folder.join(name), (8, 4), &["R", "G", "B"], &values, None);
         let phrases = [name, "column 6 of row 3", said, "at most 1e9"];
-        assert_told(surrounded_by(folder, name), "environment.image", &phrases);
+        assert_reported(surrounded_by(folder, name), "environment.image", &phrases);
     }
     for (name, value) in [
         ("nan_spectra.exr", f32::NAN),
@@ -250,7 +250,7 @@ fn pixels_that_are_no_light_are_told_by_their_place() {
             value,
         );
         let phrases = [name, "column 1 of row 1", "it must be a number"];
-        assert_told(surrounded_by(folder, name), "environment.image", &phrases);
+        assert_reported(surrounded_by(folder, name), "environment.image", &phrases);
     }
 }
 
@@ -285,12 +285,12 @@ fn what_is_below_0_counts_as_0() {
 }
 
 #[test]
-fn spectra_that_end_within_the_bands_are_told() {
+fn spectra_that_end_within_the_bands_are_reported() {
     let directory = TempDir::new().unwrap();
     let narrow = BandGrid::new(400.0, 700.0, 6).unwrap();
     write_spectra(&directory.path().join("narrow.exr"), [2, 1], narrow, 1.0);
     let phrases = ["narrow.exr", "400", "700", "380", "780"];
-    assert_told(
+    assert_reported(
         surrounded_by(directory.path(), "narrow.exr"),
         "environment.image",
         &phrases,
@@ -342,7 +342,7 @@ fn the_primaries_of_a_file_are_honored() {
         Some(line),
     );
     let phrases = ["line.exr", "`chromaticities`", "no three primaries"];
-    assert_told(
+    assert_reported(
         surrounded_by(directory.path(), "line.exr"),
         "environment.image",
         &phrases,
@@ -350,14 +350,14 @@ fn the_primaries_of_a_file_are_honored() {
 }
 
 #[test]
-fn textures_that_cannot_be_used_are_told() {
+fn textures_that_cannot_be_used_are_reported() {
     let directory = TempDir::new().unwrap();
     let folder = directory.path();
     let png = include_bytes!("../../../tests/data/colors.png");
     fs::write(folder.join("cut.png"), &png[..png.len() / 2]).unwrap();
     fs::write(
         folder.join("other.png"),
-        include_bytes!("../../../tests/data/surroundings.hdr"),
+        include_bytes!("../../../tests/data/environment.hdr"),
     )
     .unwrap();
     let texture = |name: &str| {
@@ -375,7 +375,7 @@ fn textures_that_cannot_be_used_are_told() {
         ("other.png", "is not a PNG picture that can be read"),
     ] {
         let field = "materials.wall.reflectance.texture";
-        assert_told(texture(name), field, &[name, phrase]);
+        assert_reported(texture(name), field, &[name, phrase]);
     }
 }
 
@@ -437,7 +437,7 @@ fn the_sun_is_there_unless_it_is_left_out() {
 }
 
 #[test]
-fn what_a_sky_cannot_be_is_told() {
+fn what_a_sky_cannot_be_is_reported() {
     for (says, field, phrase) in [
         (", sun = 1", "environment.sun", "true or false"),
         (

@@ -20,7 +20,7 @@ pub(crate) struct RoughCoat {
     /// The reflectance E₀ for light from [`COSINES`] cosines, even in their roots; of a brushed coat about its mean about the normal.
     pub(crate) reflectances: [BandTable; COSINES],
     /// Of a brushed coat: (1 − E)/(1 − E₀) over direction.
-    pub(crate) passage: Option<FacetTable>,
+    pub(crate) transmittance_scale: Option<FacetTable>,
     /// The mean Ē over diffuse light, which is that of the straight lines between the knots.
     pub(crate) mean: BandTable,
 }
@@ -31,26 +31,30 @@ impl RoughCoat {
     /// How E of a brushed coat differs about the normal is taken from the one index `typical_n`: E is a product of a table over the
     /// direction and one over the cosine and the wavelength.
     pub(crate) fn new(microsurface: &Microsurface, n: &BandTable, typical_n: f64) -> Self {
-        let seen = std::array::from_fn(|knot| Seen::about(microsurface, cosine_of(knot, COSINES)));
-        let reflectances = seen
+        let visible = std::array::from_fn(|knot| {
+            VisibleFacets::about(microsurface, cosine_of(knot, COSINES))
+        });
+        let reflectances = visible
             .each_ref()
-            .map(|seen: &Seen| n.map(|n| seen.reflectance(n)));
+            .map(|facets: &VisibleFacets| n.map(|n| facets.reflectance(n)));
         let is_brushed = microsurface.energy.table().widths() > 1;
-        let passage = is_brushed.then(|| {
-            let about = seen
+        let transmittance_scale = is_brushed.then(|| {
+            let about = visible
                 .each_ref()
-                .map(|seen| 1.0 - seen.reflectance(typical_n));
-            FacetTable::new(microsurface.roughness, |eye| {
-                let passes = 1.0 - Seen::from(microsurface, eye).reflectance(typical_n);
-                passes / about[(eye[2].sqrt() * (COSINES - 1) as f64).round() as usize]
+                .map(|visible| 1.0 - visible.reflectance(typical_n));
+            FacetTable::new(microsurface.roughness, |wo| {
+                let passes = 1.0 - VisibleFacets::from(microsurface, wo).reflectance(typical_n);
+                passes / about[(wo[2].sqrt() * (COSINES - 1) as f64).round() as usize]
             })
         });
         let mean = mean_of(&reflectances, |cosine| {
-            passage.as_ref().map_or(1.0, |table| table.around(cosine))
+            transmittance_scale
+                .as_ref()
+                .map_or(1.0, |table| table.around(cosine))
         });
         Self {
             reflectances,
-            passage,
+            transmittance_scale,
             mean,
         }
     }
@@ -61,7 +65,7 @@ fn cosine_of(knot: usize, knots: usize) -> f64 {
 }
 
 /// The facets that light from a direction meets.
-struct Seen {
+struct VisibleFacets {
     /// How much is mirrored by those that stand at each of [`FACET_COSINES`] cosines to it, as hats over the cosines' roots.
     weights: [f64; FACET_COSINES],
     /// How much meets several.
@@ -70,15 +74,15 @@ struct Seen {
     mean_energy: f64,
 }
 
-impl Seen {
+impl VisibleFacets {
     /// From a direction.
-    fn from(microsurface: &Microsurface, eye: [f64; 3]) -> Self {
+    fn from(microsurface: &Microsurface, wo: [f64; 3]) -> Self {
         let surface = optics::Microsurface {
             distribution: microsurface.distribution.into(),
             alpha: microsurface.roughness,
         };
         let mut weights = [0.0; FACET_COSINES];
-        surface.each_reflection(eye, STEPS, |at_facet, weight| {
+        surface.each_reflection(wo, STEPS, |at_facet, weight| {
             let place = at_facet.clamp(0.0, 1.0).sqrt() * (FACET_COSINES - 1) as f64;
             let knot = (place as usize).min(FACET_COSINES - 2);
             let part = place - knot as f64;
@@ -87,7 +91,7 @@ impl Seen {
         });
         Self {
             weights,
-            lost: 1.0 - microsurface.energy.at(eye),
+            lost: 1.0 - microsurface.energy.at(wo),
             mean_energy: microsurface.energy.mean(),
         }
     }
@@ -105,10 +109,10 @@ impl Seen {
         };
         for azimuth in 0..azimuths {
             let azimuth = FRAC_PI_2 * (f64::from(azimuth) + 0.5) / f64::from(azimuths);
-            let seen = Self::from(microsurface, direction(cosine.max(1e-4), azimuth));
-            let pairs = mean.weights.iter_mut().zip(seen.weights);
+            let visible = Self::from(microsurface, direction(cosine.max(1e-4), azimuth));
+            let pairs = mean.weights.iter_mut().zip(visible.weights);
             pairs.for_each(|(sum, weight)| *sum += weight / f64::from(azimuths));
-            mean.lost += seen.lost / f64::from(azimuths);
+            mean.lost += visible.lost / f64::from(azimuths);
         }
         mean
     }
@@ -125,9 +129,9 @@ impl Seen {
     }
 }
 
-/// Ē with 1 − Ē = ∫ (1 − E₀) g 2 cos θ d(cos θ) = ∫ (1 − E₀) g 4 t³ dt, g the mean of `passage` about the normal: for what is linear in t
+/// Ē with 1 − Ē = ∫ (1 − E₀) g 2 cos θ d(cos θ) = ∫ (1 − E₀) g 4 t³ dt, g the mean of `transmittance_scale` about the normal: for what is linear in t
 /// between the knots exact by Gauss's three points.
-fn mean_of(knots: &[BandTable; COSINES], passage: impl Fn(f64) -> f64) -> BandTable {
+fn mean_of(knots: &[BandTable; COSINES], transmittance_scale: impl Fn(f64) -> f64) -> BandTable {
     const GAUSS: [(f64, f64); 3] = [
         (0.112_701_665_379_258_3, 5.0 / 18.0),
         (0.5, 8.0 / 18.0),
@@ -138,12 +142,12 @@ fn mean_of(knots: &[BandTable; COSINES], passage: impl Fn(f64) -> f64) -> BandTa
     for knot in 0..COSINES - 1 {
         for (part, weight) in GAUSS {
             let t = (knot as f64 + part) * width;
-            let share = weight * width * 4.0 * t.powi(3) * passage(t * t);
+            let share = weight * width * 4.0 * t.powi(3) * transmittance_scale(t * t);
             shares[knot] += share * (1.0 - part);
             shares[knot + 1] += share * part;
         }
     }
-    // Of no reflectance at all; 0 but for what the passage's mean is off 1.
+    // Of no reflectance at all; 0 but for what the transmittance_scale's mean is off 1.
     let rest = 1.0 - shares.iter().sum::<f64>();
     let first = knots[0].map(|e| rest + shares[0] * e);
     let others = knots.iter().zip(shares).skip(1);
@@ -205,7 +209,7 @@ mod tests {
     }
 
     /// The two tables against E itself, between the knots and in all azimuths: 1 − E is off by 0.003 at most where the index is the typical
-    /// one, and with 0.1 beside it by 0.003 about 1.5 and by 0.01 about 2.4. Without the passage it is off by far more.
+    /// one, and with 0.1 beside it by 0.003 about 1.5 and by 0.01 about 2.4. Without the transmittance_scale it is off by far more.
     #[test]
     fn a_brushed_coat_is_a_product_of_two_tables() {
         let mut without = 0.0_f64;
@@ -224,14 +228,18 @@ mod tests {
                     let coat = RoughCoat::new(&microsurface, &index, typical);
                     let [mut worst, mut even] = [0.0_f64; 2];
                     for i in 0..150 {
-                        let eye = direction(
+                        let wo = direction(
                             (f64::from(i) / 149.0 * 85.0).to_radians().cos(),
                             0.77 * f64::from(i),
                         );
-                        let exact = 1.0 - Seen::from(&microsurface, eye).reflectance(n);
-                        let about = passes_about(&coat, eye[2]);
-                        let passage = coat.passage.as_ref().expect("it is brushed").at(eye);
-                        worst = worst.max((about * passage - exact).abs());
+                        let exact = 1.0 - VisibleFacets::from(&microsurface, wo).reflectance(n);
+                        let about = transmittance_about(&coat, wo[2]);
+                        let transmittance_scale = coat
+                            .transmittance_scale
+                            .as_ref()
+                            .expect("it is brushed")
+                            .at(wo);
+                        worst = worst.max((about * transmittance_scale - exact).abs());
                         even = even.max((about - exact).abs());
                     }
                     println!(
@@ -246,7 +254,7 @@ mod tests {
     }
 
     /// 1 − E₀ between the knots.
-    fn passes_about(coat: &RoughCoat, cosine: f64) -> f64 {
+    fn transmittance_about(coat: &RoughCoat, cosine: f64) -> f64 {
         let place = cosine.sqrt() * (COSINES - 1) as f64;
         let knot = (place as usize).min(COSINES - 2);
         let [here, next] = [knot, knot + 1].map(|knot| coat.reflectances[knot].extent().0);

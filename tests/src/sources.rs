@@ -1,0 +1,69 @@
+//! The project's own texts: sources, scenes, tables and pages.
+
+use crate::wgsl::root;
+use std::path::{Path, PathBuf};
+
+/// A file of the project.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// Its path from the root of the workspace, with `/`.
+    pub path: String,
+    /// What it says.
+    pub text: String,
+}
+
+const FOLDERS: &[&str] = &[
+    "crates",
+    "docs",
+    "fuzz/src",
+    "fuzz/tests",
+    "scenes",
+    "shaders",
+    "tests",
+];
+const ENDINGS: &[&str] = &["csv", "json", "md", "py", "rs", "sh", "toml", "wgsl"];
+
+/// All files that people wrote, from the root and the project's folders. Generated inputs of the fuzzing corpus are not among them.
+///
+/// # Panics
+/// When a file cannot be read.
+pub fn sources() -> Vec<Source> {
+    let root = root();
+    let mut paths = Vec::new();
+    for folder in FOLDERS {
+        collect(&root.join(folder), &mut paths);
+    }
+    paths.extend(entries(&root).into_iter().filter(|path| path.is_file()));
+    let is_text = |path: &PathBuf| {
+        let ending = path.extension().and_then(|ending| ending.to_str());
+        ending.map_or(path.ends_with("NOTICE"), |ending| ENDINGS.contains(&ending))
+    };
+    let read = |path: PathBuf| Source {
+        text: std::fs::read_to_string(&path)
+            .unwrap_or_else(|error| panic!("{}: {error}", path.display())),
+        path: path
+            .strip_prefix(&root)
+            .expect("it lies below")
+            .to_string_lossy()
+            .replace('\\', "/"),
+    };
+    paths.into_iter().filter(is_text).map(read).collect()
+}
+
+fn collect(folder: &Path, paths: &mut Vec<PathBuf>) {
+    for path in entries(folder) {
+        if path.is_dir() {
+            collect(&path, paths);
+        } else {
+            paths.push(path);
+        }
+    }
+}
+
+fn entries(folder: &Path) -> Vec<PathBuf> {
+    let found =
+        std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let mut paths: Vec<_> = found.map(|entry| entry.expect("readable").path()).collect();
+    paths.sort();
+    paths
+}

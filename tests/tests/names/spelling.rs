@@ -1,0 +1,189 @@
+//! American English everywhere.
+
+use pellicle_tests::sources::{Source, sources};
+
+/// British spellings, each as letters that an American word does not have.
+const BRITISH: &[&str] = &[
+    "aluminium",
+    "anodis",
+    "artefact",
+    "behaviour",
+    "cancelled",
+    "catalogue",
+    "centimetre",
+    "centre",
+    "centring",
+    "characterise",
+    "colour",
+    "defence",
+    "discretis",
+    "favour",
+    "fibre",
+    "fulfil ",
+    "generalis",
+    "grey",
+    "honour",
+    "initialis",
+    "judgement",
+    "labelled",
+    "licence",
+    "linearis",
+    "lustre",
+    "memoris",
+    "metre ",
+    "metres",
+    "micrometre",
+    "millimetre",
+    "minimis",
+    "misspelt",
+    "modelled",
+    "modelling",
+    "mould",
+    "nanometre",
+    "neighbour",
+    "normalis",
+    "odour",
+    "optimis",
+    "organis",
+    "parametris",
+    "polaris",
+    "quantis",
+    "randomis",
+    "realis",
+    "recognis",
+    "serialis",
+    "sceptic",
+    "specialis",
+    "standardis",
+    "sulph",
+    "summaris",
+    "symmetris",
+    "towards",
+    "travell",
+    "unrecognis",
+    "utilis",
+    "vapour",
+    "visualis",
+    "whilst",
+    "analyse ",
+    "analysed",
+    "analysing",
+];
+
+/// Where the other spelling is right: titles and names of others, and what people may write in their files.
+const RIGHT: &[(&str, &str)] = &[
+    ("colour-science", "the name of a library"),
+    ("Unicolour", "the name of a library"),
+    ("SDS_COLOURCHECKERS", "a name of a library"),
+    ("import colour", "the name of a library"),
+    ("colour.", "the name of a library"),
+    ("Colour Developers", "a copyright"),
+    ("Colour and Vision Research Laboratory", "a laboratory"),
+    ("Metamerism and Colour Constancy", "a title"),
+    ("1931 colour-matching functions", "a title"),
+    ("1964 colour-matching functions", "a title"),
+    ("colour appearance model", "a title"),
+    ("colour management systems", "a title"),
+    ("Zemax catalogue", "the name of a source"),
+    ("licence", "terms that a notice carries as they are"),
+    ("\"aluminium\"", "a name that people write"),
+    ("\"nanometre\"", "a name that people write"),
+    ("\"nanometres\"", "a name that people write"),
+    ("\"micrometre\"", "a name that people write"),
+    ("\"micrometres\"", "a name that people write"),
+    ("'centre'", "a word that is refused"),
+    ("\\\"centre\\\"", "a word that is refused"),
+];
+
+/// The words are the subject of this file.
+fn is_exempt(path: &str) -> bool {
+    path == "tests/tests/names/spelling.rs"
+}
+
+/// A place, and the line.
+fn british(source: &Source) -> Vec<String> {
+    let mut found = Vec::new();
+    for (number, line) in source.text.lines().enumerate() {
+        if source.path.ends_with(".csv") && line.starts_with("# citation") {
+            continue;
+        }
+        let mut text = line.to_owned();
+        for (right, _) in RIGHT {
+            // A license is exempt where another's terms are told alone.
+            if *right != "licence" || source.path == "NOTICE" {
+                text = text.replace(right, "");
+            }
+        }
+        let lower = format!("{} ", text.to_lowercase());
+        if let Some(word) = BRITISH.iter().find(|word| lower.contains(*word)) {
+            found.push(format!(
+                "{}:{}: {word:?} in {}",
+                source.path,
+                number + 1,
+                line.trim()
+            ));
+        }
+    }
+    found
+}
+
+#[test]
+fn every_text_is_in_american_english() {
+    let sources = sources();
+    assert!(sources.len() > 500, "few files found: {}", sources.len());
+    let wrong: Vec<_> = sources
+        .iter()
+        .filter(|source| !is_exempt(&source.path))
+        .flat_map(british)
+        .collect();
+    assert!(
+        wrong.is_empty(),
+        "{} lines:\n{}",
+        wrong.len(),
+        wrong.join("\n")
+    );
+}
+
+#[test]
+fn names_of_files_too() {
+    let of = |source: Source| {
+        british(&Source {
+            path: "a path".to_owned(),
+            text: source.path,
+        })
+    };
+    let wrong: Vec<_> = sources().into_iter().flat_map(of).collect();
+    assert!(wrong.is_empty(), "{wrong:?}");
+}
+
+#[test]
+fn a_british_word_is_noticed() {
+    let said = |text: &str| {
+        !british(&Source {
+            path: "a.rs".to_owned(),
+            text: text.to_owned(),
+        })
+        .is_empty()
+    };
+    for text in [
+        "let centre_nm = 1;",
+        "fn colour()",
+        "// Grey.",
+        "POLARISATION",
+        "`Neighbours`",
+        "two metres",
+        "toward and towards",
+    ] {
+        assert!(said(text), "{text}");
+    }
+    for text in [
+        "center",
+        "a perimeter",
+        "colour-science 0.4.7",
+        "meters",
+        "characteristic",
+        "rise",
+    ] {
+        assert!(!said(text), "{text}");
+    }
+}
