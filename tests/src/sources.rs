@@ -12,6 +12,15 @@ pub struct Source {
     pub text: String,
 }
 
+impl Source {
+    /// Whether the file's name ends in `.` and this.
+    pub fn ends_in(&self, ending: &str) -> bool {
+        Path::new(&self.path)
+            .extension()
+            .is_some_and(|found| found == ending)
+    }
+}
+
 const FOLDERS: &[&str] = &[
     "crates",
     "docs",

@@ -104,7 +104,7 @@ fn is_exempt(path: &str) -> bool {
 fn british(source: &Source) -> Vec<String> {
     let mut found = Vec::new();
     for (number, line) in source.text.lines().enumerate() {
-        if source.path.ends_with(".csv") && line.starts_with("# citation") {
+        if source.ends_in("csv") && line.starts_with("# citation") {
             continue;
         }
         let mut text = line.to_owned();

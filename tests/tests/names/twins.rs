@@ -348,10 +348,7 @@ fn modules_and_functions_have_twins_of_their_names() {
     let twins = twins();
     let mut stems = BTreeSet::new();
     let mut found = Vec::new();
-    for source in sources()
-        .iter()
-        .filter(|source| source.path.ends_with(".wgsl"))
-    {
+    for source in sources().iter().filter(|source| source.ends_in("wgsl")) {
         let stem = source
             .path
             .rsplit('/')
