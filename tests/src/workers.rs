@@ -6,14 +6,25 @@ use std::num::NonZero;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Does the work for each name, each core with a device of its own, and returns what went wrong; what went well is printed.
+/// Whether a case is to run: all, or the one that `PELLICLE_ONLY` names.
+pub fn is_asked_for(name: &str) -> bool {
+    std::env::var("PELLICLE_ONLY").map_or(true, |only| only == name)
+}
+
+/// Does the work for each name that [`is_asked_for`], each core with a device of its own, and returns what went wrong; what went well is printed.
 ///
 /// # Panics
-/// Where there is no driver, or the work panics.
+/// Where there is no driver, no name that is asked for, or the work panics.
 pub fn failures_of(
     names: &[&str],
     work: impl Fn(&Gpu, &str) -> Vec<Result<String, String>> + Sync,
 ) -> Vec<String> {
+    let names: Vec<&str> = names
+        .iter()
+        .copied()
+        .filter(|name| is_asked_for(name))
+        .collect();
+    assert!(!names.is_empty(), "PELLICLE_ONLY names none of the cases");
     let next = AtomicUsize::new(0);
     let failures = Mutex::new(Vec::new());
     let workers = std::thread::available_parallelism().map_or(1, NonZero::get);
