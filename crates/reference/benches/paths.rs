@@ -1,7 +1,7 @@
-//! What renders cost: by the machine's instructions, and with bands, layers, objects and segments. Samples per second of small pictures.
+//! The cost of renders by instruction set and by number of bands, layers, objects and segments, in samples per second of small pictures.
 //!
-//! The first group guards against a loop over bands that is not compiled for the instructions that were found: its two rows would then
-//! be alike.
+//! The first group guards against a loop over bands that is not compiled for the detected instruction set: its two rows would then
+//! be nearly equal.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use pellicle_reference::{SimdLevel, random4, render_at};
@@ -37,7 +37,7 @@ const VIEW: &str = "camera = { type = 'perspective', position = [0, 0, 12], look
      environment = { type = 'constant', emission = { illuminant = 'D65' } }\n\
      render = { max_path_segments = 8 }\n";
 
-/// So many gray spheres in a cube, of the same section altogether, so that paths are as long.
+/// `count` gray spheres in a cube, with the same total cross section for every count, so that paths have the same length.
 fn spheres(count: u32) -> String {
     let mut text =
         format!("{VIEW}materials = {{ gray = {{ type = 'diffuse', reflectance = 0.5 }} }}\n");
@@ -51,7 +51,7 @@ fn spheres(count: u32) -> String {
     text
 }
 
-/// A sphere of a film of so many layers, clear or lossy.
+/// A sphere of a film of `count` layers, clear or absorbing.
 fn layers(count: usize, k: f64) -> String {
     let n = |i: usize| 1.4 + 0.9 * (i % 2) as f64;
     let layer = |i| format!("{{ index = [{}, {k}], thickness_nm = 90 }}", n(i));

@@ -1,4 +1,4 @@
-//! From a place in the picture to a ray.
+//! From a position in the picture to a ray.
 
 use glam::DVec3;
 use optics::wide::sin_cos_turns;
@@ -8,19 +8,19 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// A ray: an origin and a unit direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it starts.
+    /// Origin.
     pub origin: DVec3,
-    /// Unit vector.
+    /// Unit direction.
     pub direction: DVec3,
 }
 
-/// The ray through a place within a pixel, in [0, 1)² with row 0 on top; through the middle of the lens.
+/// Returns the ray through the center of the lens and a position within a pixel, in [0, 1)² with row 0 on top.
 pub fn camera_ray(scene: &Scene, pixel: [u32; 2], place: [f64; 2]) -> Ray {
     let offset = place.map(|inside| inside - 0.5);
     ray_off_middle(scene, pixel, offset, [0.0; 2])
 }
 
-/// The ray that a sample starts with: `jitter` in [0, 1)² spreads the samples by the pixel's filter, `on_lens` in [0, 1)² over
+/// Returns the camera ray of a sample: `jitter` in [0, 1)² distributes the samples by the pixel's filter, `on_lens` in [0, 1)² over
 /// the lens.
 pub fn sampled_camera_ray(
     scene: &Scene,
@@ -32,7 +32,7 @@ pub fn sampled_camera_ray(
     ray_off_middle(scene, pixel, jitter.map(|u| filter.offset_at(u)), on_lens)
 }
 
-/// The ray at an offset from a pixel's middle.
+/// Returns the ray at an offset from a pixel's center.
 fn ray_off_middle(scene: &Scene, pixel: [u32; 2], offset: [f64; 2], [u, v]: [f64; 2]) -> Ray {
     let (camera, settings) = (scene.camera(), scene.settings());
     let (width, height) = (f64::from(settings.width), f64::from(settings.height));
@@ -52,7 +52,7 @@ fn ray_off_middle(scene: &Scene, pixel: [u32; 2], offset: [f64; 2], [u, v]: [f64
         None => (DVec3::ZERO, 1.0),
     };
     match camera.projection {
-        // All rays of a place in the picture meet where the pinhole's ray reaches the plane of focus.
+        // All rays of a position in the picture meet where the pinhole's ray reaches the plane of focus.
         Projection::Perspective { half_height } => Ray {
             origin: camera.origin + on_lens,
             direction: (focus * (aside(half_height) - camera.back) - on_lens).normalize(),

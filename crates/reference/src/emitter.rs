@@ -1,4 +1,4 @@
-//! Emitters that are sampled for direct light, and the choice among them by an estimate of what each brings to a point.
+//! Emitters that are sampled for direct light, and the weights by which one is chosen.
 
 use crate::emitter_shape::INSIDE;
 use crate::{
@@ -8,19 +8,19 @@ use glam::DVec3;
 use scene::{EmitterKind, EnvironmentShape, LightShape, Scene, Shape};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI, TAU};
 
-/// What emits.
+/// An emitter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Emitter<'a> {
     /// An object.
     Shape(&'a Shape),
     /// A part of the environment.
     Environment(EnvironmentShape<'a>),
-    /// A light of a single direction at each place.
+    /// A light that reaches each point from a single direction.
     Delta(LightShape),
 }
 
 impl<'a> Emitter<'a> {
-    /// What an emitter of a scene is.
+    /// Returns the emitter of this kind in a scene.
     pub fn of(scene: &'a Scene, kind: EmitterKind) -> Self {
         match kind {
             EmitterKind::Object(index) => Self::Shape(&scene.objects()[index].shape),
@@ -31,7 +31,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// A direction from `point` toward it.
+    /// Samples a direction from `point` toward the emitter.
     pub fn sample(&self, point: DVec3, u: f64, v: f64) -> DVec3 {
         match *self {
             Self::Shape(shape) => sample_shape(shape, point, u, v),
@@ -45,7 +45,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Density with which [`Self::sample`] draws a direction, sr⁻¹; none for light from a single direction.
+    /// Returns the density with which [`Self::sample`] samples a direction, sr⁻¹; `None` for light from a single direction.
     pub fn pdf(&self, point: DVec3, direction: DVec3) -> Option<f64> {
         match *self {
             Self::Shape(shape) => Some(shape_pdf(shape, point, direction)),
@@ -54,8 +54,8 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Factor of its emission toward `point`: the share of a part of the environment; of a point and of a spot what makes their
-    /// intensity an irradiance.
+    /// Returns the factor of the emission toward `point`: for a part of the environment, its relative radiance; for a point or a
+    /// spot, the factor that makes an irradiance of its intensity.
     pub fn strength(&self, point: DVec3, direction: DVec3) -> f64 {
         match *self {
             Self::Shape(_)
@@ -74,7 +74,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// How far away it is; none where it is no place.
+    /// Returns the distance to the emitter; `None` for an emitter without a position.
     pub(crate) fn distance(&self, point: DVec3) -> Option<f64> {
         match *self {
             Self::Delta(LightShape::Point { position } | LightShape::Spot { position, .. }) => {
@@ -84,7 +84,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// About the irradiance that it gives at radiance 1; 0 only where nothing of it can arrive.
+    /// Returns roughly the irradiance at radiance 1; 0 only where no light can arrive.
     pub fn weight(&self, point: DVec3, normal: DVec3) -> f64 {
         match *self {
             Self::Shape(shape) => shape_weight(shape, point, normal),
@@ -97,16 +97,16 @@ impl<'a> Emitter<'a> {
     }
 }
 
-/// A spot's intensity against a direction, relative to that on its axis: 1 within the inner cone, 0 outside the outer one, between
-/// them 3t² − 2t³, t linear in the cosine (Pharr, Jakob and Humphreys, Physically Based Rendering, 4th edition, 2023, section 12.2.3).
-/// Heights are 1 − cos of a cone's half angle.
+/// Returns a spot's intensity in a direction, relative to that on its axis: 1 within the inner cone, 0 outside the outer one, and
+/// 3t² − 2t³ in between, with t linear in the cosine (Pharr, Jakob and Humphreys, Physically Based Rendering, 4th edition, 2023,
+/// section 12.2.3). Heights are 1 − cos of a cone's half angle.
 fn spot_falloff(direction: DVec3, axis: DVec3, [full_height, edge_height]: [f64; 2]) -> f64 {
     let height = 0.5 * (direction + axis).length_squared();
     let t = ((edge_height - height) / (edge_height - full_height)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
 
-/// Solid angle times the largest cosine in the cone that holds the shape.
+/// Returns the solid angle times the largest cosine in the cone around the shape.
 fn shape_weight(shape: &Shape, point: DVec3, normal: DVec3) -> f64 {
     match *shape {
         Shape::Sphere { center, radius } => {
@@ -167,7 +167,7 @@ fn environment_weight(part: EnvironmentShape<'_>, normal: DVec3) -> f64 {
     }
 }
 
-/// The largest cosine with a normal within a cone about an axis that has the cosine `axis` with it.
+/// Returns the largest cosine with a normal within a cone, whose axis has the cosine `axis` with the normal.
 fn most_cosine(axis: f64, sine_of_half_angle: f64) -> f64 {
     let between = axis.clamp(-1.0, 1.0).acos() - sine_of_half_angle.min(1.0).asin();
     between.max(0.0).cos().max(0.0)

@@ -1,4 +1,4 @@
-//! The choice of an emitter at a point of a surface, by an estimate of what each brings there; of many by a tree of groups.
+//! The choice of an emitter at a point of a surface by estimates of the contributions; among many emitters, by a tree of groups.
 
 use crate::PreparedScene;
 use glam::DVec3;
@@ -7,35 +7,35 @@ use scene::{EmitterNode, EmitterTree};
 /// An emitter and the probability with which it is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EmitterChoice {
-    /// Its number.
+    /// Index of the emitter.
     pub emitter: usize,
     /// The probability.
     pub pmf: f64,
 }
 
-/// A point of a surface at which emitters are weighed.
+/// A point of a surface at which emitters are weighted.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     pub(crate) position: DVec3,
     pub(crate) normal: DVec3,
 }
 
-/// A node of the tree that is weighed at a place.
+/// A node of the tree with its weight at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Weighed {
     pub(crate) node: u32,
     pub(crate) weight: f64,
 }
 
-/// One of several things, chosen by a number in [0, 1).
+/// One of several options, chosen by a number in [0, 1).
 struct Pick {
     index: usize,
     pmf: f64,
-    /// Where in the part of [0, 1) that belongs to it the number was: again in [0, 1).
+    /// The position of the number within the interval of the chosen option, rescaled to [0, 1).
     rest: f64,
 }
 
-/// Chooses by probabilities and a uniform number.
+/// Chooses an option by probabilities and a uniform number.
 fn pick(pmfs: impl Iterator<Item = f64>, random: f64) -> Option<Pick> {
     let mut sum = 0.0;
     let mut choice = None;
@@ -53,7 +53,7 @@ fn pick(pmfs: impl Iterator<Item = f64>, random: f64) -> Option<Pick> {
     Some(Pick { index, pmf, rest })
 }
 
-/// Chooses an emitter by its probability and a uniform number.
+/// Chooses an emitter by probabilities and a uniform number.
 pub fn choose_emitter(pmfs: impl Iterator<Item = f64>, random: f64) -> Option<EmitterChoice> {
     let Pick { index, pmf, .. } = pick(pmfs, random)?;
     Some(EmitterChoice {
@@ -62,22 +62,22 @@ pub fn choose_emitter(pmfs: impl Iterator<Item = f64>, random: f64) -> Option<Em
     })
 }
 
-/// Part of the variance of places that counts as squared distance: within a group the light does not grow toward its middle.
-/// Between 0.2 and 0.7 the quality of the choice is the same to within 1 %.
+/// Fraction of the variance of the positions that is added to the squared distance: within a group, irradiance does not grow toward
+/// the center. Between 0.2 and 0.7 the quality of the choice is the same to within 1 %.
 const SOFTENING: f64 = 0.4;
-/// 2/(3π). Of heights with a normal distribution about 0, the mean of max(0, h) is √(2/π)/2 of the standard deviation, which is
-/// √(variance/3) of places that scatter alike along all axes.
+/// 2/(3π). For heights with a normal distribution about 0, the mean of max(0, h) is √(2/π)/2 of the standard deviation, which is
+/// √(variance/3) for positions with the same spread along all axes.
 const HORIZON: f64 = 0.212_206_590_789;
-/// Cosines are compared with the edge of a cone up to this: the sine of a cone of 0.1°, the narrowest of a spot, is known no better from
-/// its cosine in an `f32`.
+/// Tolerance of the cosine at the edge of a cone: the sine of a cone of 0.1°, the narrowest of a spot, is not known more precisely
+/// from its cosine in an `f32`.
 const EDGE: f64 = 1e-4;
 
-/// About what a group of emitters brings to a place, in the unit of [`Emitter::weight`](crate::Emitter::weight) times brightness; 0 only
-/// where nothing of it can arrive.
+/// Returns roughly the contribution of a group of emitters at a place, in the unit of [`Emitter::weight`](crate::Emitter::weight)
+/// times brightness; 0 only where no light of the group can arrive.
 ///
-/// The measure is that of Pharr, Jakob and Humphreys (Physically Based Rendering, 4th edition, 2023, section 12.6.3), power times cosine
-/// over squared distance, with the mean in place of the largest cosine: outside a ball, the mean of cos θ / r² over it is that of its
-/// center (Newton's shell theorem).
+/// The weight is the one of Pharr, Jakob and Humphreys (Physically Based Rendering, 4th edition, 2023, section 12.6.3), power times
+/// cosine over squared distance, but with the mean in place of the largest cosine: outside a ball, the mean of cos θ / r² over the
+/// ball equals the value at its center (Newton's shell theorem).
 pub(crate) fn group_weight(node: &EmitterNode, place: Place) -> f64 {
     let toward = node.center - place.position;
     let height = toward.dot(place.normal);
@@ -90,7 +90,7 @@ pub(crate) fn group_weight(node: &EmitterNode, place: Place) -> f64 {
     node.power * directional_weight(node, toward, distance2) * above / (soft * soft.sqrt())
 }
 
-/// About the mean of max(0, h) over heights h with a mean and a squared width, without a difference of like numbers.
+/// Returns roughly the mean of max(0, h) over heights h with a mean and a squared width, without a difference of nearly equal numbers.
 fn mean_above(mean: f64, width2: f64) -> f64 {
     let root = (mean * mean + width2).sqrt();
     if mean > 0.0 {
@@ -100,7 +100,7 @@ fn mean_above(mean: f64, width2: f64) -> f64 {
     }
 }
 
-/// What part of its power a group sends to a point: of near points the direction is not known well.
+/// Returns the fraction of its power that a group emits toward a point; toward near points the direction is uncertain.
 fn directional_weight(node: &EmitterNode, toward: DVec3, distance2: f64) -> f64 {
     let along = toward.dot(node.axis);
     let third = node.variance / 3.0;
@@ -108,7 +108,7 @@ fn directional_weight(node: &EmitterNode, toward: DVec3, distance2: f64) -> f64 
     (node.even + node.along * square).sqrt()
 }
 
-/// Whether the cone in which a group shines, as wide as the group is seen, holds no direction toward a point.
+/// Whether no direction toward a point lies in the group's cone of emission, widened by the angle that the group subtends.
 fn is_outside_cone(node: &EmitterNode, toward: DVec3, distance2: f64) -> bool {
     let reach2 = node.reach * node.reach;
     if node.cone <= -1.0 || distance2 <= reach2 {
@@ -125,12 +125,12 @@ fn is_outside_cone(node: &EmitterNode, toward: DVec3, distance2: f64) -> bool {
     -toward.dot(node.axis) < (edge - EDGE) * distance2.sqrt()
 }
 
-/// Whether a group is looked into from here.
+/// Whether a place is so near to a group that its children are weighted instead.
 fn is_near(node: &EmitterNode, place: Place) -> bool {
     node.center.distance_squared(place.position) < node.near * node.near
 }
 
-/// The node that is weighed for a node at a place: the outermost group around it that is not looked into, or itself.
+/// Returns the node that is weighted for a node at a place: the outermost group around it that is not near, or the node itself.
 fn weighed_with(tree: &EmitterTree, mut node: u32, place: Place) -> u32 {
     let mut top = node;
     while tree.nodes[node as usize].parent != EmitterTree::NONE {
@@ -143,9 +143,9 @@ fn weighed_with(tree: &EmitterTree, mut node: u32, place: Place) -> u32 {
 }
 
 impl PreparedScene<'_> {
-    /// Probability with which each emitter is chosen at a point of a surface; all 0 where none can shine there.
+    /// Returns the probability with which each emitter is chosen at a point of a surface; all 0 where none contributes.
     ///
-    /// The sum is less than 1 where a group might shine and none of its emitters does.
+    /// The sum is less than 1 where a group has a weight but none of its emitters does.
     pub fn emitter_pmfs(&self, point: DVec3, normal: DVec3) -> Vec<f64> {
         let place = Place {
             position: point,
@@ -156,7 +156,7 @@ impl PreparedScene<'_> {
         numbers.map(|i| self.emitter_pmf(i, place, sum)).collect()
     }
 
-    /// Chooses an emitter at a point of a surface by a number in [0, 1), if one can shine there.
+    /// Chooses an emitter at a point of a surface by a number in [0, 1), if any contributes there.
     pub fn choose_emitter_at(
         &self,
         point: DVec3,
@@ -172,7 +172,7 @@ impl PreparedScene<'_> {
         self.choose_weighed(place, (&weighed, sum), random)
     }
 
-    /// Weighs the emitters and groups of them that a place is not near to, which hold each emitter once. Returns the sum of their
+    /// Weights the emitters and groups that a place is not near to; together they contain each emitter once. Returns the sum of the
     /// weights, or 1 where that is 0.
     pub(crate) fn weigh_emitters(&self, place: Place, weighed: &mut Vec<Weighed>) -> f64 {
         let nodes = &self.scene.emitter_tree().nodes;
@@ -191,7 +191,7 @@ impl PreparedScene<'_> {
         if sum > 0.0 { sum } else { 1.0 }
     }
 
-    /// Chooses one of the weighed nodes, then one of the two nodes of a group until it is an emitter.
+    /// Chooses one of the weighted nodes, then one of the two children of a group until an emitter is reached.
     pub(crate) fn choose_weighed(
         &self,
         place: Place,
@@ -218,7 +218,7 @@ impl PreparedScene<'_> {
         }
     }
 
-    /// Probability with which an emitter is chosen, `sum` being what [`Self::weigh_emitters`] returned.
+    /// Returns the probability with which an emitter is chosen; `sum` is the value that [`Self::weigh_emitters`] returned.
     pub(crate) fn emitter_pmf(&self, emitter: usize, place: Place, sum: f64) -> f64 {
         let tree = self.scene.emitter_tree();
         let mut node = tree.leaves[emitter];
@@ -237,7 +237,7 @@ impl PreparedScene<'_> {
         pmf * (weight / sum)
     }
 
-    /// About what a node brings to a place. Where there is only one emitter, it is always chosen.
+    /// Returns roughly the contribution of a node at a place. A single emitter is always chosen.
     fn node_weight(&self, node: &EmitterNode, place: Place) -> f64 {
         if node.source == EmitterTree::NONE {
             return group_weight(node, place);
@@ -267,7 +267,7 @@ mod tests {
             .unwrap_or_else(|problems| panic!("{problems}"))
     }
 
-    /// Lamps of four kinds in random places of a cube, with axes to all sides, and the sun.
+    /// Lamps of four kinds at random positions in a cube, with axes in all directions, and the sun.
     fn lamps(count: u32) -> Scene {
         let mut text = format!(
             "{HEAD}[[lights]]\ntype = 'distant'\ndirection = [0, 1, 0]\nemission = {{ constant = 1e-3 }}\n"
@@ -324,7 +324,7 @@ mod tests {
         prepared.emitters.iter().map(of).collect()
     }
 
-    /// Second moment of the estimate of all light by one sample, relative to its square: 1 where the choice is exact.
+    /// Second moment of the one-sample estimate of all light, relative to its square: 1 where the choice is exact.
     fn second_moment(prepared: &PreparedScene<'_>, place: Place) -> Option<f64> {
         let estimates = estimates(prepared, place);
         let pmfs = prepared.emitter_pmfs(place.position, place.normal);
@@ -338,8 +338,8 @@ mod tests {
         prepared.emitter_pmfs(place.position, place.normal)
     }
 
-    /// Where a group might shine of which no emitter does, nothing is chosen. Measured: one choice in 17, most of them on surfaces that
-    /// turn away from nearly all lamps.
+    /// Nothing is chosen where a group has a weight but none of its emitters does. Measured: one choice in 17, most of them on
+    /// surfaces that face away from nearly all lamps.
     #[test]
     fn probabilities_sum_to_one() {
         let scene = lamps(1000);
@@ -360,7 +360,7 @@ mod tests {
         assert!(pmfs(&PreparedScene::new(&dark), place(0, 1.0)).is_empty());
     }
 
-    /// No light is lost: what can shine can be chosen, also where all numbers are those of a GPU.
+    /// No light is lost: every emitter that contributes can be chosen, even with all numbers as on a GPU.
     #[test]
     fn what_shines_can_be_chosen() {
         let made = lamps(300);
@@ -379,8 +379,8 @@ mod tests {
         }
     }
 
-    /// Of many draws at a place, how many find each emitter, as sum of squared differences over what is expected (Pearson's χ²), and the
-    /// number of emitters that are expected at least five times.
+    /// Counts how many of many draws at a place choose each emitter. Returns the sum of squared differences over the expected
+    /// counts (Pearson's χ²), and the number of emitters that are expected at least five times.
     fn chi_squared(
         prepared: &PreparedScene<'_>,
         (drawn_at, expected_at): (Place, Place),
@@ -407,7 +407,7 @@ mod tests {
         })
     }
 
-    /// Numbers are drawn one from each of as many equal parts of [0, 1): the sum is then below its mean for independent ones.
+    /// One number is drawn from each of as many equal intervals of [0, 1): the sum is then below its mean for independent numbers.
     #[test]
     fn draws_follow_the_probabilities() {
         let scene = lamps(100);
@@ -426,7 +426,7 @@ mod tests {
         assert!(all > 50.0 && right < all, "{right} {all}");
         assert!(
             wrong > 3.0 * all,
-            "wrong draws are not found: {wrong} {all}"
+            "wrong draws are not detected: {wrong} {all}"
         );
     }
 
@@ -450,7 +450,7 @@ mod tests {
         }
     }
 
-    /// Mean second moment over places in a cube of a size.
+    /// Mean second moment over places in a cube of the given size.
     fn mean_second_moment(prepared: &PreparedScene<'_>, size: f64) -> f64 {
         let places = (0..1000).map(|i| place(i, size));
         let moments: Vec<f64> = places
@@ -459,7 +459,7 @@ mod tests {
         moments.iter().sum::<f64>() / moments.len() as f64
     }
 
-    /// Measured among the lamps: 1.14; within twice their cube, where some surfaces turn away from all but a few: 1.55.
+    /// Measured among the lamps: 1.14; within a cube twice as large, where some surfaces face away from all but a few: 1.55.
     #[test]
     fn groups_choose_about_as_well_as_all_estimates() {
         let scene = lamps(1000);
@@ -468,7 +468,7 @@ mod tests {
         assert!(moments[0] < 1.2 && moments[1] < 1.7, "{moments:?}");
     }
 
-    /// How many nodes are weighed for a choice.
+    /// Returns how many nodes are weighted for a choice.
     fn weighed_for(prepared: &PreparedScene<'_>, place: Place, random: f64) -> usize {
         let mut weighed = Vec::new();
         let sum = prepared.weigh_emitters(place, &mut weighed);

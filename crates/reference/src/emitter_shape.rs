@@ -1,4 +1,4 @@
-//! Shapes that directions are drawn toward: emitting spheres, rectangles and disks.
+//! Shapes of emitters that directions are sampled toward: spheres, rectangles and disks.
 
 use crate::{cone_height, frame_of, sample_cone};
 use glam::DVec3;
@@ -6,14 +6,14 @@ use optics::wide::sin_cos_turns;
 use scene::Shape;
 use std::f64::consts::PI;
 
-/// A point this close to a sphere's surface, relative to its squared radius, counts as inside.
+/// A point is inside a sphere if its squared distance from the center is at most this times the squared radius.
 pub(crate) const INSIDE: f64 = 1.000_01;
 
-/// A direction from `point` toward a shape: uniform in the solid angle of a sphere (over all directions from
-/// inside it), uniform over the area of a rectangle or disk.
+/// Samples a direction from `point` toward a shape: uniform in the solid angle of a sphere (over all directions from inside it),
+/// uniform over the area of a rectangle or disk.
 ///
 /// # Panics
-/// For an unbounded plane, which is never an emitter that is sampled.
+/// For an unbounded plane, which is never sampled as an emitter.
 pub fn sample_shape(shape: &Shape, point: DVec3, u: f64, v: f64) -> DVec3 {
     match *shape {
         Shape::Sphere { center, radius } => {
@@ -53,10 +53,10 @@ pub fn sample_shape(shape: &Shape, point: DVec3, u: f64, v: f64) -> DVec3 {
     }
 }
 
-/// Density with which [`sample_shape`] draws a direction that hits the shape, sr⁻¹.
+/// Returns the density with which [`sample_shape`] samples a direction that hits the shape, sr⁻¹.
 ///
 /// # Panics
-/// For an unbounded plane, which is never an emitter that is sampled.
+/// For an unbounded plane, which is never sampled as an emitter.
 pub fn shape_pdf(shape: &Shape, point: DVec3, direction: DVec3) -> f64 {
     match *shape {
         Shape::Sphere { center, radius } => {
@@ -88,7 +88,7 @@ pub fn shape_pdf(shape: &Shape, point: DVec3, direction: DVec3) -> f64 {
     }
 }
 
-/// Density per solid angle of places drawn evenly over an area of a plane.
+/// Returns the density per solid angle of positions sampled uniformly over an area of a plane.
 fn plane_pdf(to_center: DVec3, normal: DVec3, direction: DVec3, area: f64) -> f64 {
     let cosine = direction.dot(normal).abs();
     let distance = to_center.dot(normal).abs() / cosine;

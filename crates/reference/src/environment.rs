@@ -1,4 +1,4 @@
-//! What surrounds the scene, in parts that light can be sent from one by one.
+//! The environment, in parts that are sampled separately.
 
 use crate::environment_picture::{environment_picture_pdf, sample_environment_picture};
 use crate::{frame_of, sample_cone, sample_cosine_hemisphere};
@@ -7,7 +7,7 @@ use optics::wide::sin_cos_turns;
 use scene::EnvironmentShape;
 use std::f64::consts::{FRAC_1_PI, TAU};
 
-/// The share of a part's radiance that comes from a direction; a picture has its own.
+/// Returns the relative radiance of a part of the environment in a direction; a picture has its own values.
 pub fn environment_strength(part: EnvironmentShape<'_>, direction: DVec3) -> f64 {
     match part {
         EnvironmentShape::Everywhere | EnvironmentShape::Picture(_) => 1.0,
@@ -19,12 +19,12 @@ pub fn environment_strength(part: EnvironmentShape<'_>, direction: DVec3) -> f64
     }
 }
 
-/// A direction toward a part of the environment, by the density of [`environment_pdf`].
+/// Samples a direction toward a part of the environment, by the density of [`environment_pdf`].
 pub fn sample_environment(part: EnvironmentShape<'_>, u: f64, v: f64) -> DVec3 {
     match part {
         EnvironmentShape::Everywhere => sample_cone(u, v, 2.0),
         EnvironmentShape::Horizon => {
-            // The distribution function of |h| is 1 − (1 − |h|)².
+            // The cumulative distribution function of |h| is 1 − (1 − |h|)².
             let (t, side) = if u < 0.5 {
                 (2.0 * u, 1.0)
             } else {
@@ -43,7 +43,7 @@ pub fn sample_environment(part: EnvironmentShape<'_>, u: f64, v: f64) -> DVec3 {
     }
 }
 
-/// Density with which [`sample_environment`] draws a direction, sr⁻¹: the share over its integral.
+/// Returns the density with which [`sample_environment`] samples a direction, sr⁻¹: the relative radiance over its integral.
 pub fn environment_pdf(part: EnvironmentShape<'_>, direction: DVec3) -> f64 {
     let share = environment_strength(part, direction);
     match part {

@@ -5,7 +5,7 @@ use glam::DVec3;
 use scene::{DirectionTable, EnvironmentPicture};
 use std::f64::consts::TAU;
 
-/// Place of a direction in the picture, from its upper left corner in its width and height.
+/// Returns the position of a direction in the picture, from its upper left corner, in units of its width and height.
 pub(crate) fn environment_place(picture: &EnvironmentPicture, direction: DVec3) -> [f64; 2] {
     let longitude = direction
         .dot(picture.right)
@@ -13,7 +13,7 @@ pub(crate) fn environment_place(picture: &EnvironmentPicture, direction: DVec3) 
     [0.5 + longitude / TAU, half_turns(direction, DVec3::Y)]
 }
 
-/// The pixel that a path takes for a direction, by a random number.
+/// Returns the pixel that a path uses for a direction, chosen by a random number.
 pub fn environment_pixel(picture: &EnvironmentPicture, direction: DVec3, random: f64) -> [u32; 2] {
     chosen_pixel(
         &picture.texels,
@@ -23,7 +23,7 @@ pub fn environment_pixel(picture: &EnvironmentPicture, direction: DVec3, random:
     )
 }
 
-/// A direction drawn in proportion to the brightness of the cells of the picture's table.
+/// Samples a direction in proportion to the brightness of the cells of the picture's table.
 pub(crate) fn sample_environment_picture(picture: &EnvironmentPicture, u: f64, v: f64) -> DVec3 {
     let table = &picture.table;
     let (row, down) = inverted(&table.marginal, u);
@@ -36,7 +36,7 @@ pub(crate) fn sample_environment_picture(picture: &EnvironmentPicture, u: f64, v
     around * radius + DVec3::Y * height
 }
 
-/// Density of [`sample_environment_picture`], sr⁻¹: the probability of the direction's cell over its solid angle.
+/// Returns the density of [`sample_environment_picture`], sr⁻¹: the probability of the direction's cell over its solid angle.
 pub(crate) fn environment_picture_pdf(picture: &EnvironmentPicture, direction: DVec3) -> f64 {
     let table = &picture.table;
     let [across, down] = environment_place(picture, direction);
@@ -54,7 +54,7 @@ fn columns_of(table: &DirectionTable, row: usize) -> &[f32] {
     &table.conditional[row * edges..(row + 1) * edges]
 }
 
-/// The interval between edges that a number falls into, and where in it.
+/// Returns the interval between edges that contains a number, and the position within it.
 fn inverted(edges: &[f32], u: f64) -> (usize, f64) {
     let index = edges.partition_point(|&edge| f64::from(edge) <= u) - 1;
     let [low, high] = [edges[index], edges[index + 1]].map(f64::from);

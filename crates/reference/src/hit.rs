@@ -4,17 +4,17 @@ use crate::{Ray, intersect_plane, intersect_sphere};
 use glam::DVec3;
 use scene::{Hierarchy, Node, Object, Scene, Shape, Sheet};
 
-/// Where a ray meets the scene.
+/// The nearest intersection of a ray with the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Index of the object.
     pub object: usize,
-    /// How far away.
+    /// Distance along the ray.
     pub distance: f64,
 }
 
-/// The nearest object along a ray, which may start on `from_object`. Of two at the same distance the first counts; coincident surfaces
-/// are met one after another, in the order of their [`Sheet`]s.
+/// Returns the nearest object along a ray, which may start on `from_object`. Of two objects at the same distance, the first counts;
+/// coincident surfaces are met one after another, in the order of their [`Sheet`]s.
 pub fn nearest_hit(scene: &Scene, ray: &Ray, from_object: Option<usize>) -> Option<Hit> {
     let mut nearest = Nearest {
         objects: scene.objects(),
@@ -34,7 +34,7 @@ pub fn nearest_hit(scene: &Scene, ray: &Ray, from_object: Option<usize>) -> Opti
     (nearest.hit.object != usize::MAX).then_some(nearest.hit)
 }
 
-/// The nearest object so far.
+/// The search for the nearest object, with the nearest one so far.
 struct Nearest<'a> {
     objects: &'a [Object],
     sheets: &'a [Option<Sheet>],
@@ -44,7 +44,7 @@ struct Nearest<'a> {
 }
 
 impl Nearest<'_> {
-    /// Tries some objects.
+    /// Tests some objects.
     fn among(&mut self, objects: &[u32]) {
         for &object in objects {
             let object = object as usize;
@@ -93,14 +93,14 @@ impl Nearest<'_> {
             || hit.distance == nearest.distance && hit.object < nearest.object
     }
 
-    /// Tries the objects in the boxes that the ray meets, the nearer of two boxes first.
+    /// Tests the objects in the boxes that the ray meets, the nearer of two boxes first.
     fn in_hierarchy(&mut self, hierarchy: &Hierarchy) {
         let inverse = self
             .ray
             .direction
             .map(|d| if d.abs() < 1e-300 { 1e300 } else { 1.0 / d });
         let origin = self.ray.origin;
-        // Where the ray enters a box, if it does so before it meets the nearest object.
+        // The distance at which the ray enters a box, if that is before it meets the nearest object.
         let entry = |node: &Node, before: f64| {
             let (a, b) = (
                 (node.low - origin) * inverse,
@@ -143,7 +143,7 @@ impl Nearest<'_> {
     }
 }
 
-/// Whether a ray goes out of a stack of coincident surfaces where it meets one of them.
+/// Whether a ray leaves a stack of coincident surfaces where it meets one of them.
 fn is_outwards(ray: &Ray, shape: &Shape, place: DVec3, sheet: Sheet) -> bool {
     let speed = match *shape {
         Shape::Sphere { center, .. } => ray.direction.dot(place - center),
@@ -154,7 +154,7 @@ fn is_outwards(ray: &Ray, shape: &Shape, place: DVec3, sheet: Sheet) -> bool {
     (speed > 0.0) != sheet.is_turned
 }
 
-/// Whether coincident surfaces at these distances are met in the same place: an `f32` does not tell them apart.
+/// Whether coincident surfaces at these distances are met at the same position: an `f32` does not distinguish them.
 fn is_same_crossing(a: f64, b: f64) -> bool {
     (a > 0.0) == (b > 0.0) && (a - b).abs() <= 1e-5 * a.max(b)
 }
@@ -198,7 +198,7 @@ mod tests {
     use std::fmt::Write as _;
     use std::path::Path;
 
-    /// So many spheres of all sizes, some rectangles and disks, and a plane.
+    /// `spheres` spheres of all sizes, some rectangles and disks, and a plane.
     fn crowd(spheres: u32) -> Scene {
         let mut text = String::from(
             "camera = { type = 'orthographic', position = [0, 0, 9], look_at = [0, 0, 0], height = 9 }\n\
@@ -229,7 +229,7 @@ mod tests {
             .unwrap_or_else(|problems| panic!("{problems}"))
     }
 
-    /// The nearest of some objects, each tried in turn.
+    /// Returns the nearest of some objects by testing each.
     fn one_by_one(
         scene: &Scene,
         objects: std::ops::RangeInclusive<usize>,
@@ -244,7 +244,7 @@ mod tests {
         hits.reduce(|a, b| if b.distance < a.distance { b } else { a })
     }
 
-    /// The hierarchy of boxes finds what trying all objects finds, from outside, from within and from objects themselves.
+    /// The hierarchy of boxes finds the same as testing all objects: from outside, from inside and from the objects themselves.
     #[test]
     fn rays_meet_the_nearest_of_many_objects() {
         let (many, mut hits) = (crowd(700), 0);

@@ -1,10 +1,10 @@
-//! Rays against analytic shapes.
+//! Intersections of rays with analytic shapes.
 
 use crate::Ray;
 use glam::DVec3;
 
-/// Distance to a sphere: the smaller positive root of |o + t d − c|² = r². A ray that starts on the
-/// sphere (`from_surface`) has one root at its start, which does not count; the other is −2 d·(o − c).
+/// Returns the distance to a sphere: the smaller positive root of |o + t d − c|² = r². A ray that starts on the sphere
+/// (`from_surface`) has one root at its start, which is ignored; the other is −2 d·(o − c).
 pub fn intersect_sphere(ray: &Ray, center: DVec3, radius: f64, from_surface: bool) -> Option<f64> {
     let from_center = ray.origin - center;
     let b = ray.direction.dot(from_center);
@@ -20,7 +20,7 @@ pub fn intersect_sphere(ray: &Ray, center: DVec3, radius: f64, from_surface: boo
     [-b - root, -b + root].into_iter().find(|&t| t > 0.0)
 }
 
-/// Distance to a plane.
+/// Returns the distance to a plane.
 pub fn intersect_plane(ray: &Ray, point: DVec3, normal: DVec3) -> Option<f64> {
     let distance = (point - ray.origin).dot(normal) / ray.direction.dot(normal);
     (distance.is_finite() && distance > 0.0).then_some(distance)

@@ -1,4 +1,4 @@
-//! Thin layers, free or on a surface, where a path meets them.
+//! Thin layers, free or on a surface, at a point of a path.
 
 use crate::spectral::{At, BandPowers, Bands, Knots, Row, Tables, Through};
 use crate::{SurfacePoint, layer_thickness};
@@ -11,7 +11,7 @@ use pulp::Simd;
 use scene::limits::MAX_LAYERS;
 use scene::{Interference, PathDifference, Shape, SpectrumId, Thickness};
 
-/// Nothing is seen at a smaller cosine; the bound keeps a grazing ray finite.
+/// Smaller cosines are not visible; the bound keeps a grazing ray finite.
 pub(crate) const GRAZING: f64 = 1e-6;
 
 /// A medium of index n + ik.
@@ -19,7 +19,7 @@ pub(crate) const GRAZING: f64 = 1e-6;
 pub(crate) struct Medium {
     n: Row,
     k: Row,
-    /// k is 0 in every band.
+    /// Whether k is 0 in every band.
     is_clear: bool,
 }
 
@@ -35,7 +35,7 @@ impl Medium {
         bands.spectrum(self.n, at)
     }
 
-    /// Reflectance of unpolarized light that comes from air.
+    /// Returns the reflectance for unpolarized light from air.
     #[inline(always)]
     pub(crate) fn reflectance<S: Simd>(
         &self,
@@ -64,7 +64,7 @@ impl<'a> Layers<'a> {
         Self(layers.iter().map(layer).collect())
     }
 
-    /// Their thicknesses at a point, nm, written to the front of `nm`.
+    /// Writes the thicknesses at a point, nm, to the front of `nm` and returns them.
     pub(crate) fn thickness_nm<'b>(
         &self,
         surface: &SurfaceAt<'_>,
@@ -80,7 +80,7 @@ impl<'a> Layers<'a> {
         self.0.is_empty()
     }
 
-    /// Their thicknesses where these are the same everywhere, nm, written to the front of `nm`.
+    /// Writes the thicknesses, nm, to the front of `nm` and returns them, if they are the same everywhere.
     pub(crate) fn even_thickness_nm<'b>(&self, nm: &'b mut Nanometers) -> Option<&'b [f64]> {
         for (nm, (_, thickness)) in nm.iter_mut().zip(&self.0) {
             let Thickness::Constant { nm: even } = thickness else {
@@ -91,14 +91,14 @@ impl<'a> Layers<'a> {
         Some(&nm[..self.0.len()])
     }
 
-    /// The sum of the layers' thicknesses times their largest index, nm.
+    /// Returns the sum of the layers' thicknesses times their largest index, nm.
     pub(crate) fn optical_thickness_nm(&self, tables: &Tables, nm: &[f64]) -> f64 {
         let layers = self.0.iter().zip(nm);
         let optical = |((medium, _), nm): (&(Medium, _), &f64)| tables.extent(medium.n).1 * nm;
         layers.map(optical).sum()
     }
 
-    /// R_s, R_p, T_s and T_p on a substrate in light from air, or from behind where they are free (then they are met in reverse).
+    /// Returns R_s, R_p, T_s and T_p on a substrate for light from air, or from behind for free layers (then in reverse order).
     #[inline(always)]
     fn powers<S: Simd>(
         &self,
@@ -126,10 +126,10 @@ impl<'a> Layers<'a> {
     }
 }
 
-/// Thicknesses of as many layers as there can be, nm.
+/// Thicknesses of the largest possible number of layers, nm.
 pub(crate) type Nanometers = [f64; MAX_LAYERS];
 
-/// Where a path meets a surface.
+/// The point where a path meets a surface.
 #[derive(Clone, Copy)]
 pub(crate) struct SurfaceAt<'a> {
     pub(crate) shape: &'a Shape,
@@ -142,12 +142,12 @@ pub(crate) struct Film<'a> {
     kind: FilmKind,
 }
 
-/// By which formula a film is computed.
+/// The formula by which a film is computed.
 #[derive(Clone, Copy)]
 enum FilmKind {
-    /// One layer that does not absorb, n ≥ 1.
+    /// One non-absorbing layer with n ≥ 1.
     Clear,
-    /// One layer by two beams.
+    /// One layer by the two-beam formula.
     TwoBeam(optics::PathDifference),
     /// Any layers.
     Stack,
@@ -177,7 +177,7 @@ impl<'a> Film<'a> {
         Self { layers, kind }
     }
 
-    /// Where a path meets it.
+    /// Returns the film at the point where a path meets it.
     pub(crate) fn at(&'a self, shape: &'a Shape, point: &SurfacePoint) -> FilmAt<'a> {
         FilmAt {
             film: self,
@@ -191,7 +191,7 @@ impl<'a> Film<'a> {
     }
 }
 
-/// A free film where a path meets it.
+/// A free film at the point where a path meets it.
 #[derive(Clone, Copy)]
 pub(crate) struct FilmAt<'a> {
     film: &'a Film<'a>,
@@ -201,12 +201,12 @@ pub(crate) struct FilmAt<'a> {
 }
 
 impl FilmAt<'_> {
-    /// Thicknesses of its layers, nm, written to the front of `nm`.
+    /// Writes the thicknesses of its layers, nm, to the front of `nm` and returns them.
     pub(crate) fn thickness_nm<'b>(&self, nm: &'b mut Nanometers) -> &'b [f64] {
         self.film.layers.thickness_nm(&self.surface, nm)
     }
 
-    /// Multiplies the light of each band by its reflectance or transmittance of unpolarized light, of layers so thick.
+    /// Multiplies each band by the film's reflectance or transmittance for unpolarized light, for layers of these thicknesses.
     #[inline(always)]
     pub(crate) fn pass<S: Simd>(&self, bands: &Bands<'_, S>, nm: &[f64], through: Through<'_>) {
         let layers = &self.film.layers;
@@ -249,7 +249,7 @@ impl BandPowers for ClearFilm<'_> {
     }
 }
 
-/// A film of one layer by two beams.
+/// A film of one layer by the two-beam formula.
 struct TwoBeamFilm<'a> {
     n: Knots<'a>,
     twice_nm: f64,
@@ -286,7 +286,7 @@ pub(crate) struct Coating<'a> {
 }
 
 impl Coating<'_> {
-    /// Its reflectance of unpolarized light at a cosine; `nm` are its layers' thicknesses.
+    /// Returns the reflectance for unpolarized light at a cosine; `nm` are the thicknesses of the layers.
     #[inline(always)]
     pub(crate) fn reflectance<S: Simd>(
         &self,

@@ -1,8 +1,8 @@
 //! The renderer on the CPU, in `f64`: an oracle for the shader, and fast.
 //!
-//! It computes what the GPU renderer computes, from the same random numbers, but independently: no formula is shared with the shader.
-//! Comparing the two proves both. Its films are in turn held against `optics::stack`, which gives neither
-//! renderer a spectral value.
+//! It computes what the GPU renderer computes, from the same random numbers, but independently: it shares no formula with the
+//! shader. A comparison of the two therefore checks both. Its films are in turn compared with `optics::stack`, which neither
+//! renderer uses for spectral values.
 //!
 //! ```text
 //! Scene -> PreparedScene        spectra in chunks of bands, materials by their BSDFs, emitters by number
@@ -15,7 +15,7 @@
 
 #![expect(
     clippy::inline_always,
-    reason = "what works on lanes must be inlined into the caller that was compiled for them"
+    reason = "code that works on lanes must be inlined into the caller that was compiled for them"
 )]
 
 mod bsdf;

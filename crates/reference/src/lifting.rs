@@ -2,7 +2,7 @@
 
 use optics::wide::Real;
 
-/// The smooth spectrum with these coefficients: (1 + x/√(1 + x²)) / 2 with x = c₀ t² + c₁ t + c₂ and
+/// Returns the smooth spectrum with these coefficients: (1 + x/√(1 + x²)) / 2 with x = c₀ t² + c₁ t + c₂ and
 /// t = (λ − 580 nm) / 200 nm (Jakob and Hanika 2019, equations 4 and 5).
 #[inline(always)]
 pub fn smooth_value<T: Real>([c0, c1, c2]: [f64; 3], wavelength_nm: T) -> T {

@@ -1,14 +1,14 @@
-//! Gradient noise and the streaks that a flow makes of it.
+//! Gradient noise, and the streaks that a flow makes of it.
 
 use crate::random::{pcg4d, unit_interval};
 use glam::DVec3;
 use scene::{Shape, Swirls};
 
-/// Steps in which the streaks are carried along.
+/// Number of steps of the flow that carries the streaks.
 const WARP_STEPS: u32 = 3;
-/// Gain before the noise is bounded: its root mean square is about a fifth.
+/// Gain before the noise is bounded: the root mean square of the noise is about a fifth.
 const GAIN: f64 = 5.0;
-/// Where the noise of the stream function lies, apart from that of the streaks: another seed.
+/// Offset of the seed that separates the noise of the stream function from the noise of the streaks.
 const STREAM: u32 = 0x9e37_79b9;
 
 /// Noise and its gradient.
@@ -16,13 +16,13 @@ const STREAM: u32 = 0x9e37_79b9;
 pub struct Noise {
     /// The value, within ±1.5.
     pub value: f64,
-    /// Its derivatives.
+    /// The derivatives.
     pub gradient: DVec3,
 }
 
-/// Gradient noise with a quintic blend (Perlin, Improving Noise, 2002): at each point of the integer lattice it is 0 and has a
-/// gradient drawn from the cube [−1, 1)³. `cells` is added to the third coordinate of the lattice, and `seed` chooses
-/// the gradients.
+/// Returns gradient noise with a quintic blend (Perlin, Improving Noise, 2002): at each point of the integer lattice it is 0 and
+/// has a gradient drawn from the cube [−1, 1)³. `cells` is added to the third coordinate of the lattice, and `seed` selects the
+/// gradients.
 pub fn gradient_noise(place: DVec3, cells: u32, seed: u32) -> Noise {
     let floor = place.floor();
     let within = place - floor;
@@ -71,7 +71,7 @@ fn lattice_gradient([x, y, z]: [u32; 3], seed: u32) -> DVec3 {
     2.0 * DVec3::new(u, v, w) - 1.0
 }
 
-/// The value of swirls at a point of a surface.
+/// Returns the value of swirls at a point of a surface.
 pub fn swirls(swirls: &Swirls, shape: &Shape, position: DVec3) -> f64 {
     let time = swirls.phase * DVec3::Z;
     let size = swirls.cells_per_unit;
@@ -106,7 +106,7 @@ pub fn swirls(swirls: &Swirls, shape: &Shape, position: DVec3) -> f64 {
     };
     for _ in 0..WARP_STEPS {
         let stream = gradient_noise(place + time, swirls.cells, swirls.seed ^ STREAM);
-        // n × ∇ψ runs along the lines of equal ψ, so it has no sources on the surface.
+        // n × ∇ψ runs along the lines of equal ψ, so the flow is free of divergence on the surface.
         let moved = place - swirls.warp / f64::from(WARP_STEPS) * normal.cross(stream.gradient);
         place = moved;
         if is_sphere {
@@ -136,7 +136,7 @@ fn octaves(swirls: &Swirls, place: DVec3, time: DVec3) -> f64 {
 mod tests {
     use super::*;
 
-    /// The gradient is that of central differences, and neither it nor the value jumps where cells meet.
+    /// The gradient agrees with central differences, and neither it nor the value jumps where cells meet.
     #[test]
     fn the_gradient_is_the_derivative() {
         let step = 1e-5;
@@ -158,7 +158,7 @@ mod tests {
         }
     }
 
-    /// The flow has no sources: ∇·(n × ∇ψ) by central differences on a plane.
+    /// The flow is free of divergence: ∇·(n × ∇ψ) by central differences on a plane.
     #[test]
     fn the_flow_has_no_sources() {
         let step = 1e-5;
@@ -174,7 +174,7 @@ mod tests {
         }
     }
 
-    /// Within the bound, with both signs alike, and half of all places beyond about half of it, as documented.
+    /// The values stay within the bound, both signs alike, and half of all positions are beyond about half of it, as documented.
     #[test]
     fn the_amplitude_is_a_bound_that_is_used() {
         let plane = Shape::Plane {

@@ -1,16 +1,16 @@
-//! Where pictures lie on surfaces, and which of their pixels a path takes.
+//! How pictures are mapped to surfaces, and which of their pixels a path uses.
 
 use crate::surface::center_of;
 use glam::DVec3;
 use scene::{Shape, Texels};
 use std::f64::consts::{PI, TAU};
 
-/// The angle between two directions over π. The arc cosine of their product would lose half the digits near 0.
+/// Returns the angle between two directions over π. The arc cosine of their product would lose half the digits near 0.
 pub(crate) fn half_turns(a: DVec3, b: DVec3) -> f64 {
     a.cross(b).length().atan2(a.dot(b)) / PI
 }
 
-/// Place in a picture, from its upper left corner in its width and height, and whether it goes on beyond its sides.
+/// Returns the position in a picture, from its upper left corner, in units of its width and height, and whether it wraps at its sides.
 pub(crate) fn picture_place(
     size: Option<[f64; 2]>,
     shape: &Shape,
@@ -48,8 +48,8 @@ pub(crate) fn picture_place(
     }
 }
 
-/// The pixel that a path takes at a place of a picture: one of the four whose centers are around it, with the weights that they
-/// have between the centers as odds (`random` in [0, 1)).
+/// Returns the pixel that a path uses at a position in a picture: one of the four whose centers surround it, with the weights of
+/// bilinear interpolation as probabilities (`random` in [0, 1)).
 pub(crate) fn chosen_pixel(
     texels: &Texels,
     [across, down]: [f64; 2],

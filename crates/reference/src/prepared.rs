@@ -1,20 +1,20 @@
-//! A scene as paths need it: spectra in chunks, materials by what paths meet, emitters by number.
+//! A scene in the form that paths need: spectra in chunks, materials by how paths use them, emitters by index.
 
 use crate::Emitter;
 use crate::bsdf::Surface;
 use crate::spectral::Tables;
 use scene::{EmitterKind, EmitterSource, EnvironmentPart, MaterialId, Scene};
 
-/// A scene that paths can be traced in.
+/// A scene prepared for tracing paths.
 pub struct PreparedScene<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) tables: Tables,
     surfaces: Vec<Surface<'a>>,
-    /// What the environment is made of, disks of distant lights included.
+    /// The parts of the environment, including the disks of distant lights.
     pub(crate) environment: Vec<EnvironmentPart<'a>>,
-    /// All that is sampled for direct light.
+    /// All emitters that are sampled for direct light.
     pub(crate) emitters: Vec<SceneEmitter<'a>>,
-    /// Numbers of the emitters that objects and the parts of the environment are.
+    /// Indices of the emitters, for each object and for each part of the environment.
     object_emitters: Vec<Option<usize>>,
     environment_emitters: Vec<Option<usize>>,
 }
@@ -64,7 +64,7 @@ impl<'a> PreparedScene<'a> {
         &self.surfaces[material.index()]
     }
 
-    /// The number of the emitter that a path can meet here.
+    /// Returns the index of the emitter that a path can hit here.
     pub(crate) fn emitter_number(&self, kind: EmitterKind) -> Option<usize> {
         match kind {
             EmitterKind::Object(index) => self.object_emitters[index],
@@ -74,7 +74,7 @@ impl<'a> PreparedScene<'a> {
     }
 }
 
-/// Which emitter each of some things is.
+/// Returns, for each of `things` objects or parts of the environment, the index of its emitter.
 fn numbers(
     emitters: &[EmitterSource],
     things: usize,

@@ -6,7 +6,7 @@ pub fn pcg4d(key: [u32; 4]) -> [u32; 4] {
     stir(stir(v).map(|x| x ^ (x >> 16)))
 }
 
-/// One round: each number takes up the product of two others.
+/// One round: the product of two other numbers is added to each number.
 fn stir([mut x, mut y, mut z, mut w]: [u32; 4]) -> [u32; 4] {
     x = x.wrapping_add(y.wrapping_mul(w));
     y = y.wrapping_add(z.wrapping_mul(x));
@@ -15,12 +15,12 @@ fn stir([mut x, mut y, mut z, mut w]: [u32; 4]) -> [u32; 4] {
     [x, y, z, w]
 }
 
-/// The upper 24 bits as a multiple of 2⁻²⁴ in [0, 1).
+/// Returns the upper 24 bits as a multiple of 2⁻²⁴ in [0, 1).
 pub fn unit_interval<const N: usize>(bits: [u32; N]) -> [f64; N] {
     bits.map(|b| f64::from(b >> 8) * (0.5_f64).powi(24))
 }
 
-/// Four numbers in [0, 1) for a pixel of the whole picture, a sample and a dimension.
+/// Returns four numbers in [0, 1) for a pixel of the whole picture, a sample and a dimension.
 pub fn random4(pixel: [u32; 2], sample: u32, dimension: u32, seed: u32) -> [f64; 4] {
     let place = pixel[0] | (pixel[1] << 16);
     unit_interval(pcg4d([place, sample, dimension, seed]))

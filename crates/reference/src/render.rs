@@ -1,4 +1,4 @@
-//! A whole picture.
+//! Rendering a whole picture.
 
 use crate::path::PathTracer;
 use crate::spectral::{Pixel, PixelValues, SpectralPath};
@@ -15,14 +15,14 @@ use thiserror::Error;
 #[error("stopped before the picture was finished")]
 pub struct Stopped;
 
-/// Side of a tile in pixels: what is near in the picture is near in the scene. A power of two.
+/// Side of a tile in pixels, a power of two. Tiles keep neighboring pixels together, because they see neighboring parts of the scene.
 const TILE: u32 = 16;
-/// Tiles of small pictures are smaller, so that each thread has so many.
+/// The least number of tiles per thread; tiles of small pictures are made smaller for it.
 const TILES_OF_A_THREAD: u32 = 4;
 
 /// Renders a scene on all cores, tile by tile.
 ///
-/// `on_progress` is told the samples taken so far (of width × height × samples per pixel), and may stop the render.
+/// `on_progress` receives the number of samples taken so far (of width × height × samples per pixel), and may stop the render.
 ///
 /// # Errors
 /// [`Stopped`] when the caller stops it.
@@ -33,7 +33,7 @@ pub fn render(
     render_at(SimdLevel::best(), scene, on_progress)
 }
 
-/// [`render`] with a level of the machine's instructions.
+/// Like [`render`], at a given level of the machine's instructions.
 ///
 /// # Errors
 /// [`Stopped`] when the caller stops it.
@@ -50,7 +50,7 @@ pub fn render_at(
     let (next, is_stopped) = (AtomicU32::new(0), AtomicBool::new(false));
     let threads = rayon::current_num_threads();
     let tiles = Tiles::new(width, height, threads as u32);
-    // Threads of our own: those of a pool that this is called from may all wait for it.
+    // Our own threads: those of a pool that calls this function may all be waiting for it.
     std::thread::scope(|scope| {
         let (sender, finished) = mpsc::channel();
         for _ in 0..threads {
@@ -64,7 +64,7 @@ pub fn render_at(
                         break;
                     }
                     let tile = tiles.tile(index);
-                    // The receiver is gone where the caller has panicked.
+                    // The receiver is gone if the caller has panicked.
                     if sender.send(worker.rendered(tile)).is_err() {
                         break;
                     }
@@ -86,10 +86,10 @@ pub fn render_at(
     Ok(image)
 }
 
-/// What one sample of a pixel brings.
+/// The result of one sample of a pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathSample {
-    /// Place of the wavelengths in their bands, in [0, 1).
+    /// Position of the wavelengths in their bands, in [0, 1).
     pub offset: f64,
     /// Radiance of each light group at each band's wavelength: `[light group][band]`.
     pub radiance: Vec<Vec<f64>>,
@@ -108,7 +108,7 @@ impl PreparedScene<'_> {
     }
 }
 
-/// What a core renders with.
+/// The state with which a core renders.
 struct Worker<'a> {
     tracer: PathTracer<'a, SpectralPath<'a>>,
     pixel: Pixel<'a>,
@@ -150,7 +150,7 @@ impl<'a> Worker<'a> {
     }
 }
 
-/// The tiles of a picture, counted by rows.
+/// The tiles of a picture, counted row by row.
 #[derive(Clone, Copy)]
 struct Tiles {
     size: [u32; 2],
@@ -180,7 +180,7 @@ impl Tiles {
     }
 }
 
-/// A part of the picture.
+/// A tile of the picture.
 #[derive(Clone, Copy)]
 struct Tile {
     corner: [u32; 2],

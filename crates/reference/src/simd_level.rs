@@ -1,27 +1,28 @@
-//! Which instructions spectra are computed with.
+//! The instruction sets with which spectra are computed.
 
 use pulp::Arch;
 
 /// A level of a machine's instructions.
 ///
-/// All that multiply and add with one rounding (AVX2 with FMA, AVX-512, NEON) do the same operations in the same order, and give the same bits
-/// but in one case: layers with n < 1 at an angle at which only some of neighboring bands are totally reflected, where the number of lanes
-/// decides between two forms of the same matrix. There, and with the baseline, which rounds twice, the last digits of an `f64` differ.
+/// All levels with a fused multiply-add (AVX2 with FMA, AVX-512, NEON) do the same operations in the same order and give the same
+/// bits, with one exception: layers with n < 1 at an angle at which only some of neighboring bands are totally reflected, where the
+/// number of lanes decides between two forms of the same matrix. In this case, and with the baseline, which rounds twice, the last
+/// digits of an `f64` differ.
 #[derive(Clone, Copy, Debug)]
 pub struct SimdLevel(pub(crate) Arch);
 
 impl SimdLevel {
-    /// The highest that the machine has.
+    /// Returns the highest level that the machine has.
     pub fn best() -> Self {
         Self(Arch::new())
     }
 
-    /// What every machine has.
+    /// Returns the level that every machine has.
     pub fn baseline() -> Self {
         Self(Arch::Scalar)
     }
 
-    /// Its name.
+    /// Returns the name of the level.
     pub fn name(&self) -> &'static str {
         match self.0 {
             Arch::Scalar => "baseline",

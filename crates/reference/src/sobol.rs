@@ -1,11 +1,11 @@
-//! Points that fill the unit cube evenly, bit for bit those of `shaders/sobol.wgsl`.
+//! Points that fill the unit cube uniformly, bit for bit those of `shaders/sobol.wgsl`.
 //!
-//! Four dimensions of Sobol's sequence, scrambled as Owen (1995) does, by hashing (Burley, Practical Hash-based Owen Scrambling,
-//! JCGT 9(4), 2020). Every four dimensions of a path have points of their own, in another order.
+//! Four dimensions of Sobol's sequence with Owen scrambling (1995) by hashing (Burley, Practical Hash-based Owen Scrambling, JCGT
+//! 9(4), 2020). Each group of four dimensions of a path has its own points, in another order.
 
 use crate::{pcg4d, unit_interval};
 
-/// Digits of an index that count: a pixel has at most 2²⁴ samples.
+/// Number of significant digits of an index: a pixel has at most 2²⁴ samples.
 const DIGITS: usize = 24;
 
 /// Direction numbers of the four dimensions.
@@ -16,8 +16,8 @@ const DIRECTIONS: [[u32; DIGITS]; 4] = [
     directions(3, 1, [1, 3, 1]),
 ];
 
-/// Direction numbers by the recurrence of a primitive polynomial over GF(2) of `degree`, with `coefficients` of its inner terms
-/// and the first numbers `m` (Joe and Kuo, Constructing Sobol sequences with better two-dimensional projections, SIAM J. Sci.
+/// Returns direction numbers by the recurrence of a primitive polynomial over GF(2) of `degree`, with `coefficients` of its inner
+/// terms and the first numbers `m` (Joe and Kuo, Constructing Sobol sequences with better two-dimensional projections, SIAM J. Sci.
 /// Comput. 30, 2008, equation 2 and their table new-joe-kuo-6). Degree 0 is the first dimension, van der Corput's.
 const fn directions(degree: usize, coefficients: u32, m: [u32; 3]) -> [u32; DIGITS] {
     let mut v = [0; DIGITS];
@@ -43,7 +43,7 @@ const fn directions(degree: usize, coefficients: u32, m: [u32; 3]) -> [u32; DIGI
     v
 }
 
-/// A point of Sobol's sequence, each number in units of 2⁻³².
+/// Returns a point of Sobol's sequence, each number in units of 2⁻³².
 pub fn sobol_point(index: u32) -> [u32; 4] {
     DIRECTIONS.map(|directions| {
         let of_digit = |(i, &v): (usize, &u32)| if index >> i & 1 == 1 { v } else { 0 };
@@ -52,8 +52,8 @@ pub fn sobol_point(index: u32) -> [u32; 4] {
     })
 }
 
-/// Points of the indices that have one byte of digits alone, the byte's highest bit the lowest digit, with their bits reversed: a point
-/// is the sum (XOR) of those of its index's bytes.
+/// Points, with their bits reversed, of the indices that are zero outside one byte; the byte's highest bit is the lowest digit. A
+/// point is the sum (XOR) of the points of its index's bytes.
 static REVERSED_BY_BYTE: [[[u32; 4]; 256]; DIGITS / 8] = reversed_by_byte();
 
 const fn reversed_by_byte() -> [[[u32; 4]; 256]; DIGITS / 8] {
@@ -71,15 +71,15 @@ const fn reversed_by_byte() -> [[[u32; 4]; 256]; DIGITS / 8] {
     points
 }
 
-/// [`sobol_point`] of an index with its bits reversed, with its bits reversed.
+/// Like [`sobol_point`], but with the bits of the index and of the result reversed.
 fn sobol_point_reversed(index: u32) -> [u32; 4] {
     let bytes = index.to_be_bytes();
     let [a, b, c] = std::array::from_fn(|i| REVERSED_BY_BYTE[i][bytes[i] as usize]);
     std::array::from_fn(|i| a[i] ^ b[i] ^ c[i])
 }
 
-/// Owen's nested uniform scrambling of a number with its bits reversed: a bit is flipped by a hash of those below it (Laine and Karras,
-/// Comput. Graph. Forum 30, 2011, with the steps of Vegdahl, 2021).
+/// Returns Owen's nested uniform scrambling of a number with its bits reversed: a bit is flipped by a hash of the bits below it
+/// (Laine and Karras, Comput. Graph. Forum 30, 2011, with the steps of Vegdahl, 2021).
 pub fn scrambled_reversed(mut x: u32, seed: u32) -> u32 {
     x ^= x.wrapping_mul(0x3d20_adea);
     x = x.wrapping_add(seed);
@@ -88,7 +88,7 @@ pub fn scrambled_reversed(mut x: u32, seed: u32) -> u32 {
     x ^ x.wrapping_mul(0x53a2_2864)
 }
 
-/// How four dimensions of a pixel are scrambled.
+/// The scrambling of four dimensions of a pixel.
 #[derive(Clone, Copy, Default)]
 struct Scrambling {
     order: u32,
@@ -114,7 +114,7 @@ impl Scrambling {
     }
 }
 
-/// Four numbers, each scrambled when it is asked for.
+/// Four numbers, each scrambled on demand.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SobolNumbers {
     point: [u32; 4],
@@ -129,19 +129,19 @@ impl SobolNumbers {
     }
 }
 
-/// Four numbers in [0, 1) for a pixel of the whole picture, a sample and a dimension.
+/// Returns four numbers in [0, 1) for a pixel of the whole picture, a sample and a dimension.
 pub fn sobol4(pixel: [u32; 2], sample: u32, dimension: u32, seed: u32) -> [f64; 4] {
     let numbers = Scrambling::new(pixel, dimension, seed).numbers(sample);
     std::array::from_fn(|lane| numbers.get(lane))
 }
 
-/// [`sobol4`] for the samples of a pixel, which share what depends on the pixel.
+/// [`sobol4`] for the samples of a pixel, which share everything that depends only on the pixel.
 pub(crate) struct SobolPixel {
     pixel: [u32; 2],
     seed: u32,
     /// Changes with the pixel.
     epoch: u32,
-    /// By the last digits of the dimension: the epoch, the dimension and its scrambling.
+    /// Indexed by the last digits of the dimension: the epoch, the dimension and its scrambling.
     known: Vec<(u32, u32, Scrambling)>,
 }
 
@@ -157,7 +157,7 @@ impl SobolPixel {
         }
     }
 
-    /// The samples that follow are of this pixel.
+    /// Announces that the following samples belong to this pixel.
     pub(crate) fn begin(&mut self, pixel: [u32; 2]) {
         if pixel != self.pixel {
             self.pixel = pixel;
@@ -180,7 +180,7 @@ impl SobolPixel {
 mod tests {
     use super::*;
 
-    /// The first points as published: Joe and Kuo's generator gives these for dimensions 1 to 4.
+    /// The first points agree with those published: Joe and Kuo's generator gives these for dimensions 1 to 4.
     #[test]
     fn the_sequence_begins_as_published() {
         let expected = [
@@ -193,7 +193,7 @@ mod tests {
             [0.375, 0.375, 0.625, 0.875],
             [0.875, 0.875, 0.125, 0.375],
         ];
-        // Theirs is in the order of Gray's code, which permutes each block of 2ᵐ points.
+        // Their order is that of Gray's code, which permutes each block of 2ᵐ points.
         let found: Vec<[f64; 4]> = (0..8)
             .map(|i| sobol_point(i).map(|x| f64::from(x) / 2_f64.powi(32)))
             .collect();
@@ -224,7 +224,7 @@ mod tests {
         }
     }
 
-    /// Every interval of 2⁻ᵐ has one number of each run of 2ᵐ samples, and every elementary rectangle of area 2⁻ᵐ has one
+    /// Every interval of 2⁻ᵐ contains one number of each run of 2ᵐ samples, and every elementary rectangle of area 2⁻ᵐ contains one
     /// point of the first two of the four numbers, which are a (0, 2)-sequence.
     #[test]
     fn samples_lie_in_every_elementary_interval() {
@@ -258,7 +258,7 @@ mod tests {
                 );
             }
         }
-        assert!(!fills(vec![0, 0], 2), "two points in one cell are noticed");
+        assert!(!fills(vec![0, 0], 2), "two points in one cell are detected");
     }
 
     /// Different pixels, dimensions and seeds have independent points: pairs of their numbers are uniform. Chi-square over

@@ -1,17 +1,17 @@
-//! Where paths divide: at a film into reflection and transmission, both or one of them; and where they end by chance.
+//! Where paths split or end: reflection, transmission or both at a film, and Russian roulette.
 
-/// The least share of the paths that follow the reflection of a film, and the least that follow its transmission: what is seen
-/// faintly may be bright all the same.
+/// The least probability of following the reflection of a film, and of following its transmission: even a weak reflection may show
+/// something bright.
 const LEAST_PROBABILITY: f64 = 0.25;
 
-/// A part of the light that is a rounding of none.
+/// A fraction of the light that is 0 up to rounding.
 const NOTHING: f64 = 1e-9;
 
-/// The least chance that a path has to go on at Russian roulette, which bounds its weight.
+/// The least survival probability of a path in Russian roulette, which bounds its weight.
 const LEAST_SURVIVAL: f64 = 0.05;
 
-/// Share of the paths that follow the reflection of a film of which about the part `reflected` is reflected. It steers noise only:
-/// the weight undoes it. Nothing is drawn for a reflection that there is none of.
+/// Returns the probability of following the reflection of a film that reflects roughly the fraction `reflected`. It affects noise
+/// only: the weight divides by it. A reflection of 0 is never sampled.
 pub fn reflection_probability(reflected: f64) -> f64 {
     if reflected <= NOTHING {
         return 0.0;
@@ -19,8 +19,8 @@ pub fn reflection_probability(reflected: f64) -> f64 {
     reflected.clamp(LEAST_PROBABILITY, 1.0 - LEAST_PROBABILITY)
 }
 
-/// Chance that a path goes on through which about the part `throughput` of the light comes. The same for all its wavelengths, so
-/// that each is right on average.
+/// Returns the survival probability of a path with the estimated throughput `throughput`. It is the same for all its wavelengths,
+/// so that each is unbiased.
 pub fn rr_survival_probability(throughput: f64) -> f64 {
     throughput.clamp(LEAST_SURVIVAL, 1.0)
 }

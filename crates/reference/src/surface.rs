@@ -1,4 +1,4 @@
-//! What a scene's surface is at a point.
+//! Geometry and reflectance of a surface at a point.
 
 use crate::picture::{chosen_pixel, picture_place};
 use crate::{Ray, frame_of};
@@ -8,17 +8,17 @@ use scene::{Grain, Material, Pattern, Shape, SpectrumId};
 /// The point that a ray hits and the unit normal there, on the ray's side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
-    /// Where.
+    /// Position.
     pub position: DVec3,
-    /// Unit normal, against the ray.
+    /// Unit normal, on the side of the ray's origin.
     pub normal: DVec3,
     /// Cosine between the ray and the normal, ≥ 0.
     pub cosine: f64,
-    /// Whether the ray comes from the side that the shape's own normal points to: a sphere's outside.
+    /// Whether the ray comes from the side of the shape's own normal: the outside of a sphere.
     pub is_front: bool,
 }
 
-/// The point of a shape at a distance along a ray.
+/// Returns the point of a shape at a distance along a ray.
 pub fn surface_point(shape: &Shape, ray: &Ray, distance: f64) -> SurfacePoint {
     let reached = ray.origin + ray.direction * distance;
     let (position, outward) = match *shape {
@@ -39,8 +39,8 @@ pub fn surface_point(shape: &Shape, ray: &Ray, distance: f64) -> SurfacePoint {
     }
 }
 
-/// The frame of a surface at a point, its third column the normal on the ray's side: where the surface is brushed the first runs
-/// along the grain.
+/// Returns the frame of a surface at a point. The third column is the normal on the ray's side; where the surface is brushed, the
+/// first column runs along the grain.
 pub fn surface_frame(material: &Material, shape: &Shape, point: &SurfacePoint) -> DMat3 {
     let normal = point.normal;
     let grain = match material.microsurface().map(|facets| facets.grain) {
@@ -56,7 +56,7 @@ pub fn surface_frame(material: &Material, shape: &Shape, point: &SurfacePoint) -
     DMat3::from_cols(tangent, normal.cross(tangent), normal)
 }
 
-/// A shape's center, or the origin of a plane's axes.
+/// Returns a shape's center, or the origin of a plane's axes.
 pub(crate) fn center_of(shape: &Shape) -> DVec3 {
     match *shape {
         Shape::Sphere { center, .. }
@@ -71,11 +71,11 @@ pub(crate) fn center_of(shape: &Shape) -> DVec3 {
 pub enum Reflectance {
     /// One of the scene's spectra.
     Spectrum(SpectrumId),
-    /// The smooth one with these coefficients.
+    /// The smooth spectrum with these coefficients.
     Smooth([f64; 3]),
 }
 
-/// The reflectance of a pattern at a point. `random` in [0, 1) chooses between the texels of a picture.
+/// Returns the reflectance of a pattern at a point. `random` in [0, 1) chooses between the texels of a picture.
 pub fn pattern_reflectance(
     pattern: &Pattern,
     shape: &Shape,

@@ -1,4 +1,4 @@
-//! How a surface scatters light, apart from any path.
+//! The BSDF of a surface, independent of any path.
 
 use crate::bsdf::{Bsdf, Lobes};
 use crate::spectral::SpectralPath;
@@ -6,8 +6,9 @@ use crate::transport::Transport;
 use crate::{PreparedScene, SimdLevel, SurfacePoint};
 use glam::DVec3;
 
-/// The BSDF of an object at a point, as paths have it. `wo` points to the camera's side of a path, `wi` to the light's; both are unit
-/// vectors of the local frame whose z is the normal on the side of `wo` and, where the surface is brushed, whose x runs along the grain.
+/// The BSDF of an object at a point, as paths use it. `wo` points to the camera's side of a path, `wi` to the light's; both are
+/// unit vectors of the local frame whose z is the normal on the side of `wo` and, where the surface is brushed, whose x runs along
+/// the grain.
 pub struct SurfaceFunction<'a> {
     prepared: &'a PreparedScene<'a>,
     bsdf: Bsdf<'a>,
@@ -15,8 +16,8 @@ pub struct SurfaceFunction<'a> {
 }
 
 impl<'a> SurfaceFunction<'a> {
-    /// That of an object of a scene; none of films and of what is black. `offset` is the place of the wavelengths in their bands, `random`
-    /// chooses between the texels of a picture; both lie in [0, 1).
+    /// Returns the BSDF of an object of a scene; `None` for films and for black surfaces. `offset` is the position of the
+    /// wavelengths in their bands, `random` chooses between the texels of a picture; both are in [0, 1).
     pub fn new(
         prepared: &'a PreparedScene<'a>,
         object: usize,
@@ -33,7 +34,7 @@ impl<'a> SurfaceFunction<'a> {
         })
     }
 
-    /// The BSDF from `wi` to `wo` times cos θi in each band, sr⁻¹, without a specular part.
+    /// Returns the BSDF from `wi` to `wo` times cos θi in each band, sr⁻¹, without a specular part.
     pub fn values(&self, wo: DVec3, wi: DVec3) -> Vec<f64> {
         let mut path = SpectralPath::new(SimdLevel::best().0, &self.prepared.tables, 1);
         path.begin(self.offset);
@@ -41,21 +42,21 @@ impl<'a> SurfaceFunction<'a> {
         path.throughput().to_vec()
     }
 
-    /// Density with which [`Self::sample`] finds `wi`, sr⁻¹. Below a smooth coat it integrates to the chance that the path is not
-    /// mirrored by the coat.
+    /// Returns the density with which [`Self::sample`] finds `wi`, sr⁻¹. Below a smooth coat it integrates to the probability that
+    /// the path is not reflected by the coat.
     pub fn pdf(&self, wo: DVec3, wi: DVec3) -> f64 {
         self.bsdf.eval(wo, wi).pdf
     }
 
-    /// A direction `wi` by four numbers in [0, 1).
+    /// Samples a direction `wi` from four numbers in [0, 1).
     pub fn sample(&self, wo: DVec3, random: [f64; 4]) -> DVec3 {
         self.bsdf.sample(wo, |lane| random[lane])
     }
 }
 
 impl PreparedScene<'_> {
-    /// Reflectance and transmittance of the film that an object is, for unpolarized light in each band, as paths have them. None of
-    /// other objects.
+    /// Returns reflectance and transmittance of an object's film, for unpolarized light in each band, as paths use them. `None` for
+    /// objects that are not films.
     pub fn film_powers(
         &self,
         object: usize,
@@ -75,8 +76,8 @@ impl PreparedScene<'_> {
         Some([reflectance, path.throughput().to_vec()])
     }
 
-    /// Reflectance of the smooth surface that an object is, for unpolarized light in each band, as paths have it. None of what does not
-    /// only mirror.
+    /// Returns the reflectance of an object's smooth surface, for unpolarized light in each band, as paths use it. `None` for
+    /// objects that are not purely specular.
     pub fn mirror_reflectance(
         &self,
         object: usize,

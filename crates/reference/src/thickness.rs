@@ -1,4 +1,4 @@
-//! How thick a layer is at a point of its surface.
+//! The thickness of a layer at a point of its surface.
 
 use crate::noise::swirls;
 use crate::picture::{half_turns, picture_place};
@@ -7,7 +7,7 @@ use glam::DVec3;
 use scene::limits::THICKNESS_NM;
 use scene::{Coordinate, Picture, Profile, Shape, Thickness};
 
-/// Thickness of a layer at a point of its surface, nm.
+/// Returns the thickness of a layer at a point of its surface, nm.
 pub fn layer_thickness(thickness: &Thickness, shape: &Shape, position: DVec3) -> f64 {
     field_value(thickness, shape, position).clamp(THICKNESS_NM.low, THICKNESS_NM.high)
 }
@@ -48,7 +48,7 @@ fn field_value(thickness: &Thickness, shape: &Shape, position: DVec3) -> f64 {
     }
 }
 
-/// What a field runs along, from 0 to 1.
+/// Returns the coordinate along which a field varies, from 0 to 1.
 fn field_coordinate(coordinate: &Coordinate, shape: &Shape, position: DVec3) -> f64 {
     match *coordinate {
         Coordinate::Polar { axis } => half_turns(position - center_of(shape), axis),
@@ -72,14 +72,14 @@ fn profile_value(profile: &Profile, along: f64) -> f64 {
     }
 }
 
-/// A picture by longitude and latitude on spheres, by the surface's two axes elsewhere.
+/// Returns the value of a picture, by longitude and latitude on spheres, by the surface's two axes elsewhere.
 fn picture_value(picture: &Picture, shape: &Shape, position: DVec3) -> f64 {
     let (place, wraps) = picture_place(picture.size, shape, position);
     let value = bilinear(picture, place, wraps);
     picture.black_nm + (picture.white_nm - picture.black_nm) * value
 }
 
-/// Linear between the centers of the pixels.
+/// Interpolates linearly between the centers of the pixels.
 fn bilinear(picture: &Picture, [across, down]: [f64; 2], wraps: bool) -> f64 {
     let file = &*picture.file;
     let (width, height) = (f64::from(file.width), f64::from(file.height));
@@ -149,11 +149,11 @@ mod tests {
         assert!((found - expected).abs() < 1e-9, "{found} for {expected}");
     }
 
-    /// The middle of the picture looks to +Z, its right half lies toward +X, its top at +Y, and it closes behind.
+    /// The center of the picture faces +Z, its right half lies toward +X, its top at +Y, and it closes behind.
     #[test]
     fn a_picture_lies_on_a_sphere_as_a_map_on_a_globe() {
         let globe = |place| at(&picture(None), &GLOBE, place);
-        // On the equator both rows count half: the columns are 200, 300, 400, 500.
+        // On the equator both rows have weight one half: the columns are 200, 300, 400, 500.
         assert_near(globe([0.0, 0.0, 2.0]), 350.0);
         assert_near(globe([2.0, 0.0, 0.0]), 450.0);
         assert_near(globe([-2.0, 0.0, 0.0]), 250.0);
@@ -209,7 +209,7 @@ mod tests {
         assert_eq!(
             at(&thick, &SLIDE, [1.5, 0.0, 0.0]),
             1e5,
-            "the thickest there is"
+            "the largest possible thickness"
         );
     }
 }

@@ -11,11 +11,11 @@ use pulp::Simd;
 use scene::CoatedBody;
 use std::f64::consts::FRAC_1_PI;
 
-/// Such a surface, anywhere.
+/// A coated body, independent of any point.
 pub(crate) struct Coated<'a> {
     pub(crate) body: &'a CoatedBody,
     coat: Coating<'a>,
-    /// Of a rough coat.
+    /// The facets of a rough coat.
     rough: Option<Rough<'a>>,
 }
 
@@ -31,14 +31,14 @@ impl<'a> Coated<'a> {
     }
 }
 
-/// Such a surface at a point.
+/// A coated body at a point.
 pub(crate) struct CoatedAt<'a> {
     pub(crate) coated: &'a Coated<'a>,
     pub(crate) base: Reflectance,
 }
 
 impl CoatedAt<'_> {
-    /// A smooth coat mirrors.
+    /// Returns the probability of the specular reflection, which only a smooth coat has.
     pub(super) fn specular_probability(&self, wo: DVec3) -> f64 {
         match self.coated.rough {
             None => coat_probability(self.coated.body, wo.z),
@@ -93,7 +93,7 @@ impl BandValue for (&CoatedAt<'_>, Lobes) {
         let (surface, lobes) = self;
         let Coated { body, coat, rough } = surface.coated;
         let Some(rough) = rough else {
-            // A smooth coat mirrors, or lets through.
+            // A smooth coat reflects or transmits.
             if lobes.single > 0.0 {
                 let mirrored = coat.medium.reflectance(bands, at, lobes.cosine);
                 return mirrored.times(lobes.single);
@@ -113,7 +113,7 @@ impl BandValue for (&CoatedAt<'_>, Lobes) {
     }
 }
 
-/// The reflectance of a rough coat, from its table.
+/// Returns the reflectance of a rough coat, from its table.
 #[inline(always)]
 fn rough_coat<S: Simd>(body: &CoatedBody, bands: &Bands<'_, S>, at: At, cosine: f64) -> Lanes<S> {
     let Some(table) = body.reflectances else {
@@ -126,13 +126,13 @@ fn rough_coat<S: Simd>(body: &CoatedBody, bands: &Bands<'_, S>, at: At, cosine: 
     (high - low).mul_add(bands.splat(place - knot as f64), low)
 }
 
-/// Share of the paths that are mirrored by a smooth coat rather than sent on by the body below it: by an estimate of what either
-/// brings.
+/// Returns the probability that a path is reflected by the coat rather than scattered by the body below it, from an estimate of the
+/// contribution of each.
 pub fn coat_probability(body: &CoatedBody, cosine: f64) -> f64 {
     let reflected = interface_reflectance(body.estimate.n, 0.0, cosine.max(GRAZING));
     let share = reflected / (reflected + (1.0 - reflected) * body.estimate.base).max(1e-6);
     match body.microsurface {
-        // Near grazing it reflects less than a smooth one: both must stay within reach.
+        // Near grazing it reflects less than a smooth coat: both choices need a probability well above 0.
         Some(_) => share.clamp(0.1, 0.9),
         None => share,
     }

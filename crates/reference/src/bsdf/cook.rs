@@ -1,4 +1,4 @@
-//! The model of Cook and Torrance (1982), with a Lambertian share.
+//! The model of Cook and Torrance (1982), with a Lambertian fraction.
 
 use super::{BsdfEval, Lobes, mirrored};
 use crate::layers::Medium;
@@ -10,7 +10,7 @@ use pulp::Simd;
 use scene::{Cook1981, CookDistribution};
 use std::f64::consts::FRAC_1_PI;
 
-/// A surface of that model, anywhere.
+/// A surface of this model, independent of any point.
 pub(crate) struct Cook<'a> {
     medium: Medium,
     model: &'a Cook1981,
@@ -22,7 +22,7 @@ impl<'a> Cook<'a> {
         Self { medium, model }
     }
 
-    /// Share of the paths that are scattered evenly.
+    /// The probability that a path is scattered by the Lambertian fraction.
     fn diffuse_probability(&self) -> f64 {
         self.model.diffuse.map_or(0.0, |diffuse| diffuse.chance)
     }
@@ -64,18 +64,19 @@ impl BandValue for (&Cook<'_>, Lobes) {
     }
 }
 
-/// How the facets of Cook's model reflect between two directions.
+/// The reflection by the facets of Cook's model between two directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CookFacets {
     /// G Σ wⱼ Dⱼ / ((N·L) (N·E)): the reflection function without its Fresnel factor, sr⁻¹.
     pub reflection: f64,
-    /// Density with which a drawn facet mirrors `wo` to `wi`, sr⁻¹.
+    /// Density with which a sampled facet reflects `wo` to `wi`, sr⁻¹.
     pub pdf: f64,
     /// Cosine at the facet.
     pub cosine: f64,
 }
 
-/// From `wi` to `wo`, with the density of [`sample_cook_facet`] and a mirror; black when either is below the surface.
+/// Returns the reflection from `wi` to `wo`, with the density of a reflection at a facet of [`sample_cook_facet`]; black when
+/// either direction is below the surface.
 pub fn cook_facets(surface: &Cook1981, wo: DVec3, wi: DVec3) -> CookFacets {
     let facet = (wo + wi).normalize();
     let cosine = wo.dot(facet);
@@ -109,7 +110,7 @@ pub fn cook_facets(surface: &Cook1981, wo: DVec3, wi: DVec3) -> CookFacets {
     }
 }
 
-/// A facet normal drawn from two uniform numbers, of the slope that `pick` in [0, 1) chooses.
+/// Samples a facet normal from two uniform numbers, for the slope that `pick` in [0, 1) chooses.
 pub fn sample_cook_facet(surface: &Cook1981, [u, v, pick]: [f64; 3]) -> DVec3 {
     let mut below = 0.0;
     let chosen = surface.facets.iter().find(|facets| {

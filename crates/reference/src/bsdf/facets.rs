@@ -1,4 +1,4 @@
-//! The facets of a rough surface: light that meets one of them, and light that meets several.
+//! The facets of a rough surface: single and multiple scattering.
 
 use super::mirrored;
 use crate::sample_cone;
@@ -16,9 +16,9 @@ pub struct Facets<'a> {
 /// How facets scatter between two directions, without their colors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FacetEval {
-    /// Light that met one facet: D G / (4 cos θo), the BSDF times cos θi.
+    /// Single scattering: D G / (4 cos θo), the BSDF times cos θi.
     pub single: f64,
-    /// Light that met several, times cos θi.
+    /// Multiple scattering, times cos θi.
     pub multiple: f64,
     /// Cosine at the facet.
     pub cosine: f64,
@@ -27,7 +27,7 @@ pub struct FacetEval {
 }
 
 impl<'a> Facets<'a> {
-    /// Those of a material.
+    /// The facets of a material's microsurface.
     pub fn new(microsurface: &'a Microsurface) -> Self {
         Self {
             surface: optics::Microsurface {
@@ -38,19 +38,19 @@ impl<'a> Facets<'a> {
         }
     }
 
-    /// Mean of the directional albedo over all directions.
+    /// Returns the mean of the directional albedo over all directions.
     pub fn mean_energy(&self) -> f64 {
         self.energy.mean()
     }
 
-    /// The part of light from a direction that meets several facets.
+    /// Returns the fraction of the light from a direction that meets several facets.
     fn lost(&self, direction: DVec3) -> f64 {
         1.0 - self.energy.at(direction.to_array())
     }
 
-    /// Scattering from `wi` to `wo`; none where either is below the surface. The light that met several facets leaves by
-    /// (1 − E(wo)) (1 − E(wi)) / (π (1 − E mean)), so that with the rest everything is there (Kelemen and Szirmay-Kalos 2001; Kulla and
-    /// Conty 2017).
+    /// Returns the scattering from `wi` to `wo`; `None` where either is below the surface. The light that met several facets leaves
+    /// as (1 − E(wo)) (1 − E(wi)) / (π (1 − E mean)), so that no energy is lost (Kelemen and Szirmay-Kalos 2001; Kulla and Conty
+    /// 2017).
     pub fn eval(&self, wo: DVec3, wi: DVec3) -> Option<FacetEval> {
         if wo.z <= 0.0 || wi.z <= 0.0 {
             return None;
@@ -66,7 +66,7 @@ impl<'a> Facets<'a> {
         })
     }
 
-    /// A direction `wi`: mirrored by a visible facet, or with the share 1 − E(wo) any over the hemisphere alike.
+    /// Samples a direction `wi`: a reflection by a visible facet or, with probability 1 − E(wo), uniform over the hemisphere.
     pub fn sample(&self, wo: DVec3, [u, v, choice]: [f64; 3]) -> DVec3 {
         if choice < self.lost(wo) {
             return sample_cone(u, v, 1.0);

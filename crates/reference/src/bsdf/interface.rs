@@ -1,4 +1,4 @@
-//! The boundary of an opaque medium, bare or below thin layers: a mirror, or facets that mirror.
+//! The boundary of an opaque medium, bare or below thin layers: smooth, or made of specular facets.
 
 use super::{BsdfEval, Lobes, Rough};
 use crate::layers::{Coating, Layers, Medium, Nanometers, SurfaceAt};
@@ -8,7 +8,7 @@ use optics::wide::{Lanes, Real};
 use pulp::Simd;
 use scene::{Microsurface, SpectrumId};
 
-/// Such a boundary, anywhere on its surface.
+/// An interface, independent of any point.
 pub(crate) struct Interface<'a> {
     coating: Coating<'a>,
     rough: Option<Rough<'a>>,
@@ -29,13 +29,13 @@ impl<'a> Interface<'a> {
         Self { coating, rough }
     }
 
-    /// Whether it only mirrors.
+    /// Whether the interface is purely specular.
     pub(crate) fn is_smooth(&self) -> bool {
         self.rough.is_none()
     }
 }
 
-/// Such a boundary at a point.
+/// An interface at a point.
 pub(crate) struct InterfaceAt<'a> {
     pub(crate) interface: &'a Interface<'a>,
     pub(crate) surface: SurfaceAt<'a>,

@@ -1,15 +1,15 @@
-//! What all BSDFs give.
+//! The results that all BSDFs return.
 
 use glam::DVec3;
 
-/// A BSDF's value as weights of the spectra that it is made of.
+/// A BSDF's value as weights of the spectra that it consists of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lobes {
-    /// Of the reflectance at `cosine`: light that met the surface once.
+    /// Weight of the reflectance at `cosine`: single scattering.
     pub(crate) single: f64,
-    /// Of the color of light that met several facets of a rough surface.
+    /// Weight of the color of multiple scattering between the facets of a rough surface.
     pub(crate) multiple: f64,
-    /// Of the color of the base below a coat, or beside facets.
+    /// Weight of the color of the base below a coat, or beside facets.
     pub(crate) body: f64,
     /// Cosine at the facet, or at a smooth surface.
     pub(crate) cosine: f64,
@@ -19,7 +19,7 @@ pub(crate) struct Lobes {
     pub(crate) wi_cosine: f64,
 }
 
-/// A BSDF between two directions, without its specular part.
+/// The value and density of a BSDF between two directions, without its specular part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct BsdfEval {
     /// The value.
@@ -29,7 +29,7 @@ pub(crate) struct BsdfEval {
 }
 
 impl BsdfEval {
-    /// Nothing.
+    /// Returns an evaluation without any scattering.
     pub(super) fn dark(wo: DVec3, wi: DVec3) -> Self {
         Self {
             lobes: Lobes {
@@ -46,7 +46,7 @@ impl BsdfEval {
 }
 
 impl Lobes {
-    /// A smooth surface that mirrors.
+    /// Returns the lobes of a smooth, purely specular surface.
     pub(crate) fn specular(cosine: f64) -> Self {
         Self {
             single: 1.0,
@@ -58,7 +58,7 @@ impl Lobes {
         }
     }
 
-    /// All weights together.
+    /// Returns the sum of the weights.
     pub(crate) fn sum(&self) -> f64 {
         self.single + self.multiple + self.body
     }

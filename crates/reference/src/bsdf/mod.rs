@@ -1,4 +1,4 @@
-//! How surfaces scatter light: a file for each BSDF, with its geometry (`eval`, `sample`, a specular part) and its value over the spectrum.
+//! How surfaces scatter light: one file per BSDF, with its geometry (`eval`, `sample`, a specular part) and its value over the spectrum.
 //!
 //! `wo` points to the camera's side of a path and `wi` to the light's. They are unit vectors of the surface's local frame, whose z is the
 //! normal on the side of `wo` and whose x runs along the grain of a brushed surface. Values are those of the BSDF times |cos θi|.
@@ -29,11 +29,11 @@ use glam::DVec3;
 use pulp::Simd;
 use scene::{Emission, Estimate, Material, Pattern, Shape};
 
-/// A material as paths meet it.
+/// A material in the form that paths use.
 pub(crate) struct Surface<'a> {
-    /// What it emits.
+    /// The emission of the surface.
     pub(crate) emission: Option<Emission>,
-    /// How it divides light, roughly.
+    /// Rough estimates of the albedo and of the reflected fraction.
     pub(crate) estimate: &'a Estimate,
     kind: SurfaceKind<'a>,
 }
@@ -83,7 +83,7 @@ impl<'a> Surface<'a> {
         }
     }
 
-    /// The film that it is.
+    /// Returns the film, if the surface is one.
     pub(crate) fn film(&self) -> Option<&Film<'a>> {
         match &self.kind {
             SurfaceKind::Film(film) => Some(film),
@@ -91,7 +91,7 @@ impl<'a> Surface<'a> {
         }
     }
 
-    /// How it scatters light at a point; none of films and of what is black. `random` in [0, 1) chooses between the texels of a picture.
+    /// Returns the BSDF at a point; `None` for films and for black surfaces. `random` in [0, 1) chooses between the texels of a picture.
     pub(crate) fn bsdf(
         &'a self,
         shape: &'a Shape,
@@ -120,20 +120,20 @@ impl<'a> Surface<'a> {
     }
 }
 
-/// What scatters light at a point of a surface.
+/// The BSDF at a point of a surface.
 pub(crate) enum Bsdf<'a> {
-    /// Evenly, by a reflectance.
+    /// Lambertian, with a reflectance.
     Diffuse(Diffuse),
     /// The boundary of an opaque medium, perhaps coated, smooth or rough.
     Interface(InterfaceAt<'a>),
     /// A diffuse body below a clear coat, smooth or rough.
     Coated(CoatedAt<'a>),
-    /// By the model of Cook and Torrance.
+    /// The model of Cook and Torrance.
     Cook(&'a Cook<'a>),
 }
 
 impl Bsdf<'_> {
-    /// Probability with which a path takes the specular part: 1 of what only mirrors, 0 of what has none.
+    /// Returns the probability with which a path takes the specular part: 1 for purely specular BSDFs, 0 for those without a specular part.
     pub(crate) fn specular_probability(&self, wo: DVec3) -> f64 {
         match self {
             Self::Diffuse(_) | Self::Cook(_) => 0.0,
@@ -142,7 +142,7 @@ impl Bsdf<'_> {
         }
     }
 
-    /// Its value from `wi` to `wo` and the density of [`Self::sample`].
+    /// Returns the value from `wi` to `wo` and the density of [`Self::sample`].
     pub(crate) fn eval(&self, wo: DVec3, wi: DVec3) -> BsdfEval {
         match self {
             Self::Diffuse(_) => diffuse::eval(wo, wi),
@@ -152,7 +152,8 @@ impl Bsdf<'_> {
         }
     }
 
-    /// A direction `wi` by numbers in [0, 1): the first two make the direction, the third and the fourth choose between parts.
+    /// Samples a direction `wi` from numbers in [0, 1): the first two determine the direction, the third and the fourth choose
+    /// between parts.
     pub(crate) fn sample(&self, wo: DVec3, random: impl Fn(usize) -> f64) -> DVec3 {
         match self {
             Self::Diffuse(_) => diffuse::sample(random),
@@ -162,7 +163,7 @@ impl Bsdf<'_> {
         }
     }
 
-    /// Whether its value depends on the wavelength itself, not on spectra at it alone.
+    /// Whether the value depends on the wavelength itself, not only on spectra at the wavelength.
     pub(crate) fn needs_wavelengths(&self) -> bool {
         let is_smooth = |reflectance| matches!(reflectance, Reflectance::Smooth(_));
         match self {
@@ -173,7 +174,7 @@ impl Bsdf<'_> {
         }
     }
 
-    /// Thicknesses of its layers, nm, written to the front of `nm`.
+    /// Writes the thicknesses of its layers, nm, to the front of `nm` and returns them.
     pub(crate) fn thickness_nm<'b>(&self, nm: &'b mut Nanometers) -> &'b [f64] {
         match self {
             Self::Interface(interface) => interface.thickness_nm(nm),
@@ -181,8 +182,7 @@ impl Bsdf<'_> {
         }
     }
 
-    /// Multiplies a spectrum by what lobes make of the BSDF's spectra, and writes the product elsewhere; `nm` comes from
-    /// [`Self::thickness_nm`].
+    /// Multiplies a spectrum by the BSDF's value for these lobes and writes the product to `to`; `nm` comes from [`Self::thickness_nm`].
     #[inline(always)]
     pub(crate) fn product<S: Simd>(
         &self,
@@ -200,7 +200,7 @@ impl Bsdf<'_> {
     }
 }
 
-/// `wo` mirrored at a facet.
+/// Returns `wo` reflected at a facet.
 fn mirrored(wo: DVec3, facet: DVec3) -> DVec3 {
     (2.0 * wo.dot(facet) * facet - wo).normalize()
 }

@@ -1,4 +1,4 @@
-//! What makes a boundary rough: its facets, and the color of light that meets several of them.
+//! The roughness of a boundary: its facets, and the color of multiple scattering between them.
 
 use super::Facets;
 use crate::layers::Coating;
@@ -12,7 +12,7 @@ use scene::limits::MAX_LAYERS;
 /// The facets of a rough boundary.
 pub(crate) struct Rough<'a> {
     pub(crate) facets: Facets<'a>,
-    /// Color of light that met several, where a table of it is good.
+    /// The color of multiple scattering, where a table is accurate enough.
     color: Option<Row>,
 }
 
@@ -27,7 +27,7 @@ impl<'a> Rough<'a> {
         Self { facets, color }
     }
 
-    /// Color of light that met several facets.
+    /// Returns the color of light that met several facets.
     #[inline(always)]
     pub(crate) fn color<S: Simd>(
         &self,
@@ -42,7 +42,7 @@ impl<'a> Rough<'a> {
     }
 }
 
-/// The color by its formula (see [`optics::multiple_color`]).
+/// Returns the color by its formula (see [`optics::multiple_color`]).
 #[inline(always)]
 fn color<S: Simd>(
     coating: &Coating<'_>,
@@ -57,9 +57,9 @@ fn color<S: Simd>(
     optics::multiple_color(mean, mean_energy)
 }
 
-/// The color at the tables' knots. None where layers vary, or are so thick that it is no line between the knots.
+/// Tabulates the color at the tables' knots. Returns `None` where layers vary, or are so thick that the color is not linear between knots.
 fn color_table(tables: &mut Tables, coating: &Coating<'_>, mean_energy: f64) -> Option<Row> {
-    /// The phase of fringes then changes by 0.016 between knots of 1 nm at 400 nm, and a line between them is off by 3e-5 of their height.
+    /// The phase of fringes then changes by 0.016 between knots of 1 nm at 400 nm, and linear interpolation is off by 3e-5 of their height.
     const THIN_NM: f64 = 200.0;
     let mut nm = [0.0; MAX_LAYERS];
     let nm = coating.layers.even_thickness_nm(&mut nm)?;

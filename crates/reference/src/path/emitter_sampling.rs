@@ -1,4 +1,4 @@
-//! Next-event estimation, and how it is weighed against paths that meet an emitter by chance (multiple importance sampling).
+//! Next-event estimation, combined with paths that hit an emitter by BSDF sampling (multiple importance sampling).
 
 use super::{PathTracer, Use};
 use crate::bsdf::Bsdf;
@@ -12,21 +12,21 @@ use crate::{
 use glam::{DMat3, DVec3};
 use scene::{DirectLight, EmitterKind, EnvironmentShape};
 
-/// A direction from which an emitter shines onto a surface, if nothing is in the way.
+/// A direction toward an emitter that illuminates a surface, if nothing is in the way.
 struct EmitterSample<'a> {
     emitter: SceneEmitter<'a>,
     light: Emitted<'a>,
     direction: DVec3,
-    /// Probability of the choice among the emitters.
+    /// Probability with which the emitter was chosen.
     pmf: f64,
-    /// Density of the direction, sr⁻¹; none for light from a single direction.
+    /// Density of the direction, sr⁻¹; `None` for light from a single direction.
     density: Option<f64>,
-    /// What the emission is multiplied by, besides what the surface does.
+    /// Factor of the emission, without the BSDF.
     weight: f64,
 }
 
 impl<'a, T: Transport> PathTracer<'a, T> {
-    /// Connects the path to an emitter, if one shines on the surface. Returns the sum of the emitters' weights there.
+    /// Connects the path to an emitter, if one contributes at the surface. Returns the sum of the emitters' weights there.
     pub(super) fn connect(
         &mut self,
         object: usize,
@@ -100,7 +100,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         })
     }
 
-    /// Whether there is nothing but films before an emitter, and no more of them than the path may have segments; notes them.
+    /// Whether there are only films in front of an emitter, and no more than the path may still have segments; notes the films.
     fn is_visible(&mut self, object: usize, point: &SurfacePoint, sample: &EmitterSample) -> bool {
         let prepared = self.prepared;
         let allowed = self.settings().max_path_segments - self.path.segment - 1;
@@ -132,7 +132,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         }
     }
 
-    /// MIS weight of a path that happens to meet an emitter: the rest is what next-event estimation brings.
+    /// Returns the MIS weight of a path that hits an emitter by BSDF sampling; next-event estimation has the rest.
     pub(super) fn mis_weight_of_meeting(&self, kind: EmitterKind) -> f64 {
         let number = self.prepared.emitter_number(kind);
         let (Some(scattered), Some(number)) = (&self.path.scattered, number) else {
@@ -156,14 +156,14 @@ impl<'a, T: Transport> PathTracer<'a, T> {
     }
 }
 
-/// Whether a ray to an emitter meets nothing before it.
+/// Whether a ray to an emitter meets nothing in front of it.
 fn has_arrived(ray: &Ray, emitter: &SceneEmitter<'_>, hit: Option<Hit>) -> bool {
     if let EmitterKind::Object(index) = emitter.source.kind {
         return hit.is_some_and(|hit| hit.object == index);
     }
     match (emitter.emitter.distance(ray.origin), hit) {
         (_, None) => true,
-        // A lamp may lie on a surface: what is hit just before it, within rounding, does not hide it.
+        // A lamp may lie on a surface: a hit just in front of it, within rounding, does not hide it.
         (Some(distance), Some(hit)) => hit.distance >= 0.99999 * distance,
         (None, Some(_)) => false,
     }

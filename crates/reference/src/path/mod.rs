@@ -1,6 +1,6 @@
-//! Paths from the camera to light.
+//! Paths from the camera to emitters.
 //!
-//! A path is traced without its spectrum: what it meets it tells a [`Transport`].
+//! A path is traced without its spectrum: each event is passed to a [`Transport`].
 
 mod emitter_sampling;
 mod path_state;
@@ -23,7 +23,7 @@ const BRANCH_DIMENSIONS: u32 = 128;
 /// The dimension of the camera's lens: beyond those of all branches.
 const LENS_DIMENSION: u32 = 0xffff;
 
-/// What the random numbers of a vertex are for.
+/// The purposes of the random numbers at a vertex.
 #[derive(Clone, Copy)]
 enum Use {
     Emitter,
@@ -31,7 +31,7 @@ enum Use {
     Roulette,
 }
 
-/// Four numbers in [0, 1), worked out when they are asked for.
+/// Four numbers in [0, 1), computed on demand.
 #[derive(Clone, Copy)]
 enum Numbers {
     Sobol(SobolNumbers),
@@ -56,9 +56,9 @@ pub(crate) struct PathTracer<'a, T> {
     sample: u32,
     sobol: SobolPixel,
     path: PathState,
-    /// Paths that begin where films split the present one, to be followed when it has ended.
+    /// Paths that start where films split the current one, to be followed when the current one has ended.
     waiting: Vec<PathState>,
-    /// Emitters and groups of them, where one is chosen.
+    /// Emitters and groups of them, for the choice of one.
     weighed: Vec<Weighed>,
     /// The films between a surface and an emitter.
     films: Vec<FilmAt<'a>>,
@@ -111,7 +111,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         self.prepared.scene.settings()
     }
 
-    /// Four numbers in [0, 1) for a dimension of the sample.
+    /// Returns four numbers in [0, 1) for a dimension of the sample.
     #[inline]
     fn numbers_of(&mut self, dimension: u32) -> Numbers {
         let settings = self.settings();
@@ -129,7 +129,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         self.numbers_of(BRANCH_DIMENSIONS * path.branch + 3 * path.segment - 2 + use_of as u32)
     }
 
-    /// Follows the present path to its end.
+    /// Follows the current path to its end.
     fn extend_path(&mut self) {
         let settings = self.settings();
         while self.path.segment <= settings.max_path_segments {
@@ -150,7 +150,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         }
     }
 
-    /// Russian roulette: ends the path by chance, or lets it count for more.
+    /// Plays Russian roulette: ends the path at random, or increases its weight. Returns whether the path continues.
     fn russian_roulette(&mut self) -> bool {
         let chance = rr_survival_probability(self.path.rr_throughput);
         if chance < 1.0 {
@@ -187,7 +187,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         }
     }
 
-    /// The path meets an object; says whether it goes on.
+    /// Handles the hit of an object. Returns whether the path continues.
     fn shade_object(&mut self, hit: Hit) -> bool {
         let prepared = self.prepared;
         let object = &prepared.scene.objects()[hit.object];
@@ -208,7 +208,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         bsdf.is_some_and(|bsdf| self.shade_surface(hit.object, &point, &bsdf, surface.estimate))
     }
 
-    /// A film: the path is mirrored or goes straight on, or does both.
+    /// Handles a film: the path is reflected or transmitted, or both.
     fn shade_film(
         &mut self,
         object: usize,
@@ -244,7 +244,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         self.path.rr_throughput *= part / chance;
     }
 
-    /// A surface that mirrors or scatters: an emitter is sampled, and the path goes on by a sample of the BSDF.
+    /// Handles a specular or scattering surface: an emitter is sampled, and the path continues in a direction sampled from the BSDF.
     fn shade_surface(
         &mut self,
         object: usize,

@@ -1,40 +1,40 @@
-//! Where a path is, and what steers it.
+//! The state of a path, and what steers it.
 
 use crate::{Ray, SurfacePoint};
 use glam::DVec3;
 
-/// A path on its way.
+/// A path at its current end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PathState {
     pub(super) ray: Ray,
-    /// The object that the ray starts on.
+    /// The object on which the ray starts.
     pub(super) from_object: Option<usize>,
-    /// How a surface last scattered the path; none after the camera or a mirror.
+    /// The last scattering by a surface; `None` after the camera or a specular reflection.
     pub(super) scattered: Option<Scattered>,
     pub(super) segment: u32,
-    /// Films at which it will still be split.
+    /// Number of films at which the path will still be split.
     pub(super) splits: u32,
-    /// Which of the ways that splits made of the path it is.
+    /// Index of the branch, among those that splits made of the path.
     pub(super) branch: u32,
-    /// What its throughput is to be multiplied by: probabilities undone.
+    /// Factor of the throughput: the inverse of the probabilities.
     pub(super) weight: f64,
-    /// About what part of the light comes through, in the wavelength where it is largest: steers Russian roulette.
+    /// Rough estimate of the throughput, at the wavelength where it is largest; steers Russian roulette.
     pub(super) rr_throughput: f64,
 }
 
-/// How a surface scattered a path.
+/// The scattering of a path by a surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scattered {
     pub(super) position: DVec3,
     pub(super) normal: DVec3,
     /// Density of the direction, sr⁻¹.
     pub(super) pdf: f64,
-    /// Of the emitters there.
+    /// The sum of the emitters' weights there.
     pub(super) emitter_weight_sum: f64,
 }
 
 impl PathState {
-    /// A path that starts with a ray from the camera.
+    /// Returns a path that starts with a ray from the camera.
     pub(super) fn new(ray: Ray, splits: u32) -> Self {
         Self {
             ray,
@@ -48,7 +48,7 @@ impl PathState {
         }
     }
 
-    /// Mirrored at a point of an object.
+    /// Reflects the path specularly at a point of an object.
     pub(super) fn mirror(&mut self, object: usize, point: &SurfacePoint) {
         let direction = self.ray.direction;
         let mirrored = direction - 2.0 * direction.dot(point.normal) * point.normal;
@@ -57,13 +57,13 @@ impl PathState {
         self.pass_through(object, point);
     }
 
-    /// Straight on through a film: what was known of the last scattering still holds.
+    /// Passes the path straight through a film: the last scattering is kept.
     pub(super) fn pass_through(&mut self, object: usize, point: &SurfacePoint) {
         self.ray.origin = point.position;
         self.from_object = Some(object);
     }
 
-    /// Scattered by an object, in a direction in world space. Films do not split it any more.
+    /// Scatters the path at an object, in a direction in world space. After that, films no longer split it.
     pub(super) fn scatter(&mut self, object: usize, direction: DVec3, scattered: Scattered) {
         self.splits = 0;
         self.ray = Ray {

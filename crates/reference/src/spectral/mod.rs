@@ -1,4 +1,4 @@
-//! The spectra of a path: all bands at once, in the registers of whichever instruction set the machine has.
+//! The spectra of a path: all bands at once, in the vector registers of the machine.
 //!
 //! Formulas come from `optics::wide`, written for one wavelength; here they are called in loops over the bands.
 
@@ -15,15 +15,15 @@ use optics::wide::{Lanes, MOST, Real};
 use pulp::Simd;
 use scene::Emission;
 
-/// Bands of a chunk: as many as the widest registers hold, so that any registers divide it.
+/// Bands of a chunk: as many as the widest registers hold, so that registers of any width divide it.
 const CHUNK: usize = MOST;
 
-/// Some bands, in one line of the cache.
+/// Some bands, in one cache line.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C, align(64))]
 struct Chunk([f64; CHUNK]);
 
-/// A value for each band, filled up to whole chunks.
+/// A value for each band, padded to whole chunks.
 #[derive(Clone, Debug)]
 pub(crate) struct Spectrum(Vec<Chunk>);
 
@@ -32,7 +32,7 @@ impl Spectrum {
         Self(vec![Chunk([0.0; CHUNK]); chunks])
     }
 
-    /// The values, those that fill up the last chunk too.
+    /// Returns the values, including the padding of the last chunk.
     fn values(&self) -> &[f64] {
         bytemuck::cast_slice(&self.0)
     }
@@ -46,12 +46,12 @@ impl Spectrum {
     }
 }
 
-/// As many bands as registers hold: a chunk, and the first of its lanes.
+/// As many bands as a register holds: a chunk, and the first of its lanes.
 #[derive(Clone, Copy)]
 pub(crate) struct At(usize, usize);
 
 impl At {
-    /// All lanes of a chunk. How many times they are run through is known when this is compiled.
+    /// Returns all lanes of a chunk. Their number is known at compile time.
     #[inline(always)]
     fn lanes<S: Simd>(chunk: usize) -> impl Iterator<Item = Self> {
         (0..CHUNK)
@@ -59,7 +59,7 @@ impl At {
             .map(move |lane| Self(chunk, lane))
     }
 
-    /// The bands' numbers.
+    /// Returns the indices of the bands.
     #[inline(always)]
     fn band<S: Simd>(self, simd: S) -> Lanes<S> {
         const NUMBERS: [f64; CHUNK] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
@@ -67,36 +67,36 @@ impl At {
         first + Lanes::load(simd, &NUMBERS[self.1..])
     }
 
-    /// The bands of a spectrum.
+    /// Loads the bands of a spectrum.
     #[inline(always)]
     fn load<S: Simd>(self, simd: S, chunks: &[Chunk]) -> Lanes<S> {
         Lanes::load(simd, &chunks[self.0].0[self.1..])
     }
 
-    /// Writes them.
+    /// Stores the bands of a spectrum.
     #[inline(always)]
     fn store<S: Simd>(self, values: Lanes<S>, chunks: &mut [Chunk]) {
         values.store(&mut chunks[self.0].0[self.1..]);
     }
 }
 
-/// What has a value in each band. Each implementation gets a loop over the bands of its own, which keeps in registers only what it needs.
+/// Something with a value in each band. Each implementation gets its own loop over the bands, which keeps only what it needs in registers.
 pub(crate) trait BandValue {
-    /// The value in some bands.
+    /// Returns the value in some bands.
     fn value<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> Lanes<S>;
 }
 
-/// What reflects and transmits parts of light in each band.
+/// Something with a reflectance and a transmittance in each band.
 pub(crate) trait BandPowers {
-    /// Reflectance and transmittance in some bands.
+    /// Returns reflectance and transmittance in some bands.
     fn powers<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> (Lanes<S>, Lanes<S>);
 }
 
-/// What of light at a film is wanted.
+/// The result that is wanted of the light at a film.
 pub(crate) enum Through<'a> {
     Reflected(&'a mut Spectrum),
     Transmitted(&'a mut Spectrum),
-    /// What is reflected in place of the first spectrum, what is transmitted in the second.
+    /// The reflected light in place of the first spectrum, the transmitted light in the second.
     Both(&'a mut Spectrum, &'a mut Spectrum),
 }
 
@@ -117,15 +117,15 @@ impl<T: BandPowers> BandValue for Transmitted<'_, T> {
     }
 }
 
-/// The wavelengths of a path in its bands, and what the tables have there.
+/// The wavelengths of a path in its bands, and the tables at these wavelengths.
 #[derive(Clone, Copy)]
 pub(crate) struct Bands<'a, S: Simd> {
     simd: S,
-    /// `[spectrum][knot][chunk]`, from the knot before the path's place on.
+    /// `[spectrum][knot][chunk]`, from the knot before the path's offset on.
     tables: &'a [Chunk],
-    /// Chunks of a knot, and of all knots of a spectrum.
+    /// Number of chunks of a knot, and of all knots of a spectrum.
     strides: (usize, usize),
-    /// Part of the way to the next knot.
+    /// Fraction of the distance to the next knot.
     part: Lanes<S>,
     inverse_wavelength: &'a [Chunk],
 }
@@ -147,13 +147,13 @@ impl<'a, S: Simd> Bands<'a, S> {
         }
     }
 
-    /// All chunks.
+    /// Returns the range of all chunks.
     #[inline(always)]
     fn chunks(&self) -> std::ops::Range<usize> {
         0..self.inverse_wavelength.len()
     }
 
-    /// Multiplies a spectrum by a value and writes the product elsewhere.
+    /// Multiplies a spectrum by a value and writes the product to `to`.
     #[inline(always)]
     pub(crate) fn product(&self, spectrum: &Spectrum, value: &impl BandValue, to: &mut Spectrum) {
         let count = self.chunks().len();
@@ -193,7 +193,7 @@ impl<'a, S: Simd> Bands<'a, S> {
         }
     }
 
-    /// A film multiplies a spectrum by its reflectance or transmittance, or splits it into both.
+    /// Multiplies a spectrum by a film's reflectance or transmittance, or splits it into both.
     #[inline(always)]
     pub(crate) fn pass(&self, film: &impl BandPowers, through: Through<'_>) {
         match through {
@@ -215,19 +215,19 @@ impl<'a, S: Simd> Bands<'a, S> {
         }
     }
 
-    /// A number for all bands.
+    /// Returns one number for all bands.
     #[inline(always)]
     pub(crate) fn splat(&self, value: f64) -> Lanes<S> {
         Lanes::splat(self.simd, value)
     }
 
-    /// A spectrum in some bands.
+    /// Returns a spectrum of the tables in some bands.
     #[inline(always)]
     pub(crate) fn spectrum(&self, row: Row, at: At) -> Lanes<S> {
         self.knots(row).value(self, at)
     }
 
-    /// A spectrum, found in the tables once for all bands.
+    /// Returns a spectrum of the tables, looked up once for all bands.
     #[inline(always)]
     pub(crate) fn knots(&self, row: Row) -> Knots<'a> {
         let (of_knot, of_spectrum) = self.strides;
@@ -239,20 +239,20 @@ impl<'a, S: Simd> Bands<'a, S> {
         }
     }
 
-    /// What is emitted, times a weight.
+    /// Returns the emitted spectrum, times a weight.
     #[inline(always)]
     fn emission(&self, emission: &Emission, weight: f64) -> (Knots<'a>, f64) {
         let knots = self.knots(emission.spectrum.into());
         (knots, weight * emission.scale)
     }
 
-    /// 1/λ in some bands, nm⁻¹.
+    /// Returns 1/λ in some bands, nm⁻¹.
     #[inline(always)]
     pub(crate) fn inverse_wavelength(&self, at: At) -> Lanes<S> {
         at.load(self.simd, self.inverse_wavelength)
     }
 
-    /// Numbers that the caller has for each band.
+    /// Returns numbers that the caller has for each band.
     #[inline(always)]
     fn each(&self, at: At, value: impl Fn(usize) -> f64) -> Lanes<S> {
         let mut values = [0.0; CHUNK];
@@ -263,7 +263,7 @@ impl<'a, S: Simd> Bands<'a, S> {
     }
 }
 
-/// A spectrum of the tables at the knots before and after a path's place.
+/// A spectrum of the tables at the knots before and after a path's offset.
 #[derive(Clone, Copy)]
 pub(crate) struct Knots<'a> {
     low: &'a [Chunk],
@@ -271,7 +271,7 @@ pub(crate) struct Knots<'a> {
 }
 
 impl Knots<'_> {
-    /// The spectrum in some bands.
+    /// Returns the spectrum in some bands.
     #[inline(always)]
     pub(crate) fn value<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> Lanes<S> {
         let low = at.load(bands.simd, self.low);

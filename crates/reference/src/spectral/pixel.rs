@@ -1,31 +1,31 @@
-//! What the samples of a pixel come to.
+//! Statistics of the samples of a pixel.
 
 use super::{At, SpectralPath, Spectrum, Tables};
 use optics::wide::Real;
 use pulp::{Arch, Simd, WithSimd};
 use spectra::KM_LUMENS_PER_WATT;
 
-/// The running means of a pixel's samples, and the sum of squared differences of the light of all groups together (Welford 1962).
+/// The running means of a pixel's samples, and the sum of squared deviations of the light of all groups together (Welford 1962).
 pub(crate) struct Pixel<'a> {
     arch: Arch,
     tables: &'a Tables,
     count: u32,
     mean: Spectrum,
     deviation: Spectrum,
-    /// Of each light group; none where there is only one.
+    /// Means of each light group; empty where there is only one.
     group_means: Vec<Spectrum>,
-    /// Of each light group, the sums of radiance times the observer's functions.
+    /// For each light group, the sums of radiance times the observer's functions.
     xyz: Vec<[Spectrum; 3]>,
 }
 
-/// The values of pixels one after the other, as a `SpectralImage` takes them.
+/// The values of pixels one after the other, in the layout of a `SpectralImage`.
 #[derive(Default)]
 pub(crate) struct PixelValues {
     /// Mean radiance, `[pixel][light group][band]`.
     pub(crate) radiance: Vec<f32>,
     /// Variance of the mean of the light of all groups, `[pixel][band]`.
     pub(crate) variance: Vec<f32>,
-    /// `[pixel][light group]`.
+    /// Mean XYZ, `[pixel][light group]`.
     pub(crate) xyz: Vec<[f32; 3]>,
 }
 
@@ -61,7 +61,7 @@ impl<'a> Pixel<'a> {
         self.arch.dispatch(Add(self, path));
     }
 
-    /// Writes the pixel behind those that are there.
+    /// Appends the pixel to the values.
     pub(crate) fn write(&self, values: &mut PixelValues) {
         let (bands, n) = (self.tables.bands(), f64::from(self.count));
         let to_variance = if n > 1.0 { 1.0 / (n * (n - 1.0)) } else { 0.0 };

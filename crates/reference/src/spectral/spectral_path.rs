@@ -1,4 +1,4 @@
-//! The spectrum of a path, as it goes.
+//! The spectrum of a path, updated as the path is traced.
 
 use super::{At, BandValue, Bands, Spectrum, Tables, Through};
 use crate::bsdf::{Bsdf, Lobes};
@@ -10,21 +10,21 @@ use pulp::{Arch, Simd, WithSimd};
 use scene::limits::MAX_LAYERS;
 use scene::{EnvironmentPicture, PictureSpectra, RenderSettings};
 
-/// The throughput of a path and the light that it has found.
+/// The throughput of a path and the radiance that it has found.
 pub(crate) struct SpectralPath<'a> {
     arch: Arch,
     tables: &'a Tables,
-    /// Place of the wavelengths in their bands, in [0, 1).
+    /// Position of the wavelengths in their bands, in [0, 1).
     offset: f64,
     place: (usize, f64),
-    /// Where it has been needed.
+    /// 1/λ, where it has been needed.
     inverse_wavelength: Spectrum,
     knows_wavelengths: bool,
     throughput: Spectrum,
-    /// Of the ways that wait, the one that split off first in front.
+    /// Throughputs of the branches that wait, the one that was split off first in front.
     waiting: Vec<Spectrum>,
     waits: usize,
-    /// Room for a product.
+    /// Buffer for a product.
     product: Spectrum,
     /// Radiance of each light group.
     pub(super) radiance: Vec<Spectrum>,
@@ -32,7 +32,7 @@ pub(crate) struct SpectralPath<'a> {
 }
 
 impl<'a> SpectralPath<'a> {
-    /// A path of no light, for a number of light groups.
+    /// Returns a path without light, for a number of light groups.
     pub(crate) fn new(arch: Arch, tables: &'a Tables, light_groups: usize) -> Self {
         let zero = Spectrum::zero(tables.chunks());
         let most = RenderSettings::MAX_FILM_SPLITS as usize;
@@ -52,7 +52,7 @@ impl<'a> SpectralPath<'a> {
         }
     }
 
-    /// Place of the wavelengths in their bands, in [0, 1).
+    /// Returns the position of the wavelengths in their bands, in [0, 1).
     pub(crate) fn offset(&self) -> f64 {
         self.offset
     }
@@ -62,13 +62,13 @@ impl<'a> SpectralPath<'a> {
         Bands::new(simd, self.tables, self.place, &self.inverse_wavelength)
     }
 
-    /// Radiance of each light group in the bands: `[light group][band]`.
+    /// Returns the radiance of each light group in the bands: `[light group][band]`.
     pub(crate) fn radiance(&self) -> impl Iterator<Item = &[f64]> {
         let bands = self.tables.bands();
         self.radiance.iter().map(move |of| &of.values()[..bands])
     }
 
-    /// What is left of the light of each band.
+    /// Returns the throughput in each band.
     pub(crate) fn throughput(&self) -> &[f64] {
         &self.throughput.values()[..self.tables.bands()]
     }
@@ -80,7 +80,7 @@ impl<'a> SpectralPath<'a> {
         }
     }
 
-    /// Dims a path that is brighter than `most` in a band.
+    /// Scales down a path that is brighter than `most` in a band.
     pub(crate) fn dim(&mut self, most: f64) {
         let of_band = |band: usize| self.radiance().map(|group| group[band]).sum::<f64>();
         let brightest = (0..self.tables.bands()).map(of_band).fold(most, f64::max);
@@ -90,7 +90,7 @@ impl<'a> SpectralPath<'a> {
     }
 }
 
-/// What a pixel of the environment has.
+/// The value of a pixel of the environment.
 impl BandValue for (&EnvironmentPicture, [u32; 2]) {
     #[inline(always)]
     fn value<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> Lanes<S> {

@@ -1,4 +1,4 @@
-//! A scene's spectra, laid out for paths that have all bands at once.
+//! A scene's spectra, laid out for paths that carry all bands at once.
 
 use super::{At, Bands, CHUNK, Chunk, Spectrum};
 use optics::wide::Lanes;
@@ -23,10 +23,10 @@ impl From<SpectrumId> for Row {
     }
 }
 
-/// Tables of spectra at the knots within each band, as `[spectrum][knot][band]`. Bands are filled up to whole chunks with the last one.
+/// Tables of spectra at the knots within each band, as `[spectrum][knot][band]`. Bands are padded to whole chunks with the last one.
 pub(crate) struct Tables {
     chunks: Vec<Chunk>,
-    /// Bands without those filled up.
+    /// Number of bands without the padding.
     bands: usize,
     chunks_of_knot: usize,
     knots: usize,
@@ -36,7 +36,7 @@ pub(crate) struct Tables {
 }
 
 impl Tables {
-    /// A scene's spectra, then its observer's.
+    /// Returns the tables of a scene's spectra, followed by its observer's.
     pub(crate) fn new(scene: &Scene) -> Self {
         let grid = &scene.settings().bands;
         let mut tables = Self {
@@ -69,7 +69,7 @@ impl Tables {
         Row(self.spectra - 1)
     }
 
-    /// Adds a spectrum that is worked out, band by band, from those that are there.
+    /// Adds a spectrum that is computed, band by band, from the spectra that are already there.
     pub(crate) fn push_from(
         &mut self,
         value: impl Fn(&Bands<'_, Scalar>, At) -> Lanes<Scalar>,
@@ -89,27 +89,27 @@ impl Tables {
         self.push(|knot, band| values[knot * bands + band])
     }
 
-    /// The observer's color-matching functions.
+    /// Returns the observer's color-matching functions.
     pub(super) fn observer(&self) -> [Row; 3] {
         self.observer
     }
 
-    /// The bands.
+    /// Returns the bands.
     pub(super) fn grid(&self) -> &BandGrid {
         &self.grid
     }
 
-    /// Bands of a spectrum.
+    /// Returns the number of bands of a spectrum.
     pub(crate) fn bands(&self) -> usize {
         self.bands
     }
 
-    /// Chunks of a value for each band.
+    /// Returns the number of chunks of a value for each band.
     pub(super) fn chunks(&self) -> usize {
         self.chunks_of_knot
     }
 
-    /// 1/λ at an offset in [0, 1] of each band, nm⁻¹.
+    /// Returns 1/λ at an offset in [0, 1] of each band, nm⁻¹.
     fn inverse_wavelengths(&self, offset: f64) -> Spectrum {
         let mut inverse = Spectrum::zero(self.chunks());
         for (band, inverse) in inverse.values_mut().iter_mut().enumerate() {
@@ -118,26 +118,26 @@ impl Tables {
         inverse
     }
 
-    /// Where an offset in [0, 1] lies: the knot before it and the part of the way to the next.
+    /// Returns the knot before an offset in [0, 1], and the fraction of the distance to the next knot.
     pub(super) fn place(&self, offset: f64) -> (usize, f64) {
         let position = offset * (self.knots - 1) as f64;
         let knot = (position as usize).min(self.knots - 2);
         (knot, position - knot as f64)
     }
 
-    /// All numbers from a knot of the first spectrum on.
+    /// Returns all numbers from a knot of the first spectrum on.
     #[inline(always)]
     pub(super) fn at_knot(&self, knot: usize) -> &[Chunk] {
         &self.chunks[knot * self.chunks_of_knot..]
     }
 
-    /// Chunks of a knot, and of a spectrum.
+    /// Returns the number of chunks of a knot, and of a spectrum.
     #[inline(always)]
     pub(super) fn strides(&self) -> (usize, usize) {
         (self.chunks_of_knot, self.knots * self.chunks_of_knot)
     }
 
-    /// The least and the largest value of a spectrum.
+    /// Returns the smallest and the largest value of a spectrum.
     pub(crate) fn extent(&self, row: Row) -> (f64, f64) {
         let chunks = self.strides().1;
         let of_row = &self.chunks[row.0 * chunks..(row.0 + 1) * chunks];
