@@ -1,23 +1,23 @@
-// What the host uploads for a scene.
+// The data that the host uploads for a scene.
 //
-// Each list is a run of rows of four words, read by a function of its own. It stands in a storage buffer, as it is written here; or in a
-// uniform buffer or a texture, where the host writes these lines anew.
+// Each list is an array of rows of four words, read by its own function. It is in a storage buffer, as written here, or in a
+// uniform buffer or a texture; in that case the host rewrites these lines.
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 
-/// What rays meet.
+/// The objects that rays meet.
 @group(0) @binding(1) var<storage, read> shapes: array<vec4u>;
 fn shapes_row(row: u32) -> vec4u {
     return shapes[row];
 }
 
-/// What light is sent from.
+/// The emitters.
 @group(0) @binding(2) var<storage, read> emitters: array<vec4u>;
 fn emitters_row(row: u32) -> vec4u {
     return emitters[row];
 }
 
-/// Materials, and what they are made of.
+/// Materials and their parts.
 @group(0) @binding(3) var<storage, read> records: array<vec4u>;
 fn records_row(row: u32) -> vec4u {
     return records[row];
@@ -35,7 +35,7 @@ fn spectra_row(row: u32) -> vec4f {
     return spectra[row];
 }
 
-/// Tables that anything looks numbers up in, row by row.
+/// Tables of numbers for lookups, row by row.
 @group(0) @binding(6) var numbers: texture_2d<f32>;
-/// Pictures with four numbers in each place, a head before each, row by row.
+/// Pictures with four numbers per texel, with a header before each, row by row.
 @group(0) @binding(7) var texels: texture_2d<f32>;

@@ -1,17 +1,17 @@
-// What light is sent from: emitting objects with bounds, what surrounds the scene, and lights that are no objects.
+// Emitters: bounded objects that emit, parts of the environment, and lights that are not objects.
 
-/// Whether light comes from a single point or direction, so that no scattered ray ever meets it.
+/// Whether an emitter is a single point or direction, so that BSDF sampling never finds it.
 fn is_delta(emitter: u32) -> bool {
     return HAS_DELTA_EMITTERS && emitter_at(emitter).kind >= EMITTER_DIRECTION;
 }
 
-/// Whether a light is a part of what surrounds the scene.
+/// Whether an emitter is a part of the environment.
 fn is_environment(emitter: u32) -> bool {
     return HAS_ENVIRONMENT && emitter_at(emitter).kind >= EMITTER_EVERYWHERE && emitter_at(emitter).kind < EMITTER_DIRECTION;
 }
 
-/// A direction from `point` toward a light: uniform in the solid angle of a sphere (over all
-/// directions from inside it), uniform over the area of a rectangle or disk.
+/// Samples a direction from `point` toward an emitter: uniform in the solid angle of a sphere (over all directions from inside it),
+/// uniform over the area of a rectangle or disk.
 fn emitter_sample(emitter: u32, point: vec3f, u: f32, v: f32) -> vec3f {
     if (is_environment(emitter)) {
         return sample_environment(emitter, vec2f(u, v));
@@ -40,7 +40,7 @@ fn emitter_sample(emitter: u32, point: vec3f, u: f32, v: f32) -> vec3f {
     return normalize(toward + aside + above);
 }
 
-/// Density with which emitter_sample draws a direction that hits the light, sr⁻¹; 0 for light from a single direction.
+/// Returns the density with which emitter_sample samples a direction that hits the emitter, sr⁻¹; 0 for light from a single direction.
 fn emitter_pdf(emitter: u32, point: vec3f, direction: vec3f) -> f32 {
     if (is_environment(emitter)) {
         return environment_pdf(emitter, direction);
@@ -66,14 +66,14 @@ fn emitter_pdf(emitter: u32, point: vec3f, direction: vec3f) -> f32 {
     return distance * distance / (speed * plane_area(emitter));
 }
 
-/// The area of a rectangle or disk.
+/// Returns the area of a rectangle or disk.
 fn plane_area(emitter: u32) -> f32 {
     let round = HAS_DISK_EMITTERS && emitter_at(emitter).kind == EMITTER_DISK;
     return select(4.0, PI, round) * emitter_at(emitter).half_width * emitter_at(emitter).half_height;
 }
 
-/// Factor of a light's emission toward `point`: the share of a part of the environment; of a point and of a spot what makes their
-/// intensity an irradiance.
+/// Returns the factor of the emission toward `point`: for a part of the environment, its relative radiance; for a point or a spot,
+/// the factor that makes an irradiance of its intensity.
 fn emitter_strength(emitter: u32, point: vec3f, direction: vec3f) -> f32 {
     if (is_environment(emitter)) {
         return environment_strength(emitter, direction);
@@ -89,8 +89,9 @@ fn emitter_strength(emitter: u32, point: vec3f, direction: vec3f) -> f32 {
     return falloff;
 }
 
-/// A spot's intensity against a direction, relative to that on its axis: 1 within the inner cone, 0 outside the outer one, between
-/// them the cubic 3t² − 2t³ in the cosine (Pharr, Jakob and Humphreys, Physically Based Rendering, 4th edition, section 12.2.3).
+/// Returns a spot's intensity in a direction, relative to that on its axis: 1 within the inner cone, 0 outside the outer one, and
+/// the cubic 3t² − 2t³ in the cosine in between (Pharr, Jakob and Humphreys, Physically Based Rendering, 4th edition, section
+/// 12.2.3).
 fn spot_falloff(emitter: u32, direction: vec3f) -> f32 {
     let full = emitter_at(emitter).full_height;
     let edge = emitter_at(emitter).edge_height;
@@ -100,15 +101,15 @@ fn spot_falloff(emitter: u32, direction: vec3f) -> f32 {
     return t * t * (3.0 - 2.0 * t);
 }
 
-/// Whether a point at this squared distance from the center lies in or on the sphere.
+/// Whether a point at this squared distance from the center is in or on the sphere.
 fn sphere_surrounds(emitter: u32, distance2: f32) -> bool {
     let radius = emitter_at(emitter).radius;
-    // A point on the surface was put there with rounding; from just outside the cone would be all but a hemisphere.
+    // A point on the surface has a rounding error; from just outside, the cone would be almost a hemisphere.
     return distance2 <= radius * radius * 1.00001;
 }
 
-/// The largest cosine with a normal within a cone whose axis has the cosine `axis` with it; `sine2` is the square of the sine of
-/// the half angle.
+/// Returns the largest cosine with a normal within a cone, whose axis has the cosine `axis` with the normal; `sine2` is the square
+/// of the sine of the half angle.
 fn most_cosine(axis: f32, sine2: f32) -> f32 {
     let cosine = sqrt(max(1.0 - sine2, 0.0));
     if (axis >= cosine) {
@@ -117,7 +118,7 @@ fn most_cosine(axis: f32, sine2: f32) -> f32 {
     return max(axis * cosine + sqrt(max(1.0 - axis * axis, 0.0) * sine2), 0.0);
 }
 
-/// About the luminance that a light gives to a white surface; 0 only where nothing of it can arrive.
+/// Returns roughly the luminance that an emitter gives a white surface; 0 only where no light can arrive.
 fn emitter_weight(emitter: u32, point: vec3f, normal: vec3f) -> f32 {
     let brightness = emitter_at(emitter).brightness;
     if (is_environment(emitter)) {
@@ -141,14 +142,14 @@ fn emitter_weight(emitter: u32, point: vec3f, normal: vec3f) -> f32 {
     return brightness * plane_weight(emitter, toward, distance2, normal);
 }
 
-/// Solid angle of a rectangle or disk times the largest cosine, both from the sphere that holds it.
+/// Returns the solid angle of a rectangle or disk times the largest cosine, both from its bounding sphere.
 fn plane_weight(emitter: u32, toward: vec3f, distance2: f32, normal: vec3f) -> f32 {
     let width = emitter_at(emitter).half_width;
     let height = emitter_at(emitter).half_height;
     let round = HAS_DISK_EMITTERS && emitter_at(emitter).kind == EMITTER_DISK;
     let reach2 = select(width * width + height * height, width * width, round);
     let area = plane_area(emitter);
-    // Cosine at the light, at most as if it were turned by the angle under which half of it is seen.
+    // Cosine at the emitter, at most as if it were turned by the angle that half of it subtends.
     let facing = abs(dot(toward, emitter_at(emitter).axis)) * sqrt(distance2) + reach2;
     let solid_angle = area * min(facing / max(distance2, 1e-20), 1.0) / (distance2 + area * (0.5 / PI));
     if (distance2 <= reach2) {
@@ -157,7 +158,7 @@ fn plane_weight(emitter: u32, toward: vec3f, distance2: f32, normal: vec3f) -> f
     return solid_angle * most_cosine(dot(toward, normal) / sqrt(distance2), reach2 / distance2);
 }
 
-/// ∫ share cos dω of a part of the environment, about.
+/// Returns roughly the integral of the relative radiance of a part of the environment times the cosine, over directions.
 fn environment_weight(emitter: u32, normal: vec3f) -> f32 {
     if (emitter_at(emitter).kind == EMITTER_DISTANT_DISK) {
         let height = emitter_at(emitter).edge_height;

@@ -1,24 +1,25 @@
-// The choice among lights, by an estimate of what each of them brings to a point.
+// The choice of an emitter at a point of a surface by estimates of the contributions; among many emitters, by a tree of groups.
 
 struct EmitterChoice {
-    /// The emitter, NONE where none can shine on the point.
+    /// The emitter, NONE where none contributes at the point.
     emitter: u32,
-    /// With what probability it was chosen.
+    /// Probability with which it was chosen.
     pmf: f32,
-    /// The sum of all estimates.
+    /// The sum of all weights.
     weight_sum: f32,
 }
 
-/// Part of the variance of places that counts as squared distance, and the square of the width of the heights of a group, which scatter
-/// along all axes alike, relative to it: 2/(3π) (see the reference's choice of emitters, which has the reasons).
+/// Fraction of the variance of the positions that is added to the squared distance, and 2/(3π), the square of the width of a
+/// group's heights relative to the variance, for positions with the same spread along all axes (the reference's choice of emitters
+/// has the reasons).
 const SOFTENING: f32 = 0.4;
 const HORIZON: f32 = 0.212206590789;
-/// Cosines are compared with the edge of a cone up to this.
+/// Tolerance of the cosine at the edge of a cone.
 const EDGE: f32 = 1e-4;
 
-/// About what a group of emitters brings to a point, in the unit of emitter_weight; 0 only where nothing of it can arrive: its power times
-/// the cosine over the squared distance (Pharr, Jakob and Humphreys, Physically Based Rendering, 4th edition, section 12.6.3), with
-/// the mean in place of the largest cosine.
+/// Returns roughly the contribution of a group of emitters at a point, in the unit of emitter_weight; 0 only where no light of the
+/// group can arrive: its power times the cosine over the squared distance (Pharr, Jakob and Humphreys, Physically Based Rendering,
+/// 4th edition, section 12.6.3), but with the mean in place of the largest cosine.
 fn group_weight(node: EmitterNode, point: vec3f, normal: vec3f) -> f32 {
     let toward = node.center - point;
     let height = dot(toward, normal);
@@ -33,13 +34,13 @@ fn group_weight(node: EmitterNode, point: vec3f, normal: vec3f) -> f32 {
     return node.power * sent * mean_above(height, HORIZON * node.variance) / (soft * sqrt(soft));
 }
 
-/// About the mean of max(0, h) over heights h with a mean and a squared width, without a difference of like numbers.
+/// Returns roughly the mean of max(0, h) over heights h with a mean and a squared width, without a difference of nearly equal numbers.
 fn mean_above(mean: f32, width2: f32) -> f32 {
     let root = sqrt(mean * mean + width2);
     return select(0.5 * width2 / (root - mean), 0.5 * (root + mean), mean > 0.0);
 }
 
-/// Whether the cone in which a group shines, as wide as the group is seen, holds no direction toward a point.
+/// Whether no direction toward a point lies in the group's cone of emission, widened by the angle that the group subtends.
 fn is_outside_cone(node: EmitterNode, toward: vec3f, distance2: f32) -> bool {
     let reach2 = node.reach * node.reach;
     if (node.cone <= -1.0 || distance2 <= reach2) {
@@ -55,13 +56,13 @@ fn is_outside_cone(node: EmitterNode, toward: vec3f, distance2: f32) -> bool {
     return -dot(toward, node.axis) < (edge - EDGE) * sqrt(distance2);
 }
 
-/// Whether a group is looked into from a point.
+/// Whether a point is so near to a group that its children are weighted instead.
 fn is_near(node: EmitterNode, point: vec3f) -> bool {
     let toward = node.center - point;
     return dot(toward, toward) < node.near * node.near;
 }
 
-/// About what a node of the tree of emitters brings to a point.
+/// Returns roughly the contribution of a node of the tree of emitters at a point.
 fn node_weight(node: EmitterNode, point: vec3f, normal: vec3f) -> f32 {
     if (node.emitter == NONE) {
         return group_weight(node, point, normal);
@@ -69,7 +70,7 @@ fn node_weight(node: EmitterNode, point: vec3f, normal: vec3f) -> f32 {
     return emitter_weight(node.emitter, point, normal);
 }
 
-/// The sum of the estimates of the groups and emitters that a point is not near to, which hold each emitter once.
+/// Returns the sum of the weights of the groups and emitters that a point is not near to; together they contain each emitter once.
 fn weigh_tree(point: vec3f, normal: vec3f) -> f32 {
     var weight_sum = 0.0;
     var row = frame.first_emitter_node;
@@ -87,7 +88,7 @@ fn weigh_tree(point: vec3f, normal: vec3f) -> f32 {
     return weight_sum;
 }
 
-/// Chooses one of those groups and emitters, and then one of the two nodes of a group until it is an emitter.
+/// Chooses one of those groups and emitters, and then one of the two children of a group until an emitter is reached.
 fn choose_in_tree(point: vec3f, normal: vec3f, random_in: f32) -> EmitterChoice {
     let weight_sum = weigh_tree(point, normal);
     var random = random_in;
@@ -143,14 +144,14 @@ fn choose_in_tree(point: vec3f, normal: vec3f, random_in: f32) -> EmitterChoice 
     return EmitterChoice(node.emitter, pmf, weight_sum);
 }
 
-/// Where in a part of [0, 1) that begins at `before` and is `width` wide a number lies: again in [0, 1).
+/// Returns the position of a number within the interval that begins at `before` and is `width` wide, rescaled to [0, 1).
 fn rest_of(random: f32, before: f32, width: f32) -> f32 {
     return clamp((random - before) / width, 0.0, 0.99999994);
 }
 
-/// The probability with which choose_in_tree finds an emitter, `total` being what that returned.
+/// Returns the probability with which choose_in_tree chooses an emitter; `weight_sum` is the value that it returned.
 fn tree_pmf(emitter: u32, point: vec3f, normal: vec3f, weight_sum: f32) -> f32 {
-    // The node that is weighed for it: the outermost group around it that is not looked into, or itself.
+    // The node that is weighted for it: the outermost group around it that is not near, or the node itself.
     var row = emitter_at(emitter).node;
     var top = row;
     var parent = load_emitternode(row).parent;
@@ -176,7 +177,7 @@ fn tree_pmf(emitter: u32, point: vec3f, normal: vec3f, weight_sum: f32) -> f32 {
     return pmf * (weight / weight_sum);
 }
 
-/// The sum of all lights' estimates.
+/// Returns the sum of the weights of all emitters.
 fn weigh_emitters(point: vec3f, normal: vec3f) -> f32 {
     var weight_sum = 0.0;
     for (var i = 0u; i < EMITTER_COUNT; i++) {
@@ -185,7 +186,7 @@ fn weigh_emitters(point: vec3f, normal: vec3f) -> f32 {
     return weight_sum;
 }
 
-/// Chooses a light with a probability in proportion to its estimate.
+/// Chooses an emitter with a probability in proportion to its weight.
 fn choose_emitter(point: vec3f, normal: vec3f, random: f32) -> EmitterChoice {
     if (!HAS_EMITTER_CHOICE) {
         return EmitterChoice(0u, 1.0, 1.0);
@@ -207,7 +208,7 @@ fn choose_emitter(point: vec3f, normal: vec3f, random: f32) -> EmitterChoice {
     return choice;
 }
 
-/// The probability with which choose_emitter finds a light, where the sum of all estimates is known.
+/// Returns the probability with which choose_emitter chooses an emitter, where the sum of all weights is known.
 fn emitter_pmf(emitter: u32, point: vec3f, normal: vec3f, weight_sum: f32) -> f32 {
     if (!HAS_EMITTER_CHOICE) {
         return 1.0;

@@ -1,14 +1,14 @@
-// Next-event estimation: light from an emitter straight to a surface, through the free films in between; and how it is weighed against
-// paths that meet an emitter by chance.
+// Next-event estimation through the free films between a surface and an emitter, combined with paths that hit an emitter by BSDF
+// sampling (multiple importance sampling).
 
 struct EmitterSample {
     emitter: u32,
     direction: vec3f,
-    /// Probability of the choice among the emitters; 0 where nothing can arrive.
+    /// Probability with which the emitter was chosen; 0 where no light can arrive.
     pmf: f32,
-    /// Density of the direction, 1 where light comes from a single one.
+    /// Density of the direction, sr⁻¹; 1 for light from a single direction.
     density: f32,
-    /// The sum of all emitters' estimates.
+    /// The sum of the weights of all emitters.
     emitter_weight_sum: f32,
     /// The texel of the emitter's picture, 0 where it has none.
     texel: u32,
@@ -39,7 +39,7 @@ fn sample_emitter(path: PathState, sample: Sample, point: SurfacePoint) -> Emitt
     return EmitterSample(choice.emitter, direction, choice.pmf, density, choice.weight_sum, texel);
 }
 
-/// Adds to the vertex that is being made what arrives from the emitter, by its weight.
+/// Adds the contribution of the emitter, with its weight, to the pending vertex.
 fn connect(path: PathState, object: u32, point: SurfacePoint, sampled: EmitterSample, toward: BsdfEval) {
     let emitter = sampled.emitter;
     let strength = emitter_strength(emitter, point.position, sampled.direction);
@@ -67,7 +67,7 @@ fn connect(path: PathState, object: u32, point: SurfacePoint, sampled: EmitterSa
     record_lit(toward.lobes, mis * strength * emitter_at(emitter).scale / (sampled.pmf * sampled.density));
 }
 
-/// Puts how a surface scatters the light that joins it into the vertex that is being made.
+/// Writes to the pending vertex how the surface scatters the emission that joins it.
 fn record_lit(lobes: Lobes, factor: f32) {
     pending.emission_weight = lobes.single * factor;
     pending.emission_cosine = lobes.cosine;
@@ -80,8 +80,8 @@ fn record_lit(lobes: Lobes, factor: f32) {
     }
 }
 
-/// Follows a ray to an emitter, recording the films that it crosses; false where something opaque is in the way
-/// or more films than `allowed`.
+/// Follows a ray to an emitter and records the films that it crosses; returns false where something opaque or more than `allowed`
+/// films are in the way.
 fn is_visible(ray_in: Ray, from_object: u32, emitter: u32, allowed: u32) -> bool {
     if (!HAS_FILMS) {
         return has_arrived(ray_in, emitter, nearest_hit(ray_in, from_object));
@@ -108,19 +108,19 @@ fn is_visible(ray_in: Ray, from_object: u32, emitter: u32, allowed: u32) -> bool
     return false;
 }
 
-/// Whether nothing lies before an emitter, by what the ray toward it hits.
+/// Whether a ray to an emitter meets nothing in front of it, given what it hits.
 fn has_arrived(ray: Ray, emitter: u32, hit: Hit) -> bool {
     if (emitter_at(emitter).object != NONE) {
         return hit.object == emitter_at(emitter).object;
     }
     if (HAS_DELTA_EMITTERS && emitter_at(emitter).kind >= EMITTER_POINT) {
-        // A lamp may lie on a surface: what is hit just before it, within rounding, does not hide it.
+        // A lamp may lie on a surface: a hit just in front of it, within rounding, does not hide it.
         return hit.object == NONE || hit.distance >= 0.99999 * length(emitter_at(emitter).position - ray.origin);
     }
     return hit.object == NONE;
 }
 
-/// Weight of an emitter that a path happens to meet: the rest is what emitter sampling brings.
+/// Returns the MIS weight of a path that hits an emitter by BSDF sampling; next-event estimation has the rest.
 fn mis_weight_of_meeting(path: PathState, emitter: u32) -> f32 {
     if (!HAS_EMITTERS || path.scatter_pdf <= 0.0 || emitter_at(emitter).brightness <= 0.0) {
         return 1.0;

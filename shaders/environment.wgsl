@@ -1,12 +1,12 @@
-// What surrounds the scene, in parts that light can be sent from one by one. A part is an emitter; its radiance in
-// a direction is its emission times its share there.
+// The environment, in parts that are sampled separately. A part is an emitter; its radiance in a direction is its emission times
+// its relative radiance there.
 
-/// The emitter that a part of the environment is.
+/// Returns the emitter of a part of the environment.
 fn environment_part(part: u32) -> u32 {
     return u32(number_at(frame.first_environment + part));
 }
 
-/// The share of a part's radiance that comes from a direction; a picture has its own.
+/// Returns the relative radiance of a part of the environment in a direction; a picture has its own values.
 fn environment_strength(emitter: u32, direction: vec3f) -> f32 {
     if (emitter_at(emitter).kind == EMITTER_EVERYWHERE || (HAS_ENVIRONMENT_PICTURE && emitter_at(emitter).kind == EMITTER_PICTURE)) {
         return 1.0;
@@ -21,7 +21,7 @@ fn environment_strength(emitter: u32, direction: vec3f) -> f32 {
     return clamp(dot(direction, emitter_at(emitter).axis), 0.0, 1.0);
 }
 
-/// A direction toward a part of the environment, by the density of environment_pdf.
+/// Samples a direction toward a part of the environment, by the density of environment_pdf.
 fn sample_environment(emitter: u32, random: vec2f) -> vec3f {
     if (HAS_ENVIRONMENT_PICTURE && emitter_at(emitter).kind == EMITTER_PICTURE) {
         return sample_environment_picture(emitter, random);
@@ -30,7 +30,7 @@ fn sample_environment(emitter: u32, random: vec2f) -> vec3f {
         return sample_cone(random.x, random.y, 2.0);
     }
     if (emitter_at(emitter).kind == EMITTER_HORIZON) {
-        // |h| with density 2 (1 − |h|), above the horizon by the first half of the numbers.
+        // |h| with density 2 (1 − |h|), above the horizon for the lower half of the numbers.
         let upwards = random.x < 0.5;
         let t = 2.0 * random.x - select(1.0, 0.0, upwards);
         let height = t / (1.0 + sqrt(1.0 - t));
@@ -43,7 +43,7 @@ fn sample_environment(emitter: u32, random: vec2f) -> vec3f {
     return frame_of(emitter_at(emitter).axis) * sample_cosine_hemisphere(random.x, random.y);
 }
 
-/// Density with which sample_environment draws a direction, sr⁻¹: in proportion to environment_strength.
+/// Returns the density with which sample_environment samples a direction, sr⁻¹: the relative radiance over its integral.
 fn environment_pdf(emitter: u32, direction: vec3f) -> f32 {
     if (HAS_ENVIRONMENT_PICTURE && emitter_at(emitter).kind == EMITTER_PICTURE) {
         return environment_picture_pdf(emitter, direction);

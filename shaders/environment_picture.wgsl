@@ -1,16 +1,16 @@
-// Surroundings by a picture of all directions.
+// An environment given as a picture of all directions.
 
-/// The table of a picture, by which directions are drawn.
+/// The table of a picture by which directions are sampled.
 struct DirectionTable {
     columns: u32,
     rows: u32,
-    /// The density that light as bright as the picture's mean would have beside the light that is sent for; 0 where that is all light.
+    /// Density of light at the picture's mean brightness, on the scale of the density of the sampled light; 0 where all light is sampled.
     even_density: f32,
     /// First of the heights of the rows' edges, from the top.
     heights: u32,
-    /// First of the running probabilities of the rows.
+    /// First of the cumulative probabilities of the rows.
     marginal: u32,
-    /// First of those of the cells of the first row.
+    /// First of the cumulative probabilities of the cells of the first row.
     conditional: u32,
 }
 
@@ -21,23 +21,23 @@ fn direction_table(emitter: u32) -> DirectionTable {
     return DirectionTable(picture.columns, picture.rows, picture.even_density, heights, marginal, marginal + picture.rows + 1u);
 }
 
-/// Place of a direction in the picture, from its upper left corner in its width and height.
+/// Returns the position of a direction in the picture, from its upper left corner, in units of its width and height.
 fn environment_place(emitter: u32, direction: vec3f) -> vec2f {
     let aside = dot(direction, emitter_at(emitter).tangent);
-    // Straight up and down every longitude is right.
+    // Straight up and down, any longitude is right.
     let angle = polar_angle(dot(direction, emitter_at(emitter).axis), max(abs(aside), 1e-30));
     let longitude = select(angle, -angle, aside < 0.0) / (2.0 * PI);
     return vec2f(0.5 + longitude, polar_angle(direction.y, length(direction.xz)) / PI);
 }
 
-/// The first texel of the pixel that a path takes for a direction, by a random number.
+/// Returns the first texel of the pixel that a path uses for a direction, chosen by a random number.
 fn environment_pixel(emitter: u32, direction: vec3f, random: f32) -> u32 {
     let picture = load_panorama(emitter_at(emitter).picture);
     let pixel = chosen_pixel(picture.head, environment_place(emitter, direction), true, random);
     return picture.head + 1u + pixel * picture.per_pixel;
 }
 
-/// The interval between `count` + 1 rising numbers from 0 to 1 that `u` falls into.
+/// Returns the interval between `count` + 1 increasing numbers from 0 to 1 that contains `u`.
 fn interval_of(first: u32, count: u32, u: f32) -> u32 {
     var low = 0u;
     var high = count;
@@ -52,13 +52,13 @@ fn interval_of(first: u32, count: u32, u: f32) -> u32 {
     return low;
 }
 
-/// Where a number lies between the edges of its interval.
+/// Returns the position of a number between the edges of its interval.
 fn place_in_interval(edge: u32, u: f32) -> f32 {
     let low = number_at(edge);
     return min((u - low) / (number_at(edge + 1u) - low), 1.0);
 }
 
-/// A direction drawn in proportion to the brightness of the cells of the picture's table.
+/// Samples a direction in proportion to the brightness of the cells of the picture's table.
 fn sample_environment_picture(emitter: u32, random: vec2f) -> vec3f {
     let table = direction_table(emitter);
     let row = interval_of(table.marginal, table.rows, random.x);
@@ -72,7 +72,7 @@ fn sample_environment_picture(emitter: u32, random: vec2f) -> vec3f {
     return around.y * emitter_at(emitter).tangent + around.x * emitter_at(emitter).axis + vec3f(0.0, height, 0.0);
 }
 
-/// Density of sample_environment_picture, sr⁻¹: the probability of the direction's cell over its solid angle.
+/// Returns the density of sample_environment_picture, sr⁻¹: the probability of the direction's cell over its solid angle.
 fn environment_picture_pdf(emitter: u32, direction: vec3f) -> f32 {
     let table = direction_table(emitter);
     let place = environment_place(emitter, direction);

@@ -1,7 +1,7 @@
-// What a scene has. A pipeline is made for each scene with these set, so that code for what it lacks falls away: a
-// processor that runs eight or more paths in step pays for every branch that any of them might take.
+// What a scene has. A pipeline is created for each scene with these constants set, so that code for features that the scene lacks
+// is removed: a processor that runs eight or more paths in lockstep pays for every branch that any of them might take.
 //
-// What only one kind of surface needs is declared in its own file.
+// Constants that only one kind of surface needs are declared in its own file.
 
 override HAS_SPHERES: bool = true;
 override HAS_RECTANGLES: bool = true;
@@ -46,22 +46,22 @@ override HAS_ROULETTE: bool = true;
 override HAS_CLAMP: bool = true;
 override HAS_LENS: bool = true;
 override HAS_FILTER: bool = true;
-// How light is found: by sending rays to lights, by meeting them by chance, or both.
+// How direct light is found: by emitter sampling, by BSDF sampling, or both.
 override SAMPLES_EMITTERS: bool = true;
 override SAMPLES_BSDF: bool = true;
-// How much of it there is. Conditions depend on these, never on a constant place of a uniform buffer: llvmpipe takes what it finds
-// there for a constant and compiles the pipeline anew for each dispatch.
+// Counts. Conditions depend on these, never on a constant element of a uniform buffer: llvmpipe treats the value that it finds
+// there as a constant and recompiles the pipeline for each dispatch.
 /// Objects that rays meet.
 override OBJECT_COUNT: u32 = 1u;
-/// Rows of the hierarchy of boxes around them.
+/// Rows of the hierarchy of boxes around the objects.
 override HIERARCHY_ROWS: u32 = 1u;
-/// Lights that are chosen from.
+/// Emitters that are chosen from.
 override EMITTER_COUNT: u32 = 1u;
-/// Parts of the environment, disks in the sky among them.
+/// Parts of the environment, including disks in the sky.
 override ENVIRONMENT_COUNT: u32 = 1u;
 /// Groups of four bands; the last may be padded with dark bands.
 override GROUPS: u32 = 1u;
-/// The most segments of a path.
+/// Maximum number of segments of a path.
 override MAX_PATH_SEGMENTS: u32 = 1u;
 /// Segments after which Russian roulette may end a path.
 override ROULETTE_AFTER: u32 = 1u;

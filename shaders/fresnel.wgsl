@@ -1,6 +1,6 @@
 // One boundary between vacuum and an opaque medium.
 
-/// Reflectance for unpolarized light of a half space of index n + ik, seen from vacuum.
+/// Returns the reflectance for unpolarized light of a half space of index n + ik, seen from vacuum.
 ///
 /// With a + ib = √((n + ik)² − sin²θ): R_s = |(cos θ − (a + ib)) / (cos θ + (a + ib))|² and
 /// R_p = R_s |((a + ib) cos θ − sin²θ) / ((a + ib) cos θ + sin²θ)|² (Born and Wolf, 7th ed., section 14.4.1).
@@ -17,7 +17,7 @@ fn reflectance_unpolarized(n: vec4f, k: vec4f, cosine: f32) -> vec4f {
     let steep = b2 * cosine * cosine;
     let below = a * cosine - sin2;
     let above = a * cosine + sin2;
-    // At normal incidence and index 0 both vanish; the tiny number makes that 0/0 a 0.
+    // At normal incidence and index 0 both vanish; the tiny number turns that 0/0 into 0.
     let ratio = (below * below + steep) / max(above * above + steep, vec4f(1e-30));
     return 0.5 * r_s * (1.0 + ratio);
 }

@@ -6,7 +6,7 @@ struct Hit {
     distance: f32,
 }
 
-/// Whether a point, seen from the middle of what it lies in the plane of, lies in it.
+/// Whether a point in the plane of a shape, relative to the shape's center, lies in the shape.
 fn covers(index: u32, place: vec3f) -> bool {
     if (HAS_RECTANGLES && shape_at(index).kind == SHAPE_RECTANGLE) {
         return abs(dot(place, shape_at(index).tangent)) <= shape_at(index).half_width
@@ -18,7 +18,7 @@ fn covers(index: u32, place: vec3f) -> bool {
     return true;
 }
 
-/// Distance along a ray to one object, below 0 where it misses. `starts_here`: the ray starts on its surface.
+/// Returns the distance along a ray to one object, below 0 where the ray misses. `starts_here`: the ray starts on its surface.
 fn distance_to_shape(index: u32, ray: Ray, starts_here: bool) -> f32 {
     let origin = ray.origin - shape_at(index).center;
     if (HAS_SPHERES && shape_at(index).kind == SHAPE_SPHERE) {
@@ -38,7 +38,7 @@ fn distance_to_shape(index: u32, ray: Ray, starts_here: bool) -> f32 {
     return distance;
 }
 
-/// Whether a ray goes out of a stack of coincident surfaces where it meets one of them.
+/// Whether a ray leaves a stack of coincident surfaces where it meets one of them.
 fn is_outwards(index: u32, direction: vec3f, place: vec3f) -> bool {
     var normal = shape_at(index).normal;
     if (HAS_SPHERES && shape_at(index).kind == SHAPE_SPHERE) {
@@ -47,8 +47,8 @@ fn is_outwards(index: u32, direction: vec3f, place: vec3f) -> bool {
     return (dot(direction, normal) > 0.0) != ((shape_at(index).sheet & 1u) == 1u);
 }
 
-/// Distance along a ray to one object, below 0 where it misses. `from_object` is the object that the ray starts on, or NONE: of the
-/// surfaces that coincide with it those that lie ahead are met at once, and no other there.
+/// Returns the distance along a ray to one object, below 0 where the ray misses. `from_object` is the object that the ray starts
+/// on, or NONE: of the surfaces that coincide with it, those ahead are met at once, and the others are not met there.
 fn distance_to(index: u32, ray: Ray, from_object: u32) -> f32 {
     if (HAS_STACKED_SHAPES && from_object != NONE && index != from_object) {
         let stack = shape_at(index).stack;
@@ -61,12 +61,12 @@ fn distance_to(index: u32, ray: Ray, from_object: u32) -> f32 {
         }
     }
     let distance = distance_to_shape(index, ray, index == from_object);
-    // Elsewhere a distance of 0 is a rounding.
+    // Elsewhere a distance of 0 is a rounding error.
     return select(-1.0, distance, distance > 0.0);
 }
 
-/// Whether an object at a distance is nearer than the nearest one so far: of two at the same distance the first counts, of
-/// coincident ones that which the ray comes to first.
+/// Whether an object at a distance is nearer than the nearest one so far: of two objects at the same distance, the first counts; of
+/// coincident ones, the one that the ray reaches first.
 fn is_nearer(index: u32, distance: f32, nearest: Hit, ray: Ray) -> bool {
     if (HAS_STACKED_SHAPES && distance >= 0.0 && nearest.object != NONE) {
         let stack = shape_at(index).stack;
@@ -81,7 +81,7 @@ fn is_nearer(index: u32, distance: f32, nearest: Hit, ray: Ray) -> bool {
     return is_met(distance) && (distance < nearest.distance || is_first);
 }
 
-/// Whether a distance is one: 0 is that of a surface in which the ray starts.
+/// Whether a distance is a hit: 0 is the distance of a surface in which the ray starts.
 fn is_met(distance: f32) -> bool {
     if (HAS_STACKED_SHAPES) {
         return distance >= 0.0;
@@ -101,7 +101,8 @@ fn meets_box(node: Node, origin: vec3f, inverse: vec3f, before: f32) -> bool {
     return near <= far * 1.0000008;
 }
 
-/// The nearest object along a ray, by the hierarchy of boxes: what a box holds follows it, and is skipped where the ray misses it.
+/// Returns the nearest object along a ray, by the hierarchy of boxes: the contents of a box follow it and are skipped where the ray
+/// misses it.
 fn nearest_in_hierarchy(ray: Ray, from_object: u32) -> Hit {
     var nearest = Hit(NONE, 3.0e38);
     let inverse = select(1.0 / ray.direction, vec3f(1e30), abs(ray.direction) < vec3f(1e-30));
@@ -123,13 +124,13 @@ fn nearest_in_hierarchy(ray: Ray, from_object: u32) -> Hit {
     return nearest;
 }
 
-/// The nearest object along a ray.
+/// Returns the nearest object along a ray.
 fn nearest_hit(ray: Ray, from_object: u32) -> Hit {
     if (HAS_HIERARCHY) {
         return nearest_in_hierarchy(ray, from_object);
     }
     var nearest = Hit(NONE, 3.0e38);
-    // The condition stands at the end: some drivers pass once more through a loop that has it at its start.
+    // The condition is at the end: some drivers make an extra pass through a loop that has it at its start.
     var index = 0u;
     loop {
         let distance = distance_to(index, ray, from_object);

@@ -1,11 +1,11 @@
-// Rays against analytic shapes. A distance below 0 means that the ray misses.
+// Intersections of rays with analytic shapes. A distance below 0 means that the ray misses.
 //
-// A ray that starts on a surface says so: the root at its start is then left out exactly, so that no offset is needed.
+// For a ray that starts on a surface (`from_surface`), the root at its start is left out exactly, so that no offset is needed.
 
-/// Distance to a sphere around the origin.
+/// Returns the distance to a sphere around the origin.
 ///
-/// `from_surface`: the ray starts on this sphere. The discriminant is taken from the ray's distance to the
-/// center, and roots by the one that does not cancel (Haines et al., Ray Tracing Gems, chapter 7, 2019).
+/// `from_surface`: the ray starts on this sphere. The discriminant is computed from the ray's distance to the center, and the roots
+/// from the one that does not cancel (Haines et al., Ray Tracing Gems, chapter 7, 2019).
 fn intersect_sphere(origin: vec3f, direction: vec3f, radius: f32, from_surface: bool) -> f32 {
     let along = dot(origin, direction);
     if (from_surface) {
@@ -24,11 +24,11 @@ fn intersect_sphere(origin: vec3f, direction: vec3f, radius: f32, from_surface: 
     return select(root - along, -outside / (along + root), along > 0.0);
 }
 
-/// Distance to a sphere through the origin with this unit normal there: where its center is so far away that a distance from it has no
-/// digits left.
+/// Returns the distance to a sphere through the origin with this unit normal there, for a center so far away that a distance from
+/// it has no digits left.
 ///
-/// `from_surface`: the ray starts on this sphere. Of a point p the sphere has p·n + |p|² curvature/2 = 0; of the quadratic's roots the one
-/// that does not cancel gives the other (Press et al., Numerical Recipes, equation 5.6.4).
+/// `from_surface`: the ray starts on this sphere. A point p of the sphere satisfies p·n + |p|² curvature/2 = 0; the root of the
+/// quadratic that does not cancel gives the other (Press et al., Numerical Recipes, equation 5.6.4).
 fn intersect_large_sphere(origin: vec3f, direction: vec3f, normal: vec3f, curvature: f32, from_surface: bool) -> f32 {
     let slope = dot(direction, normal) + curvature * dot(direction, origin);
     if (from_surface) {
@@ -45,11 +45,11 @@ fn intersect_large_sphere(origin: vec3f, direction: vec3f, normal: vec3f, curvat
     if (slope < 0.0) {
         return select(far, near, near > 0.0);
     }
-    // The ray goes away from the surface that is near: from inside it meets it there, from outside nowhere.
+    // The ray moves outward: from inside it meets the near surface, from outside nothing.
     return -near;
 }
 
-/// Distance to a plane through the origin. A ray that starts on it or runs along it misses.
+/// Returns the distance to a plane through the origin. A ray that starts on it or is parallel to it misses.
 fn intersect_plane(origin: vec3f, direction: vec3f, normal: vec3f) -> f32 {
     let speed = dot(direction, normal);
     let height = dot(origin, normal);

@@ -1,26 +1,26 @@
-// Thin layers: free films, and layers on conductors. How they are met goes on record; their powers follow band by band.
+// Thin layers: free films, and layers on conductors. Their data at a hit is recorded; their powers are computed later, band by band.
 
 /// The layers of a film or of a coating at a point.
 struct Layers {
-    /// The row of the outermost.
+    /// Row of the outermost layer.
     first: u32,
     count: u32,
-    /// Number of those whose thickness varies over the surface, and the first of their thicknesses on record.
+    /// Number of layers whose thickness varies over the surface, and the first of their recorded thicknesses.
     varying_count: u32,
     first_thickness: u32,
 }
 
-/// A film where a path meets it.
+/// A film at the point where a path meets it.
 struct FilmAt {
     factor: u32,
     cosine: f32,
-    /// Of a film's only layer.
+    /// Thickness of a film's only layer, nm.
     thickness_nm: f32,
-    /// Of several layers, the first of the thicknesses on record.
+    /// For several layers, the first of the recorded thicknesses.
     first_thickness: u32,
 }
 
-/// Puts on record the thicknesses of layers where they vary over the surface, and returns the place of the first.
+/// Records the thicknesses of layers where they vary over the surface, and returns the index of the first.
 fn record_layers(first: u32, count: u32, object: u32, position: vec3f) -> u32 {
     let place = thickness_count;
     if (RECORDS_THICKNESSES) {
@@ -33,7 +33,7 @@ fn record_layers(first: u32, count: u32, object: u32, position: vec3f) -> u32 {
     return place;
 }
 
-/// A film at a point.
+/// Returns the film at a point.
 fn film_at(object: u32, point: SurfacePoint) -> FilmAt {
     let record = material_at(shape_at(object).material).record;
     let film = load_film(record);
@@ -46,13 +46,13 @@ fn film_at(object: u32, point: SurfacePoint) -> FilmAt {
     return FilmAt(factor, point.cosine, layer_thickness(film.first_layer, object, point.position), 0u);
 }
 
-/// Air at a cosine.
+/// Returns air at a cosine, as the incident medium.
 fn air_above(cosine_in: f32) -> Incident {
     let cosine = max(cosine_in, GRAZING);
     return Incident(1.0, cosine * cosine);
 }
 
-/// All layers put onto what lies below them, the last one first, or the first one first.
+/// Adds all layers to the stack below them, the last one first or the first one first.
 fn with_layers(below: Stack, layers: Layers, incident: Incident, last_first: bool, at: Place) -> Stack {
     let inverse = inverse_wavelengths(at.group, at.wavelengths);
     var stack = below;
@@ -75,7 +75,7 @@ fn with_layers(below: Stack, layers: Layers, incident: Incident, last_first: boo
     return stack;
 }
 
-/// Reflectance and transmittance of a free film, in the four bands of a group; `first` is the spectrum of the factor's number.
+/// Returns the reflectance and transmittance of a free film, in the four bands of a group; `first` is the spectrum with the factor's index.
 fn film_value(film: FilmAt, first: vec4f, at: Place) -> FilmPowers {
     let tag = factor_tag(film.factor);
     if (HAS_STACKS && tag >= FACTOR_STACK) {
@@ -97,7 +97,7 @@ fn film_value(film: FilmAt, first: vec4f, at: Place) -> FilmPowers {
     return FilmPowers(reflectance, 1.0 - reflectance);
 }
 
-/// A free film of several layers. What it transmits is the same from both sides.
+/// Returns the powers of a free film of several layers. Its transmittance is the same from both sides.
 fn stack_value(film: FilmAt, at: Place) -> FilmPowers {
     let record = load_film(factor_number(film.factor));
     let layers = Layers(record.first_layer, record.layer_count, record.varying_layers, film.first_thickness);

@@ -1,4 +1,4 @@
-// Rough surfaces as facets of which each mirrors: distributions of slopes with Smith's masking.
+// Rough surfaces as specular facets: distributions of slopes with Smith's masking.
 //
 // Directions are unit vectors in a local frame whose z is the cosine with the macroscopic normal; x runs along the grain of a
 // brushed surface. `alpha` is the width of the distribution along and across the grain.
@@ -9,7 +9,7 @@ struct Microsurface {
     alpha: vec2f,
 }
 
-/// exp(x²) erfc(x) for x ≥ 0 by Chebyshev's polynomials (Press et al., Numerical Recipes, 2nd ed., section 6.2; relative
+/// Returns exp(x²) erfc(x) for x ≥ 0 by Chebyshev polynomials (Press et al., Numerical Recipes, 2nd ed., section 6.2; relative
 /// error below 1.2e-7).
 fn scaled_erfc(x: f32) -> f32 {
     let t = 1.0 / (1.0 + 0.5 * x);
@@ -24,8 +24,8 @@ fn scaled_erfc(x: f32) -> f32 {
     return t * exp(t * p - 1.26551223);
 }
 
-/// Density D of facet normals, sr⁻¹: with s² = (x/αx)² + (y/αy)² and c the cosine, exp(−s²/c²) / (π αx αy c⁴) for Beckmann and
-/// 1 / (π αx αy (s² + c²)²) for GGX.
+/// Returns the density D of facet normals, sr⁻¹: with s² = (x/αx)² + (y/αy)² and c the cosine, exp(−s²/c²) / (π αx αy c⁴) for Beckmann
+/// and 1 / (π αx αy (s² + c²)²) for GGX.
 fn microsurface_density(surface: Microsurface, facet: vec3f) -> f32 {
     if (facet.z <= 0.0) {
         return 0.0;
@@ -40,8 +40,8 @@ fn microsurface_density(surface: Microsurface, facet: vec3f) -> f32 {
     return exp(-min(slope2 / cos2, 80.0)) / (area * cos2 * cos2);
 }
 
-/// Smith's Λ: 1 / (1 + Λ) of the facets that turn toward a direction are seen from there. With a = cot θ over the width in the
-/// direction's azimuth, (exp(−a²) / (a √π) − erfc a) / 2 for Beckmann and (√(1 + 1/a²) − 1) / 2 for GGX
+/// Returns Smith's Λ: the fraction 1 / (1 + Λ) of the facets that face a direction is visible from there. With a = cot θ over the width
+/// in the direction's azimuth, Λ is (exp(−a²) / (a √π) − erfc a) / 2 for Beckmann and (√(1 + 1/a²) − 1) / 2 for GGX
 /// (Heitz 2014, equations 68 and 72).
 fn microsurface_lambda(surface: Microsurface, direction: vec3f) -> f32 {
     let width = length(surface.alpha * direction.xy);
@@ -57,16 +57,16 @@ fn microsurface_lambda(surface: Microsurface, direction: vec3f) -> f32 {
 }
 
 struct Reflection {
-    /// D G / (4 (N·E)): the reflection function of facets that reflect everything times the light's cosine, sr⁻¹.
+    /// D G / (4 cos θo): the reflection function of perfectly reflecting facets times cos θi, sr⁻¹.
     value: f32,
-    /// Density with which a facet drawn by microsurface_sample mirrors the eye to the light, sr⁻¹.
+    /// Density with which a facet of microsurface_sample reflects `wo` to `wi`, sr⁻¹.
     pdf: f32,
-    /// E·H: the cosine at the facet.
+    /// Cosine at the facet.
     cosine: f32,
 }
 
-/// What facets mirror from `light` to `eye`, both above the surface: G = 1 / (1 + Λ(E) + Λ(L)), the density
-/// D / (4 (N·E) (1 + Λ(E))) (Heitz 2014, equations 99 and 17).
+/// Returns the reflection by facets from `wi` to `wo`, both above the surface: G = 1 / (1 + Λ(wo) + Λ(wi)), the density
+/// D / (4 cos θo (1 + Λ(wo))) (Heitz 2014, equations 99 and 17).
 fn microsurface_reflection(surface: Microsurface, wo: vec3f, wi: vec3f) -> Reflection {
     let facet = normalize(wo + wi);
     let density = microsurface_density(surface, facet) / (4.0 * wo.z);
@@ -75,7 +75,7 @@ fn microsurface_reflection(surface: Microsurface, wo: vec3f, wi: vec3f) -> Refle
     return Reflection(density / seen, density / (1.0 + lambda), dot(wo, facet));
 }
 
-/// A facet normal as often as `eye` sees it, from two uniform numbers.
+/// Samples a facet normal from two uniform numbers, in proportion to the area visible from `wo`.
 fn microsurface_sample(surface: Microsurface, wo: vec3f, u: f32, v: f32) -> vec3f {
     // The same surface stretched to α = 1.
     let stretched = normalize(vec3f(surface.alpha * wo.xy, wo.z));
@@ -88,20 +88,20 @@ fn microsurface_sample(surface: Microsurface, wo: vec3f, u: f32, v: f32) -> vec3
     return normalize(vec3f(surface.alpha * facet.xy, max(facet.z, 0.0)));
 }
 
-/// A visible facet of a GGX surface of α = 1: the half of a point of the sphere's lit cap and the eye (Dupuy and Benyoub,
-/// Sampling Visible GGX Normals with Spherical Caps, 2023, listing 3).
+/// Samples a visible facet of a GGX surface of α = 1: the half vector of `wo` and a point of the sphere's lit cap (Dupuy and
+/// Benyoub, Sampling Visible GGX Normals with Spherical Caps, 2023, listing 3).
 fn sample_visible_ggx(wo: vec3f, u: f32, v: f32) -> vec3f {
-    // v of the cap's height lies above the point, the rest below, and 1 − cos θ of the sphere below the cap: no digits are lost where it is
-    // flat, at the top and at the bottom. The facet's height is what lies below.
+    // The fraction v of the cap's height is above the point, the rest below it, and 1 − cos θ of the sphere is below the cap: no
+    // digits are lost where the sphere is flat, at the top and at the bottom. The facet's height is the part below the point.
     let above = v * (1.0 + wo.z);
     let below = (1.0 - v) * (1.0 + wo.z);
     let sine = sqrt(above * (below + max(1.0 - wo.z, 0.0)));
     return vec3f(sine * direction_of_turn(u) + wo.xy, below);
 }
 
-/// A visible facet of a Beckmann surface of α = 1: its slope toward the eye by visible_slope, that aside by the normal
-/// distribution alone (Heitz and d'Eon, Importance Sampling Microfacet-Based BSDFs Using the Distribution of Visible Normals,
-/// 2014, appendix).
+/// Samples a visible facet of a Beckmann surface of α = 1: the slope toward `wo` by visible_slope, the perpendicular slope by the
+/// normal distribution alone (Heitz and d'Eon, Importance Sampling Microfacet-Based BSDFs Using the Distribution of Visible
+/// Normals, 2014, appendix).
 fn sample_visible_beckmann(wo: vec3f, u: f32, v: f32) -> vec3f {
     let sine = length(wo.xy);
     let along = select(vec2f(1.0, 0.0), wo.xy / max(sine, 1e-30), sine > 0.0);
@@ -110,14 +110,14 @@ fn sample_visible_beckmann(wo: vec3f, u: f32, v: f32) -> vec3f {
     return vec3f(-along * toward - vec2f(-along.y, along.x) * aside, 1.0);
 }
 
-/// Steps of Halley's rule by which a slope is found.
+/// Steps of Halley's method for a slope.
 const SLOPE_STEPS: u32 = 4u;
 
-/// The slope x below which the share u of what is seen from θ lies: the density of x is that of exp(−x²) (cos θ − x sin θ) up to
-/// x = cot θ, so the share is F(x) / F(cot θ) with F(x) = cos θ erfc(−x) + sin θ exp(−x²) / √π.
+/// Returns the slope x below which the fraction u of the area visible from θ lies: the density of x is proportional to exp(−x²)
+/// (cos θ − x sin θ) up to x = cot θ, so the fraction is F(x) / F(cot θ) with F(x) = cos θ erfc(−x) + sin θ exp(−x²) / √π.
 ///
-/// A guess (Jakob, An Improved Visible Normal Sampling Routine for the Beckmann Distribution, 2014) is improved by Halley's rule,
-/// always as often.
+/// A guess (Jakob, An Improved Visible Normal Sampling Routine for the Beckmann Distribution, 2014) is improved by a fixed number
+/// of steps of Halley's method.
 fn visible_slope(cosine: f32, sine: f32, u_in: f32) -> f32 {
     let u = max(u_in, 1e-7);
     var steepest = 6.0;
@@ -139,14 +139,14 @@ fn visible_slope(cosine: f32, sine: f32, u_in: f32) -> f32 {
     return x;
 }
 
-/// cos θ erfc(−x) + sin θ exp(−x²) / √π.
+/// Returns cos θ erfc(−x) + sin θ exp(−x²) / √π.
 fn seen_below(cosine: f32, sine: f32, x: f32) -> f32 {
     let gauss = exp(-x * x);
     let tail = gauss * scaled_erfc(abs(x));
     return cosine * select(tail, 2.0 - tail, x > 0.0) + sine * 0.5641895835 * gauss;
 }
 
-/// The x of which 1 + erf x is `share`, within 2e-3 (Winitzki 2008), from −4 to 4.
+/// Returns the x with 1 + erf x = `share`, within 2e-3 (Winitzki 2008), from −4 to 4.
 fn rough_inverse_erf(share: f32) -> f32 {
     let logarithm = log(max(share * (2.0 - share), 1e-8));
     let half = 4.3307467508 + 0.5 * logarithm; // 2 / (0.147 π)

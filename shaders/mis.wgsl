@@ -1,10 +1,10 @@
-// Multiple importance sampling: what emitter sampling counts for against BSDF sampling.
+// Multiple importance sampling: the weights of emitter sampling and BSDF sampling.
 
-/// BSDF sampling is left out where its density is less than this part of the other's.
+/// BSDF sampling has weight 0 where its density is less than this fraction of the density of emitter sampling.
 const CUTOFF: f32 = 0.1875;
 
-/// MIS weight of emitter sampling in a direction that it finds with `pmf` times `density`, and BSDF sampling with density `pdf_bsdf`,
-/// which has the rest. Of a picture only what is brighter than the mean is sampled (MIS compensation, Karlík et al. 2019; see the
+/// Returns the MIS weight of emitter sampling in a direction that it finds with `pmf` times `density`; BSDF sampling, with density
+/// `pdf_bsdf`, has the rest. For a picture, only radiance above the mean is sampled (MIS compensation, Karlík et al. 2019; see the
 /// reference).
 fn mis_weight_emitter(emitter: u32, pdf_bsdf: f32, pmf: f32, density: f32) -> f32 {
     if (HAS_ENVIRONMENT_PICTURE && emitter_at(emitter).kind == EMITTER_PICTURE) {
@@ -17,8 +17,8 @@ fn mis_weight_emitter(emitter: u32, pdf_bsdf: f32, pmf: f32, density: f32) -> f3
     return 1.0 - mis_weight_bsdf(pdf_bsdf, pmf * density);
 }
 
-/// MIS weight of BSDF sampling against emitter sampling: the power heuristic (Veach 1997, section 9.2.2), with a cutoff of BSDF sampling
-/// alone.
+/// Returns the MIS weight of BSDF sampling against emitter sampling: the power heuristic (Veach 1997, section 9.2.2), with a cutoff
+/// for BSDF sampling only.
 fn mis_weight_bsdf(pdf_bsdf: f32, pdf_emitter: f32) -> f32 {
     if (pdf_bsdf < CUTOFF * pdf_emitter) {
         return 0.0;

@@ -1,15 +1,15 @@
-// Gradient noise and the streaks that a flow makes of it.
+// Gradient noise, and the streaks that a flow makes of it.
 
-/// Steps in which the streaks are carried along.
+/// Number of steps of the flow that carries the streaks.
 const WARP_STEPS: u32 = 3u;
-/// Gain before the noise is bounded: its root mean square is about a fifth.
+/// Gain before the noise is bounded: the root mean square of the noise is about a fifth.
 const NOISE_GAIN: f32 = 5.0;
-/// Where the noise of the stream function lies, apart from that of the streaks: another seed.
+/// Offset of the seed that separates the noise of the stream function from the noise of the streaks.
 const STREAM: u32 = 0x9e3779b9u;
 
-/// Gradient noise with a quintic blend (Perlin, Improving Noise, 2002): at each point of the integer lattice it is 0 and has a
-/// gradient drawn from the cube [−1, 1)³. `cells` is added to the third coordinate of the lattice, and `seed` chooses
-/// the gradients. Returns the derivatives and, in w, the value.
+/// Returns gradient noise with a quintic blend (Perlin, Improving Noise, 2002): at each point of the integer lattice it is 0 and
+/// has a gradient drawn from the cube [−1, 1)³. `cells` is added to the third coordinate of the lattice, and `seed` selects the
+/// gradients. The result is the derivatives and, in w, the value.
 fn gradient_noise(place: vec3f, cells: u32, seed: u32) -> vec4f {
     let corner = bitcast<vec3u>(vec3i(floor(place))) + vec3u(0u, 0u, cells);
     let within = place - floor(place);
@@ -30,7 +30,7 @@ fn gradient_noise(place: vec3f, cells: u32, seed: u32) -> vec4f {
     return sum;
 }
 
-/// The value of swirls at a point of an object's surface.
+/// Returns the value of swirls at a point of an object's surface.
 fn swirls(field: u32, object: u32, position: vec3f) -> f32 {
     let size = load_field(field).threshold;
     let cells = load_field(field).cells;
@@ -46,7 +46,7 @@ fn swirls(field: u32, object: u32, position: vec3f) -> f32 {
     }
     for (var i = 0u; i < WARP_STEPS; i++) {
         let stream = gradient_noise(place + time, cells, seed ^ STREAM).xyz;
-        // n × ∇ψ runs along the lines of equal ψ, so it has no sources on the surface.
+        // n × ∇ψ runs along the lines of equal ψ, so the flow is free of divergence on the surface.
         place -= load_field(field).warp / f32(WARP_STEPS) * cross(normal, stream);
         if (is_sphere) {
             normal = normalize(place);

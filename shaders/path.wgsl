@@ -1,7 +1,7 @@
 // Tracing a path and recording it. Nothing here depends on wavelength.
 
-/// Traces the path of one sample into the record and returns its wavelengths. Where films split it, one way is followed to its
-/// end, and then the other.
+/// Traces the path of one sample into the record and returns its wavelengths. Where films split the path, one branch is followed to
+/// its end, and then the other.
 fn trace_path(sample: Sample) -> Wavelengths {
     begin_record();
     waiting_count = 0u;
@@ -26,7 +26,7 @@ fn trace_path(sample: Sample) -> Wavelengths {
 /// The dimension of the camera's lens: beyond those of all branches.
 const LENS_DIMENSION: u32 = 0xffffu;
 
-/// The ray that a sample starts with.
+/// Returns the camera ray of a sample.
 fn first_ray(sample: Sample, jitter: vec2f) -> Ray {
     if (HAS_LENS) {
         return camera_ray(sample.pixel, jitter, numbers_of(sample, LENS_DIMENSION).xy);
@@ -34,7 +34,7 @@ fn first_ray(sample: Sample, jitter: vec2f) -> Ray {
     return camera_ray(sample.pixel, jitter, vec2f(0.0));
 }
 
-/// Follows the path to the next surface, and sends it on from there.
+/// Follows the path to the next surface, and on from there.
 fn extend_path(path: PathState, sample: Sample) -> PathState {
     let hit = nearest_hit(path.ray, path.from_object);
     var next = path;
@@ -54,7 +54,7 @@ fn extend_path(path: PathState, sample: Sample) -> PathState {
     return next;
 }
 
-/// The path leaves the scene: the radiance of the environment, part by part.
+/// Adds the radiance of the environment, part by part, where the path leaves the scene.
 fn shade_environment(path: PathState, sample: Sample) {
     for (var i = 0u; i < ENVIRONMENT_COUNT; i++) {
         let part = environment_part(i);
@@ -73,7 +73,7 @@ fn shade_environment(path: PathState, sample: Sample) {
     }
 }
 
-/// The path meets an object.
+/// Handles the hit of an object.
 fn shade_object(path: PathState, sample: Sample, hit: Hit) -> PathState {
     let material = shape_at(hit.object).material;
     let head = material_at(material);
@@ -108,7 +108,7 @@ fn shade_object(path: PathState, sample: Sample, hit: Hit) -> PathState {
     return path;
 }
 
-/// A film: the path is mirrored or goes straight on, or does both.
+/// Handles a film: the path is reflected or transmitted, or both.
 fn shade_film(path: PathState, object: u32, point: SurfacePoint, random: vec4f) -> PathState {
     let material = shape_at(object).material;
     let albedo = material_at(material).albedo;
@@ -145,7 +145,7 @@ fn shade_film(path: PathState, object: u32, point: SurfacePoint, random: vec4f) 
     return through;
 }
 
-/// A surface that mirrors or scatters: an emitter is sampled, and the path goes on by a sample of the BSDF.
+/// Handles a specular or scattering surface: an emitter is sampled, and the path continues in a direction sampled from the BSDF.
 fn shade_surface(path: PathState, sample: Sample, object: u32, point: SurfacePoint, random: vec4f) -> PathState {
     let material = shape_at(object).material;
     pending.factor = bsdf_factor(object, point, random.w);
@@ -183,7 +183,7 @@ fn shade_surface(path: PathState, sample: Sample, object: u32, point: SurfacePoi
     return next;
 }
 
-/// Puts how the path goes on from a scattering surface into the vertex that is being made.
+/// Writes to the pending vertex how the path continues from a scattering surface.
 fn record_onward(lobes: Lobes, factor: f32) {
     pending.weight = lobes.single * factor;
     pending.cosine = lobes.cosine;
@@ -196,7 +196,7 @@ fn record_onward(lobes: Lobes, factor: f32) {
     }
 }
 
-/// Russian roulette: ends the path by chance, or lets the vertex that is being made count for more.
+/// Plays Russian roulette: ends the path at random, or increases the weight of the pending vertex.
 fn russian_roulette(path: PathState, sample: Sample) -> PathState {
     let chance = rr_survival_probability(path.rr_throughput);
     var next = path;

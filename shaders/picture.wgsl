@@ -1,11 +1,12 @@
-// Where pictures lie on surfaces, and which of their pixels a path takes.
+// How pictures are mapped to surfaces, and which of their pixels a path uses.
 
-/// Place in a picture, from its upper left corner in its width and height; `size_in` is its size on planes, 0 for that of the surface.
+/// Returns the position in a picture, from its upper left corner, in units of its width and height; `size_in` is its size on
+/// planes, 0 for the size of the surface.
 fn picture_place(size_in: vec2f, object: u32, position: vec3f) -> vec2f {
     let local = position - shape_at(object).center;
     if (HAS_SPHERES && shape_at(object).kind == SHAPE_SPHERE) {
         let aside = length(local.xz);
-        // At the poles every longitude is right.
+        // At the poles, any longitude is right.
         let angle = polar_angle(local.z, max(abs(local.x), 1e-30));
         let longitude = select(angle, -angle, local.x < 0.0) / (2.0 * PI);
         return vec2f(0.5 + longitude, polar_angle(local.y, aside) / PI);
@@ -19,8 +20,8 @@ fn picture_place(size_in: vec2f, object: u32, position: vec3f) -> vec2f {
     return 0.5 + place / size;
 }
 
-/// The number of the pixel that a path takes at a place of a picture: one of the four whose centers are around it, with the weights that they
-/// have between the centers as odds (`random` in [0, 1)).
+/// Returns the index of the pixel that a path uses at a position in a picture: one of the four whose centers surround it, with the
+/// weights of bilinear interpolation as probabilities (`random` in [0, 1)).
 fn chosen_pixel(head: u32, place: vec2f, wraps: bool, random: f32) -> u32 {
     let size = texel_at(head).xy;
     let x = clamp(place.x * size.x - 0.5, -1.0, size.x);

@@ -1,67 +1,67 @@
-// What a traced path remembers until its spectrum is evaluated.
+// What a traced path records until its spectrum is evaluated.
 //
-// A vertex has what every path needs. What only some scenes need stands in arrays of its own, at the same place; where nothing reads one,
-// it is not there.
+// A vertex has what every path needs. Data that only some scenes need is in separate arrays, at the same index; an array that
+// nothing reads is removed.
 
-/// A place where a path met a surface, or where it ended.
+/// A point where a path met a surface, or where it ended.
 struct Vertex {
-    /// What the path is multiplied by: a FACTOR_ tag and a number.
+    /// Factor of the throughput: a FACTOR_ tag and an index.
     factor: u32,
-    /// Its weight.
+    /// Weight of the factor.
     weight: f32,
-    /// The cosine for which it is taken: at the facet, or at a smooth surface.
+    /// Cosine at which the factor is evaluated: at the facet, or at a smooth surface.
     cosine: f32,
     /// Thickness of a film's only layer, nm.
     thickness_nm: f32,
-    /// A light that joins the path here: its spectrum and its light group.
+    /// Emission that joins the path here: its spectrum and its light group.
     emission: u32,
-    /// Its weight: 0 where there is none.
+    /// Weight of the emission: 0 where there is none.
     emission_weight: f32,
-    /// The cosine for which the factor is taken where the surface scatters that light.
+    /// Cosine at which the factor is evaluated where the surface scatters that emission.
     emission_cosine: f32,
-    /// Films that the light passes through on its way: their number, and from bit 12 on the first of them.
+    /// Films that the emission crosses on its way: their number, and from bit 12 on the index of the first.
     crossings: u32,
-    /// Bits: SCATTERS_EMISSION, TRANSMITS; and the places of waiting light (`splits_to`, `resumes_from`).
+    /// Bits: SCATTERS_EMISSION, TRANSMITS; and the indices of waiting throughputs (`splits_to`, `resumes_from`).
     marks: u32,
 }
 
-/// The light is scattered by the surface; else it joins before the factor.
+/// The surface scatters the emission; otherwise it joins before the factor.
 const SCATTERS_EMISSION: u32 = 1u;
-/// The path goes on through a film; else it is mirrored.
+/// The film transmits the path; otherwise it reflects the path.
 const TRANSMITS: u32 = 2u;
-/// One more than the place where what a film transmits waits, from this bit on.
+/// One more than the index where the transmitted throughput of a film waits, from this bit on.
 const SPLITS_TO: u32 = 8u;
-/// One more than the place from which the path goes on, from this bit on.
+/// One more than the index of the throughput with which the path continues, from this bit on.
 const RESUMES_FROM: u32 = 16u;
-/// The number of crossings has as many bits.
+/// Number of bits of the number of crossings.
 const CROSSING_BITS: u32 = 12u;
 
-/// Light that met several facets of a rough surface.
+/// Multiple scattering between the facets of a rough surface.
 struct MultipleScattering {
-    /// Weight of what goes on along the path.
+    /// Weight along the path that continues.
     weight: f32,
-    /// Weight of the light that joins here.
+    /// Weight of the emission that joins here.
     emission_weight: f32,
     /// Mean of the facets' albedo.
     mean_energy: f32,
 }
 
-/// What lies below a coat or beside facets.
+/// The body below a coat or the base beside facets.
 struct Body {
-    /// Its reflectance: a FACTOR_ tag and a number.
+    /// Its reflectance: a FACTOR_ tag and an index.
     base: u32,
     /// The material.
     material: u32,
-    /// Weights of what goes on along the path, and of the light that joins here.
+    /// Weights along the path that continues, and of the emission that joins here.
     weight: f32,
     emission_weight: f32,
-    /// Cosines with the normal: toward the camera, toward the path's next vertex, toward the light that joins here.
+    /// Cosines with the normal: toward the camera, toward the path's next vertex, toward the emitter sample.
     wo_cosine: f32,
     wi_cosine: f32,
     emission_wi_cosine: f32,
 }
 
-/// A film that light passes through on its way to a vertex.
+/// A film that emission crosses on its way to a vertex.
 struct Crossing {
     factor: u32,
     cosine: f32,
@@ -73,9 +73,9 @@ var<private> vertices: array<Vertex, MAX_VERTICES>;
 var<private> vertex_count: u32;
 var<private> multiples: array<MultipleScattering, MAX_VERTICES>;
 var<private> bodies: array<Body, MAX_VERTICES>;
-/// The texel of a vertex's light, 0 where it has none.
+/// The texel of a vertex's emission, 0 where it has none.
 var<private> emission_texels: array<u32, MAX_VERTICES>;
-/// Of a vertex with layers whose thicknesses vary, the first of them.
+/// For a vertex with layers whose thicknesses vary, the first of them.
 var<private> first_thicknesses: array<u32, MAX_VERTICES>;
 
 var<private> crossings: array<Crossing, MAX_CROSSINGS>;
@@ -86,13 +86,14 @@ var<private> crossing_thicknesses: array<u32, MAX_CROSSINGS>;
 var<private> thicknesses: array<f32, MAX_THICKNESSES>;
 var<private> thickness_count: u32;
 
-/// The vertex that is being made. All are written at one place in the code: a store at a place that differs between paths is long.
+/// The pending vertex. All vertices are written at one place in the code: a store at an index that differs between paths compiles
+/// to long code.
 var<private> pending: Vertex;
 var<private> pending_multiple: MultipleScattering;
 var<private> pending_body: Body;
 var<private> pending_texel: u32;
 var<private> pending_thickness: u32;
-/// Whether it is worth being written.
+/// Whether it contributes anything and has to be written.
 var<private> is_pending: bool;
 
 const HAS_MULTIPLE_SCATTERING: bool = HAS_ROUGH_CONDUCTORS || HAS_ROUGH_COATS;
@@ -109,12 +110,12 @@ fn factor_number(factor: u32) -> u32 {
     return factor & ((1u << FACTOR_SHIFT) - 1u);
 }
 
-/// The spectrum of a light. A light has its light group in the bits above it.
+/// Returns the spectrum of an emission, which has its light group in the bits above.
 fn emission_spectrum(emission: u32) -> u32 {
     return emission & ((1u << LIGHT_GROUP_SHIFT) - 1u);
 }
 
-/// The light group of a light.
+/// Returns the light group of an emission.
 fn light_group_of(emission: u32) -> u32 {
     if (LIGHT_GROUPS == 1u) {
         return 0u;
@@ -131,12 +132,12 @@ fn begin_record() {
     vertices[0] = pending;
 }
 
-/// Begins a vertex that does nothing yet; `resumes` is its RESUMES_FROM.
+/// Begins a vertex without any effect yet; `resumes` is its RESUMES_FROM.
 fn begin_vertex(resumes: u32) {
     is_pending = false;
     pending = Vertex(FACTOR_ONE, 1.0, 1.0, 0.0, 0u, 0.0, 1.0, 0u, resumes << RESUMES_FROM);
     if (HAS_MULTIPLE_SCATTERING) {
-        // Of no facets, whose color is finite whatever they reflect.
+        // As for no facets, so that the color is finite for any reflectance.
         pending_multiple = MultipleScattering(0.0, 0.0, 1.0);
     }
     if (HAS_BASES) {
@@ -147,7 +148,7 @@ fn begin_vertex(resumes: u32) {
     }
 }
 
-/// Puts the vertex that was begun behind the others, if it does anything.
+/// Appends the pending vertex to the record, if it has any effect.
 fn write_vertex() {
     if (!is_pending) {
         return;
@@ -168,7 +169,7 @@ fn write_vertex() {
     vertex_count += 1u;
 }
 
-/// Lets radiance `weight` × the spectrum of `light` join the path before the vertex that is being made; and of a texel of its picture, where
+/// Adds radiance `weight` × the spectrum of `emission` to the path before the pending vertex, times the texel of its picture where
 /// that is not 0.
 fn add_emission(emission: u32, texel: u32, weight: f32) {
     if (weight > 0.0) {

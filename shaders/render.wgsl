@@ -1,13 +1,14 @@
-// The renderer: one invocation per pixel of a tile takes a run of samples, one after another, so that
-// a pixel's bits do not depend on how the samples were divided among dispatches.
+// The renderer: one invocation per pixel of a tile takes a run of samples, one after another, so that a pixel's bits do not depend
+// on how the samples were divided among dispatches.
 
-/// The batch, twice. An invocation reads the one of its own layer, which is always the first: a place that is no constant. At a
-/// constant one llvmpipe takes what a condition depends on for a constant too, and compiles the pipeline anew for each batch.
+/// The batch, twice. An invocation reads the one at its own layer, which is always the first, at an index that is not a constant.
+/// At a constant index, llvmpipe treats values on which conditions depend as constants too, and recompiles the pipeline for each
+/// batch.
 @group(1) @binding(0) var<uniform> batches: array<Batch, 2>;
-/// What is known of each pixel so far, one after the other:
+/// Running statistics of each pixel, one after the other:
 /// mean radiance, [light group][group of four bands][pixel of the tile];
-/// sum of squared differences of the light of all groups from its mean, [group of four bands][pixel of the tile];
-/// mean X, Y, Z, and as w of the first light group the number of samples, [light group][pixel of the tile].
+/// sum of squared deviations of the light of all groups from its mean, [group of four bands][pixel of the tile];
+/// mean X, Y, Z, and in w of the first light group the number of samples, [light group][pixel of the tile].
 @group(1) @binding(1) var<storage, read_write> sums: array<vec4f>;
 
 /// The first of the deviations and of the colors, in sets of all pixels.
@@ -24,7 +25,7 @@ fn accumulate(pixel: u32, pixels: u32, count: f32, at: Wavelengths) -> array<vec
         let x = spectrum_at(frame.observer, group, at);
         let y = spectrum_at(frame.observer + 1u, group, at);
         let z = spectrum_at(frame.observer + 2u, group, at);
-        // The total's differences from its mean, before and after: the sums of those of the light groups.
+        // The deviations of the total from its mean, before and after: the sums of those of the light groups.
         var before = vec4f(0.0);
         var after = vec4f(0.0);
         for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
@@ -47,8 +48,8 @@ fn accumulate(pixel: u32, pixels: u32, count: f32, at: Wavelengths) -> array<vec
     return color;
 }
 
-/// Whether loops still run to their end. Some drivers end every loop of an invocation that has made so many passes in all
-/// (llvmpipe: 65535), and say nothing. The samples of such an invocation must not count.
+/// Whether loops still run to their end. Some drivers silently end every loop of an invocation after a certain total number of passes
+/// (llvmpipe: 65535). The samples of such an invocation must not count.
 fn loops_run(wanted: u32) -> bool {
     var passes = 0u;
     for (var i = 0u; i < wanted; i++) {

@@ -1,13 +1,12 @@
-// Points that fill the unit cube evenly, as a function of (pixel, sample, dimension, seed): integer arithmetic, the same bits in
+// Points that fill the unit cube uniformly, as a function of (pixel, sample, dimension, seed): integer arithmetic, the same bits in
 // Rust and on every device.
 //
-// Four dimensions of Sobol's sequence (direction numbers of Joe and Kuo, SIAM J. Sci. Comput. 30, 2008), scrambled as Owen (1995)
-// does, by hashing (Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020). Every four dimensions of a path have points
-// of their own, in another order. Numbers are held with their bits reversed, the most significant digit in bit 0, which is
-// how the hash wants them.
+// Four dimensions of Sobol's sequence (direction numbers of Joe and Kuo, SIAM J. Sci. Comput. 30, 2008) with Owen scrambling (1995)
+// by hashing (Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020). Each group of four dimensions of a path has its own
+// points, in another order. Numbers have their bits reversed, the most significant digit in bit 0, as the hash requires.
 
-/// Flips each bit by a hash of those below it: Owen's scrambling of numbers with their bits reversed (Laine and Karras,
-/// Comput. Graph. Forum 30, 2011, with the steps of Vegdahl, 2021).
+/// Returns Owen's scrambling of numbers with their bits reversed: a bit is flipped by a hash of the bits below it (Laine and
+/// Karras, Comput. Graph. Forum 30, 2011, with the steps of Vegdahl, 2021).
 fn scrambled(reversed: vec4u, seed: vec4u) -> vec4u {
     var x = reversed;
     x ^= x * 0x3d20adeau;
@@ -18,14 +17,14 @@ fn scrambled(reversed: vec4u, seed: vec4u) -> vec4u {
     return x;
 }
 
-/// All bits where a bit is set, none elsewhere.
+/// Returns all bits set where the bit of the index is set, none elsewhere.
 fn bit_of(index: u32, bit: u32) -> vec4u {
     return vec4u(0u - ((index >> bit) & 1u));
 }
 
-/// A point of the sequence: the sum of the direction numbers of the index's bits. Both have their bits reversed. A pixel has at
-/// most 2²⁴ samples; what lies beyond would move all its points alike, which the scrambling does anyway. Written out: some
-/// drivers count the passes of loops.
+/// Returns a point of the sequence: the sum (XOR) of the direction numbers of the index's bits. Both have their bits reversed. A
+/// pixel has at most 2²⁴ samples; higher bits would move all its points alike, which the scrambling does anyway. The loop is
+/// unrolled by hand: some drivers count the passes of loops.
 fn sobol_point(index: u32) -> vec4u {
     var point = vec4u(0u);
     point ^= bit_of(index, 31u) & vec4u(0x000001u, 0x000001u, 0x000001u, 0x000001u);
@@ -55,7 +54,7 @@ fn sobol_point(index: u32) -> vec4u {
     return point;
 }
 
-/// Four numbers in [0, 1) for a pixel of the whole picture, a sample and a dimension.
+/// Returns four numbers in [0, 1) for a pixel of the whole picture, a sample and a dimension.
 fn sobol4(pixel: vec2u, sample: u32, dimension: u32, seed: u32) -> vec4f {
     let key = pcg4d(vec4u(pixel.x | (pixel.y << 16u), dimension, seed, 0x50b01u));
     let index = scrambled(vec4u(reverseBits(sample)), key).x;

@@ -1,6 +1,6 @@
 // The spectrum along a recorded path, four bands at a time.
 
-/// The spectrum of a vertex's light, times that of the texel of its picture. Texel 0 is none: a head stands there.
+/// Returns the spectrum of a vertex's emission, times the spectrum of its texel. Texel 0 means none: it is a header.
 fn emission_value(emission: u32, at: Place) -> vec4f {
     let lamp = spectrum_at(emission_spectrum(emission), at.group, at.wavelengths);
     if (!HAS_ENVIRONMENT_PICTURE) {
@@ -17,7 +17,7 @@ fn emission_value(emission: u32, at: Place) -> vec4f {
     return lamp * pixel.w * smooth_value(pixel.xyz, at.group, at.wavelengths);
 }
 
-/// What the films let through that a vertex's light passes.
+/// Returns the transmittance of the films that a vertex's emission crosses.
 fn crossings_transmittance(vertex: Vertex, at: Place) -> vec4f {
     var transmittance = vec4f(1.0);
     let first = vertex.crossings >> CROSSING_BITS;
@@ -33,7 +33,7 @@ fn crossings_transmittance(vertex: Vertex, at: Place) -> vec4f {
     return transmittance;
 }
 
-/// The spectrum of a factor's number, where it is one.
+/// Returns the spectrum with a factor's index, where it is a spectrum.
 fn factor_spectrum(factor: u32, at: Place) -> vec4f {
     var number = factor_number(factor);
     let tag = factor_tag(factor);
@@ -43,8 +43,8 @@ fn factor_spectrum(factor: u32, at: Place) -> vec4f {
     return spectrum_at(number, at.group, at.wavelengths);
 }
 
-/// Radiance by light group with more of one of them. The loop has a fixed length, so that it is unrolled and the array stays in
-/// registers: an index that differs between invocations would put it into memory.
+/// Returns the radiance by light group after adding to one of them. The loop has a fixed length, so that it is unrolled and the
+/// array stays in registers: an index that differs between invocations would put it into memory.
 fn with_emission(
     before: array<vec4f, LIGHT_GROUPS>,
     light_group: u32,
@@ -57,10 +57,10 @@ fn with_emission(
     return radiance;
 }
 
-/// The light that waits where films split the path.
+/// The throughputs that wait where films split the path.
 var<private> waiting_throughput: array<vec4f, MAX_SPLITS>;
 
-/// By how much a sample is dimmed, so that its radiance is at most `frame.clamp` in every band.
+/// Returns the factor that reduces a sample's radiance to at most `frame.clamp` in every band.
 fn dimming(at: Wavelengths) -> f32 {
     if (!HAS_CLAMP) {
         return 1.0;
@@ -78,8 +78,8 @@ fn dimming(at: Wavelengths) -> f32 {
     return frame.clamp / max(max(brightest.x, brightest.y), max(brightest.z, brightest.w));
 }
 
-/// Radiance of the recorded path in the four bands of a group, by light group. Each vertex reads its spectrum and its light once, and works
-/// out its film once.
+/// Returns the radiance of the recorded path in the four bands of a group, by light group. Each vertex reads its spectrum and its
+/// emission once, and computes its film once.
 fn path_radiance(group: u32, wavelengths: Wavelengths) -> array<vec4f, LIGHT_GROUPS> {
     var throughput = vec4f(1.0);
     var radiance: array<vec4f, LIGHT_GROUPS>;
@@ -119,7 +119,7 @@ fn path_radiance(group: u32, wavelengths: Wavelengths) -> array<vec4f, LIGHT_GRO
     return radiance;
 }
 
-/// What a film makes of the path that goes on from it. What it transmits of `throughput` waits, where it splits the path.
+/// Returns a film's factor for the path that continues from it. Where the film splits the path, the transmitted part of `throughput` waits.
 fn film_factor(at: Place, vertex: Vertex, first: vec4f, throughput: vec4f) -> vec4f {
     var film = FilmAt(vertex.factor, vertex.cosine, vertex.thickness_nm, 0u);
     if (RECORDS_THICKNESSES) {

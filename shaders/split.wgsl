@@ -1,6 +1,6 @@
-// Where paths divide: at a film into reflection and transmission, both or one of them; and where they end by chance.
+// Where paths split or end: reflection, transmission or both at a film, and Russian roulette.
 
-/// About the part of a film's light that it reflects, linear between the knots of its table.
+/// Returns roughly the fraction of light that a film reflects, linear between the knots of its table.
 fn reflected_at(material: u32, cosine: f32) -> f32 {
     let steps = REFLECTED_KNOTS - 1u;
     let place = clamp(cosine, 0.0, 1.0) * f32(steps);
@@ -9,15 +9,15 @@ fn reflected_at(material: u32, cosine: f32) -> f32 {
     return mix(number_at(first), number_at(first + 1u), place - f32(knot));
 }
 
-/// The least share of the paths that follow the reflection of a film, and the least that follow its transmission: what is seen
-/// faintly may be bright all the same.
+/// The least probability of following the reflection of a film, and of following its transmission: even a weak reflection may show
+/// something bright.
 const LEAST_PROBABILITY: f32 = 0.25;
 
-/// A part of the light that is a rounding of none.
+/// A fraction of the light that is 0 up to rounding.
 const NOTHING: f32 = 1e-9;
 
-/// Share of the paths that follow the reflection of a film. It steers noise only: the weight undoes it. Nothing is drawn for a reflection
-/// that there is none of.
+/// Returns the probability of following the reflection of a film that reflects roughly the fraction `reflected`. It affects noise
+/// only: the weight divides by it. A reflection of 0 is never sampled.
 fn reflection_probability(reflected: f32) -> f32 {
     if (reflected <= NOTHING) {
         return 0.0;
@@ -25,27 +25,28 @@ fn reflection_probability(reflected: f32) -> f32 {
     return clamp(reflected, LEAST_PROBABILITY, 1.0 - LEAST_PROBABILITY);
 }
 
-/// Paths that wait for the present one to end.
+/// Paths that wait for the current one to end.
 var<private> waiting_paths: array<PathState, MAX_SPLITS>;
 var<private> waiting_count: u32;
 
-/// Puts a path aside and returns its place.
+/// Puts a path aside and returns its index.
 fn wait(path: PathState) -> u32 {
     waiting_paths[waiting_count] = path;
     waiting_count += 1u;
     return waiting_count - 1u;
 }
 
-/// The path that was put aside last.
+/// Returns the path that was put aside last.
 fn resume() -> PathState {
     waiting_count -= 1u;
     return waiting_paths[waiting_count];
 }
 
-/// The least chance that a path has to go on at Russian roulette, which bounds its weight.
+/// The least survival probability of a path in Russian roulette, which bounds its weight.
 const LEAST_SURVIVAL: f32 = 0.05;
 
-/// Chance that a path goes on. The same for all its wavelengths, so that each is right on average.
+/// Returns the survival probability of a path with the estimated throughput `throughput`. It is the same for all its wavelengths,
+/// so that each is unbiased.
 fn rr_survival_probability(throughput: f32) -> f32 {
     return clamp(throughput, LEAST_SURVIVAL, 1.0);
 }

@@ -1,10 +1,10 @@
-// Stacks of any number of layers between two half spaces: exact interference, built from the substrate upwards.
+// Stacks of any number of layers between two half spaces: exact interference, built from the substrate up.
 //
-// Sign convention: n + ik with exp(−iωt); k ≥ 0 absorbs. All lengths over the vacuum wavelength. A medium enters by its
+// Sign convention: n + ik with exp(−iωt); k ≥ 0 absorbs. All lengths are in units of the vacuum wavelength. A medium enters by its
 // index squared and by q = n cos θ, which Snell's law gives from n² − (n₀ sin θ₀)² without any angle.
 
-/// The fields at the upper end of what has been built: of s the electric and the magnetic one, of p the magnetic and the
-/// electric one, both along the boundary. Only their quotient and what `passed` says of their size matter.
+/// The fields at the upper end of the layers so far: for s the electric and the magnetic field, for p the magnetic and the electric
+/// field, both along the boundary. Only their quotient matters, and their size as given by `passed`.
 struct Stack {
     s: TangentialFields,
     p: TangentialFields,
@@ -13,30 +13,30 @@ struct Stack {
 struct TangentialFields {
     first: Complex4,
     second: Complex4,
-    /// Square of the first field at the substrate, over that of the first field here without all scaling.
+    /// Squared ratio of the first field at the substrate to the first field here, with all scaling undone.
     passed: vec4f,
 }
 
-/// The medium that light comes from. It does not absorb.
+/// The incident medium. It does not absorb.
 struct Incident {
-    /// Its index squared.
+    /// Index squared.
     index2: f32,
-    /// n₀ cos θ₀ squared; carried, since n₀² − (n₀ sin θ₀)² would have no digits left near grazing.
+    /// n₀ cos θ₀ squared; kept, because n₀² − (n₀ sin θ₀)² would have no digits left near grazing.
     q2: f32,
 }
 
-/// The admittances of a half space: q for s, q / n² for p, so that second = η · first in a wave that runs downwards.
+/// The admittances of a half space: q for s, q / n² for p, so that second = η · first in a wave that propagates down.
 struct Admittances {
     s: Complex4,
     p: Complex4,
 }
 
-/// (n cos θ)² = n² − (n₀ sin θ₀)².
+/// Returns (n cos θ)² = n² − (n₀ sin θ₀)².
 fn medium_q2(index2: Complex4, incident: Incident) -> Complex4 {
     return Complex4((index2.re - incident.index2) + incident.q2, index2.im);
 }
 
-/// The substrate's admittances. The root in the first quadrant runs forward and decays.
+/// Returns the substrate's admittances. The root in the first quadrant propagates forward and decays.
 fn substrate_admittances(n: vec4f, k: vec4f, incident: Incident) -> Admittances {
     let index = Complex4(n, k);
     let index2 = complex_mul(index, index);
@@ -44,18 +44,18 @@ fn substrate_admittances(n: vec4f, k: vec4f, incident: Incident) -> Admittances 
     return Admittances(q, complex_mul(q, complex_recip(index2)));
 }
 
-/// A substrate with nothing on it.
+/// Returns a substrate without layers.
 fn stack_on(substrate: Admittances) -> Stack {
     let one = Complex4(vec4f(1.0), vec4f(0.0));
     return Stack(TangentialFields(one, substrate.s, vec4f(1.0)), TangentialFields(one, substrate.p, vec4f(1.0)));
 }
 
-/// The stack with a layer of index n + ik on top; `thickness` is in wavelengths.
+/// Returns the stack with a layer of index n + ik on top; `thickness` is in wavelengths.
 ///
 /// Abelès' matrix (1950; Born and Wolf, 7th ed., section 1.6.2, equations 38 to 41) times exp(iδ), δ = 2π q d / λ, whose modulus is at most 1:
 /// first ← C first − i A second, second ← C second − i B first, with C = cos δ exp(iδ), A = sin δ exp(iδ) / η and
-/// B = η sin δ exp(iδ). Nothing is divided by q, so that a layer at its critical angle is like any other, and an
-/// opaque layer only makes the fields shrink.
+/// B = η sin δ exp(iδ). There is no division by q, so that a layer at its critical angle needs no special case, and an opaque layer
+/// only makes the fields smaller.
 fn stack_layer(below: Stack, n: vec4f, k: vec4f, thickness: vec4f, incident: Incident) -> Stack {
     let index = Complex4(n, k);
     let index2 = complex_mul(index, index);
@@ -97,7 +97,7 @@ fn layer_phase(q: Complex4, thickness: vec4f) -> LayerPhase {
     return LayerPhase(cosine, Complex4(along * shape.re, along * shape.im), sqrt(complex_norm_sqr(beta2)));
 }
 
-/// (exp(z) − 1) / z = Σ zⁿ / (n + 1)! for |z| < 1/2; the remainder after z⁷ is below 2e-8.
+/// Returns (exp(z) − 1) / z = Σ zⁿ / (n + 1)! for |z| < 1/2; the remainder after z⁷ is below 2e-8.
 fn exponential_quotient(z: Complex4) -> Complex4 {
     var sum = Complex4(vec4f(1.0 / 40320.0), vec4f(0.0));
     for (var divisor = 7.0; divisor > 0.0; divisor -= 1.0) {
@@ -110,7 +110,7 @@ fn exponential_quotient(z: Complex4) -> Complex4 {
 /// 1/n! from n = 1 on.
 const INVERSE_FACTORIALS = array<f32, 7>(1.0, 0.5, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0, 1.0 / 5040.0);
 
-/// The fields of one polarization at the upper end of a layer, brought to a size near 1.
+/// Returns the fields of one polarization at the upper end of a layer, scaled to a size near 1.
 fn fields_above(below: TangentialFields, phase: LayerPhase, a: Complex4, b: Complex4) -> TangentialFields {
     let from_second = complex_mul(a, below.second);
     let from_first = complex_mul(b, below.first);
@@ -134,7 +134,7 @@ struct StackPowers {
     transmittance_p: vec4f,
 }
 
-/// The powers of a whole stack seen from the incident medium.
+/// Returns the powers of a whole stack seen from the incident medium.
 fn stack_powers(stack: Stack, substrate: Admittances, incident: Incident) -> StackPowers {
     let q0 = sqrt(incident.q2);
     let s = powers_of(stack.s, substrate.s, q0);
@@ -147,7 +147,7 @@ struct Powers {
     transmittance: vec4f,
 }
 
-/// R = |η₀ F − G|² / |η₀ F + G|² and T = 4 η₀ Re η_substrate |F_substrate|² / |η₀ F + G|² of the fields F and G at the top.
+/// Returns R = |η₀ F − G|² / |η₀ F + G|² and T = 4 η₀ Re η_substrate |F_substrate|² / |η₀ F + G|² of the fields F and G at the top.
 fn powers_of(at_top: TangentialFields, substrate: Complex4, incident: f32) -> Powers {
     let first = complex_scale(incident, at_top.first);
     let sum = max(complex_norm_sqr(complex_add(first, at_top.second)), vec4f(1e-30));

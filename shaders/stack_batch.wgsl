@@ -1,25 +1,25 @@
-// Many stacks at many angles and wavelengths: one invocation takes one stack at one angle and four wavelengths.
+// Many stacks at many angles and wavelengths: each invocation evaluates one stack at one angle and four wavelengths.
 
 @group(0) @binding(0) var<uniform> stack_run: StackRun;
-/// Wavelengths, four at a time, nm; the last group is filled up.
+/// Wavelengths, four at a time, nm; the last group is padded.
 @group(0) @binding(1) var<storage, read> run_wavelengths: array<vec4f>;
 /// Cosines in the incident medium.
 @group(0) @binding(2) var<storage, read> run_cosines: array<f32>;
-/// Indices: n of a medium for each group of wavelengths, then k likewise; one group where they are constant.
+/// Indices: n of a medium for each group of wavelengths, then k in the same way; a single group where they are constant.
 @group(0) @binding(3) var<storage, read> run_media: array<vec4f>;
 @group(0) @binding(4) var<storage, read> run_layers: array<RunLayer>;
 @group(0) @binding(5) var<storage, read> run_stacks: array<RunStack>;
 /// R_s, R_p, T_s, T_p: [stack of this run][angle][wavelength].
 @group(0) @binding(6) var<storage, read_write> run_powers: array<vec4f>;
 
-/// The index of a medium in a group of wavelengths.
+/// Returns the index of a medium in a group of wavelengths.
 fn run_index(medium: u32, group: u32) -> Complex4 {
     let groups = stack_run.media_groups;
     let place = 2u * medium * groups + min(group, groups - 1u);
     return Complex4(run_media[place], run_media[place + groups]);
 }
 
-/// A stack of the batch at one angle and four wavelengths.
+/// Returns the powers of a stack of the batch at one angle and four wavelengths.
 fn run_stack(stack: RunStack, cosine: f32, group: u32) -> StackPowers {
     let index2 = stack_run.incident * stack_run.incident;
     let incident = Incident(index2, index2 * cosine * cosine);

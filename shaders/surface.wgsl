@@ -1,4 +1,4 @@
-// What a scene's surface is at a point.
+// Geometry of a surface at a point.
 
 /// The point that a ray hits and the unit normal there, on the ray's side.
 struct SurfacePoint {
@@ -6,7 +6,7 @@ struct SurfacePoint {
     normal: vec3f,
     /// Cosine between the ray and the normal, ≥ 0.
     cosine: f32,
-    /// Whether the ray comes from the side that the shape's own normal points to: a sphere's outside.
+    /// Whether the ray comes from the side of the shape's own normal: the outside of a sphere.
     is_front: bool,
 }
 
@@ -15,7 +15,7 @@ fn surface_point(index: u32, ray: Ray, distance: f32) -> SurfacePoint {
     var position = ray.origin + distance * ray.direction;
     var normal = shape_at(index).normal;
     if (HAS_SPHERES && shape_at(index).kind == SHAPE_SPHERE) {
-        // Put back onto the sphere: what the distance lost does not add up along a path.
+        // Put back onto the sphere, so that rounding of the distance does not accumulate along a path.
         if (HAS_LARGE_SPHERES && shape_at(index).half_width > 0.0) {
             let place = position - shape_at(index).bitangent;
             let height = dot(place, normal) + 0.5 * shape_at(index).half_width * dot(place, place);
@@ -30,8 +30,8 @@ fn surface_point(index: u32, ray: Ray, distance: f32) -> SurfacePoint {
     return SurfacePoint(position, select(normal, -normal, cosine > 0.0), abs(cosine), cosine <= 0.0);
 }
 
-/// The frame of a surface at a point, its third column the normal on the ray's side: where the surface is brushed the first runs
-/// along the grain.
+/// Returns the frame of a surface at a point. The third column is the normal on the ray's side; where the surface is brushed, the
+/// first column runs along the grain.
 fn surface_frame(object: u32, point: SurfacePoint) -> mat3x3f {
     let row = material_at(shape_at(object).material).facets;
     if (!HAS_GRAIN || row == NONE) {

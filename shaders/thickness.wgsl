@@ -1,11 +1,11 @@
-// How thick a layer is at a point of its surface.
+// The thickness of a layer at a point of its surface.
 
 /// Whether a layer's thickness varies over its surface.
 fn layer_varies(layer: u32) -> bool {
     return load_layer(layer).field_count > 0u;
 }
 
-/// Thickness of a layer at a point of an object's surface, nm.
+/// Returns the thickness of a layer at a point of an object's surface, nm.
 fn layer_thickness(layer: u32, object: u32, position: vec3f) -> f32 {
     let even = load_layer(layer);
     let count = even.field_count;
@@ -19,7 +19,7 @@ fn layer_thickness(layer: u32, object: u32, position: vec3f) -> f32 {
     return clamp(combined_fields(first, count, object, position), 0.0, f32(MAX_THICKNESS_NM));
 }
 
-/// The value of fields in postfix order: a sum or product takes the two values before it.
+/// Returns the value of fields in postfix order: a sum or product takes the two values before it.
 fn combined_fields(first: u32, count: u32, object: u32, position: vec3f) -> f32 {
     var stack: array<f32, FIELD_STACK>;
     var height = 0u;
@@ -38,7 +38,7 @@ fn combined_fields(first: u32, count: u32, object: u32, position: vec3f) -> f32 
     return stack[0];
 }
 
-/// The value of a field that is no sum or product.
+/// Returns the value of a field that is not a sum or product.
 fn field_value(field: u32, object: u32, position: vec3f) -> f32 {
     let kind = load_field(field).kind;
     if (HAS_SWIRLS && kind == FIELD_SWIRLS) {
@@ -61,7 +61,7 @@ fn field_value(field: u32, object: u32, position: vec3f) -> f32 {
     return load_field(field).base + load_field(field).swing * along;
 }
 
-/// What a field runs along, from 0 to 1: the polar angle, or a line.
+/// Returns the coordinate along which a field varies, from 0 to 1: the polar angle, or the position along a line.
 fn field_coordinate(field: u32, object: u32, position: vec3f) -> f32 {
     let origin = load_field(field).origin;
     if (HAS_POLAR_FIELDS && (!HAS_LINE_FIELDS || load_field(field).runs_along == ALONG_POLAR_ANGLE)) {
@@ -71,7 +71,7 @@ fn field_coordinate(field: u32, object: u32, position: vec3f) -> f32 {
     return clamp(dot(position - origin, load_field(field).along), 0.0, 1.0);
 }
 
-/// The root of a table of squares, or a black film where it is thin.
+/// Returns the root of a table of squares, or the thickness of a black film where the root is below the threshold.
 fn profile_value(field: u32, along: f32) -> f32 {
     let steps = load_field(field).sample_count - 1u;
     let place = along * f32(steps);
@@ -82,13 +82,13 @@ fn profile_value(field: u32, along: f32) -> f32 {
     return select(thickness, load_field(field).base, thickness < load_field(field).threshold);
 }
 
-/// A picture by longitude and latitude on spheres, by the surface's two axes elsewhere.
+/// Returns the value of a picture, by longitude and latitude on spheres, by the surface's two axes elsewhere.
 fn picture_value(field: u32, object: u32, position: vec3f) -> f32 {
     let value = bilinear(field, picture_place(load_field(field).size, object, position), shape_at(object).kind == SHAPE_SPHERE);
     return load_field(field).base + load_field(field).swing * value;
 }
 
-/// The value of a picture, linear between the centers of its pixels.
+/// Returns the value of a picture, interpolated linearly between the centers of its pixels.
 fn bilinear(field: u32, place: vec2f, wraps: bool) -> f32 {
     let width = i32(load_field(field).sample_count);
     let height = i32(load_field(field).rows);

@@ -1,12 +1,12 @@
-// Circular functions of our own.
+// Trigonometric functions with guaranteed accuracy.
 //
-// WGSL promises sin and cos only to 2⁻¹¹, and only inside [−π, π]; acos and atan2 only to 4096 ulp.
-// These hold a few ulp everywhere, on any driver. Angles are in turns or in half turns, so that a
-// caller reduces them exactly, by fract or round.
+// WGSL guarantees sin and cos only to 2⁻¹¹, and only inside [−π, π]; acos and atan2 only to 4096 ulp. The functions here are
+// accurate to a few ulp everywhere, on any driver. Angles are in turns or in half turns, so that a caller reduces them exactly, by
+// fract or round.
 
 const PI: f32 = 3.14159265359;
 
-/// sin(πx) for |x| ≤ 1/2; odd polynomial, relative error below 1e-7 (Taylor to x¹³, remainder below 1e-8 at 1/2).
+/// Returns sin(πx) for |x| ≤ 1/2; odd polynomial, relative error below 1e-7 (Taylor to x¹³, remainder below 1e-8 at 1/2).
 fn sin_pi4(x: vec4f) -> vec4f {
     let x2 = x * x;
     var p = 4.6630281e-4 * x2 - 7.3704309e-3;
@@ -18,7 +18,7 @@ fn sin_pi4(x: vec4f) -> vec4f {
     return p * x;
 }
 
-/// (cos, sin) of an angle of `t` turns, t in [−1, 1].
+/// Returns (cos, sin) of an angle of `t` turns, t in [−1, 1].
 fn direction_of_turn(t: f32) -> vec2f {
     // In half turns, reduced to [−1/2, 1/2] for the sine; the cosine is the sine a quarter turn on.
     let sine = sine_of_half_turns(2.0 * t);
@@ -26,7 +26,7 @@ fn direction_of_turn(t: f32) -> vec2f {
     return vec2f(cosine, sine);
 }
 
-/// sin(πh) for any h of moderate size.
+/// Returns sin(πh) for any h of moderate size.
 fn sine_of_half_turns(h: f32) -> f32 {
     let nearest = round(h);
     let odd = abs(nearest - 2.0 * round(0.5 * nearest)) > 0.5;
@@ -34,7 +34,7 @@ fn sine_of_half_turns(h: f32) -> f32 {
     return select(s, -s, odd);
 }
 
-/// The angle in [0, π] whose cosine and sine are proportional to the arguments; `sine` ≥ 0, not both 0.
+/// Returns the angle in [0, π] whose cosine and sine are proportional to the arguments; `sine` ≥ 0, not both 0.
 fn polar_angle(cosine: f32, sine: f32) -> f32 {
     let a = abs(cosine);
     let small = min(a, sine);

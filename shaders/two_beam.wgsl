@@ -1,7 +1,7 @@
-// A free film by two beams (Suzuki, Yokoi and Toriwaki, section 4-2): the light that the first boundary reflects and the
-// light that the second does, once. Kept for the paper's sake; energy is not conserved, least of all near grazing.
+// A free film by two beams (Suzuki, Yokoi and Toriwaki, section 4-2): the light that the first boundary reflects, and the light
+// that the second reflects once. Kept to reproduce the paper; energy is not conserved, least of all near grazing.
 
-/// Reflectance of a film without absorption and with n ≥ 1, for unpolarized light.
+/// Returns the reflectance of a non-absorbing film with n ≥ 1, for unpolarized light.
 ///
 /// With Fresnel's r and t t′ = 1 − r², the sum r² + (t r t′)² + 2 r (t r t′) cos(2π l / λ − π) is
 /// r² (r⁴ + 4 (1 − r²) sin²(π l / λ)); l = 2 n d cos θ₂, or 2 d cos θ₂ as the paper prints it.
@@ -25,7 +25,7 @@ fn two_beams(r2: vec4f, sine: vec4f) -> vec4f {
     return r2 * (r2 * r2 + 4.0 * (1.0 - r2) * sine * sine);
 }
 
-/// Transmittance of the same film, without interference: (t t′)² = (1 − r²)².
+/// Returns the transmittance of the same film, without interference: (t t′)² = (1 − r²)².
 fn two_beam_transmittance(n: vec4f, cosine: f32) -> vec4f {
     let boundary = two_beam_boundary(n, cosine);
     let s = 1.0 - boundary.r2_s;

@@ -1,10 +1,10 @@
-// How surfaces scatter light: a file for each BSDF, with its geometry (`eval`, `sample`, a specular part) and its value over the spectrum
-// (`spectrum`). Here they are told apart by the tags of their materials.
+// How surfaces scatter light: one file per BSDF, with its geometry (`eval`, `sample`, a specular part) and its value over the
+// spectrum (`spectrum`). This file dispatches on the tags of materials.
 //
 // `wo` points to the camera's side of a path and `wi` to the light's. They are unit vectors of the surface's local frame, whose z is the
 // normal on the side of `wo` and whose x runs along the grain of a brushed surface. Values are those of the BSDF times |cos θi|.
 
-/// Probability with which a path takes the specular part: 1 of what only mirrors, 0 of what has none.
+/// Returns the probability with which a path takes the specular part: 1 for purely specular BSDFs, 0 for those without a specular part.
 fn bsdf_specular_probability(material: u32, wo: vec3f) -> f32 {
     let head = material_at(material);
     if (HAS_MIRRORS && head.surface == SURFACE_INTERFACE) {
@@ -16,7 +16,7 @@ fn bsdf_specular_probability(material: u32, wo: vec3f) -> f32 {
     return 0.0;
 }
 
-/// The value from `wi` to `wo` without the specular part, and the density of bsdf_sample.
+/// Returns the value from `wi` to `wo` without the specular part, and the density of bsdf_sample.
 fn bsdf_eval(material: u32, wo: vec3f, wi: vec3f) -> BsdfEval {
     let surface = material_at(material).surface;
     if (HAS_COOK && surface == SURFACE_COOK) {
@@ -31,7 +31,7 @@ fn bsdf_eval(material: u32, wo: vec3f, wi: vec3f) -> BsdfEval {
     return diffuse_eval(wi);
 }
 
-/// A direction `wi` by numbers in [0, 1): the first two make the direction, the third and the fourth choose between parts.
+/// Samples a direction `wi` from numbers in [0, 1): the first two determine the direction, the third and the fourth choose between parts.
 fn bsdf_sample(material: u32, wo: vec3f, random: vec4f) -> vec3f {
     let surface = material_at(material).surface;
     if (HAS_COOK && surface == SURFACE_COOK) {
@@ -46,8 +46,8 @@ fn bsdf_sample(material: u32, wo: vec3f, random: vec4f) -> vec3f {
     return diffuse_sample(random);
 }
 
-/// The factor of a surface at a point; what else its spectrum needs goes into the vertex that is being made. `random` in [0, 1) chooses
-/// between the texels of a picture.
+/// Returns the factor of a surface at a point; other data for its spectrum is written to the pending vertex. `random` in [0, 1)
+/// chooses between the texels of a picture.
 fn bsdf_factor(object: u32, point: SurfacePoint, random: f32) -> u32 {
     let material = shape_at(object).material;
     let head = material_at(material);
@@ -63,7 +63,7 @@ fn bsdf_factor(object: u32, point: SurfacePoint, random: f32) -> u32 {
     return diffuse_factor(head.record, object, point.position, random);
 }
 
-/// The spectrum at a vertex in four bands; `first` is that of the factor's number.
+/// Returns the spectrum at a vertex in four bands; `first` is the spectrum with the factor's index.
 fn bsdf_value(at: Place, vertex: Vertex, first: vec4f) -> Values {
     let tag = factor_tag(vertex.factor);
     if ((HAS_COATED_BODIES || HAS_ROUGH_COATS) && tag == FACTOR_COATED) {

@@ -7,18 +7,18 @@ fn coated_of(material: u32) -> Coated {
     return load_coated(material_at(material).record);
 }
 
-/// Share of the paths that are mirrored by a smooth coat rather than sent on by the body below it: by an estimate of what either
-/// brings. It steers noise only: the weights undo it.
+/// Returns the probability that a path is reflected by the coat rather than scattered by the body below it, from an estimate of the
+/// contribution of each. It affects noise only: the weights divide by it.
 fn coat_probability(material: u32, cosine: f32) -> f32 {
     let coated = coated_of(material);
     let n = vec4f(coated.coat_estimate);
     let reflected = reflectance_unpolarized(n, vec4f(0.0), max(cosine, 1e-6)).x;
     let share = reflected / max(reflected + (1.0 - reflected) * coated.base_estimate, 1e-6);
-    // A rough coat reflects less near grazing than a smooth one: both must stay within reach.
+    // Near grazing a rough coat reflects less than a smooth one: both choices need a probability well above 0.
     return select(clamp(share, 0.1, 0.9), share, material_at(material).facets == NONE);
 }
 
-/// A smooth coat mirrors.
+/// Returns the probability of the specular reflection, which only a smooth coat has.
 fn coated_specular_probability(material: u32, wo: vec3f) -> f32 {
     if (HAS_ROUGH_COATS && material_at(material).facets != NONE) {
         return 0.0;
@@ -53,7 +53,7 @@ fn coated_sample(material: u32, wo: vec3f, random: vec4f) -> vec3f {
     return sample_cosine_hemisphere(random.x, random.y);
 }
 
-/// By how much more a rough coat lets through in a direction than its reflectances tell: 1 but for a brushed one.
+/// Returns the factor by which a rough coat transmits more in a direction than its reflectances say: 1 unless it is brushed.
 fn coat_transmittance_scale(facets: Facets, direction: vec3f) -> f32 {
     if (!HAS_GRAIN || facets.alpha.x == facets.alpha.y) {
         return 1.0;
@@ -73,13 +73,13 @@ fn coated_factor(object: u32, point: SurfacePoint, random: f32) -> u32 {
     return factor_of(FACTOR_COATED, coated.spectrum);
 }
 
-/// The part of light in a direction that a clear coat of index n lets in, or out of the body that way.
+/// Returns the fraction of light that a clear coat of index n transmits from a direction into the body, or from the body into it.
 fn coat_transmittance(n: vec4f, cosine: f32) -> vec4f {
     return 1.0 - reflectance_unpolarized(n, vec4f(0.0), max(cosine, 1e-6));
 }
 
-/// The part of light in a direction that a rough coat lets in, or out of the body that way: 1 less the reflectance of its table, whose
-/// spectra begin with `reflectances`.
+/// Returns the fraction of light that a rough coat transmits from a direction into the body, or from the body into it: 1 minus the
+/// reflectance of its table, whose spectra begin with `reflectances`.
 fn rough_coat_transmittance(reflectances: u32, cosine: f32, group: u32, at: Wavelengths) -> vec4f {
     let place = sqrt(clamp(cosine, 0.0, 1.0)) * f32(COAT_COSINES - 1u);
     let knot = min(u32(place), COAT_COSINES - 2u);
@@ -112,7 +112,7 @@ fn coated_value(at: Place, vertex: Vertex, n: vec4f) -> Values {
     return values;
 }
 
-/// What a coat lets through toward the camera, from the path's next vertex, and from the light that joins.
+/// The transmittance of a coat toward the camera, from the path's next vertex, and from the emitter sample.
 struct CoatTransmittance {
     wo: vec4f,
     wi: vec4f,

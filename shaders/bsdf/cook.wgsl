@@ -6,9 +6,9 @@ override HAS_COOK: bool = true;
 struct CookFacets {
     /// G Σ wⱼ Dⱼ / (cos θi cos θo): the reflection function without its Fresnel factor, sr⁻¹.
     reflection: f32,
-    /// Density with which sample_cook_facet and a mirror give this direction, sr⁻¹.
+    /// Density with which a reflection at a facet of sample_cook_facet has this direction, sr⁻¹.
     pdf: f32,
-    /// The cosine at the facet.
+    /// Cosine at the facet.
     cosine: f32,
 }
 
@@ -16,7 +16,7 @@ fn cook_of(material: u32) -> Cook {
     return load_cook(material_at(material).record);
 }
 
-/// From `wi` to `wo`; black where either is below the surface.
+/// Returns the reflection from `wi` to `wo`; black when either direction is below the surface.
 fn cook_facets(material: u32, wo: vec3f, wi: vec3f) -> CookFacets {
     if (wo.z <= 0.0 || wi.z <= 0.0) {
         return CookFacets(0.0, 0.0, 1.0);
@@ -48,7 +48,7 @@ fn cook_facets(material: u32, wo: vec3f, wi: vec3f) -> CookFacets {
     return CookFacets(distribution * g / (wo.z * wi.z), density / (4.0 * cosine), cosine);
 }
 
-/// A facet normal of one of the slopes, chosen by `pick`.
+/// Samples a facet normal for one of the slopes, chosen by `pick`.
 fn sample_cook_facet(material: u32, u: f32, v: f32, pick: f32) -> vec3f {
     let cook = cook_of(material);
     let first = cook.first_slope;

@@ -12,7 +12,7 @@ fn diffuse_sample(random: vec4f) -> vec3f {
     return sample_cosine_hemisphere(random.x, random.y);
 }
 
-/// The factor of a reflectance at a point: a spectrum, or a texel of its picture.
+/// Returns the factor of a reflectance at a point: a spectrum, or a texel of its picture.
 fn diffuse_factor(record: u32, object: u32, position: vec3f, random: f32) -> u32 {
     let reflectance = load_diffuse(record);
     if (HAS_TEXTURES && reflectance.picture != NONE) {
@@ -24,7 +24,7 @@ fn diffuse_factor(record: u32, object: u32, position: vec3f, random: f32) -> u32
     return factor_of(FACTOR_DIFFUSE, reflectance_spectrum(reflectance, object, position));
 }
 
-/// Spectrum of a reflectance at a point: one of the two of a checker, or the only one.
+/// Returns the spectrum of a reflectance at a point: one of the two of a checker, or the only one.
 fn reflectance_spectrum(reflectance: Diffuse, object: u32, position: vec3f) -> u32 {
     if (!HAS_CHECKERS || reflectance.spectrum == reflectance.odd_spectrum) {
         return reflectance.spectrum;
@@ -39,7 +39,7 @@ fn reflectance_spectrum(reflectance: Diffuse, object: u32, position: vec3f) -> u
     return select(reflectance.odd_spectrum, reflectance.spectrum, half == floor(half));
 }
 
-/// The value of a reflectance's factor, where `first` is the spectrum of its number.
+/// Returns the value of a reflectance's factor, where `first` is the spectrum with the factor's index.
 fn reflectance_at(at: Place, factor: u32, first: vec4f) -> vec4f {
     if (HAS_TEXTURES && factor_tag(factor) == FACTOR_TEXTURE) {
         return smooth_value(texel_at(factor_number(factor)).xyz, at.group, at.wavelengths);

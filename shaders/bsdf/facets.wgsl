@@ -1,7 +1,7 @@
-// The facets of a rough surface: light that meets one of them, and light that meets several.
+// The facets of a rough surface: single and multiple scattering.
 
-/// A number of facets over direction, from the table at `first`: over the cosine and, where the surface is brushed, over the
-/// width of the slopes in the direction's azimuth.
+/// Returns a property of facets in a direction, from the table at `first`: over the cosine and, where the surface is brushed, over
+/// the width of the slopes in the direction's azimuth.
 fn over_facets(first: u32, alpha: vec2f, direction: vec3f) -> f32 {
     let place = sqrt(clamp(direction.z, 0.0, 1.0)) * f32(FACET_COSINES - 1u);
     let row = min(u32(place), FACET_COSINES - 2u);
@@ -19,7 +19,7 @@ fn over_facets(first: u32, alpha: vec2f, direction: vec3f) -> f32 {
     return mix(here, beside, across - f32(column));
 }
 
-/// The directional albedo E of facets, were they to reflect everything. 1 − E of the light meets another facet.
+/// Returns the directional albedo E of perfectly reflecting facets. The fraction 1 − E of the light meets another facet.
 fn facets_albedo(facets: Facets, direction: vec3f) -> f32 {
     return over_facets(facets.first_energy, facets.alpha, direction);
 }
@@ -28,11 +28,10 @@ fn microsurface_of(facets: Facets) -> Microsurface {
     return Microsurface(facets.distribution, facets.alpha);
 }
 
-/// Light that met one facet, and light that met several, without their colors. The latter leaves by
-/// (1 − E(wo)) (1 − E(wi)) / (π (1 − E mean)), so that with the former everything is there (Kelemen and Szirmay-Kalos 2001;
-/// Kulla and Conty 2017).
+/// Returns single and multiple scattering, without their colors. The light that met several facets leaves as
+/// (1 − E(wo)) (1 − E(wi)) / (π (1 − E mean)), so that no energy is lost (Kelemen and Szirmay-Kalos 2001; Kulla and Conty 2017).
 ///
-/// Directions are drawn from visible facets, and with the share 1 − E(wo) evenly over the hemisphere.
+/// Directions are sampled by visible facets and, with probability 1 − E(wo), uniformly over the hemisphere.
 fn facets_eval(facets: Facets, wo: vec3f, wi: vec3f) -> BsdfEval {
     if (wo.z <= 0.0 || wi.z <= 0.0) {
         return dark(wi);
@@ -45,7 +44,7 @@ fn facets_eval(facets: Facets, wo: vec3f, wi: vec3f) -> BsdfEval {
     return BsdfEval(lobes, mix(once.pdf, 0.5 / PI, share));
 }
 
-/// A direction drawn by the density of facets_eval.
+/// Samples a direction by the density of facets_eval.
 fn facets_sample(facets: Facets, wo: vec3f, random: vec4f) -> vec3f {
     if (random.z < 1.0 - facets_albedo(facets, wo)) {
         return sample_cone(random.x, random.y, 1.0);
@@ -54,13 +53,12 @@ fn facets_sample(facets: Facets, wo: vec3f, random: vec4f) -> vec3f {
     return normalize(reflect(-wo, facet));
 }
 
-/// Cosines and weights of a mean over a hemisphere: Gauss's rule of three points for the weight x (Abramowitz and Stegun,
-/// table 25.8).
+/// Cosines and weights of a mean over a hemisphere: Gauss's rule of three points for the weight x (Abramowitz and Stegun, table 25.8).
 const MEAN_COSINES: vec3f = vec3f(0.2123405382, 0.5905331356, 0.9114120405);
 const MEAN_WEIGHTS: vec3f = vec3f(0.1396539598, 0.4584822127, 0.4018638275);
 
-/// The color of light that met several facets: F² E / (1 − F (1 − E)) with F the mean of the reflectance over a hemisphere and
-/// E that of the facets' albedo (Kulla and Conty 2017).
+/// Returns the color of light that met several facets: F² E / (1 − F (1 − E)), with F the mean of the reflectance over a hemisphere
+/// and E the mean of the facets' albedo (Kulla and Conty 2017).
 fn multiple_color(mean: vec4f, mean_energy: f32) -> vec4f {
     return mean * mean * mean_energy / (1.0 - mean * (1.0 - mean_energy));
 }

@@ -1,4 +1,4 @@
-// The boundary of a conductor, bare or below thin layers: a mirror, or facets that mirror.
+// The boundary of a conductor, bare or below thin layers: smooth, or made of specular facets.
 
 override HAS_INTERFACES: bool = true;
 override HAS_MIRRORS: bool = true;
@@ -37,7 +37,7 @@ fn interface_value(at: Place, vertex: Vertex, first: vec4f) -> Values {
     return bare_value(at, vertex, first, spectrum_at(factor_number(vertex.factor) + 1u, at.group, at.wavelengths));
 }
 
-/// A bare conductor of index n + ik.
+/// Returns the values of a bare conductor of index n + ik.
 fn bare_value(at: Place, vertex: Vertex, n: vec4f, k: vec4f) -> Values {
     var values = Values(vertex.weight * reflectance_unpolarized(n, k, vertex.cosine), vec4f(0.0));
     if (HAS_SCATTERING) {
@@ -52,13 +52,13 @@ fn bare_value(at: Place, vertex: Vertex, n: vec4f, k: vec4f) -> Values {
     return values;
 }
 
-/// The values with light that met several facets, by the mean of the reflectance over a hemisphere.
+/// Adds multiple scattering to the values, by the mean of the reflectance over a hemisphere.
 fn with_multiple(once: Values, multiple: MultipleScattering, mean: vec4f) -> Values {
     let several = multiple_color(mean, multiple.mean_energy);
     return Values(once.onward + multiple.weight * several, once.lit + multiple.emission_weight * several);
 }
 
-/// Layers on a conductor, at one cosine after the other, so that their code is there once.
+/// Returns the values of layers on a conductor, one cosine after the other, so that their code occurs only once.
 fn coating_value(at: Place, vertex: Vertex) -> Values {
     let boundary = load_interface(factor_number(vertex.factor));
     let n = spectrum_at(boundary.spectrum, at.group, at.wavelengths);

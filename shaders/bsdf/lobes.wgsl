@@ -1,12 +1,12 @@
-// What all BSDFs give.
+// The results that all BSDFs return.
 
-/// A BSDF's value between two directions as weights of the spectra that it is made of.
+/// A BSDF's value between two directions as weights of the spectra that it consists of.
 struct Lobes {
-    /// Of the reflectance at `cosine`: light that met the surface once.
+    /// Weight of the reflectance at `cosine`: single scattering.
     single: f32,
-    /// Of the color of light that met several facets of a rough surface.
+    /// Weight of the color of multiple scattering between the facets of a rough surface.
     multiple: f32,
-    /// Of the color of the base below a coat, or beside facets.
+    /// Weight of the color of the base below a coat, or beside facets.
     body: f32,
     /// Cosine at the facet, or at a smooth surface.
     cosine: f32,
@@ -16,21 +16,21 @@ struct Lobes {
 
 struct BsdfEval {
     lobes: Lobes,
-    /// Density with which the BSDF's sample finds `wi`, sr⁻¹.
+    /// Density with which the BSDF's sample function finds `wi`, sr⁻¹.
     pdf: f32,
 }
 
-/// Nothing is scattered.
+/// Returns an evaluation without any scattering.
 fn dark(wi: vec3f) -> BsdfEval {
     return BsdfEval(Lobes(0.0, 0.0, 0.0, 1.0, wi.z), 0.0);
 }
 
-/// Sum of the weights.
+/// Returns the sum of the weights.
 fn lobes_sum(lobes: Lobes) -> f32 {
     return lobes.single + lobes.multiple + lobes.body;
 }
 
-/// Where a spectrum is taken: a vertex of the record, a group of four bands, and the sample's wavelengths.
+/// Where a spectrum is evaluated: a vertex of the record, a group of four bands, and the sample's wavelengths.
 struct Place {
     vertex: u32,
     group: u32,
@@ -39,8 +39,8 @@ struct Place {
 
 /// The values of a vertex in four bands, with their weights.
 struct Values {
-    /// What the path is multiplied by.
+    /// Factor of the path that continues.
     onward: vec4f,
-    /// What the light that joins here is multiplied by.
+    /// Factor of the emission that joins here.
     lit: vec4f,
 }
