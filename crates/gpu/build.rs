@@ -1,4 +1,4 @@
-//! Lists the files of `shaders/`, so that a new one is a part of the shader as soon as it is there.
+//! Lists the files of `shaders/`, so that a new file becomes a part of the shader automatically.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

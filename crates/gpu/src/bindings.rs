@@ -6,7 +6,7 @@ use crate::pipelines::Pipeline;
 use crate::{Gpu, PackedScene, RenderError};
 use wgpu::util::DeviceExt;
 
-/// A scene in the device's memory: by the number of its binding, what is bound there.
+/// A scene in the device's memory: the resource for each binding.
 #[derive(Debug)]
 pub struct SceneBindings(Vec<Resource>);
 
@@ -26,7 +26,7 @@ impl Resource {
 }
 
 impl SceneBindings {
-    /// The bind group 0 of a pipeline.
+    /// Returns bind group 0 of a pipeline.
     pub fn group(&self, gpu: &Gpu, pipeline: &Pipeline) -> wgpu::BindGroup {
         let used = pipeline.bindings.iter();
         let entries: Vec<_> = used
@@ -46,7 +46,7 @@ impl SceneBindings {
 /// Uploads a scene.
 ///
 /// # Errors
-/// When a part of it is larger than what the device binds at once, or the device fails.
+/// When a part of it is larger than the device can bind at once, or the device fails.
 pub fn bind_scene(gpu: &Gpu, packed: &PackedScene) -> Result<SceneBindings, RenderError> {
     let frame = bytemuck::bytes_of(&packed.frame);
     let frame = buffer(gpu, "frame", frame, wgpu::BufferUsages::UNIFORM);
@@ -86,7 +86,7 @@ fn buffer(gpu: &Gpu, label: &str, contents: &[u8], usage: wgpu::BufferUsages) ->
 
 impl List<'_> {
     fn upload(&self, gpu: &Gpu) -> Result<Resource, RenderError> {
-        // Of storage buffers, but as good for all forms.
+        // The limit of storage buffers also serves for the other forms.
         let limit = gpu.limits().max_storage_buffer_binding_size;
         if self.bytes.len() as u64 > limit {
             return Err(RenderError::TooLarge {
@@ -106,7 +106,7 @@ impl List<'_> {
             ListForm::Uniform => {
                 Resource::Buffer(buffer(gpu, self.what, &filled(UNIFORM_BYTES), uniform))
             }
-            // A binding may not be empty: a list without rows has one that nothing reads.
+            // A binding may not be empty: a list without rows gets a row that nothing reads.
             ListForm::Storage => {
                 let storage = wgpu::BufferUsages::STORAGE;
                 Resource::Buffer(buffer(gpu, self.what, &filled(16), storage))
@@ -125,14 +125,14 @@ impl List<'_> {
     }
 }
 
-/// What stands in a texture, row by row.
+/// The contents of a texture, row by row.
 struct Table<'a> {
     what: &'static str,
     format: wgpu::TextureFormat,
-    /// Elements of a row.
+    /// Number of elements of a row.
     width: u32,
     bytes: &'a [u8],
-    /// What to do where it is too large.
+    /// Advice for when the table is too large.
     advice: &'static str,
 }
 

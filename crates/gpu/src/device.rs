@@ -4,11 +4,11 @@ use crate::pipelines::{DriverCache, RecentPipelines};
 use std::sync::{Arc, Mutex};
 use thiserror::Error;
 
-/// What to type where no driver is found.
+/// Advice for when no driver is found.
 pub const INSTALL_HINT: &str = "install a driver; Mesa's software driver will do: \
     `apt-get install mesa-vulkan-drivers` on Debian and Ubuntu, `dnf install mesa-vulkan-drivers` on Fedora";
 
-/// The drivers that are asked.
+/// The backends that are queried.
 const BACKENDS: wgpu::Backends = wgpu::Backends::VULKAN
     .union(wgpu::Backends::METAL)
     .union(wgpu::Backends::DX12);
@@ -18,7 +18,7 @@ const BACKENDS: wgpu::Backends = wgpu::Backends::VULKAN
 pub struct AdapterDescription {
     /// Name, driver, type.
     pub info: wgpu::AdapterInfo,
-    /// What it can do at most.
+    /// The highest limits of the adapter.
     pub limits: wgpu::Limits,
 }
 
@@ -31,12 +31,12 @@ impl std::fmt::Display for AdapterDescription {
 /// Which adapter to open.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum AdapterChoice {
-    /// The best: discrete before integrated before virtual before software.
+    /// The best adapter: discrete before integrated before virtual before software.
     #[default]
     Best,
-    /// The best that is hardware, no software driver.
+    /// The best hardware adapter, never a software driver.
     Hardware,
-    /// The best of those whose name contains this, whatever the case of its letters.
+    /// The best adapter whose name contains this, ignoring case.
     Named(String),
 }
 
@@ -47,26 +47,26 @@ pub enum OpenError {
     /// There is no adapter at all.
     #[error("no Vulkan, Metal or DX12 driver found; {INSTALL_HINT}")]
     NoAdapter,
-    /// There are only software drivers.
+    /// All adapters are software drivers.
     #[error("there is no GPU, only the software driver {}", found.join(", "))]
     NoHardware {
-        /// What there is.
+        /// The adapters that were found.
         found: Vec<String>,
     },
-    /// No adapter has the wanted name.
+    /// No adapter has the requested name.
     #[error("no adapter is named like {wanted:?}; there {}", found_names(found))]
     NoSuchName {
-        /// What was asked for.
+        /// The requested name.
         wanted: String,
-        /// What there is.
+        /// The adapters that were found.
         found: Vec<String>,
     },
-    /// The adapter does not give a device.
+    /// The adapter did not provide a device.
     #[error("the adapter {adapter} cannot be opened")]
     Refused {
-        /// Which one.
+        /// The adapter.
         adapter: String,
-        /// What the driver says.
+        /// The driver's error.
         source: wgpu::RequestDeviceError,
     },
 }
@@ -82,19 +82,19 @@ fn found_names(found: &[String]) -> String {
 #[derive(Clone, Debug, Error)]
 #[non_exhaustive]
 pub enum DeviceError {
-    /// No memory is left.
+    /// Out of memory.
     #[error("the adapter is out of memory: {0}")]
     OutOfMemory(String),
     /// The device was lost: unplugged, reset, or stopped by the system because a dispatch took too long.
     #[error("the device was lost: {0}")]
     Lost(String),
-    /// A call or a shader that the driver does not accept.
+    /// The driver rejected a call or a shader.
     #[error("the driver refused a call: {0}")]
     Refused(String),
-    /// Work did not end in a time that no batch should need.
+    /// Work did not finish within a time that no batch should need.
     #[error("the device has not answered for {seconds} s")]
     NoAnswer {
-        /// How long was waited.
+        /// How long the host waited, s.
         seconds: u64,
     },
 }
@@ -116,7 +116,7 @@ pub fn adapters() -> Vec<AdapterDescription> {
     ranked_adapters().iter().map(describe_adapter).collect()
 }
 
-/// Name, kind, backend and driver in one line.
+/// Describes an adapter in one line: name, kind, backend and driver.
 fn describe(info: &wgpu::AdapterInfo) -> String {
     let kind = match info.device_type {
         wgpu::DeviceType::DiscreteGpu => "discrete GPU",
@@ -163,11 +163,11 @@ fn rank(kind: wgpu::DeviceType) -> u8 {
 impl Gpu {
     /// Opens an adapter.
     ///
-    /// Where the driver gives out what it compiled (Vulkan), that is kept in the user's folder for caches, or in the one that the
-    /// environment variable `PELLICLE_CACHE_DIR` names; an empty one keeps nothing.
+    /// Where the driver exposes what it compiled (Vulkan), that is kept in the user's cache folder, or in the folder that the
+    /// environment variable `PELLICLE_CACHE_DIR` names; an empty value disables the cache.
     ///
     /// # Errors
-    /// When there is none, none of the wanted name, or it refuses.
+    /// When there is no adapter, none with the requested name, or the driver refuses to open it.
     pub fn open(choice: &AdapterChoice) -> Result<Self, OpenError> {
         let mut found = ranked_adapters();
         if found.is_empty() {
@@ -199,9 +199,9 @@ impl Gpu {
         let description = describe_adapter(adapter);
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("pellicle"),
-            // It is no more than a way to keep what was compiled; no shader needs it.
+            // This feature only keeps compiled code; no shader needs it.
             required_features: adapter.features() & wgpu::Features::PIPELINE_CACHE,
-            // The limits that every WebGPU device has, so that what runs here runs elsewhere.
+            // The limits that every WebGPU device has, so that whatever runs here runs elsewhere.
             required_limits: wgpu::Limits::default().or_worse_values_from(&description.limits),
             ..Default::default()
         };
@@ -225,44 +225,44 @@ impl Gpu {
             is_software,
         };
         let cache = DriverCache::open(&gpu.device, &gpu.description.info);
-        // A cache that the driver refuses is done without.
+        // A cache that the driver rejects is not used.
         if gpu.check().is_ok() {
             gpu.driver_cache = cache;
         }
         Ok(gpu)
     }
 
-    /// Whether it is a software driver, which takes the lists of a scene in other forms than hardware does.
+    /// Whether this is a software driver, for which the lists of a scene have other forms than for hardware.
     pub fn is_software(&self) -> bool {
         self.is_software
     }
 
-    /// The device with this said otherwise, so that tests see the lists in the other forms.
+    /// Returns the device with this flag overridden, so that tests see the lists in the other forms.
     #[must_use]
     pub fn taken_for_software(mut self, is_software: bool) -> Self {
         self.is_software = is_software;
         self
     }
 
-    /// What this adapter is.
+    /// Returns the description of the adapter.
     pub fn description(&self) -> &AdapterDescription {
         &self.description
     }
 
-    /// The limits that the device was opened with.
+    /// Returns the limits with which the device was opened.
     pub fn limits(&self) -> wgpu::Limits {
         self.device.limits()
     }
 
-    /// The device itself, for tests that run shaders of their own.
+    /// Returns the device itself, for tests with their own shaders.
     pub fn device(&self) -> (&wgpu::Device, &wgpu::Queue) {
         (&self.device, &self.queue)
     }
 
-    /// The first error that was reported since the last call.
+    /// Returns the first error that was reported since the last call.
     ///
     /// # Errors
-    /// That error.
+    /// The reported error.
     pub fn check(&self) -> Result<(), DeviceError> {
         let mut trouble = self
             .trouble
@@ -271,10 +271,10 @@ impl Gpu {
         trouble.take().map_or(Ok(()), Err)
     }
 
-    /// Waits for all submitted work. A software driver may compile the pipeline within its first dispatch, on a busy machine for minutes.
+    /// Waits for all submitted work. A software driver may compile the pipeline during its first dispatch, on a busy machine for minutes.
     ///
     /// # Errors
-    /// When the work failed, or does not end.
+    /// When the work failed or does not finish.
     pub fn wait(&self) -> Result<(), DeviceError> {
         const SECONDS: u64 = 600;
         let poll = wgpu::PollType::Wait {
@@ -309,7 +309,7 @@ fn listen(device: &wgpu::Device, trouble: &Arc<Mutex<Option<DeviceError>>>) {
     }));
     let losses = Arc::clone(trouble);
     device.set_device_lost_callback(move |reason, message| {
-        // Dropping the device reports a loss as well; nobody asks for it any more.
+        // Dropping the device also reports a loss, which nobody checks any more.
         keep(&losses, DeviceError::Lost(format!("{reason:?}: {message}")));
     });
 }

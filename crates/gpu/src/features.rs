@@ -1,4 +1,4 @@
-//! What a scene has, so that its shader leaves out the rest: the values of the `override` lines of `shaders/`.
+//! The features of a scene, so that its shader leaves out the rest: the values of the `override` lines of `shaders/`.
 
 use crate::pack::is_large;
 use scene::{
@@ -7,9 +7,9 @@ use scene::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Values of the constants of a shader: those that say whether a scene has a thing, and those that say how many it has.
+/// Values of the constants of a shader: whether a scene has a feature, and how many of something it has.
 ///
-/// By default they are as the file says: everything is there.
+/// The default is that of the files: every feature is present.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Features {
     has: Option<BTreeSet<&'static str>>,
@@ -17,7 +17,7 @@ pub struct Features {
 }
 
 impl Features {
-    /// What a scene has besides what its materials need.
+    /// Returns the features of a scene other than those of its materials.
     pub(crate) fn of(scene: &Scene) -> Self {
         let named = of_shapes(scene)
             .into_iter()
@@ -30,12 +30,12 @@ impl Features {
         }
     }
 
-    /// Adds what something needs.
+    /// Adds features.
     pub(crate) fn add(&mut self, names: &[&'static str]) {
         self.has.get_or_insert_default().extend(names);
     }
 
-    /// Adds what the trees of a scene are; `hierarchy_rows` is 0 where there is no hierarchy of objects.
+    /// Adds the features and counts of a scene's trees; `hierarchy_rows` is 0 where there is no hierarchy of objects.
     pub(crate) fn set_trees(&mut self, scene: &Scene, hierarchy_rows: u32) {
         if hierarchy_rows > 0 {
             self.add(&["HAS_HIERARCHY"]);
@@ -47,7 +47,7 @@ impl Features {
         }
     }
 
-    /// The same with a thing more or less, for tests.
+    /// Returns the features with one of them set or cleared, for tests.
     #[must_use]
     pub fn with(mut self, name: &'static str, has: bool) -> Self {
         let names = self.has.get_or_insert_default();
@@ -56,13 +56,13 @@ impl Features {
         self
     }
 
-    /// The names of all constants that have a value here.
+    /// Returns the names of all constants that have a value here.
     pub fn names(&self) -> impl Iterator<Item = &'static str> {
         let counts = self.counts.keys();
         self.has.iter().flatten().chain(counts).copied()
     }
 
-    /// A line that declares an overridable constant as one with its value; none of another line.
+    /// Returns the line that declares an overridable constant, as a constant with its value; `None` for other lines.
     pub(crate) fn fill_in(&self, line: &str) -> Option<String> {
         let declared = line.strip_prefix("override ")?;
         let (name, rest) = declared.split_once(": ")?;
@@ -76,7 +76,7 @@ impl Features {
     }
 }
 
-/// How many passes the loops make that look at all of something.
+/// Returns the numbers of passes of the loops over all things of a kind.
 fn counts(scene: &Scene) -> [(&'static str, u32); 6] {
     let settings = scene.settings();
     let length = |count: usize| count as u32;
@@ -156,7 +156,7 @@ fn of_lights(scene: &Scene) -> Vec<Named> {
     ]
 }
 
-/// How paths are drawn.
+/// Returns the features of path sampling.
 fn of_paths(scene: &Scene) -> Vec<Named> {
     let mut materials = scene.objects().iter().map(|o| scene.material(o.material));
     let has_films = materials.any(|material| matches!(material, Material::Film { .. }));
@@ -184,7 +184,7 @@ fn of_paths(scene: &Scene) -> Vec<Named> {
     ]
 }
 
-/// What the pixels of environment hold that are a picture.
+/// Returns the kind of spectra in the pixels of an environment that is a picture.
 fn picture_of(environment: &Environment) -> Option<PictureSpectra> {
     match environment {
         Environment::Picture { picture, .. } => Some(picture.spectra),

@@ -1,8 +1,8 @@
 //! The renderer on the GPU, by wgpu: Vulkan, Metal or DX12, hardware or software.
 //!
-//! A [`scene::Scene`] becomes a [`PackedScene`], whose structs ([`layout`]) the shader shares. The shader
-//! is put together from the [`modules`] of `shaders/`. A [`Gpu`] is an open adapter; [`render`] runs a
-//! scene on it, tile by tile and batch by batch, and reads back a [`spectra::SpectralImage`].
+//! A [`scene::Scene`] becomes a [`PackedScene`], whose structs ([`layout`]) the shader shares. The shader is assembled from the
+//! [`modules`] of `shaders/`. A [`Gpu`] is an open adapter; [`render`] renders a scene on it, tile by tile and batch by batch, and
+//! reads back a [`spectra::SpectralImage`].
 
 mod bindings;
 mod device;

@@ -1,4 +1,4 @@
-//! The lists of a scene, and how they are bound.
+//! The lists of a scene, and the forms in which they are bound.
 
 use crate::PackedScene;
 use crate::layout::LIST_WIDTH;
@@ -6,17 +6,17 @@ use crate::modules::Specialization;
 
 /// A list of a scene, as `shaders/bindings.wgsl` declares it.
 pub(crate) struct List<'a> {
-    /// Its variable.
+    /// Name of the variable.
     name: &'static str,
-    /// What to call it.
+    /// Name in messages.
     pub(crate) what: &'static str,
     pub(crate) bytes: &'a [u8],
-    /// What to do where there are too many.
+    /// Advice for when it is too long.
     pub(crate) advice: &'static str,
 }
 
 impl PackedScene {
-    /// The lists in the order of their bindings, from 1 on.
+    /// Returns the lists in the order of their bindings, from 1 on.
     pub(crate) fn lists(&self) -> [List<'_>; 5] {
         fn list<'a, T: bytemuck::Pod>(
             [name, what]: [&'static str; 2],
@@ -33,22 +33,22 @@ impl PackedScene {
         let fewer = "use fewer of them";
         [
             list(["shapes", "objects"], &self.shapes, fewer),
-            list(["emitters", "lights"], &self.emitters, fewer),
+            list(["emitters", "emitters"], &self.emitters, fewer),
             list(
                 ["records", "materials"],
                 &self.records,
-                "use fewer of them, of fewer layers",
+                "use fewer of them, with fewer layers",
             ),
-            list(["trees", "objects and lights"], &self.trees, fewer),
+            list(["trees", "objects and emitters"], &self.trees, fewer),
             list(
                 ["spectra", "spectra"],
                 &self.spectra,
-                "use fewer materials and lights",
+                "use fewer materials and emitters",
             ),
         ]
     }
 
-    /// What a shader for this scene is made for, on a device that is a software driver or not.
+    /// Returns the specialization of a shader for this scene, on a device that is a software driver or not.
     pub fn specialization(&self, is_software: bool) -> Specialization {
         let lists = self.lists();
         let forms = lists.iter().map(|list| (list.name, list.form(is_software)));
@@ -60,7 +60,7 @@ impl PackedScene {
     }
 }
 
-/// How a list is bound.
+/// The form in which a list is bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ListForm {
     /// In a storage buffer.
@@ -71,11 +71,11 @@ pub enum ListForm {
     Texture,
 }
 
-/// Bytes of a list in a uniform buffer: what every device binds. Shaders do not depend on how much of it is used.
+/// Bytes of a list in a uniform buffer: the size that every device can bind. Shaders do not depend on how much of it is used.
 pub(crate) const UNIFORM_BYTES: usize = 65_536;
 
 impl ListForm {
-    /// A line of `shaders/bindings.wgsl` that declares or reads one of the lists, in its form; none of another line.
+    /// Returns a line of `shaders/bindings.wgsl` that declares or reads one of the lists, rewritten for its form; `None` for other lines.
     pub(crate) fn fill_in(forms: &[(&'static str, Self)], line: &str) -> Option<String> {
         let form_of = |name| forms.iter().find(|(known, _)| *known == name);
         if let Some((place, declared)) = line.split_once("var<storage, read> ") {
@@ -103,8 +103,8 @@ impl ListForm {
 }
 
 impl List<'_> {
-    /// The form that serves it best: software drivers read uniform buffers and textures at many places at once, and storage buffers at one
-    /// after the other.
+    /// Returns the fastest form: software drivers read several elements of uniform buffers and textures at once, but those of
+    /// storage buffers one after the other.
     pub(crate) fn form(&self, is_software: bool) -> ListForm {
         match (is_software, self.bytes.len() <= UNIFORM_BYTES) {
             (false, _) => ListForm::Storage,
@@ -113,7 +113,7 @@ impl List<'_> {
         }
     }
 
-    /// Of its rows in a texture.
+    /// Returns the format of its rows in a texture.
     pub(crate) fn texture_format(&self) -> wgpu::TextureFormat {
         match self.name {
             "spectra" => wgpu::TextureFormat::Rgba32Float,

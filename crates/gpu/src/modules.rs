@@ -1,7 +1,7 @@
 //! The WGSL modules.
 //!
-//! Declarations of WGSL may come in any order, so a shader is the concatenation of all modules, with what depends on the scene filled in.
-//! What its entry point does not reach is removed before a driver sees it.
+//! Declarations of WGSL may come in any order, so a shader is the concatenation of all modules, with the parts that depend on the
+//! scene filled in. Everything that its entry point does not reach is removed before a driver sees it.
 
 use crate::lists::ListForm;
 use crate::specialize::specialize;
@@ -10,35 +10,35 @@ use crate::{DeviceError, Features};
 /// One file of `shaders/`.
 #[derive(Clone, Copy, Debug)]
 pub struct Module {
-    /// The file's path within `shaders/`, without its ending.
+    /// The file's path within `shaders/`, without its extension.
     pub name: &'static str,
     /// Its text.
     pub source: &'static str,
 }
 
-/// Name of the module that is made for each scene: sizes of the arrays that hold a path and its light.
+/// Name of the module that is generated for each scene: sizes of the arrays that hold a path and its radiance.
 pub const LIMITS: &str = "limits";
 
 /// All modules, by name.
 pub const MODULES: &[Module] = include!(concat!(env!("OUT_DIR"), "/modules.rs"));
 
-/// How long a path's record may become, and how many kinds of light it brings.
+/// The maximum length of a path's record, and the number of light groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RecordLimits {
     /// Vertices of a path.
     pub vertices: u32,
-    /// Films that all connections of a path pass through together.
+    /// Films that all emitter samples of a path cross together.
     pub crossings: u32,
-    /// Thicknesses of layers that vary over a surface, of all vertices and crossings together.
+    /// Thicknesses of layers that vary over a surface, for all vertices and crossings together.
     pub thicknesses: u32,
     /// Light groups.
     pub light_groups: u32,
-    /// Films at which a path is split, 1 where there are none.
+    /// Films at which a path is split, 1 where it is never split.
     pub splits: u32,
 }
 
 impl RecordLimits {
-    /// The least of each.
+    /// The smallest value of each.
     pub const LEAST: Self = Self {
         vertices: 1,
         crossings: 1,
@@ -61,19 +61,19 @@ impl RecordLimits {
     }
 }
 
-/// What a shader is made for.
+/// The specialization of a shader for a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Specialization {
     /// Sizes of the record.
     pub limits: RecordLimits,
-    /// What the scene has; what is not named is as its declaration says.
+    /// The features of the scene; constants that are not named keep their declared values.
     pub features: Features,
-    /// The forms of the lists of `shaders/bindings.wgsl`; those not named stand in storage buffers.
+    /// The forms of the lists of `shaders/bindings.wgsl`; lists that are not named are in storage buffers.
     pub forms: Vec<(&'static str, ListForm)>,
 }
 
 impl Specialization {
-    /// For any scene whose record is so long.
+    /// Returns the specialization for any scene whose record fits these limits.
     pub fn general(limits: RecordLimits) -> Self {
         Self {
             limits,
@@ -82,7 +82,7 @@ impl Specialization {
         }
     }
 
-    /// The text of a module, filled in. No line is added or taken away.
+    /// Returns the text of a module with its values filled in. No line is added or removed.
     fn fill_in(&self, module: &Module) -> String {
         let line = |line: &str| match module.name {
             "bindings" => ListForm::fill_in(&self.forms, line),
@@ -94,7 +94,7 @@ impl Specialization {
     }
 }
 
-/// A shader put together from modules, which remembers where each line came from.
+/// A shader assembled from modules, with the origin of each line.
 #[derive(Clone, Debug)]
 pub struct Shader {
     text: String,
@@ -103,7 +103,7 @@ pub struct Shader {
 }
 
 impl Shader {
-    /// All modules, then `extra` (an entry point of a test, or nothing).
+    /// Assembles all modules, then `extra` (an entry point of a test, or nothing).
     pub fn assemble(made_for: &Specialization, extra: &str) -> Self {
         let mut shader = Self {
             text: String::new(),
@@ -127,12 +127,12 @@ impl Shader {
         }
     }
 
-    /// The whole text.
+    /// Returns the whole text.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// The file and line (counted from 1) that a line (counted from 1) of [`Self::text`] comes from.
+    /// Returns the file and line (counted from 1) that a line (counted from 1) of [`Self::text`] comes from.
     pub fn origin_of_line(&self, line: usize) -> (&str, usize) {
         let index = line.saturating_sub(1);
         let part = self.parts.partition_point(|(first, _)| *first <= index);
@@ -140,10 +140,10 @@ impl Shader {
         (name, index - first + 1)
     }
 
-    /// The whole text as a valid module.
+    /// Parses and validates the whole text.
     ///
     /// # Errors
-    /// The first mistake, with its file and line.
+    /// The first error, with its file and line.
     pub fn parse(&self) -> Result<naga::Module, DeviceError> {
         let text = self.text();
         let module = naga::front::wgsl::parse_str(text)
@@ -165,7 +165,7 @@ impl Shader {
         Ok(module)
     }
 
-    /// What a driver gets: the entry point with what it reaches, and nothing else.
+    /// Returns the module that a driver gets: the entry point with everything that it reaches, and nothing else.
     ///
     /// # Errors
     /// As [`Self::parse`].

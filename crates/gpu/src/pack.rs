@@ -1,7 +1,7 @@
 //! From a scene to the numbers that the shader reads: the only place where `f64` becomes `f32`.
 //!
-//! What a material is made of is packed by a file for each kind of surface: its record, the features that the shader needs for it, and how
-//! many passes its loops make.
+//! Each kind of surface has a file that packs its materials: their record, the features that the shader needs for them, and the
+//! number of passes of its loops.
 
 mod emitters;
 mod limits;
@@ -28,27 +28,27 @@ use trees::Trees;
 /// A scene as the shader reads it.
 #[derive(Clone, Debug)]
 pub struct PackedScene {
-    /// What holds for the whole render.
+    /// Values for the whole render.
     pub frame: Frame,
-    /// What rays meet.
+    /// The objects that rays meet.
     pub shapes: Vec<layout::Shape>,
-    /// What light is sent from.
+    /// The emitters.
     pub emitters: Vec<layout::Emitter>,
-    /// Materials and what they are made of, each a whole number of rows.
+    /// Materials and their parts, each a whole number of rows.
     pub records: Vec<[u32; 4]>,
     /// The hierarchy of objects and the tree of emitters.
     pub trees: Vec<[u32; 4]>,
-    /// Tables that are looked up.
+    /// Tables for lookups.
     pub numbers: Vec<f32>,
-    /// Pictures with four numbers in each place, a head before each.
+    /// Pictures with four numbers per texel, a header before each.
     pub texels: Vec<[f32; 4]>,
     /// All spectra and the observer: `[spectrum][knot][group of four bands]`.
     pub spectra: Vec<[f32; 4]>,
-    /// How long the record of a path may become.
+    /// The maximum length of a path's record.
     pub limits: RecordLimits,
-    /// The most passes of loops that a sample takes.
+    /// The maximum number of passes of loops in a sample.
     pub passes_per_sample: u64,
-    /// What the scene has.
+    /// The features of the scene.
     pub features: Features,
 }
 
@@ -110,19 +110,19 @@ impl PackedScene {
         }
     }
 
-    /// A record at a row.
+    /// Returns the record at a row.
     ///
     /// # Panics
-    /// Where there is no such row.
+    /// When there is no such row.
     pub fn record<R: Record>(&self, row: u32) -> R {
         let rows = &self.records[row as usize..(row + R::ROWS) as usize];
         bytemuck::pod_read_unaligned(bytemuck::cast_slice(rows))
     }
 
-    /// A material.
+    /// Returns a material.
     ///
     /// # Panics
-    /// Where there is none of this number.
+    /// When there is no material with this number.
     pub fn material(&self, number: usize) -> layout::Material {
         self.record(number as u32 * layout::Material::ROWS)
     }
@@ -136,15 +136,15 @@ fn id(spectrum: SpectrumId) -> u32 {
     spectrum.index() as u32
 }
 
-/// The most spectra of a scene: a material has n and k of its substrate and of each layer, or fewer of other kinds, and the
-/// environment have three.
+/// The most spectra of a scene: a material has n and k of its substrate and of each layer, or fewer for other kinds, and the
+/// environment has three.
 const MAX_SPECTRA: usize = MAX_MATERIALS * 2 * (MAX_LAYERS + 1) + 3;
 
-// Numbers of spectra fit into the low bits of a light, those of light groups into the others.
+// Indices of spectra fit into the low bits of an emission, indices of light groups into the others.
 const _: () = assert!(MAX_SPECTRA < 1 << layout::LIGHT_GROUP_SHIFT);
 const _: () = assert!(MAX_LIGHT_GROUPS <= 1 << (u32::BITS - layout::LIGHT_GROUP_SHIFT));
 
-/// A light as records name it: the spectrum in the low 24 bits, the light group in the high 8.
+/// Returns an emission as it is in records: the spectrum in the low 24 bits, the light group in the high 8.
 ///
 /// # Panics
 /// When either does not fit, which the limits of scenes exclude: [`MAX_SPECTRA`] and [`MAX_LIGHT_GROUPS`].
@@ -188,7 +188,7 @@ fn pack_frame(scene: &Scene) -> Frame {
     }
 }
 
-/// Rows of four bands; the last group is filled up with the last band, or with darkness.
+/// Packs rows of four bands; the last group is padded with the last band, or with zeros.
 fn pack_spectrum(table: &BandTable, dark_padding: bool) -> Vec<[f32; 4]> {
     let groups = table.bands().div_ceil(4);
     let rows = (0..=table.steps()).map(|step| table.row(step));

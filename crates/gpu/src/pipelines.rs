@@ -1,4 +1,4 @@
-//! Making pipelines of shaders, and keeping the last ones; what the driver made of them is kept on disk.
+//! Compiles shaders into pipelines and keeps the most recent ones; the driver's compiled code is kept on disk.
 
 use crate::modules::Shader;
 use crate::{DeviceError, Gpu};
@@ -12,10 +12,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How many pipelines are kept.
+/// Number of pipelines that are kept.
 const KEPT: usize = 8;
 
-/// A shader on a device.
+/// A compiled shader on a device.
 #[derive(Clone, Debug)]
 pub struct Pipeline {
     /// The pipeline, with a layout deduced from the shader.
@@ -25,13 +25,13 @@ pub struct Pipeline {
 }
 
 impl Pipeline {
-    /// The pipeline itself, for tests that run shaders of their own.
+    /// Returns the pipeline itself, for tests with their own shaders.
     pub fn compute(&self) -> &wgpu::ComputePipeline {
         &self.compute
     }
 }
 
-/// What a pipeline is made of.
+/// What a pipeline was compiled from.
 #[derive(Debug, PartialEq)]
 struct Key {
     text: String,
@@ -47,7 +47,7 @@ impl Key {
     }
 }
 
-/// The pipelines of a device that were made or used last, the latest at the end.
+/// The most recently used pipelines of a device, the latest at the end.
 #[derive(Debug, Default)]
 pub(crate) struct RecentPipelines(VecDeque<(Key, Pipeline)>);
 
@@ -68,11 +68,11 @@ impl RecentPipelines {
     }
 }
 
-/// Compiles a shader and makes a pipeline of one of its entry points and what that reaches. The last few are kept: the pictures of a
-/// sequence are rendered by the same.
+/// Compiles a shader into a pipeline for one of its entry points and everything that it reaches. The last few pipelines are kept,
+/// because the pictures of a sequence use the same one.
 ///
 /// # Errors
-/// When the shader or the pipeline is refused; the message names the module's own file and line.
+/// When the shader or the pipeline is rejected; the message names the module's own file and line.
 pub fn compile(gpu: &Gpu, shader: &Shader, entry_point: &str) -> Result<Pipeline, DeviceError> {
     let key = Key::new(shader, entry_point);
     if let Some(pipeline) = recent(gpu).find(&key) {
@@ -83,7 +83,7 @@ pub fn compile(gpu: &Gpu, shader: &Shader, entry_point: &str) -> Result<Pipeline
     Ok(pipeline)
 }
 
-/// Whether [`compile`] would give a pipeline that was kept.
+/// Whether [`compile`] would return a pipeline that was kept.
 pub(crate) fn is_kept(gpu: &Gpu, shader: &Shader, entry_point: &str) -> bool {
     let key = Key::new(shader, entry_point);
     recent(gpu).0.iter().any(|(known, _)| *known == key)
@@ -119,7 +119,7 @@ fn compile_anew(gpu: &Gpu, shader: &Shader, entry_point: &str) -> Result<Pipelin
     Ok(Pipeline { compute, bindings })
 }
 
-/// The bindings of group 0.
+/// Returns the bindings of group 0.
 fn bindings_of(module: &naga::Module) -> Vec<u32> {
     let variables = module.global_variables.iter();
     let bindings = variables.filter_map(|(_, variable)| variable.binding);
@@ -127,17 +127,17 @@ fn bindings_of(module: &naga::Module) -> Vec<u32> {
     scene.map(|binding| binding.binding).collect()
 }
 
-/// The folder of the driver's caches; empty for none.
+/// The variable for the folder of the drivers' caches; empty for none.
 const FOLDER_VARIABLE: &str = "PELLICLE_CACHE_DIR";
 
-/// A cache that has grown larger is thrown away.
+/// A larger cache is discarded.
 const MAX_BYTES: usize = 64 << 20;
 
-/// How long a device waits before it writes its cache again: one that makes many pipelines writes them together.
+/// How long a device waits before it writes its cache again: a device that creates many pipelines writes them together.
 const PAUSE: Duration = Duration::from_secs(10);
 
-/// What the driver made of this and earlier runs' shaders, in a file of the adapter's. A file that cannot be read or written is no
-/// trouble: the driver compiles again.
+/// The driver's compiled code for the shaders of this and earlier runs, in a file for each adapter. A file that cannot be read or
+/// written is not an error: the driver compiles again.
 #[derive(Debug)]
 pub(crate) struct DriverCache {
     cache: wgpu::PipelineCache,
@@ -145,17 +145,17 @@ pub(crate) struct DriverCache {
     written: Mutex<Written>,
 }
 
-/// What a device knows of its file.
+/// What a device knows about its file.
 #[derive(Debug, Default)]
 struct Written {
-    /// The checksum of the data that it read or wrote last.
+    /// The checksum of the data that it last read or wrote.
     checksum: Option<u64>,
-    /// When it last looked for something new to write.
+    /// When it last checked for new data to write.
     at: Option<Instant>,
 }
 
 impl DriverCache {
-    /// The cache of an adapter, where its driver gives out what it made and the user has a folder for caches.
+    /// Opens the cache of an adapter, if its driver exposes its compiled code and the user has a cache folder.
     pub(crate) fn open(device: &wgpu::Device, info: &wgpu::AdapterInfo) -> Option<Self> {
         if !device.features().contains(wgpu::Features::PIPELINE_CACHE) {
             return None;
@@ -181,9 +181,9 @@ impl DriverCache {
         }
     }
 
-    /// Writes what is new.
+    /// Writes new data.
     fn save(&self, written: &mut Written) {
-        // A folder that cannot be written now is not tried at every pipeline.
+        // A folder that cannot be written to is not tried again for every pipeline.
         written.at = Some(Instant::now());
         let Some(data) = self.cache.get_data() else {
             return;
@@ -205,14 +205,14 @@ impl Drop for DriverCache {
     fn drop(&mut self) {
         let written = self.written.get_mut();
         let mut written = std::mem::take(written.unwrap_or_else(PoisonError::into_inner));
-        // Without a pipeline there is nothing new.
+        // Without a pipeline there is no new data.
         if written.at.is_some() {
             self.save(&mut written);
         }
     }
 }
 
-/// A cache that starts with this data, or empty.
+/// Returns a cache that starts with this data, or empty.
 #[allow(unsafe_code)] // wgpu has no other way to make one.
 fn cache_of(device: &wgpu::Device, data: Option<&[u8]>) -> wgpu::PipelineCache {
     let descriptor = wgpu::PipelineCacheDescriptor {
@@ -220,13 +220,13 @@ fn cache_of(device: &wgpu::Device, data: Option<&[u8]>) -> wgpu::PipelineCache {
         data,
         fallback: true,
     };
-    // SAFETY: data must come from `PipelineCache::get_data`. `data_of` lets through only what `save`, of the same version, wrote down
-    // from there: the length and the checksum are those of that time. wgpu itself compares the adapter and its driver with those
-    // that the data is of, and starts with nothing where they differ.
+    // SAFETY: data must come from `PipelineCache::get_data`. `data_of` returns only data that `save`, of the same version, obtained
+    // from there and wrote: the length and the checksum are those of that time. wgpu itself compares the adapter and its driver
+    // with those of the data, and starts empty where they differ.
     unsafe { device.create_pipeline_cache(&descriptor) }
 }
 
-/// The line before the data: what wrote it, the data's length and checksum.
+/// Returns the line before the data: the program and version that wrote it, the data's length and checksum.
 fn header(data: &[u8]) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let length = data.len();
@@ -234,27 +234,27 @@ fn header(data: &[u8]) -> String {
     format!("pellicle pipelines {version} {length} {sum:016x}\n")
 }
 
-/// The data of a file that is whole and of this version.
+/// Returns the data of a file that is complete and of this version.
 fn data_of(content: &[u8]) -> Option<&[u8]> {
     let line = content.iter().position(|&byte| byte == b'\n')? + 1;
     let (line, data) = content.split_at(line);
     (line == header(data).as_bytes()).then_some(data)
 }
 
-/// FNV-1a of 64 bits (Fowler, Noll and Vo; RFC 9923): against damage, not against intent.
+/// Returns FNV-1a of 64 bits (Fowler, Noll and Vo; RFC 9923): against accidental damage, not against tampering.
 fn checksum(data: &[u8]) -> u64 {
     data.iter().fold(0xcbf2_9ce4_8422_2325, |sum, &byte| {
         (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
     })
 }
 
-/// Where caches are kept: as `PELLICLE_CACHE_DIR` says, or in the user's folder for caches (on Unix by the XDG Base Directory
-/// Specification, 0.8).
+/// Returns the folder of the caches: the value of `PELLICLE_CACHE_DIR`, or a folder in the user's cache folder (on Unix according
+/// to the XDG Base Directory Specification, 0.8).
 fn cache_folder(variable: impl Fn(&str) -> Option<OsString>) -> Option<PathBuf> {
     if let Some(folder) = variable(FOLDER_VARIABLE) {
         return (!folder.is_empty()).then(|| folder.into());
     }
-    // The specification has relative paths ignored.
+    // The specification says that relative paths are ignored.
     let absolute = |name| {
         let path = variable(name).map(PathBuf::from);
         path.filter(|path| path.is_absolute())
@@ -269,7 +269,7 @@ fn cache_folder(variable: impl Fn(&str) -> Option<OsString>) -> Option<PathBuf> 
     of_user.map(|folder| folder.join("pellicle"))
 }
 
-/// A file of no more than so many bytes and a header.
+/// Reads a file of at most `bytes` bytes and a header.
 fn read_at_most(file: &Path, bytes: usize) -> Option<Vec<u8>> {
     let most = bytes + header(&[]).len() + usize::MAX.to_string().len();
     let length = fs::metadata(file).ok()?.len();
@@ -279,7 +279,7 @@ fn read_at_most(file: &Path, bytes: usize) -> Option<Vec<u8>> {
     fs::read(file).ok()
 }
 
-/// Writes a file beside and puts it in the other's place: whoever reads sees the one or the other, whoever else writes.
+/// Writes a temporary file beside the file and renames it: a reader sees either the old or the new file, no matter who else writes.
 fn replace(file: &Path, parts: &[&[u8]]) -> io::Result<()> {
     static WRITES: AtomicU64 = AtomicU64::new(0);
     if let Some(folder) = file.parent() {
@@ -289,7 +289,7 @@ fn replace(file: &Path, parts: &[&[u8]]) -> io::Result<()> {
     let beside = file.with_added_extension(format!("{}.{number}.new", std::process::id()));
     let written = write_new(&beside, parts).and_then(|()| fs::rename(&beside, file));
     if written.is_err() {
-        // It may not be there.
+        // It may not exist.
         let _ = fs::remove_file(&beside);
     }
     written
@@ -300,8 +300,8 @@ fn write_new(file: &Path, parts: &[&[u8]]) -> io::Result<()> {
     parts.iter().try_for_each(|part| opened.write_all(part))
 }
 
-/// Makes the folder, where it is not there, such that others may not write to it: drivers' code will be read from it. One that is there is
-/// taken as it is: whoever names a folder that others may write to trusts them.
+/// Creates the folder, if it does not exist, with permissions that keep others from writing to it: drivers' code will be read from
+/// it. An existing folder is used as it is: whoever names a folder that others may write to trusts them.
 fn create_private_folder(folder: &Path) -> io::Result<()> {
     let mut builder = fs::DirBuilder::new();
     builder.recursive(true);
@@ -356,7 +356,7 @@ mod tests {
         assert_eq!(data_of(other.as_bytes()), None);
     }
 
-    /// The values of the authors' test vectors.
+    /// The checksums of the authors' test vectors.
     #[test]
     fn the_checksum_is_fnv_1a() {
         assert_eq!(checksum(b""), 0xcbf2_9ce4_8422_2325);

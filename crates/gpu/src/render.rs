@@ -1,4 +1,4 @@
-//! Running a scene on a device and reading the picture back.
+//! Rendering a scene on a device and reading the picture back.
 
 use crate::bindings::bind_scene;
 use crate::error::{MAX_THICKNESSES, RenderError};
@@ -14,11 +14,11 @@ use std::time::Instant;
 
 /// Renders a scene.
 ///
-/// `on_progress` is told the samples taken so far (of width × height × samples per pixel) after each
-/// batch, and may stop the render. Where the shader must be compiled first, it is told 0 before that: a
-/// driver may take seconds, some of them in the first batch.
+/// `on_progress` receives the number of samples taken so far (of width × height × samples per pixel) after each batch, and may stop
+/// the render. If the shader must be compiled first, it receives 0 before that: a driver may take seconds, some of them in the
+/// first batch.
 ///
-/// The same scene on the same adapter and driver gives the same bits, however the work was divided.
+/// The same scene on the same adapter and driver gives the same bits, no matter how the work was divided.
 ///
 /// # Errors
 /// When the scene is too large for the device, the device fails, or the caller stops the render.
@@ -30,7 +30,7 @@ pub fn render(
     render_divided(gpu, scene, None, on_progress)
 }
 
-/// Like [`render`], with the division of the work given: for tests.
+/// Like [`render`], with a given division of the work: for tests.
 ///
 /// # Errors
 /// As [`render`].

@@ -1,5 +1,5 @@
-//! A module without what its entry point never reaches: branches on constants are folded, and functions, constants, types and
-//! bindings that are then unused are removed, before any driver sees them.
+//! Reduces a module to what its entry point reaches: branches on constants are folded, and functions, constants, types and bindings
+//! that are then unused are removed, before any driver sees them.
 
 use naga::{
     Arena, Block, Constant, Expression, Function, Handle, Literal, LocalVariable, Module,
@@ -7,7 +7,7 @@ use naga::{
 };
 use std::collections::HashMap;
 
-/// Leaves of a valid module only one entry point and what it reaches.
+/// Removes everything from a valid module except one entry point and what it reaches.
 pub(crate) fn specialize(module: &mut Module, entry_point: &str) {
     module
         .entry_points
@@ -22,7 +22,7 @@ pub(crate) fn specialize(module: &mut Module, entry_point: &str) {
     naga::compact::compact(module, naga::compact::KeepUnused::No);
 }
 
-/// The constants that are true or false.
+/// The values of the boolean constants.
 type Truths = HashMap<Handle<Constant>, bool>;
 
 fn truths(module: &Module) -> Truths {
@@ -36,9 +36,9 @@ fn truths(module: &Module) -> Truths {
     constants.filter_map(truth).collect()
 }
 
-/// Folds the branches of a function until none is left whose condition is known.
+/// Folds the branches of a function until no branch with a known condition is left.
 fn fold(function: &mut Function, truths: &Truths) {
-    // Names of expressions would keep those alive that are not reached any more.
+    // Names of expressions would keep expressions alive that are no longer reached.
     function.named_expressions.clear();
     loop {
         let known = Known {
@@ -56,7 +56,7 @@ fn fold(function: &mut Function, truths: &Truths) {
     }
 }
 
-/// What variables without a name hold that are written in one place. The front end makes them for `&&` and `||`, and writes them
+/// The values of unnamed variables that are written at one place. The front end creates them for `&&` and `||`, and writes them
 /// before they are read.
 type Stored = HashMap<Handle<LocalVariable>, Handle<Expression>>;
 
@@ -102,7 +102,7 @@ fn each_statement(block: &Block, look: &mut impl FnMut(&Statement)) {
     }
 }
 
-/// What is known of a function's conditions.
+/// What is known about a function's conditions.
 struct Known<'a> {
     truths: &'a Truths,
     expressions: &'a Arena<Expression>,
@@ -110,7 +110,7 @@ struct Known<'a> {
 }
 
 impl Known<'_> {
-    /// The value of a condition, where it is always the same.
+    /// Returns the value of a condition, if it is always the same.
     fn value(&self, condition: Handle<Expression>) -> Option<bool> {
         match self.expressions[condition] {
             Expression::Literal(Literal::Bool(value)) => Some(value),
@@ -127,7 +127,7 @@ impl Known<'_> {
         }
     }
 
-    /// A block with the branch that is taken in the place of each `if` whose condition is known; `folded` counts them.
+    /// Returns a block in which each `if` whose condition is known is replaced by the branch that is taken; `folded` counts them.
     fn fold(&self, block: Block, folded: &mut u32) -> Block {
         let mut result = Block::with_capacity(block.len());
         for (statement, span) in block.span_into_iter() {
@@ -172,7 +172,7 @@ impl Known<'_> {
             let ends = ends(&statement);
             result.push(statement, span);
             if ends {
-                // What follows is never reached.
+                // The rest is never reached.
                 break;
             }
         }

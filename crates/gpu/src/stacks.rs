@@ -1,4 +1,4 @@
-//! Many film stacks at many angles and wavelengths on a device, in `f32`.
+//! Evaluation of many film stacks at many angles and wavelengths on a device, in `f32`.
 
 use crate::layout::{RunLayer, RunStack, StackRun};
 use crate::modules::{RecordLimits, Shader, Specialization};
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use thiserror::Error;
 use wgpu::util::DeviceExt;
 
-/// Stacks to be evaluated at every one of `cosines` and every one of `wavelengths_nm`.
+/// Stacks to be evaluated at each of `cosines` and each of `wavelengths_nm`.
 #[derive(Clone, Copy, Debug)]
 pub struct StackBatch<'a> {
     /// Wavelengths in vacuum, nm, > 0.
@@ -16,7 +16,7 @@ pub struct StackBatch<'a> {
     pub cosines: &'a [f64],
     /// Index of the incident medium, real, > 0.
     pub incident: f64,
-    /// `[n, k]` of the other media: `[medium][wavelength]` where `is_dispersive`, else one of each medium.
+    /// `[n, k]` of the other media: `[medium][wavelength]` if `is_dispersive`, otherwise one pair per medium.
     pub media: &'a [[f64; 2]],
     /// Whether media have an index at each wavelength.
     pub is_dispersive: bool,
@@ -29,7 +29,7 @@ pub struct StackBatch<'a> {
 /// Powers of a stack, at one angle and wavelength: R_s, R_p, T_s, T_p.
 pub type StackPowers = [f32; 4];
 
-/// The most layers of one stack: a longer loop could be stopped by a driver that guards against hanging shaders.
+/// The maximum number of layers of one stack: a driver that guards against hanging shaders could stop a longer loop.
 pub const MAX_BATCH_LAYERS: u32 = 1024;
 
 /// Why a batch of stacks was not evaluated.
@@ -39,34 +39,34 @@ pub enum StackError {
     /// The device failed.
     #[error(transparent)]
     Device(#[from] DeviceError),
-    /// A stack with too many layers.
+    /// A stack has too many layers.
     #[error("stack {stack} has {layers} layers; on a GPU there can be at most {MAX_BATCH_LAYERS}")]
     TooManyLayers {
-        /// Which one, from 0.
+        /// Index of the stack.
         stack: usize,
-        /// How many it has.
+        /// Number of its layers.
         layers: u32,
     },
-    /// A number that names nothing.
+    /// An index is out of range.
     #[error("{what} {index} does not exist; there are {count}")]
     Missing {
-        /// What is named.
+        /// The kind of thing that the index refers to.
         what: &'static str,
-        /// Its number.
+        /// The index.
         index: u64,
-        /// How many there are.
+        /// The number of things of this kind.
         count: u64,
     },
-    /// A table larger than the device binds at once.
+    /// A table is larger than the device can bind at once.
     #[error(
         "the batch's {what} take {bytes} bytes, but this adapter binds at most {limit} at once; divide the batch"
     )]
     TooLarge {
-        /// What is too large.
+        /// The table that is too large.
         what: &'static str,
-        /// How large it is.
+        /// Its size.
         bytes: u64,
-        /// How large it may be.
+        /// The largest possible size.
         limit: u64,
     },
 }
@@ -106,7 +106,7 @@ impl StackBatch<'_> {
         Ok(())
     }
 
-    /// Media as the shader reads them: n in groups of four wavelengths, then k.
+    /// Returns the media as the shader reads them: n in groups of four wavelengths, then k.
     fn packed_media(&self) -> Vec<[f32; 4]> {
         let each = if self.is_dispersive {
             self.wavelengths_nm.len()
@@ -124,7 +124,7 @@ impl StackBatch<'_> {
     }
 }
 
-/// Numbers in groups of four, the last filled up with the last number.
+/// Returns numbers in groups of four, the last group padded with the last number.
 fn in_fours(values: &[f32]) -> Vec<[f32; 4]> {
     let groups = values.chunks(4);
     groups
@@ -132,15 +132,15 @@ fn in_fours(values: &[f32]) -> Vec<[f32; 4]> {
         .collect()
 }
 
-/// R and T for s and p of every stack, at every angle and wavelength: `[stack][angle][wavelength]`.
+/// Returns R and T for s and p of every stack, at every angle and wavelength: `[stack][angle][wavelength]`.
 ///
-/// In `f32`: against `f64`, R and T of ordinary stacks to 2 µm seen from air are within 5e-5 to 88° and 3e-4 beyond. Sharp resonances lose
-/// more: films beyond 10 µm (3e-4), stacks of 64 layers (1e-3), a substrate at its critical angle. The work is divided
-/// into runs short enough for any driver.
+/// In `f32`: relative to `f64`, R and T of ordinary stacks up to 2 µm seen from air are within 5e-5 up to 88° and 3e-4 beyond.
+/// Sharp resonances lose more: films beyond 10 µm (3e-4), stacks of 64 layers (1e-3), a substrate at its critical angle. The work
+/// is divided into runs short enough for any driver.
 ///
 /// # Errors
-/// When a number names no medium or layer, a stack has more than [`MAX_BATCH_LAYERS`] layers, a table is too large for
-/// the device, or the device fails.
+/// When an index refers to no medium or layer, a stack has more than [`MAX_BATCH_LAYERS`] layers, a table is too large for the
+/// device, or the device fails.
 pub fn evaluate_stacks(gpu: &Gpu, batch: &StackBatch<'_>) -> Result<Vec<StackPowers>, StackError> {
     batch.check()?;
     let per_stack = batch.wavelengths_nm.len() * batch.cosines.len();
@@ -157,7 +157,7 @@ pub fn evaluate_stacks(gpu: &Gpu, batch: &StackBatch<'_>) -> Result<Vec<StackPow
     }
     let evaluator = Evaluator::new(gpu, batch, most)?;
     powers.reserve_exact(per_stack * batch.stacks.len());
-    // A first guess of some ten thousand evaluations; then as many as take about a tenth of a second.
+    // A first guess of about ten thousand evaluations; then as many as take about a tenth of a second.
     let mut count = (20_000 / per_stack).clamp(1, most);
     let mut first = 0;
     while first < batch.stacks.len() {
@@ -170,7 +170,7 @@ pub fn evaluate_stacks(gpu: &Gpu, batch: &StackBatch<'_>) -> Result<Vec<StackPow
     Ok(powers)
 }
 
-/// How many stacks the next run takes, after one of `count` took `elapsed`.
+/// Returns the number of stacks of the next run, after a run of `count` took `elapsed`.
 fn next_count(count: usize, elapsed: Duration) -> usize {
     const AIM_S: f64 = 0.1;
     let factor = (AIM_S / elapsed.as_secs_f64().max(1e-4)).clamp(0.25, 8.0);
@@ -212,7 +212,7 @@ impl Evaluator {
                 .0
                 .create_buffer_init(&wgpu::util::BufferInitDescriptor {
                     label: Some(what),
-                    // A binding may not be empty: a list without elements has one that nothing reads.
+                    // A binding may not be empty: a list without elements gets one that nothing reads.
                     contents: if bytes.is_empty() { &[0; 16] } else { bytes },
                     usage: wgpu::BufferUsages::STORAGE,
                 }))
@@ -276,7 +276,7 @@ impl Evaluator {
         })
     }
 
-    /// Evaluates `count` stacks from `first` on and adds their powers.
+    /// Evaluates `count` stacks from `first` on and appends their powers.
     fn run(
         &self,
         gpu: &Gpu,

@@ -1,11 +1,11 @@
-//! The running means of a tile: summed up on the device, and copied into the picture.
+//! The running means of a tile: accumulated on the device, and copied into the picture.
 
 use crate::layout::{Batch, WORKGROUP_SIDE};
 use crate::tiles::Tile;
 use crate::{DeviceError, Gpu, Pipeline, RenderError, SceneBindings};
 use spectra::{KM_LUMENS_PER_WATT, SpectralImage};
 
-/// What a pixel has of running means.
+/// The sizes of a pixel's running means.
 #[derive(Clone, Copy)]
 pub(crate) struct PixelShape {
     /// Groups of four bands.
@@ -14,7 +14,7 @@ pub(crate) struct PixelShape {
 }
 
 impl PixelShape {
-    /// Sets of four numbers: of means, deviations and colors, in this order.
+    /// Returns the numbers of sets of four: of means, deviations and colors, in this order.
     fn counts(self) -> [u64; 3] {
         [
             self.groups * self.light_groups,
@@ -23,7 +23,7 @@ impl PixelShape {
         ]
     }
 
-    /// Bytes of all of them.
+    /// Returns the bytes of all of them.
     pub(crate) fn bytes(self) -> u64 {
         16 * self.counts().iter().sum::<u64>()
     }
@@ -32,7 +32,7 @@ impl PixelShape {
 /// The running means of one tile.
 pub(crate) struct TileBuffers {
     batch: wgpu::Buffer,
-    /// Means, deviations, colors, of all pixels each.
+    /// Means, deviations, colors, each of all pixels.
     sums: wgpu::Buffer,
     staging: wgpu::Buffer,
     bind_group: wgpu::BindGroup,
@@ -85,7 +85,7 @@ impl TileBuffers {
         })
     }
 
-    /// Bytes of a tile's sums.
+    /// Returns the bytes of a tile's sums.
     fn bytes(&self, tile: Tile) -> u64 {
         self.shape.bytes() * u64::from(tile.pixels())
     }
@@ -138,7 +138,7 @@ impl TileBuffers {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         encoder.copy_buffer_to_buffer(&self.sums, 0, &self.staging, 0, bytes);
         gpu.queue.submit([encoder.finish()]);
-        // A failure to map shows as the device's error or as an unmapped range below.
+        // A failure to map is visible as the device's error or as an unmapped range below.
         let slice = self.staging.slice(..bytes);
         slice.map_async(wgpu::MapMode::Read, |_| {});
         gpu.wait()?;
@@ -159,7 +159,7 @@ impl TileBuffers {
     }
 }
 
-/// Whether all samples of all pixels were taken, by the count that stands beside the first light group's colors.
+/// Checks that all samples of all pixels were taken, by the count beside the colors of the first light group.
 fn check_count(tile: Tile, colors: &[[f32; 4]], samples: u32) -> Result<(), RenderError> {
     let counts = colors.iter().take(tile.pixels() as usize);
     match counts.map(|color| color[3]).find(|&n| n != samples as f32) {

@@ -1,20 +1,20 @@
-//! How the picture is divided: tiles under the adapter's limits, batches under half a second.
+//! The division of the picture: tiles within the adapter's limits, batches under half a second.
 
 use std::time::Duration;
 
-/// Widest tile, pixels.
+/// Width of the widest tile, pixels.
 const WIDTH: u32 = 512;
-/// A tile has at most this many pixels: enough to fill any GPU.
+/// Maximum number of pixels of a tile: enough to fill any GPU.
 const MAX_PIXELS: u32 = WIDTH * 512;
-/// Rows of the first tile, before anything is known about the speed: 8192 pixels take a tenth of a second where a software driver is slow.
+/// Rows of the first tile, before the speed is known: 8192 pixels take a tenth of a second on a slow software driver.
 const FIRST_ROWS: u32 = 16;
-/// A batch makes at most this many passes of loops in an invocation: llvmpipe ends all loops of one after 65535, silently.
+/// Maximum number of passes of loops of an invocation in a batch: llvmpipe silently ends all loops of an invocation after 65535.
 const MAX_PASSES: u64 = 60_000;
-/// A batch aims at this time.
+/// Target time of a batch.
 const TARGET: Duration = Duration::from_millis(200);
 
-/// How a picture is divided among dispatches, where that is not left to the measured times. What is rendered does not depend on
-/// it, and a test renders the same picture in several divisions to prove that.
+/// A division of a picture among dispatches that replaces the one by measured times. The rendered picture does not depend on it,
+/// and a test renders the same picture with several divisions to prove that.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Division {
     /// Rows of a tile, at least 1.
@@ -36,8 +36,8 @@ impl Tile {
     }
 }
 
-/// Hands out tiles, column by column, and adapts their height and the number of samples of a batch to the time that
-/// batches took. What a pixel's samples add up to does not depend on either.
+/// Hands out tiles, column by column, and adapts their height and the number of samples of a batch to the time that batches took.
+/// The sum of a pixel's samples does not depend on either.
 #[derive(Debug)]
 pub(crate) struct Planner {
     image: [u32; 2],
@@ -51,8 +51,8 @@ pub(crate) struct Planner {
 }
 
 impl Planner {
-    /// `bytes_per_pixel` is what one pixel takes of the largest buffer, `max_bytes` what that buffer may have,
-    /// `passes_per_sample` the most passes of loops that a sample takes.
+    /// `bytes_per_pixel` is the size of one pixel in the largest buffer, `max_bytes` the maximum size of that buffer,
+    /// `passes_per_sample` the maximum number of passes of loops in a sample.
     pub(crate) fn new(
         image: [u32; 2],
         (bytes_per_pixel, max_bytes): (u64, u64),
@@ -76,12 +76,12 @@ impl Planner {
         }
     }
 
-    /// Pixels of the largest tile that will be handed out.
+    /// Returns the number of pixels of the largest tile that will be handed out.
     pub(crate) fn max_pixels(&self) -> u32 {
         self.image[0].min(WIDTH) * self.max_rows
     }
 
-    /// The next tile, or `None` when the picture is covered.
+    /// Returns the next tile, or `None` when the picture is covered.
     pub(crate) fn next_tile(&mut self) -> Option<Tile> {
         let [x, y] = self.next;
         if x >= self.image[0] {
@@ -104,8 +104,8 @@ impl Planner {
         Some(tile)
     }
 
-    /// How many samples the next batch of a tile takes, out of `left`: one at first, then at most four times as many as
-    /// before, since the next tile may cost many times what this one did.
+    /// Returns how many samples the next batch of a tile takes, out of `left`: one at first, then at most four times as many as
+    /// before, because the next tile may cost many times as much as this one.
     pub(crate) fn batch(&mut self, tile: Tile, left: u32) -> u32 {
         if let Some(fixed) = self.fixed {
             return fixed.samples.clamp(1, left);
@@ -119,14 +119,15 @@ impl Planner {
         self.last_batch
     }
 
-    /// Learns from a batch. Tiles grow while a single sample of all their pixels is far below the target, and shrink above it.
+    /// Updates the measured speed after a batch. Tiles grow while a single sample of all their pixels is far below the target, and
+    /// shrink above it.
     pub(crate) fn learn(&mut self, tile: Tile, samples: u32, took: Duration) {
         if self.fixed.is_some() {
             return;
         }
         let measured = took.as_secs_f64() / (f64::from(tile.pixels()) * f64::from(samples));
         self.seconds_per_sample = Some(match self.seconds_per_sample {
-            // What has become slower counts at once, what has become faster by and by.
+            // A slowdown takes effect at once, a speedup gradually.
             Some(before) if measured < before => 0.5 * (before + measured),
             _ => measured,
         });
@@ -182,7 +183,7 @@ mod tests {
         assert_eq!(planner.batch(tile, 7), 7);
         planner.learn(tile, 7, ms(70));
         assert_eq!(planner.batch(tile, 1000), 20, "the target is 200 ms");
-        // Twenty times as slow: the next batch is back at the target.
+        // Twenty times slower: the next batch is back at the target.
         planner.learn(tile, 20, ms(4000));
         assert_eq!(planner.batch(tile, 1000), 1);
     }

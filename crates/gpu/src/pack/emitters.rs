@@ -1,12 +1,13 @@
-//! Emitters: objects that emit, the environment part by part, and lights that are no objects.
+//! Packing of emitters: objects that emit, the environment part by part, and lights that are not objects.
 
 use super::tables::Tables;
 use super::{emission_ref, vec3};
 use crate::layout::{self, NONE};
 use scene::{Emission, EmitterKind, EmitterSource, EnvironmentShape, LightShape, Scene};
 
-/// All emitters: those that are sampled, in the order of the scene's sources of light, then parts of the environment that are not. The
-/// numbers of the environment' parts are added to the tables; the first of them is returned as well.
+/// Packs all emitters: first those that are sampled, in the order of the scene's emitters, then the parts of the environment that
+/// are not sampled. Adds the emitter indices of all parts of the environment to the tables, and also returns the position of the
+/// first of them.
 pub(super) fn pack(
     scene: &Scene,
     shapes: &mut [layout::Shape],
@@ -62,7 +63,7 @@ fn emitter(shape: layout::Emitter, emission: Emission) -> layout::Emitter {
     }
 }
 
-/// An emitter that is no object and has no picture.
+/// Returns an emitter that is not an object and has no picture.
 fn plain(kind: u32) -> layout::Emitter {
     layout::Emitter {
         kind,
@@ -72,7 +73,7 @@ fn plain(kind: u32) -> layout::Emitter {
     }
 }
 
-/// An object, which is no unbounded plane.
+/// Returns the emitter of an object, which is not an unbounded plane.
 fn object(index: usize, shape: &layout::Shape) -> layout::Emitter {
     let kind = match shape.kind {
         layout::SHAPE_SPHERE => layout::EMITTER_SPHERE,
@@ -118,7 +119,7 @@ fn surrounding(shape: EnvironmentShape<'_>, tables: &mut Tables) -> layout::Emit
     }
 }
 
-/// A light of a single direction at each place. A disk is a part of the environment.
+/// Returns a light that reaches each point from a single direction. A disk is a part of the environment.
 fn single_direction(shape: LightShape) -> layout::Emitter {
     match shape {
         LightShape::DistantDisk { toward, .. } | LightShape::Direction { toward } => {

@@ -1,13 +1,13 @@
-//! How long the record of a path becomes.
+//! The maximum length of a path's record.
 
 use super::thickness;
 use crate::modules::RecordLimits;
 use scene::{EnvironmentPart, EnvironmentShape, Material, Object, Scene, Shape};
 
-/// How long the record of a path becomes at most.
+/// Returns the maximum length of a path's record.
 ///
 /// A path has a vertex for each segment but the last, which may end in two terms of the environment. Where a film splits it, the
-/// record has the film, the path that goes on, and the other path.
+/// record has the film, the path that continues, and the other path.
 pub(super) fn of(scene: &Scene) -> RecordLimits {
     let settings = scene.settings();
     let has_films = scene
@@ -18,8 +18,8 @@ pub(super) fn of(scene: &Scene) -> RecordLimits {
     let segments = settings.max_path_segments;
     let crossings = crossings(scene, segments, splits);
     let surfaces = vertices(segments, splits);
-    // What a surface emits has a vertex of its own. Of a gradient a direction sees two parts, of which one stands for the segment that
-    // escapes.
+    // The emission of a surface has its own vertex. Two parts of a gradient are visible in a direction; one of them is the vertex
+    // of the segment that escapes.
     let glowing = if glows(scene) { surfaces } else { 0 };
     let vertices = surfaces + glowing + (disks(scene) << splits);
     RecordLimits {
@@ -34,7 +34,7 @@ pub(super) fn of(scene: &Scene) -> RecordLimits {
     }
 }
 
-/// Vertices of a path with so many segments left that can still be split.
+/// Returns the number of vertices of a path with this many segments and splits left.
 fn vertices(segments: u32, splits: u32) -> u32 {
     if splits == 0 || segments < 2 {
         return segments + 1;
@@ -42,7 +42,7 @@ fn vertices(segments: u32, splits: u32) -> u32 {
     1 + 2 * vertices(segments - 1, splits - 1)
 }
 
-/// Whether a surface both emits and reflects: what it emits has a vertex of its own.
+/// Whether a surface both emits and reflects: its emission has its own vertex.
 fn glows(scene: &Scene) -> bool {
     let mut materials = scene.objects().iter().map(|o| scene.material(o.material));
     materials.any(|material| match material {
@@ -52,8 +52,9 @@ fn glows(scene: &Scene) -> bool {
     })
 }
 
-/// Films that all connections of a path cross. One crosses a film's sphere at most twice and a film's plane once (and the edge where
-/// films touch once more), and never more often than segments are left. A path that connects is not split any more.
+/// Returns the number of films that all emitter samples of a path cross. Each crosses a film's sphere at most twice and a film's
+/// plane once (and the edge where films touch once more), and never more often than segments are left. A path that has sampled an
+/// emitter is not split any more.
 fn crossings(scene: &Scene, segments: u32, splits: u32) -> u32 {
     let films = scene.objects().iter().filter_map(|object| {
         is_film(scene.material(object.material)).then_some(match object.shape {
@@ -72,11 +73,11 @@ fn crossings(scene: &Scene, segments: u32, splits: u32) -> u32 {
             .map(|segment| per_connection.min(segments - segment - 1))
             .sum()
     };
-    // With i splits there are 2ⁱ paths, each of which has come i segments further.
+    // With i splits there are 2ⁱ paths, each of which is i segments further on.
     (0..=splits).map(|i| of_path(1 + i) << i).max().unwrap_or(0)
 }
 
-/// Number of disks in the sky.
+/// Returns the number of disks in the sky.
 fn disks(scene: &Scene) -> u32 {
     let parts = scene.environment_parts();
     let is_distant_disk =
@@ -88,8 +89,8 @@ fn is_film(material: &Material) -> bool {
     matches!(material, Material::Film { .. })
 }
 
-/// The most thicknesses that one meeting with a material that is `wanted` puts on record. A film's only layer has its place
-/// in the factor.
+/// Returns the most thicknesses that are recorded where a path meets a material that is `wanted`. The thickness of a film's only
+/// layer is in the factor.
 fn most_varying(scene: &Scene, wanted: fn(&Material) -> bool) -> u32 {
     let of_object = |object: &Object| {
         let material = scene.material(object.material);

@@ -1,15 +1,15 @@
-//! How many passes of loops a sample takes at most.
+//! The maximum number of passes of loops in a sample.
 
 use super::surface::Passes;
 use crate::modules::RecordLimits;
 use scene::Scene;
 
-/// Passes of the two searches by which a direction toward a picture of the environment is drawn, among 1024 and 512.
+/// Passes of the two binary searches that sample a direction toward a picture of the environment, among 1024 and 512.
 const SEARCHES: u64 = 1 + 10 + 1 + 9;
 
-/// A bound on the passes of all loops of one sample: those of tracing it (every segment and every film on the way to a light looks
-/// at every object, and works out thicknesses), and those of its spectrum (every group of four bands looks at every vertex and at every
-/// crossing).
+/// Returns a bound on the passes of all loops of one sample: those of tracing it (every segment and every film on the way to an
+/// emitter tests every object and computes thicknesses), and those of its spectrum (every group of four bands visits every vertex
+/// and every crossing).
 pub(super) fn of_sample(scene: &Scene, limits: RecordLimits, surfaces: Passes) -> u64 {
     // A hierarchy has fewer boxes than twice its objects.
     let objects = match scene.hierarchy().nodes.len() as u64 {
@@ -23,11 +23,11 @@ pub(super) fn of_sample(scene: &Scene, limits: RecordLimits, surfaces: Passes) -
 
     let trace = (2 * segments + crossings) * (1 + objects + surfaces.shading);
     let factors = segments * (1 + surfaces.spectrum) + crossings * (1 + surfaces.crossing);
-    // The clamp looks at the whole spectrum before it is added.
+    // The clamp evaluates the whole spectrum before it is added.
     let times = 1 + u64::from(scene.settings().clamp.is_some());
     let spectrum = times * groups * (1 + 2 * segments + factors + 2 * light_groups);
     let environment = scene.environment_parts().len() as u64 + 1 + segments * SEARCHES;
-    // The sum of the emitters' estimates and the choice among them, and the probability of one that is met.
+    // The sum of the emitters' weights, the choice among them, and the probability of an emitter that a path hits.
     let choices = segments * 3 * (2 + scene.emitter_tree().nodes.len() as u64);
     1 + trace + choices + environment + spectrum + 3 * light_groups
 }

@@ -1,15 +1,15 @@
-//! What rays meet.
+//! Packing of objects.
 
 use super::vec3;
 use crate::layout;
 use glam::DVec3;
 use scene::{Object, Scene, Shape, Sheet};
 
-/// A sphere is large from so many times the distance of its surface from the camera on: an `f32` then loses a hundred thousandth of
-/// that distance between the surface and the center.
+/// A sphere is large if its radius is more than this times the distance of its surface from the camera: an `f32` then loses a
+/// hundred thousandth of that distance between the surface and the center.
 const LARGE: f64 = 100.0;
 
-/// The curvature of a sphere whose surface is given by its point nearest to the camera, because its center is too far away.
+/// Whether a sphere is given by its curvature and its point nearest to the camera, because its center is too far away.
 pub(crate) fn is_large(scene: &Scene, shape: &Shape) -> bool {
     match *shape {
         Shape::Sphere { center, radius } => {
@@ -20,7 +20,7 @@ pub(crate) fn is_large(scene: &Scene, shape: &Shape) -> bool {
     }
 }
 
-/// The objects; whether they are emitters follows.
+/// Packs the objects; whether they are emitters is set later.
 pub(super) fn pack_all(scene: &Scene) -> Vec<layout::Shape> {
     let pack = |(index, object): (usize, &Object)| {
         let mut shape = pack(object, scene.sheets().get(index).copied().flatten());

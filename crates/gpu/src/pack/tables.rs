@@ -8,18 +8,18 @@ use std::sync::Arc;
 /// The lists, while they are being filled.
 #[derive(Debug, Default)]
 pub(super) struct Tables {
-    /// Materials first, then what they are made of.
+    /// Materials first, then their parts.
     pub(super) records: Vec<[u32; 4]>,
-    /// Numbers that are looked up.
+    /// Numbers for lookups.
     pub(super) numbers: Vec<f32>,
-    /// Pictures of four numbers in each place.
+    /// Pictures with four numbers per texel.
     pub(super) pictures: Pictures,
-    /// Pictures of thicknesses that are among the numbers already, and where.
+    /// Pictures of thicknesses that are already among the numbers, and where.
     pub(super) thickness_pictures: Vec<(Arc<PictureFile>, u32)>,
 }
 
 impl Tables {
-    /// With room for so many materials.
+    /// Returns empty lists with room for `count` materials.
     pub(super) fn with_materials(count: usize) -> Self {
         let mut tables = Self::default();
         for _ in 0..count {
@@ -36,14 +36,14 @@ impl Tables {
         row
     }
 
-    /// Puts a material into its place.
+    /// Stores a material at its index.
     pub(super) fn set_material(&mut self, number: usize, material: &layout::Material) {
         let first = number * layout::Material::ROWS as usize;
         let rows: &[[u32; 4]] = bytemuck::cast_slice(std::slice::from_ref(material));
         self.records[first..first + rows.len()].copy_from_slice(rows);
     }
 
-    /// Adds numbers, and says where they begin.
+    /// Adds numbers, and returns the index of the first.
     pub(super) fn look_up(&mut self, numbers: &[f64]) -> u32 {
         let first = self.numbers.len() as u32;
         self.numbers.extend(numbers.iter().map(|&x| x as f32));

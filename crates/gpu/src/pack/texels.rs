@@ -1,4 +1,4 @@
-//! Pictures of four numbers in each place, in one list of texels. Before the texels of each stands its head: width and height in pixels.
+//! Pictures with four numbers per texel, in one list of texels. Before the texels of each is its header: width and height in pixels.
 
 use crate::layout::Panorama;
 use scene::{EnvironmentPicture, Texels};
@@ -8,12 +8,12 @@ use std::sync::Arc;
 #[derive(Debug, Default)]
 pub(super) struct Pictures {
     pub(super) texels: Vec<[f32; 4]>,
-    /// Pictures that are among the texels already, with their size on planes, and where.
+    /// Pictures that are already among the texels, with their size on planes, and where.
     known: Vec<(Arc<Texels>, [f32; 2], u32)>,
 }
 
 impl Pictures {
-    /// A picture of the environment, whose table is added to the numbers.
+    /// Adds a picture of the environment, whose table is added to the numbers.
     pub(super) fn add_environment(
         &mut self,
         picture: &EnvironmentPicture,
@@ -30,7 +30,8 @@ impl Pictures {
         panorama
     }
 
-    /// The head of a picture: width and height in pixels, then the size on planes and rectangles, 0 for its natural one.
+    /// Adds a picture and returns the index of its header: width and height in pixels, then the size on planes and rectangles, 0
+    /// for its natural size.
     pub(super) fn add(&mut self, texels: &Arc<Texels>, size: [f32; 2]) -> u32 {
         let known = self.known.iter();
         let mut same = known.filter(|(known, on_planes, _)| known == texels && *on_planes == size);
@@ -47,7 +48,7 @@ impl Pictures {
     }
 }
 
-/// A picture of the environment whose head and table begin at these places.
+/// Returns the record of a picture of the environment whose header and table begin at these indices.
 fn panorama(picture: &EnvironmentPicture, head: usize, first_number: usize) -> Panorama {
     Panorama {
         head: head as u32,
@@ -84,7 +85,7 @@ mod tests {
         radius = 1
     "#;
 
-    /// Beyond 2²⁴ not every whole number is one of `f32`.
+    /// Beyond 2²⁴ an `f32` cannot represent every integer.
     #[test]
     fn places_are_exact_in_long_lists() {
         let scene = SceneFile::parse("sky.toml", SKY, Path::new(".")).unwrap();
@@ -102,7 +103,7 @@ mod tests {
         }
     }
 
-    /// What a scene's picture says is what lies there.
+    /// The table is where the record of the scene's picture says.
     #[test]
     fn the_table_of_a_sky_lies_where_its_record_says() {
         let scene = SceneFile::parse("sky.toml", SKY, Path::new(".")).unwrap();

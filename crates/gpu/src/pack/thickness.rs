@@ -1,4 +1,4 @@
-//! Thicknesses: a layer whose thickness varies has a run of fields in postfix order.
+//! Packing of thicknesses: a layer whose thickness varies has a sequence of fields in postfix order.
 
 use super::tables::Tables;
 use super::{id, vec3};
@@ -6,23 +6,23 @@ use crate::layout::{self, Field, NONE};
 use glam::DVec3;
 use scene::{Coordinate, Layer, Picture, Profile, Swirls, Thickness};
 
-/// Passes of `gradient_noise` (eight corners) for each of the flow's steps and the streaks' octaves, at most.
+/// Maximum number of passes of `gradient_noise` (eight corners) for each of the flow's steps and the streaks' octaves.
 const SWIRLS: u64 = 9 * (3 + 6);
 
-/// Puts layers among the records, one after the other, and returns the row of the first.
+/// Adds layers to the records, one after the other, and returns the row of the first.
 pub(super) fn layers(tables: &mut Tables, layers: &[Layer]) -> u32 {
     let packed: Vec<_> = layers.iter().map(|of| tables.layer(of)).collect();
     let rows = packed.iter().map(|layer| tables.push(layer));
     rows.min().unwrap_or(NONE)
 }
 
-/// Number of layers whose thickness varies over the surface.
+/// Returns the number of layers whose thickness varies over the surface.
 pub(super) fn varying(layers: &[Layer]) -> u32 {
     let varies = |layer: &&Layer| !matches!(layer.thickness, Thickness::Constant { .. });
     layers.iter().filter(varies).count() as u32
 }
 
-/// Passes of working out the thicknesses of all layers.
+/// Returns the passes of computing the thicknesses of all layers.
 pub(super) fn passes(layers: &[Layer]) -> u64 {
     let of_part = |part: &Thickness| match part {
         Thickness::Swirls(_) => 1 + SWIRLS,
@@ -32,7 +32,7 @@ pub(super) fn passes(layers: &[Layer]) -> u64 {
     1 + layers.iter().map(of_layer).sum::<u64>()
 }
 
-/// The features that the thicknesses of layers need.
+/// Returns the features that the thicknesses of layers need.
 pub(super) fn features(layers: &[Layer]) -> Vec<&'static str> {
     let parts = layers.iter().flat_map(|layer| layer.thickness.parts());
     parts.flat_map(features_of_part).copied().collect()
@@ -55,7 +55,7 @@ fn features_of_part(part: &Thickness) -> &'static [&'static str] {
 }
 
 impl Tables {
-    /// A layer, with the fields that its thickness is made of.
+    /// Packs a layer, with the fields of its thickness.
     fn layer(&mut self, layer: &Layer) -> layout::Layer {
         let mut fields = Vec::new();
         let mut thickness_nm = 0.0;
@@ -112,7 +112,7 @@ impl Tables {
         fields.push(field);
     }
 
-    /// Each part but the first is combined with what comes before it, so that few values wait at a time.
+    /// Each part but the first is combined with the value before it, so that few values wait at a time.
     fn combine(&mut self, parts: &[Thickness], kind: u32, fields: &mut Vec<Field>) {
         for (index, part) in parts.iter().enumerate() {
             self.fields(part, fields);

@@ -1,4 +1,4 @@
-//! The hierarchy of boxes around objects and the tree of emitters, depth first, as loops without a stack walk through them.
+//! The hierarchy of boxes around objects and the tree of emitters, depth first, for traversal by loops without a stack.
 
 use super::vec3;
 use crate::layout::{self, NONE, Record};
@@ -8,7 +8,7 @@ use scene::{EmitterTree, Hierarchy};
 #[derive(Debug, Default)]
 pub(super) struct Trees {
     pub(super) rows: Vec<[u32; 4]>,
-    /// Rows of the hierarchy, which stands first; 0 where objects are few.
+    /// Rows of the hierarchy, which comes first; 0 where objects are few.
     pub(super) hierarchy_rows: u32,
     /// The row of the first node of the tree of emitters.
     pub(super) first_emitter_node: u32,
@@ -35,7 +35,7 @@ impl Trees {
         self.rows.extend_from_slice(bytemuck::cast_slice(&[record]));
     }
 
-    /// An object that is met by every ray that gets here.
+    /// Adds an object that is tested for every ray that gets here.
     fn object(&mut self, object: u32) {
         self.push(layout::Node {
             low: [f32::MIN; 3],
@@ -45,7 +45,7 @@ impl Trees {
         });
     }
 
-    /// A box with all that it holds.
+    /// Adds a box with all its contents.
     fn node(&mut self, hierarchy: &Hierarchy, node: usize) {
         let of = &hierarchy.nodes[node];
         let place = self.rows.len();

@@ -31,7 +31,7 @@ pub(super) fn pack(tables: &mut Tables, cook: &Cook1981) -> PackedSurface {
         record: tables.push(&packed),
         facets: NONE,
         features,
-        // The value for the light and for the path, and the sample.
+        // The value for the emitter sample and for the path, and the sample.
         passes: Passes {
             shading: 3 * (1 + cook.facets.len() as u64),
             ..Default::default()

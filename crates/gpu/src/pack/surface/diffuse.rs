@@ -1,4 +1,4 @@
-//! Lambertian surfaces, and what lies below coats.
+//! Lambertian surfaces, and the bases below coats.
 
 use super::{PackedSurface, Passes};
 use crate::layout::{self, NONE};
@@ -18,7 +18,7 @@ pub(super) fn pack(tables: &mut Tables, reflectance: &Pattern) -> PackedSurface 
     }
 }
 
-/// The row of a reflectance that may vary, and the features that it needs.
+/// Returns the row of a reflectance that may vary, and the features that it needs.
 pub(super) fn pattern(tables: &mut Tables, reflectance: &Pattern) -> (u32, Vec<&'static str>) {
     let plain = layout::Diffuse {
         checker_size: 1.0,

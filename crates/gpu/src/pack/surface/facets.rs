@@ -1,4 +1,4 @@
-//! What makes a surface rough.
+//! The roughness of a surface.
 
 use crate::layout;
 use crate::pack::tables::Tables;
@@ -6,10 +6,11 @@ use crate::pack::vec3;
 use glam::DVec3;
 use scene::{Distribution, FacetTable, Grain, Microsurface};
 
-/// Passes of drawing a facet: two slopes.
+/// Passes of sampling a facet: two slopes.
 pub(super) const SHADING: u64 = 2 * (1 + 4);
 
-/// The row of facets, and the features that they need; `transmittance_scale` is the table of what a brushed coat lets through.
+/// Packs facets and returns their row and the features that they need; `transmittance_scale` is the table of the transmittance
+/// scale of a brushed coat.
 pub(super) fn pack(
     tables: &mut Tables,
     microsurface: &Microsurface,

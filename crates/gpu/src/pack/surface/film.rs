@@ -9,7 +9,7 @@ use scene::{Estimate, Interference, Layer, PathDifference};
 /// Passes for a layer of a stack: its own, and those of the series for small thicknesses.
 pub(super) const LAYER: u64 = 1 + 8;
 
-/// A film; `is_clear` where it is one layer without absorption and with n ≥ 1.
+/// Packs a film; `is_clear` for a single non-absorbing layer with n ≥ 1.
 pub(super) fn pack(
     tables: &mut Tables,
     (layers, is_clear): (&[Layer], bool),

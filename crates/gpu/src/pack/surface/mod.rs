@@ -1,5 +1,5 @@
-//! Materials: a head for each, and by its kind what it is made of, what the shader must be able to do for it, and how many passes its loops
-//! make.
+//! Materials: a header for each and, by its kind, the record of its surface, the features that the shader needs for it, and the
+//! number of passes of its loops.
 
 mod coated;
 mod cook;
@@ -13,7 +13,7 @@ use super::{emission_ref, id};
 use crate::layout;
 use scene::{Estimate, Material, Pattern, Scene};
 
-/// What a material's surface is for the shader.
+/// A packed surface of a material.
 #[derive(Debug)]
 pub(super) struct PackedSurface {
     /// A `SURFACE_` tag.
@@ -24,23 +24,23 @@ pub(super) struct PackedSurface {
     pub(super) facets: u32,
     /// The features of `shaders/features.wgsl` that it needs.
     pub(super) features: Vec<&'static str>,
-    /// How many passes its loops make.
+    /// Number of passes of its loops.
     pub(super) passes: Passes,
 }
 
-/// How many passes loops make at most.
+/// Maximum numbers of passes of loops.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Passes {
-    /// Where a path meets the surface.
+    /// Passes where a path meets the surface.
     pub(super) shading: u64,
-    /// Where its spectrum is worked out, for each group of four bands.
+    /// Passes of its spectrum, for each group of four bands.
     pub(super) spectrum: u64,
-    /// Where its spectrum is worked out for light on its way to another surface.
+    /// Passes of its spectrum where an emitter sample of another surface crosses it.
     pub(super) crossing: u64,
 }
 
 impl Passes {
-    /// The larger of each.
+    /// Returns the larger of each.
     pub(super) fn max(self, other: Self) -> Self {
         Self {
             shading: self.shading.max(other.shading),
@@ -50,7 +50,7 @@ impl Passes {
     }
 }
 
-/// Puts a material among the records.
+/// Adds a material to the records.
 pub(super) fn pack(
     scene: &Scene,
     (number, material, estimate): (usize, &Material, &Estimate),
@@ -100,7 +100,7 @@ pub(super) fn pack(
     packed
 }
 
-/// What reflects nothing.
+/// Returns a surface that reflects nothing.
 fn black() -> PackedSurface {
     PackedSurface {
         surface: layout::SURFACE_BLACK,
