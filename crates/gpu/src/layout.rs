@@ -1,8 +1,8 @@
-//! What lies in the buffers that host and shader share, written once.
+//! The contents of the buffers that host and shader share, defined once.
 //!
-//! The macros below take documented Rust types, prove at compile time that Rust places every field
-//! where WGSL expects it, and give the text of `shaders/layout.wgsl` and `shaders/records.wgsl`. Those files are committed, and a test
-//! proves them fresh.
+//! The macros below take documented Rust types, prove at compile time that Rust places every field where WGSL expects it, and
+//! generate the text of `shaders/layout.wgsl` and `shaders/records.wgsl`. Those files are committed, and a test checks that they
+//! are up to date.
 
 use scene::limits::{MAX_FIELD_DEPTH, THICKNESS_NM};
 use scene::{CoatedBody, Estimate, FacetTable, PixelFilter};
@@ -54,7 +54,7 @@ struct Declaration {
 
 enum Body {
     Struct(&'static [Member]),
-    /// A struct of whole rows of the list of records, with a function that reads it there.
+    /// A struct of whole rows of the list of records, with a function that reads it from there.
     Record(&'static [Member]),
     Constant(u32),
 }
@@ -122,12 +122,12 @@ macro_rules! constants {
 }
 
 constants! { CONSTANTS;
-    /// Invocations of a workgroup along each side of the picture.
+    /// Width and height of a workgroup, in invocations.
     pub const WORKGROUP_SIDE = 8;
-    /// No object, no light.
+    /// No object or emitter.
     pub const NONE = 0xffff_ffff;
 
-    /// A light is the number of its spectrum, with its light group from this bit on.
+    /// An emission is the index of its spectrum, with its light group from this bit on.
     pub const LIGHT_GROUP_SHIFT = 24;
 
 
@@ -146,21 +146,21 @@ constants! { CONSTANTS;
     pub const EMITTER_RECTANGLE = 1;
     /// Emitter: a disk.
     pub const EMITTER_DISK = 2;
-    /// Emitter: environment of the same radiance from everywhere. Those of the environment are greater.
+    /// Emitter: environment of the same radiance from everywhere. Environment emitters have the tags from this to EMITTER_DISTANT_DISK.
     pub const EMITTER_EVERYWHERE = 16;
     /// Emitter: environment by 1 − |h|, with h the height of the direction.
     pub const EMITTER_HORIZON = 17;
     /// Emitter: environment by the cosine with `axis`, where it is above 0.
     pub const EMITTER_POLE = 18;
-    /// Emitter: environment by a picture, its middle toward `axis`, its right half toward `tangent`.
+    /// Emitter: environment by a picture, its center toward `axis`, its right half toward `tangent`.
     pub const EMITTER_PICTURE = 19;
     /// Emitter: a disk in the sky about `axis`.
     pub const EMITTER_DISTANT_DISK = 24;
-    /// Emitter: light from the direction `axis` alone. Those of a single direction at each place are greater.
+    /// Emitter: light from the direction `axis` only. The tags of emitters with a single direction at each point are this and above.
     pub const EMITTER_DIRECTION = 25;
-    /// Emitter: a point that shines to all sides. Those that lie at a place are greater.
+    /// Emitter: a point that emits in all directions. The tags of emitters with a position are this and above.
     pub const EMITTER_POINT = 26;
-    /// Emitter: a point that shines about `axis`.
+    /// Emitter: a point that emits in a cone about `axis`.
     pub const EMITTER_SPOT = 27;
 
     /// Surface: nothing is reflected.
@@ -185,28 +185,28 @@ constants! { CONSTANTS;
     pub const FACETS_BECKMANN = 0;
     /// Facets: the distribution of Trowbridge and Reitz.
     pub const FACETS_GGX = 1;
-    /// Grain: a surface alike in all directions.
+    /// Grain: none; the surface is isotropic.
     pub const GRAIN_NONE = 0;
     /// Grain: along a direction in space.
     pub const GRAIN_ALONG = 1;
     /// Grain: around an axis through the object's center.
     pub const GRAIN_AROUND = 2;
-    /// Cosines for which a rough coat has its reflectance, even in their roots.
+    /// Number of cosines for which a rough coat has its reflectance, equally spaced in their square roots.
     pub const COAT_COSINES = CoatedBody::COSINES as u32;
-    /// Knots of a table over facets' directions over the root of the cosine.
+    /// Knots of a table over facets' directions, in the square root of the cosine.
     pub const FACET_COSINES = FacetTable::COSINES as u32;
-    /// Knots of a table over facets' directions over the width of the slopes, where that differs.
+    /// Knots of a table over facets' directions, in the width of the slopes, where that varies.
     pub const FACET_WIDTHS = FacetTable::WIDTHS as u32;
 
     /// Field: the same everywhere.
     pub const FIELD_CONSTANT = 0;
-    /// Field: linear in what it runs along.
+    /// Field: linear in its coordinate.
     pub const FIELD_LINEAR = 1;
     /// Field: steps of equal width.
     pub const FIELD_STEPS = 2;
-    /// Field: the root of a table.
+    /// Field: the square root of a table.
     pub const FIELD_PROFILE = 3;
-    /// Field: noise carried along by a flow.
+    /// Field: noise carried by a flow.
     pub const FIELD_SWIRLS = 4;
     /// Field: a picture.
     pub const FIELD_PICTURE = 5;
@@ -214,47 +214,47 @@ constants! { CONSTANTS;
     pub const FIELD_SUM = 6;
     /// Field: the product of the two values before it.
     pub const FIELD_PRODUCT = 7;
-    /// A field runs along the polar angle about a sphere's center.
+    /// A field varies along the polar angle about a sphere's center.
     pub const ALONG_POLAR_ANGLE = 0;
-    /// A field runs along a line in space.
+    /// A field varies along a line in space.
     pub const ALONG_LINE = 1;
-    /// The most values that wait for a sum or product.
+    /// The maximum number of values that wait for a sum or product.
     pub const FIELD_STACK = MAX_FIELD_DEPTH as u32 + 1;
-    /// Rows of a list that stand side by side in a texture.
+    /// Rows of a list that are side by side in a texture.
     pub const LIST_WIDTH = 4096;
     /// Numbers in a row of the texture of tables.
     pub const NUMBERS_WIDTH = 4096;
     /// Texels in a row of the texture of pictures.
     pub const TEXELS_WIDTH = 4096;
-    /// No layer is thicker, nm.
+    /// Maximum thickness of a layer, nm.
     pub const MAX_THICKNESS_NM = THICKNESS_NM.high as u32;
 
-    /// Numbers of the table that spreads a pixel's samples by its filter.
+    /// Size of the table that distributes a pixel's samples by its filter.
     pub const FILTER_KNOTS = PixelFilter::KNOTS as u32;
-    /// Numbers of a film's table of what it reflects, over the cosine.
+    /// Size of a film's table of its reflected fraction, over the cosine.
     pub const REFLECTED_KNOTS = Estimate::KNOTS as u32;
 
-    /// A factor is a number (of a spectrum, a texel or a row), with its tag from this bit on.
+    /// A factor is an index (of a spectrum, a texel or a row), with its tag from this bit on.
     pub const FACTOR_SHIFT = 28;
     /// Factor of a path's vertex: 1.
     pub const FACTOR_ONE = 0;
-    /// Factor: a diffuse reflectance, by the number of its spectrum.
+    /// Factor: a diffuse reflectance, by the index of its spectrum.
     pub const FACTOR_DIFFUSE = 1;
-    /// Factor: a diffuse reflectance, by the number of the texel that has its coefficients.
+    /// Factor: a diffuse reflectance, by the index of the texel that has its coefficients.
     pub const FACTOR_TEXTURE = 2;
-    /// Factor: a bare conductor, by the number of its n.
+    /// Factor: a bare conductor, by the index of its n.
     pub const FACTOR_INTERFACE = 3;
     /// Factor: layers on a conductor, by the row of the interface.
     pub const FACTOR_COATING = 4;
-    /// Factor: a body below a coat, by the number of the coat's n.
+    /// Factor: a body below a coat, by the index of the coat's n.
     pub const FACTOR_COATED = 5;
-    /// Factor: Cook's model, by the number of the facets' n.
+    /// Factor: Cook's model, by the index of the facets' n.
     pub const FACTOR_COOK = 6;
-    /// Factor: a film of one layer without absorption and with n ≥ 1, by the number of n. Those of films are greater.
+    /// Factor: a film of one non-absorbing layer with n ≥ 1, by the index of n. The tags of films are this and above.
     pub const FACTOR_FILM = 7;
-    /// Factor: a film of one layer of any index, by the number of n.
+    /// Factor: a film of one layer of any index, by the index of n.
     pub const FACTOR_LOSSY_FILM = 8;
-    /// Factor: a film of one layer by two beams, by the number of n.
+    /// Factor: a film of one layer by two beams, by the index of n.
     pub const FACTOR_TWO_BEAM = 9;
     /// Factor: the same with the path difference that the paper prints.
     pub const FACTOR_TWO_BEAM_AS_PRINTED = 10;
@@ -265,9 +265,9 @@ constants! { CONSTANTS;
 }
 
 structs! { STRUCTS, Struct;
-    /// What holds for a whole render.
+    /// Values for a whole render.
     pub struct Frame {
-        /// Where the camera stands.
+        /// Position of the camera.
         pub camera_origin: [f32; 3],
         /// Chooses the sequence of random numbers.
         pub seed: u32,
@@ -275,45 +275,45 @@ structs! { STRUCTS, Struct;
         pub camera_right: [f32; 3],
         /// Half the picture's height: at distance 1, or in scene units when orthographic.
         pub half_height: f32,
-        /// +Y of camera space: upwards in the picture.
+        /// +Y of camera space: up in the picture.
         pub camera_up: [f32; 3],
         /// Lower end of the first band, nm.
         pub band_min_nm: f32,
-        /// +Z of camera space: away from what is looked at.
+        /// +Z of camera space: opposite to the direction of view.
         pub camera_back: [f32; 3],
         /// Width of a band, nm.
         pub band_width_nm: f32,
         /// Width and height of the picture in pixels.
         pub image_size: [u32; 2],
-        /// Steps that a band is divided into by the spectra's knots.
+        /// Number of steps between the spectra's knots in a band.
         pub steps: u32,
-        /// 1 where each sample draws its wavelengths, 0 where they lie at the bands' centers.
+        /// 1 where each sample draws its wavelengths, 0 where they are at the bands' centers.
         pub draws_wavelengths: u32,
-        /// First of the numbers of the emitters that are parts of the environment, disks in the sky among them.
+        /// First of the numbers that are the emitter indices of the parts of the environment, including disks in the sky.
         pub first_environment: u32,
-        /// First of the observer's three spectra.
+        /// Index of the first of the observer's three spectra.
         pub observer: u32,
-        /// Film hits, the first of a path, at which it is split.
+        /// Number of film hits, the first of a path, at which it is split.
         pub film_splits: u32,
-        /// The largest radiance that a sample may bring in any band.
+        /// The largest radiance of a sample in any band.
         pub clamp: f32,
         /// Number of bands.
         pub bands: u32,
         /// Radius of the camera's lens.
         pub lens_radius: f32,
-        /// Distance of the plane that the lens shows sharply, along the direction of view.
+        /// Distance of the plane in focus, along the direction of view.
         pub focus_distance: f32,
-        /// First of the numbers that spread a pixel's samples by its filter.
+        /// First of the numbers that distribute a pixel's samples by its filter.
         pub first_filter: u32,
-        /// The row of the first node of the tree of emitters.
+        /// Row of the first node of the tree of emitters.
         pub first_emitter_node: u32,
-        /// The row after its last one.
+        /// Row after the last node of the tree of emitters.
         pub end_emitter_node: u32,
-        /// Fills the size up to that of its alignment.
+        /// Padding to the alignment.
         pub padding: [u32; 2],
     }
 
-    /// What holds for one dispatch: a run of samples of one tile.
+    /// Values for one dispatch: a run of samples of one tile.
     pub struct Batch {
         /// The tile's first pixel in the picture.
         pub tile_origin: [u32; 2],
@@ -323,13 +323,13 @@ structs! { STRUCTS, Struct;
         pub first_sample: u32,
         /// Samples to take now.
         pub sample_count: u32,
-        /// Passes of the loop by which an invocation finds out whether the driver has ended its loops.
+        /// Passes of the loop by which an invocation detects whether the driver has ended its loops.
         pub passes: u32,
-        /// Fills the size up to what a uniform buffer asks for.
+        /// Padding to the size that a uniform buffer requires.
         pub padding: u32,
     }
 
-    /// What holds for one run over a part of a batch of stacks.
+    /// Values for one run over a part of a batch of stacks.
     pub struct StackRun {
         /// Number of wavelengths.
         pub wavelength_count: u32,
@@ -339,11 +339,11 @@ structs! { STRUCTS, Struct;
         pub first_stack: u32,
         /// Number of stacks of this run.
         pub stack_count: u32,
-        /// Index of the medium that light comes from.
+        /// Index of the incident medium.
         pub incident: f32,
-        /// Fills the size up to what a uniform buffer asks for.
+        /// Padding to the size that a uniform buffer requires.
         pub padding_1: u32,
-        /// Fills the size up.
+        /// Padding.
         pub padding_2: [u32; 2],
     }
 
@@ -366,9 +366,9 @@ structs! { STRUCTS, Struct;
     }
 }
 
-/// What can stand in the list of records.
+/// A record that can be in the list of records.
 pub trait Record: bytemuck::Pod {
-    /// Rows of four words that it takes.
+    /// Number of rows of four words.
     const ROWS: u32 = (size_of::<Self>() / 16) as u32;
 }
 
@@ -381,43 +381,43 @@ macro_rules! records {
 }
 
 records! { SHAPES;
-    /// What rays meet: a shape made of a material.
+    /// An object that rays meet: a shape with a material.
     pub struct Shape {
-        /// Center of a sphere, rectangle or disk, a point of a plane.
+        /// Center of a sphere, rectangle or disk, or a point of a plane.
         pub center: [f32; 3],
         /// Radius of a sphere or disk.
         pub radius: f32,
-        /// Unit normal of a plane, rectangle or disk; of a large sphere that at its `bitangent`.
+        /// Unit normal of a plane, rectangle or disk; for a large sphere, the normal at `bitangent`.
         pub normal: [f32; 3],
         /// A `SHAPE_` tag.
         pub kind: u32,
         /// First axis of a plane, rectangle or disk.
         pub tangent: [f32; 3],
-        /// Half the width of a rectangle, along `tangent`; a disk's radius; of a large sphere its curvature, 1/radius.
+        /// Half the width of a rectangle, along `tangent`; a disk's radius; for a large sphere its curvature, 1/radius.
         pub half_width: f32,
-        /// Second axis of a plane, rectangle or disk; of a large sphere its point nearest to the camera.
+        /// Second axis of a plane, rectangle or disk; for a large sphere its point nearest to the camera.
         pub bitangent: [f32; 3],
         /// Half the height of a rectangle, along `bitangent`; a disk's radius.
         pub half_height: f32,
-        /// Number of its material.
+        /// Index of its material.
         pub material: u32,
-        /// Number of the emitter that it is, or NONE.
+        /// Index of its emitter, or NONE.
         pub emitter: u32,
-        /// Number of the stack of coincident surfaces that it lies in, or NONE.
+        /// Index of the stack of coincident surfaces that it belongs to, or NONE.
         pub stack: u32,
-        /// How many surfaces of the stack lie outside it, times 2, and 1 where its normal points into the stack.
+        /// Number of surfaces of the stack outside it, times 2, plus 1 where its normal points into the stack.
         pub sheet: u32,
     }
 }
 
 records! { EMITTERS;
-    /// What light is sampled from, or comes from where a path leaves the scene. Those that are sampled stand first.
+    /// An emitter, sampled or visible to paths that leave the scene. Those that are sampled come first.
     pub struct Emitter {
-        /// Center of a sphere, rectangle or disk; where a point or spot stands.
+        /// Center of a sphere, rectangle or disk; position of a point or spot.
         pub position: [f32; 3],
         /// An `EMITTER_` tag.
         pub kind: u32,
-        /// Unit vector: normal of a rectangle or disk, toward a pole, a disk, a direction or a picture's middle, where a spot shines to.
+        /// Unit vector: normal of a rectangle or disk; toward a pole, a disk, a direction or a picture's center; direction of a spot.
         pub axis: [f32; 3],
         /// Radius of a sphere or disk.
         pub radius: f32,
@@ -429,59 +429,59 @@ records! { EMITTERS;
         pub bitangent: [f32; 3],
         /// Half the height of a rectangle, along `bitangent`; a disk's radius.
         pub half_height: f32,
-        /// Its light: spectrum and light group.
+        /// Its emission: spectrum and light group.
         pub emission: u32,
-        /// Factor of its light.
+        /// Factor of its emission.
         pub scale: f32,
-        /// How bright it is to the eye, which steers the choice among emitters; 0 where it is not sampled.
+        /// Brightness to the eye, which steers the choice among emitters; 0 where it is not sampled.
         pub brightness: f32,
-        /// The object that it is, or NONE.
+        /// Index of its object, or NONE.
         pub object: u32,
-        /// 1 − cos of the angle with `axis` within which a spot shines fully.
+        /// 1 − cos of the angle with `axis` within which a spot emits fully.
         pub full_height: f32,
-        /// 1 − cos of the angle with `axis` beyond which a spot does not shine, or a disk in the sky ends.
+        /// 1 − cos of the angle with `axis` beyond which a spot does not emit, or at which a disk in the sky ends.
         pub edge_height: f32,
-        /// The row of its node in the tree of emitters.
+        /// Row of its node in the tree of emitters.
         pub node: u32,
-        /// The row of a picture of the environment among the records: a [`Panorama`]. NONE where it is no picture.
+        /// Row of the record of its picture, a [`Panorama`]; NONE where it has none.
         pub picture: u32,
     }
 }
 
 records! { RECORDS;
-    /// What a surface is made of: those of all materials stand first among the records, in the materials' order.
+    /// A material. The materials come first among the records, in their order.
     pub struct Material {
         /// A `SURFACE_` tag.
         pub surface: u32,
-        /// The row of what that surface has: a [`Diffuse`], [`Interface`], [`Coated`], [`Cook`] or [`Film`].
+        /// Row of the record of that surface: a [`Diffuse`], [`Interface`], [`Coated`], [`Cook`] or [`Film`].
         pub record: u32,
-        /// The row of its facets; NONE where it is smooth.
+        /// Row of its facets; NONE where it is smooth.
         pub facets: u32,
-        /// About the part of the light that goes on from it.
+        /// Roughly the fraction of light that continues from it.
         pub albedo: f32,
-        /// Light that it emits.
+        /// Its emission: spectrum and light group.
         pub emission: u32,
-        /// Factor of what it emits; 0 where it emits nothing.
+        /// Factor of its emission; 0 where it emits nothing.
         pub emission_scale: f32,
-        /// Fills the last row.
+        /// Padding to whole rows.
         pub padding: [u32; 2],
     }
 
     /// A reflectance that may vary over a surface.
     pub struct Diffuse {
-        /// Spectrum: the reflectance, of the even squares of a checker.
+        /// Spectrum: the reflectance, or that of the even squares of a checker.
         pub spectrum: u32,
         /// Spectrum: the reflectance of the odd squares; the same as `spectrum` without a checker.
         pub odd_spectrum: u32,
         /// Side of a checker's squares.
         pub checker_size: f32,
-        /// The head of the picture of the reflectance; NONE where that is no picture.
+        /// Index of the header of the reflectance's picture; NONE where it has none.
         pub picture: u32,
     }
 
     /// The facets of a rough surface.
     pub struct Facets {
-        /// Direction of the grain, or of the axis that it runs around.
+        /// Direction of the grain, or of the axis around which it runs.
         pub grain: [f32; 3],
         /// A `GRAIN_` tag.
         pub grain_kind: u32,
@@ -493,45 +493,45 @@ records! { RECORDS;
         pub first_energy: u32,
         /// Mean of that table over all directions.
         pub mean_energy: f32,
-        /// First number of the table by which a brushed coat lets more through in some directions.
+        /// First number of the table of a brushed coat's transmittance scale over direction.
         pub first_transmittance_scale: u32,
-        /// Fills the last row.
+        /// Padding to whole rows.
         pub padding: [u32; 2],
     }
 
     /// The boundary of a conductor, bare or below layers.
     pub struct Interface {
-        /// Spectrum: n of the conductor, whose k is the next one.
+        /// Spectrum: n of the conductor; its k is the next spectrum.
         pub spectrum: u32,
-        /// The row of its first layer, the outermost.
+        /// Row of its first layer, the outermost.
         pub first_layer: u32,
         /// Number of its layers.
         pub layer_count: u32,
-        /// Number of those whose thickness varies over the surface.
+        /// Number of layers whose thickness varies over the surface.
         pub varying_layers: u32,
     }
 
     /// A diffuse body below a clear coat.
     pub struct Coated {
-        /// The row of the body's reflectance.
+        /// Row of the body's reflectance.
         pub base: u32,
-        /// Spectrum: n of the coat, whose k is the next one.
+        /// Spectrum: n of the coat; its k is the next spectrum.
         pub spectrum: u32,
         /// Spectrum: reflectance of the coat for diffuse light from outside.
         pub mean_reflectance: u32,
         /// Spectra: the reflectance of a rough coat for COAT_COSINES cosines.
         pub coat_reflectances: u32,
-        /// What stands for the coat's index where a path chooses its way.
+        /// Representative index of the coat, by which a path chooses between coat and body.
         pub coat_estimate: f32,
-        /// What stands for the body's reflectance there.
+        /// Representative reflectance of the body, for the same choice.
         pub base_estimate: f32,
-        /// Fills the last row.
+        /// Padding to whole rows.
         pub padding: [u32; 2],
     }
 
     /// A surface by the model of Cook and Torrance.
     pub struct Cook {
-        /// Spectrum: n of the facets, whose k is the next one.
+        /// Spectrum: n of the facets; their k is the next spectrum.
         pub spectrum: u32,
         /// A `COOK_` tag.
         pub distribution: u32,
@@ -539,41 +539,41 @@ records! { RECORDS;
         pub first_slope: u32,
         /// Number of slopes.
         pub slope_count: u32,
-        /// Spectrum: what is reflected evenly.
+        /// Spectrum: the Lambertian reflectance.
         pub base: u32,
-        /// The part of the light that is reflected so.
+        /// Fraction of the Lambertian reflection.
         pub base_share: f32,
-        /// Probability with which a path is scattered so.
+        /// Probability with which a path is scattered by the Lambertian fraction.
         pub base_probability: f32,
-        /// Fills the last row.
+        /// Padding to whole rows.
         pub padding: u32,
     }
 
     /// A free film.
     pub struct Film {
-        /// The `FACTOR_` tag of what it does to light from the front.
+        /// The `FACTOR_` tag for light from the front.
         pub factor: u32,
-        /// The row of its first layer, the outermost.
+        /// Row of its first layer, the outermost.
         pub first_layer: u32,
         /// Number of its layers.
         pub layer_count: u32,
-        /// Number of those whose thickness varies over the surface.
+        /// Number of layers whose thickness varies over the surface.
         pub varying_layers: u32,
-        /// First of the numbers that tell about what it reflects.
+        /// First number of the table of its reflected fraction.
         pub first_reflected: u32,
-        /// Fills the last row.
+        /// Padding to whole rows.
         pub padding_1: u32,
-        /// Fills the last row.
+        /// Padding to whole rows.
         pub padding_2: [u32; 2],
     }
 
     /// A layer of a film or of a coating.
     pub struct Layer {
-        /// Spectrum: n of its index, whose k is the next one.
+        /// Spectrum: n; its k is the next spectrum.
         pub spectrum: u32,
         /// Thickness where it has no fields, nm.
         pub thickness_nm: f32,
-        /// The row of the first of the fields that its thickness is made of.
+        /// Row of the first of the fields of its thickness.
         pub first_field: u32,
         /// Number of its fields; 0 where the thickness is the same everywhere.
         pub field_count: u32,
@@ -581,7 +581,7 @@ records! { RECORDS;
 
     /// A part of a thickness that varies.
     pub struct Field {
-        /// The pole's direction, or where a line starts.
+        /// Direction of the pole, or start of a line.
         pub origin: [f32; 3],
         /// A `FIELD_` tag.
         pub kind: u32,
@@ -591,90 +591,90 @@ records! { RECORDS;
         pub runs_along: u32,
         /// Value at 0: at the pole, at the start, of black, the mean of swirls; thickness of the black film of a profile.
         pub base: f32,
-        /// Added to it at 1: at the other pole, at the end, of white, the amplitude of swirls; the largest value of a profile.
+        /// Added to `base` at 1: at the other pole, at the end, of white, the amplitude of swirls; the largest value of a profile.
         pub swing: f32,
-        /// A profile is a black film below it; cells of swirls per unit.
+        /// Value below which a profile is a black film; cells of swirls per unit.
         pub threshold: f32,
-        /// Distance by which swirls are carried, in cells.
+        /// Distance by which the flow carries swirls, in cells.
         pub warp: f32,
         /// Width and height of a picture on a plane; 0 for its natural size.
         pub size: [f32; 2],
         /// Time of swirls within its cell.
         pub phase: f32,
-        /// Cells that the time of swirls has passed through.
+        /// Cells that the time of swirls has passed.
         pub cells: u32,
-        /// Chooses the pattern of swirls.
+        /// Selects the pattern of swirls.
         pub seed: u32,
-        /// First of the numbers that it looks up.
+        /// First of the numbers for its lookups.
         pub first_number: u32,
-        /// Steps, knots of a profile, pixels of a row; octaves of swirls.
+        /// Number of steps, of knots of a profile, of pixels of a row, or of octaves of swirls.
         pub sample_count: u32,
         /// Rows of a picture.
         pub rows: u32,
     }
 
-    /// A picture of the environment, and the table by which directions are drawn.
+    /// A picture of the environment, and the table by which directions are sampled.
     pub struct Panorama {
-        /// Where it is among the texels: the head, then its pixels.
+        /// Index of its header among the texels; its pixels follow.
         pub head: u32,
-        /// Texels of a pixel.
+        /// Number of texels of a pixel.
         pub per_pixel: u32,
-        /// Columns of the table.
+        /// Number of columns of the table.
         pub columns: u32,
-        /// Rows of the table.
+        /// Number of rows of the table.
         pub rows: u32,
-        /// First of the numbers of the table: heights of the rows' edges from the top, running probability of the rows, and of the cells of each row.
+        /// First number of the table: heights of the rows' edges from the top, cumulative probabilities of the rows, and of the cells of each row.
         pub first_number: u32,
-        /// The density that light as bright as the picture's mean would have beside the light that is sent for; 0 where that is all light.
+        /// Density of light at the picture's mean brightness, on the scale of the density of the sampled light; 0 where all light is sampled.
         pub even_density: f32,
-        /// Fills the last row.
+        /// Padding to whole rows.
         pub padding: [u32; 2],
     }
 }
 
 records! { TREES;
-    /// A node of the hierarchy of boxes around objects. Nodes stand depth first: what a box holds follows it.
+    /// A node of the hierarchy of boxes around objects. Nodes are in depth-first order: the contents of a box follow it.
     pub struct Node {
         /// The box's corner with the smallest coordinates.
         pub low: [f32; 3],
-        /// The row of the node after all that the box holds.
+        /// Row of the node after all contents of the box.
         pub next: u32,
         /// The box's corner with the largest coordinates.
         pub high: [f32; 3],
-        /// The object that it holds; NONE where that is other nodes.
+        /// The object in it; NONE where it contains other nodes.
         pub object: u32,
     }
 
-    /// A node of the tree of emitters, depth first: a group as seen from afar; or an emitter, of which only the last four count.
+    /// A node of the tree of emitters, in depth-first order: a group as seen from afar; or an emitter, for which only the last four fields count.
     pub struct EmitterNode {
-        /// Mean of the places of what the group holds.
+        /// Mean of the positions of the group's emitters.
         pub center: [f32; 3],
-        /// All that the group holds is within this distance of the center.
+        /// The whole group is within this distance of the center.
         pub reach: f32,
-        /// Unit vector about which the group shines.
+        /// Unit vector about which the group emits.
         pub axis: [f32; 3],
-        /// Cosine of the angle with `axis` beyond which nothing shines; −1 where the group shines to all sides.
+        /// Cosine of the angle with `axis` beyond which nothing is emitted; −1 where the group emits in all directions.
         pub cone: f32,
-        /// What the group sends into one of the directions in `cone`.
+        /// Power that the group emits into one of the directions in `cone`.
         pub power: f32,
         /// Mean square of the distance from the center.
         pub variance: f32,
-        /// The share of the power that is sent into a direction is √(`even` + `along` c²), where c is its cosine with `axis`.
+        /// The fraction of the power that is emitted in a direction is √(`even` + `along` c²), where c is its cosine with `axis`.
         pub even: f32,
         /// See `even`.
         pub along: f32,
-        /// From points nearer to the center than this the group is looked into; 0 of an emitter.
+        /// A point nearer to the center than this weights the children of the group instead; 0 for an emitter.
         pub near: f32,
-        /// The row of the node after all that the group holds.
+        /// Row of the node after all contents of the group.
         pub next: u32,
-        /// The row of the group that holds it, or NONE.
+        /// Row of the parent group, or NONE.
         pub parent: u32,
-        /// The emitter, or NONE of a group.
+        /// The emitter, or NONE for a group.
         pub emitter: u32,
     }
 }
 
-/// The text of `shaders/layout.wgsl`.
+/// Returns the text of `shaders/layout.wgsl`.
 pub fn wgsl() -> String {
     let mut text = String::from(
         "// Generated from crates/gpu/src/layout.rs: edit there, then run\n\
@@ -686,7 +686,7 @@ pub fn wgsl() -> String {
     text
 }
 
-/// The text of `shaders/records.wgsl`.
+/// Returns the text of `shaders/records.wgsl`.
 pub fn records_wgsl() -> String {
     let mut text = String::from(
         "// The records of a scene, and how they are read. Generated from crates/gpu/src/layout.rs: edit there, then run\n\
@@ -704,12 +704,12 @@ pub fn records_wgsl() -> String {
         }
     }
     for (function, record, what) in [
-        ("shape_at", "Shape", "What rays meet, by its number"),
-        ("emitter_at", "Emitter", "An emitter by its number"),
+        ("shape_at", "Shape", "Returns a shape by its index"),
+        ("emitter_at", "Emitter", "Returns an emitter by its index"),
         (
             "material_at",
             "Material",
-            "A material by its number: they come first among the records",
+            "Returns a material by its index: materials come first among the records",
         ),
     ] {
         let [lower, upper] = [record.to_lowercase(), record.to_uppercase()];
@@ -743,7 +743,7 @@ fn declare_struct(name: &str, members: &[Member]) -> String {
     text + "}\n"
 }
 
-/// A function that reads a record, word by word of its rows.
+/// Returns a function that reads a record, word by word of its rows.
 fn declare_loader(name: &str, members: &[Member]) -> String {
     let mut next = 0;
     let values = members.iter().map(|member| {
