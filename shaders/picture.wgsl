@@ -30,7 +30,7 @@ fn chosen_pixel(head: u32, place: vec2f, wraps: bool, random: f32) -> u32 {
     let is_right = random < to_right;
     let rest = select((random - to_right) / (1.0 - to_right), random / to_right, is_right);
     let is_below = rest < y - floor(y);
-    // From −1 to width + 1: one width more or less comes back inside.
+    // In [−1, width + 1]: adding or subtracting one width brings it inside.
     let width = i32(size.x);
     let column = i32(floor(x)) + select(0, 1, is_right);
     let inside = select(clamp(column, 0, width - 1), (column + width) % width, wraps);

@@ -96,7 +96,7 @@ fn bilinear(field: u32, place: vec2f, wraps: bool) -> f32 {
     let y = clamp(place.y * f32(height) - 0.5, 0.0, f32(height - 1));
     let left = i32(floor(x));
     let above = i32(y);
-    // From −1 to width + 1: one width more or less comes back inside.
+    // In [−1, width + 1]: adding or subtracting one width brings it inside.
     let columns = vec2i(left, left + 1);
     let wrapped = (columns + width) % width;
     let inside = select(clamp(columns, vec2i(0), vec2i(width - 1)), wrapped, wraps);

@@ -1,4 +1,4 @@
-// Metals by the model of Cook and Torrance as Suzuki, Yokoi and Toriwaki print it (section 3-1). Directions are unit vectors in
+// The model of Cook and Torrance for metals, as printed by Suzuki, Yokoi and Toriwaki (section 3-1). Directions are unit vectors in
 // a local frame whose z is the cosine with the macroscopic normal.
 
 override HAS_COOK: bool = true;

@@ -54,7 +54,7 @@ pub enum OpenError {
         found: Vec<String>,
     },
     /// No adapter has the requested name.
-    #[error("no adapter is named like {wanted:?}; there {}", found_names(found))]
+    #[error("no adapter name contains {wanted:?}; there {}", found_names(found))]
     NoSuchName {
         /// The requested name.
         wanted: String,
@@ -111,7 +111,7 @@ pub struct Gpu {
     is_software: bool,
 }
 
-/// All adapters, the best first.
+/// Returns all adapters, the best first.
 pub fn adapters() -> Vec<AdapterDescription> {
     ranked_adapters().iter().map(describe_adapter).collect()
 }

@@ -7,7 +7,7 @@
 //! ```text
 //! Scene -> PreparedScene        spectra in chunks of bands, materials by their BSDFs, emitters by number
 //!   -> path::PathTracer         rays, BSDF sampling, next-event estimation; never sees a band
-//!        -> Transport           the interface: what the path met
+//!        -> Transport           the interface: the events of the path
 //!   -> spectral::SpectralPath   throughput and radiance in all bands at once
 //!   -> spectral::Pixel          means and variances
 //!   -> SpectralImage

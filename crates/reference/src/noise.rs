@@ -61,7 +61,7 @@ pub fn gradient_noise(place: DVec3, cells: u32, seed: u32) -> Noise {
     sum
 }
 
-/// 1 − (6t⁵ − 15t⁴ + 10t³).
+/// Returns 1 − (6t⁵ − 15t⁴ + 10t³).
 fn blend(t: f64) -> f64 {
     1.0 - t * t * t * (t * (6.0 * t - 15.0) + 10.0)
 }
@@ -117,7 +117,7 @@ pub fn swirls(swirls: &Swirls, shape: &Shape, position: DVec3) -> f64 {
     swirls.mean + swirls.amplitude * bounded(GAIN * octaves(swirls, place, time))
 }
 
-/// x / √(1 + x²): bounded by ±1 and smooth.
+/// Returns x / √(1 + x²): bounded by ±1 and smooth.
 fn bounded(x: f64) -> f64 {
     x / (1.0 + x * x).sqrt()
 }

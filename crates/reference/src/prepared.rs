@@ -59,7 +59,7 @@ impl<'a> PreparedScene<'a> {
         }
     }
 
-    /// The material of an object.
+    /// Returns the surface of a material.
     pub(crate) fn surface(&self, material: MaterialId) -> &Surface<'a> {
         &self.surfaces[material.index()]
     }

@@ -67,7 +67,7 @@ impl BandValue for (&Cook<'_>, Lobes) {
 /// The reflection by the facets of Cook's model between two directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CookFacets {
-    /// G Σ wⱼ Dⱼ / ((N·L) (N·E)): the reflection function without its Fresnel factor, sr⁻¹.
+    /// G Σ wⱼ Dⱼ / (cos θi cos θo): the reflection function without its Fresnel factor, sr⁻¹.
     pub reflection: f64,
     /// Density with which a sampled facet reflects `wo` to `wi`, sr⁻¹.
     pub pdf: f64,

@@ -163,7 +163,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         true
     }
 
-    /// The path leaves the scene.
+    /// Adds the radiance of the environment, part by part, where the path leaves the scene.
     fn shade_environment(&mut self) {
         for (index, part) in self.prepared.environment.iter().enumerate() {
             let direction = self.path.ray.direction;
