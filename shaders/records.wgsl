@@ -1,31 +1,31 @@
 // The records of a scene, and how they are read. Generated from crates/gpu/src/layout.rs: edit there, then run
 //     PELLICLE_BLESS=1 cargo test -p pellicle-tests --test layout
 
-/// What rays meet: a shape made of a material.
+/// An object that rays meet: a shape with a material.
 struct Shape {
-    /// Center of a sphere, rectangle or disk, a point of a plane.
+    /// Center of a sphere, rectangle or disk, or a point of a plane.
     center: vec3f,
     /// Radius of a sphere or disk.
     radius: f32,
-    /// Unit normal of a plane, rectangle or disk; of a large sphere that at its `bitangent`.
+    /// Unit normal of a plane, rectangle or disk; for a large sphere, the normal at `bitangent`.
     normal: vec3f,
     /// A `SHAPE_` tag.
     kind: u32,
     /// First axis of a plane, rectangle or disk.
     tangent: vec3f,
-    /// Half the width of a rectangle, along `tangent`; a disk's radius; of a large sphere its curvature, 1/radius.
+    /// Half the width of a rectangle, along `tangent`; a disk's radius; for a large sphere its curvature, 1/radius.
     half_width: f32,
-    /// Second axis of a plane, rectangle or disk; of a large sphere its point nearest to the camera.
+    /// Second axis of a plane, rectangle or disk; for a large sphere its point nearest to the camera.
     bitangent: vec3f,
     /// Half the height of a rectangle, along `bitangent`; a disk's radius.
     half_height: f32,
-    /// Number of its material.
+    /// Index of its material.
     material: u32,
-    /// Number of the emitter that it is, or NONE.
+    /// Index of its emitter, or NONE.
     emitter: u32,
-    /// Number of the stack of coincident surfaces that it lies in, or NONE.
+    /// Index of the stack of coincident surfaces that it belongs to, or NONE.
     stack: u32,
-    /// How many surfaces of the stack lie outside it, times 2, and 1 where its normal points into the stack.
+    /// Number of surfaces of the stack outside it, times 2, plus 1 where its normal points into the stack.
     sheet: u32,
 }
 const SHAPE_ROWS: u32 = 5u;
@@ -51,13 +51,13 @@ fn load_shape(row: u32) -> Shape {
     );
 }
 
-/// What light is sampled from, or comes from where a path leaves the scene. Those that are sampled stand first.
+/// An emitter, sampled or visible to paths that leave the scene. Those that are sampled come first.
 struct Emitter {
-    /// Center of a sphere, rectangle or disk; where a point or spot stands.
+    /// Center of a sphere, rectangle or disk; position of a point or spot.
     position: vec3f,
     /// An `EMITTER_` tag.
     kind: u32,
-    /// Unit vector: normal of a rectangle or disk, toward a pole, a disk, a direction or a picture's middle, where a spot shines to.
+    /// Unit vector: normal of a rectangle or disk; toward a pole, a disk, a direction or a picture's center; direction of a spot.
     axis: vec3f,
     /// Radius of a sphere or disk.
     radius: f32,
@@ -69,21 +69,21 @@ struct Emitter {
     bitangent: vec3f,
     /// Half the height of a rectangle, along `bitangent`; a disk's radius.
     half_height: f32,
-    /// Its light: spectrum and light group.
+    /// Its emission: spectrum and light group.
     emission: u32,
-    /// Factor of its light.
+    /// Factor of its emission.
     scale: f32,
-    /// How bright it is to the eye, which steers the choice among emitters; 0 where it is not sampled.
+    /// Brightness to the eye, which steers the choice among emitters; 0 where it is not sampled.
     brightness: f32,
-    /// The object that it is, or NONE.
+    /// Index of its object, or NONE.
     object: u32,
-    /// 1 − cos of the angle with `axis` within which a spot shines fully.
+    /// 1 − cos of the angle with `axis` within which a spot emits fully.
     full_height: f32,
-    /// 1 − cos of the angle with `axis` beyond which a spot does not shine, or a disk in the sky ends.
+    /// 1 − cos of the angle with `axis` beyond which a spot does not emit, or at which a disk in the sky ends.
     edge_height: f32,
-    /// The row of its node in the tree of emitters.
+    /// Row of its node in the tree of emitters.
     node: u32,
-    /// The row of a picture of the environment among the records: a `Panorama`. NONE where it is no picture.
+    /// Row of the record of its picture, a `Panorama`; NONE where it has none.
     picture: u32,
 }
 const EMITTER_ROWS: u32 = 6u;
@@ -114,21 +114,21 @@ fn load_emitter(row: u32) -> Emitter {
     );
 }
 
-/// What a surface is made of: those of all materials stand first among the records, in the materials' order.
+/// A material. The materials come first among the records, in their order.
 struct Material {
     /// A `SURFACE_` tag.
     surface: u32,
-    /// The row of what that surface has: a `Diffuse`, `Interface`, `Coated`, `Cook` or `Film`.
+    /// Row of the record of that surface: a `Diffuse`, `Interface`, `Coated`, `Cook` or `Film`.
     record: u32,
-    /// The row of its facets; NONE where it is smooth.
+    /// Row of its facets; NONE where it is smooth.
     facets: u32,
-    /// About the part of the light that goes on from it.
+    /// Roughly the fraction of light that continues from it.
     albedo: f32,
-    /// Light that it emits.
+    /// Its emission: spectrum and light group.
     emission: u32,
-    /// Factor of what it emits; 0 where it emits nothing.
+    /// Factor of its emission; 0 where it emits nothing.
     emission_scale: f32,
-    /// Fills the last row.
+    /// Padding to whole rows.
     padding: vec2u,
 }
 const MATERIAL_ROWS: u32 = 2u;
@@ -148,13 +148,13 @@ fn load_material(row: u32) -> Material {
 
 /// A reflectance that may vary over a surface.
 struct Diffuse {
-    /// Spectrum: the reflectance, of the even squares of a checker.
+    /// Spectrum: the reflectance, or that of the even squares of a checker.
     spectrum: u32,
     /// Spectrum: the reflectance of the odd squares; the same as `spectrum` without a checker.
     odd_spectrum: u32,
     /// Side of a checker's squares.
     checker_size: f32,
-    /// The head of the picture of the reflectance; NONE where that is no picture.
+    /// Index of the header of the reflectance's picture; NONE where it has none.
     picture: u32,
 }
 const DIFFUSE_ROWS: u32 = 1u;
@@ -170,7 +170,7 @@ fn load_diffuse(row: u32) -> Diffuse {
 
 /// The facets of a rough surface.
 struct Facets {
-    /// Direction of the grain, or of the axis that it runs around.
+    /// Direction of the grain, or of the axis around which it runs.
     grain: vec3f,
     /// A `GRAIN_` tag.
     grain_kind: u32,
@@ -182,9 +182,9 @@ struct Facets {
     first_energy: u32,
     /// Mean of that table over all directions.
     mean_energy: f32,
-    /// First number of the table by which a brushed coat lets more through in some directions.
+    /// First number of the table of a brushed coat's transmittance scale over direction.
     first_transmittance_scale: u32,
-    /// Fills the last row.
+    /// Padding to whole rows.
     padding: vec2u,
 }
 const FACETS_ROWS: u32 = 3u;
@@ -206,13 +206,13 @@ fn load_facets(row: u32) -> Facets {
 
 /// The boundary of a conductor, bare or below layers.
 struct Interface {
-    /// Spectrum: n of the conductor, whose k is the next one.
+    /// Spectrum: n of the conductor; its k is the next spectrum.
     spectrum: u32,
-    /// The row of its first layer, the outermost.
+    /// Row of its first layer, the outermost.
     first_layer: u32,
     /// Number of its layers.
     layer_count: u32,
-    /// Number of those whose thickness varies over the surface.
+    /// Number of layers whose thickness varies over the surface.
     varying_layers: u32,
 }
 const INTERFACE_ROWS: u32 = 1u;
@@ -228,19 +228,19 @@ fn load_interface(row: u32) -> Interface {
 
 /// A diffuse body below a clear coat.
 struct Coated {
-    /// The row of the body's reflectance.
+    /// Row of the body's reflectance.
     base: u32,
-    /// Spectrum: n of the coat, whose k is the next one.
+    /// Spectrum: n of the coat; its k is the next spectrum.
     spectrum: u32,
     /// Spectrum: reflectance of the coat for diffuse light from outside.
     mean_reflectance: u32,
     /// Spectra: the reflectance of a rough coat for COAT_COSINES cosines.
     coat_reflectances: u32,
-    /// What stands for the coat's index where a path chooses its way.
+    /// Representative index of the coat, by which a path chooses between coat and body.
     coat_estimate: f32,
-    /// What stands for the body's reflectance there.
+    /// Representative reflectance of the body, for the same choice.
     base_estimate: f32,
-    /// Fills the last row.
+    /// Padding to whole rows.
     padding: vec2u,
 }
 const COATED_ROWS: u32 = 2u;
@@ -260,7 +260,7 @@ fn load_coated(row: u32) -> Coated {
 
 /// A surface by the model of Cook and Torrance.
 struct Cook {
-    /// Spectrum: n of the facets, whose k is the next one.
+    /// Spectrum: n of the facets; their k is the next spectrum.
     spectrum: u32,
     /// A `COOK_` tag.
     distribution: u32,
@@ -268,13 +268,13 @@ struct Cook {
     first_slope: u32,
     /// Number of slopes.
     slope_count: u32,
-    /// Spectrum: what is reflected evenly.
+    /// Spectrum: the Lambertian reflectance.
     base: u32,
-    /// The part of the light that is reflected so.
+    /// Fraction of the Lambertian reflection.
     base_share: f32,
-    /// Probability with which a path is scattered so.
+    /// Probability with which a path is scattered by the Lambertian fraction.
     base_probability: f32,
-    /// Fills the last row.
+    /// Padding to whole rows.
     padding: u32,
 }
 const COOK_ROWS: u32 = 2u;
@@ -295,19 +295,19 @@ fn load_cook(row: u32) -> Cook {
 
 /// A free film.
 struct Film {
-    /// The `FACTOR_` tag of what it does to light from the front.
+    /// The `FACTOR_` tag for light from the front.
     factor: u32,
-    /// The row of its first layer, the outermost.
+    /// Row of its first layer, the outermost.
     first_layer: u32,
     /// Number of its layers.
     layer_count: u32,
-    /// Number of those whose thickness varies over the surface.
+    /// Number of layers whose thickness varies over the surface.
     varying_layers: u32,
-    /// First of the numbers that tell about what it reflects.
+    /// First number of the table of its reflected fraction.
     first_reflected: u32,
-    /// Fills the last row.
+    /// Padding to whole rows.
     padding_1: u32,
-    /// Fills the last row.
+    /// Padding to whole rows.
     padding_2: vec2u,
 }
 const FILM_ROWS: u32 = 2u;
@@ -327,11 +327,11 @@ fn load_film(row: u32) -> Film {
 
 /// A layer of a film or of a coating.
 struct Layer {
-    /// Spectrum: n of its index, whose k is the next one.
+    /// Spectrum: n; its k is the next spectrum.
     spectrum: u32,
     /// Thickness where it has no fields, nm.
     thickness_nm: f32,
-    /// The row of the first of the fields that its thickness is made of.
+    /// Row of the first of the fields of its thickness.
     first_field: u32,
     /// Number of its fields; 0 where the thickness is the same everywhere.
     field_count: u32,
@@ -349,7 +349,7 @@ fn load_layer(row: u32) -> Layer {
 
 /// A part of a thickness that varies.
 struct Field {
-    /// The pole's direction, or where a line starts.
+    /// Direction of the pole, or start of a line.
     origin: vec3f,
     /// A `FIELD_` tag.
     kind: u32,
@@ -359,23 +359,23 @@ struct Field {
     runs_along: u32,
     /// Value at 0: at the pole, at the start, of black, the mean of swirls; thickness of the black film of a profile.
     base: f32,
-    /// Added to it at 1: at the other pole, at the end, of white, the amplitude of swirls; the largest value of a profile.
+    /// Added to `base` at 1: at the other pole, at the end, of white, the amplitude of swirls; the largest value of a profile.
     swing: f32,
-    /// A profile is a black film below it; cells of swirls per unit.
+    /// Value below which a profile is a black film; cells of swirls per unit.
     threshold: f32,
-    /// Distance by which swirls are carried, in cells.
+    /// Distance by which the flow carries swirls, in cells.
     warp: f32,
     /// Width and height of a picture on a plane; 0 for its natural size.
     size: vec2f,
     /// Time of swirls within its cell.
     phase: f32,
-    /// Cells that the time of swirls has passed through.
+    /// Cells that the time of swirls has passed.
     cells: u32,
-    /// Chooses the pattern of swirls.
+    /// Selects the pattern of swirls.
     seed: u32,
-    /// First of the numbers that it looks up.
+    /// First of the numbers for its lookups.
     first_number: u32,
-    /// Steps, knots of a profile, pixels of a row; octaves of swirls.
+    /// Number of steps, of knots of a profile, of pixels of a row, or of octaves of swirls.
     sample_count: u32,
     /// Rows of a picture.
     rows: u32,
@@ -406,21 +406,21 @@ fn load_field(row: u32) -> Field {
     );
 }
 
-/// A picture of the environment, and the table by which directions are drawn.
+/// A picture of the environment, and the table by which directions are sampled.
 struct Panorama {
-    /// Where it is among the texels: the head, then its pixels.
+    /// Index of its header among the texels; its pixels follow.
     head: u32,
-    /// Texels of a pixel.
+    /// Number of texels of a pixel.
     per_pixel: u32,
-    /// Columns of the table.
+    /// Number of columns of the table.
     columns: u32,
-    /// Rows of the table.
+    /// Number of rows of the table.
     rows: u32,
-    /// First of the numbers of the table: heights of the rows' edges from the top, running probability of the rows, and of the cells of each row.
+    /// First number of the table: heights of the rows' edges from the top, cumulative probabilities of the rows, and of the cells of each row.
     first_number: u32,
-    /// The density that light as bright as the picture's mean would have beside the light that is sent for; 0 where that is all light.
+    /// Density of light at the picture's mean brightness, on the scale of the density of the sampled light; 0 where all light is sampled.
     even_density: f32,
-    /// Fills the last row.
+    /// Padding to whole rows.
     padding: vec2u,
 }
 const PANORAMA_ROWS: u32 = 2u;
@@ -438,15 +438,15 @@ fn load_panorama(row: u32) -> Panorama {
     );
 }
 
-/// A node of the hierarchy of boxes around objects. Nodes stand depth first: what a box holds follows it.
+/// A node of the hierarchy of boxes around objects. Nodes are in depth-first order: the contents of a box follow it.
 struct Node {
     /// The box's corner with the smallest coordinates.
     low: vec3f,
-    /// The row of the node after all that the box holds.
+    /// Row of the node after all contents of the box.
     next: u32,
     /// The box's corner with the largest coordinates.
     high: vec3f,
-    /// The object that it holds; NONE where that is other nodes.
+    /// The object in it; NONE where it contains other nodes.
     object: u32,
 }
 const NODE_ROWS: u32 = 2u;
@@ -461,31 +461,31 @@ fn load_node(row: u32) -> Node {
     );
 }
 
-/// A node of the tree of emitters, depth first: a group as seen from afar; or an emitter, of which only the last four count.
+/// A node of the tree of emitters, in depth-first order: a group as seen from afar; or an emitter, for which only the last four fields count.
 struct EmitterNode {
-    /// Mean of the places of what the group holds.
+    /// Mean of the positions of the group's emitters.
     center: vec3f,
-    /// All that the group holds is within this distance of the center.
+    /// The whole group is within this distance of the center.
     reach: f32,
-    /// Unit vector about which the group shines.
+    /// Unit vector about which the group emits.
     axis: vec3f,
-    /// Cosine of the angle with `axis` beyond which nothing shines; −1 where the group shines to all sides.
+    /// Cosine of the angle with `axis` beyond which nothing is emitted; −1 where the group emits in all directions.
     cone: f32,
-    /// What the group sends into one of the directions in `cone`.
+    /// Power that the group emits into one of the directions in `cone`.
     power: f32,
     /// Mean square of the distance from the center.
     variance: f32,
-    /// The share of the power that is sent into a direction is √(`even` + `along` c²), where c is its cosine with `axis`.
+    /// The fraction of the power that is emitted in a direction is √(`even` + `along` c²), where c is its cosine with `axis`.
     even: f32,
     /// See `even`.
     along: f32,
-    /// From points nearer to the center than this the group is looked into; 0 of an emitter.
+    /// A point nearer to the center than this weights the children of the group instead; 0 for an emitter.
     near: f32,
-    /// The row of the node after all that the group holds.
+    /// Row of the node after all contents of the group.
     next: u32,
-    /// The row of the group that holds it, or NONE.
+    /// Row of the parent group, or NONE.
     parent: u32,
-    /// The emitter, or NONE of a group.
+    /// The emitter, or NONE for a group.
     emitter: u32,
 }
 const EMITTERNODE_ROWS: u32 = 4u;
@@ -510,17 +510,17 @@ fn load_emitternode(row: u32) -> EmitterNode {
     );
 }
 
-/// What rays meet, by its number.
+/// Returns a shape by its index.
 fn shape_at(number: u32) -> Shape {
     return load_shape(number * SHAPE_ROWS);
 }
 
-/// An emitter by its number.
+/// Returns an emitter by its index.
 fn emitter_at(number: u32) -> Emitter {
     return load_emitter(number * EMITTER_ROWS);
 }
 
-/// A material by its number: they come first among the records.
+/// Returns a material by its index: materials come first among the records.
 fn material_at(number: u32) -> Material {
     return load_material(number * MATERIAL_ROWS);
 }
