@@ -129,10 +129,10 @@ fn choose_in_tree(point: vec3f, normal: vec3f, random_in: f32) -> EmitterChoice 
         if (both <= 0.0) {
             return none;
         }
-        let share = weights.x / both;
-        let is_first = weights.y <= 0.0 || random < share;
-        let step = select(weights.y / both, share, is_first);
-        random = rest_of(random, select(share, 0.0, is_first), step);
+        let fraction = weights.x / both;
+        let is_first = weights.y <= 0.0 || random < fraction;
+        let step = select(weights.y / both, fraction, is_first);
+        random = rest_of(random, select(fraction, 0.0, is_first), step);
         pmf *= step;
         chosen = select(first.next, chosen + EMITTERNODE_ROWS, is_first);
         if (is_first) {

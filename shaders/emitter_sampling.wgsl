@@ -121,7 +121,7 @@ fn has_arrived(ray: Ray, emitter: u32, hit: Hit) -> bool {
 }
 
 /// Returns the MIS weight of a path that hits an emitter by BSDF sampling; next-event estimation has the rest.
-fn mis_weight_of_meeting(path: PathState, emitter: u32) -> f32 {
+fn mis_weight_of_hit(path: PathState, emitter: u32) -> f32 {
     if (!HAS_EMITTERS || path.scatter_pdf <= 0.0 || emitter_at(emitter).brightness <= 0.0) {
         return 1.0;
     }

@@ -48,15 +48,15 @@ fn environment_pdf(emitter: u32, direction: vec3f) -> f32 {
     if (HAS_ENVIRONMENT_PICTURE && emitter_at(emitter).kind == EMITTER_PICTURE) {
         return environment_picture_pdf(emitter, direction);
     }
-    let share = environment_strength(emitter, direction);
+    let strength = environment_strength(emitter, direction);
     if (emitter_at(emitter).kind == EMITTER_EVERYWHERE) {
-        return share * (0.25 / PI);
+        return strength * (0.25 / PI);
     }
     if (emitter_at(emitter).kind == EMITTER_HORIZON) {
-        return share * (0.5 / PI);
+        return strength * (0.5 / PI);
     }
     if (HAS_DISTANT_DISKS && emitter_at(emitter).kind == EMITTER_DISTANT_DISK) {
-        return share * (0.5 / PI) / emitter_at(emitter).edge_height;
+        return strength * (0.5 / PI) / emitter_at(emitter).edge_height;
     }
-    return share / PI;
+    return strength / PI;
 }

@@ -22,7 +22,7 @@ fn direction_table(emitter: u32) -> DirectionTable {
 }
 
 /// Returns the position of a direction in the picture, from its upper left corner, in units of its width and height.
-fn environment_place(emitter: u32, direction: vec3f) -> vec2f {
+fn environment_uv(emitter: u32, direction: vec3f) -> vec2f {
     let aside = dot(direction, emitter_at(emitter).tangent);
     // Straight up and down, any longitude is right.
     let angle = polar_angle(dot(direction, emitter_at(emitter).axis), max(abs(aside), 1e-30));
@@ -33,7 +33,7 @@ fn environment_place(emitter: u32, direction: vec3f) -> vec2f {
 /// Returns the first texel of the pixel that a path uses for a direction, chosen by a random number.
 fn environment_pixel(emitter: u32, direction: vec3f, random: f32) -> u32 {
     let picture = load_panorama(emitter_at(emitter).picture);
-    let pixel = chosen_pixel(picture.head, environment_place(emitter, direction), true, random);
+    let pixel = chosen_pixel(picture.head, environment_uv(emitter, direction), true, random);
     return picture.head + 1u + pixel * picture.per_pixel;
 }
 
@@ -53,7 +53,7 @@ fn interval_of(first: u32, count: u32, u: f32) -> u32 {
 }
 
 /// Returns the position of a number between the edges of its interval.
-fn place_in_interval(edge: u32, u: f32) -> f32 {
+fn position_in_interval(edge: u32, u: f32) -> f32 {
     let low = number_at(edge);
     return min((u - low) / (number_at(edge + 1u) - low), 1.0);
 }
@@ -64,10 +64,10 @@ fn sample_environment_picture(emitter: u32, random: vec2f) -> vec3f {
     let row = interval_of(table.marginal, table.rows, random.x);
     let top = number_at(table.heights + row);
     let bottom = number_at(table.heights + row + 1u);
-    let height = top + (bottom - top) * place_in_interval(table.marginal + row, random.x);
+    let height = top + (bottom - top) * position_in_interval(table.marginal + row, random.x);
     let cells = table.conditional + row * (table.columns + 1u);
     let column = interval_of(cells, table.columns, random.y);
-    let turn = (f32(column) + place_in_interval(cells + column, random.y)) / f32(table.columns) - 0.5;
+    let turn = (f32(column) + position_in_interval(cells + column, random.y)) / f32(table.columns) - 0.5;
     let around = sqrt(max((1.0 - height) * (1.0 + height), 0.0)) * direction_of_turn(turn);
     return around.y * emitter_at(emitter).tangent + around.x * emitter_at(emitter).axis + vec3f(0.0, height, 0.0);
 }
@@ -75,7 +75,7 @@ fn sample_environment_picture(emitter: u32, random: vec2f) -> vec3f {
 /// Returns the density of sample_environment_picture, sr⁻¹: the probability of the direction's cell over its solid angle.
 fn environment_picture_pdf(emitter: u32, direction: vec3f) -> f32 {
     let table = direction_table(emitter);
-    let place = environment_place(emitter, direction);
+    let place = environment_uv(emitter, direction);
     let row = min(u32(place.y * f32(table.rows)), table.rows - 1u);
     let column = min(u32(place.x * f32(table.columns)), table.columns - 1u);
     let cell = table.conditional + row * (table.columns + 1u) + column;

@@ -22,9 +22,9 @@ fn covers(index: u32, place: vec3f) -> bool {
 fn distance_to_shape(index: u32, ray: Ray, starts_here: bool) -> f32 {
     let origin = ray.origin - shape_at(index).center;
     if (HAS_SPHERES && shape_at(index).kind == SHAPE_SPHERE) {
-        if (HAS_LARGE_SPHERES && shape_at(index).half_width > 0.0) {
-            let place = ray.origin - shape_at(index).bitangent;
-            return intersect_large_sphere(place, ray.direction, shape_at(index).normal, shape_at(index).half_width, starts_here);
+        if (HAS_LARGE_SPHERES && shape_at(index).curvature > 0.0) {
+            let place = ray.origin - shape_at(index).nearest;
+            return intersect_large_sphere(place, ray.direction, shape_at(index).normal, shape_at(index).curvature, starts_here);
         }
         return intersect_sphere(origin, ray.direction, shape_at(index).radius, starts_here);
     }
@@ -39,7 +39,7 @@ fn distance_to_shape(index: u32, ray: Ray, starts_here: bool) -> f32 {
 }
 
 /// Whether a ray leaves a stack of coincident surfaces where it meets one of them.
-fn is_outwards(index: u32, direction: vec3f, place: vec3f) -> bool {
+fn is_outward(index: u32, direction: vec3f, place: vec3f) -> bool {
     var normal = shape_at(index).normal;
     if (HAS_SPHERES && shape_at(index).kind == SHAPE_SPHERE) {
         normal = place - shape_at(index).center;
@@ -53,7 +53,7 @@ fn distance_to(index: u32, ray: Ray, from_object: u32) -> f32 {
     if (HAS_STACKED_SHAPES && from_object != NONE && index != from_object) {
         let stack = shape_at(index).stack;
         if (stack != NONE && stack == shape_at(from_object).stack) {
-            let is_ahead = (shape_at(index).sheet < shape_at(from_object).sheet) == is_outwards(index, ray.direction, ray.origin);
+            let is_ahead = (shape_at(index).sheet < shape_at(from_object).sheet) == is_outward(index, ray.direction, ray.origin);
             if (is_ahead && covers(index, ray.origin - shape_at(index).center)) {
                 return 0.0;
             }
@@ -73,7 +73,7 @@ fn is_nearer(index: u32, distance: f32, nearest: Hit, ray: Ray) -> bool {
         let apart = abs(distance - nearest.distance);
         let is_same_crossing = (distance > 0.0) == (nearest.distance > 0.0) && apart <= 1e-5 * max(distance, nearest.distance);
         if (stack != NONE && stack == shape_at(nearest.object).stack && is_same_crossing) {
-            let leaves = is_outwards(index, ray.direction, ray.origin + distance * ray.direction);
+            let leaves = is_outward(index, ray.direction, ray.origin + distance * ray.direction);
             return (shape_at(index).sheet > shape_at(nearest.object).sheet) == leaves;
         }
     }

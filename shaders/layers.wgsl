@@ -53,7 +53,7 @@ fn air_above(cosine_in: f32) -> Incident {
 }
 
 /// Adds all layers to the stack below them, the last one first or the first one first.
-fn with_layers(below: Stack, layers: Layers, incident: Incident, last_first: bool, at: Place) -> Stack {
+fn with_layers(below: Stack, layers: Layers, incident: Incident, last_first: bool, at: At) -> Stack {
     let inverse = inverse_wavelengths(at.group, at.wavelengths);
     var stack = below;
     var place = layers.first_thickness;
@@ -76,7 +76,7 @@ fn with_layers(below: Stack, layers: Layers, incident: Incident, last_first: boo
 }
 
 /// Returns the reflectance and transmittance of a free film, in the four bands of a group; `first` is the spectrum with the factor's index.
-fn film_value(film: FilmAt, first: vec4f, at: Place) -> FilmPowers {
+fn film_value(film: FilmAt, first: vec4f, at: At) -> FilmPowers {
     let tag = factor_tag(film.factor);
     if (HAS_STACKS && tag >= FACTOR_STACK) {
         return stack_value(film, at);
@@ -98,7 +98,7 @@ fn film_value(film: FilmAt, first: vec4f, at: Place) -> FilmPowers {
 }
 
 /// Returns the powers of a free film of several layers. Its transmittance is the same from both sides.
-fn stack_value(film: FilmAt, at: Place) -> FilmPowers {
+fn stack_value(film: FilmAt, at: At) -> FilmPowers {
     let record = load_film(factor_number(film.factor));
     let layers = Layers(record.first_layer, record.layer_count, record.varying_layers, film.first_thickness);
     let incident = air_above(film.cosine);

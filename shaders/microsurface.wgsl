@@ -147,9 +147,9 @@ fn seen_below(cosine: f32, sine: f32, x: f32) -> f32 {
 }
 
 /// Returns the x with 1 + erf x = `share`, within 2e-3 (Winitzki 2008), from −4 to 4.
-fn rough_inverse_erf(share: f32) -> f32 {
-    let logarithm = log(max(share * (2.0 - share), 1e-8));
+fn rough_inverse_erf(fraction: f32) -> f32 {
+    let logarithm = log(max(fraction * (2.0 - fraction), 1e-8));
     let half = 4.3307467508 + 0.5 * logarithm; // 2 / (0.147 π)
     let root = sqrt(max(sqrt(half * half - logarithm / 0.147) - half, 0.0));
-    return select(root, -root, share < 1.0);
+    return select(root, -root, fraction < 1.0);
 }

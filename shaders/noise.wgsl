@@ -32,7 +32,7 @@ fn gradient_noise(place: vec3f, cells: u32, seed: u32) -> vec4f {
 
 /// Returns the value of swirls at a point of an object's surface.
 fn swirls(field: u32, object: u32, position: vec3f) -> f32 {
-    let size = load_field(field).threshold;
+    let size = load_field(field).cells_per_unit;
     let cells = load_field(field).cells;
     let seed = load_field(field).seed;
     let time = vec3f(0.0, 0.0, load_field(field).phase);
@@ -55,7 +55,7 @@ fn swirls(field: u32, object: u32, position: vec3f) -> f32 {
     }
     var sum = 0.0;
     var finer = 1.0;
-    for (var octave = 0u; octave < load_field(field).sample_count; octave++) {
+    for (var octave = 0u; octave < load_field(field).octaves; octave++) {
         sum += gradient_noise(finer * place + time, cells, seed + octave).w / finer;
         finer *= 2.0;
     }

@@ -58,8 +58,8 @@ fn extend_path(path: PathState, sample: Sample) -> PathState {
 fn shade_environment(path: PathState, sample: Sample) {
     for (var i = 0u; i < ENVIRONMENT_COUNT; i++) {
         let part = environment_part(i);
-        let share = environment_strength(part, path.ray.direction);
-        if (share > 0.0) {
+        let strength = environment_strength(part, path.ray.direction);
+        if (strength > 0.0) {
             if (is_pending) {
                 write_vertex();
                 begin_vertex(0u);
@@ -68,7 +68,7 @@ fn shade_environment(path: PathState, sample: Sample) {
             if (HAS_ENVIRONMENT_PICTURE && emitter_at(part).kind == EMITTER_PICTURE) {
                 texel = environment_pixel(part, path.ray.direction, random_at(sample, path, FOR_EMITTER).w);
             }
-            add_emission(emitter_at(part).emission, texel, emitter_at(part).scale * share * mis_weight_of_meeting(path, part));
+            add_emission(emitter_at(part).emission, texel, emitter_at(part).scale * strength * mis_weight_of_hit(path, part));
         }
     }
 }
@@ -81,7 +81,7 @@ fn shade_object(path: PathState, sample: Sample, hit: Hit) -> PathState {
     if (head.emission_scale > 0.0) {
         var mis = 1.0;
         if (HAS_EMITTERS && shape_at(hit.object).emitter != NONE) {
-            mis = mis_weight_of_meeting(path, shape_at(hit.object).emitter);
+            mis = mis_weight_of_hit(path, shape_at(hit.object).emitter);
         }
         add_emission(head.emission, 0u, head.emission_scale * mis);
     }
@@ -132,16 +132,16 @@ fn shade_film(path: PathState, object: u32, point: SurfacePoint, random: vec4f) 
         pending.marks |= (wait(through) + 1u) << SPLITS_TO;
         return mirror;
     }
-    let share = reflection_probability(reflected);
-    let reflects = random.x < share;
-    let chance = select(1.0 - share, share, reflects);
-    pending.weight = 1.0 / chance;
+    let reflects_with = reflection_probability(reflected);
+    let reflects = random.x < reflects_with;
+    let probability = select(1.0 - reflects_with, reflects_with, reflects);
+    pending.weight = 1.0 / probability;
     if (reflects) {
-        mirror.rr_throughput /= chance;
+        mirror.rr_throughput /= probability;
         return mirror;
     }
     pending.marks |= TRANSMITS;
-    through.rr_throughput /= chance;
+    through.rr_throughput /= probability;
     return through;
 }
 
@@ -198,17 +198,17 @@ fn record_onward(lobes: Lobes, factor: f32) {
 
 /// Plays Russian roulette: ends the path at random, or increases the weight of the pending vertex.
 fn russian_roulette(path: PathState, sample: Sample) -> PathState {
-    let chance = rr_survival_probability(path.rr_throughput);
+    let probability = rr_survival_probability(path.rr_throughput);
     var next = path;
-    if (chance < 1.0) {
-        next.alive = random_at(sample, path, FOR_ROULETTE).x < chance;
-        next.rr_throughput /= chance;
-        pending.weight /= chance;
+    if (probability < 1.0) {
+        next.alive = random_at(sample, path, FOR_ROULETTE).x < probability;
+        next.rr_throughput /= probability;
+        pending.weight /= probability;
         if (HAS_MULTIPLE_SCATTERING) {
-            pending_multiple.weight /= chance;
+            pending_multiple.weight /= probability;
         }
         if (HAS_BASES) {
-            pending_body.weight /= chance;
+            pending_body.weight /= probability;
         }
     }
     return next;

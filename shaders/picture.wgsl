@@ -2,7 +2,7 @@
 
 /// Returns the position in a picture, from its upper left corner, in units of its width and height; `size_in` is its size on
 /// planes, 0 for the size of the surface.
-fn picture_place(size_in: vec2f, object: u32, position: vec3f) -> vec2f {
+fn picture_uv(size_in: vec2f, object: u32, position: vec3f) -> vec2f {
     let local = position - shape_at(object).center;
     if (HAS_SPHERES && shape_at(object).kind == SHAPE_SPHERE) {
         let aside = length(local.xz);

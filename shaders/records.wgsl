@@ -7,18 +7,22 @@ struct Shape {
     center: vec3f,
     /// Radius of a sphere or disk.
     radius: f32,
-    /// Unit normal of a plane, rectangle or disk; for a large sphere, the normal at `bitangent`.
+    /// Unit normal of a plane, rectangle or disk; for a large sphere, the normal at `nearest`.
     normal: vec3f,
     /// A `SHAPE_` tag.
     kind: u32,
     /// First axis of a plane, rectangle or disk.
     tangent: vec3f,
-    /// Half the width of a rectangle, along `tangent`; a disk's radius; for a large sphere its curvature, 1/radius.
+    /// Half the width of a rectangle, along `tangent`; a disk's radius.
     half_width: f32,
-    /// Second axis of a plane, rectangle or disk; for a large sphere its point nearest to the camera.
+    /// Second axis of a plane, rectangle or disk.
     bitangent: vec3f,
     /// Half the height of a rectangle, along `bitangent`; a disk's radius.
     half_height: f32,
+    /// Point of a large sphere that is nearest to the camera.
+    nearest: vec3f,
+    /// Curvature of a large sphere, 1/radius; 0 for other shapes.
+    curvature: f32,
     /// Index of its material.
     material: u32,
     /// Index of its emitter, or NONE.
@@ -28,13 +32,14 @@ struct Shape {
     /// Number of surfaces of the stack outside it, times 2, plus 1 where its normal points into the stack.
     sheet: u32,
 }
-const SHAPE_ROWS: u32 = 5u;
+const SHAPE_ROWS: u32 = 6u;
 fn load_shape(row: u32) -> Shape {
     let row_0 = shapes_row(row + 0u);
     let row_1 = shapes_row(row + 1u);
     let row_2 = shapes_row(row + 2u);
     let row_3 = shapes_row(row + 3u);
     let row_4 = shapes_row(row + 4u);
+    let row_5 = shapes_row(row + 5u);
     return Shape(
         vec3f(bitcast<f32>(row_0.x), bitcast<f32>(row_0.y), bitcast<f32>(row_0.z)),
         bitcast<f32>(row_0.w),
@@ -44,10 +49,12 @@ fn load_shape(row: u32) -> Shape {
         bitcast<f32>(row_2.w),
         vec3f(bitcast<f32>(row_3.x), bitcast<f32>(row_3.y), bitcast<f32>(row_3.z)),
         bitcast<f32>(row_3.w),
-        row_4.x,
-        row_4.y,
-        row_4.z,
-        row_4.w,
+        vec3f(bitcast<f32>(row_4.x), bitcast<f32>(row_4.y), bitcast<f32>(row_4.z)),
+        bitcast<f32>(row_4.w),
+        row_5.x,
+        row_5.y,
+        row_5.z,
+        row_5.w,
     );
 }
 
@@ -271,7 +278,7 @@ struct Cook {
     /// Spectrum: the Lambertian reflectance.
     base: u32,
     /// Fraction of the Lambertian reflection.
-    base_share: f32,
+    base_fraction: f32,
     /// Probability with which a path is scattered by the Lambertian fraction.
     base_probability: f32,
     /// Padding to whole rows.
@@ -357,12 +364,20 @@ struct Field {
     along: vec3f,
     /// An `ALONG_` tag.
     runs_along: u32,
-    /// Value at 0: at the pole, at the start, of black, the mean of swirls; thickness of the black film of a profile.
+    /// Value at 0: at the pole, at the start, of black; the mean of swirls.
     base: f32,
-    /// Added to `base` at 1: at the other pole, at the end, of white, the amplitude of swirls; the largest value of a profile.
+    /// Added to `base` at 1: at the other pole, at the end, of white; the amplitude of swirls.
     swing: f32,
-    /// Value below which a profile is a black film; cells of swirls per unit.
-    threshold: f32,
+    /// Largest value of a profile.
+    most_nm: f32,
+    /// Value below which a profile is a black film.
+    black_below_nm: f32,
+    /// Thickness of that black film.
+    black_nm: f32,
+    /// Cells of swirls per unit.
+    cells_per_unit: f32,
+    /// Octaves of swirls.
+    octaves: u32,
     /// Distance by which the flow carries swirls, in cells.
     warp: f32,
     /// Width and height of a picture on a plane; 0 for its natural size.
@@ -375,18 +390,26 @@ struct Field {
     seed: u32,
     /// First of the numbers for its lookups.
     first_number: u32,
-    /// Number of steps, of knots of a profile, of pixels of a row, or of octaves of swirls.
+    /// Number of steps, or of knots of a profile.
     sample_count: u32,
+    /// Columns of a picture.
+    columns: u32,
     /// Rows of a picture.
     rows: u32,
+    /// Padding to whole rows.
+    padding_1: u32,
+    /// Padding to whole rows.
+    padding_2: vec2u,
 }
-const FIELD_ROWS: u32 = 5u;
+const FIELD_ROWS: u32 = 7u;
 fn load_field(row: u32) -> Field {
     let row_0 = records_row(row + 0u);
     let row_1 = records_row(row + 1u);
     let row_2 = records_row(row + 2u);
     let row_3 = records_row(row + 3u);
     let row_4 = records_row(row + 4u);
+    let row_5 = records_row(row + 5u);
+    let row_6 = records_row(row + 6u);
     return Field(
         vec3f(bitcast<f32>(row_0.x), bitcast<f32>(row_0.y), bitcast<f32>(row_0.z)),
         row_0.w,
@@ -396,13 +419,20 @@ fn load_field(row: u32) -> Field {
         bitcast<f32>(row_2.y),
         bitcast<f32>(row_2.z),
         bitcast<f32>(row_2.w),
-        vec2f(bitcast<f32>(row_3.x), bitcast<f32>(row_3.y)),
-        bitcast<f32>(row_3.z),
-        row_3.w,
-        row_4.x,
-        row_4.y,
-        row_4.z,
+        bitcast<f32>(row_3.x),
+        bitcast<f32>(row_3.y),
+        row_3.z,
+        bitcast<f32>(row_3.w),
+        vec2f(bitcast<f32>(row_4.x), bitcast<f32>(row_4.y)),
+        bitcast<f32>(row_4.z),
         row_4.w,
+        row_5.x,
+        row_5.y,
+        row_5.z,
+        row_5.w,
+        row_6.x,
+        row_6.y,
+        vec2u(row_6.z, row_6.w),
     );
 }
 

@@ -1,7 +1,7 @@
 // The spectrum along a recorded path, four bands at a time.
 
 /// Returns the spectrum of a vertex's emission, times the spectrum of its texel. Texel 0 means none: it is a header.
-fn emission_value(emission: u32, at: Place) -> vec4f {
+fn emission_value(emission: u32, at: At) -> vec4f {
     let lamp = spectrum_at(emission_spectrum(emission), at.group, at.wavelengths);
     if (!HAS_ENVIRONMENT_PICTURE) {
         return lamp;
@@ -18,7 +18,7 @@ fn emission_value(emission: u32, at: Place) -> vec4f {
 }
 
 /// Returns the transmittance of the films that a vertex's emission crosses.
-fn crossings_transmittance(vertex: Vertex, at: Place) -> vec4f {
+fn crossings_transmittance(vertex: Vertex, at: At) -> vec4f {
     var transmittance = vec4f(1.0);
     let first = vertex.crossings >> CROSSING_BITS;
     let end = first + (vertex.crossings & ((1u << CROSSING_BITS) - 1u));
@@ -34,7 +34,7 @@ fn crossings_transmittance(vertex: Vertex, at: Place) -> vec4f {
 }
 
 /// Returns the spectrum with a factor's index, where it is a spectrum.
-fn factor_spectrum(factor: u32, at: Place) -> vec4f {
+fn factor_spectrum(factor: u32, at: At) -> vec4f {
     var number = factor_number(factor);
     let tag = factor_tag(factor);
     if ((HAS_STACKS && tag >= FACTOR_STACK) || (HAS_COATINGS && tag == FACTOR_COATING) || (HAS_TEXTURES && tag == FACTOR_TEXTURE)) {
@@ -86,7 +86,7 @@ fn path_radiance(group: u32, wavelengths: Wavelengths) -> array<vec4f, LIGHT_GRO
     var i = 0u;
     loop {
         let vertex = vertices[i];
-        let at = Place(i, group, wavelengths);
+        let at = At(i, group, wavelengths);
         let first = factor_spectrum(vertex.factor, at);
         let tag = factor_tag(vertex.factor);
         if (HAS_SPLITS) {
@@ -120,7 +120,7 @@ fn path_radiance(group: u32, wavelengths: Wavelengths) -> array<vec4f, LIGHT_GRO
 }
 
 /// Returns a film's factor for the path that continues from it. Where the film splits the path, the transmitted part of `throughput` waits.
-fn film_factor(at: Place, vertex: Vertex, first: vec4f, throughput: vec4f) -> vec4f {
+fn film_factor(at: At, vertex: Vertex, first: vec4f, throughput: vec4f) -> vec4f {
     var film = FilmAt(vertex.factor, vertex.cosine, vertex.thickness_nm, 0u);
     if (RECORDS_THICKNESSES) {
         film.first_thickness = first_thicknesses[at.vertex];

@@ -16,10 +16,10 @@ fn surface_point(index: u32, ray: Ray, distance: f32) -> SurfacePoint {
     var normal = shape_at(index).normal;
     if (HAS_SPHERES && shape_at(index).kind == SHAPE_SPHERE) {
         // Put back onto the sphere, so that rounding of the distance does not accumulate along a path.
-        if (HAS_LARGE_SPHERES && shape_at(index).half_width > 0.0) {
-            let place = position - shape_at(index).bitangent;
-            let height = dot(place, normal) + 0.5 * shape_at(index).half_width * dot(place, place);
-            normal = normalize(normal + shape_at(index).half_width * place);
+        if (HAS_LARGE_SPHERES && shape_at(index).curvature > 0.0) {
+            let place = position - shape_at(index).nearest;
+            let height = dot(place, normal) + 0.5 * shape_at(index).curvature * dot(place, place);
+            normal = normalize(normal + shape_at(index).curvature * place);
             position -= height * normal;
         } else {
             normal = normalize(position - center);

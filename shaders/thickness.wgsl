@@ -78,19 +78,19 @@ fn profile_value(field: u32, along: f32) -> f32 {
     let knot = min(u32(place), steps - 1u);
     let first = load_field(field).first_number + knot;
     let square = mix(number_at(first), number_at(first + 1u), place - f32(knot));
-    let thickness = min(sqrt(square), load_field(field).swing);
-    return select(thickness, load_field(field).base, thickness < load_field(field).threshold);
+    let thickness = min(sqrt(square), load_field(field).most_nm);
+    return select(thickness, load_field(field).black_nm, thickness < load_field(field).black_below_nm);
 }
 
 /// Returns the value of a picture, by longitude and latitude on spheres, by the surface's two axes elsewhere.
 fn picture_value(field: u32, object: u32, position: vec3f) -> f32 {
-    let value = bilinear(field, picture_place(load_field(field).size, object, position), shape_at(object).kind == SHAPE_SPHERE);
+    let value = bilinear(field, picture_uv(load_field(field).size, object, position), shape_at(object).kind == SHAPE_SPHERE);
     return load_field(field).base + load_field(field).swing * value;
 }
 
 /// Returns the value of a picture, interpolated linearly between the centers of its pixels.
 fn bilinear(field: u32, place: vec2f, wraps: bool) -> f32 {
-    let width = i32(load_field(field).sample_count);
+    let width = i32(load_field(field).columns);
     let height = i32(load_field(field).rows);
     let x = clamp(place.x * f32(width) - 0.5, -1.0, f32(width));
     let y = clamp(place.y * f32(height) - 0.5, 0.0, f32(height - 1));

@@ -20,7 +20,7 @@ warnings.filterwarnings("ignore")
 import colour
 import numpy as np
 import OpenEXR
-from color.io import (
+from colour.io import (
     Specification_Fichet2021,
     read_spectral_image_Fichet2021,
     write_spectral_image_Fichet2021,
@@ -52,7 +52,7 @@ def written_here(folder):
     components, specification = read_spectral_image_Fichet2021(path, additional_data=True)
     wavelengths, radiance = components["S0"]
     check("colour-science: emissive, not polarized, not bispectral",
-          (specification.is_emissive, specification.is_polarized, specification.is_bispectral) == (True, False, False))
+          (specification.is_emissive, specification.is_polarised, specification.is_bispectral) == (True, False, False))
     check("colour-science: 40 bands from 385 to 775 nm", np.array_equal(np.sort(wavelengths), np.arange(385, 776, 10)))
     channels = OpenEXR.File(str(path), separate_channels=True).channels()
     pixels = {name: channel.pixels for name, channel in channels.items()}

@@ -64,7 +64,7 @@ fn bsdf_factor(object: u32, point: SurfacePoint, random: f32) -> u32 {
 }
 
 /// Returns the spectrum at a vertex in four bands; `first` is the spectrum with the factor's index.
-fn bsdf_value(at: Place, vertex: Vertex, first: vec4f) -> Values {
+fn bsdf_value(at: At, vertex: Vertex, first: vec4f) -> Values {
     let tag = factor_tag(vertex.factor);
     if ((HAS_COATED_BODIES || HAS_ROUGH_COATS) && tag == FACTOR_COATED) {
         return coated_value(at, vertex, first);

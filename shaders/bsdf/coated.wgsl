@@ -13,9 +13,9 @@ fn coat_probability(material: u32, cosine: f32) -> f32 {
     let coated = coated_of(material);
     let n = vec4f(coated.coat_estimate);
     let reflected = reflectance_unpolarized(n, vec4f(0.0), max(cosine, 1e-6)).x;
-    let share = reflected / max(reflected + (1.0 - reflected) * coated.base_estimate, 1e-6);
+    let probability = reflected / max(reflected + (1.0 - reflected) * coated.base_estimate, 1e-6);
     // Near grazing a rough coat reflects less than a smooth one: both choices need a probability well above 0.
-    return select(clamp(share, 0.1, 0.9), share, material_at(material).facets == NONE);
+    return select(clamp(probability, 0.1, 0.9), probability, material_at(material).facets == NONE);
 }
 
 /// Returns the probability of the specular reflection, which only a smooth coat has.
@@ -27,17 +27,17 @@ fn coated_specular_probability(material: u32, wo: vec3f) -> f32 {
 }
 
 fn coated_eval(material: u32, wo: vec3f, wi: vec3f) -> BsdfEval {
-    let share = coat_probability(material, wo.z);
+    let probability = coat_probability(material, wo.z);
     let lambert = max(wi.z, 0.0) / PI;
     let head = material_at(material);
     if (!HAS_ROUGH_COATS || head.facets == NONE) {
-        return BsdfEval(Lobes(0.0, 0.0, lambert, 1.0, wi.z), (1.0 - share) * lambert);
+        return BsdfEval(Lobes(0.0, 0.0, lambert, 1.0, wi.z), (1.0 - probability) * lambert);
     }
     let facets = load_facets(head.facets);
     var both = facets_eval(facets, wo, wi);
     if (wo.z > 0.0 && wi.z > 0.0) {
         both.lobes.body = coat_transmittance_scale(facets, wo) * coat_transmittance_scale(facets, wi) * lambert;
-        both.pdf = mix(lambert, both.pdf, share);
+        both.pdf = mix(lambert, both.pdf, probability);
     }
     return both;
 }
@@ -45,9 +45,9 @@ fn coated_eval(material: u32, wo: vec3f, wi: vec3f) -> BsdfEval {
 fn coated_sample(material: u32, wo: vec3f, random: vec4f) -> vec3f {
     let head = material_at(material);
     if (HAS_ROUGH_COATS && head.facets != NONE) {
-        let share = coat_probability(material, wo.z);
-        if (random.z < share) {
-            return facets_sample(load_facets(head.facets), wo, vec4f(random.xy, random.z / share, random.w));
+        let probability = coat_probability(material, wo.z);
+        if (random.z < probability) {
+            return facets_sample(load_facets(head.facets), wo, vec4f(random.xy, random.z / probability, random.w));
         }
     }
     return sample_cosine_hemisphere(random.x, random.y);
@@ -87,7 +87,7 @@ fn rough_coat_transmittance(reflectances: u32, cosine: f32, group: u32, at: Wave
     return 1.0 - mix(spectrum_at(first, group, at), spectrum_at(first + 1u, group, at), place - f32(knot));
 }
 
-fn coated_value(at: Place, vertex: Vertex, n: vec4f) -> Values {
+fn coated_value(at: At, vertex: Vertex, n: vec4f) -> Values {
     let body = bodies[at.vertex];
     let coated = coated_of(body.material);
     let k = spectrum_at(coated.spectrum + 1u, at.group, at.wavelengths);

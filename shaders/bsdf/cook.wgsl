@@ -71,7 +71,7 @@ fn cook_eval(material: u32, wo: vec3f, wi: vec3f) -> BsdfEval {
     let lambert = max(wi.z, 0.0) / PI;
     let facet = cook_facets(material, wo, wi);
     let pdf = mix(facet.pdf, lambert, cook.base_probability);
-    return BsdfEval(Lobes(facet.reflection * wi.z, 0.0, cook.base_share * lambert, facet.cosine, wi.z), pdf);
+    return BsdfEval(Lobes(facet.reflection * wi.z, 0.0, cook.base_fraction * lambert, facet.cosine, wi.z), pdf);
 }
 
 fn cook_sample(material: u32, wo: vec3f, random: vec4f) -> vec3f {
@@ -89,7 +89,7 @@ fn cook_factor(material: u32) -> u32 {
     return factor_of(FACTOR_COOK, cook.spectrum);
 }
 
-fn cook_value(at: Place, vertex: Vertex, n: vec4f) -> Values {
+fn cook_value(at: At, vertex: Vertex, n: vec4f) -> Values {
     let k = spectrum_at(factor_number(vertex.factor) + 1u, at.group, at.wavelengths);
     var values = Values(
         vertex.weight * reflectance_unpolarized(n, k, vertex.cosine),

@@ -17,7 +17,7 @@ fn diffuse_factor(record: u32, object: u32, position: vec3f, random: f32) -> u32
     let reflectance = load_diffuse(record);
     if (HAS_TEXTURES && reflectance.picture != NONE) {
         let head = reflectance.picture;
-        let place = picture_place(texel_at(head).zw, object, position);
+        let place = picture_uv(texel_at(head).zw, object, position);
         let pixel = chosen_pixel(head, place, shape_at(object).kind == SHAPE_SPHERE, random);
         return factor_of(FACTOR_TEXTURE, head + 1u + pixel);
     }
@@ -40,14 +40,14 @@ fn reflectance_spectrum(reflectance: Diffuse, object: u32, position: vec3f) -> u
 }
 
 /// Returns the value of a reflectance's factor, where `first` is the spectrum with the factor's index.
-fn reflectance_at(at: Place, factor: u32, first: vec4f) -> vec4f {
+fn reflectance_at(at: At, factor: u32, first: vec4f) -> vec4f {
     if (HAS_TEXTURES && factor_tag(factor) == FACTOR_TEXTURE) {
         return smooth_value(texel_at(factor_number(factor)).xyz, at.group, at.wavelengths);
     }
     return first;
 }
 
-fn diffuse_value(at: Place, vertex: Vertex, first: vec4f) -> Values {
+fn diffuse_value(at: At, vertex: Vertex, first: vec4f) -> Values {
     let reflectance = reflectance_at(at, vertex.factor, first);
     return Values(vertex.weight * reflectance, vertex.emission_weight * reflectance);
 }

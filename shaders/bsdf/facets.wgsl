@@ -37,11 +37,11 @@ fn facets_eval(facets: Facets, wo: vec3f, wi: vec3f) -> BsdfEval {
         return dark(wi);
     }
     let once = microsurface_reflection(microsurface_of(facets), wo, wi);
-    let share = 1.0 - facets_albedo(facets, wo);
+    let fraction = 1.0 - facets_albedo(facets, wo);
     let lost = max(1.0 - facets.mean_energy, 1e-6);
-    let again = share * (1.0 - facets_albedo(facets, wi)) / (PI * lost);
+    let again = fraction * (1.0 - facets_albedo(facets, wi)) / (PI * lost);
     let lobes = Lobes(once.value, again * wi.z, 0.0, once.cosine, wi.z);
-    return BsdfEval(lobes, mix(once.pdf, 0.5 / PI, share));
+    return BsdfEval(lobes, mix(once.pdf, 0.5 / PI, fraction));
 }
 
 /// Samples a direction by the density of facets_eval.

@@ -30,7 +30,7 @@ fn interface_factor(object: u32, point: SurfacePoint) -> u32 {
     return factor_of(FACTOR_INTERFACE, boundary.spectrum);
 }
 
-fn interface_value(at: Place, vertex: Vertex, first: vec4f) -> Values {
+fn interface_value(at: At, vertex: Vertex, first: vec4f) -> Values {
     if (HAS_COATINGS && factor_tag(vertex.factor) == FACTOR_COATING) {
         return coating_value(at, vertex);
     }
@@ -38,7 +38,7 @@ fn interface_value(at: Place, vertex: Vertex, first: vec4f) -> Values {
 }
 
 /// Returns the values of a bare conductor of index n + ik.
-fn bare_value(at: Place, vertex: Vertex, n: vec4f, k: vec4f) -> Values {
+fn bare_value(at: At, vertex: Vertex, n: vec4f, k: vec4f) -> Values {
     var values = Values(vertex.weight * reflectance_unpolarized(n, k, vertex.cosine), vec4f(0.0));
     if (HAS_SCATTERING) {
         values.lit = vertex.emission_weight * reflectance_unpolarized(n, k, vertex.emission_cosine);
@@ -59,7 +59,7 @@ fn with_multiple(once: Values, multiple: MultipleScattering, mean: vec4f) -> Val
 }
 
 /// Returns the values of layers on a conductor, one cosine after the other, so that their code occurs only once.
-fn coating_value(at: Place, vertex: Vertex) -> Values {
+fn coating_value(at: At, vertex: Vertex) -> Values {
     let boundary = load_interface(factor_number(vertex.factor));
     let n = spectrum_at(boundary.spectrum, at.group, at.wavelengths);
     let k = spectrum_at(boundary.spectrum + 1u, at.group, at.wavelengths);

@@ -31,7 +31,7 @@ fn lobes_sum(lobes: Lobes) -> f32 {
 }
 
 /// Where a spectrum is evaluated: a vertex of the record, a group of four bands, and the sample's wavelengths.
-struct Place {
+struct At {
     vertex: u32,
     group: u32,
     wavelengths: Wavelengths,

@@ -107,7 +107,7 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "light_group_of",
     "emission_spectrum",
     "emission_value",
-    "mis_weight_of_meeting",
+    "mis_weight_of_hit",
     "numbers_of",
     "pass_through",
     "path_radiance",
@@ -136,4 +136,4 @@ pub const PROVED_ON_STACKS: &[&str] = &["evaluate_stacks", "run_index", "run_sta
 
 /// WGSL functions that whole pictures prove: the accumulation of samples in the suite `frames`, the order of coincident surfaces in
 /// `closed_forms`.
-pub const PROVED_ON_FRAMES: &[&str] = &["accumulate", "is_outwards", "loops_run", "render"];
+pub const PROVED_ON_FRAMES: &[&str] = &["accumulate", "is_outward", "loops_run", "render"];

@@ -387,18 +387,22 @@ records! { SHAPES;
         pub center: [f32; 3],
         /// Radius of a sphere or disk.
         pub radius: f32,
-        /// Unit normal of a plane, rectangle or disk; for a large sphere, the normal at `bitangent`.
+        /// Unit normal of a plane, rectangle or disk; for a large sphere, the normal at `nearest`.
         pub normal: [f32; 3],
         /// A `SHAPE_` tag.
         pub kind: u32,
         /// First axis of a plane, rectangle or disk.
         pub tangent: [f32; 3],
-        /// Half the width of a rectangle, along `tangent`; a disk's radius; for a large sphere its curvature, 1/radius.
+        /// Half the width of a rectangle, along `tangent`; a disk's radius.
         pub half_width: f32,
-        /// Second axis of a plane, rectangle or disk; for a large sphere its point nearest to the camera.
+        /// Second axis of a plane, rectangle or disk.
         pub bitangent: [f32; 3],
         /// Half the height of a rectangle, along `bitangent`; a disk's radius.
         pub half_height: f32,
+        /// Point of a large sphere that is nearest to the camera.
+        pub nearest: [f32; 3],
+        /// Curvature of a large sphere, 1/radius; 0 for other shapes.
+        pub curvature: f32,
         /// Index of its material.
         pub material: u32,
         /// Index of its emitter, or NONE.
@@ -542,7 +546,7 @@ records! { RECORDS;
         /// Spectrum: the Lambertian reflectance.
         pub base: u32,
         /// Fraction of the Lambertian reflection.
-        pub base_share: f32,
+        pub base_fraction: f32,
         /// Probability with which a path is scattered by the Lambertian fraction.
         pub base_probability: f32,
         /// Padding to whole rows.
@@ -589,12 +593,20 @@ records! { RECORDS;
         pub along: [f32; 3],
         /// An `ALONG_` tag.
         pub runs_along: u32,
-        /// Value at 0: at the pole, at the start, of black, the mean of swirls; thickness of the black film of a profile.
+        /// Value at 0: at the pole, at the start, of black; the mean of swirls.
         pub base: f32,
-        /// Added to `base` at 1: at the other pole, at the end, of white, the amplitude of swirls; the largest value of a profile.
+        /// Added to `base` at 1: at the other pole, at the end, of white; the amplitude of swirls.
         pub swing: f32,
-        /// Value below which a profile is a black film; cells of swirls per unit.
-        pub threshold: f32,
+        /// Largest value of a profile.
+        pub most_nm: f32,
+        /// Value below which a profile is a black film.
+        pub black_below_nm: f32,
+        /// Thickness of that black film.
+        pub black_nm: f32,
+        /// Cells of swirls per unit.
+        pub cells_per_unit: f32,
+        /// Octaves of swirls.
+        pub octaves: u32,
         /// Distance by which the flow carries swirls, in cells.
         pub warp: f32,
         /// Width and height of a picture on a plane; 0 for its natural size.
@@ -607,10 +619,16 @@ records! { RECORDS;
         pub seed: u32,
         /// First of the numbers for its lookups.
         pub first_number: u32,
-        /// Number of steps, of knots of a profile, of pixels of a row, or of octaves of swirls.
+        /// Number of steps, or of knots of a profile.
         pub sample_count: u32,
+        /// Columns of a picture.
+        pub columns: u32,
         /// Rows of a picture.
         pub rows: u32,
+        /// Padding to whole rows.
+        pub padding_1: u32,
+        /// Padding to whole rows.
+        pub padding_2: [u32; 2],
     }
 
     /// A picture of the environment, and the table by which directions are sampled.

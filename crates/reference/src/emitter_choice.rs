@@ -15,14 +15,14 @@ pub struct EmitterChoice {
 
 /// A point of a surface at which emitters are weighted.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
+pub(crate) struct ShadingPoint {
     pub(crate) position: DVec3,
     pub(crate) normal: DVec3,
 }
 
 /// A node of the tree with its weight at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Weighed {
+pub(crate) struct Weighted {
     pub(crate) node: u32,
     pub(crate) weight: f64,
 }
@@ -78,7 +78,7 @@ const EDGE: f64 = 1e-4;
 /// The weight is the one of Pharr, Jakob and Humphreys (Physically Based Rendering, 4th edition, 2023, section 12.6.3), power times
 /// cosine over squared distance, but with the mean in place of the largest cosine: outside a ball, the mean of cos θ / r² over the
 /// ball equals the value at its center (Newton's shell theorem).
-pub(crate) fn group_weight(node: &EmitterNode, place: Place) -> f64 {
+pub(crate) fn group_weight(node: &EmitterNode, place: ShadingPoint) -> f64 {
     let toward = node.center - place.position;
     let height = toward.dot(place.normal);
     let distance2 = toward.length_squared();
@@ -126,12 +126,12 @@ fn is_outside_cone(node: &EmitterNode, toward: DVec3, distance2: f64) -> bool {
 }
 
 /// Whether a place is so near to a group that its children are weighted instead.
-fn is_near(node: &EmitterNode, place: Place) -> bool {
+fn is_near(node: &EmitterNode, place: ShadingPoint) -> bool {
     node.center.distance_squared(place.position) < node.near * node.near
 }
 
 /// Returns the node that is weighted for a node at a place: the outermost group around it that is not near, or the node itself.
-fn weighed_with(tree: &EmitterTree, mut node: u32, place: Place) -> u32 {
+fn weighted_node(tree: &EmitterTree, mut node: u32, place: ShadingPoint) -> u32 {
     let mut top = node;
     while tree.nodes[node as usize].parent != EmitterTree::NONE {
         node = tree.nodes[node as usize].parent;
@@ -147,7 +147,7 @@ impl PreparedScene<'_> {
     ///
     /// The sum is less than 1 where a group has a weight but none of its emitters does.
     pub fn emitter_pmfs(&self, point: DVec3, normal: DVec3) -> Vec<f64> {
-        let place = Place {
+        let place = ShadingPoint {
             position: point,
             normal,
         };
@@ -163,20 +163,20 @@ impl PreparedScene<'_> {
         normal: DVec3,
         random: f64,
     ) -> Option<EmitterChoice> {
-        let place = Place {
+        let place = ShadingPoint {
             position: point,
             normal,
         };
-        let mut weighed = Vec::new();
-        let sum = self.weigh_emitters(place, &mut weighed);
-        self.choose_weighed(place, (&weighed, sum), random)
+        let mut weighted = Vec::new();
+        let sum = self.weigh_emitters(place, &mut weighted);
+        self.choose_weighted(place, (&weighted, sum), random)
     }
 
     /// Weights the emitters and groups that a place is not near to; together they contain each emitter once. Returns the sum of the
     /// weights, or 1 where that is 0.
-    pub(crate) fn weigh_emitters(&self, place: Place, weighed: &mut Vec<Weighed>) -> f64 {
+    pub(crate) fn weigh_emitters(&self, place: ShadingPoint, weighted: &mut Vec<Weighted>) -> f64 {
         let nodes = &self.scene.emitter_tree().nodes;
-        weighed.clear();
+        weighted.clear();
         let mut node = 0;
         while let Some(of) = nodes.get(node as usize) {
             if is_near(of, place) {
@@ -184,23 +184,23 @@ impl PreparedScene<'_> {
                 continue;
             }
             let weight = self.node_weight(of, place);
-            weighed.push(Weighed { node, weight });
+            weighted.push(Weighted { node, weight });
             node = of.next;
         }
-        let sum = weighed.iter().map(|of| of.weight).sum();
+        let sum = weighted.iter().map(|of| of.weight).sum();
         if sum > 0.0 { sum } else { 1.0 }
     }
 
     /// Chooses one of the weighted nodes, then one of the two children of a group until an emitter is reached.
-    pub(crate) fn choose_weighed(
+    pub(crate) fn choose_weighted(
         &self,
-        place: Place,
-        (weighed, sum): (&[Weighed], f64),
+        place: ShadingPoint,
+        (weighted, sum): (&[Weighted], f64),
         random: f64,
     ) -> Option<EmitterChoice> {
         let tree = self.scene.emitter_tree();
-        let first = pick(weighed.iter().map(|of| of.weight / sum), random)?;
-        let mut node = weighed[first.index].node;
+        let first = pick(weighted.iter().map(|of| of.weight / sum), random)?;
+        let mut node = weighted[first.index].node;
         let (mut pmf, mut random) = (first.pmf, first.rest);
         loop {
             let of = &tree.nodes[node as usize];
@@ -219,10 +219,10 @@ impl PreparedScene<'_> {
     }
 
     /// Returns the probability with which an emitter is chosen; `sum` is the value that [`Self::weigh_emitters`] returned.
-    pub(crate) fn emitter_pmf(&self, emitter: usize, place: Place, sum: f64) -> f64 {
+    pub(crate) fn emitter_pmf(&self, emitter: usize, place: ShadingPoint, sum: f64) -> f64 {
         let tree = self.scene.emitter_tree();
         let mut node = tree.leaves[emitter];
-        let top = weighed_with(tree, node, place);
+        let top = weighted_node(tree, node, place);
         let mut weight = self.node_weight(&tree.nodes[node as usize], place);
         let mut pmf = 1.0;
         while node != top && weight > 0.0 {
@@ -238,7 +238,7 @@ impl PreparedScene<'_> {
     }
 
     /// Returns roughly the contribution of a node at a place. A single emitter is always chosen.
-    fn node_weight(&self, node: &EmitterNode, place: Place) -> f64 {
+    fn node_weight(&self, node: &EmitterNode, place: ShadingPoint) -> f64 {
         if node.source == EmitterTree::NONE {
             return group_weight(node, place);
         }
@@ -308,16 +308,16 @@ mod tests {
         parsed(&text)
     }
 
-    fn place(i: u32, size: f64) -> Place {
+    fn place(i: u32, size: f64) -> ShadingPoint {
         let [x, y, z, _] = random4([i, 1], 0, 0, 5).map(|u| size * (u - 0.5));
         let [u, v, ..] = random4([i, 1], 0, 1, 5);
-        Place {
+        ShadingPoint {
             position: DVec3::new(x, y, z),
             normal: sample_cone(u, v, 2.0),
         }
     }
 
-    fn estimates(prepared: &PreparedScene<'_>, place: Place) -> Vec<f64> {
+    fn estimates(prepared: &PreparedScene<'_>, place: ShadingPoint) -> Vec<f64> {
         let of = |of: &crate::prepared::SceneEmitter<'_>| {
             of.source.brightness * Emitter::weight(&of.emitter, place.position, place.normal)
         };
@@ -325,7 +325,7 @@ mod tests {
     }
 
     /// Second moment of the one-sample estimate of all light, relative to its square: 1 where the choice is exact.
-    fn second_moment(prepared: &PreparedScene<'_>, place: Place) -> Option<f64> {
+    fn second_moment(prepared: &PreparedScene<'_>, place: ShadingPoint) -> Option<f64> {
         let estimates = estimates(prepared, place);
         let pmfs = prepared.emitter_pmfs(place.position, place.normal);
         let sum: f64 = estimates.iter().sum();
@@ -334,7 +334,7 @@ mod tests {
         (sum > 0.0).then(|| moment / (sum * sum))
     }
 
-    fn pmfs(prepared: &PreparedScene<'_>, place: Place) -> Vec<f64> {
+    fn pmfs(prepared: &PreparedScene<'_>, place: ShadingPoint) -> Vec<f64> {
         prepared.emitter_pmfs(place.position, place.normal)
     }
 
@@ -383,7 +383,7 @@ mod tests {
     /// counts (Pearson's χ²), and the number of emitters that are expected at least five times.
     fn chi_squared(
         prepared: &PreparedScene<'_>,
-        (drawn_at, expected_at): (Place, Place),
+        (drawn_at, expected_at): (ShadingPoint, ShadingPoint),
     ) -> (f64, f64) {
         const DRAWS: u32 = 40_000;
         let mut counts = vec![0.0; prepared.emitters.len()];
@@ -415,7 +415,7 @@ mod tests {
         let (mut right, mut wrong, mut all) = (0.0, 0.0, 0.0);
         for i in 0..4 {
             let here = place(i, 8.0);
-            let there = Place {
+            let there = ShadingPoint {
                 position: here.position + 0.5,
                 ..here
             };
@@ -469,20 +469,20 @@ mod tests {
     }
 
     /// Returns how many nodes are weighted for a choice.
-    fn weighed_for(prepared: &PreparedScene<'_>, place: Place, random: f64) -> usize {
-        let mut weighed = Vec::new();
-        let sum = prepared.weigh_emitters(place, &mut weighed);
+    fn weighed_for(prepared: &PreparedScene<'_>, place: ShadingPoint, random: f64) -> usize {
+        let mut weighted = Vec::new();
+        let sum = prepared.weigh_emitters(place, &mut weighted);
         let tree = prepared.scene.emitter_tree();
         let mut steps = 0;
-        if let Some(choice) = prepared.choose_weighed(place, (&weighed, sum), random) {
+        if let Some(choice) = prepared.choose_weighted(place, (&weighted, sum), random) {
             let mut node = tree.leaves[choice.emitter];
-            let top = weighed_with(tree, node, place);
+            let top = weighted_node(tree, node, place);
             while node != top {
                 node = tree.nodes[node as usize].parent;
                 steps += 1;
             }
         }
-        weighed.len() + 2 * steps
+        weighted.len() + 2 * steps
     }
 
     /// Measured: 53 on average, 84 at most.

@@ -45,12 +45,12 @@ pub fn sample_environment(part: EnvironmentShape<'_>, u: f64, v: f64) -> DVec3 {
 
 /// Returns the density with which [`sample_environment`] samples a direction, sr⁻¹: the relative radiance over its integral.
 pub fn environment_pdf(part: EnvironmentShape<'_>, direction: DVec3) -> f64 {
-    let share = environment_strength(part, direction);
+    let strength = environment_strength(part, direction);
     match part {
-        EnvironmentShape::Everywhere => share / (2.0 * TAU),
-        EnvironmentShape::Horizon => share / TAU,
-        EnvironmentShape::Pole(_) => share * FRAC_1_PI,
+        EnvironmentShape::Everywhere => strength / (2.0 * TAU),
+        EnvironmentShape::Horizon => strength / TAU,
+        EnvironmentShape::Pole(_) => strength * FRAC_1_PI,
         EnvironmentShape::Picture(picture) => environment_picture_pdf(picture, direction),
-        EnvironmentShape::DistantDisk { height, .. } => share / (TAU * height),
+        EnvironmentShape::DistantDisk { height, .. } => strength / (TAU * height),
     }
 }

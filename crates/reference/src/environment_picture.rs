@@ -6,7 +6,7 @@ use scene::{DirectionTable, EnvironmentPicture};
 use std::f64::consts::TAU;
 
 /// Returns the position of a direction in the picture, from its upper left corner, in units of its width and height.
-pub(crate) fn environment_place(picture: &EnvironmentPicture, direction: DVec3) -> [f64; 2] {
+pub(crate) fn environment_uv(picture: &EnvironmentPicture, direction: DVec3) -> [f64; 2] {
     let longitude = direction
         .dot(picture.right)
         .atan2(direction.dot(picture.forward));
@@ -17,7 +17,7 @@ pub(crate) fn environment_place(picture: &EnvironmentPicture, direction: DVec3) 
 pub fn environment_pixel(picture: &EnvironmentPicture, direction: DVec3, random: f64) -> [u32; 2] {
     chosen_pixel(
         &picture.texels,
-        environment_place(picture, direction),
+        environment_uv(picture, direction),
         true,
         random,
     )
@@ -39,7 +39,7 @@ pub(crate) fn sample_environment_picture(picture: &EnvironmentPicture, u: f64, v
 /// Returns the density of [`sample_environment_picture`], sr⁻¹: the probability of the direction's cell over its solid angle.
 pub(crate) fn environment_picture_pdf(picture: &EnvironmentPicture, direction: DVec3) -> f64 {
     let table = &picture.table;
-    let [across, down] = environment_place(picture, direction);
+    let [across, down] = environment_uv(picture, direction);
     let cell =
         |place: f64, count: u32| ((place * f64::from(count)) as usize).min(count as usize - 1);
     let (row, column) = (cell(down, table.rows), cell(across, table.columns));

@@ -65,7 +65,7 @@ impl Nearest<'_> {
         let start = self.sheets.get(self.from).copied().flatten();
         match (self.sheets[object], start) {
             (Some(sheet), Some(start)) if sheet.stack == start.stack => {
-                let leaves = is_outwards(self.ray, shape, self.ray.origin, sheet);
+                let leaves = is_outward(self.ray, shape, self.ray.origin, sheet);
                 let is_ahead = (sheet.depth < start.depth) == leaves;
                 if is_ahead && covers(shape, self.ray.origin) {
                     Some(0.0)
@@ -86,7 +86,7 @@ impl Nearest<'_> {
         {
             let place = self.ray.origin + self.ray.direction * hit.distance;
             let shape = &self.objects[hit.object].shape;
-            let leaves = is_outwards(self.ray, shape, place, sheet);
+            let leaves = is_outward(self.ray, shape, place, sheet);
             return (sheet.depth > other.depth) == leaves;
         }
         hit.distance < nearest.distance
@@ -144,7 +144,7 @@ impl Nearest<'_> {
 }
 
 /// Whether a ray leaves a stack of coincident surfaces where it meets one of them.
-fn is_outwards(ray: &Ray, shape: &Shape, place: DVec3, sheet: Sheet) -> bool {
+fn is_outward(ray: &Ray, shape: &Shape, place: DVec3, sheet: Sheet) -> bool {
     let speed = match *shape {
         Shape::Sphere { center, .. } => ray.direction.dot(place - center),
         Shape::Plane { normal, .. }

@@ -11,7 +11,7 @@ pub(crate) fn half_turns(a: DVec3, b: DVec3) -> f64 {
 }
 
 /// Returns the position in a picture, from its upper left corner, in units of its width and height, and whether it wraps at its sides.
-pub(crate) fn picture_place(
+pub(crate) fn picture_uv(
     size: Option<[f64; 2]>,
     shape: &Shape,
     position: DVec3,

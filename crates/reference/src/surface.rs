@@ -1,6 +1,6 @@
 //! Geometry and reflectance of a surface at a point.
 
-use crate::picture::{chosen_pixel, picture_place};
+use crate::picture::{chosen_pixel, picture_uv};
 use crate::{Ray, frame_of};
 use glam::{DMat3, DVec3};
 use scene::{Grain, Material, Pattern, Shape, SpectrumId};
@@ -85,7 +85,7 @@ pub fn pattern_reflectance(
     match *pattern {
         Pattern::Uniform(spectrum) => Reflectance::Spectrum(spectrum),
         Pattern::Texture { ref texels, size } => {
-            let (place, wraps) = picture_place(size, shape, position);
+            let (place, wraps) = picture_uv(size, shape, position);
             let pixel = chosen_pixel(texels, place, wraps, random);
             let [c0, c1, c2, _] = texels.at(pixel)[0].map(f64::from);
             Reflectance::Smooth([c0, c1, c2])

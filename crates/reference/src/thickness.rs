@@ -1,7 +1,7 @@
 //! The thickness of a layer at a point of its surface.
 
 use crate::noise::swirls;
-use crate::picture::{half_turns, picture_place};
+use crate::picture::{half_turns, picture_uv};
 use crate::surface::center_of;
 use glam::DVec3;
 use scene::limits::THICKNESS_NM;
@@ -74,7 +74,7 @@ fn profile_value(profile: &Profile, along: f64) -> f64 {
 
 /// Returns the value of a picture, by longitude and latitude on spheres, by the surface's two axes elsewhere.
 fn picture_value(picture: &Picture, shape: &Shape, position: DVec3) -> f64 {
-    let (place, wraps) = picture_place(picture.size, shape, position);
+    let (place, wraps) = picture_uv(picture.size, shape, position);
     let value = bilinear(picture, place, wraps);
     picture.black_nm + (picture.white_nm - picture.black_nm) * value
 }

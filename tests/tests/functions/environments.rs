@@ -78,7 +78,7 @@ fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
                 "let e = environment_part(u32(a(0u))); put(0u, environment_pdf(e, a3(1u))); put(1u, environment_strength(e, a3(1u)));",
             ),
             proves: if is_picture {
-                &["environment_picture_pdf", "environment_place"]
+                &["environment_picture_pdf", "environment_uv"]
             } else {
                 &["environment_part", "environment_pdf", "environment_strength"]
             },
@@ -94,7 +94,7 @@ const OF_PICTURES: &[&str] = &[
     "direction_table",
     "load_panorama",
     "interval_of",
-    "place_in_interval",
+    "position_in_interval",
     "sample_environment_picture",
 ];
 

@@ -71,7 +71,7 @@ fn diffuse_factor() -> Check {
             "factor_of",
             "factor_tag",
             "load_diffuse",
-            "picture_place",
+            "picture_uv",
             "reflectance_spectrum",
             "texel_at",
         ],
@@ -106,14 +106,14 @@ fn factor_of_pattern(a: &[f64]) -> Vec<f64> {
 /// Of a vertex of weight 1, at its two cosines.
 const OF_SURFACE: &str = "
     let f = factor_of(u32(a(0u)), u32(a(1u)));
-    let at = Place(0u, u32(a(4u)), wavelengths_at(a(5u)));
+    let at = At(0u, u32(a(4u)), wavelengths_at(a(5u)));
     begin_record();
     let v = Vertex(f, 1.0, a(2u), 0.0, 0u, 1.0, a(3u) / 2000.0, 0u, 0u);
     let found = bsdf_value(at, v, factor_spectrum(f, at));
     put4(0u, found.onward); put4(4u, found.lit);";
 const OF_FILM: &str = "
     let f = factor_of(u32(a(0u)), u32(a(1u)));
-    let at = Place(0u, u32(a(4u)), wavelengths_at(a(5u)));
+    let at = At(0u, u32(a(4u)), wavelengths_at(a(5u)));
     let found = film_value(FilmAt(f, a(2u), a(3u), 0u), factor_spectrum(f, at), at);
     put4(0u, found.reflectance); put4(4u, found.transmittance);";
 

@@ -30,7 +30,7 @@ pub(crate) fn checks() -> Vec<Check> {
         thickness(
             is_picture,
             PICTURE_NM,
-            &["picture_value", "picture_place", "bilinear"],
+            &["picture_value", "picture_uv", "bilinear"],
         ),
         thickness(is_combined, SWIRLS_NM, &["combined_fields"]),
     ]

@@ -101,7 +101,7 @@ const WITHOUT_TWIN: &[(&str, &[&str], &str)] = &[
     ("environment", &["environment_part"], "lists of the host"),
     (
         "environment_picture",
-        &["direction_table", "interval_of", "place_in_interval"],
+        &["direction_table", "interval_of", "position_in_interval"],
         "lists of the host; a search of the standard library",
     ),
     (

@@ -37,8 +37,8 @@ fn anchor(packed: &mut layout::Shape, shape: &Shape, camera: DVec3) {
     if let Shape::Sphere { center, radius } = *shape {
         let normal = (camera - center).normalize();
         packed.normal = vec3(normal);
-        packed.bitangent = vec3(center + radius * normal);
-        packed.half_width = (1.0 / radius) as f32;
+        packed.nearest = vec3(center + radius * normal);
+        packed.curvature = (1.0 / radius) as f32;
     }
 }
 

@@ -139,9 +139,9 @@ impl Tables {
             kind: layout::FIELD_PROFILE,
             first_number: self.look_up(&profile.squares_nm2),
             sample_count: profile.squares_nm2.len() as u32,
-            base: profile.black.map_or(0.0, |black| black.nm as f32),
-            threshold: profile.black.map_or(0.0, |black| black.below_nm as f32),
-            swing: profile.most_nm as f32,
+            black_nm: profile.black.map_or(0.0, |black| black.nm as f32),
+            black_below_nm: profile.black.map_or(0.0, |black| black.below_nm as f32),
+            most_nm: profile.most_nm as f32,
             ..running_along(&profile.coordinate)
         }
     }
@@ -161,7 +161,7 @@ impl Tables {
         Field {
             kind: layout::FIELD_PICTURE,
             first_number,
-            sample_count: file.width,
+            columns: file.width,
             rows: file.height,
             base: picture.black_nm as f32,
             swing: (picture.white_nm - picture.black_nm) as f32,
@@ -195,12 +195,12 @@ fn pack_swirls(swirls: &Swirls) -> Field {
         kind: layout::FIELD_SWIRLS,
         base: swirls.mean as f32,
         swing: swirls.amplitude as f32,
-        threshold: swirls.cells_per_unit as f32,
+        cells_per_unit: swirls.cells_per_unit as f32,
         warp: swirls.warp as f32,
         phase: swirls.phase as f32,
         cells: swirls.cells,
         seed: swirls.seed,
-        sample_count: swirls.octaves,
+        octaves: swirls.octaves,
         ..Default::default()
     }
 }

@@ -48,12 +48,12 @@ impl CoatedAt<'_> {
 
     pub(super) fn eval(&self, wo: DVec3, wi: DVec3) -> BsdfEval {
         let Coated { body, rough, .. } = self.coated;
-        let share = coat_probability(body, wo.z);
+        let probability = coat_probability(body, wo.z);
         let lambert = wi.z.max(0.0) * FRAC_1_PI;
         let mut eval = BsdfEval::dark(wo, wi);
         let Some(Rough { facets, .. }) = rough else {
             eval.lobes.body = lambert;
-            eval.pdf = (1.0 - share) * lambert;
+            eval.pdf = (1.0 - probability) * lambert;
             return eval;
         };
         if let Some(found) = facets.eval(wo, wi) {
@@ -62,16 +62,18 @@ impl CoatedAt<'_> {
             eval.lobes.cosine = found.cosine;
             eval.lobes.body =
                 body.transmittance_scale_at(wo) * body.transmittance_scale_at(wi) * lambert;
-            eval.pdf = share * found.pdf + (1.0 - share) * lambert;
+            eval.pdf = probability * found.pdf + (1.0 - probability) * lambert;
         }
         eval
     }
 
     pub(super) fn sample(&self, wo: DVec3, random: impl Fn(usize) -> f64) -> DVec3 {
         let (u, v) = (random(0), random(1));
-        let share = coat_probability(self.coated.body, wo.z);
+        let probability = coat_probability(self.coated.body, wo.z);
         match &self.coated.rough {
-            Some(rough) if random(2) < share => rough.facets.sample(wo, [u, v, random(2) / share]),
+            Some(rough) if random(2) < probability => {
+                rough.facets.sample(wo, [u, v, random(2) / probability])
+            }
             _ => sample_cosine_hemisphere(u, v),
         }
     }
@@ -130,10 +132,10 @@ fn rough_coat<S: Simd>(body: &CoatedBody, bands: &Bands<'_, S>, at: At, cosine: 
 /// contribution of each.
 pub fn coat_probability(body: &CoatedBody, cosine: f64) -> f64 {
     let reflected = interface_reflectance(body.estimate.n, 0.0, cosine.max(GRAZING));
-    let share = reflected / (reflected + (1.0 - reflected) * body.estimate.base).max(1e-6);
+    let probability = reflected / (reflected + (1.0 - reflected) * body.estimate.base).max(1e-6);
     match body.microsurface {
         // Near grazing it reflects less than a smooth coat: both choices need a probability well above 0.
-        Some(_) => share.clamp(0.1, 0.9),
-        None => share,
+        Some(_) => probability.clamp(0.1, 0.9),
+        None => probability,
     }
 }

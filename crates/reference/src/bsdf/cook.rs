@@ -30,12 +30,12 @@ impl<'a> Cook<'a> {
     pub(super) fn eval(&self, wo: DVec3, wi: DVec3) -> BsdfEval {
         let facets = cook_facets(self.model, wo, wi);
         let lambert = wi.z.max(0.0) * FRAC_1_PI;
-        let chance = self.diffuse_probability();
+        let probability = self.diffuse_probability();
         let mut eval = BsdfEval::dark(wo, wi);
         eval.lobes.single = facets.reflection * wi.z;
         eval.lobes.cosine = facets.cosine;
         eval.lobes.body = self.model.diffuse.map_or(0.0, |d| d.share) * lambert;
-        eval.pdf = chance * lambert + (1.0 - chance) * facets.pdf;
+        eval.pdf = probability * lambert + (1.0 - probability) * facets.pdf;
         eval
     }
 

@@ -55,14 +55,14 @@ impl<'a> Facets<'a> {
         if wo.z <= 0.0 || wi.z <= 0.0 {
             return None;
         }
-        let share = self.lost(wo);
+        let fraction = self.lost(wo);
         let all = (1.0 - self.energy.mean()).max(1e-6);
         let (reflection, pdf) = self.surface.scattering(wo.to_array(), wi.to_array());
         Some(FacetEval {
             single: reflection * wi.z,
-            multiple: share * self.lost(wi) / (PI * all) * wi.z,
+            multiple: fraction * self.lost(wi) / (PI * all) * wi.z,
             cosine: wo.dot((wo + wi).normalize()),
-            pdf: (1.0 - share) * pdf + share / TAU,
+            pdf: (1.0 - fraction) * pdf + fraction / TAU,
         })
     }
 

@@ -2,7 +2,7 @@
 
 use super::{PathTracer, Use};
 use crate::bsdf::Bsdf;
-use crate::emitter_choice::Place;
+use crate::emitter_choice::ShadingPoint;
 use crate::prepared::SceneEmitter;
 use crate::transport::{Emitted, Transport};
 use crate::{
@@ -40,11 +40,11 @@ impl<'a, T: Transport> PathTracer<'a, T> {
             return 0.0;
         }
         let prepared = self.prepared;
-        let place = Place {
+        let place = ShadingPoint {
             position: point.position,
             normal: point.normal,
         };
-        let sum = prepared.weigh_emitters(place, &mut self.weighed);
+        let sum = prepared.weigh_emitters(place, &mut self.weighted);
         let Some(sample) = self.sample_emitter(place, sum) else {
             return sum;
         };
@@ -65,12 +65,16 @@ impl<'a, T: Transport> PathTracer<'a, T> {
     }
 
     /// Chooses an emitter and a direction toward it.
-    fn sample_emitter(&mut self, place: Place, weight_sum: f64) -> Option<EmitterSample<'a>> {
+    fn sample_emitter(
+        &mut self,
+        place: ShadingPoint,
+        weight_sum: f64,
+    ) -> Option<EmitterSample<'a>> {
         let random = self.random_at(Use::Emitter);
-        let weighed = (&self.weighed[..], weight_sum);
+        let weighted = (&self.weighted[..], weight_sum);
         let choice = self
             .prepared
-            .choose_weighed(place, weighed, random.get(0))?;
+            .choose_weighted(place, weighted, random.get(0))?;
         let chosen = self.prepared.emitters[choice.emitter];
         let emitter = chosen.emitter;
         let direction = emitter.sample(place.position, random.get(1), random.get(2));
@@ -133,7 +137,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
     }
 
     /// Returns the MIS weight of a path that hits an emitter by BSDF sampling; next-event estimation has the rest.
-    pub(super) fn mis_weight_of_meeting(&self, kind: EmitterKind) -> f64 {
+    pub(super) fn mis_weight_of_hit(&self, kind: EmitterKind) -> f64 {
         let number = self.prepared.emitter_number(kind);
         let (Some(scattered), Some(number)) = (&self.path.scattered, number) else {
             return 1.0;
@@ -142,7 +146,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
             DirectLight::Emitters => 0.0,
             DirectLight::Bsdf => 1.0,
             DirectLight::Both => {
-                let place = Place {
+                let place = ShadingPoint {
                     position: scattered.position,
                     normal: scattered.normal,
                 };

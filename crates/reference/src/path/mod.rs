@@ -6,7 +6,7 @@ mod emitter_sampling;
 mod path_state;
 
 use crate::bsdf::{Bsdf, Lobes};
-use crate::emitter_choice::Weighed;
+use crate::emitter_choice::Weighted;
 use crate::layers::FilmAt;
 use crate::sobol::{SobolNumbers, SobolPixel};
 use crate::transport::{Emitted, Side, Transport};
@@ -59,7 +59,7 @@ pub(crate) struct PathTracer<'a, T> {
     /// Paths that start where films split the current one, to be followed when the current one has ended.
     waiting: Vec<PathState>,
     /// Emitters and groups of them, for the choice of one.
-    weighed: Vec<Weighed>,
+    weighted: Vec<Weighted>,
     /// The films between a surface and an emitter.
     films: Vec<FilmAt<'a>>,
 }
@@ -74,7 +74,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
             sobol: SobolPixel::new(prepared.scene.settings().seed),
             path: PathState::default(),
             waiting: Vec::new(),
-            weighed: Vec::new(),
+            weighted: Vec::new(),
             films: Vec::new(),
         }
     }
@@ -152,13 +152,13 @@ impl<'a, T: Transport> PathTracer<'a, T> {
 
     /// Plays Russian roulette: ends the path at random, or increases its weight. Returns whether the path continues.
     fn russian_roulette(&mut self) -> bool {
-        let chance = rr_survival_probability(self.path.rr_throughput);
-        if chance < 1.0 {
-            if self.random_at(Use::Roulette).get(0) >= chance {
+        let probability = rr_survival_probability(self.path.rr_throughput);
+        if probability < 1.0 {
+            if self.random_at(Use::Roulette).get(0) >= probability {
                 return false;
             }
-            self.path.rr_throughput /= chance;
-            self.path.weight /= chance;
+            self.path.rr_throughput /= probability;
+            self.path.weight /= probability;
         }
         true
     }
@@ -167,8 +167,8 @@ impl<'a, T: Transport> PathTracer<'a, T> {
     fn shade_environment(&mut self) {
         for (index, part) in self.prepared.environment.iter().enumerate() {
             let direction = self.path.ray.direction;
-            let share = environment_strength(part.shape, direction);
-            let mis = self.mis_weight_of_meeting(EmitterKind::Environment(index));
+            let strength = environment_strength(part.shape, direction);
+            let mis = self.mis_weight_of_hit(EmitterKind::Environment(index));
             let pixel = match part.shape {
                 EnvironmentShape::Picture(picture) => {
                     let random = self.random_at(Use::Emitter).get(3);
@@ -177,7 +177,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
                 _ => None,
             };
             let emission = part.emission;
-            self.emit(&Emitted { emission, pixel }, share * mis);
+            self.emit(&Emitted { emission, pixel }, strength * mis);
         }
     }
 
@@ -194,7 +194,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         let surface = prepared.surface(object.material);
         let point = surface_point(&object.shape, &self.path.ray, hit.distance);
         if let Some(emission) = surface.emission {
-            let mis = self.mis_weight_of_meeting(EmitterKind::Object(hit.object));
+            let mis = self.mis_weight_of_hit(EmitterKind::Object(hit.object));
             let pixel = None;
             self.emit(&Emitted { emission, pixel }, mis);
         }
@@ -231,17 +231,17 @@ impl<'a, T: Transport> PathTracer<'a, T> {
             self.path.mirror(object, point);
             return;
         }
-        let share = reflection_probability(reflected);
-        let (side, part, chance) = if self.random_at(Use::Bsdf).get(0) < share {
+        let reflects_with = reflection_probability(reflected);
+        let (side, part, probability) = if self.random_at(Use::Bsdf).get(0) < reflects_with {
             self.path.mirror(object, point);
-            (Side::Reflected, reflected, share)
+            (Side::Reflected, reflected, reflects_with)
         } else {
             self.path.pass_through(object, point);
-            (Side::Transmitted, 1.0 - reflected, 1.0 - share)
+            (Side::Transmitted, 1.0 - reflected, 1.0 - reflects_with)
         };
         self.transport.film(film, side);
-        self.path.weight /= chance;
-        self.path.rr_throughput *= part / chance;
+        self.path.weight /= probability;
+        self.path.rr_throughput *= part / probability;
     }
 
     /// Handles a specular or scattering surface: an emitter is sampled, and the path continues in a direction sampled from the BSDF.
