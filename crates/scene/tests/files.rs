@@ -38,7 +38,7 @@ fn scene_files_that_cannot_be_read_say_why() {
         ("", "is a directory"),
         (
             "binary.toml",
-            "binary.toml: is not text: line 2 has a byte 0",
+            "binary.toml: is not text: line 2 has a zero byte",
         ),
         ("huge.toml", "huge.toml: is larger than 16 MiB"),
     ];
@@ -301,7 +301,7 @@ fn tables_say_what_was_assumed_and_take_columns_and_units() {
         (
             "780;0,75\n380;0,25\n",
             "",
-            "semicolons between columns; decimal commas; rows turned over",
+            "semicolons between columns; decimal commas; rows reversed",
         ),
         ("nm,R,T\n380,0.25,1\n780,0.75,1\n", ", column = 'R'", ""),
         ("nm,R,T\n380,0.25,1\n780,0.75,1\n", ", column = 2", ""),

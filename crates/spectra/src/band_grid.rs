@@ -16,7 +16,7 @@ pub struct BandGrid {
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum BandGridError {
-    /// No band, or more than [`BandGrid::MAX_COUNT`].
+    /// The number of bands is 0 or above [`BandGrid::MAX_COUNT`].
     #[error("{0} bands; between 1 and {max} are possible", max = BandGrid::MAX_COUNT)]
     Count(u32),
     /// The range is empty, reversed, not finite or outside [`BandGrid::LIMITS_NM`].
@@ -33,20 +33,20 @@ pub enum BandGridError {
 }
 
 impl BandGrid {
-    /// The most bands that an image may have.
+    /// The largest number of bands of an image.
     pub const MAX_COUNT: u32 = 1024;
-    /// Wavelengths that a grid may touch: the range of the CIE 1931 table.
+    /// Range that a grid must lie within: that of the CIE 1931 table, nm.
     pub const LIMITS_NM: (f64, f64) = (360.0, 830.0);
 
-    /// `count` bands from `min_nm` to `max_nm`.
+    /// Creates a grid of `count` bands from `min_nm` to `max_nm`.
     ///
     /// # Errors
-    /// When `count` is 0 or above [`Self::MAX_COUNT`], or the range is not a rising one within [`Self::LIMITS_NM`].
+    /// When `count` is 0 or above [`Self::MAX_COUNT`], or the range does not rise or lie within [`Self::LIMITS_NM`].
     pub fn new(min_nm: f64, max_nm: f64, count: u32) -> Result<Self, BandGridError> {
         if count == 0 || count > Self::MAX_COUNT {
             return Err(BandGridError::Count(count));
         }
-        // A NaN fails every comparison and so ends here too.
+        // A NaN fails every comparison, so it is refused here too.
         if !(min_nm >= Self::LIMITS_NM.0 && max_nm <= Self::LIMITS_NM.1 && min_nm < max_nm) {
             return Err(BandGridError::Range { min_nm, max_nm });
         }

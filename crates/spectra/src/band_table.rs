@@ -1,11 +1,11 @@
-//! A spectrum resampled onto a band grid, for any wavelength that a sample may draw.
+//! A spectrum resampled onto a band grid, for lookup at any sampled wavelength.
 
 use crate::{BandGrid, OutOfRange, Spectrum};
 
-/// A spectrum at `steps + 1` offsets within each of a grid's bands.
+/// A spectrum tabulated at `steps + 1` offsets within each band of a grid.
 ///
 /// All bands of a sample share one offset u, so a lookup reads one row (u rounded down) and the
-/// next, and mixes them: the value is linear in wavelength between knots that lie at most
+/// next, and interpolates: the value is linear in wavelength between knots that are at most
 /// [`BandTable::KNOT_NM`] apart. Row `steps` of a band equals row 0 of the next band.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BandTable {
@@ -15,11 +15,11 @@ pub struct BandTable {
 }
 
 impl BandTable {
-    /// The widest distance between knots, nm.
+    /// The largest distance between knots, nm.
     pub const KNOT_NM: f64 = 1.0;
 
     /// Number of steps that a band of `grid` is divided into: even, so that the center is a knot,
-    /// and at least as fine as [`Self::KNOT_NM`].
+    /// and large enough for [`Self::KNOT_NM`].
     pub fn steps_of(grid: &BandGrid) -> u32 {
         let halves = (grid.width_nm() / (2.0 * Self::KNOT_NM) - 1e-9).ceil();
         2 * (halves.max(1.0) as u32)
@@ -71,7 +71,7 @@ impl BandTable {
         low + (high - low) * (position - f64::from(step))
     }
 
-    /// The same table with each value passed through `f`.
+    /// Returns the table with `f` applied to each value.
     #[must_use]
     pub fn map(&self, f: impl Fn(f64) -> f64) -> Self {
         Self {
@@ -80,10 +80,10 @@ impl BandTable {
         }
     }
 
-    /// The table of `f` of the values of this one and of `other`, which is on the same grid.
+    /// Combines the values of this table and of `other`, on the same grid, with `f`.
     ///
     /// # Panics
-    /// When it is on another grid.
+    /// When `other` is on another grid.
     #[must_use]
     pub fn combined(&self, other: &Self, f: impl Fn(f64, f64) -> f64) -> Self {
         assert_eq!((self.bands, self.steps), (other.bands, other.steps));

@@ -1,21 +1,21 @@
-//! The index of a mixture of two media whose grains are far smaller than the wavelength.
+//! The effective index of a mixture of two media with grains much smaller than the wavelength.
 
 use crate::fault::Faults;
 use crate::{Fault, OpticalConstants, Spectrum, Tabulated, TabulatedError};
 use num_complex::Complex64;
 use thiserror::Error;
 
-/// A rule for the index of a mixture. ε = (n + ik)² is the permittivity, f the share of the volume that medium b fills.
+/// A mixing rule for the effective index. ε = (n + ik)² is the permittivity, f the volume fraction of medium b.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MixtureRule {
-    /// Grains of both media side by side, neither being the ground of the other: see [`bruggeman`].
+    /// Grains of both media side by side, neither of them the host: see [`bruggeman`].
     Bruggeman,
-    /// Spheres of medium b in a ground of medium a: see [`maxwell_garnett`].
+    /// Spheres of medium b in a host of medium a: see [`maxwell_garnett`].
     MaxwellGarnett,
 }
 
 impl MixtureRule {
-    /// The index of the mixture.
+    /// Returns the effective index of the mixture.
     pub fn index(self, a: Complex64, b: Complex64, fraction: f64) -> Complex64 {
         match self {
             Self::Bruggeman => bruggeman(a, b, fraction),
@@ -24,11 +24,11 @@ impl MixtureRule {
     }
 }
 
-/// The index of a mixture by Bruggeman's rule, from the indices n + ik of its media: n > 0 and k ≥ 0 of either.
+/// Returns the effective index of a mixture by Bruggeman's rule, from the indices n + ik of its media, each with n > 0 and k ≥ 0.
 ///
-/// The permittivity ε solves f (ε_b − ε)/(ε_b + 2ε) + (1 − f)(ε_a − ε)/(ε_a + 2ε) = 0. With x = ε/(N_a N_b), N the
-/// indices, that is 2x² − βx − 1 = 0 with β = (3f − 1) N_b/N_a + (2 − 3f) N_a/N_b. The product of the roots is −½, so one
-/// of them has Re x > 0. It is the physical one: the phase of ε then lies between those of ε_a and ε_b, and k ≥ 0.
+/// The permittivity ε solves f (ε_b − ε)/(ε_b + 2ε) + (1 − f)(ε_a − ε)/(ε_a + 2ε) = 0. With x = ε/(N_a N_b), where
+/// N are the indices, this is 2x² − βx − 1 = 0 with β = (3f − 1) N_b/N_a + (2 − 3f) N_a/N_b. The product of the roots is −½,
+/// so one of them has Re x > 0. This root is the physical one: the phase of ε lies between those of ε_a and ε_b, and k ≥ 0.
 ///
 /// Source: D. A. G. Bruggeman, Ann. Phys. 416, 636 (1935), DOI 10.1002/andp.19354160705. Domain: 0 ≤ f ≤ 1, spherical
 /// grains much smaller than the wavelength.
@@ -36,7 +36,7 @@ pub fn bruggeman(a: Complex64, b: Complex64, fraction: f64) -> Complex64 {
     let f = fraction;
     let beta = (b / a) * (3.0 * f - 1.0) + (a / b) * (2.0 - 3.0 * f);
     let root = (beta * beta + 8.0).sqrt();
-    // The larger root loses no digits; the other follows from the product.
+    // The larger root is free of cancellation; the other follows from the product.
     let plus = (beta + root) / 4.0;
     let minus = (beta - root) / 4.0;
     let larger = if plus.norm_sqr() >= minus.norm_sqr() {
@@ -52,12 +52,13 @@ pub fn bruggeman(a: Complex64, b: Complex64, fraction: f64) -> Complex64 {
     absorbing(x * a * b)
 }
 
-/// The index of spheres of index `inclusion` in a medium of index `host`, of which they fill the share `fraction`.
+/// Returns the effective index of spheres of index `inclusion` in a medium of index `host`; the spheres fill the volume fraction
+/// `fraction`.
 ///
 /// (ε − ε_h)/(ε + 2ε_h) = f (ε_i − ε_h)/(ε_i + 2ε_h), so ε = ε_h (ε_i(1 + 2f) + 2ε_h(1 − f)) / (ε_i(1 − f) + ε_h(2 + f)).
 ///
 /// Source: J. C. Maxwell Garnett, Phil. Trans. R. Soc. A 203, 385 (1904), DOI 10.1098/rsta.1904.0024. Domain: small f, where
-/// the spheres do not see each other; both ends are exact nevertheless.
+/// the spheres do not interact; f = 0 and f = 1 are exact nevertheless.
 pub fn maxwell_garnett(host: Complex64, inclusion: Complex64, fraction: f64) -> Complex64 {
     let f = fraction;
     let (h, i) = (host * host, inclusion * inclusion);
@@ -66,46 +67,46 @@ pub fn maxwell_garnett(host: Complex64, inclusion: Complex64, fraction: f64) -> 
     absorbing(h * (above / below))
 }
 
-/// The index of a passive medium from its permittivity: a k that rounding has put below 0 is 0.
+/// Returns the index of a passive medium from its permittivity; a k that rounding made negative becomes 0.
 fn absorbing(permittivity: Complex64) -> Complex64 {
     let index = permittivity.sqrt();
     Complex64::new(index.re, index.im.max(0.0))
 }
 
-/// Why two media have no mixture.
+/// Why a mixture of two media cannot be computed.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum MixtureError {
-    /// They have no wavelengths in common.
+    /// The media have no wavelengths in common.
     #[error(
         "the media have no wavelength in common: one covers {} to {} nm, the other {} to {} nm",
         .first.0, .first.1, .second.0, .second.1
     )]
     Apart {
-        /// Where the first has an index, nm.
+        /// Range of the first medium, nm.
         first: (f64, f64),
-        /// Where the second has an index, nm.
+        /// Range of the second medium, nm.
         second: (f64, f64),
     },
     /// A formula gives no index at a wavelength within its range.
     #[error("one of the media has no index at {nm} nm")]
     NoIndex {
-        /// The wavelength.
+        /// The wavelength, nm.
         nm: f64,
     },
-    /// The rule gives no number.
+    /// The rule does not give finite numbers.
     #[error("the mixture has no index: {0}")]
     Table(#[from] TabulatedError),
 }
 
 impl OpticalConstants {
-    /// The mixture of two media, `fraction` of it (0 to 1) being the second, where both have an index.
+    /// Returns the mixture of two media, with the volume fraction `fraction` (0 to 1) of the second, where both have an index.
     ///
-    /// It is constant if they are. Otherwise it is a table at every point of theirs and at steps of 1 nm (10 nm beyond
-    /// 2.5 µm); at those points it is exact. Where the data of either cannot be used, it has no value.
+    /// If both media are constant, so is the mixture. Otherwise it is a table at all of their points and at steps of 1 nm
+    /// (10 nm beyond 2.5 µm); it is exact at those points. Where the data of either medium are unusable, it has no value.
     ///
     /// # Errors
-    /// When the media have no wavelength in common.
+    /// When the media have no wavelength in common, one has no index at a wavelength, or the rule gives no finite numbers.
     pub fn mixture(
         rule: MixtureRule,
         [a, b]: [&Self; 2],
@@ -150,7 +151,7 @@ impl OpticalConstants {
     }
 }
 
-/// Where both have an index; `None` is everywhere.
+/// Returns the range where both media have an index; `None` means everywhere.
 fn common_range(
     a: &OpticalConstants,
     b: &OpticalConstants,
@@ -170,11 +171,11 @@ fn faults(parts: &[&Spectrum]) -> Faults {
     Faults::new(all.flat_map(Faults::iter).cloned().collect())
 }
 
-/// The wavelengths of a mixture's table: those of the tables that it comes from and regular ones between, without those in
-/// a fault. `None` if all is constant.
+/// Returns the wavelengths of a mixture's table: those of the tables of its media and regular ones between them, except those
+/// in a fault. `None` if all parts are constant.
 fn knots(parts: &[&Spectrum], faults: &Faults, range: Option<(f64, f64)>) -> Option<Vec<f64>> {
     let extents = || parts.iter().filter_map(|part| part.extent_nm());
-    // Tables that keep their end values have all that they say between their ends.
+    // Clamped tables vary only between their ends.
     let hull = || {
         let low = extents().map(|extent| extent.0).reduce(f64::min)?;
         Some((low, extents().map(|extent| extent.1).reduce(f64::max)?))
@@ -209,7 +210,7 @@ mod tests {
         (found - expected).norm() <= tolerance * expected.norm()
     }
 
-    /// Every pair of different media at every whole per cent.
+    /// Checks every pair of different media at every whole percent.
     fn each(check: impl Fn(Complex64, Complex64, f64)) {
         for a in MEDIA {
             for b in MEDIA.into_iter().filter(|&b| b != a) {
@@ -260,30 +261,30 @@ mod tests {
 
     #[test]
     fn bruggeman_in_closed_form() {
-        // ε 1 and 4 in equal parts: 2ε² − 2.5ε − 4 = 0 halved, ε = (2.5 + √(2.5² + 32)) / 4.
+        // ε = 1 and 4 in equal parts: 2ε² − 2.5ε − 4 = 0 halved, ε = (2.5 + √(2.5² + 32)) / 4.
         let index = bruggeman(VOID, Complex64::from(2.0), 0.5);
         let expected = Complex64::from(((2.5 + 38.25_f64.sqrt()) / 4.0).sqrt());
         assert!(near(index, expected, 1e-15), "{index}");
-        // Below its percolation threshold of 1/3 a perfect conductor in void has ε = 1/(1 − 3f): Bruggeman (1935).
+        // Below the percolation threshold of 1/3, a perfect conductor in a void has ε = 1/(1 − 3f): Bruggeman (1935).
         let conductor = Complex64::new(1e7, 1e7);
         for f in [0.01, 0.1, 0.2, 0.3] {
             let expected = Complex64::from((1.0_f64 / (1.0 - 3.0 * f)).sqrt());
             assert!(near(bruggeman(VOID, conductor, f), expected, 1e-10), "{f}");
         }
-        // Above it, it conducts: ε → ε_b (3f − 1)/2.
+        // Above the threshold, the mixture conducts: ε → ε_b (3f − 1)/2.
         let expected = conductor * ((3.0 * 0.5 - 1.0) / 2.0_f64).sqrt();
         assert!(near(bruggeman(VOID, conductor, 0.5), expected, 1e-10));
     }
 
     #[test]
     fn maxwell_garnett_in_closed_form() {
-        // ε 1 and 4 in equal parts: (4·2 + 2·1·½) / (4·½ + 1·2½) = 9 / 4.5 = 2.
+        // ε = 1 and 4 in equal parts: (4·2 + 2·1·½) / (4·½ + 1·2½) = 9 / 4.5 = 2.
         let index = maxwell_garnett(VOID, Complex64::from(2.0), 0.5);
         assert!(
             near(index, Complex64::from(2.0_f64.sqrt()), 1e-15),
             "{index}"
         );
-        // The relation as Maxwell Garnett (1904) has it, Clausius and Mossotti's on both sides.
+        // The relation in Maxwell Garnett (1904), with Clausius–Mossotti factors on both sides.
         each(|a, b, f| {
             let (e, h, i) = (maxwell_garnett(a, b, f).powu(2), a * a, b * b);
             let left = (e - h) / (e + h * 2.0);
@@ -291,7 +292,7 @@ mod tests {
             let scale = right.norm().max(1.0);
             assert!((left - right).norm() < 1e-10 * scale, "{a} {b} {f}");
         });
-        // Spheres of a perfect conductor: ε = ε_h (1 + 2f)/(1 − f).
+        // For spheres of a perfect conductor, ε = ε_h (1 + 2f)/(1 − f).
         let conductor = Complex64::new(1e7, 1e7);
         let expected = GLASS * (1.4_f64 / 0.8).sqrt();
         assert!(near(

@@ -1,24 +1,24 @@
-//! Stretches of data that cannot be used.
+//! Intervals of wavelengths whose data cannot be used.
 
 use std::sync::Arc;
 
-/// A stretch of wavelengths, its ends left out, whose data cannot be used.
+/// An open interval of wavelengths whose data cannot be used.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
-    /// The last sound wavelength before it, nm; 0 where there is none.
+    /// The last valid wavelength before it, nm; 0 if there is none.
     pub from_nm: f64,
-    /// The first sound wavelength behind it, nm; infinite where there is none.
+    /// The first valid wavelength after it, nm; infinite if there is none.
     pub to_nm: f64,
-    /// What is wrong, with its place.
+    /// What is wrong, and where.
     pub reason: Arc<str>,
 }
 
-/// Faults that rise in wavelength and do not overlap.
+/// Faults in order of wavelength that do not overlap.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Faults(Vec<Fault>);
 
 impl Faults {
-    /// Sorted; those that overlap become one, with the reason of the first.
+    /// Sorts the faults and merges those that overlap, with the reason of the first.
     pub(crate) fn new(mut faults: Vec<Fault>) -> Self {
         faults.sort_by(|a, b| a.from_nm.total_cmp(&b.from_nm));
         let mut apart: Vec<Fault> = Vec::with_capacity(faults.len());
@@ -37,12 +37,12 @@ impl Faults {
         self.0.iter()
     }
 
-    /// The fault that `nm` lies in; its ends are sound to 1e-9 nm.
+    /// Returns the fault that contains `nm`; its ends are valid to within 1e-9 nm.
     pub(crate) fn at(&self, nm: f64) -> Option<&Fault> {
         self.within(nm, nm)
     }
 
-    /// The first fault that a range has a part of.
+    /// Returns the first fault that overlaps a range.
     pub(crate) fn within(&self, low_nm: f64, high_nm: f64) -> Option<&Fault> {
         let next = self.0.partition_point(|fault| fault.to_nm <= low_nm + 1e-9);
         let fault = self.0.get(next)?;

@@ -7,7 +7,7 @@ use thiserror::Error;
 
 /// The dispersion formulas 1 to 9 of the refractiveindex.info database.
 ///
-/// λ is the vacuum wavelength in µm, C₁, C₂ … are the coefficients in their order.
+/// λ is the vacuum wavelength in µm; C₁, C₂ … are the coefficients in order.
 ///
 /// Source: M. N. Polyanskiy, Refractiveindex.info database of optical constants, Sci. Data 11, 94 (2024),
 /// DOI 10.1038/s41597-023-02898-2, and the database's own sheet of dispersion formulas.
@@ -34,11 +34,11 @@ pub enum FormulaKind {
     Exotic,
 }
 
-/// The square of the resonant wavelength that Herzberger gives all glasses, µm².
+/// The square of the resonance wavelength that Herzberger uses for all glasses, µm².
 const HERZBERGER_UM2: f64 = 0.028;
 
 impl FormulaKind {
-    /// The formula of this number in the database, from 1 to 9.
+    /// Returns the formula with this number in the database, from 1 to 9.
     pub fn from_number(number: u32) -> Option<Self> {
         Some(match number {
             1 => Self::Sellmeier,
@@ -54,7 +54,7 @@ impl FormulaKind {
         })
     }
 
-    /// Whether the terms are complete: C₁ alone, or followed by whole terms.
+    /// Whether `count` coefficients make complete terms: C₁ alone, or followed by whole terms.
     fn accepts(self, count: usize) -> bool {
         match self {
             Self::RefractiveIndexInfo => matches!(count, 1 | 5) || (count >= 9 && count % 2 == 1),
@@ -65,11 +65,11 @@ impl FormulaKind {
         }
     }
 
-    /// n at `um`; NaN or infinite where the formula gives no real number.
+    /// Returns n at `um`; NaN or infinite if the formula gives no real number.
     fn index(self, coefficients: &[f64], um: f64) -> f64 {
         let um2 = um * um;
         let first = coefficients[0];
-        // A term without weight has no say, not even where its denominator is 0.
+        // A term with weight 0 is skipped, even where its denominator is 0.
         let pairs = |from: usize, term: &dyn Fn(f64, f64) -> f64| -> f64 {
             let pairs = coefficients.get(from..).unwrap_or_default();
             let weighted = pairs.chunks_exact(2).filter(|pair| pair[0] != 0.0);
@@ -113,7 +113,7 @@ impl FormulaKind {
         }
     }
 
-    /// The squares, µm², of the wavelengths at which a term has no value: those below 0 are none.
+    /// Returns the squares, µm², of the wavelengths at which a term diverges; negative ones are not real wavelengths.
     fn poles_um2(self, coefficients: &[f64]) -> Vec<f64> {
         let pairs = |most: usize, square: &dyn Fn(f64) -> f64| -> Vec<f64> {
             let pairs = coefficients.get(1..).unwrap_or_default().chunks_exact(2);
@@ -145,7 +145,7 @@ fn herzberger(coefficients: &[f64], um2: f64) -> f64 {
     weighted.map(|(c, term)| c * term).sum()
 }
 
-/// A dispersion formula with its coefficients and the wavelengths that it is valid for.
+/// A dispersion formula with its coefficients and range of validity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DispersionFormula {
     kind: FormulaKind,
@@ -154,7 +154,7 @@ pub struct DispersionFormula {
     faults: Faults,
 }
 
-/// Why numbers do not make a [`DispersionFormula`].
+/// Why numbers do not define a [`DispersionFormula`].
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum FormulaError {
@@ -163,7 +163,7 @@ pub enum FormulaError {
     Count {
         /// The formula.
         kind: FormulaKind,
-        /// How many coefficients there are.
+        /// The number of coefficients found.
         found: usize,
     },
     /// A coefficient is NaN or infinite.
@@ -185,20 +185,20 @@ pub enum FormulaError {
 fn whole_terms(kind: FormulaKind) -> &'static str {
     match kind {
         FormulaKind::RefractiveIndexInfo => {
-            "one, then none, four or eight for the resonances, and after eight any number of pairs are expected"
+            "expected one, then none, four or eight for the resonances, and after eight any number of pairs"
         }
-        FormulaKind::Herzberger => "one to six are expected",
-        FormulaKind::Retro => "one, three or four are expected",
-        FormulaKind::Exotic => "one, three or six are expected",
-        _ => "one, then two for each term are expected",
+        FormulaKind::Herzberger => "expected one to six",
+        FormulaKind::Retro => "expected one, three or four",
+        FormulaKind::Exotic => "expected one, three or six",
+        _ => "expected one, then two for each term",
     }
 }
 
 impl DispersionFormula {
-    /// A formula that is valid from `range_nm.0` to `range_nm.1`.
+    /// Creates a formula that is valid from `range_nm.0` to `range_nm.1`.
     ///
     /// # Errors
-    /// When a term is incomplete, a number is not finite, or the range is none.
+    /// When a term is incomplete, a number is not finite, or the range is invalid.
     pub fn new(
         kind: FormulaKind,
         coefficients: Vec<f64>,
@@ -223,7 +223,7 @@ impl DispersionFormula {
         })
     }
 
-    /// The same formula without values where what it gives cannot be used.
+    /// Returns the same formula with no values within `faults`.
     #[must_use]
     pub fn with_faults(mut self, faults: Vec<Fault>) -> Self {
         self.faults = Faults::new(faults);
@@ -234,7 +234,7 @@ impl DispersionFormula {
         &self.faults
     }
 
-    /// The wavelengths within the range at which a term has no value, nm.
+    /// The wavelengths within the range at which a term diverges, nm.
     pub fn poles_nm(&self) -> Vec<f64> {
         let (min_nm, max_nm) = self.range_nm;
         let squares = self.kind.poles_um2(&self.coefficients).into_iter();
@@ -247,7 +247,7 @@ impl DispersionFormula {
         self.range_nm
     }
 
-    /// The index at `nm`.
+    /// Returns the index at `nm`.
     ///
     /// # Errors
     /// When `nm` lies outside the range by more than 1e-9 nm or in a fault, or the formula gives no positive real number there.
@@ -268,7 +268,7 @@ impl DispersionFormula {
         })
     }
 
-    /// The index at `nm`, and beyond the range the index at the nearer end of it.
+    /// Returns the index at `nm`, or beyond the range the index at its nearer end.
     ///
     /// # Errors
     /// When `nm` lies in a fault, or the formula gives no positive real number there.
@@ -292,7 +292,7 @@ mod tests {
 
     #[test]
     fn every_formula_is_its_equation_worked_by_hand() {
-        // λ = 0.5 µm: λ² = 1/4 and λ⁻² = 4, so that the terms come out in whole numbers and fractions.
+        // λ = 0.5 µm: λ² = 1/4 and λ⁻² = 4, so that the terms are whole numbers and fractions.
         let cases: [(u32, &[f64], f64); 13] = [
             // 1 + 2 + 3·¼/(¼ − 0.3²) = 3 + 0.75/0.16
             (1, &[2.0, 3.0, 0.3], (3.0_f64 + 0.75 / 0.16).sqrt()),
@@ -307,7 +307,7 @@ mod tests {
                 (2.0_f64 + 1.5 / 0.21 + 32.0 + 1.25).sqrt(),
             ),
             (4, &[4.0], 2.0),
-            // A term without weight whose denominator is 0: ¼ − ½².
+            // A term with weight 0 whose denominator is 0: ¼ − ½².
             (4, &[4.0, 0.0, 0.0, 0.5, 2.0], 2.0),
             // 1.25 + 0.01·(½)⁻² + 0.001·(½)⁻⁴ = 1.25 + 0.04 + 0.016
             (5, &[1.25, 0.01, -2.0, 0.001, -4.0], 1.306),

@@ -1,18 +1,18 @@
-//! Numbers over wavelength.
+//! Spectra, optical constants and spectral images.
 //!
 //! Wavelengths are vacuum wavelengths in nanometers. Everything is `f64` until a renderer fills a
 //! [`SpectralImage`], which holds `f32`.
 //!
-//! * [`Tabulated`] is a table over wavelength, linear between its points, [`DispersionFormula`] an index by coefficients;
-//!   [`Spectrum`] is one of them or a constant.
-//! * [`OpticalConstants`] is a complex index n + ik over wavelength, k ≥ 0 absorbs; [`OpticalConstants::mixture`] that of
-//!   two media in one.
+//! * [`Tabulated`] is a table over wavelength, linear between its points; [`DispersionFormula`] computes an index from
+//!   coefficients; [`Spectrum`] is one of these or a constant.
+//! * [`OpticalConstants`] is a complex index n + ik over wavelength, where k ≥ 0 absorbs; [`OpticalConstants::mixture`]
+//!   computes it for a mixture of two media.
 //! * [`BandGrid`] divides the rendered range into N uniform bands.
-//! * [`BandTable`] is a spectrum resampled onto a grid, fine enough for any wavelength drawn within a band.
-//! * [`table_file`] reads tables that users wrote.
-//! * [`SpectralImage`] is what a renderer produces: radiance per pixel and band, by [`LightGroup`].
-//! * [`find_illuminant`], [`Observer`], [`optical_constants()`] and [`reflectance`] are the data that the project carries;
-//!   [`material_info`] says where a material's come from.
+//! * [`BandTable`] is a spectrum resampled onto a grid, fine enough for any wavelength sampled within a band.
+//! * [`table_file`] reads users' tables.
+//! * [`SpectralImage`] is the output of a renderer: radiance per pixel and band, by [`LightGroup`].
+//! * [`find_illuminant`], [`Observer`], [`optical_constants()`] and [`reflectance`] give access to the built-in data;
+//!   [`material_info`] gives the source of a material's data.
 
 mod band_grid;
 mod band_table;

@@ -1,18 +1,18 @@
-//! Lights that an image keeps apart.
+//! Light groups: emitters whose light an image keeps apart.
 
 use crate::{BandGrid, BandTable, Spectrum, Tabulated};
 
-/// A named set of lights whose light an image keeps apart from that of others, so that their lamp can be changed.
+/// A named set of emitters whose light an image keeps apart, so that their illuminant can be changed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightGroup {
-    /// Its name.
+    /// The name of the group.
     pub name: String,
-    /// What its lights burn with: the spectrum at scale 1 that all of them share up to a factor, over the bands, as
-    /// [`BandGrid::lamp`] makes it. `None` where they differ, or where nothing is known of it.
+    /// Illuminant of the group: the spectrum at scale 1, over the bands, that all its emitters share up to a factor, as
+    /// returned by [`BandGrid::lamp`]. `None` if they differ, or if it is unknown.
     pub lamp: Option<Tabulated>,
 }
 
-/// Words that name other things in files of spectral images: components of polarized light, transmission, our own layer.
+/// Words with other meanings in files of spectral images: components of polarized light, transmission, Pellicle's own layer.
 const RESERVED: [&str; 6] = ["S0", "S1", "S2", "S3", "T", "pellicle"];
 
 impl LightGroup {
@@ -20,7 +20,7 @@ impl LightGroup {
     pub const MAX_NAME: usize = 32;
 
     /// Whether a light group may have this name: 1 to 32 ASCII letters, digits, `_` or `-`, so that it can name a layer of an
-    /// image file, and none of the few words that have another meaning there (`S0` to `S3`, `T`, `pellicle`).
+    /// image file, but not one of the few words with another meaning there (`S0` to `S3`, `T`, `pellicle`).
     pub fn is_name(name: &str) -> bool {
         let is_short = (1..=Self::MAX_NAME).contains(&name.len());
         is_short && name.bytes().all(Self::is_in_names) && !RESERVED.contains(&name)
@@ -31,7 +31,7 @@ impl LightGroup {
         byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-'
     }
 
-    /// The only light group of an image that does not tell.
+    /// The only light group of an image that does not record any.
     pub fn unknown() -> Self {
         Self {
             name: "all".to_owned(),
@@ -41,10 +41,10 @@ impl LightGroup {
 }
 
 impl BandGrid {
-    /// A lamp as a render over the bands burns it: its values at the knots of a [`BandTable`], linear between them. What lies
-    /// between two knots of its own table is not seen by a render. A constant is a lamp of 1: its value is a factor.
+    /// Returns an illuminant as a render over the bands uses it: its values at the knots of a [`BandTable`], linear between them.
+    /// A render does not see features between two knots. A constant becomes 1, because its value is a factor.
     ///
-    /// `None` where the spectrum does not cover the bands, or is a formula, which no lamp is.
+    /// `None` if the spectrum does not cover the bands, or is a formula, which an illuminant never is.
     pub fn lamp(&self, spectrum: &Spectrum) -> Option<Tabulated> {
         let points = match spectrum {
             Spectrum::Constant(_) => [self.min_nm(), self.max_nm()].map(|nm| (nm, 1.0)).to_vec(),
@@ -58,7 +58,7 @@ impl BandGrid {
         Tabulated::new(points).ok()
     }
 
-    /// The knots of a [`BandTable`], rising; neighboring bands share one.
+    /// The knots of a [`BandTable`] in rising order; neighboring bands share one.
     fn knots_nm(&self) -> impl Iterator<Item = f64> + '_ {
         let steps = BandTable::steps_of(self);
         let offset = move |step| f64::from(step) / f64::from(steps);
@@ -70,7 +70,7 @@ impl BandGrid {
     }
 }
 
-/// The points without those that lie on the line between their neighbors, up to rounding: a table of 5 nm keeps its size.
+/// Removes the points that lie on the line between their neighbors, up to rounding, so that a table at 5 nm keeps its size.
 fn without_collinear(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let peak = points.iter().fold(0.0_f64, |peak, p| peak.max(p.1.abs()));
     let mut kept: Vec<(f64, f64)> = Vec::new();
@@ -91,7 +91,7 @@ fn without_collinear(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 mod tests {
     use super::*;
 
-    /// A line at 450.2 nm, between knots of 0.9375 nm, on a slope.
+    /// A spectral line at 450.2 nm, between knots 0.9375 nm apart, on a slope.
     fn line() -> Spectrum {
         let points = vec![
             (400.0, 0.5),

@@ -13,7 +13,7 @@ pub struct OpticalConstants {
 }
 
 impl OpticalConstants {
-    /// n + ik at `nm`.
+    /// Returns n + ik at `nm`.
     ///
     /// # Errors
     /// When n or k has no value there.
@@ -21,9 +21,9 @@ impl OpticalConstants {
         Ok(Complex64::new(self.n.at(nm)?, self.k.at(nm)?))
     }
 
-    /// First and last wavelength where both n and k have a value, nm; `None` if all wavelengths have.
+    /// First and last wavelength where both n and k have a value, nm; `None` if they have one at every wavelength.
     ///
-    /// Where n and k have no wavelength in common, the first is above the last.
+    /// If n and k have no wavelength in common, the first is above the last.
     pub fn range_nm(&self) -> Option<(f64, f64)> {
         match (self.n.range_nm(), self.k.range_nm()) {
             (Some(n), Some(k)) => Some((n.0.max(k.0), n.1.min(k.1))),

@@ -1,9 +1,9 @@
-//! A clear sky and the sun in it, by formulas of turbidity and the sun's height.
+//! A model of the clear sky and the sun, as a function of turbidity and the sun's elevation.
 //!
 //! A. J. Preetham, P. Shirley and B. Smits, A Practical Analytic Model for Daylight, SIGGRAPH 1999: luminance and chromaticity of
 //! the sky fitted to a simulation of multiple scattering (appendix A.2), the spectrum as CIE daylight of that chromaticity
-//! (appendix A.5), and sunlight as it is left by the air (appendix A.1, after M. Iqbal, An Introduction to Solar Radiation, 1983).
-//! The fit was made for turbidities of 2 to 6; near the sun and toward the horizon real skies differ.
+//! (appendix A.5), and sunlight attenuated by the atmosphere (appendix A.1, after M. Iqbal, An Introduction to Solar Radiation, 1983).
+//! The fit covers turbidities of 2 to 6; near the sun and toward the horizon, real skies differ from it.
 
 use crate::Spectrum;
 use crate::data::{KM_LUMENS_PER_WATT, daylight_components, observer_1931};
@@ -15,36 +15,36 @@ use figures::{GASES, OZONE, PEREZ, SUN, VAPOR, ZENITH_X, ZENITH_Y};
 
 /// Angular diameter of the sun, degrees.
 pub const SUN_DIAMETER_DEG: f64 = 0.533;
-/// Ozone, cm at normal temperature and pressure.
+/// Thickness of the ozone layer, cm at normal temperature and pressure.
 const OZONE_CM: f64 = 0.35;
-/// Water that could fall, cm.
+/// Precipitable water, cm.
 const WATER_CM: f64 = 2.0;
 
 /// A clear sky at one time.
 #[derive(Clone, Debug)]
 pub struct ClearSky {
-    /// Angle of the sun from the zenith.
+    /// Zenith angle of the sun, radians.
     sun_angle: f64,
     turbidity: f64,
     /// Luminance in kcd/m², x and y at the zenith.
     zenith: [f64; 3],
-    /// A to E of luminance, x and y.
+    /// Perez coefficients A to E of luminance, x and y.
     perez: [[f64; 5]; 3],
 }
 
-/// Light of the sky: amounts of the three components of daylight.
+/// Skylight from one direction, as amounts of the three components of daylight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkyLight {
-    /// Radiance of each at its own 1, W m⁻² sr⁻¹ nm⁻¹.
+    /// Radiance of each component where its value is 1, W m⁻² sr⁻¹ nm⁻¹.
     pub amounts: [f64; 3],
 }
 
 impl ClearSky {
-    /// Turbidities that are taken: those of 2 to 6 that the model was fitted to, and far above, where it is the fit carried on. Below 2
-    /// the fit turns round: clearer air would give more light.
+    /// Range of turbidities that are accepted: 2 to 6, for which the model was fitted, and far above, where the fit is extrapolated.
+    /// Below 2 the fit reverses: clearer air would give more light.
     pub const TURBIDITY: (f64, f64) = (2.0, 10.0);
 
-    /// The sky with the sun at an angle from the zenith, from 0 to π/2, and a turbidity within [`Self::TURBIDITY`].
+    /// Creates the sky for a zenith angle of the sun from 0 to π/2 and a turbidity within [`Self::TURBIDITY`].
     pub fn new(sun_angle: f64, turbidity: f64) -> Self {
         let t = turbidity;
         // χ = (4/9 − T/120) (π − 2 θ).
@@ -62,8 +62,8 @@ impl ClearSky {
         }
     }
 
-    /// Luminance in cd/m² and chromaticity x, y in a direction above the horizon: the cosine of its angle from the zenith, and its
-    /// angle from the sun.
+    /// Returns luminance in cd/m² and chromaticity x, y in a direction above the horizon, given by the cosine of its zenith angle and
+    /// its angle from the sun.
     pub fn color(&self, cosine: f64, from_sun: f64) -> [f64; 3] {
         let [luminance, x, y] = std::array::from_fn(|i| {
             let perez = &self.perez[i];
@@ -73,10 +73,10 @@ impl ClearSky {
         [1000.0 * luminance.max(0.0), x, y]
     }
 
-    /// Light from a direction above the horizon.
+    /// Returns the light from a direction above the horizon; arguments as for [`Self::color`].
     pub fn light(&self, cosine: f64, from_sun: f64) -> SkyLight {
         let [luminance, x, y] = self.color(cosine, from_sun);
-        // M₁ and M₂ of a chromaticity (CIE 015:2018, equations 4.8 and 4.9).
+        // M₁ and M₂ for a chromaticity (CIE 015:2018, equations 4.8 and 4.9).
         let below = 0.0241 + 0.2562 * x - 0.7341 * y;
         let m1 = (-1.3515 - 1.7703 * x + 5.9114 * y) / below;
         let m2 = (0.0300 - 31.4424 * x + 30.0717 * y) / below;
@@ -87,13 +87,13 @@ impl ClearSky {
         }
     }
 
-    /// Radiance of the sun's disk as it arrives, W m⁻² sr⁻¹ nm⁻¹. The tables reach from 380 to 750 nm.
+    /// Returns the radiance of the sun's disk at the ground, W m⁻² sr⁻¹ nm⁻¹. The tables cover 380 to 750 nm.
     pub fn sun_radiance(&self, nm: f64) -> f64 {
         let um = nm / 1000.0;
         // Relative optical mass (Kasten 1966).
         let degrees = self.sun_angle.to_degrees();
         let mass = 1.0 / (self.sun_angle.cos() + 0.15 * (93.885 - degrees).powf(-1.253));
-        // Ångström's β of a turbidity, with α = 1.3.
+        // Ångström's β from the turbidity, with α = 1.3.
         let beta = (0.046_083_658_220_5 * self.turbidity - 0.045_860_259_285_22).max(0.0);
         let rayleigh = 0.008_735 * mass * um.powf(-4.08);
         let aerosol = mass * beta * um.powf(-1.3);
@@ -107,7 +107,7 @@ impl ClearSky {
 }
 
 impl SkyLight {
-    /// Radiance at a wavelength where the components have these values, W m⁻² sr⁻¹ nm⁻¹.
+    /// Returns the radiance at a wavelength where the components have these values, W m⁻² sr⁻¹ nm⁻¹; not below 0.
     pub fn of_components(&self, components: [f64; 3]) -> f64 {
         let terms = self.amounts.iter().zip(components);
         terms
@@ -117,19 +117,19 @@ impl SkyLight {
     }
 }
 
-/// S₀, S₁ and S₂ of daylight, from 300 to 830 nm.
+/// The components S₀, S₁ and S₂ of daylight, from 300 to 830 nm.
 pub fn daylight_basis() -> [Spectrum; 3] {
     daylight_components().clone().map(Spectrum::Table)
 }
 
-/// (1 + A exp(B / cos θ)) (1 + C exp(D γ) + E cos² γ) (Perez et al. 1993, as the model's equation 3).
+/// Perez's distribution (1 + A exp(B / cos θ)) (1 + C exp(D γ) + E cos² γ) (Perez et al. 1993, equation 3 of the model).
 fn distribution(&[a, b, c, d, e]: &[f64; 5], cosine: f64, from_sun: f64) -> f64 {
     let toward = from_sun.cos();
     (1.0 + a * (b / cosine.max(1e-3)).exp())
         * (1.0 + c * (d * from_sun).exp() + e * toward * toward)
 }
 
-/// Kₘ Σ S ȳ Δλ of each component, by sums at 1 nm from 380 to 780 nm.
+/// Luminance Kₘ Σ S ȳ Δλ of each component, by sums at 1 nm from 380 to 780 nm.
 fn component_luminances() -> [f64; 3] {
     static FOUND: std::sync::OnceLock<[f64; 3]> = std::sync::OnceLock::new();
     *FOUND.get_or_init(|| {
@@ -141,14 +141,14 @@ fn component_luminances() -> [f64; 3] {
     })
 }
 
-/// The sun's radiance before it enters the air, W cm⁻² µm⁻¹ sr⁻¹ over 10; beyond the table as a black body of 5777 K goes on.
+/// Radiance of the sun above the atmosphere, W cm⁻² µm⁻¹ sr⁻¹ over 10; beyond the table, extrapolated as a black body of 5777 K.
 fn sun_above_the_air(nm: f64) -> f64 {
     let (end, _) = SUN[SUN.len() - 1];
     let beyond = crate::black_body(nm.max(end), 5777.0) / crate::black_body(end, 5777.0);
     linear(&SUN, nm) * beyond
 }
 
-/// Linear between points; beyond them the first or the last.
+/// Interpolates linearly between points; beyond them, returns the first or last value.
 fn linear(points: &[(f64, f64)], nm: f64) -> f64 {
     let after = points.partition_point(|&(at, _)| at <= nm);
     match (after.checked_sub(1).map(|i| points[i]), points.get(after)) {
@@ -180,7 +180,7 @@ mod tests {
         move |nm| light.of_components(daylight_components().each_ref().map(|s| s.clamped_at(nm)))
     }
 
-    /// The spectrum has the luminance and the chromaticity that the fit says; what is cut off below 0 moves neither.
+    /// The spectrum has the luminance and chromaticity of the fit; clipping at 0 changes neither.
     #[test]
     fn spectra_have_the_colors_of_the_fit() {
         for (sun_deg, turbidity) in [(30.0_f64, 2.0), (60.0, 3.0), (80.0, 6.0)] {
@@ -191,7 +191,7 @@ mod tests {
                 let [fx, fy, fz] = xyz(spectrum(sky.light(cosine, from_sun)));
                 let sum = fx + fy + fz;
                 assert!((fy / luminance - 1.0).abs() < 1e-3, "{fy} {luminance}");
-                // M₁ and M₂ are the CIE's own rounded formulas.
+                // The CIE's formulas for M₁ and M₂ are rounded.
                 assert!(
                     (fx / sum - x).abs() < 2e-3 && (fy / sum - y).abs() < 2e-3,
                     "{x} {y}"
@@ -200,18 +200,18 @@ mod tests {
         }
     }
 
-    /// The zenith's luminance by hand: T = 3, θ = 60°: χ = 0.419444 · 1.047198 = 0.439241, tan χ = 0.469854;
+    /// The luminance of the zenith by hand: T = 3, θ = 60°: χ = 0.419444 · 1.047198 = 0.439241, tan χ = 0.469854;
     /// (12.1359 − 4.9710) · 0.469854 − 0.6465 + 2.4192 = 5.13916 kcd/m².
     #[test]
     fn the_zenith_has_the_luminance_of_the_formula() {
         let sky = ClearSky::new(60.0_f64.to_radians(), 3.0);
         let [luminance, x, y] = sky.color(1.0, 60.0_f64.to_radians());
         assert!((luminance - 5139.16).abs() < 0.02, "{luminance}");
-        // Bluer than any daylight of 10 000 K (x = 0.2788, y = 0.2920, CIE 015:2018, equations 4.5 to 4.7).
+        // Bluer than daylight of 10 000 K (x = 0.2788, y = 0.2920, CIE 015:2018, equations 4.5 to 4.7).
         assert!(x < 0.2788 && y < 0.2920, "{x} {y}");
     }
 
-    /// The sun's illuminance above the air is 127.5 klx (IES RP-21, Calculation of Daylight Availability, 1984).
+    /// The sun's illuminance above the atmosphere is 127.5 klx (IES RP-21, Calculation of Daylight Availability, 1984).
     #[test]
     fn the_sun_above_the_air_is_as_bright_as_measured() {
         let half = (SUN_DIAMETER_DEG / 2.0).to_radians();
@@ -219,7 +219,7 @@ mod tests {
         assert!((lux / 127.5e3 - 1.0).abs() < 0.05, "{lux}");
     }
 
-    /// Sunlight reddens and dims toward the horizon, and never grows by the air.
+    /// Sunlight reddens and dims toward the horizon, and the atmosphere never increases it.
     #[test]
     fn sunlight_reddens_toward_the_horizon() {
         let redness = |degrees: f64| {
@@ -246,7 +246,7 @@ mod tests {
         );
     }
 
-    /// Skylight on the ground, lux.
+    /// Illuminance of the ground by skylight, lux.
     fn skylight(sun: f64, turbidity: f64, steps: i32) -> f64 {
         let sky = ClearSky::new(sun, turbidity);
         let mut lux = 0.0;
@@ -265,15 +265,15 @@ mod tests {
         lux
     }
 
-    /// What the fit says of a sun 40° from the zenith and T = 3: 30 klx of skylight on the ground.
+    /// For a sun 40° from the zenith and T = 3, the fit gives 30 klx of skylight on the ground.
     #[test]
     fn the_sky_lights_the_ground_as_the_fit_says() {
         let lux = skylight(40.0_f64.to_radians(), 3.0, 90);
         assert!((lux / 30.0e3 - 1.0).abs() < 0.02, "{lux}");
     }
 
-    /// Every direction has light for every turbidity that is taken, and a lower sun gives less of it: under the clearest skies the fit is
-    /// 7 % out of order above 45°. At a turbidity of 1.7 it would give twice the light of 2.
+    /// Every direction has light for every accepted turbidity, and a lower sun gives less light, except that under the clearest skies the
+    /// fit deviates from this order by up to 7 % above 45°. A turbidity of 1.7 would give twice the light of 2.
     #[test]
     fn skylight_falls_with_the_sun() {
         for turbidity in [2.0, 2.5, 3.0, 4.0, 6.0, 8.0, 10.0] {

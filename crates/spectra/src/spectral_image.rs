@@ -1,10 +1,10 @@
-//! What a renderer produces: radiance per pixel and band.
+//! The output of a renderer: radiance per pixel and band.
 
 use crate::{BandGrid, LightGroup};
 
-/// Radiance per pixel and band, with its uncertainty and its color, in total and by light group.
+/// Radiance per pixel and band, with variance and XYZ, in total and by light group.
 ///
-/// Row 0 is on top. Per-band data is pixel-major: the value of band `b` at (x, y) stands at
+/// Row 0 is at the top. Per-band data is pixel-major: the value of band `b` at (x, y) has the index
 /// `(y·width + x)·bands + b`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpectralImage {
@@ -16,18 +16,18 @@ pub struct SpectralImage {
     xyz: Vec<[f32; 3]>,
     samples: Vec<u32>,
     light_groups: Vec<LightGroup>,
-    /// Of each light group; empty where there is only one, whose share is the total.
+    /// The contribution of each light group; empty if there is only one, which equals the total.
     shares: Vec<Share>,
 }
 
-/// What one of several light groups brings.
+/// The contribution of one of several light groups.
 #[derive(Clone, Debug, PartialEq)]
 struct Share {
     radiance: Vec<f32>,
     xyz: Vec<[f32; 3]>,
 }
 
-/// One row of an image, to be changed.
+/// One row of an image, mutably borrowed.
 #[derive(Debug)]
 pub struct RowMut<'a> {
     /// As [`SpectralImage::radiance`].
@@ -36,20 +36,20 @@ pub struct RowMut<'a> {
     pub variance: &'a mut [f32],
     /// As [`SpectralImage::xyz`].
     pub xyz: &'a mut [[f32; 3]],
-    /// Radiance and XYZ of each light group; empty where there is only one, whose share is the total.
+    /// Radiance and XYZ of each light group; empty if there is only one, which equals the total.
     pub shares: Vec<(&'a mut [f32], &'a mut [[f32; 3]])>,
 }
 
 impl SpectralImage {
-    /// A black image without samples, with a single light group of which nothing is known.
+    /// Creates a black image without samples, with a single light group whose illuminant is unknown.
     pub fn new(width: u32, height: u32, bands: BandGrid) -> Self {
         Self::with_light_groups(width, height, bands, vec![LightGroup::unknown()])
     }
 
-    /// A black image without samples.
+    /// Creates a black image without samples.
     ///
     /// # Panics
-    /// When there is no light group at all.
+    /// When `light_groups` is empty.
     pub fn with_light_groups(
         width: u32,
         height: u32,
@@ -77,7 +77,7 @@ impl SpectralImage {
         }
     }
 
-    /// Bytes that an image of this size takes in memory.
+    /// Bytes of memory that an image of this size takes.
     pub fn bytes(width: u32, height: u32, bands: u32, light_groups: usize) -> u128 {
         let radiance_and_xyz = u128::from(bands) * 4 + 12;
         let variance_and_samples = u128::from(bands) * 4 + 4;
@@ -95,22 +95,22 @@ impl SpectralImage {
         self.height
     }
 
-    /// The bands that each pixel has.
+    /// The bands of each pixel.
     pub fn bands(&self) -> &BandGrid {
         &self.bands
     }
 
-    /// Mean radiance over each band, W m⁻² sr⁻¹ nm⁻¹ up to the scene's scale; pixel-major.
+    /// Mean radiance over each band, W m⁻² sr⁻¹ nm⁻¹ up to the scale of the scene; pixel-major.
     pub fn radiance(&self) -> &[f32] {
         &self.radiance
     }
 
-    /// Variance of the mean of each value of [`Self::radiance`]; 0 where fewer than two samples were taken.
+    /// Variance of the mean for each value of [`Self::radiance`]; 0 if fewer than two samples were taken.
     pub fn variance(&self) -> &[f32] {
         &self.variance
     }
 
-    /// CIE 1931 2° XYZ of each pixel, summed at the very wavelengths drawn: Y in cd/m² up to the scene's scale.
+    /// CIE 1931 2° XYZ of each pixel, summed at the exact wavelengths sampled: Y in cd/m² up to the scale of the scene.
     pub fn xyz(&self) -> &[[f32; 3]] {
         &self.xyz
     }
@@ -120,7 +120,7 @@ impl SpectralImage {
         &self.samples
     }
 
-    /// The spectrum of pixel (x, y), a value per band.
+    /// The spectrum of pixel (x, y), one value per band.
     ///
     /// # Panics
     /// When the pixel lies outside the image.
@@ -128,12 +128,12 @@ impl SpectralImage {
         &self.radiance[self.values_of(x, y)]
     }
 
-    /// The light groups, at least one. The radiance of all of them together is the total.
+    /// The light groups, at least one. Their radiances add up to the total.
     pub fn light_groups(&self) -> &[LightGroup] {
         &self.light_groups
     }
 
-    /// Radiance that comes from the lights of a group; otherwise as [`Self::radiance`].
+    /// Radiance due to the emitters of a group; otherwise as [`Self::radiance`].
     ///
     /// # Panics
     /// When there is no such light group.
@@ -144,7 +144,7 @@ impl SpectralImage {
         }
     }
 
-    /// XYZ of the light that comes from the lights of a group; otherwise as [`Self::xyz`].
+    /// XYZ due to the emitters of a group; otherwise as [`Self::xyz`].
     ///
     /// # Panics
     /// When there is no such light group.
@@ -159,7 +159,7 @@ impl SpectralImage {
     /// sample count.
     ///
     /// # Panics
-    /// When the pixel lies outside the image, a slice has not one value per band, or there are several light groups.
+    /// When the pixel lies outside the image, a slice does not have one value per band, or there are several light groups.
     pub fn set_pixel(
         &mut self,
         at: (u32, u32),
@@ -175,7 +175,7 @@ impl SpectralImage {
     /// of each light group, and the sample count. The totals are the sums over the light groups in their order.
     ///
     /// # Panics
-    /// When the pixel lies outside the image, or a slice has another length.
+    /// When the pixel lies outside the image, or a slice has the wrong length.
     pub fn set_pixel_by_light(
         &mut self,
         (x, y): (u32, u32),
@@ -209,7 +209,7 @@ impl SpectralImage {
         }
     }
 
-    /// The lamp of a light group, to be changed together with what [`Self::rows_mut`] gives.
+    /// A light group, to be changed together with the values of [`Self::rows_mut`].
     ///
     /// # Panics
     /// When there is no such light group.
@@ -217,7 +217,7 @@ impl SpectralImage {
         &mut self.light_groups[light_group]
     }
 
-    /// All rows, from the top, each to be changed apart from the others. Who changes shares keeps the total their sum.
+    /// All rows from the top, to be changed independently. A caller that changes `shares` must keep their sum equal to the total.
     pub fn rows_mut(&mut self) -> Vec<RowMut<'_>> {
         let width = (self.width as usize).max(1);
         let values = width * self.bands.count() as usize;
@@ -262,7 +262,7 @@ impl SpectralImage {
     }
 }
 
-/// Light groups that are kept beside the total: none where the only one is the total.
+/// Number of light groups that are stored in addition to the total: 0 if there is only one.
 fn kept_shares(light_groups: usize) -> usize {
     if light_groups > 1 { light_groups } else { 0 }
 }

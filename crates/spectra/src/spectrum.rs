@@ -1,4 +1,4 @@
-//! A number over wavelength: a constant, a table or a formula.
+//! A quantity over wavelength: a constant, a table or a formula.
 
 use crate::fault::Faults;
 use crate::{DispersionFormula, Fault};
@@ -6,7 +6,7 @@ use std::fmt;
 use std::sync::Arc;
 use thiserror::Error;
 
-/// A table over wavelength, linear between its points. Rising wavelengths, finite values, at least one point.
+/// A table over wavelength, linear between its points. It has at least one point, rising wavelengths and finite values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tabulated {
     nm: Vec<f64>,
@@ -14,11 +14,11 @@ pub struct Tabulated {
     faults: Faults,
 }
 
-/// Why points do not make a [`Tabulated`].
+/// Why points do not define a [`Tabulated`].
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum TabulatedError {
-    /// No points at all.
+    /// There are no points.
     #[error("the table has no points")]
     Empty,
     /// A wavelength or value is NaN or infinite.
@@ -37,16 +37,16 @@ pub enum TabulatedError {
     },
 }
 
-/// A spectrum was asked for where its table or formula has no value.
+/// A spectrum was evaluated where its table or formula has no value.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub struct OutOfRange {
-    /// The wavelength asked for.
+    /// The wavelength, nm.
     pub nm: f64,
-    /// First wavelength of the table or formula.
+    /// First wavelength of the table or formula, nm.
     pub min_nm: f64,
-    /// Last wavelength of the table or formula.
+    /// Last wavelength of the table or formula, nm.
     pub max_nm: f64,
-    /// What is wrong with the data at that wavelength, where they are there but cannot be used.
+    /// What is wrong with the data at that wavelength, if there are data that cannot be used.
     pub fault: Option<Arc<str>>,
 }
 
@@ -66,7 +66,7 @@ impl fmt::Display for OutOfRange {
 }
 
 impl Tabulated {
-    /// A table through the points (wavelength in nm, value).
+    /// Creates a table through the points (wavelength in nm, value).
     ///
     /// # Errors
     /// When there are no points, one is not finite, or the wavelengths do not rise.
@@ -90,7 +90,7 @@ impl Tabulated {
         })
     }
 
-    /// The same table without values where data cannot be used, also beyond its ends.
+    /// Returns the same table with no values within `faults`, also beyond its ends.
     #[must_use]
     pub fn with_faults(mut self, faults: Vec<Fault>) -> Self {
         self.faults = Faults::new(faults);
@@ -111,7 +111,7 @@ impl Tabulated {
         self.nm.iter().copied().zip(self.values.iter().copied())
     }
 
-    /// The value at `nm`, linear between points.
+    /// Returns the value at `nm`, linear between points.
     ///
     /// # Errors
     /// When `nm` lies outside the table by more than 1e-9 nm, or in a fault.
@@ -137,15 +137,15 @@ impl Tabulated {
         })
     }
 
-    /// The value at `nm`, and beyond the ends the value at the nearer end. For tables without faults.
+    /// Returns the value at `nm`, or beyond the ends the value at the nearer end. For tables without faults.
     pub fn clamped_at(&self, nm: f64) -> f64 {
         let (min_nm, max_nm) = self.range_nm();
-        // `clamp` keeps a NaN, which then reads the first value.
+        // `clamp` keeps a NaN, for which `at` fails, so that the first value is returned.
         self.at(nm.clamp(min_nm, max_nm)).unwrap_or(self.values[0])
     }
 
-    /// The first place where a table whose values do not fall reaches a value: [`Self::at`] backwards. The first point for what
-    /// lies below the table, `None` for what lies above it.
+    /// Returns the first position where a table whose values do not fall reaches a value: the inverse of [`Self::at`]. For values
+    /// below the table this is the first point, for values above it `None`.
     pub fn first_reach(&self, value: f64) -> Option<f64> {
         let above = self.values.partition_point(|&v| v < value);
         let nm = *self.nm.get(above)?;
@@ -156,7 +156,7 @@ impl Tabulated {
         Some(low_nm + (nm - low_nm) * (value - low) / (self.values[above] - low))
     }
 
-    /// The same table with all values times `factor`.
+    /// Returns the same table with all values multiplied by `factor`.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         Self {
@@ -167,10 +167,10 @@ impl Tabulated {
     }
 }
 
-/// A number over wavelength.
+/// A quantity over wavelength.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Spectrum {
-    /// The same at every wavelength.
+    /// The same value at every wavelength.
     Constant(f64),
     /// A table that has no value outside its range.
     Table(Tabulated),
@@ -183,7 +183,7 @@ pub enum Spectrum {
 }
 
 impl Spectrum {
-    /// The value at `nm`.
+    /// Returns the value at `nm`.
     ///
     /// # Errors
     /// When the table or formula has no value there.
@@ -198,10 +198,10 @@ impl Spectrum {
         }
     }
 
-    /// Whether data from `low_nm` to `high_nm` can be used wherever there are some.
+    /// Checks that no data from `low_nm` to `high_nm` are faulty.
     ///
     /// # Errors
-    /// When a fault has a part of that range; the error is of a wavelength in it.
+    /// When a fault overlaps that range; the error names a wavelength in the overlap.
     pub fn is_sound_within(&self, low_nm: f64, high_nm: f64) -> Result<(), OutOfRange> {
         let fault = self.faults().and_then(|all| all.within(low_nm, high_nm));
         match (fault, self.extent_nm()) {
@@ -223,7 +223,7 @@ impl Spectrum {
         }
     }
 
-    /// The same spectrum with its end values outside its range.
+    /// Returns the same spectrum, extended beyond its range by its end values.
     #[must_use]
     pub fn clamped(self) -> Self {
         match self {
@@ -233,7 +233,7 @@ impl Spectrum {
         }
     }
 
-    /// First and last wavelength that has a value, nm; `None` if all have.
+    /// First and last wavelength with a value, nm; `None` if all have one.
     pub fn range_nm(&self) -> Option<(f64, f64)> {
         match self {
             Self::Table(_) | Self::Formula(_) => self.extent_nm(),
@@ -241,7 +241,7 @@ impl Spectrum {
         }
     }
 
-    /// First and last wavelength of the table or formula, kept beyond or not; `None` for a constant.
+    /// First and last wavelength of the table or formula, clamped or not, nm; `None` for a constant.
     pub(crate) fn extent_nm(&self) -> Option<(f64, f64)> {
         match self {
             Self::Constant(_) => None,
@@ -250,7 +250,7 @@ impl Spectrum {
         }
     }
 
-    /// The wavelengths at which a table has its points, nm; none of a constant or formula.
+    /// The wavelengths of a table's points, nm; none for a constant or formula.
     pub(crate) fn points_nm(&self) -> impl Iterator<Item = f64> + '_ {
         let table = match self {
             Self::Table(table) | Self::ClampedTable(table) => Some(table),

@@ -1,19 +1,19 @@
-//! Measured tables at coarse steps, between their points: T. B. Sprague's interpolation of the fifth order (1880), which CIE 167:2005
-//! recommends for tables at equal steps.
+//! Interpolation of measured tables at coarse steps: T. B. Sprague's fifth-order interpolation (1880), which CIE 167:2005 recommends
+//! for tables at equal steps.
 
 use crate::Tabulated;
 
-/// Steps of tables that it is for, nm. At 5 nm and less straight lines do.
+/// Steps of the tables that are interpolated, nm. At 5 nm and less, linear interpolation suffices.
 const STEPS_NM: [f64; 2] = [10.0, 20.0];
-/// The fewest points.
+/// The smallest number of points.
 const LEAST: usize = 6;
 
-/// What is divided by 209 to go on beyond the ends by one and by two steps, from the first six values (CIE 167:2005, table 1; Westland,
-/// Ripamonti and Cheung, Computational Color Science, second edition, 2012, section 4.3).
+/// Weights of the first six values, times 209, that extrapolate one step ([`NEXT`]) and two steps ([`AFTER_NEXT`]) beyond an end
+/// (CIE 167:2005, table 1; Westland, Ripamonti and Cheung, Computational Color Science, second edition, 2012, section 4.3).
 const NEXT: [f64; 6] = [508.0, -540.0, 488.0, -367.0, 144.0, -24.0];
 const AFTER_NEXT: [f64; 6] = [884.0, -1960.0, 3033.0, -2648.0, 1080.0, -180.0];
 
-/// Coefficients of X⁰ … X⁵ within a step, times 24, of the values from two points before the step to two behind it (there).
+/// Coefficients, times 24, of X⁰ … X⁵ within a step, for the values from two points before the step to two after it (same sources).
 const POWERS: [[f64; 6]; 6] = [
     [0.0, 0.0, 24.0, 0.0, 0.0, 0.0],
     [2.0, -16.0, 0.0, 16.0, -2.0, 0.0],
@@ -23,11 +23,12 @@ const POWERS: [[f64; 6]; 6] = [
     [-5.0, 25.0, -50.0, 50.0, -25.0, 5.0],
 ];
 
-/// The table at every nm, values kept within `range`, where its points are 10 or 20 nm apart throughout, with that step in nm; `None`
-/// of others, which are straight between their points.
+/// Returns the table at every nm, clamped to `range`, and its original step in nm, if its points are 10 or 20 nm apart throughout;
+/// `None` for other tables, which are linear between their points.
 ///
-/// Colors of metals and films of some 100 nm from values every 10 nm are by it within ΔE₀₀ 0.03 of those from values at every nm, and from
-/// values every 20 nm within 0.25; by straight lines within 0.11 and 0.55 (`coating/tests/coarse_tables.rs`).
+/// With this interpolation, colors of metals and films of some 100 nm from values every 10 nm are within ΔE₀₀ 0.03 of those from values
+/// at every nm, and from values every 20 nm within 0.25; with linear interpolation, within 0.11 and 0.55
+/// (`coating/tests/coarse_tables.rs`).
 pub fn sprague(table: &Tabulated, range: (f64, f64)) -> Option<(Tabulated, f64)> {
     let (first_nm, _) = table.range_nm();
     let values: Vec<f64> = table.points().map(|(_, value)| value).collect();
@@ -55,7 +56,7 @@ pub fn sprague(table: &Tabulated, range: (f64, f64)) -> Option<(Tabulated, f64)>
     Some((Tabulated::new(points).ok()?, step_nm))
 }
 
-/// The values with two more at either end.
+/// Returns the values with two extrapolated ones at either end.
 fn extended(values: &[f64]) -> Vec<f64> {
     let from = |weights: [f64; 6], values: &mut dyn Iterator<Item = &f64>| -> f64 {
         let terms = weights.iter().zip(values).map(|(w, v)| w * v);
@@ -71,7 +72,7 @@ fn extended(values: &[f64]) -> Vec<f64> {
     longer
 }
 
-/// The value a share of a step behind the third of six points.
+/// Returns the value at the fraction `along` of a step after the third of six points.
 fn within(around: &[f64], along: f64) -> f64 {
     let coefficient = |weights: &[f64; 6]| {
         let terms = weights.iter().zip(around).map(|(w, v)| w * v);
@@ -92,8 +93,8 @@ mod tests {
         Tabulated::new(nm.map(|nm| (nm, of(nm))).collect()).unwrap()
     }
 
-    /// It goes through its points, and a polynomial of the fourth order is its own interpolation but for the two steps at either end, for
-    /// which values beyond the ends are taken.
+    /// The interpolation passes through the points and reproduces a polynomial of the fourth order, except in the two steps at either end,
+    /// which use extrapolated values.
     #[test]
     fn polynomials_of_the_fourth_order_are_kept() {
         let of = |nm: f64| {
@@ -117,7 +118,7 @@ mod tests {
         }
     }
 
-    /// Half way between the middle two of 0, 0, 0, 1, 0, 0: by hand, (24·½·0 + …) of the powers' fourth column,
+    /// Halfway between the middle two of 0, 0, 0, 1, 0, 0, the fourth column of [`POWERS`] gives, by hand,
     /// (16/2 + 16/4 + 66/8 − 124/16 + 50/32)/24.
     #[test]
     fn a_single_value_has_the_weights_of_the_formula() {
@@ -141,7 +142,7 @@ mod tests {
         assert!(sprague(&Tabulated::new(uneven).unwrap(), ANY).is_none());
     }
 
-    /// What overshoots is kept in its range.
+    /// Overshoots are clamped to the range.
     #[test]
     fn a_reflectance_stays_one() {
         let steep = |nm: f64| if nm < 550.0 { 0.0 } else { 1.0 };

@@ -1,10 +1,10 @@
 //! "Did you mean …?"
 
-/// The candidate nearest to `word` that a slip of the keys could have turned into it, or else the first that goes
-/// on where it ends or ends where it goes on: `fov` means `fov_deg`. A slip changes at most a third of the letters of
-/// the shorter word, rounded up, and not all of them; upper and lower case are no difference.
+/// Returns the candidate nearest to `word` within the distance of a typing error, or else the first that is a prefix of
+/// `word` or has `word` as a prefix: `fov` suggests `fov_deg`. A typing error changes at most a third of the letters of
+/// the shorter word, rounded up, and not all of them; case is ignored.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // A long word in a file is not a slip of a short known one; the bound keeps the comparison cheap.
+    // A long word in a file is not a misspelling of a short known one; the bound keeps the comparison cheap.
     if word.chars().count() > 64 {
         return None;
     }
@@ -18,8 +18,8 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, known)| known)
 }
 
-/// How far `word` is from `known`, in insertions, deletions, replacements and swaps of neighbors; `None` when they have
-/// nothing to do with each other.
+/// Returns the distance of `word` from `known` in insertions, deletions, replacements and swaps of neighbors, or the maximum
+/// if one is a prefix of the other; `None` when they are unrelated.
 fn badness(word: &str, known: &str) -> Option<usize> {
     let length = known.chars().count().min(word.chars().count());
     let distance = strsim::osa_distance(word, known);
@@ -41,7 +41,7 @@ mod tests {
         assert_eq!(nearest("Center", known), Some("center"));
         assert_eq!(nearest("color", known), None);
         assert_eq!(nearest("radius_mm", known), Some("radius"));
-        // Upper and lower case alone are no slip at all.
+        // A difference in case alone has distance 0.
         assert_eq!(nearest("sio2", ["SiO", "TiO2", "SiO2"]), Some("SiO2"));
         assert_eq!(nearest("mat", known), Some("material"));
         assert_eq!(nearest("m", known), None);

@@ -1,4 +1,4 @@
-//! Reading a whole file that someone else wrote, or what comes from standard input.
+//! Reading a user's file or standard input as a whole.
 
 use std::fs::{self, File};
 use std::io::{self, Read};
@@ -6,65 +6,65 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use thiserror::Error;
 
-/// The name that stands for standard input.
+/// The path that means standard input.
 pub const STANDARD_INPUT: &str = "-";
 
-/// Whether standard input has been asked for: what has been read from it does not come again.
+/// Whether standard input has been requested; it can be read only once.
 static STANDARD_INPUT_IS_USED: AtomicBool = AtomicBool::new(false);
 
-/// The largest file of text that is read, in bytes.
+/// The size of the largest text file that is read, in bytes.
 pub const MAX_BYTES: u64 = 16 << 20;
 
 /// Why a file cannot be read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum TextFileError {
-    /// The system refuses.
+    /// The operating system reports an error.
     #[error("cannot be opened: {0}")]
     Io(#[from] io::Error),
-    /// It is a folder.
+    /// The path is a directory.
     #[error("is a directory, not a file")]
     Directory,
-    /// It is a pipe, a device or the like.
+    /// The path is a pipe, a device or similar.
     #[error("is not a regular file but a pipe or a device; standard input is read as -")]
     NotRegular,
-    /// It has more bytes than are read.
+    /// The file is larger than the limit.
     #[error("is larger than {} MiB", most >> 20)]
     TooLarge {
-        /// The most bytes that are read.
+        /// The limit in bytes.
         most: u64,
     },
-    /// It is not UTF-8.
-    #[error("is not text: line {line} is not UTF-8, which texts are to be saved as")]
+    /// The file is not UTF-8.
+    #[error("is not text: line {line} is not UTF-8; save the file as UTF-8")]
     NotText {
-        /// The first line that is not, from 1.
+        /// The first line that is not UTF-8, from 1.
         line: usize,
     },
-    /// It has a byte that no text has.
+    /// The file contains a zero byte, which no text has.
     #[error(
-        "is not text: line {line} has a byte 0; UTF-16 is read where the file starts with its mark"
+        "is not text: line {line} has a zero byte; UTF-16 needs a byte order mark at the start"
     )]
     Nul {
-        /// Line, from 1.
+        /// The line, from 1.
         line: usize,
     },
-    /// It starts as UTF-16 and is not.
-    #[error("is not text: line {line} is not UTF-16, as which the file starts")]
+    /// The file starts with a UTF-16 byte order mark but is not UTF-16.
+    #[error("is not text: line {line} is not UTF-16, but the file starts with its byte order mark")]
     NotUtf16 {
-        /// The first line that is not, from 1.
+        /// The first line that is not UTF-16, from 1.
         line: usize,
     },
-    /// `-` stands in two places.
+    /// `-` is given twice.
     #[error(
-        "is standard input, which can be read once, but is asked for twice; write one of the two into a file"
+        "is standard input, which can be read once only, but is requested twice; write one of the two to a file"
     )]
     StandardInputTwice,
 }
 
-/// The text of a regular file of at most [`MAX_BYTES`], or of standard input for `-`: UTF-8, or UTF-16 with a byte order mark.
+/// Reads the text of a regular file of at most [`MAX_BYTES`], or of standard input for `-`: UTF-8, or UTF-16 with a byte order mark.
 ///
 /// # Errors
-/// When it cannot be read, or is not such text.
+/// When the file cannot be read, or is not such text.
 pub fn read_text(path: &Path) -> Result<String, TextFileError> {
     let bytes = read_bytes(path, MAX_BYTES)?;
     match bytes.as_slice() {
@@ -82,7 +82,7 @@ pub fn read_text(path: &Path) -> Result<String, TextFileError> {
     }
 }
 
-/// The line, from 1, that a place lies in.
+/// Returns the line, from 1, that contains a byte position.
 fn line_of(bytes: &[u8], place: Option<usize>) -> usize {
     let before = place.and_then(|place| bytes.get(..place));
     before
@@ -103,10 +103,10 @@ fn utf_16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Result<String, TextFileErro
     Err(TextFileError::NotUtf16 { line })
 }
 
-/// The bytes of a regular file of at most `most`, or of standard input for `-`.
+/// Reads the bytes of a regular file of at most `most` bytes, or of standard input for `-`.
 ///
 /// # Errors
-/// When it cannot be read.
+/// When the file cannot be read.
 pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, TextFileError> {
     let bytes = read_start(path, most.saturating_add(1))?;
     if bytes.len() as u64 > most {
@@ -115,12 +115,12 @@ pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, TextFileError> {
     Ok(bytes)
 }
 
-/// The first bytes of a regular file, all of them where it has no more; for `-` those of standard input, once in a process.
+/// Reads the first `most` bytes of a regular file, or all if it is shorter; for `-`, those of standard input, once in a process.
 ///
-/// What the path leads to is looked at before it is opened: to open a pipe would wait for its writer.
+/// The type of the file is checked before it is opened, because opening a pipe would wait for its writer.
 ///
 /// # Errors
-/// When it cannot be read.
+/// When the file cannot be read.
 pub fn read_start(path: &Path, most: u64) -> Result<Vec<u8>, TextFileError> {
     if path.as_os_str() == STANDARD_INPUT {
         if STANDARD_INPUT_IS_USED.swap(true, Ordering::Relaxed) {
@@ -164,7 +164,7 @@ mod tests {
     fn what_is_no_text_names_the_line() {
         for (bytes, said) in [
             (&b"a\nb\n\xc3("[..], "line 3 is not UTF-8"),
-            (b"a\n1,0.1\x00\n", "line 2 has a byte 0"),
+            (b"a\n1,0.1\x00\n", "line 2 has a zero byte"),
             (b"\xff\xfea\x00\n\x00b", "line 2 is not UTF-16"),
             (b"\xfe\xff\x00a\xd8\x00", "line 1 is not UTF-16"),
         ] {

@@ -1,15 +1,15 @@
-//! Texts for people: what others wrote, made safe for a terminal, and numbers.
+//! Formatting for messages: foreign text made safe for a terminal, and numbers.
 
 use std::borrow::Cow;
 
-/// Whether a terminal obeys a sign rather than showing it: a control character, or one that turns the direction of writing.
+/// Whether a terminal obeys a character instead of showing it: a control character, or one that changes the direction of writing.
 pub fn is_obeyed(sign: char) -> bool {
     sign.is_control()
         || matches!(sign, '\u{61c}' | '\u{200e}' | '\u{200f}')
         || matches!(sign, '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// A text in which every sign that a terminal would obey is escaped as TOML and JSON do it, `\u001b`; tabs and ends of lines stay.
+/// Escapes every character that a terminal would obey, as in TOML and JSON (`\u001b`); tabs and line ends are kept.
 pub fn visible(text: &str) -> Cow<'_, str> {
     let is_bad = |sign: char| is_obeyed(sign) && sign != '\n' && sign != '\t';
     if !text.contains(is_bad) {
@@ -26,7 +26,7 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     Cow::Owned(safe)
 }
 
-/// A text of at most about so many characters: of a longer one the first two thirds and the end, with … between.
+/// Shortens a text to about `most` characters: the first two thirds and the end, with … between them.
 pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
     if text.len() <= most || text.char_indices().nth(most).is_none() {
         return Cow::Borrowed(text);
@@ -42,9 +42,9 @@ pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
     Cow::Owned(format!("{head}…{tail}"))
 }
 
-/// A number in its shortest form: `0.25`, `1e9`.
+/// Formats a number in its shortest form: `0.25`, `1e9`.
 pub fn number(value: f64) -> String {
-    /// Up to here all digits are easily read.
+    /// A number of up to this many characters is easy to read in full.
     const READABLE: usize = 9;
     let plain = value.to_string();
     if plain.len() <= READABLE {

@@ -1,4 +1,4 @@
-//! The materials against an independent reading of the same publications, and against figures that others give.
+//! Compares the materials with an independent reading of the same publications, and with values from other sources.
 
 use pellicle_spectra::{material_info, material_names, optical_constants};
 use std::collections::HashSet;
@@ -47,7 +47,7 @@ fn indices_at_spectral_lines_are_the_published_ones() {
         // SCHOTT data sheet N-SF11 (785257.322).
         ("sf11", 587.5618, 1.78472, 1e-5),
         ("sf11", 486.1327, 1.80651, 1e-5),
-        // The indices that data sheets of crystals give for these lines, to the digits that they give.
+        // Indices at these lines from data sheets of crystals, to the digits that they give.
         ("calcium_fluoride", 587.5618, 1.43384, 2e-5),
         ("magnesium_fluoride", 589.3, 1.3777, 5e-5),
         ("alumina", 589.3, 1.768, 5e-4),

@@ -1,6 +1,6 @@
-//! Names of materials as chemistry and trade write them.
+//! Names of materials as in chemistry and trade.
 
-/// A name and the set of figures that it stands for, sorted by name.
+/// Aliases and the data sets that they stand for, sorted by alias.
 pub(super) const ALIASES: [(&str, &str); 44] = [
     ("Ag", "silver"),
     ("Al", "aluminum"),
@@ -48,13 +48,13 @@ pub(super) const ALIASES: [(&str, &str); 44] = [
     ("sapphire", "alumina"),
 ];
 
-/// The set that a name stands for; a name that is no alias stands for itself.
+/// Returns the data set that a name stands for; a name that is not an alias stands for itself.
 pub(super) fn resolved(name: &str) -> &str {
     let alias = ALIASES.iter().find(|(alias, _)| *alias == name);
     alias.map_or(name, |&(_, stands_for)| stands_for)
 }
 
-/// The other names of a set.
+/// The aliases of a data set.
 pub(super) fn of(name: &str) -> Vec<&'static str> {
     let own = ALIASES.iter().filter(|(_, stands_for)| *stands_for == name);
     own.map(|&(alias, _)| alias).collect()

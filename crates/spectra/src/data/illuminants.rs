@@ -1,4 +1,4 @@
-//! Illuminants: the CIE's tables by name, daylight and black bodies by temperature.
+//! Illuminants: CIE tables by name, daylight and black bodies by temperature.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -12,7 +12,7 @@ use super::{DataSet, radiators};
 use crate::suggestion::nearest;
 use crate::{OutOfRange, Spectrum, Tabulated};
 
-/// Wavelengths of the 1 nm rule: 380, 381 … 780 nm.
+/// The wavelengths of the 1 nm rule: 380, 381 … 780 nm.
 fn rule_1nm() -> impl Iterator<Item = f64> {
     (380..=780).map(f64::from)
 }
@@ -25,17 +25,17 @@ fn luminance(spectrum: &Spectrum) -> Result<f64, OutOfRange> {
         .sum()
 }
 
-/// The same spectrum with the luminance of the equal-energy spectrum of value 1.
+/// Scales a spectrum to the luminance of the equal-energy spectrum of value 1.
 fn normalized(table: &Tabulated) -> Result<Spectrum, OutOfRange> {
     let own = luminance(&Spectrum::Table(table.clone()))?;
     let factor = luminance(&Spectrum::Constant(1.0))? / own;
     Ok(Spectrum::Table(table.scaled(factor)))
 }
 
-/// The same set, normalized.
+/// Normalizes a data set.
 ///
 /// # Panics
-/// When the table does not cover 380 to 780 nm, which the project's own do: the test that loads every set stands before that.
+/// When the table does not cover 380 to 780 nm. The built-in ones do, as the test that loads every set verifies.
 fn normalized_set(set: DataSet<Tabulated>) -> DataSet<Spectrum> {
     let data = normalized(&set.data).unwrap_or_else(|gap| panic!("illuminant {}: {gap}", set.name));
     DataSet {
@@ -45,7 +45,7 @@ fn normalized_set(set: DataSet<Tabulated>) -> DataSet<Spectrum> {
     }
 }
 
-/// The illuminants of one data file.
+/// Reads the illuminants of one data file.
 fn read(table: &Table) -> Result<Vec<DataSet<Tabulated>>, TableError> {
     let citation = table.citation()?;
     let set = |name| {
@@ -81,30 +81,30 @@ fn all() -> &'static BTreeMap<Cow<'static, str>, DataSet<Spectrum>> {
     })
 }
 
-/// What [`find_illuminant`] understands.
+/// The names that [`find_illuminant`] accepts, for messages.
 const KNOWN: &str = "A, B, C, D50, D55, D65, D75, E, FL1 to FL12 (or F1 to F12), HP1 to HP5, LED-B1 to LED-B5, LED-BH1, LED-RGB1, \
     LED-V1, LED-V2, daylight D4000K to D25000K, and black bodies blackbody_1000K to blackbody_100000K";
 
-/// Why there is no illuminant of a name.
+/// Why there is no illuminant with a name.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum IlluminantError {
-    /// Nothing is known by the name.
+    /// The name is unknown.
     #[error("there is no illuminant {name:?}{}; known are {KNOWN}", suggestion(.nearest.as_deref()))]
     Unknown {
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// The one that was probably meant.
+        /// The name that was probably meant.
         nearest: Option<String>,
     },
-    /// A temperature at which the formula gives no light.
+    /// The temperature is outside the domain of the formula.
     #[error("illuminant {name:?}: {what} is defined from {} to {} K", range_k.0, range_k.1)]
     Temperature {
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// What it is a temperature of.
+        /// The radiator whose temperature it is.
         what: &'static str,
-        /// The first and the last one possible, K.
+        /// The lowest and highest possible temperature, K.
         range_k: (f64, f64),
     },
 }
@@ -113,20 +113,20 @@ fn suggestion(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |name| format!("; did you mean {name:?}?"))
 }
 
-/// An illuminant by name, relative, scaled so that its luminance equals that of the equal-energy spectrum of value 1:
+/// Returns an illuminant by name, in relative units, scaled to the luminance of the equal-energy spectrum of value 1:
 /// ∫S ȳ dλ = ∫ȳ dλ over 380 to 780 nm (CIE 1931, 1 nm rule).
 ///
-/// * `A`, `B`, `C`, `D50`, `D55`, `D65`, `D75`: linear between the points of their 5 nm tables, which for the D series is the
-///   definition; 300 to 780 nm, B from 320 nm. `E` is the constant 1.
-/// * `FL1` to `FL12` (also `F1` to `F12`), `HP1` to `HP5`: lamps with lines, which are *defined* by sums over their 5 nm tables
-///   ([`is_line_lamp`]): read as linear between the points, as here, their chromaticity y moves by about 2e-4 from the published
+/// * `A`, `B`, `C`, `D50`, `D55`, `D65`, `D75`: linear between the points of their 5 nm tables, which is how the D series is
+///   defined; 300 to 780 nm, B from 320 nm. `E` is the constant 1.
+/// * `FL1` to `FL12` (also `F1` to `F12`), `HP1` to `HP5`: lamps with spectral lines, *defined* by sums over their 5 nm tables
+///   ([`is_line_lamp`]). With linear interpolation, as here, their chromaticity y differs by about 2e-4 from the published
 ///   one, and a mercury line is as wide as the table's step. 380 to 780 nm.
-/// * `LED-B1` to `LED-B5`, `LED-BH1`, `LED-RGB1`, `LED-V1`, `LED-V2`: 5 nm tables too, of smooth lamps; 380 to 780 nm.
-/// * `D5700K`: the CIE's daylight of that correlated color temperature, 4000 to 25000 K; 300 to 830 nm. D65 itself lies near 6504 K.
+/// * `LED-B1` to `LED-B5`, `LED-BH1`, `LED-RGB1`, `LED-V1`, `LED-V2`: also 5 nm tables, of smooth lamps; 380 to 780 nm.
+/// * `D5700K`: CIE daylight of that correlated color temperature, 4000 to 25000 K; 300 to 830 nm. D65 itself is near 6504 K.
 /// * `blackbody_3000K`: Planck's law with c₂ = 1.4388e-2 m K, 1000 to 100000 K; 300 to 830 nm.
 ///
 /// # Errors
-/// When nothing has the name, or the temperature is outside its range.
+/// When the name is unknown, or the temperature is outside its range.
 pub fn find_illuminant(name: &str) -> Result<DataSet<Spectrum>, IlluminantError> {
     if let Some(set) = all()
         .get(name)
@@ -143,14 +143,14 @@ pub fn find_illuminant(name: &str) -> Result<DataSet<Spectrum>, IlluminantError>
     }
 }
 
-/// The name in the tables of a lamp that is called `F11` for short.
+/// Returns the full name in the tables for a short name such as `F11`.
 fn full_name(short: &str) -> Option<String> {
     let number = short.strip_prefix('F')?;
     let is_number = number.starts_with(|c: char| c.is_ascii_digit());
     is_number.then(|| format!("FL{number}"))
 }
 
-/// [`find_illuminant`] for those who can say themselves what is wrong.
+/// Returns an illuminant by name as [`find_illuminant`] does, for callers that report errors themselves.
 pub fn illuminant(name: &str) -> Option<DataSet<Spectrum>> {
     find_illuminant(name).ok()
 }
@@ -160,7 +160,7 @@ pub fn illuminant_names() -> Vec<&'static str> {
     all().keys().map(AsRef::as_ref).collect()
 }
 
-/// Whether this is one of the CIE's lamps with lines, FL1 to FL12 and HP1 to HP5: their tables are defined by sums over 5 nm.
+/// Whether this is a CIE illuminant with spectral lines, FL1 to FL12 or HP1 to HP5, which are defined by sums at 5 nm.
 pub fn is_line_lamp(name: &str) -> bool {
     let name = full_name(name).unwrap_or_else(|| name.to_owned());
     (name.starts_with("FL") || name.starts_with("HP")) && all().contains_key(name.as_str())
@@ -182,7 +182,7 @@ mod tests {
     }
 
     /// X and Z at Y = 100, from plain double-precision sums over the same published tables,
-    /// computed apart from this code (numpy).
+    /// computed independently (numpy).
     const WHITE_POINTS: [(&str, u32, f64, f64); 17] = [
         ("A", 5, 109.848_993_121, 35.582_473_632_4),
         ("A", 1, 109.847_886_503, 35.587_346_062_6),
@@ -207,7 +207,7 @@ mod tests {
     fn white_points_equal_an_independent_computation() {
         for (name, step, x, z) in WHITE_POINTS {
             let xyz = white_point(&illuminant(name).unwrap().data, step);
-            // The expected figures have 12 digits.
+            // The expected values have 12 digits.
             assert!(
                 (xyz[0] - x).abs() < 1e-9,
                 "{name} {step} nm: X {} {x}",

@@ -7,7 +7,7 @@ use super::table::{Table, TableError, embedded};
 use super::{DataSet, aliases};
 use crate::{DispersionFormula, FormulaKind, OpticalConstants, Spectrum};
 
-/// A material's name and its file.
+/// A material's name and the text of its file.
 macro_rules! material {
     ($name:literal) => {
         (
@@ -89,12 +89,12 @@ const FILES: [(&str, &str); 69] = [
     material!("zirconia"),
 ];
 
-/// What is known about a material beside its figures.
+/// Information about a material's data: source, license, range.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MaterialInfo {
-    /// The name by which scenes ask for it, such as `gold`.
+    /// The name that scenes use, such as `gold`.
     pub name: &'static str,
-    /// What else it is called, such as `Au`.
+    /// Other names of the material, such as `Au`.
     pub aliases: Vec<&'static str>,
     /// What was measured, in a few words.
     pub material: &'static str,
@@ -104,21 +104,21 @@ pub struct MaterialInfo {
     pub paper: &'static str,
     /// The publication in full.
     pub citation: &'static str,
-    /// The terms under which the figures came here.
+    /// The license of the data.
     pub license: &'static str,
-    /// What is to be known before the figures are used.
+    /// What a user of the data should know.
     pub notes: &'static str,
     /// First and last wavelength where both n and k have a value, nm.
     pub range_nm: (f64, f64),
 }
 
-/// A material's figures and what is known about them.
+/// A material's data and the information about them.
 struct Entry {
     info: MaterialInfo,
     set: DataSet<OpticalConstants>,
 }
 
-/// The dispersion formula of a file that has one.
+/// Reads the dispersion formula of a file, if it has one.
 fn formula(table: &Table) -> Result<Option<DispersionFormula>, TableError> {
     let Ok(number) = table.head("formula") else {
         return Ok(None);
@@ -142,7 +142,7 @@ fn formula(table: &Table) -> Result<Option<DispersionFormula>, TableError> {
     )?))
 }
 
-/// n from its formula or table; k from its table, or 0 where the source has none.
+/// Reads n from a formula or table, and k from a table, or 0 if the source has none.
 fn read(table: &Table) -> Result<OpticalConstants, TableError> {
     let n = match formula(table)? {
         Some(formula) => Spectrum::Formula(formula),
@@ -178,7 +178,7 @@ fn entry(name: &'static str, table: &Table) -> Result<Entry, TableError> {
     Ok(Entry { info, set })
 }
 
-/// A material, read when it is first asked for.
+/// Finds a material by name; its file is parsed on first use.
 fn find(name: &str) -> Option<&'static Entry> {
     static ALL: OnceLock<BTreeMap<&'static str, (&'static str, OnceLock<Entry>)>> = OnceLock::new();
     let all = ALL.get_or_init(|| {
@@ -189,7 +189,7 @@ fn find(name: &str) -> Option<&'static Entry> {
     Some(read.get_or_init(|| embedded(name, text, |table| entry(name, table))))
 }
 
-/// Optical constants by name (`"gold"`, `"water"`); [`material_info`] says where they come from.
+/// Returns optical constants by name (`"gold"`, `"water"`); [`material_info`] gives their source.
 ///
 /// | kind | names |
 /// | --- | --- |
@@ -203,35 +203,35 @@ fn find(name: &str) -> Option<&'static Entry> {
 /// | polymers | `pmma`, `polystyrene` |
 /// | others | `air`, `diamond` |
 ///
-/// Chemistry's and the trade's names do as well, in their own upper and lower case: `Au`, `SiO2`, `ITO`, `N-BK7`; see
+/// Chemical formulas and trade names are also accepted, in their usual case: `Au`, `SiO2`, `ITO`, `N-BK7`; see
 /// [`material_aliases`].
 ///
-/// A name with an ending (`gold_olmon`, `copper_mcpeak`, `silica_film`) is another set of figures of the same material. The
-/// choice of set moves a metal's color by more than any numerics: name it beside a result.
+/// A name with a suffix (`gold_olmon`, `copper_mcpeak`, `silica_film`) is another data set for the same material. The choice
+/// of data set changes a metal's color more than any numerical error: name it with a result.
 ///
-/// Tables are linear between their points, n and k each on its own; formulas are evaluated where they are asked for.
-/// Asked for outside its range, a material is an error; some begin within the visible range (`polystyrene` at 400 nm).
+/// Tables are linear between their points, separately for n and k; formulas are evaluated at the exact wavelength.
+/// Outside its range, a material has no value; some ranges begin within the visible range (`polystyrene` at 400 nm).
 pub fn optical_constants(name: &str) -> Option<DataSet<OpticalConstants>> {
     find(name).map(|entry| entry.set.clone())
 }
 
-/// Where the optical constants of this name come from, and for which wavelengths.
+/// Returns the source and range of the optical constants with this name.
 pub fn material_info(name: &str) -> Option<MaterialInfo> {
     find(name).map(|entry| entry.info.clone())
 }
 
-/// The names of the sets that [`optical_constants`] knows, sorted.
+/// The names of the data sets that [`optical_constants`] knows, sorted.
 pub fn material_names() -> Vec<&'static str> {
     FILES.iter().map(|&(name, _)| name).collect()
 }
 
-/// Further names that [`optical_constants`] knows, sorted, each with the set that it stands for: `Au` is `gold`.
+/// Aliases that [`optical_constants`] accepts, sorted, each with the data set that it stands for: `Au` is `gold`.
 pub fn material_aliases() -> &'static [(&'static str, &'static str)] {
     &aliases::ALIASES
 }
 
-/// The sets of figures of the substance that this name stands for, that of the name first: `TiO2` has `titania`, `anatase`,
-/// `rutile` and more. Empty where the name is unknown.
+/// Returns all data sets of the substance that this name stands for, beginning with the name's own: `TiO2` has `titania`,
+/// `anatase`, `rutile` and more. Empty if the name is unknown.
 pub fn material_sets(name: &str) -> Vec<&'static str> {
     let name = aliases::resolved(name);
     let Some(&(own, text)) = FILES.iter().find(|(known, _)| *known == name) else {
@@ -245,7 +245,7 @@ pub fn material_sets(name: &str) -> Vec<&'static str> {
         .collect()
 }
 
-/// What the database calls the substance of a file: `TiO2` of `TiO2-Siefke`.
+/// Returns the database's name for the substance of a file: `TiO2` for `TiO2-Siefke`.
 fn substance(text: &str) -> Option<&str> {
     let data_set = text
         .lines()
@@ -325,7 +325,7 @@ mod tests {
             assert_eq!(info.name, name);
             assert!(info.aliases.contains(&alias));
             assert_eq!(optical_constants(alias), optical_constants(name));
-            // The database's own name of the substance says the same as the alias, save for names in words and of glasses.
+            // The database's name of the substance equals the alias, except for names in words and of glasses.
             let head = info.data_set.split('-').next().unwrap();
             let written = alias.replace("N-", "N");
             let in_words = ["aluminium", "sapphire", "PS", "BK7", "SF11"].contains(&alias);

@@ -1,7 +1,7 @@
-//! The tables that the project carries, by name.
+//! The built-in data sets, by name.
 //!
-//! The figures stand in `data/` beside this crate's `src/`, each file with its source and license
-//! in the head; see [`table`] for the form. They are part of the program: nothing is read at run time.
+//! The files are in `data/`, next to this crate's `src/`, each with its source and license in the
+//! header; see [`table`] for the format. They are compiled into the program: nothing is read at run time.
 
 use std::borrow::Cow;
 
@@ -30,11 +30,11 @@ pub const KM_LUMENS_PER_WATT: f64 = 683.0;
 /// A named spectrum with its source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataSet<T> {
-    /// The name by which scenes ask for it.
+    /// The name that scenes use.
     pub name: Cow<'static, str>,
-    /// The publication that the figures come from, and the license where one applies.
+    /// The publication that the data come from, and the license if one applies.
     pub citation: String,
-    /// The figures.
+    /// The data.
     pub data: T,
 }
 
@@ -42,7 +42,7 @@ pub struct DataSet<T> {
 mod tests {
     use super::*;
 
-    /// Every set of one kind: names sorted and unique, each found by its name, each with its source.
+    /// Checks the data sets of one kind: names are sorted and unique, and each set is found by name and has a source.
     fn check_kind<T>(names: &[&'static str], get: impl Fn(&str) -> Option<DataSet<T>>) {
         assert!(!names.is_empty());
         assert!(names.windows(2).all(|pair| pair[0] < pair[1]), "{names:?}");

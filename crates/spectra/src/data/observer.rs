@@ -9,7 +9,7 @@ use thiserror::Error;
 use super::table::{Table, TableError, embedded};
 use crate::Tabulated;
 
-/// A CIE observer: how an eye weighs the wavelengths.
+/// A CIE observer: a set of color-matching functions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Observer {
     /// CIE 1931, fields of 2° (CIE 2019, DOI 10.25039/CIE.DS.xvudnb9b).
@@ -17,13 +17,13 @@ pub enum Observer {
     Cie1931Deg2,
     /// CIE 1964, fields of 10° (CIE 2019, DOI 10.25039/CIE.DS.sqksu2n5).
     Cie1964Deg10,
-    /// Made of the cone fundamentals for 2° (CIE 170-2:2015).
+    /// Based on the cone fundamentals for 2° (CIE 170-2:2015).
     Cie2015Deg2,
-    /// Made of the cone fundamentals for 10° (CIE 170-2:2015).
+    /// Based on the cone fundamentals for 10° (CIE 170-2:2015).
     Cie2015Deg10,
 }
 
-/// A name that no observer has.
+/// The name is not that of an observer.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error(
     "there is no observer {0:?}; known are 1931_2, 1964_10, 2015_2 and 2015_10 (year and degrees)"
@@ -31,7 +31,7 @@ pub enum Observer {
 pub struct UnknownObserver(String);
 
 impl Observer {
-    /// All of them.
+    /// All observers.
     pub const ALL: [Self; 4] = [
         Self::Cie1931Deg2,
         Self::Cie1964Deg10,
@@ -39,7 +39,7 @@ impl Observer {
         Self::Cie2015Deg10,
     ];
 
-    /// The name, year and degrees: `1931_2`.
+    /// The name, which consists of year and degrees: `1931_2`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Cie1931Deg2 => "1931_2",
@@ -49,8 +49,8 @@ impl Observer {
         }
     }
 
-    /// The color-matching functions x̄, ȳ, z̄ at 1 nm: from 360 nm those of 1931 and 1964, from 390 nm those of 2015, to 830 nm.
-    /// Where a table ends the functions are 0: see [`Self::at`].
+    /// The color-matching functions x̄, ȳ, z̄ at 1 nm: those of 1931 and 1964 from 360 nm, those of 2015 from 390 nm, to 830 nm.
+    /// Outside the table the functions are 0: see [`Self::at`].
     pub fn functions(self) -> &'static [Tabulated; 3] {
         macro_rules! table {
             ($file:literal) => {{
@@ -68,7 +68,7 @@ impl Observer {
         }
     }
 
-    /// x̄, ȳ, z̄ at a wavelength, linear between the table's points; 0 outside the table, where the eye sees next to nothing.
+    /// Returns x̄, ȳ, z̄ at a wavelength, linear between the table's points; 0 outside the table, where they are negligible.
     pub fn at(self, nm: f64) -> [f64; 3] {
         let functions = self.functions().each_ref();
         functions.map(|function| function.at(nm).unwrap_or(0.0))
@@ -130,8 +130,8 @@ mod tests {
 
     #[test]
     fn the_three_functions_have_nearly_equal_sums() {
-        // The functions are normalized so that equal energy is white: X = Y = Z.
-        // The rounding of the table leaves 3e-4.
+        // The functions are normalized so that equal energy gives X = Y = Z.
+        // Rounding in the tables leaves 3e-4.
         for observer in Observer::ALL {
             let sums = observer
                 .functions()

@@ -1,4 +1,4 @@
-//! Lights that a temperature defines: daylight and black bodies.
+//! Illuminants that a temperature defines: daylight and black bodies.
 
 use std::sync::OnceLock;
 
@@ -7,12 +7,12 @@ use super::illuminants::IlluminantError;
 use super::table::{Table, TableError, embedded};
 use crate::Tabulated;
 
-/// Where the daylight model is defined, K (CIE 015:2018, section 4.1.2).
+/// Domain of the daylight model, K (CIE 015:2018, section 4.1.2).
 const DAYLIGHT_K: (f64, f64) = (4000.0, 25_000.0);
-/// Where a black body is a light at all, K.
+/// Temperatures of black bodies that are accepted, K.
 const BLACKBODY_K: (f64, f64) = (1000.0, 100_000.0);
 
-/// The light that `D5700K` or `blackbody_3000K` names; `None` for a name of another form.
+/// Returns the illuminant that `D5700K` or `blackbody_3000K` names; `None` for a name of another form.
 pub(super) fn by_temperature(name: &str) -> Result<Option<DataSet<Tabulated>>, IlluminantError> {
     let kelvin = |prefix| {
         let digits = name.strip_prefix(prefix)?.strip_suffix('K')?;
@@ -52,8 +52,8 @@ pub(super) fn by_temperature(name: &str) -> Result<Option<DataSet<Tabulated>>, I
     }))
 }
 
-/// CIE daylight, S = S₀ + M₁ S₁ + M₂ S₂, 100 at 560 nm, of a correlated color temperature from 4000 to 25000 K; at 5 nm, linear
-/// between the points (CIE 015:2018, equations 4.5 to 4.9; M₁ and M₂ are not rounded to three decimals, as the CIE did for the
+/// CIE daylight, S = S₀ + M₁ S₁ + M₂ S₂, 100 at 560 nm, of a correlated color temperature from 4000 to 25000 K, at 5 nm and linear
+/// between the points (CIE 015:2018, equations 4.5 to 4.9; M₁ and M₂ are not rounded to three decimals, unlike in the CIE's
 /// tables of D50 to D75).
 fn daylight(kelvin: f64) -> Tabulated {
     let [x, y] = daylight_xy(kelvin);
@@ -75,7 +75,7 @@ fn daylight_xy(kelvin: f64) -> [f64; 2] {
     [x, -3.000 * x * x + 2.870 * x - 0.275]
 }
 
-/// Power of a black body at a wavelength, relative to that at 560 nm, by Planck's law: λ⁻⁵ / (exp(c₂/λT) − 1) with
+/// Returns the power of a black body at a wavelength, relative to 560 nm, by Planck's law: λ⁻⁵ / (exp(c₂/λT) − 1) with
 /// c₂ = 1.4388e-2 m K (CIE 015:2018, section 4.1.1).
 pub fn black_body(nm: f64, kelvin: f64) -> f64 {
     const C2_NM_K: f64 = 1.4388e7;
@@ -88,13 +88,16 @@ fn blackbody(kelvin: f64) -> Tabulated {
     tabulated((300..=830).map(|nm| (f64::from(nm), black_body(f64::from(nm), kelvin))))
 }
 
+/// Makes a table from a formula.
+///
 /// # Panics
-/// Never: the wavelengths rise, and no formula gives an infinite number in its range.
+/// Never: the wavelengths rise, and the formulas are finite in their ranges.
 fn tabulated(points: impl Iterator<Item = (f64, f64)>) -> Tabulated {
-    Tabulated::new(points.collect()).unwrap_or_else(|error| panic!("a light by formula: {error}"))
+    Tabulated::new(points.collect())
+        .unwrap_or_else(|error| panic!("an illuminant by formula: {error}"))
 }
 
-/// S₀, S₁ and S₂.
+/// The components S₀, S₁ and S₂ of daylight.
 pub(crate) fn components() -> &'static [Tabulated; 3] {
     fn read(table: &Table) -> Result<[Tabulated; 3], TableError> {
         Ok([
@@ -115,7 +118,7 @@ mod tests {
     use super::*;
     use crate::illuminant;
 
-    /// The CIE's tables are daylight of 5000, 5500, 6500 and 7500 K on the scale of an older c₂, 1.4380e-2 m K.
+    /// The CIE's tables are daylight of 5000, 5500, 6500 and 7500 K for an older c₂ of 1.4380e-2 m K.
     #[test]
     fn daylight_is_that_of_the_tables() {
         for (name, nominal) in [
@@ -129,7 +132,7 @@ mod tests {
             let scale = 100.0 / table.at(560.0).unwrap();
             for nm in (300..=780).step_by(5).map(f64::from) {
                 let (found, expected) = (found.at(nm).unwrap(), scale * table.at(nm).unwrap());
-                // The tables were made with M₁ and M₂ of three decimals: 0.0005 (S₁ + S₂) beside 100.
+                // The tables use M₁ and M₂ with three decimals: an error of 0.0005 (S₁ + S₂), where S is 100 at 560 nm.
                 assert!(
                     (found - expected).abs() < 0.04,
                     "{name} {nm} nm: {found} {expected}"
@@ -148,7 +151,7 @@ mod tests {
         );
     }
 
-    /// Illuminant A is the black body of 2848 K on the scale of c₂ = 1.4350e-2 m K (CIE 015:2018, equation 4.1).
+    /// Illuminant A is the black body of 2848 K for c₂ = 1.4350e-2 m K (CIE 015:2018, equation 4.1).
     #[test]
     fn a_black_body_is_illuminant_a() {
         let a = illuminant("A").unwrap().data;

@@ -32,14 +32,14 @@ fn all() -> &'static BTreeMap<&'static str, DataSet<Spectrum>> {
     })
 }
 
-/// A diffuse reflectance by name: a patch of the `ColorChecker` (`"dark_skin"`, `"white_9_5"`), 380 to 780 nm at 5 nm.
+/// Returns a diffuse reflectance by name: a patch of the `ColorChecker` (`"dark_skin"`, `"white_9_5"`), 380 to 780 nm at 5 nm.
 ///
 /// Source: N. Ohta (1997).
 pub fn reflectance(name: &str) -> Option<DataSet<Spectrum>> {
     all().get(name).cloned()
 }
 
-/// Names that [`reflectance`] knows, sorted.
+/// The names that [`reflectance`] accepts, sorted.
 pub fn reflectance_names() -> Vec<&'static str> {
     all().keys().copied().collect()
 }
@@ -65,7 +65,7 @@ mod tests {
         assert!(at("red", 650.0) > 5.0 * at("red", 500.0));
         assert!(at("green", 530.0) > 2.0 * at("green", 650.0));
         assert!(at("blue", 450.0) > 5.0 * at("blue", 600.0));
-        // The white patch is named for its lightness: Munsell value 9.5 is a reflectance of 0.9.
+        // The white patch is named after its lightness: Munsell value 9.5 is a reflectance of 0.9.
         assert!((at("white_9_5", 560.0) - 0.9).abs() < 0.03);
     }
 }

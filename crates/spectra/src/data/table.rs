@@ -1,14 +1,14 @@
-//! The form of the project's data files.
+//! The format of the built-in data files.
 //!
 //! ```text
 //! # name: Au-Johnson
 //! # citation: who measured it, where it was published
-//! # license: under which terms the figures came here
+//! # license: the terms of use
 //! nm,n,k
 //! 300.9,1.53,1.889
 //! ```
 //!
-//! A dispersion formula has its number and range in the head, and its coefficients as a block of one column:
+//! A dispersion formula has its number and range in the header, and its coefficients as a block of one column:
 //!
 //! ```text
 //! # formula: 1
@@ -18,9 +18,9 @@
 //! 0.6961663
 //! ```
 //!
-//! A head of `# key: value` lines, then blocks of comma-separated numbers. A line that starts with
-//! a letter names the columns and opens a block; an empty cell has no value in the source; empty
-//! lines separate blocks.
+//! A header of `# key: value` lines is followed by blocks of comma-separated numbers. A line that
+//! starts with a letter names the columns and begins a block; an empty cell means that the source
+//! has no value; empty lines separate blocks.
 
 use std::collections::BTreeMap;
 
@@ -28,14 +28,14 @@ use thiserror::Error;
 
 use crate::{FormulaError, Tabulated, TabulatedError};
 
-/// A data file, read.
+/// A parsed data file.
 #[derive(Debug)]
 pub(super) struct Table {
     head: BTreeMap<&'static str, &'static str>,
     blocks: Vec<Block>,
 }
 
-/// Columns of one block.
+/// One block of columns.
 #[derive(Debug)]
 struct Block {
     columns: Vec<&'static str>,
@@ -45,9 +45,9 @@ struct Block {
 /// What is wrong with a data file. Lines are counted from 1.
 #[derive(Debug, Error, PartialEq)]
 pub(super) enum TableError {
-    #[error("line {0}: a line of the head must be `# key: value`")]
+    #[error("line {0}: a line of the header must be `# key: value`")]
     Head(usize),
-    #[error("line {0}: numbers before the names of their columns")]
+    #[error("line {0}: numbers before the names of the columns")]
     NoColumns(usize),
     #[error("line {line}: {found} cells, but {expected} columns")]
     Cells {
@@ -57,11 +57,11 @@ pub(super) enum TableError {
     },
     #[error("line {line}: {cell:?} is not a number")]
     NotANumber { line: usize, cell: &'static str },
-    #[error("the head has no {0:?}")]
+    #[error("the header has no {0:?}")]
     MissingKey(&'static str),
     #[error("no block has the columns {0:?}")]
     MissingColumns(Vec<&'static str>),
-    #[error("the head's {key:?} is not what it should be: {value:?}")]
+    #[error("the header has an invalid {key:?}: {value:?}")]
     Value {
         key: &'static str,
         value: &'static str,
@@ -76,7 +76,7 @@ pub(super) enum TableError {
 }
 
 impl Table {
-    /// Reads the text of a data file.
+    /// Parses the text of a data file.
     pub(super) fn parse(text: &'static str) -> Result<Self, TableError> {
         let mut head = BTreeMap::new();
         let mut blocks: Vec<Block> = Vec::new();
@@ -98,7 +98,7 @@ impl Table {
         Ok(Self { head, blocks })
     }
 
-    /// A value of the head.
+    /// Returns a value of the header.
     pub(super) fn head(&self, key: &'static str) -> Result<&'static str, TableError> {
         self.head
             .get(key)
@@ -106,7 +106,7 @@ impl Table {
             .ok_or(TableError::MissingKey(key))
     }
 
-    /// The name of the set, its source and its license, as one text.
+    /// Returns the name of the set, its source and its license as one text.
     pub(super) fn citation(&self) -> Result<String, TableError> {
         Ok(format!(
             "{}: {}. License: {}.",
@@ -116,7 +116,7 @@ impl Table {
         ))
     }
 
-    /// The names of the columns of the first block that follow its first one, `nm`.
+    /// The names of the first block's columns after the first one, `nm`.
     pub(super) fn series_names(&self) -> Vec<&'static str> {
         self.blocks
             .first()
@@ -130,7 +130,7 @@ impl Table {
         rows.filter_map(|row| row[0]).collect()
     }
 
-    /// The rows that have a value in both `x` and `y`, from the block with these columns.
+    /// Returns the rows with a value in both `x` and `y`, from the first block with these columns.
     pub(super) fn pairs(
         &self,
         x: &'static str,
@@ -149,14 +149,14 @@ impl Table {
         Err(TableError::MissingColumns(vec![x, y]))
     }
 
-    /// Column `column` over wavelength.
+    /// Returns the column `column` over wavelength.
     pub(super) fn series(&self, column: &'static str) -> Result<Tabulated, TableError> {
         Tabulated::new(self.pairs("nm", column)?)
             .map_err(|source| TableError::Points { column, source })
     }
 }
 
-/// The numbers of one row.
+/// Parses the numbers of one row.
 fn cells(
     line: usize,
     content: &'static str,
@@ -183,10 +183,10 @@ fn cells(
     }
 }
 
-/// Loads a file that is part of the program with `load`.
+/// Loads a built-in file with `load`.
 ///
 /// # Panics
-/// When the file is damaged, which no user can cause: the test that loads every set stands before that.
+/// When the file is invalid, which no user can cause and the test that loads every set rules out.
 pub(super) fn embedded<T>(
     file: &str,
     text: &'static str,
@@ -194,7 +194,7 @@ pub(super) fn embedded<T>(
 ) -> T {
     Table::parse(text)
         .and_then(|table| load(&table))
-        .unwrap_or_else(|error| panic!("the program's own data file {file}: {error}"))
+        .unwrap_or_else(|error| panic!("the built-in data file {file}: {error}"))
 }
 
 #[cfg(test)]

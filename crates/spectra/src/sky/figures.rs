@@ -1,7 +1,7 @@
-//! Figures of the sky's model: A. J. Preetham, P. Shirley and B. Smits, A Practical Analytic Model for Daylight, SIGGRAPH 1999,
-//! appendices A.1 and A.2; those of absorption after M. Iqbal, An Introduction to Solar Radiation, Academic Press 1983, pages 127 to 130.
+//! Coefficients and tables of the sky model: A. J. Preetham, P. Shirley and B. Smits, A Practical Analytic Model for Daylight, SIGGRAPH 1999,
+//! appendices A.1 and A.2; absorption after M. Iqbal, An Introduction to Solar Radiation, Academic Press 1983, pages 127 to 130.
 
-/// Perez coefficients A to E, each as slope over turbidity and start: of luminance, x and y (appendix A.2).
+/// Perez coefficients A to E of luminance, x and y, each as slope over turbidity and intercept (appendix A.2).
 pub(super) const PEREZ: [[[f64; 2]; 5]; 3] = [
     [
         [0.1787, -1.4630],
@@ -26,7 +26,7 @@ pub(super) const PEREZ: [[[f64; 2]; 5]; 3] = [
     ],
 ];
 
-/// x at the zenith: rows for T², T and 1, columns for the cube to the zeroth power of the sun's angle.
+/// x at the zenith: rows for T², T and 1, columns for the third to the zeroth power of the sun's zenith angle.
 pub(super) const ZENITH_X: [[f64; 4]; 3] = [
     [0.001_66, -0.003_75, 0.002_09, 0.0],
     [-0.029_03, 0.063_77, -0.032_02, 0.003_94],
@@ -40,7 +40,7 @@ pub(super) const ZENITH_Y: [[f64; 4]; 3] = [
     [0.153_46, -0.267_56, 0.066_70, 0.266_88],
 ];
 
-/// The sun's radiance above the air, W cm⁻² µm⁻¹ sr⁻¹ over 10.
+/// Radiance of the sun above the atmosphere, W cm⁻² µm⁻¹ sr⁻¹ over 10.
 pub(super) const SUN: [(f64, f64); 38] = [
     (380.0, 165.5),
     (390.0, 162.3),
@@ -82,7 +82,7 @@ pub(super) const SUN: [(f64, f64); 38] = [
     (750.0, 182.6),
 ];
 
-/// Absorption of ozone, 1/cm; none below 445 nm that is seen.
+/// Absorption of ozone, 1/cm; negligible below 445 nm.
 pub(super) const OZONE: [(f64, f64); 53] = [
     (440.0, 0.0),
     (445.0, 0.003),
@@ -139,7 +139,7 @@ pub(super) const OZONE: [(f64, f64); 53] = [
     (790.0, 0.0),
 ];
 
-/// Absorption of the mixed gases, above all of oxygen.
+/// Absorption of the mixed gases, mainly oxygen.
 pub(super) const GASES: [(f64, f64); 4] = [(759.0, 0.0), (760.0, 3.0), (770.0, 0.21), (771.0, 0.0)];
 
 /// Absorption of water vapor.

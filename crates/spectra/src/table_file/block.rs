@@ -1,4 +1,4 @@
-//! Where in a text the rows of numbers stand, and what stands above them.
+//! Finds the rows of numbers in a text and the header above them.
 
 use super::MAX_ROWS;
 use super::error::TableFileError;
@@ -9,19 +9,19 @@ use super::line::{Line, lines, number};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HeadLine<'a> {
     pub(super) line: Line<'a>,
-    /// Whether it has the sign of a comment, which is left out.
+    /// Whether it is a comment; the comment sign is removed.
     pub(super) is_comment: bool,
 }
 
-/// Rows of numbers with what stands above them.
+/// Rows of numbers and the header above them.
 #[derive(Debug, Default)]
 pub(super) struct Block<'a> {
     pub(super) head: Vec<HeadLine<'a>>,
-    /// Not empty.
+    /// Never empty in a finished block.
     pub(super) rows: Vec<Line<'a>>,
 }
 
-/// Refuses lines above rows in which a spectrometer says that its axis is none of wavelengths.
+/// Refuses header lines in which a spectrometer states that its axis is in wavenumbers.
 pub(super) fn check_axis<'a>(
     mut lines: impl Iterator<Item = Line<'a>>,
 ) -> Result<(), TableFileError> {
@@ -35,7 +35,7 @@ pub(super) fn check_axis<'a>(
     }
 }
 
-/// The blocks of a text: one, or more where a head stands between rows.
+/// Returns the blocks of a text: one, or several if there is a header between rows.
 pub(super) fn blocks(text: &str) -> Result<Vec<Block<'_>>, TableFileError> {
     let begin = lines(text)
         .filter(|line| is_begin(line.content))
@@ -79,7 +79,7 @@ pub(super) fn blocks(text: &str) -> Result<Vec<Block<'_>>, TableFileError> {
     Ok(blocks)
 }
 
-/// A line behind which the data begin.
+/// Whether the data begin after this line.
 fn is_begin(content: &str) -> bool {
     let is_marker = |rest: &str| {
         rest.trim_start_matches('>')
@@ -89,12 +89,12 @@ fn is_begin(content: &str) -> bool {
     content.strip_prefix(">>>").is_some_and(is_marker) || content.eq_ignore_ascii_case("[data]")
 }
 
-/// A line at which the data end.
+/// Whether the data end at this line.
 fn is_end(content: &str, block: &Block) -> bool {
     !block.rows.is_empty() && (content.starts_with(">>>") || content.starts_with('['))
 }
 
-/// A row of numbers below which all others must be rows too.
+/// Whether a line is a row of numbers, below which all other lines must be rows too.
 fn is_row(line: &Line) -> bool {
     let cells = line.cells(line.separator());
     let is_number = |at: usize| {
@@ -106,7 +106,7 @@ fn is_row(line: &Line) -> bool {
         || cells.first().is_some_and(|first| first.is_empty()) && cells.len() > 1 && is_number(1)
 }
 
-/// Whether a line between rows is the head of another table.
+/// Whether a line between rows is the header of another table.
 fn is_head(line: &Line) -> bool {
     let cells = line.cells(line.separator());
     let first = cells.first().copied().unwrap_or_default();
@@ -115,7 +115,7 @@ fn is_head(line: &Line) -> bool {
         && cells.iter().all(|cell| number(cell).is_none())
 }
 
-/// Refuses a line of the head that is a row but for a cell that is no number.
+/// Refuses a header line that would be a row except for a cell that is not a number.
 fn check_head(block: &Block) -> Result<(), TableFileError> {
     let width = block
         .rows

@@ -1,4 +1,4 @@
-//! CGATS.17: spectra of samples, a sample in a row and a wavelength in a column.
+//! CGATS.17: spectra of samples, with a sample in each row and a wavelength in each column.
 
 use std::borrow::Cow;
 
@@ -10,22 +10,22 @@ use super::{MAX_COLUMNS, MAX_ROWS, Notes, Point, Series};
 
 const FORMAT: &str = "CGATS";
 
-/// Whether a text is of this format.
+/// Whether a text has this format.
 pub(super) fn is_cgats(text: &str) -> bool {
     lines(text).any(|line| line.content.eq_ignore_ascii_case("BEGIN_DATA_FORMAT"))
 }
 
-/// What the file has.
+/// The parsed contents of a file.
 #[derive(Default)]
 struct File<'a> {
     fields: Vec<&'a str>,
     samples: Vec<Line<'a>>,
-    /// What 1 is written as, where the file says so.
+    /// The number that represents 1, if the file states it.
     scale: Option<f64>,
     last_line: usize,
 }
 
-/// Where in the file a line stands.
+/// The part of the file that a line belongs to.
 #[derive(Clone, Copy, PartialEq)]
 enum Part {
     Head,
@@ -34,7 +34,7 @@ enum Part {
     Data,
 }
 
-/// The spectrum of the one sample, or of the one that is chosen.
+/// Returns the spectrum of the only sample, or of the chosen one.
 pub(super) fn series<'a>(
     text: &'a str,
     options: &Options,
@@ -45,7 +45,8 @@ pub(super) fn series<'a>(
     if spectral.is_empty() {
         return Err(wrong(
             file.last_line,
-            "no field has a wavelength, as SPECTRAL_NM380, SPEC_380 or nm380 have".to_owned(),
+            "no field has a wavelength in its name, as SPECTRAL_NM380, SPEC_380 or nm380 do"
+                .to_owned(),
         ));
     }
     let sample = chosen(&file, options, notes)?;
@@ -54,7 +55,7 @@ pub(super) fn series<'a>(
         return Err(TableFileError::Columns {
             line: sample.number,
             found: cells.len(),
-            expected: format!("{}, as many as there are fields", file.fields.len()),
+            expected: format!("{}, one per field", file.fields.len()),
         });
     }
     let mut signs = DecimalSigns::default();
@@ -74,7 +75,7 @@ pub(super) fn series<'a>(
     }
     Ok(Series {
         points,
-        unit: Some((Unit::Nm, "as CGATS has it")),
+        unit: Some((Unit::Nm, "as in CGATS")),
         scale: file.scale,
     })
 }
@@ -137,7 +138,7 @@ fn check_count(what: &'static str, count: usize, most: usize) -> Result<(), Tabl
     Ok(())
 }
 
-/// What a line of the head says of what 1 is written as.
+/// Returns the number that represents 1, if a line of the header states it.
 fn scale(content: &str) -> Option<f64> {
     let (keyword, value) = content.split_once(char::is_whitespace)?;
     if keyword.eq_ignore_ascii_case("SPECTRAL_NORM") {
@@ -147,7 +148,7 @@ fn scale(content: &str) -> Option<f64> {
     is_percent(content).then_some(100.0)
 }
 
-/// Cells, separated by tabs where there are any, else by blanks.
+/// Splits a line into cells, at tabs if there are any, else at blanks.
 fn cells_of<'a>(line: &Line<'a>) -> Vec<&'a str> {
     let separator = if line.content.contains('\t') {
         Separator::Tab
@@ -157,14 +158,14 @@ fn cells_of<'a>(line: &Line<'a>) -> Vec<&'a str> {
     split(line.content, separator)
 }
 
-/// The fields that hold a value at a wavelength: position, nm and its text.
+/// Returns the fields that hold a value at a wavelength: position, nm and its text.
 fn spectral_fields<'a>(fields: &[&'a str]) -> Vec<(usize, (f64, &'a str))> {
     let all = fields.iter().enumerate();
     all.filter_map(|(at, field)| Some((at, wavelength(field)?)))
         .collect()
 }
 
-/// The wavelength that a field's name ends in.
+/// Returns the wavelength at the end of a field's name.
 fn wavelength(field: &str) -> Option<(f64, &str)> {
     let digits = field.find(|c: char| c.is_ascii_digit())?;
     let (name, number) = field.split_at_checked(digits)?;
@@ -182,7 +183,7 @@ fn wavelength(field: &str) -> Option<(f64, &str)> {
     (is_known && is_plain).then(|| Some((number.parse().ok()?, number)))?
 }
 
-/// The sample that is meant.
+/// Returns the chosen sample.
 fn chosen<'f, 'a>(
     file: &'f File<'a>,
     options: &Options,
@@ -222,7 +223,7 @@ fn chosen<'f, 'a>(
             (0..names.len()).filter(is_it).collect()
         }
         [ColumnChoice::Number(number)] => {
-            // Samples are often numbered: those numbers are meant before positions.
+            // Samples are often numbered: these numbers take precedence over positions.
             let id = number.to_string();
             let named = (0..names.len()).find(|&at| {
                 names
@@ -256,7 +257,7 @@ fn chosen<'f, 'a>(
     }
 }
 
-/// The id and the name of a sample.
+/// Returns the id and the name of a sample.
 fn names_of<'a>(file: &File<'a>, sample: &Line<'a>) -> Vec<&'a str> {
     let cells = cells_of(sample);
     let is_name = |field: &str| {

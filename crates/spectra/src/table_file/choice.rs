@@ -1,4 +1,4 @@
-//! The columns of a table that are meant.
+//! Selects the columns of a table.
 
 use std::borrow::Cow;
 
@@ -9,17 +9,17 @@ use super::line::{DecimalSigns, Separator};
 use super::options::{ColumnChoice, Options, Unit};
 use super::{MAX_COLUMNS, Notes, Point, Series};
 
-/// What is looked for in a table.
+/// What to find in a table.
 #[derive(Clone, Copy)]
 struct Wanted<'o> {
-    /// How many columns of values.
+    /// Number of columns of values.
     count: usize,
-    /// Whether they are n and k, of which k may be absent.
+    /// Whether they are n and k; k may be absent.
     is_index: bool,
     options: &'o Options,
 }
 
-/// The columns of values of a text: `count`, or of n and k n alone.
+/// Returns the columns of values of a text: `count` of them, or for n and k possibly n alone.
 pub(super) fn series<'a>(
     text: &'a str,
     count: usize,
@@ -49,13 +49,13 @@ pub(super) fn series<'a>(
         }
         [_, second, ..] => Err(TableFileError::Format {
             line: second.head.first().map_or(0, |head| head.line.number),
-            format: "a table",
-            wrong: "another one begins here; only n and k may stand one below the other".to_owned(),
+            format: "table",
+            wrong: "another one begins here; only n and k may be one below the other".to_owned(),
         }),
     }
 }
 
-/// Whether the one column of values of a block has such a name.
+/// Whether the name of a block's only column of values satisfies `is`.
 fn names_value(block: &Block, is: fn(&str) -> bool) -> bool {
     let Some(row) = block.rows.first() else {
         return false;
@@ -97,7 +97,7 @@ fn of_block<'a>(
     Ok(all)
 }
 
-/// The unit that the head says, or that goes with its names.
+/// Returns the unit in the header, or the one implied by its names.
 fn unit_of(
     head: &Head,
     all: &[Series],
@@ -107,7 +107,7 @@ fn unit_of(
         return Ok(None);
     }
     if let Some(unit) = head.unit()? {
-        return Ok(Some((unit, "as the head says")));
+        return Ok(Some((unit, "as the header says")));
     }
     let is_wl = |name: &String| name.eq_ignore_ascii_case("wl");
     let mut names = head.names.iter();
@@ -116,11 +116,11 @@ fn unit_of(
     let is_short = points
         .clone()
         .any(|point| point.place < super::finish::SHORTEST_NM);
-    let micrometers = (Unit::Um, "as refractiveindex.info writes below wl");
+    let micrometers = (Unit::Um, "as refractiveindex.info writes them under wl");
     Ok((is_database && is_short).then_some(micrometers))
 }
 
-/// Refuses rows that have other columns than the head, or whose commas may be decimal ones.
+/// Refuses rows that have other columns than the header, or whose commas may be decimal commas.
 fn check_width(block: &Block, head: &Head, wanted: Wanted) -> Result<(), TableFileError> {
     let Some(row) = block.rows.first() else {
         return Ok(());
@@ -148,7 +148,7 @@ fn check_width(block: &Block, head: &Head, wanted: Wanted) -> Result<(), TableFi
     Err(TableFileError::Columns {
         line: row.number,
         found: cells.len(),
-        expected: format!("{expected}, as the head in line {} has", head.line),
+        expected: format!("{expected}, as in the header in line {}", head.line),
     })
 }
 
@@ -161,12 +161,12 @@ fn ambiguous(line: usize, text: &str, cells: &[&str], expected: usize) -> TableF
         text: text.to_owned(),
         one: format!("{} in {} columns", cells.join(" | "), cells.len()),
         other: format!("{} with a decimal comma", joined.join(" | ")),
-        way_out: "write a head with a name for each column, decimal points, or ; between columns"
+        way_out: "write a header with a name for each column, decimal points, or ; between columns"
             .to_owned(),
     }
 }
 
-/// The numbers of the chosen columns.
+/// Parses the numbers of the chosen columns.
 fn columns<'a>(
     block: &Block<'a>,
     (axis, chosen): (usize, &[usize]),
@@ -182,7 +182,7 @@ fn columns<'a>(
             notes.add(note);
         }
         if cells.len() != width {
-            // Where a cell is no number, that says more than the number of columns.
+            // A cell that is not a number is a more useful error than the number of columns.
             let first = cells.first().copied().unwrap_or_default();
             signs.number(row.number, 1, first)?;
             return Err(TableFileError::Columns {
@@ -198,7 +198,7 @@ fn columns<'a>(
             .find(is_quoted_comma)
             .filter(|_| separator == Separator::Comma)
         {
-            // Between commas it may be one of thousands.
+            // In a comma-separated row it may be a thousands separator.
             return Err(TableFileError::Number {
                 line: row.number,
                 text: cell(column).to_owned(),
@@ -222,7 +222,7 @@ fn columns<'a>(
 }
 
 impl Wanted<'_> {
-    /// The columns of values, from 0.
+    /// Chooses the columns of values, from 0.
     fn choose(
         &self,
         (line, width): (usize, usize),
@@ -257,7 +257,10 @@ impl Wanted<'_> {
                 .chain(&chosen)
                 .filter_map(|&column| head.names.get(column).map(|name| cell_text(name)))
                 .collect();
-            notes.add(format!("the columns {} by the head", names.join(", ")));
+            notes.add(format!(
+                "the columns {} as named in the header",
+                names.join(", ")
+            ));
         }
         Ok(chosen)
     }
@@ -284,7 +287,7 @@ impl Wanted<'_> {
     }
 }
 
-/// The columns named n and k.
+/// Returns the columns named n and k.
 fn by_head(values: &[usize], head: &Head, width: usize) -> Result<Vec<usize>, TableFileError> {
     let find = |is: fn(&str) -> bool| -> Vec<usize> {
         let named = |&&column: &&usize| head.names.get(column).is_some_and(|name| is(name));
@@ -299,12 +302,12 @@ fn by_head(values: &[usize], head: &Head, width: usize) -> Result<Vec<usize>, Ta
         (&[n], &[], &[_]) => Ok(vec![n]),
         (&[], &[], &[only]) => Ok(vec![only]),
         (&[], &[_], _) => Err(which("there is k, but no n")),
-        (&[_], &[], _) => Err(which("which column is k is not clear")),
-        _ => Err(which("which columns are n and k is not clear")),
+        (&[_], &[], _) => Err(which("it is unclear which column is k")),
+        _ => Err(which("it is unclear which columns are n and k")),
     }
 }
 
-/// The column that a user asks for, from 0.
+/// Returns the column that a user requests, from 0.
 fn asked(
     column: &ColumnChoice,
     head: &Head,
@@ -334,13 +337,16 @@ fn asked(
             match (whole.as_slice(), parts.as_slice()) {
                 (&[only], _) | (&[], &[only]) => Ok(only),
                 (&[], &[]) => refuse(cell_text(name)),
-                _ => refuse(format!("{} alone, but several", cell_text(name))),
+                _ => refuse(format!(
+                    "{} that is unique: several have this name",
+                    cell_text(name)
+                )),
             }
         }
     }
 }
 
-/// Whether a name is that of the real part of an index.
+/// Whether a name means the real part of an index.
 fn is_n(name: &str) -> bool {
     let name = name.trim().to_lowercase();
     [
@@ -357,7 +363,7 @@ fn is_n(name: &str) -> bool {
         || ["n", "refractive index"].contains(&base(&name))
 }
 
-/// Whether a name is that of the imaginary part of an index.
+/// Whether a name means the imaginary part of an index.
 fn is_k(name: &str) -> bool {
     let name = name.trim().to_lowercase();
     ["k", "kappa", "κ", "n_imag", "imag", "im(n)", "im", "k_imag"].contains(&name.as_str())

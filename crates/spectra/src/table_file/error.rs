@@ -1,32 +1,32 @@
-//! Why a file is not a table that can be used.
+//! The errors of reading a table file.
 
 use thiserror::Error;
 
 use crate::text_file::TextFileError;
 
-/// Why a file is not a table that can be used.
+/// Why a file is not a usable table.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum TableFileError {
-    /// It cannot be read as text.
+    /// The file cannot be read as text.
     #[error(transparent)]
     File(#[from] TextFileError),
-    /// A row has more or fewer cells than it needs.
+    /// A row has the wrong number of cells.
     #[error("line {line}: found {found} columns, expected {expected}")]
     Columns {
         /// Line, from 1.
         line: usize,
-        /// How many there are.
+        /// The number of columns found.
         found: usize,
-        /// How many there should be.
+        /// The number expected.
         expected: String,
     },
-    /// More rows or columns than are read.
-    #[error("the table has more than {most} {what}; at most as many are possible")]
+    /// The table has too many rows or columns.
+    #[error("the table has more than {most} {what}, the most that are possible")]
     TooMany {
-        /// Rows or columns.
+        /// Points, samples or columns.
         what: &'static str,
-        /// How many are possible.
+        /// The largest possible number.
         most: usize,
     },
     /// A cell is not a number.
@@ -45,7 +45,7 @@ pub enum TableFileError {
         /// Column, from 1.
         column: usize,
     },
-    /// A line can be read in two ways.
+    /// A line is ambiguous.
     #[error(
         "line {line}: {} is ambiguous: {one}, or {other}; {way_out}",
         cell_text(text)
@@ -53,18 +53,18 @@ pub enum TableFileError {
     Ambiguous {
         /// Line, from 1.
         line: usize,
-        /// What stands there.
+        /// The text in question.
         text: String,
         /// One reading.
         one: String,
         /// The other.
         other: String,
-        /// How to say which.
+        /// How to resolve the ambiguity.
         way_out: String,
     },
-    /// A number has a decimal point and another a decimal comma.
+    /// One number has a decimal point and another a decimal comma.
     #[error(
-        "line {}: {} has a decimal comma, but {} in line {} a decimal point; one of them must be meant otherwise", comma.0, cell_text(&comma.1),
+        "line {}: {} has a decimal comma, but {} in line {} has a decimal point; use one of the two throughout", comma.0, cell_text(&comma.1),
         cell_text(&point.1), point.0
     )]
     TwoDecimalSigns {
@@ -73,18 +73,18 @@ pub enum TableFileError {
         /// Line and cell with a point.
         point: (usize, String),
     },
-    /// A value is not in its range.
+    /// A value is out of range.
     #[error("line {line}: found {noun} {text}; it must be from {} to {}{hint}", short(range.0), short(range.1))]
     Value {
         /// Line, from 1.
         line: usize,
-        /// What it is.
+        /// The quantity.
         noun: &'static str,
         /// The value as written.
         text: String,
-        /// Smallest and largest possible.
+        /// The smallest and largest possible value.
         range: (f64, f64),
-        /// What may be meant, or nothing.
+        /// What may be meant, or empty.
         hint: &'static str,
     },
     /// Two rows have the same wavelength.
@@ -95,65 +95,65 @@ pub enum TableFileError {
         /// The wavelength as written.
         text: String,
     },
-    /// Wavelengths go up and down.
+    /// Wavelengths rise and fall.
     #[error(
-        "line {line}: found {text} after {before}; wavelengths must rise or fall throughout, and {direction} before"
+        "line {line}: found {text} after {before}; wavelengths must rise or fall throughout, and {direction} up to that line"
     )]
     NotInOrder {
         /// Line, from 1.
         line: usize,
         /// The wavelength as written.
         text: String,
-        /// The one before.
+        /// The previous wavelength.
         before: String,
-        /// What they did.
+        /// Whether they rose or fell before.
         direction: &'static str,
     },
-    /// A column was asked for that is not there.
+    /// A requested column does not exist.
     #[error("there is no column {asked}; the columns are {known}")]
     NoColumn {
-        /// What was asked for.
+        /// The requested column.
         asked: String,
-        /// Those there are.
+        /// The columns of the table.
         known: String,
     },
-    /// There are more columns than needed and none is chosen.
+    /// There are more columns than needed, and none is chosen.
     #[error(
-        "{wrong}; the columns are {known}: choose by `column = …` (`--column …`) with a name or number"
+        "{wrong}; the columns are {known}: choose by name or number with `column = …` (`--column …`)"
     )]
     WhichColumn {
-        /// What is not clear.
+        /// What is unclear.
         wrong: String,
-        /// Those there are.
+        /// The columns of the table.
         known: String,
     },
-    /// The unit of the head is not one that is read.
+    /// The unit in the header is not supported.
     #[error(
-        "line {line}: the head {} names no wavelength in nm, µm or Å nor an energy in eV; such tables are not read",
+        "line {line}: the header {} names neither a wavelength in nm, µm or Å nor an energy in eV; other axes are not read",
         cell_text(text)
     )]
     Unit {
         /// Line, from 1.
         line: usize,
-        /// The cell of the head.
+        /// The cell of the header.
         text: String,
     },
-    /// A column holds logarithms of what is needed.
+    /// A column holds logarithms of the quantity.
     #[error(
-        "line {line}: the column {} is the logarithm of a transmittance or reflectance, which is not read; 10^-A is needed",
+        "line {line}: the column {} is the logarithm of a transmittance or reflectance, which is not read; write 10^-A instead",
         cell_text(text)
     )]
     Logarithm {
         /// Line, from 1.
         line: usize,
-        /// The cell of the head.
+        /// The cell of the header.
         text: String,
     },
-    /// A format of one quantity was given for several.
-    #[error("such a file has one column of values, but several are needed")]
+    /// The format has one quantity, but several are needed.
+    #[error("a file of this format has one column of values, but several are needed")]
     OneQuantity,
-    /// A file of a known format is not as that format is.
-    #[error("line {line}: not as {format} has it: {wrong}")]
+    /// The file violates the rules of its format.
+    #[error("line {line}: invalid {format}: {wrong}")]
     Format {
         /// Line, from 1.
         line: usize,
@@ -162,12 +162,12 @@ pub enum TableFileError {
         /// What is wrong.
         wrong: String,
     },
-    /// No rows.
+    /// There are no rows.
     #[error("the table has no points; it needs at least one line that starts with two numbers")]
     Empty,
 }
 
-/// What a file says, for a message: at most 40 characters, in quotes, control characters escaped.
+/// Quotes text of a file for a message: at most 40 characters, with control characters escaped.
 pub fn cell_text(text: &str) -> String {
     let mut short: String = text.chars().take(40).collect();
     if short.len() < text.len() {
@@ -176,7 +176,7 @@ pub fn cell_text(text: &str) -> String {
     format!("{short:?}")
 }
 
-/// A bound as messages show it: large ones as a power of ten.
+/// Formats a bound for a message: large ones as a power of ten.
 fn short(bound: f64) -> String {
     if bound.abs() >= 1e6 {
         format!("{bound:e}")

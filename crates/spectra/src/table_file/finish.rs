@@ -1,4 +1,4 @@
-//! From the cells of a column to a table over wavelength.
+//! Turns the cells of a column into a table over wavelength.
 
 use super::error::TableFileError;
 use super::options::{Options, Unit};
@@ -6,14 +6,14 @@ use super::{Notes, Point, Quantity, QuantityKind, Series};
 use crate::Tabulated;
 use crate::sprague::sprague;
 
-/// Wavelengths that a table may have, nm.
+/// The range of wavelengths that a table may have, nm.
 const POSSIBLE_NM: (f64, f64) = (1.0, 1e6);
-/// Tables in nm reach beyond this; what lies below throughout may be in µm.
+/// Tables in nm extend beyond this; a table entirely below it may be in µm.
 pub(super) const SHORTEST_NM: f64 = 50.0;
-/// How far noise takes a part of a whole, or an amount beside the largest of the table, below zero.
+/// How far noise may make a fraction negative, or an amount relative to the largest in the table.
 const NOISE: f64 = 1e-3;
 
-/// The table of a column, its values in the quantity's range.
+/// Makes the table of a column, with values in the range of the quantity.
 pub(super) fn table(
     series: &Series,
     quantity: Quantity,
@@ -30,7 +30,7 @@ pub(super) fn table(
     if is_falling {
         table.reverse();
         if unit != Unit::Ev {
-            notes.add("rows turned over, as wavelengths fall");
+            notes.add("rows reversed, because wavelengths fall");
         }
     }
     let table = Tabulated::new(table).map_err(|_| TableFileError::Empty)?;
@@ -45,7 +45,7 @@ pub(super) fn table(
     }
 }
 
-/// The unit of the wavelengths: as asked, as the file says, or else nm.
+/// Returns the unit of the wavelengths: the requested one, the one in the file, or else nm.
 fn unit(series: &Series, options: &Options, notes: &mut Notes) -> Result<Unit, TableFileError> {
     if let Some(unit) = options.unit {
         return Ok(unit);
@@ -66,13 +66,13 @@ fn unit(series: &Series, options: &Options, notes: &mut Notes) -> Result<Unit, T
             text: first.place_text.to_string(),
             one: format!("{} nm", first.place_text),
             other: format!("{} µm, as all wavelengths are below {SHORTEST_NM}", first.place_text),
-            way_out: "name the unit in the head, as in \"wavelength (um)\", or by `unit = \"um\"` beside `csv` (`--unit um`)".to_owned(),
+            way_out: "name the unit in the header, as in \"wavelength (um)\", or write `unit = \"um\"` next to `csv` (`--unit um`)".to_owned(),
         });
     }
     Ok(Unit::Nm)
 }
 
-/// The wavelengths in nm.
+/// Converts the wavelengths to nm.
 fn wavelengths(points: &[Point], unit: Unit) -> Result<Vec<f64>, TableFileError> {
     let nm = |point: &Point| {
         let nm = match unit {
@@ -97,7 +97,7 @@ fn wavelengths(points: &[Point], unit: Unit) -> Result<Vec<f64>, TableFileError>
     points.iter().map(nm).collect()
 }
 
-/// A whole number of nm where that is meant: as many digits as energies are written with do not always lead back to it.
+/// Rounds to a whole number of nm where that is probably meant, since the digits of an energy may not reproduce it exactly.
 fn whole(nm: f64) -> f64 {
     let near = nm.round();
     if (nm - near).abs() < 1e-6 * nm {
@@ -107,7 +107,7 @@ fn whole(nm: f64) -> f64 {
     }
 }
 
-/// Whether the wavelengths fall from row to row; one row, and all others rise.
+/// Whether the wavelengths fall from row to row; a single row counts as rising.
 fn is_falling(points: &[Point], nm: &[f64]) -> Result<bool, TableFileError> {
     let mut falling = None;
     for (pair, nm) in points.windows(2).zip(nm.windows(2)) {
@@ -133,7 +133,7 @@ fn is_falling(points: &[Point], nm: &[f64]) -> Result<bool, TableFileError> {
     Ok(falling == Some(true))
 }
 
-/// What the values are divided by.
+/// Returns the divisor of the values.
 fn scale(series: &Series, quantity: Quantity, options: &Options, notes: &mut Notes) -> f64 {
     if quantity.kind != QuantityKind::Part {
         return 1.0;
@@ -152,7 +152,7 @@ fn scale(series: &Series, quantity: Quantity, options: &Options, notes: &mut Not
     }
 }
 
-/// The values in their range.
+/// Scales the values and checks their range; values just below 0 become 0.
 fn values(
     points: &[Point],
     (scale, quantity): (f64, Quantity),
@@ -169,7 +169,7 @@ fn values(
     let mut count = 0;
     let mut values = Vec::with_capacity(points.len());
     for point in points {
-        // −0 and 0 are the same number.
+        // Adding 0 turns −0 into 0.
         let value = point.value / scale + 0.0;
         if value < low && low == 0.0 && value >= -noise {
             count += 1;
@@ -187,7 +187,7 @@ fn values(
     }
     if let Some(lowest) = lowest {
         notes.add(format!(
-            "{count} {} just below 0 as 0, the lowest {} in line {}",
+            "{count} {} just below 0 taken as 0, the lowest {} in line {}",
             if count == 1 { "value" } else { "values" },
             lowest.text,
             lowest.line
@@ -208,7 +208,7 @@ fn out_of_range(point: &Point, scale: f64, quantity: Quantity) -> TableFileError
         },
         range: quantity.range,
         hint: if may_be_percent {
-            "; values in percent need a head that says so, as in \"nm,%R\", or `unit = \"percent\"` beside `csv` (`--unit percent`)"
+            "; values in percent need a header that says so, as in \"nm,%R\", or `unit = \"percent\"` next to `csv` (`--unit percent`)"
         } else {
             ""
         },

@@ -1,26 +1,26 @@
-//! Heads of tables: the names of columns, and the units in them.
+//! Headers of tables: the names of columns and their units.
 
 use super::block::{Block, HeadLine};
 use super::error::{TableFileError, cell_text};
 use super::line::{Separator, number, split};
 use super::options::Unit;
 
-/// What stands above the rows of a table.
+/// The header above the rows of a table.
 #[derive(Debug, Default)]
 pub(super) struct Head {
-    /// Its line, from 1; 0 without a head.
+    /// The line of the header, from 1; 0 if there is none.
     pub(super) line: usize,
-    /// A name for each column, or none at all.
+    /// A name for each column, or empty.
     pub(super) names: Vec<String>,
-    /// Whether one of the names says that it is the wavelength's.
+    /// Whether one of the names means the wavelength.
     pub(super) names_axis: bool,
-    /// How many columns a head has whose columns are not those of the rows.
+    /// Number of columns of a header that does not match the rows.
     pub(super) other_width: Option<usize>,
-    /// A head whose words cannot be told apart.
+    /// The text of a header that cannot be split into columns.
     pub(super) prose: Option<String>,
 }
 
-/// Words of the axis of a table over wavelength.
+/// Words that name the axis of a table over wavelength.
 const AXIS_WORDS: [&str; 9] = [
     "wl",
     "wlen",
@@ -32,7 +32,7 @@ const AXIS_WORDS: [&str; 9] = [
     "wavenumbers",
     "frequency",
 ];
-/// How words for a wavelength start, in the languages of instruments.
+/// Prefixes of words for wavelength, in the languages of instruments.
 const AXIS_STARTS: [&str; 7] = [
     "wavel",
     "lambda",
@@ -42,7 +42,7 @@ const AXIS_STARTS: [&str; 7] = [
     "lunghezza",
     "golflengte",
 ];
-/// Axes and units that are not read.
+/// Axes and units that are not supported.
 const OTHER_UNITS: [&str; 10] = [
     "wavenumber",
     "wavenumbers",
@@ -61,7 +61,7 @@ fn words(cell: &str) -> impl Iterator<Item = String> + '_ {
     words.filter(|word| !word.is_empty()).map(str::to_lowercase)
 }
 
-/// Whether a cell has a word for a wavelength.
+/// Whether a cell contains a word for an axis.
 pub(super) fn axis_word(cell: &str) -> bool {
     words(cell).any(|word| {
         AXIS_WORDS.contains(&word.as_str())
@@ -69,12 +69,12 @@ pub(super) fn axis_word(cell: &str) -> bool {
     })
 }
 
-/// Whether a cell is a unit of wavelength and nothing else.
+/// Whether a cell consists only of a unit of wavelength.
 pub(super) fn is_axis(cell: &str) -> bool {
     words(cell).next().is_some() && words(cell).all(|word| Unit::from_word(&word).is_some())
 }
 
-/// The unit of wavelength that a cell names.
+/// Returns the unit of wavelength that a cell names.
 fn unit(cell: &str) -> Option<Unit> {
     if cell.contains("(A)") || cell.contains("[A]") {
         return Some(Unit::Angstrom);
@@ -82,20 +82,20 @@ fn unit(cell: &str) -> Option<Unit> {
     words(cell).find_map(|word| Unit::from_word(&word))
 }
 
-/// Whether a cell says that its column is in percent.
+/// Whether a cell states that its column is in percent.
 pub(super) fn is_percent(cell: &str) -> bool {
     cell.contains('%')
         || words(cell).any(|word| ["percent", "pct", "prozent"].contains(&word.as_str()))
 }
 
-/// Whether a cell is a unit of any kind: in brackets, empty or a sign.
+/// Whether a cell is a unit of any kind: in brackets, empty or a symbol.
 fn is_unit_cell(cell: &str) -> bool {
     let is_bracketed = cell.starts_with(['(', '[']) && cell.ends_with([')', ']']);
     cell.is_empty() || cell == "%" || cell == "-" || cell == "1" || is_bracketed || is_axis(cell)
 }
 
 impl Head {
-    /// The head of a block whose rows have `width` columns.
+    /// Finds the header of a block whose rows have `width` columns.
     pub(super) fn of(block: &Block, separator: Separator, width: usize) -> Self {
         let mut head = Self::default();
         let last = block.head.last().map(|last| last.line.number);
@@ -143,13 +143,13 @@ impl Head {
         }
     }
 
-    /// Which column has the wavelengths; the first where nothing is said.
+    /// Returns the column of the wavelengths; the first one if the header names none.
     pub(super) fn axis(&self) -> usize {
         let find = |is: fn(&str) -> bool| self.names.iter().position(|name| is(name));
         find(axis_word).or_else(|| find(is_axis)).unwrap_or(0)
     }
 
-    /// The unit of the wavelengths, where it is named.
+    /// Returns the unit of the wavelengths, if it is named.
     pub(super) fn unit(&self) -> Result<Option<Unit>, TableFileError> {
         let named = self
             .names_axis
@@ -168,7 +168,7 @@ impl Head {
         Ok(None)
     }
 
-    /// Refuses a column that is named as an absorbance.
+    /// Refuses a column whose name means an absorbance.
     pub(super) fn check_logarithm(&self, column: usize) -> Result<(), TableFileError> {
         const NAMES: [&str; 6] = [
             "absorbance",
@@ -191,13 +191,13 @@ impl Head {
         Ok(())
     }
 
-    /// Whether the head says that a column is in percent.
+    /// Whether the header states that a column is in percent.
     pub(super) fn is_percent(&self, column: usize) -> bool {
         let name = self.names.get(column).or(self.prose.as_ref());
         name.is_some_and(|name| is_percent(name))
     }
 
-    /// The columns, for a message.
+    /// Lists the columns for a message.
     pub(super) fn known(&self, width: usize) -> String {
         const MOST: usize = 24;
         let column = |at: usize| match self.names.get(at) {
@@ -215,12 +215,12 @@ impl Head {
     }
 }
 
-/// The name of a column without its unit: what stands before a bracket.
+/// Returns the name of a column without its unit: the text before a bracket.
 pub(super) fn base(name: &str) -> &str {
     name.split(['(', '[']).next().unwrap_or(name).trim()
 }
 
-/// The cells of a head: separated as the rows are, or else by its own signs.
+/// Splits a header into cells, separated as the rows are, or else in its own way.
 fn head_cells(content: &str, separator: Separator, width: usize) -> Vec<&str> {
     let trimmed = |separator| {
         let mut cells = split(content, separator);
@@ -255,7 +255,7 @@ fn head_cells(content: &str, separator: Separator, width: usize) -> Vec<&str> {
         .unwrap_or(own)
 }
 
-/// Words separated by blanks, each with what stands in brackets behind it: `Wavelength (nm)`.
+/// Splits at blanks, and keeps each word together with the brackets after it: `Wavelength (nm)`.
 fn words_with_units(content: &str) -> Vec<&str> {
     let mut cells: Vec<&str> = Vec::new();
     let mut start = None;

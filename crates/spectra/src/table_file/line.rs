@@ -1,4 +1,4 @@
-//! Lines of a text, their cells and numbers.
+//! The lines of a text, their cells and numbers.
 
 use std::borrow::Cow;
 
@@ -7,7 +7,7 @@ use super::error::TableFileError;
 /// A line that is not empty.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line<'a> {
-    /// From 1.
+    /// The number of the line, from 1.
     pub(super) number: usize,
     pub(super) content: &'a str,
 }
@@ -22,7 +22,7 @@ pub(super) enum Separator {
 }
 
 impl Separator {
-    /// Its name for a note; none of the plain comma.
+    /// The text for a note; `None` for the plain comma.
     pub(super) fn note(self) -> Option<&'static str> {
         match self {
             Self::Comma => None,
@@ -46,20 +46,20 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
 }
 
 impl<'a> Line<'a> {
-    /// What stands behind the sign of a comment.
+    /// Returns the text after the comment sign; `None` if the line is not a comment.
     pub(super) fn comment(&self) -> Option<&'a str> {
         let content = self.content;
         let behind = content
             .strip_prefix("//")
             .or_else(|| content.strip_prefix(['#', ';', '!', '%']))?;
         let behind = behind.trim_start_matches(['#', ';', '!', '%', '/']).trim();
-        // A row whose first cell is empty is no comment.
+        // A row whose first cell is empty is not a comment.
         let is_row =
             content.starts_with(';') && behind.split(';').all(|cell| number(cell).is_some());
         (!is_row || behind.is_empty()).then_some(behind)
     }
 
-    /// What separates its cells.
+    /// Returns what separates the cells of the line.
     pub(super) fn separator(&self) -> Separator {
         let mut is_quoted = false;
         let (mut has_comma, mut has_tab) = (false, false);
@@ -80,7 +80,7 @@ impl<'a> Line<'a> {
         }
     }
 
-    /// Whether its words are separated by blanks alone: `400 1,5`, but not `400, 1`.
+    /// Whether the words are separated only by blanks: `400 1,5`, but not `400, 1`.
     fn has_blanks_between(&self) -> bool {
         let mut words = self.content.split_whitespace();
         let is_apart = |word: &str| !word.starts_with(',') && !word.ends_with(',');
@@ -88,7 +88,7 @@ impl<'a> Line<'a> {
         count > 1 && words.all(is_apart)
     }
 
-    /// Its cells without blanks around them and without quotes; empty ones at the end are left out.
+    /// Returns the cells without surrounding blanks and quotes; empty cells at the end are dropped.
     pub(super) fn cells(&self, separator: Separator) -> Vec<&'a str> {
         let mut cells = split(self.content, separator);
         while cells.len() > 1 && cells.last().is_some_and(|cell| cell.is_empty()) {
@@ -98,7 +98,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// The cells of a text.
+/// Splits a text into cells.
 pub(super) fn split(content: &str, separator: Separator) -> Vec<&str> {
     let mut is_quoted = false;
     let is_between = |c: char| {
@@ -126,7 +126,7 @@ fn unquoted(cell: &str) -> &str {
     inner('"').or_else(|| inner('\'')).map_or(cell, str::trim)
 }
 
-/// A finite number with a decimal point or comma: `1.5`, `1,5`, `.5`, `+1e-3`, but neither `inf` nor `1.234,5`.
+/// Parses a finite number with a decimal point or comma: `1.5`, `1,5`, `.5`, `+1e-3`, but neither `inf` nor `1.234,5`.
 pub(super) fn number(cell: &str) -> Option<f64> {
     let is_possible = |c: char| c.is_ascii_digit() || "+-.,eE".contains(c);
     let cell = cell.trim();
@@ -144,7 +144,7 @@ pub(super) fn number(cell: &str) -> Option<f64> {
     plain.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
-/// The decimal signs that the numbers of a file have.
+/// The decimal signs found in the numbers of a file.
 #[derive(Debug, Default)]
 pub(super) struct DecimalSigns<'a> {
     point: Option<(usize, &'a str)>,
@@ -152,7 +152,7 @@ pub(super) struct DecimalSigns<'a> {
 }
 
 impl<'a> DecimalSigns<'a> {
-    /// The number of a cell.
+    /// Parses the number in a cell.
     pub(super) fn number(
         &mut self,
         line: usize,
@@ -180,7 +180,7 @@ impl<'a> DecimalSigns<'a> {
         }
     }
 
-    /// Whether they are commas.
+    /// Whether decimal commas were found.
     pub(super) fn is_comma(&self) -> bool {
         self.comma.is_some()
     }

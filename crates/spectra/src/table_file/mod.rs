@@ -1,14 +1,14 @@
-//! Tables in files of users, as instruments and programs write them.
+//! Reads users' tables, as written by instruments and programs.
 //!
-//! What a file is, is seen from its content:
+//! The format is recognized from the content:
 //!
-//! * rows of numbers, separated by commas, semicolons, tabs or blanks, below heads of any kind; between
-//!   `>>>>>Begin …` and `>>>>>End …`, or below `[Data]`, where a spectrometer writes such lines;
-//! * two tables, `wl,n` and `wl,k` in µm, one below the other, as refractiveindex.info writes them;
+//! * rows of numbers, separated by commas, semicolons, tabs or blanks, below headers of any kind; between
+//!   `>>>>>Begin …` and `>>>>>End …`, or below `[Data]`, if the file of a spectrometer has such lines;
+//! * two tables, `wl,n` and `wl,k` in µm, one below the other, as in files from refractiveindex.info;
 //! * CGATS.17 with spectra of samples;
 //! * IES TM-27 (`.spdx`).
 //!
-//! What is assumed of a file is said in one line: [`Table::note`]. What can be read in two ways is refused.
+//! [`Table::note`] reports in one line what was assumed. Ambiguous files are refused.
 
 mod block;
 mod cgats;
@@ -35,44 +35,44 @@ use crate::text_file::read_text;
 /// A row of a table: a wavelength and the `N` values there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row<const N: usize> {
-    /// Line of the file, counted from 1.
+    /// The line of the file, from 1.
     pub line: usize,
-    /// The first column: a wavelength, nm; in a table over something else, that.
+    /// The first column: a wavelength, nm, or the independent variable of another table.
     pub nm: f64,
-    /// The others.
+    /// The other columns.
     pub values: [f64; N],
 }
 
 /// What a column of values holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantity {
-    /// Its name in messages.
+    /// The name of the quantity in messages.
     pub noun: &'static str,
-    /// Smallest and largest value possible.
+    /// The smallest and largest possible value.
     pub range: (f64, f64),
-    /// What files do with it.
+    /// How files write it.
     pub kind: QuantityKind,
 }
 
-/// What files do with a quantity.
+/// How files write a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum QuantityKind {
-    /// A part of a whole: it may stand in percent, and noise of an instrument may take it below zero.
+    /// A fraction: it may be written in percent, and instrument noise may make it slightly negative.
     Part,
-    /// An amount in any unit; noise may take it below zero.
+    /// An amount in any unit; noise may make it slightly negative.
     Amount,
-    /// A number that stands as it is.
+    /// A number that is used unchanged.
     Plain,
 }
 
 impl Quantity {
-    /// The part of the light that comes back, 0 to 1.
+    /// The fraction of light that is reflected, 0 to 1.
     pub const REFLECTANCE: Self = Self::part("reflectance", (0.0, 1.0));
-    /// A power of light, in any unit.
+    /// A radiant power, in any unit.
     pub const POWER: Self = Self::amount("power", (0.0, 1e9));
 
-    /// A part of a whole.
+    /// Creates a quantity that is a fraction.
     pub const fn part(noun: &'static str, range: (f64, f64)) -> Self {
         Self {
             noun,
@@ -81,7 +81,7 @@ impl Quantity {
         }
     }
 
-    /// An amount in any unit.
+    /// Creates a quantity that is an amount in any unit.
     pub const fn amount(noun: &'static str, range: (f64, f64)) -> Self {
         Self {
             noun,
@@ -90,7 +90,7 @@ impl Quantity {
         }
     }
 
-    /// A number that stands as it is.
+    /// Creates a quantity whose numbers are used unchanged.
     pub const fn plain(noun: &'static str, range: (f64, f64)) -> Self {
         Self {
             noun,
@@ -100,21 +100,21 @@ impl Quantity {
     }
 }
 
-/// Tables over wavelength from a file, and what was assumed of it.
+/// The tables over wavelength of a file, and what was assumed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table<const N: usize> {
-    /// A table for each quantity.
+    /// One table per quantity.
     pub columns: [Tabulated; N],
-    /// What was assumed, in one line; `None` of a plain file.
+    /// What was assumed, in one line; `None` for a plain file.
     pub note: Option<String>,
 }
 
-/// The most rows of a table.
+/// The largest number of rows of a table.
 pub const MAX_ROWS: usize = 100_000;
-/// The most columns of a table.
+/// The largest number of columns of a table.
 const MAX_COLUMNS: usize = 10_000;
 
-/// A place and a value of a column, as they stand.
+/// A position and a value of a column, as written.
 #[derive(Clone, Debug)]
 struct Point<'a> {
     line: usize,
@@ -124,17 +124,17 @@ struct Point<'a> {
     text: Cow<'a, str>,
 }
 
-/// A column of values that was chosen.
+/// A chosen column of values.
 #[derive(Clone, Debug, Default)]
 struct Series<'a> {
     points: Vec<Point<'a>>,
-    /// The unit of wavelength that the file names, and how it does.
+    /// The unit of wavelength that the file states, and where.
     unit: Option<(Unit, &'static str)>,
-    /// What the values are divided by as the file says: 100 in percent.
+    /// The divisor of the values that the file states: 100 for percent.
     scale: Option<f64>,
 }
 
-/// What is said of a file.
+/// What is reported about a file.
 #[derive(Debug, Default)]
 struct Notes(Vec<String>);
 
@@ -151,7 +151,7 @@ impl Notes {
     }
 }
 
-/// The tables of a file: [`parse`] of its text.
+/// Reads the tables of a file and parses its text as [`parse`] does.
 ///
 /// # Errors
 /// When the file is not text, or [`parse`] fails.
@@ -163,11 +163,11 @@ pub fn read<const N: usize>(
     parse(&read_text(path)?, quantities, options)
 }
 
-/// The tables over wavelength in a text, one for each quantity and each value in its range. Of n and k the second is 0
-/// throughout where the text has one column of values.
+/// Parses the tables over wavelength in a text, one per quantity, with every value in its range. For n and k, the second is 0
+/// throughout if the text has one column of values.
 ///
 /// # Errors
-/// When the text is of no such tables or can be read in two ways; the first fault is told with its line.
+/// When the text does not contain such tables or is ambiguous; the first fault is reported with its line.
 pub fn parse<const N: usize>(
     text: &str,
     quantities: [Quantity; N],
@@ -200,10 +200,10 @@ pub fn parse<const N: usize>(
     })
 }
 
-/// The rows of a text that is a table over something else than wavelength, as they stand.
+/// Parses the rows of a table over something other than wavelength, with values unchanged.
 ///
 /// # Errors
-/// When a row is not of numbers, or not of as many as it needs.
+/// When a row does not consist of numbers, or has the wrong number of them.
 pub fn parse_rows<const N: usize>(text: &str) -> Result<Vec<Row<N>>, TableFileError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut notes = Notes::default();
@@ -226,7 +226,7 @@ pub fn parse_rows<const N: usize>(text: &str) -> Result<Vec<Row<N>>, TableFileEr
 }
 
 impl<'a> Series<'a> {
-    /// The k of a medium that does not absorb.
+    /// The k of a medium that does not absorb, at the wavelengths of its n.
     fn zeros_beside(other: &Series<'a>) -> Self {
         let zero = |point: &Point<'a>| Point {
             value: 0.0,

@@ -1,6 +1,6 @@
-//! What a user says of a file.
+//! What a user states about a file.
 
-/// A unit of the wavelengths of a file.
+/// A unit of the wavelengths in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Unit {
@@ -10,7 +10,7 @@ pub enum Unit {
     Um,
     /// Ångström, 0.1 nm.
     Angstrom,
-    /// The energy of a photon in electronvolts.
+    /// Photon energy in electronvolts.
     Ev,
 }
 
@@ -18,18 +18,18 @@ pub enum Unit {
 const EV_NM: f64 = 1_239.841_984_332_002_6;
 
 impl Unit {
-    /// The wavelength in nm of a number in this unit.
+    /// Returns the wavelength in nm of a number in this unit.
     pub fn nm(self, number: f64) -> f64 {
         match self {
             Self::Nm => number,
-            // One rounding: 0.38 µm is 380 nm.
+            // A single rounding, so that 0.38 µm is 380 nm.
             Self::Um => number * 1000.0,
             Self::Angstrom => number / 10.0,
             Self::Ev => EV_NM / number,
         }
     }
 
-    /// Its sign.
+    /// The symbol of the unit.
     pub fn name(self) -> &'static str {
         match self {
             Self::Nm => "nm",
@@ -39,7 +39,7 @@ impl Unit {
         }
     }
 
-    /// The unit of a word, such as `um`, `µm` or `microns`.
+    /// Returns the unit that a word such as `um`, `µm` or `microns` names.
     pub fn from_word(word: &str) -> Option<Self> {
         Some(match word.to_lowercase().as_str() {
             "nm" | "nanometer" | "nanometers" | "nanometre" | "nanometres" | "nanometern" => {
@@ -56,31 +56,31 @@ impl Unit {
     }
 }
 
-/// A column that a user asks for.
+/// A column that a user requests.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ColumnChoice {
-    /// By its name in the head, or of a sample.
+    /// By its name in the header, or the name or id of a sample.
     Name(String),
-    /// By its position in the file, the first is 1.
+    /// By its position in the file, from 1.
     Number(usize),
 }
 
-/// What a user says of a file; nothing by default.
+/// What a user states about a file; nothing by default.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// The unit of its wavelengths.
+    /// The unit of the wavelengths.
     pub unit: Option<Unit>,
-    /// Whether its values are in percent.
+    /// Whether the values are in percent.
     pub is_percent: bool,
-    /// The columns of its values, one for each quantity.
+    /// The columns of the values, one per quantity.
     pub columns: Vec<ColumnChoice>,
 }
 
 impl Options {
-    /// Takes the units of wavelength and values from words such as `um`, `percent` or `um, %`.
+    /// Sets the units of wavelengths and values from words such as `um`, `percent` or `um, %`.
     ///
     /// # Errors
-    /// When a word is neither; the text says which can be.
+    /// When a word is neither; the text lists the possible ones.
     pub fn set_unit(&mut self, words: &str) -> Result<(), String> {
         let is_blank = |c: char| c == ',' || c.is_whitespace();
         for word in words.split(is_blank).filter(|word| !word.is_empty()) {

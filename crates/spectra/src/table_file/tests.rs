@@ -11,7 +11,7 @@ fn index(text: &str) -> Result<Table<2>, TableFileError> {
     parse(text, [N, K], &Options::default())
 }
 
-/// The points of the one column, and the note.
+/// Returns the points of the only column, and the note.
 fn points(text: &str) -> (Vec<(f64, f64)>, String) {
     let table = one(text).unwrap_or_else(|error| panic!("{text:?}: {error}"));
     let [column] = &table.columns;
@@ -101,7 +101,7 @@ fn a_comma_that_may_be_a_decimal_sign_is_refused_with_both_readings() {
         }
         assert!(one(text).unwrap_err().to_string().contains("ambiguous"));
     }
-    // A head, a decimal point or other separators leave no doubt.
+    // A header, a decimal point or other separators resolve the ambiguity.
     for text in ["nm,n,k\n450,1,45\n", "450.,1,45\n", "450;1;45\n"] {
         assert_eq!(
             index(text).unwrap().columns[1].at(450.0),
@@ -184,7 +184,7 @@ fn units_are_what_the_head_says_or_the_user() {
     ] {
         let (found, note) = points(&format!("{head},r\n0.4,0.25\n0.41,0.5\n"));
         assert_eq!(found, [(400.0, 0.25), (410.0, 0.5)], "{head:?}");
-        assert_eq!(note, "read with wavelengths in µm, as the head says");
+        assert_eq!(note, "read with wavelengths in µm, as the header says");
     }
     for head in ["wl [Å]", "Angstrom", "wavelength (A\u{30a})"] {
         let (found, _) = points(&format!("{head},r\n4000,0.25\n4100,0.5\n"));
@@ -197,7 +197,7 @@ fn units_are_what_the_head_says_or_the_user() {
         "{found:?}"
     );
     assert_eq!((found[0].1, found[1].1), (0.25, 0.5));
-    assert_eq!(note, "read with wavelengths in eV, as the head says");
+    assert_eq!(note, "read with wavelengths in eV, as the header says");
     let mut options = Options::default();
     options.set_unit("um, %").unwrap();
     assert_eq!(with("0.4,25\n", &options).unwrap(), [(400.0, 0.25)]);
@@ -236,7 +236,7 @@ fn wavelengths_in_an_unknown_unit_are_refused() {
             .unwrap_err()
             .to_string();
         assert!(
-            said.starts_with("line 1: the head") && said.contains(head),
+            said.starts_with("line 1: the header") && said.contains(head),
             "{said}"
         );
     }
@@ -246,7 +246,7 @@ fn wavelengths_in_an_unknown_unit_are_refused() {
 fn falling_rows_are_turned_over() {
     let (found, note) = points("410,0.5\n405,0.3\n400,0.25\n");
     assert_eq!(found, [(400.0, 0.25), (405.0, 0.3), (410.0, 0.5)]);
-    assert_eq!(note, "read with rows turned over, as wavelengths fall");
+    assert_eq!(note, "read with rows reversed, because wavelengths fall");
 }
 
 #[test]
@@ -255,9 +255,9 @@ fn noise_below_zero_is_zero() {
     assert_eq!(found, [(400.0, 0.0), (410.0, 0.0), (420.0, 0.5)]);
     assert_eq!(
         note,
-        "read with 2 values just below 0 as 0, the lowest -0.001 in line 2"
+        "read with 2 values just below 0 taken as 0, the lowest -0.001 in line 2"
     );
-    // In percent 0.1 is as much.
+    // In percent, 0.1 is the same amount.
     assert_eq!(points("nm,%\n400,-0.1\n").0, [(400.0, 0.0)]);
     assert!(one("400,-0.0011\n").is_err());
     assert!(index("400,-0.0001\n").is_err());
@@ -287,21 +287,21 @@ fn columns_are_found_by_their_heads() {
     let note = index("nm,k,n\n400,0.25,1.5\n").unwrap().note.unwrap();
     assert_eq!(
         note,
-        "read with the columns \"nm\", \"n\", \"k\" by the head"
+        "read with the columns \"nm\", \"n\", \"k\" as named in the header"
     );
     for (text, said) in [
         (
             "nm,k\n400,1.5\n",
             "there is k, but no n; the columns are 1 \"nm\", 2 \"k\"",
         ),
-        ("nm,n,std\n400,1.5,0.1\n", "which column is k is not clear"),
+        ("nm,n,std\n400,1.5,0.1\n", "it is unclear which column is k"),
         (
             "eV,eps1,eps2\n3,1.5,0.1\n",
-            "which columns are n and k is not clear",
+            "it is unclear which columns are n and k",
         ),
         (
             "nm,n_o,k_o,n_e\n400,1.5,0.1,2\n",
-            "which columns are n and k is not clear",
+            "it is unclear which columns are n and k",
         ),
         (
             "400,1.5,0.1,2\n",
@@ -312,7 +312,7 @@ fn columns_are_found_by_their_heads() {
         assert!(error.contains(said), "{text:?}: {error}");
     }
     let said = one("nm,R,T\n400,0.5,0.25\n").unwrap_err().to_string();
-    assert!(said.contains("found 3 columns, expected 2; the columns are 1 \"nm\", 2 \"R\", 3 \"T\": choose by `column = …`"), "{said}");
+    assert!(said.contains("found 3 columns, expected 2; the columns are 1 \"nm\", 2 \"R\", 3 \"T\": choose by name or number with `column = …`"), "{said}");
 }
 
 #[test]
@@ -494,7 +494,7 @@ fn tm_27_is_read() {
         one(&deep)
             .unwrap_err()
             .to_string()
-            .contains("in one another")
+            .contains("nested")
     );
     let bomb = format!(
         "<!DOCTYPE x [<!ENTITY a \"{}\">]>{}",
@@ -531,7 +531,7 @@ fn faults_name_their_line() {
         ("nm,OD\n400,0.5\n", "the column \"OD\" is the logarithm"),
         (
             "XAxis mode: Wavenumbers\n>>>>>Begin Spectral Data<<<<<\n400\t0.5\n500\t0.5\n",
-            "names no wavelength",
+            "names neither a wavelength",
         ),
         ("400,nan\n", "line 1: \"nan\" is not a number"),
         ("400,0.5\n410,NaN\n", "line 2: \"NaN\" is not a number"),
@@ -555,7 +555,7 @@ fn faults_name_their_line() {
         ("400,\"0,5\"\n", "line 1: \"0,5\""),
         (
             "400.5;0,5\n",
-            "line 1: \"0,5\" has a decimal comma, but \"400.5\" in line 1 a decimal point",
+            "line 1: \"0,5\" has a decimal comma, but \"400.5\" in line 1 has a decimal point",
         ),
         (
             "400;0,5\n410;0.5\n",
@@ -587,7 +587,7 @@ fn rows_over_something_else_stand_as_they_are() {
     assert!(parse_rows::<3>("0,0,0\n").is_err());
 }
 
-/// Whatever is cut off or put in, there is an answer, and soon.
+/// Truncated and hostile texts yield a result within a bounded time.
 #[test]
 fn hostile_texts_come_to_an_end() {
     for text in [
@@ -613,7 +613,7 @@ fn hostile_texts_come_to_an_end() {
         let _ = (one(&long), index(&long));
         let cgats = format!("BEGIN_DATA_FORMAT\n{long}\nEND_DATA_FORMAT\nBEGIN_DATA\n{long}");
         let _ = one(&cgats);
-        // Ten times 100 kB at a second each would be 30 s.
+        // At one second per 100 kB, the three texts of 1 MB would take 30 s.
         assert!(start.elapsed().as_secs() < 10, "{unit:?}");
     }
     let rows: Vec<_> = (0..=MAX_ROWS)

@@ -12,28 +12,28 @@ use super::options::Unit;
 use super::{MAX_ROWS, Notes, Point, Series};
 
 const FORMAT: &str = "IES TM-27";
-/// The most elements that may lie in one another.
+/// The deepest nesting of elements that is accepted.
 const MAX_DEPTH: usize = 64;
 
-/// Whether a text is of this format.
+/// Whether a text has this format.
 pub(super) fn is_tm27(text: &str) -> bool {
     text.trim_start().starts_with('<')
 }
 
-/// What has been read so far. Nothing is kept but the points, and entities are not resolved: what refers to one is refused.
+/// What has been read so far. Only the points are kept. Entities are not resolved: a value that refers to one is refused.
 #[derive(Default)]
 struct State<'a> {
     depth: usize,
     is_tm27: bool,
     spectra: usize,
-    /// The wavelength and the text so far of the element that is open.
+    /// The wavelength and the text so far of the open element.
     open: Option<(Cow<'a, str>, String)>,
     is_in_quantity: bool,
     quantity: String,
     points: Vec<Point<'a>>,
 }
 
-/// The spectrum of a text.
+/// Parses the spectrum of a text.
 pub(super) fn series<'a>(text: &'a str, notes: &mut Notes) -> Result<Series<'a>, TableFileError> {
     let mut reader = Reader::from_str(text);
     let mut lines = LineCount {
@@ -54,7 +54,7 @@ pub(super) fn series<'a>(text: &'a str, notes: &mut Notes) -> Result<Series<'a>,
     if !state.is_tm27 {
         return Err(wrong(
             1,
-            "it is XML, but without an element IESTM2714".to_owned(),
+            "it is XML without an element IESTM2714".to_owned(),
         ));
     }
     if state.depth > 0 {
@@ -66,7 +66,7 @@ pub(super) fn series<'a>(text: &'a str, notes: &mut Notes) -> Result<Series<'a>,
     notes.add("IES TM-27");
     Ok(Series {
         points: state.points,
-        unit: Some((Unit::Nm, "as TM-27 has it")),
+        unit: Some((Unit::Nm, "as in TM-27")),
         scale: is_percent(&state.quantity).then_some(100.0),
     })
 }
@@ -80,7 +80,7 @@ fn wrong(line: usize, wrong: String) -> TableFileError {
     }
 }
 
-/// Lines up to a place that moves on.
+/// Counts lines up to an advancing position.
 struct LineCount<'a> {
     text: &'a str,
     at: usize,
@@ -111,7 +111,7 @@ impl<'a> State<'a> {
                 if self.depth > MAX_DEPTH {
                     return Err(wrong(
                         line,
-                        format!("more than {MAX_DEPTH} elements lie in one another"),
+                        format!("elements are nested more than {MAX_DEPTH} deep"),
                     ));
                 }
                 self.start(line, &element)
@@ -144,7 +144,7 @@ impl<'a> State<'a> {
         if self.open.is_some() {
             return Err(wrong(
                 line,
-                "an element lies within SpectralData".to_owned(),
+                "SpectralData contains another element".to_owned(),
             ));
         }
         match element.local_name().as_ref() {
@@ -194,7 +194,7 @@ impl<'a> State<'a> {
         }
         let text = text.trim().to_owned();
         let read = |text: &str| {
-            // XML's numbers have a decimal point.
+            // Numbers in XML have a decimal point.
             let found = number(text).filter(|_| !text.contains(','));
             found.ok_or_else(|| TableFileError::Number {
                 line,
