@@ -1,4 +1,4 @@
-//! The coefficients of smooth reflectances for colors, and how well the colors come back.
+//! Prints the coefficients of smooth reflectances for colors, or surveys how accurately colors are reproduced.
 //!
 //! ```sh
 //! cargo run --release -p pellicle-colorimetry --example lift_rgb -- 0.8,0.2,0.1   # codes of sRGB from 0 to 1
@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// The largest ΔE2000 of a round trip over the cube of codes, and the time of a fit.
+/// Prints the largest ΔE2000 of a round trip over the cube of codes, and the time of a fit.
 fn survey(steps: u32) {
     let code = |i| decode(f64::from(i) / f64::from(steps));
     let along = || 0..=steps;

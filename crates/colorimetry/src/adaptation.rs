@@ -1,4 +1,4 @@
-//! Chromatic adaptation: what a color seen under one white looks like under another.
+//! Chromatic adaptation: the corresponding color under another white.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,33 +7,33 @@ use thiserror::Error;
 
 use crate::matrix::{IDENTITY, Matrix3, inverse, product, times};
 
-/// How an eye is taken to adapt to the white of the light, by scaling three responses (von Kries 1902) until one white becomes
-/// the other; completely, whatever the luminance.
+/// A model of chromatic adaptation, which scales three responses so that one white becomes the other (von Kries 1902).
+/// Adaptation is complete, at any luminance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Adaptation {
-    /// Not at all: colors stay as the light makes them.
+    /// No adaptation: colors are unchanged.
     None,
     /// In the sharpened responses of Lam, Metamerism and Colour Constancy (Bradford, 1985), linear as in ICC.1:2022, annex E.
     #[default]
     Bradford,
-    /// In those of CIECAM16, with complete adaptation, D = 1 (Li et al., Comprehensive color solutions: CAM16, CAT16, and
+    /// In the responses of CIECAM16, with complete adaptation, D = 1 (Li et al., Comprehensive color solutions: CAM16, CAT16, and
     /// CAM16-UCS, Color Res. Appl. 42, 703 (2017), appendix A).
     Cat16,
 }
 
-/// A name that no adaptation has.
+/// The name is not that of an adaptation.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("there is no adaptation {0:?}; known are none, bradford and cat16")]
 pub struct UnknownAdaptation(String);
 
-/// Responses from XYZ by Lam (1985).
+/// The matrix from XYZ to the responses of Lam (1985).
 pub const BRADFORD: Matrix3 = [
     [0.8951, 0.2664, -0.1614],
     [-0.7502, 1.7135, 0.0367],
     [0.0389, -0.0685, 1.0296],
 ];
 
-/// Responses from XYZ by Li et al. (2017).
+/// The matrix from XYZ to the responses of Li et al. (2017).
 pub const CAT16: Matrix3 = [
     [0.401_288, 0.650_173, -0.051_461],
     [-0.250_268, 1.204_414, 0.045_854],
@@ -41,7 +41,7 @@ pub const CAT16: Matrix3 = [
 ];
 
 impl Adaptation {
-    /// All of them.
+    /// All adaptations.
     pub const ALL: [Self; 3] = [Self::None, Self::Bradford, Self::Cat16];
 
     /// The name: `none`, `bradford`, `cat16`.
@@ -53,10 +53,10 @@ impl Adaptation {
         }
     }
 
-    /// The matrix that takes XYZ under `from_white` to XYZ that look alike under `to_white`: B⁻¹ diag(B w′ / B w) B with w and w′ the
-    /// two whites, which it takes to one another, luminance and all. Give both with Y = 1 to keep luminances as they are.
+    /// Returns the matrix from XYZ under `from_white` to the corresponding XYZ under `to_white`: B⁻¹ diag(B w′ / B w) B for the whites w
+    /// and w′. It maps w to w′, including their luminance. Give both with Y = 1 to preserve luminances.
     ///
-    /// Whites of lights have positive responses; without them the numbers are not finite.
+    /// The whites must have positive responses, as real illuminants do; otherwise the numbers are not finite.
     pub fn matrix(self, from_white: [f64; 3], to_white: [f64; 3]) -> Matrix3 {
         let responses = match self {
             Self::None => return IDENTITY,
@@ -92,7 +92,7 @@ mod tests {
     const D50: [f64; 3] = [0.964_22, 1.0, 0.825_21];
     const D65: [f64; 3] = [0.950_47, 1.0, 1.088_83];
 
-    /// D65 to D50 as B. Lindbloom, Chromatic Adaptation (brucelindbloom.com, 2017) prints it for these whites.
+    /// The matrix from D65 to D50 for these whites in B. Lindbloom, Chromatic Adaptation (brucelindbloom.com, 2017).
     #[test]
     fn bradford_is_the_published_matrix() {
         let published = [
@@ -107,7 +107,7 @@ mod tests {
         }
     }
 
-    /// A color from A to D65, by colour-science 0.4.7 (`chromatic_adaptation_VonKries`).
+    /// A color adapted from A to D65, by colour-science 0.4.7 (`chromatic_adaptation_VonKries`).
     #[test]
     fn colors_equal_an_independent_computation() {
         for (adaptation, expected) in [

@@ -1,29 +1,29 @@
-//! Chromaticity: color without its amount.
+//! Chromaticity coordinates x, y and u′, v′.
 
-/// Chromaticity x, y of XYZ (CIE 015:2018, equation 7.5); not finite for black.
+/// Returns the chromaticity x, y of XYZ (CIE 015:2018, equation 7.5); not finite for black.
 pub fn xy_of_xyz([x, y, z]: [f64; 3]) -> [f64; 2] {
     let sum = x + y + z;
     [x / sum, y / sum]
 }
 
-/// XYZ with Y = 1 of a chromaticity: (x/y, 1, (1 − x − y)/y).
+/// Returns XYZ with Y = 1 for a chromaticity: (x/y, 1, (1 − x − y)/y).
 pub fn xyz_of_xy([x, y]: [f64; 2]) -> [f64; 3] {
     [x / y, 1.0, (1.0 - x - y) / y]
 }
 
-/// Chromaticity u′, v′ of the CIE 1976 uniform scale diagram, 4X/(X + 15Y + 3Z) and 9Y/(X + 15Y + 3Z) (CIE 015:2018,
+/// Returns u′, v′ of the CIE 1976 uniform chromaticity scale diagram, 4X/(X + 15Y + 3Z) and 9Y/(X + 15Y + 3Z) (CIE 015:2018,
 /// equation 8.1); not finite for black.
 pub fn uv_of_xyz([x, y, z]: [f64; 3]) -> [f64; 2] {
     let sum = x + 15.0 * y + 3.0 * z;
     [4.0 * x / sum, 9.0 * y / sum]
 }
 
-/// u′, v′ of a chromaticity x, y.
+/// Converts a chromaticity x, y to u′, v′.
 pub fn uv_of_xy([x, y]: [f64; 2]) -> [f64; 2] {
     uv_of_xyz([x, y, 1.0 - x - y])
 }
 
-/// x, y of a chromaticity u′, v′: 9u′/(6u′ − 16v′ + 12) and 4v′/(6u′ − 16v′ + 12).
+/// Converts a chromaticity u′, v′ to x, y: 9u′/(6u′ − 16v′ + 12) and 4v′/(6u′ − 16v′ + 12).
 pub fn xy_of_uv([u, v]: [f64; 2]) -> [f64; 2] {
     let sum = 6.0 * u - 16.0 * v + 12.0;
     [9.0 * u / sum, 4.0 * v / sum]
@@ -33,7 +33,7 @@ pub fn xy_of_uv([u, v]: [f64; 2]) -> [f64; 2] {
 mod tests {
     use super::*;
 
-    /// D65, x 0.31272, y 0.32903, is u′ 0.1978, v′ 0.4683 (CIE 015:2018, table T.3).
+    /// D65 has x = 0.31272, y = 0.32903 and u′ = 0.1978, v′ = 0.4683 (CIE 015:2018, table T.3).
     #[test]
     fn diagrams_lead_into_one_another() {
         let xyz = [95.04, 100.0, 108.88];

@@ -1,16 +1,16 @@
-//! CIECAM16: what a color looks like under given conditions, and which color looks like that.
+//! The color appearance model CIECAM16 and its inverse.
 //!
 //! CIE 248:2022, The CIE 2016 colour appearance model for colour management systems: the model of Li et al., Comprehensive color
-//! solutions: CAM16, CAT16, and CAM16-UCS, Color Res. Appl. 42, 703 (2017), with responses that go on as straight lines below
-//! q = 0.26 and above q = 150, so that very saturated colors have a look too.
+//! solutions: CAM16, CAT16, and CAM16-UCS, Color Res. Appl. 42, 703 (2017), with responses extended linearly below
+//! q = 0.26 and above q = 150, so that very saturated colors also have an appearance.
 
 use crate::adaptation::CAT16;
 use crate::matrix::{inverse, times};
 
-/// How light the environment of a picture are (CIE 248:2022, table 1).
+/// How bright the surround of a picture is (CIE 248:2022, table 1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Surround {
-    /// As light as the picture: surface colors, offices.
+    /// As bright as the picture: surface colors, offices.
     #[default]
     Average,
     /// Darker than the picture: television.
@@ -20,7 +20,7 @@ pub enum Surround {
 }
 
 impl Surround {
-    /// F, c and N_c.
+    /// The factors F, c and N_c.
     fn factors(self) -> [f64; 3] {
         match self {
             Self::Average => [1.0, 0.69, 1.0],
@@ -30,7 +30,7 @@ impl Surround {
     }
 }
 
-/// What a color looks like.
+/// The appearance of a color.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Appearance {
     /// Lightness J: 0 for black, 100 for the white.
@@ -47,29 +47,29 @@ pub struct Appearance {
     pub q: f64,
 }
 
-/// A color in the uniform space CAM16-UCS: J′, a′, b′, whose distances are differences of color (Li et al. 2017).
+/// A color J′, a′, b′ in the uniform color space CAM16-UCS, where distances are color differences (Li et al. 2017).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ucs {
     /// Lightness J′ = 1.7 J / (1 + 0.007 J), 0 to 100.
     pub j: f64,
-    /// M′ cos h with M′ = ln(1 + 0.0228 M) / 0.0228.
+    /// a′ = M′ cos h with M′ = ln(1 + 0.0228 M) / 0.0228.
     pub a: f64,
-    /// M′ sin h.
+    /// b′ = M′ sin h.
     pub b: f64,
 }
 
 impl Ucs {
-    /// The distance, a difference of color.
+    /// The distance to another color: the color difference.
     pub fn distance(self, other: Self) -> f64 {
         let [dj, da, db] = [self.j - other.j, self.a - other.a, self.b - other.b];
         (dj * dj + da * da + db * db).sqrt()
     }
 }
 
-/// The conditions under which colors are seen.
+/// The viewing conditions of a color.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViewingConditions {
-    /// What the adapted responses to the white scale R, G and B by.
+    /// Factors of R, G and B for adaptation to the white.
     adapted: [f64; 3],
     c: f64,
     n_c: f64,
@@ -81,10 +81,10 @@ pub struct ViewingConditions {
 }
 
 impl ViewingConditions {
-    /// Conditions with a white of Y = 100, an adapting luminance L_A in cd/m² (a fifth of the white's, by custom), a background of
-    /// luminance Y_b beside the white's 100 (20 by custom) and a surround.
+    /// Creates conditions from a white with Y = 100, an adapting luminance L_A in cd/m² (usually a fifth of the white's), a background of
+    /// luminance Y_b relative to 100 for the white (usually 20) and a surround.
     ///
-    /// The numbers are positive; else the appearances are not finite.
+    /// The numbers must be positive; otherwise appearances are not finite.
     pub fn new(white: [f64; 3], l_a: f64, y_b: f64, surround: Surround) -> Self {
         let [f, c, n_c] = surround.factors();
         let degree = (f * (1.0 - ((-l_a - 42.0) / 92.0).exp() / 3.6)).clamp(0.0, 1.0);
@@ -108,25 +108,25 @@ impl ViewingConditions {
         conditions
     }
 
-    /// The compressed responses to XYZ.
+    /// Returns the compressed responses to XYZ.
     fn responses(&self, xyz: [f64; 3]) -> [f64; 3] {
         let rgb = times(&CAT16, xyz);
         std::array::from_fn(|i| self.compress(rgb[i] * self.adapted[i]))
     }
 
-    /// A = (2R + G + B/20) N_bb, not below 0.
+    /// The achromatic response A = (2R + G + B/20) N_bb, not below 0.
     fn achromatic(&self, [r, g, b]: [f64; 3]) -> f64 {
         ((2.0 * r + g + b / 20.0) * self.n_bb).max(0.0)
     }
 
-    /// What XYZ, the white's Y = 100, look like.
+    /// Returns the appearance of XYZ, with Y = 100 for the white.
     pub fn appearance(&self, xyz: [f64; 3]) -> Appearance {
         let [r, g, b] = self.responses(xyz);
         let (red, yellow) = (r - 12.0 * g / 11.0 + b / 11.0, (r + g - 2.0 * b) / 9.0);
         let hue = yellow.atan2(red);
         let t = self.eccentricity(hue) * red.hypot(yellow) / (r + g + 21.0 / 20.0 * b + 0.305);
         let root_j = (self.achromatic([r, g, b]) / self.a_w).powf(0.5 * self.c * self.z);
-        // Beyond the spectrum's violet the denominator may fall below 0; such a color has no chroma to speak of.
+        // Beyond spectral violet the denominator may be negative; such a color is given no chroma.
         let c = t.max(0.0).powf(0.9) * root_j * self.chroma_factor();
         let q = 4.0 / self.c * root_j * (self.a_w + 4.0) * self.f_l.powf(0.25);
         let m = c * self.f_l.powf(0.25);
@@ -140,8 +140,8 @@ impl ViewingConditions {
         }
     }
 
-    /// XYZ, the white's Y = 100, of what looks as light as J, with the chroma C and the hue angle h in degrees:
-    /// [`Self::appearance`] backwards.
+    /// Returns XYZ, with Y = 100 for the white, of the lightness J, chroma C and hue angle h in degrees: the inverse of
+    /// [`Self::appearance`].
     pub fn xyz(&self, j: f64, c: f64, h: f64) -> [f64; 3] {
         let hue = h.to_radians();
         let (sin, cos) = hue.sin_cos();
@@ -166,7 +166,7 @@ impl ViewingConditions {
         times(&inverse(&CAT16), rgb)
     }
 
-    /// The place of XYZ, the white's Y = 100, in CAM16-UCS.
+    /// Converts XYZ, with Y = 100 for the white, to CAM16-UCS.
     pub fn ucs(&self, xyz: [f64; 3]) -> Ucs {
         let Appearance { j, m, h, .. } = self.appearance(xyz);
         let radius = (0.0228 * m).ln_1p() / 0.0228;
@@ -178,37 +178,37 @@ impl ViewingConditions {
         }
     }
 
-    /// XYZ, the white's Y = 100, of a place in CAM16-UCS: [`Self::ucs`] backwards.
+    /// Converts CAM16-UCS to XYZ, with Y = 100 for the white: the inverse of [`Self::ucs`].
     pub fn xyz_of_ucs(&self, Ucs { j, a, b }: Ucs) -> [f64; 3] {
         let m = (0.0228 * a.hypot(b)).exp_m1() / 0.0228;
         let c = m / self.f_l.powf(0.25);
         self.xyz(j / (1.7 - 0.007 * j), c, b.atan2(a).to_degrees())
     }
 
-    /// (50000/13) N_c N_cb e_t for a hue in radians, with N_cb = N_bb.
+    /// The eccentricity factor (50000/13) N_c N_cb e_t of a hue in radians, with N_cb = N_bb.
     fn eccentricity(&self, hue: f64) -> f64 {
         let e_t = 0.25 * ((hue + 2.0).cos() + 3.8);
         50_000.0 / 13.0 * self.n_c * self.n_bb * e_t
     }
 
-    /// (1.64 − 0.29ⁿ)^0.73.
+    /// The factor (1.64 − 0.29ⁿ)^0.73 of chroma.
     fn chroma_factor(&self) -> f64 {
         (1.64 - 0.29_f64.powf(self.n)).powf(0.73)
     }
 
-    /// f(q) = 400 p / (p + 27.13) with p = (F_L q / 100)^0.42.
+    /// The response f(q) = 400 p / (p + 27.13) with p = (F_L q / 100)^0.42.
     fn f(&self, q: f64) -> f64 {
         let p = (self.f_l * q / 100.0).powf(0.42);
         400.0 * p / (p + 27.13)
     }
 
-    /// f′(q).
+    /// The derivative f′(q).
     fn f_derivative(&self, q: f64) -> f64 {
         let p = (self.f_l * q / 100.0).powf(0.42);
         400.0 * 27.13 * 0.42 * p / (q * (p + 27.13).powi(2))
     }
 
-    /// f, a straight line through the origin below [`LOW`] and a tangent above [`HIGH`].
+    /// The response f, extended by a straight line through the origin below [`LOW`] and by the tangent above [`HIGH`].
     fn compress(&self, q: f64) -> f64 {
         if q < LOW {
             self.f(LOW) * q / LOW
@@ -219,7 +219,7 @@ impl ViewingConditions {
         }
     }
 
-    /// [`Self::compress`] backwards.
+    /// The inverse of [`Self::compress`].
     fn expand(&self, response: f64) -> f64 {
         let (low, high) = (self.f(LOW), self.f(HIGH));
         if response < low {
@@ -232,9 +232,9 @@ impl ViewingConditions {
     }
 }
 
-/// q below which the response is a straight line (CIE 248:2022).
+/// The q below which the response is linear (CIE 248:2022).
 const LOW: f64 = 0.26;
-/// q above which it is one.
+/// The q above which the response is linear (CIE 248:2022).
 const HIGH: f64 = 150.0;
 
 #[cfg(test)]
@@ -253,7 +253,7 @@ mod tests {
             let conditions = ViewingConditions::new(white, 64.0, 20.0, Surround::Average);
             let Appearance { j, c, h, m, s, q } = conditions.appearance(xyz);
             for (found, expected) in [j, c, h, m, s, q].into_iter().zip(expected) {
-                // Twelve digits are given, of XYZ too, whose rounding a small chroma magnifies.
+                // The values and XYZ have twelve digits; a small chroma magnifies the rounding of XYZ.
                 assert!(
                     relative(found, expected) < 1e-9,
                     "{xyz:?}: {found} {expected}"
@@ -262,7 +262,7 @@ mod tests {
         }
     }
 
-    /// The example of CIE 248:2022 and of Li et al. (2017), table A1, as colour-science 0.4.7 prints it; dim and dark by the same.
+    /// The example of CIE 248:2022 and of Li et al. (2017), table A1, by colour-science 0.4.7; dim and dark by the same program.
     #[test]
     fn other_conditions_equal_an_independent_computation() {
         let (xyz, white) = ([19.01, 20.0, 21.78], [95.05, 100.0, 108.88]);
@@ -278,7 +278,7 @@ mod tests {
         }
     }
 
-    /// D Y_w / R_w + 1 − D: what a white is scaled by does not depend on how bright it is called.
+    /// D Y_w / R_w + 1 − D: the scale factors do not depend on the luminance assigned to the white.
     #[test]
     fn adaptation_depends_on_the_white_s_chromaticity_alone() {
         let of = |scale: f64| {

@@ -1,11 +1,11 @@
-//! Displays: how codes become light.
+//! Displays: the light that they emit for RGB codes.
 //!
-//! A display mixes three primaries: XYZ = M C with C the amounts of red, green and blue, 1 each for its white, and each amount
-//! is what the channel's [`Response`] makes of the code V in \[0, 1\] (Suzuki, Yokoi and Toriwaki, sections 2-2 and 2-3). What the
-//! screen shows at code 0 adds to that.
+//! A display mixes three primaries: XYZ = M C, where C are the amounts of red, green and blue, each 1 for the white. The
+//! channel's [`Response`] gives each amount from the code V in \[0, 1\] (Suzuki, Yokoi and Toriwaki, sections 2-2 and 2-3). The
+//! light that the screen shows at code 0 is added.
 //!
-//! M comes from the primaries' spectra, M = ∫ (x̄, ȳ, z̄) (r, g, b) dλ, or from their chromaticities and that of the white, each
-//! column scaled so that C = (1, 1, 1) is the white (SMPTE RP 177:1993). See [`Display::open`] for the names and the files.
+//! M comes from the spectra of the primaries, M = ∫ (x̄, ȳ, z̄) (r, g, b) dλ, or from the chromaticities of the primaries and the
+//! white, with each column scaled so that C = (1, 1, 1) is the white (SMPTE RP 177:1993). See [`Display::open`] for names and files.
 
 mod file;
 mod response;
@@ -21,7 +21,7 @@ use crate::chromaticity::{uv_of_xy, xy_of_xyz, xyz_of_xy};
 use crate::matrix::{Matrix3, determinant, inverse, of_columns, times};
 use crate::tristimulus::{Rule, Weights, xyz_of_emission};
 
-/// A display.
+/// A display: its primaries, responses, white, black level and ambient light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Display {
     name: String,
@@ -40,10 +40,10 @@ pub struct Display {
     black: [f64; 3],
 }
 
-/// Light of the room that the screen reflects.
+/// Ambient light that the screen reflects.
 #[derive(Clone, Debug, PartialEq)]
 struct Ambient {
-    /// cd/m².
+    /// Luminance of the reflected light, cd/m².
     luminance: f64,
     light: Spectrum,
 }
@@ -57,24 +57,24 @@ pub enum Primaries {
     Spectra(Box<[Tabulated; 3]>),
 }
 
-/// Why primaries and a white make no display.
+/// Why primaries and a white do not define a display.
 #[derive(Clone, Copy, Debug, thiserror::Error, PartialEq, Eq)]
 enum MixtureError {
-    /// A spectrum ends within 380 to 780 nm or has no light there.
+    /// A spectrum does not cover 380 to 780 nm or is 0 there.
     #[error("each primary's spectrum must shine and cover 380 to 780 nm")]
     Spectrum,
-    /// They mix no white.
+    /// The primaries cannot mix the white.
     #[error(
         "the white must lie within the triangle of red, green and blue, but no positive amounts of the three mix it"
     )]
     White,
-    /// The ambient light is not seen.
+    /// The ambient light is not visible.
     #[error("it must shine and cover 380 to 780 nm")]
     Ambient,
 }
 
 impl Primaries {
-    /// The matrix whose columns are XYZ of the primaries: with Y = 1 of chromaticities, else of the spectra as they are.
+    /// Returns the matrix whose columns are XYZ of the primaries: with Y = 1 for chromaticities, unscaled for spectra.
     fn columns(&self, observer: Observer) -> Result<Matrix3, MixtureError> {
         let spectra = match self {
             Self::Chromaticities(xy) => return Ok(of_columns(xy.map(xyz_of_xy))),
@@ -91,7 +91,7 @@ impl Primaries {
         Ok(of_columns(columns))
     }
 
-    /// The amounts of the three that mix the white; equal ones where there is none.
+    /// Returns the amounts of the three primaries that mix the white; equal amounts if no white is given.
     fn amounts(&self, white: Option<[f64; 2]>) -> Result<[f64; 3], MixtureError> {
         let columns = self.columns(Observer::Cie1931Deg2)?;
         let inverse = inverse(&columns);
@@ -99,7 +99,7 @@ impl Primaries {
         let is_mixed = amounts
             .iter()
             .all(|&amount| amount > 0.0 && amount.is_finite());
-        // Of three colors on a line.
+        // The three colors lie on a line.
         let is_flat = determinant(&columns).abs() < 1e-9 * columns[1].iter().product::<f64>();
         if is_mixed && !is_flat {
             Ok(amounts)
@@ -109,72 +109,72 @@ impl Primaries {
     }
 }
 
-/// M of primaries by their chromaticities and that of the white, the white's Y = 1 (SMPTE RP 177:1993). Of points that are no primaries
-/// of that white, numbers that are not finite.
+/// Returns M from the chromaticities of the primaries and the white, with Y = 1 for the white (SMPTE RP 177:1993). If the points are not
+/// primaries of that white, the numbers are not finite.
 pub fn xyz_from_rgb_of(primaries: [[f64; 2]; 3], white: [f64; 2]) -> Matrix3 {
     let columns = of_columns(primaries.map(xyz_of_xy));
     mixed(&columns, times(&inverse(&columns), xyz_of_xy(white)))
 }
 
-/// M: the columns times the amounts, scaled to the white's Y = 1.
+/// Returns M: the columns times the amounts, scaled to Y = 1 for the white.
 fn mixed(columns: &Matrix3, amounts: [f64; 3]) -> Matrix3 {
     let luminance: f64 = (0..3).map(|i| columns[1][i] * amounts[i]).sum();
     columns.map(|row| std::array::from_fn(|i| row[i] * amounts[i] / luminance))
 }
 
 impl Display {
-    /// A display that Pellicle carries, by its name.
+    /// Returns a built-in display by its name.
     pub fn named(name: &str) -> Option<Self> {
         shipped::named(name)
     }
 
-    /// The names that [`Self::named`] knows, sorted.
+    /// The names of the built-in displays, sorted.
     pub fn names() -> Vec<&'static str> {
         shipped::names()
     }
 
-    /// Its name.
+    /// The short name of the display.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Its name in full.
+    /// The full name of the display.
     pub fn title(&self) -> &str {
         &self.title
     }
 
-    /// The standard or the measurement that its figures come from; empty where the file says none.
+    /// The standard or measurement that the data come from; empty if the file states none.
     pub fn source(&self) -> &str {
         &self.source
     }
 
-    /// What else there is to know about the figures.
+    /// Notes about the data.
     pub fn notes(&self) -> &str {
         &self.notes
     }
 
-    /// The primaries as they were given.
+    /// The primaries as given.
     pub fn primaries(&self) -> &Primaries {
         &self.primaries
     }
 
-    /// M: the columns are XYZ of full red, green and blue, relative to the white's Y = 1.
+    /// The matrix M, whose columns are XYZ of full red, green and blue, relative to Y = 1 for the white.
     pub fn xyz_from_rgb(&self) -> &Matrix3 {
         &self.xyz_from_rgb
     }
 
-    /// M⁻¹.
+    /// The matrix M⁻¹.
     pub fn rgb_from_xyz(&self) -> &Matrix3 {
         &self.rgb_from_xyz
     }
 
-    /// The observer that its XYZ are for.
+    /// The observer of the display's XYZ.
     pub fn observer(&self) -> Observer {
         self.observer
     }
 
-    /// The same display as another observer sees it, where the primaries are spectra; `None` where they are chromaticities, which hold
-    /// for CIE 1931 alone.
+    /// Returns the display for another observer if the primaries are spectra; `None` if they are chromaticities, which are valid for
+    /// CIE 1931 only.
     pub fn seen_by(&self, observer: Observer) -> Option<Self> {
         if observer == self.observer {
             return Some(self.clone());
@@ -187,7 +187,7 @@ impl Display {
         Some(display)
     }
 
-    /// Works out M, M⁻¹ and what the screen shows at code 0.
+    /// Computes M, M⁻¹ and the light that the screen shows at code 0.
     fn mix(&mut self, observer: Observer) -> Result<(), MixtureError> {
         let columns = self.primaries.columns(observer)?;
         self.observer = observer;
@@ -205,7 +205,7 @@ impl Display {
         Ok(())
     }
 
-    /// XYZ of the white (1, 1, 1), Y = 1.
+    /// XYZ of the white (1, 1, 1), with Y = 1.
     pub fn white_xyz(&self) -> [f64; 3] {
         times(&self.xyz_from_rgb, [1.0; 3])
     }
@@ -215,12 +215,12 @@ impl Display {
         std::array::from_fn(|i| xy_of_xyz(self.xyz_from_rgb.map(|row| row[i])))
     }
 
-    /// What each channel makes of a code.
+    /// The response of each channel.
     pub fn responses(&self) -> &[Response; 3] {
         &self.responses
     }
 
-    /// The largest amount that a channel gives: 1, or more where codes above the white exist (PQ).
+    /// The largest amount of any channel: 1, or more if there are codes above the white (PQ).
     pub fn peak(&self) -> f64 {
         self.responses
             .iter()
@@ -228,29 +228,29 @@ impl Display {
             .fold(1.0, f64::max)
     }
 
-    /// Luminance of the white, cd/m², without that of black.
+    /// Luminance of the white, cd/m², without the luminance of black.
     pub fn white_luminance(&self) -> f64 {
         self.white_luminance
     }
 
-    /// XYZ that the screen shows at code 0, its black level and the ambient light that it reflects; relative to the white's
-    /// Y = 1. It adds to every color.
+    /// XYZ that the screen shows at code 0, from its black level and reflected ambient light, relative to Y = 1 for the white.
+    /// It is added to every color.
     pub fn black_xyz(&self) -> [f64; 3] {
         self.black
     }
 
-    /// Area of the gamut, the triangle of the primaries, in the diagram of x and y.
+    /// Area of the gamut, the triangle of the primaries, in the x, y diagram.
     pub fn gamut_area_xy(&self) -> f64 {
         area(self.primaries_xy())
     }
 
-    /// Area of the gamut in the diagram of u′ and v′.
+    /// Area of the gamut in the u′, v′ diagram.
     pub fn gamut_area_uv(&self) -> f64 {
         area(self.primaries_xy().map(uv_of_xy))
     }
 }
 
-/// The area of a triangle.
+/// Returns the area of a triangle.
 fn area([[x0, y0], [x1, y1], [x2, y2]]: [[f64; 2]; 3]) -> f64 {
     0.5 * ((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)).abs()
 }

@@ -1,13 +1,13 @@
-//! CIELAB and the color differences ΔE of 1976, 1994 and 2000.
+//! CIELAB and the color differences ΔE of 1976, 1994 and 2000, all in `f64`.
 //!
-//! Lightness L*, and a*, b* from green to red and from blue to yellow (CIE 015:2018, section 8.2.1). All in `f64`.
+//! L* is lightness; a* runs from green to red and b* from blue to yellow (CIE 015:2018, section 8.2.1).
 
 use std::f64::consts::PI;
 
-/// A color in CIELAB: L* (0 for black, 100 for the white), a*, b*.
+/// A color L*, a*, b* in CIELAB.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lab {
-    /// Lightness L*.
+    /// Lightness L*: 0 for black, 100 for the white.
     pub l: f64,
     /// From green (negative) to red.
     pub a: f64,
@@ -15,12 +15,12 @@ pub struct Lab {
     pub b: f64,
 }
 
-/// Below (6/29)³ the cube root goes over into its tangent.
+/// Below (6/29)³ the cube root is replaced by its tangent.
 const LINEAR_BELOW: f64 = 216.0 / 24389.0;
 /// The tangent's slope, (29/6)²/3.
 const SLOPE: f64 = 841.0 / 108.0;
 
-/// CIELAB's f: ∛t, and near black its tangent (841/108) t + 4/29.
+/// The function f of CIELAB: ∛t, or near black its tangent (841/108) t + 4/29.
 fn f(t: f64) -> f64 {
     if t > LINEAR_BELOW {
         t.cbrt()
@@ -29,7 +29,7 @@ fn f(t: f64) -> f64 {
     }
 }
 
-/// t of f(t).
+/// The inverse of [`f`].
 fn f_inverse(f: f64) -> f64 {
     // f(216/24389) = 6/29.
     if f > 6.0 / 29.0 {
@@ -39,7 +39,7 @@ fn f_inverse(f: f64) -> f64 {
     }
 }
 
-/// df/dt.
+/// The derivative df/dt.
 fn f_derivative(t: f64) -> f64 {
     if t > LINEAR_BELOW {
         1.0 / (3.0 * t.cbrt().powi(2))
@@ -49,20 +49,20 @@ fn f_derivative(t: f64) -> f64 {
 }
 
 impl Lab {
-    /// CIELAB of XYZ under a `white` whose XYZ are positive and in the same unit (CIE 015:2018, equations 8.3 to 8.8).
+    /// Converts XYZ to CIELAB for a `white` whose XYZ are positive and in the same unit (CIE 015:2018, equations 8.3 to 8.8).
     pub fn from_xyz(xyz: [f64; 3], white: [f64; 3]) -> Self {
         let [x, y, z] = std::array::from_fn(|i| f(xyz[i] / white[i]));
         Self::of_roots(x, y, z, -16.0)
     }
 
-    /// XYZ under a `white` of the same unit: [`Self::from_xyz`] backwards.
+    /// Converts to XYZ in the unit of `white`: the inverse of [`Self::from_xyz`].
     pub fn to_xyz(self, white: [f64; 3]) -> [f64; 3] {
         let y = (self.l + 16.0) / 116.0;
         let roots = [y + self.a / 500.0, y, y - self.b / 200.0];
         std::array::from_fn(|i| white[i] * f_inverse(roots[i]))
     }
 
-    /// The color of a lightness L*, chroma C* and hue angle in degrees: [`Self::chroma`] and [`Self::hue_deg`] backwards.
+    /// Creates a color from lightness L*, chroma C* and hue angle in degrees: the inverse of [`Self::chroma`] and [`Self::hue_deg`].
     pub fn from_lch(l: f64, chroma: f64, hue_deg: f64) -> Self {
         let (sin, cos) = hue_deg.to_radians().sin_cos();
         Self {
@@ -72,7 +72,7 @@ impl Lab {
         }
     }
 
-    /// What a small change of XYZ changes of CIELAB: the derivative of [`Self::from_xyz`] at `xyz` along `d_xyz`.
+    /// Returns the derivative of [`Self::from_xyz`] at `xyz` along `d_xyz`.
     pub fn derivative(xyz: [f64; 3], white: [f64; 3], d_xyz: [f64; 3]) -> Self {
         let [x, y, z] =
             std::array::from_fn(|i| f_derivative(xyz[i] / white[i]) * d_xyz[i] / white[i]);
@@ -98,39 +98,39 @@ impl Lab {
     }
 }
 
-/// The angle of (a, b) in radians, 0 to 2π; 0 at the origin.
+/// Returns the angle of (a, b) in radians, 0 to 2π; 0 at the origin.
 fn hue(a: f64, b: f64) -> f64 {
     let angle = b.atan2(a);
     if angle < 0.0 { angle + 2.0 * PI } else { angle }
 }
 
-/// The color difference ΔE*₇₆, the distance in CIELAB (CIE 015:2018, equation 8.17).
+/// Returns the color difference ΔE*₇₆, the distance in CIELAB (CIE 015:2018, equation 8.17).
 pub fn delta_e_76(first: Lab, second: Lab) -> f64 {
     let [l, a, b] = [first.l - second.l, first.a - second.a, first.b - second.b];
     (l * l + a * a + b * b).sqrt()
 }
 
-/// The color difference ΔE*₉₄ with k_L = k_C = k_H = 1, for graphic arts (CIE 116-1995). `first` is the standard, whose chroma
-/// says how much differences of chroma and hue weigh: the other way round it is another number.
+/// Returns the color difference ΔE*₉₄ with k_L = k_C = k_H = 1, for graphic arts (CIE 116-1995). `first` is the standard, whose
+/// chroma determines the weights of chroma and hue differences; swapping the colors gives a different number.
 pub fn delta_e_94(first: Lab, second: Lab) -> f64 {
     let standard = first.chroma();
     let (dl, dc) = (first.l - second.l, standard - second.chroma());
     let (da, db) = (first.a - second.a, first.b - second.b);
-    // A rounding may leave it below 0.
+    // Rounding may make it negative.
     let dh2 = (da * da + db * db - dc * dc).max(0.0);
     let (s_c, s_h) = (1.0 + 0.045 * standard, 1.0 + 0.015 * standard);
     (dl * dl + (dc / s_c).powi(2) + dh2 / (s_h * s_h)).sqrt()
 }
 
-/// The color difference ΔE₀₀ with k_L = k_C = k_H = 1 (CIE 142-2001; as written out, branches of the hue included, in
-/// Sharma, Wu and Dalal, The CIEDE2000 color-difference formula, Color Res. Appl. 30, 21 (2005), equations 2 to 22).
+/// Returns the color difference ΔE₀₀ with k_L = k_C = k_H = 1 (CIE 142-2001; written out, including the branches of the hue,
+/// in Sharma, Wu and Dalal, The CIEDE2000 color-difference formula, Color Res. Appl. 30, 21 (2005), equations 2 to 22).
 pub fn delta_e_2000(first: Lab, second: Lab) -> f64 {
     let stretch = red_green_stretch(f64::midpoint(first.chroma(), second.chroma()));
     let (a1, a2) = (stretch * first.a, stretch * second.a);
     let (c1, c2) = (a1.hypot(first.b), a2.hypot(second.b));
     let (h1, h2) = (hue(a1, first.b), hue(a2, second.b));
 
-    // Between grays hue has no meaning: no difference of hue, and the mean is the other's hue.
+    // A gray has no hue: the hue difference is 0, and the mean hue is that of the other color.
     let is_gray = c1 * c2 == 0.0;
     let turn = h2 - h1;
     let dh = match turn {
@@ -154,10 +154,10 @@ pub fn delta_e_2000(first: Lab, second: Lab) -> f64 {
     weights.length(second.l - first.l, c2 - c1, dh_chord)
 }
 
-/// How fast a color moves away from `at`, in ΔE₀₀ per unit of t, when CIELAB moves by `d_lab` per unit of t: the limit of
+/// Returns the rate of change of ΔE₀₀ from `at` per unit of t when CIELAB changes by `d_lab` per unit of t: the limit of
 /// ΔE₀₀(at, at + t d_lab) / t for t → 0 from above.
 pub fn delta_e_2000_rate(at: Lab, d_lab: Lab) -> f64 {
-    // Both colors of the pair share the stretch, so that its own change is of second order.
+    // Both colors have the same stretch, so its own change is of second order.
     let stretch = red_green_stretch(at.chroma());
     let (a, da) = (stretch * at.a, stretch * d_lab.a);
     let c = a.hypot(at.b);
@@ -170,18 +170,18 @@ pub fn delta_e_2000_rate(at: Lab, d_lab: Lab) -> f64 {
     weights.length(d_lab.l, dc, dh)
 }
 
-/// 1 + G with G = (1 − √(C⁷ / (C⁷ + 25⁷))) / 2, by which a* is stretched near gray.
+/// The factor 1 + G with G = (1 − √(C⁷ / (C⁷ + 25⁷))) / 2 that stretches a* near gray.
 fn red_green_stretch(chroma: f64) -> f64 {
     1.0 + 0.5 * (1.0 - toward_saturation(chroma))
 }
 
-/// √(C⁷ / (C⁷ + 25⁷)).
+/// The function √(C⁷ / (C⁷ + 25⁷)).
 fn toward_saturation(chroma: f64) -> f64 {
     let c7 = chroma.powi(7);
     (c7 / (c7 + 25.0_f64.powi(7))).sqrt()
 }
 
-/// What differences of lightness, chroma and hue are divided by, and how chroma and hue lean on each other.
+/// The weighting functions S_L, S_C, S_H of lightness, chroma and hue, and the rotation term R_T between chroma and hue.
 struct Weights {
     s_l: f64,
     s_c: f64,
@@ -190,7 +190,7 @@ struct Weights {
 }
 
 impl Weights {
-    /// At mean lightness, stretched chroma and hue (radians).
+    /// Computes the weights at mean lightness, stretched chroma and hue (radians).
     fn at(l: f64, c: f64, h: f64) -> Self {
         let t = 1.0 - 0.17 * (h - PI / 6.0).cos()
             + 0.24 * (2.0 * h).cos()
@@ -208,7 +208,7 @@ impl Weights {
 
     fn length(&self, dl: f64, dc: f64, dh: f64) -> f64 {
         let (l, c, h) = (dl / self.s_l, dc / self.s_c, dh / self.s_h);
-        // The form is positive; a rounding may leave it below 0 where all is 0.
+        // The quadratic form is positive; rounding may make it negative near 0.
         (l * l + c * c + h * h + self.r_t * c * h).max(0.0).sqrt()
     }
 }
@@ -232,12 +232,12 @@ mod tests {
                 (found - published).abs() <= 0.5001e-4,
                 "{first:?} {second:?}: {found}"
             );
-            // Twelve digits are given.
+            // The values have twelve digits.
             assert!(
                 (found / digits - 1.0).abs() < 1e-11,
                 "{first:?} {second:?}: {found}"
             );
-            // Those pairs whose hues differ by half a turn decide by a rounding which way round is meant.
+            // For pairs whose hues differ by half a turn, rounding decides the direction of the difference.
             let back = delta_e_2000(second, first);
             assert!((back - found).abs() < 1e-12, "{first:?} {second:?}: {back}");
         }
@@ -286,7 +286,7 @@ mod tests {
         }
     }
 
-    /// ΔE*₇₆ and ΔE*₉₄ (graphic arts) of three of those pairs, by colour-science 0.4.7.
+    /// ΔE*₇₆ and ΔE*₉₄ (graphic arts) of three pairs of Sharma et al., by colour-science 0.4.7.
     const OLDER: [([f64; 3], [f64; 3], f64, f64); 3] = [
         (
             [50.0, 2.6772, -79.7751],

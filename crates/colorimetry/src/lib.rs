@@ -1,11 +1,11 @@
-//! Colorimetry in `f64`: functions of numbers, which know no image and no file of one.
+//! Colorimetry in `f64`, independent of images and image files.
 //!
 //! ```text
 //! spectrum
-//!   -> tristimulus    XYZ under a light for an observer, by sums at 5 or 1 nm
-//!   -> chromaticity   x, y and u', v'; temperature, of the nearest black body
-//!   -> lab, oklab, ciecam16   what it looks like, and how different two colors look
-//!   -> adaptation     the same under another white
+//!   -> tristimulus    XYZ under an illuminant for an observer, by sums at 5 or 1 nm
+//!   -> chromaticity   x, y and u', v'; temperature of the nearest black body
+//!   -> lab, oklab, ciecam16   color appearance and color differences
+//!   -> adaptation     the corresponding color under another white
 //!   -> Display        amounts of a display's primaries -> its codes
 //! ```
 //!
@@ -29,7 +29,7 @@
 //! # }
 //! ```
 //!
-//! Tristimulus values enter and leave as `[X, Y, Z]`; where a white matters it is given in the same unit.
+//! Tristimulus values are passed and returned as `[X, Y, Z]`; a white is given in the same unit.
 
 pub mod adaptation;
 pub mod chromaticity;

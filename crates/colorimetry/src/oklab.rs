@@ -1,4 +1,4 @@
-//! Oklab, a perceptual space whose lines of constant hue are straight in blue too.
+//! Oklab, a perceptual color space with straight lines of constant hue, even in blue.
 //!
 //! B. Ottosson, A perceptual color space for image processing (2020, bottosson.github.io/posts/oklab).
 
@@ -6,10 +6,10 @@ use std::sync::OnceLock;
 
 use crate::matrix::{Matrix3, inverse, times};
 
-/// A color in Oklab: lightness L (0 for black, 1 for the white D65), a, b.
+/// A color L, a, b in Oklab.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Oklab {
-    /// Lightness L.
+    /// Lightness L: 0 for black, 1 for the white D65.
     pub l: f64,
     /// From green (negative) to red.
     pub a: f64,
@@ -17,14 +17,14 @@ pub struct Oklab {
     pub b: f64,
 }
 
-/// Responses of cones from XYZ: Ottosson's M₁.
+/// The matrix from XYZ to cone responses: Ottosson's M₁.
 pub const LMS_FROM_XYZ: Matrix3 = [
     [0.818_933_010_1, 0.361_866_742_4, -0.128_859_713_7],
     [0.032_984_543_6, 0.929_311_871_5, 0.036_145_638_7],
     [0.048_200_301_8, 0.264_366_269_1, 0.633_851_707_0],
 ];
 
-/// Lab from the cube roots of the responses: Ottosson's M₂.
+/// The matrix from the cube roots of the responses to Lab: Ottosson's M₂.
 pub const LAB_FROM_ROOTS: Matrix3 = [
     [0.210_454_255_3, 0.793_617_785_0, -0.004_072_046_8],
     [1.977_998_495_1, -2.428_592_205_0, 0.450_593_709_9],
@@ -32,15 +32,15 @@ pub const LAB_FROM_ROOTS: Matrix3 = [
 ];
 
 impl Oklab {
-    /// Oklab of XYZ relative to the white D65, Y = 1. A color seen under another white is adapted to D65 first. XYZ outside the
-    /// cone of real colors have an Oklab too: roots keep their sign.
+    /// Converts XYZ relative to the white D65 with Y = 1. Colors under another white must be adapted to D65 first. XYZ of
+    /// imaginary colors is also valid: cube roots keep their sign.
     pub fn from_xyz(xyz: [f64; 3]) -> Self {
         let roots = times(&LMS_FROM_XYZ, xyz).map(f64::cbrt);
         let [l, a, b] = times(&LAB_FROM_ROOTS, roots);
         Self { l, a, b }
     }
 
-    /// XYZ relative to the white D65, Y = 1: [`Self::from_xyz`] backwards.
+    /// Converts to XYZ relative to the white D65 with Y = 1: the inverse of [`Self::from_xyz`].
     pub fn to_xyz(self) -> [f64; 3] {
         static BACK: OnceLock<[Matrix3; 2]> = OnceLock::new();
         let [xyz_from_lms, roots_from_lab] =
@@ -59,7 +59,7 @@ impl Oklab {
         self.b.atan2(self.a).to_degrees().rem_euclid(360.0)
     }
 
-    /// The color of a lightness, chroma and hue angle in degrees.
+    /// Creates a color from lightness, chroma and hue angle in degrees.
     pub fn from_lch(l: f64, chroma: f64, hue_deg: f64) -> Self {
         let (sin, cos) = hue_deg.to_radians().sin_cos();
         Self {
@@ -74,7 +74,7 @@ impl Oklab {
 mod tests {
     use super::*;
 
-    /// The pairs that Ottosson (2020) prints for checking.
+    /// The test pairs in Ottosson (2020).
     #[test]
     fn published_colors_have_their_coordinates() {
         for (xyz, lab) in [

@@ -1,8 +1,8 @@
 //! The sRGB display: linear RGB from XYZ, the transfer curve, 8-bit codes.
 //!
-//! Primaries, white and curve are those of IEC 61966-2-1:1999. XYZ enters relative to the display's
-//! white, Y = 1. No chromatic adaptation is done: a spectrum whose chromaticity is that of D65 is
-//! white, every other light keeps its own color.
+//! Primaries, white and curve are those of IEC 61966-2-1:1999. XYZ is relative to the display's
+//! white, Y = 1. There is no chromatic adaptation: a spectrum with the chromaticity of D65 is white,
+//! and every other illuminant keeps its color.
 
 use std::sync::OnceLock;
 
@@ -10,34 +10,34 @@ use crate::chromaticity::xyz_of_xy;
 use crate::display::xyz_from_rgb_of;
 use crate::matrix::{Matrix3, inverse, times};
 
-/// Chromaticities x, y of the red, green and blue primary.
+/// Chromaticities x, y of the red, green and blue primaries.
 pub const PRIMARIES: [[f64; 2]; 3] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]];
-/// Chromaticity x, y of the white, D65 as the standard rounds it.
+/// Chromaticity x, y of the white: D65 as rounded in the standard.
 pub const WHITE: [f64; 2] = [0.3127, 0.3290];
 
-/// The matrix that takes XYZ to linear RGB: M⁻¹ of the primaries and the white (SMPTE RP 177:1993).
+/// The matrix from XYZ to linear RGB: M⁻¹ for the primaries and the white (SMPTE RP 177:1993).
 pub fn rgb_from_xyz() -> &'static Matrix3 {
     static MATRIX: OnceLock<Matrix3> = OnceLock::new();
     MATRIX.get_or_init(|| inverse(&xyz_from_rgb_of(PRIMARIES, WHITE)))
 }
 
-/// Linear RGB of XYZ. Colors that the display cannot show have values below 0 or above 1.
+/// Converts XYZ to linear RGB. Colors that the display cannot show have values below 0 or above 1.
 pub fn linear_from_xyz(xyz: [f64; 3]) -> [f64; 3] {
     times(rgb_from_xyz(), xyz)
 }
 
-/// XYZ of linear RGB, the white's Y = 1: [`linear_from_xyz`] backwards.
+/// Converts linear RGB to XYZ, with Y = 1 for the white: the inverse of [`linear_from_xyz`].
 pub fn xyz_from_linear(rgb: [f64; 3]) -> [f64; 3] {
     static MATRIX: OnceLock<Matrix3> = OnceLock::new();
     times(MATRIX.get_or_init(|| inverse(rgb_from_xyz())), rgb)
 }
 
-/// XYZ of the display's white, Y = 1.
+/// XYZ of the display's white, with Y = 1.
 pub fn white_xyz() -> [f64; 3] {
     xyz_of_xy(WHITE)
 }
 
-/// The transfer curve, linear to code: 12.92 v up to 0.0031308, else 1.055 v^(1/2.4) − 0.055. For v in \[0, 1\].
+/// The transfer curve from linear to code: 12.92 v up to 0.0031308, else 1.055 v^(1/2.4) − 0.055. For v in \[0, 1\].
 pub fn encode(linear: f64) -> f64 {
     if linear <= 0.003_130_8 {
         12.92 * linear
@@ -46,7 +46,7 @@ pub fn encode(linear: f64) -> f64 {
     }
 }
 
-/// The transfer curve backwards, code to linear: v/12.92 up to 0.04045, else ((v + 0.055)/1.055)^2.4.
+/// The inverse transfer curve from code to linear: v/12.92 up to 0.04045, else ((v + 0.055)/1.055)^2.4.
 pub fn decode(code: f64) -> f64 {
     if code <= 0.040_45 {
         code / 12.92
@@ -55,13 +55,13 @@ pub fn decode(code: f64) -> f64 {
     }
 }
 
-/// The nearest 8-bit code of a linear value. Values outside \[0, 1\] are clipped, a NaN is 0.
+/// Returns the nearest 8-bit code of a linear value. Values outside \[0, 1\] are clipped; NaN becomes 0.
 pub fn to_u8(linear: f64) -> u8 {
-    // A NaN goes through to the cast, which makes it 0.
+    // A NaN reaches the cast, which makes it 0.
     (encode(linear.clamp(0.0, 1.0)) * 255.0).round() as u8
 }
 
-/// The linear value of an 8-bit code.
+/// Returns the linear value of an 8-bit code.
 pub fn from_u8(code: u8) -> f64 {
     decode(f64::from(code) / 255.0)
 }
@@ -96,13 +96,13 @@ mod tests {
             .flatten()
             .zip(published.iter().flatten())
         {
-            // The standard derived its matrix from figures rounded to four decimals.
+            // The standard derives its matrix from values rounded to four decimals.
             assert!((row - expected).abs() < 4e-4, "{row} {expected}");
         }
     }
 
-    /// XYZ (100 for a perfect mirror) and linear sRGB of films and metals under several lights, by
-    /// double-precision sums at 1 nm computed apart from this code (tmm, numpy).
+    /// XYZ (Y = 100 for a perfect mirror) and linear sRGB of films and metals under several illuminants, by
+    /// double-precision sums at 1 nm computed independently (tmm, numpy).
     const COLORS: [([f64; 3], [f64; 3]); 6] = [
         // Soap film, 500 nm, normal, D65; then at 80° under A; at 30° under D65.
         (
@@ -146,7 +146,7 @@ mod tests {
         for (xyz, expected) in COLORS {
             let rgb = linear_from_xyz(xyz.map(|v| v / 100.0));
             for (found, expected) in rgb.into_iter().zip(expected) {
-                // The figures have ten to twelve digits.
+                // The values have ten to twelve digits.
                 assert!((found - expected).abs() < 1e-10, "{found} {expected}");
             }
         }
@@ -174,7 +174,7 @@ mod tests {
     #[test]
     fn the_curve_meets_itself_and_its_published_points() {
         assert!((encode(0.003_130_8) - 0.040_45).abs() < 1e-5);
-        // Mid gray: code 0.5 is linear 0.21404.
+        // Middle gray: code 0.5 is linear 0.21404.
         assert!((decode(0.5) - 0.214_041_14).abs() < 1e-8);
         for i in 0..=1000 {
             let v = f64::from(i) / 1000.0;

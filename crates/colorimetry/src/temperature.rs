@@ -7,22 +7,22 @@ use spectra::{Observer, black_body};
 use crate::chromaticity::uv_of_xyz;
 use crate::tristimulus::Rule;
 
-/// A color beside the black bodies.
+/// The correlated color temperature of a color and its distance from the Planckian locus.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Temperature {
-    /// Correlated color temperature: that of the black body whose chromaticity is nearest in u, v of CIE 1960, K.
+    /// Correlated color temperature: the temperature of the black body whose chromaticity is nearest in u, v of CIE 1960, K.
     pub kelvin: f64,
-    /// The distance from it, positive above the line of black bodies: greener than they.
+    /// Distance D_uv from this black body; positive above the Planckian locus, for colors that are greener.
     pub duv: f64,
 }
 
-/// The farthest that a color may lie from the black bodies to have a temperature (CIE 015:2018, section 9.5).
+/// The largest distance from the Planckian locus at which a color has a temperature (CIE 015:2018, section 9.5).
 const FARTHEST: f64 = 0.05;
-/// Reciprocal temperatures among which is looked, per 10⁶ K: 1000 to 100000 K.
+/// Range of the search in reciprocal temperature, 10⁶/K: 100000 K to 1000 K.
 const MIRED: (f64, f64) = (10.0, 1000.0);
 
-/// The correlated color temperature of a chromaticity x, y for the CIE 1931 observer (CIE 015:2018, section 9.5); `None` farther than
-/// 0.05 from the black bodies or beyond those of 1000 to 100000 K.
+/// Returns the correlated color temperature of a chromaticity x, y for the CIE 1931 observer (CIE 015:2018, section 9.5); `None` if it
+/// is farther than 0.05 from the Planckian locus or outside 1000 to 100000 K.
 pub fn correlated_temperature(xy: [f64; 2]) -> Option<Temperature> {
     let [u, v] = uv_1960([xy[0], xy[1], 1.0 - xy[0] - xy[1]]);
     let distance = |mired: f64| {
@@ -51,13 +51,13 @@ pub fn correlated_temperature(xy: [f64; 2]) -> Option<Temperature> {
     })
 }
 
-/// u, v of CIE 1960: u′ and two thirds of v′.
+/// Returns u, v of CIE 1960: u′ and two thirds of v′.
 fn uv_1960(xyz: [f64; 3]) -> [f64; 2] {
     let [u, v] = uv_of_xyz(xyz);
     [u, 2.0 * v / 3.0]
 }
 
-/// u, v of the black body of a reciprocal temperature.
+/// Returns u, v of the black body with a reciprocal temperature in mired.
 fn planckian(mired: f64) -> [f64; 2] {
     static OBSERVER: OnceLock<Vec<(f64, [f64; 3])>> = OnceLock::new();
     let observer = OBSERVER.get_or_init(|| {
@@ -74,7 +74,7 @@ fn planckian(mired: f64) -> [f64; 2] {
     uv_1960(xyz)
 }
 
-/// Where a function with one minimum between two numbers has it, by golden sections.
+/// Finds the only minimum of a function between two numbers by golden-section search.
 fn minimum(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_895;
     while high - low > 1e-8 {
@@ -120,10 +120,10 @@ mod tests {
             ("C", 6774.0),
         ] {
             let found = of_illuminant(name);
-            // Rounded to 1 K, of chromaticities of four or five digits.
+            // The published values are rounded to 1 K and computed from chromaticities with four or five digits.
             assert!((found.kelvin - kelvin).abs() < 4.0, "{name}: {found:?}");
         }
-        // Daylight lies above the black bodies by 0.003.
+        // Daylight lies above the Planckian locus by 0.003.
         assert!((of_illuminant("D65").duv - 0.0032).abs() < 1e-4);
     }
 

@@ -1,7 +1,7 @@
-//! From spectra to XYZ: sums over wavelength.
+//! XYZ from spectra, by sums over wavelength.
 //!
-//! A reflectance R under a light S has XYZ = k Σ R S (x̄, ȳ, z̄) with k = 1 / Σ S ȳ, so that the perfect reflector has Y = 1
-//! (CIE 015:2018, section 7.1, from 380 to 780 nm in place of 360 to 830 nm).
+//! A reflectance R under an illuminant S has XYZ = k Σ R S (x̄, ȳ, z̄) with k = 1 / Σ S ȳ, so that the perfect reflector has Y = 1
+//! (CIE 015:2018, section 7.1, but from 380 to 780 nm instead of 360 to 830 nm).
 
 use std::fmt;
 use std::str::FromStr;
@@ -9,26 +9,26 @@ use std::str::FromStr;
 use spectra::{KM_LUMENS_PER_WATT, Observer, OutOfRange, Spectrum};
 use thiserror::Error;
 
-/// Where sums over wavelength are taken.
+/// The wavelengths of the sums.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Rule {
-    /// At 380, 385 … 780 nm: the rule that defines the CIE's lamps with lines.
+    /// At 380, 385 … 780 nm: the rule that defines the CIE illuminants with spectral lines.
     FiveNm,
-    /// At 380, 381 … 780 nm, the light linear between the points of its table.
+    /// At 380, 381 … 780 nm, with the illuminant linear between the points of its table.
     #[default]
     OneNm,
 }
 
-/// A name that no rule has.
+/// The name is not that of a rule.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("there is no rule {0:?}; known are 5nm and 1nm")]
 pub struct UnknownRule(String);
 
 impl Rule {
-    /// Both.
+    /// Both rules.
     pub const ALL: [Self; 2] = [Self::FiveNm, Self::OneNm];
 
-    /// The rule for a light by its name: 5 nm for lamps with lines, which their 5 nm tables define, else 1 nm.
+    /// Returns the rule for an illuminant by name: 5 nm for those with spectral lines, which are defined by 5 nm tables, else 1 nm.
     pub fn for_illuminant(name: &str) -> Self {
         if spectra::is_line_lamp(name) {
             Self::FiveNm
@@ -45,7 +45,7 @@ impl Rule {
         }
     }
 
-    /// Δλ, nm.
+    /// The step Δλ, nm.
     pub fn step_nm(self) -> f64 {
         match self {
             Self::FiveNm => 5.0,
@@ -53,7 +53,7 @@ impl Rule {
         }
     }
 
-    /// The wavelengths, rising, nm.
+    /// The wavelengths in rising order, nm.
     pub fn wavelengths_nm(self) -> impl Iterator<Item = f64> + Clone {
         (380..=780_u32)
             .step_by(self.step_nm() as usize)
@@ -76,7 +76,7 @@ impl FromStr for Rule {
     }
 }
 
-/// A light and an observer as weights, so that reflectances become XYZ in one sum.
+/// Weights for an illuminant and an observer, which give XYZ of a reflectance in one sum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weights {
     rule: Rule,
@@ -84,23 +84,23 @@ pub struct Weights {
     white: [f64; 3],
 }
 
-/// Why a light gives no weights.
+/// Why an illuminant gives no weights.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum WeightsError {
-    /// It has no value at some of the wavelengths.
+    /// The illuminant has no value at some of the wavelengths.
     #[error(transparent)]
     OutOfRange(#[from] OutOfRange),
-    /// The observer sees nothing of it.
+    /// The illuminant is not visible to the observer.
     #[error("the light has no luminance")]
     Dark,
 }
 
 impl Weights {
-    /// S (x̄, ȳ, z̄) / Σ S ȳ for a light S, in any unit.
+    /// Computes the weights S (x̄, ȳ, z̄) / Σ S ȳ of an illuminant S in any unit.
     ///
     /// # Errors
-    /// When the light has no value somewhere from 380 to 780 nm, or no luminance.
+    /// When the illuminant has no value somewhere from 380 to 780 nm, or no luminance.
     pub fn new(light: &Spectrum, observer: Observer, rule: Rule) -> Result<Self, WeightsError> {
         let weight = |nm| {
             let power = light.at(nm)?;
@@ -133,21 +133,21 @@ impl Weights {
         &self.per_wavelength
     }
 
-    /// XYZ of the light itself and of the perfect reflector, Y = 1.
+    /// XYZ of the illuminant itself and of the perfect reflector, with Y = 1.
     pub fn white(&self) -> [f64; 3] {
         self.white
     }
 
-    /// XYZ of a share of the light at each of the rule's wavelengths: Y = 1 where all of them are 1.
+    /// Returns XYZ for the fraction of the light at each wavelength of the rule; Y = 1 if all fractions are 1.
     pub fn xyz(&self, shares: impl IntoIterator<Item = f64>) -> [f64; 3] {
         let terms = shares.into_iter().zip(&self.per_wavelength);
         sum(terms.map(|(share, weight)| weight.map(|w| share * w)))
     }
 
-    /// XYZ of a reflectance or transmittance, Y = 1 for that of 1.
+    /// Returns XYZ of a reflectance or transmittance; Y = 1 for a constant 1.
     ///
     /// # Errors
-    /// When it has no value somewhere from 380 to 780 nm.
+    /// When the spectrum has no value somewhere from 380 to 780 nm.
     pub fn xyz_of(&self, reflectance: &Spectrum) -> Result<[f64; 3], OutOfRange> {
         let shares: Result<Vec<f64>, _> = self
             .rule
@@ -158,10 +158,10 @@ impl Weights {
     }
 }
 
-/// XYZ of an emission: Kₘ Σ L (x̄, ȳ, z̄) Δλ, in cd/m² for a radiance in W m⁻² sr⁻¹ nm⁻¹ (CIE 015:2018, section 7.1, note 3).
+/// Returns XYZ of an emission: Kₘ Σ L (x̄, ȳ, z̄) Δλ, in cd/m² for a radiance in W m⁻² sr⁻¹ nm⁻¹ (CIE 015:2018, section 7.1, note 3).
 ///
 /// # Errors
-/// When it has no value somewhere from 380 to 780 nm.
+/// When the spectrum has no value somewhere from 380 to 780 nm.
 pub fn xyz_of_emission(
     radiance: &Spectrum,
     observer: Observer,

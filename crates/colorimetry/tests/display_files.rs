@@ -1,4 +1,4 @@
-//! Display files: what they say, and what is said of their mistakes.
+//! Display files: their contents, and how errors in them are reported.
 
 use pellicle_colorimetry::Display;
 use pellicle_colorimetry::display::{DisplayError, Response};
@@ -22,7 +22,7 @@ response = { curve = 'gamma', gamma = [2.1, 2.2, 2.3], alpha = 0.02 }
 ambient = { illuminance_lux = 314.159265358979, reflectance = 0.01, illuminant = 'A' }
 ";
 
-/// A folder with a display file and tables.
+/// Reads a display file in a folder with tables.
 fn read(text: &str) -> Result<Display, DisplayError> {
     let folder = tempfile::tempdir().unwrap();
     let table = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
@@ -53,7 +53,7 @@ fn a_file_says_everything() {
         (display.name(), display.white_luminance()),
         ("screen", 200.0)
     );
-    // D65 by sums at 5 nm is 0.31272, 0.32903.
+    // D65 by sums at 5 nm has the chromaticity 0.31272, 0.32903.
     let m = display.xyz_from_rgb();
     assert_near(
         m.as_flattened(),
@@ -72,7 +72,7 @@ fn a_file_says_everything() {
             other => panic!("{other:?}"),
         });
     assert_eq!(gammas, [(2.1, 0.02), (2.2, 0.02), (2.3, 0.02)]);
-    // 100 π lx on a hundredth is 1 cd/m², of A's color; black adds 0.2 of the white's.
+    // 100 π lx on a reflectance of 0.01 gives 1 cd/m² with the color of A; black adds 0.2 cd/m² with the color of the white.
     let black = display.black_xyz();
     assert!((black[1] - 1.2 / 200.0).abs() < 1e-12);
     assert!(
@@ -96,7 +96,7 @@ fn change(from: &str, to: &str) -> String {
     SRGB.replace(from, to)
 }
 
-/// Each text must be refused, with these words and the file's name.
+/// Checks that each text is refused with these words and the name of the file.
 fn refused(cases: impl IntoIterator<Item = (String, &'static str)>) {
     for (text, said) in cases {
         let error = read(&text).unwrap_err().to_string();
@@ -233,7 +233,7 @@ fn names_that_nothing_has_bring_a_suggestion() {
     );
 }
 
-/// Any character in the place of any other: the file is read or refused, and never more than that.
+/// With `-` or `9` in place of any character, the file is either refused or gives finite numbers.
 #[test]
 fn a_changed_file_is_refused_or_sound() {
     let folder = tempfile::tempdir().unwrap();

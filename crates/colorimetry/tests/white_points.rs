@@ -1,4 +1,4 @@
-//! White points of the illuminants against a computation apart from this code, and against what the CIE publishes.
+//! Compares the white points of the illuminants with an independent computation and with the values published by the CIE.
 
 use pellicle_colorimetry::chromaticity::xy_of_xyz;
 use pellicle_colorimetry::tristimulus::{Rule, Weights, xyz_of_emission};
@@ -7,7 +7,7 @@ use spectra::{KM_LUMENS_PER_WATT, Observer, Spectrum, Tabulated, find_illuminant
 const COMPUTED: &str = include_str!("data/white_points.csv");
 const PUBLISHED: &str = include_str!("data/published_chromaticities.csv");
 
-/// The cells of a table, without its comments and its headings.
+/// The cells of a table, without comments and header.
 fn rows(table: &str) -> impl Iterator<Item = Vec<&str>> {
     let lines = table.lines().filter(|line| !line.starts_with('#')).skip(1);
     lines.map(|line| line.split(',').collect())
@@ -17,13 +17,13 @@ fn numbers(cells: &[&str]) -> Vec<f64> {
     cells.iter().map(|cell| cell.parse().unwrap()).collect()
 }
 
-/// XYZ, Y = 100.
+/// XYZ of an illuminant, with Y = 100.
 fn white(light: &Spectrum, observer: &str, rule: &str) -> [f64; 3] {
     let weights = Weights::new(light, observer.parse().unwrap(), rule.parse().unwrap()).unwrap();
     weights.white().map(|v| 100.0 * v)
 }
 
-/// The largest difference of the rows from what is found, in XYZ and in x, y.
+/// The largest difference between expected and computed values in XYZ and in x, y, and the number of rows.
 fn worst(change: impl Fn(Spectrum) -> Spectrum) -> (f64, usize) {
     let mut worst: f64 = 0.0;
     let mut count = 0;
@@ -42,7 +42,7 @@ fn worst(change: impl Fn(Spectrum) -> Spectrum) -> (f64, usize) {
 #[test]
 fn white_points_equal_an_independent_computation() {
     let (worst, count) = worst(|light| light);
-    // Twelve digits are given, of numbers up to 131.
+    // The values have twelve digits and are up to 131.
     assert!(worst < 1e-9, "{worst:e}");
     assert_eq!(count, 92);
 }
@@ -71,8 +71,8 @@ fn chromaticities_are_those_that_the_cie_publishes() {
         for (found, cell) in found.into_iter().zip(&row[2..]) {
             let digits = cell.split_once('.').unwrap().1.len() as i32;
             let expected: f64 = cell.parse().unwrap();
-            // Sums from 360 to 830 nm, at 1 nm for some, and a rounded table of B lie behind the published figures: 1.6 units of the
-            // last digit at most.
+            // The published values come from sums from 360 to 830 nm, some at 1 nm, and from a rounded table of B: they differ by 1.6
+            // units of the last digit at most.
             let tolerance = 1.6 * 10.0_f64.powi(-digits);
             assert!((found - expected).abs() <= tolerance, "{row:?}: {found}");
         }
@@ -81,7 +81,7 @@ fn chromaticities_are_those_that_the_cie_publishes() {
     assert_eq!(count, 35);
 }
 
-/// A radiance of 1 has the luminance K_m Σ ȳ Δλ, by either rule nearly the same; the share of a light is its factor.
+/// A radiance of 1 has the luminance K_m Σ ȳ Δλ, nearly the same by both rules; XYZ is proportional to a constant reflectance.
 #[test]
 fn emissions_are_absolute() {
     let one = Spectrum::Constant(1.0);

@@ -159,7 +159,7 @@ pub struct DispersionFormula {
 #[non_exhaustive]
 pub enum FormulaError {
     /// A term is incomplete.
-    #[error("found {found} coefficients: {}", whole_terms(*kind))]
+    #[error("found {found} coefficients; {}", whole_terms(*kind))]
     Count {
         /// The formula.
         kind: FormulaKind,

@@ -1,5 +1,5 @@
-/// Colors with their white, Y = 100, and J, C, h, M, s, Q at L_A = 64 cd/m², Y_b = 20, average surround; by colour-science 0.4.7,
-/// twelve digits: grays and saturated colors under D65, C and A.
+/// Colors, their white with Y = 100, and J, C, h, M, s, Q for L_A = 64 cd/m², Y_b = 20 and an average surround, to twelve digits by
+/// colour-science 0.4.7: grays and saturated colors under D65, C and A.
 #[rustfmt::skip]
 const APPEARANCES: [([f64; 3], [f64; 3], [f64; 6]); 18] = [
     ([95.042_966_940_2, 100.0, 108.880_054_703], [95.042_966_940_2, 100.0, 108.880_054_703], [100.0, 1.712_927_211_26, 209.516_377_515, 1.557_763_083_99, 8.471_854_246_44, 217.042_336_952]),
@@ -22,7 +22,7 @@ const APPEARANCES: [([f64; 3], [f64; 3], [f64; 6]); 18] = [
     ([87.879_194_497, 70.0, 3.558_247_363_24], [109.848_993_121, 100.0, 35.582_473_632_4], [82.906_079_575_7, 54.729_890_778_7, 79.565_886_438_4, 49.772_227_848, 50.161_784_549_4, 197.806_757_331]),
 ];
 
-/// Surround, L_A, Y_b and J, C, h, M, s, Q of one color, by the same.
+/// Surround, L_A, Y_b and J, C, h, M, s, Q of one color, by the same program.
 #[rustfmt::skip]
 const CONDITIONS: [(Surround, f64, f64, [f64; 6]); 3] = [
     (Surround::Average, 318.31, 20.0, [41.731_207_905_1, 0.103_355_738_709, 217.067_959_767, 0.107_436_772_336, 2.345_015_072_98, 195.371_708_993]),

@@ -12,16 +12,16 @@ use thiserror::Error;
 use super::Display;
 use super::validate::Checks;
 
-/// Why there is no display of a name, or a file is none.
+/// Why a display cannot be found or read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DisplayError {
-    /// Nothing is known by the name.
-    #[error("there is no display {name:?}{}; known are {}, or a file .toml", .nearest.map_or_else(String::new, |near| format!("; did you mean {near:?}?")), Display::names().join(", "))]
+    /// The name is unknown.
+    #[error("there is no display {name:?}{}; known are {}, or a .toml file", .nearest.map_or_else(String::new, |near| format!("; did you mean {near:?}?")), Display::names().join(", "))]
     Unknown {
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// The one that was probably meant.
+        /// The name that was probably meant.
         nearest: Option<&'static str>,
     },
     /// A file cannot be read.
@@ -32,7 +32,7 @@ pub enum DisplayError {
         /// Why.
         source: TextFileError,
     },
-    /// A file is not TOML, or not of a display's fields.
+    /// A file is not TOML, or does not have the fields of a display.
     #[error("{path} is not a display: {}", .source.to_string().trim_end())]
     Toml {
         /// The file.
@@ -48,12 +48,12 @@ pub enum DisplayError {
         /// What and where.
         source: Box<TableFileError>,
     },
-    /// A field has a value that cannot be.
+    /// A field has an impossible value.
     #[error("{path}: {field}: {message}")]
     Field {
         /// The file.
         path: String,
-        /// The field, `primaries.red`.
+        /// The field, such as `primaries.red`.
         field: &'static str,
         /// What is wrong and what would be right.
         message: String,
@@ -61,10 +61,10 @@ pub enum DisplayError {
 }
 
 impl Display {
-    /// A display by its name, or from a file whose name ends in `.toml`, or from standard input for `-`.
+    /// Opens a display by its name, or from a file whose name ends in `.toml`, or from standard input for `-`.
     ///
     /// # Errors
-    /// When there is no display of the name, or [`Self::read`] fails.
+    /// When there is no display with the name, or [`Self::read`] fails.
     pub fn open(name_or_file: &str) -> Result<Self, DisplayError> {
         let path = Path::new(name_or_file);
         let is_toml = |extension: &OsStr| extension.eq_ignore_ascii_case("toml");
@@ -77,13 +77,13 @@ impl Display {
         })
     }
 
-    /// Reads a display file (TOML); the tables that it names are relative to it.
+    /// Reads a display file (TOML). The paths of its tables are relative to it.
     ///
     /// ```toml
     /// title = "my screen"              # optional, as are source and notes
-    /// white = [0.3127, 0.3290]         # chromaticity, or the name of an illuminant; without it, spectra are driven equally
-    /// white_luminance = 120            # cd/m², without that of black; 100 when absent
-    /// black_luminance = 0.1            # cd/m² at code 0, of the white's chromaticity; 0 when absent
+    /// white = [0.3127, 0.3290]         # chromaticity, or the name of an illuminant; when absent, spectra are driven equally
+    /// white_luminance = 120            # cd/m², without the luminance of black; 100 when absent
+    /// black_luminance = 0.1            # cd/m² at code 0, with the chromaticity of the white; 0 when absent
     ///
     /// [primaries]                      # chromaticities for CIE 1931 …
     /// red = [0.64, 0.33]
@@ -93,9 +93,9 @@ impl Display {
     ///
     /// [response]
     /// curve = "gamma"                  # or linear, srgb, bt1886, pq, table
-    /// gamma = [2.21, 2.17, 2.25]       # for gamma: ((V − α)/(1 − α))^γ, one for all or one each
+    /// gamma = [2.21, 2.17, 2.25]       # for gamma: ((V − α)/(1 − α))^γ, one for all channels or one each
     /// alpha = 0.02                     # 0 when absent
-    /// # csv = "response.csv"           # for table: columns code, red, green, blue, 0 to any highest code and amount
+    /// # csv = "response.csv"           # for table: columns code, red, green, blue; codes and amounts from 0 to any maximum
     ///
     /// [ambient]                        # light that the screen reflects; none when absent
     /// illuminance_lux = 64
@@ -104,7 +104,7 @@ impl Display {
     /// ```
     ///
     /// # Errors
-    /// When the file or a table that it names cannot be read, has a field that is unknown or missing, or a value that cannot be.
+    /// When the file or one of its tables cannot be read, a field is unknown or missing, or a value is impossible.
     pub fn read(path: &Path) -> Result<Self, DisplayError> {
         let file = |path: &Path| {
             read_text(path).map_err(|source| DisplayError::File {
@@ -123,7 +123,7 @@ impl Display {
     }
 }
 
-/// The known name that was probably meant, or else one that has the word in it.
+/// Returns the known name that was probably meant, or else one that contains the word.
 fn nearest(name: &str) -> Option<&'static str> {
     let word: String = name.to_lowercase().chars().take(24).collect();
     let part = || {
@@ -133,7 +133,7 @@ fn nearest(name: &str) -> Option<&'static str> {
     suggestion::nearest(name, Display::names()).or_else(part)
 }
 
-/// A display as it is written in a file.
+/// A display as written in a file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Description {
@@ -223,10 +223,10 @@ pub(super) struct AmbientDescription {
     pub(super) illuminant: String,
 }
 
-/// The text of a table that a display file names.
+/// A function that reads the text of a table named in a display file.
 pub(super) type ReadTable<'a> = &'a dyn Fn(&Path) -> Result<String, DisplayError>;
 
-/// A display from the text of a file, called `path` in errors.
+/// Parses a display from the text of a file, which errors call `path`.
 pub(super) fn parse(path: &str, text: &str, read: ReadTable) -> Result<Display, DisplayError> {
     let written: Description = toml::from_str(text).map_err(|source| DisplayError::Toml {
         path: path.to_owned(),

@@ -1,10 +1,10 @@
-//! What a display's channel makes of a code.
+//! Responses of display channels: the amount of light for a code.
 
 use spectra::Tabulated;
 
 use crate::srgb;
 
-/// What a channel makes of a code V in \[0, 1\]: an amount C of light, 1 for the white's share.
+/// The response of a channel: the amount C of light for a code V in \[0, 1\], 1 for its amount in the white.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Response {
     /// C = V.
@@ -15,21 +15,21 @@ pub enum Response {
     Gamma {
         /// The exponent, above 0.
         gamma: f64,
-        /// The code at which light begins, below 1; below 0 where code 0 already shines.
+        /// The code above which there is light, below 1; negative if code 0 already gives light.
         alpha: f64,
     },
-    /// The curve of ITU-R BT.1886 (2011) for a black of `black` times the white's luminance: (max(V + b, 0)/(1 + b))^2.4 less that
-    /// of V = 0, scaled so that V = 1 gives C = 1.
+    /// The curve of ITU-R BT.1886 (2011) for a black of `black` times the luminance of the white: (max(V + b, 0)/(1 + b))^2.4 minus
+    /// its value at V = 0, scaled so that V = 1 gives C = 1.
     Bt1886 {
-        /// Luminance of black beside that of the white and black together, 0 to less than 1.
+        /// Luminance of black, relative to that of white and black together, from 0 to less than 1.
         black: f64,
     },
     /// The curve of SMPTE ST 2084:2014, whose codes are luminances up to 10000 cd/m².
     Pq {
-        /// What luminance is C = 1, cd/m².
+        /// The luminance for C = 1, cd/m².
         white_luminance: f64,
     },
-    /// A measured curve: C over V, linear between its points; neither falls.
+    /// A measured curve C over V, linear between its points, where V rises and C does not fall.
     Table(Tabulated),
 }
 
@@ -37,7 +37,7 @@ pub enum Response {
 const BT1886_GAMMA: f64 = 2.4;
 
 impl Response {
-    /// The amount C of light for a code V in \[0, 1\].
+    /// Returns the amount C of light for a code V in \[0, 1\].
     pub fn light(&self, code: f64) -> f64 {
         match self {
             Self::Linear => code,
@@ -53,8 +53,8 @@ impl Response {
         }
     }
 
-    /// The code V for an amount C of light in \[0, [`Self::peak`]\]: [`Self::light`] backwards. Several codes may give no light;
-    /// then it is the largest of them for a curve with α, the smallest for a table.
+    /// Returns the code V for an amount C of light in \[0, [`Self::peak`]\]: the inverse of [`Self::light`]. If several codes give no
+    /// light, it is the largest of them for a curve with α, the smallest for a table.
     pub fn code(&self, light: f64) -> f64 {
         match self {
             Self::Linear => light,
@@ -72,7 +72,7 @@ impl Response {
         }
     }
 
-    /// The amount of light at code 1: 1, but with PQ the part of 10000 cd/m² in the white's luminance.
+    /// Returns the amount of light at code 1: 1, but with PQ the ratio of 10000 cd/m² to the luminance of the white.
     pub fn peak(&self) -> f64 {
         match self {
             Self::Pq { .. } => self.light(1.0),
@@ -80,7 +80,7 @@ impl Response {
         }
     }
 
-    /// The curve's name, as display files have it.
+    /// The name of the curve in display files.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Linear => "linear",
@@ -93,13 +93,13 @@ impl Response {
     }
 }
 
-/// b of BT.1886, annex 1: L_B^(1/γ) / (L_W^(1/γ) − L_B^(1/γ)), with L_W = 1.
+/// The lift b of BT.1886, annex 1: L_B^(1/γ) / (L_W^(1/γ) − L_B^(1/γ)), with L_W = 1.
 fn bt1886_lift(black: f64) -> f64 {
     let root = black.powf(1.0 / BT1886_GAMMA);
     root / (1.0 - root)
 }
 
-/// SMPTE ST 2084:2014, equation 4.1.
+/// Constants of SMPTE ST 2084:2014, equation 4.1.
 const PQ_M1: f64 = 2610.0 / 16384.0;
 const PQ_M2: f64 = 2523.0 / 4096.0 * 128.0;
 const PQ_C1: f64 = 3424.0 / 4096.0;
@@ -108,19 +108,19 @@ const PQ_C3: f64 = 2392.0 / 4096.0 * 32.0;
 /// Luminance of the largest code, cd/m².
 pub(super) const PQ_PEAK: f64 = 10_000.0;
 
-/// cd/m² of a code (ST 2084, equation 4.1).
+/// Returns the luminance of a code, cd/m² (ST 2084, equation 4.1).
 fn pq_luminance(code: f64) -> f64 {
     let root = code.max(0.0).powf(1.0 / PQ_M2);
     PQ_PEAK * ((root - PQ_C1).max(0.0) / (PQ_C2 - PQ_C3 * root)).powf(1.0 / PQ_M1)
 }
 
-/// The code of cd/m² (ST 2084, equation 5.2); that of the peak for more. No light is the code of 7e-7, as the equation has it.
+/// Returns the code for a luminance in cd/m² (ST 2084, equation 5.2), clipped at the peak. By the equation, no light has the code 7e-7.
 fn pq_code(luminance: f64) -> f64 {
     let power = (luminance / PQ_PEAK).clamp(0.0, 1.0).powf(PQ_M1);
     ((PQ_C1 + PQ_C2 * power) / (1.0 + PQ_C3 * power)).powf(PQ_M2)
 }
 
-/// The smallest code that a measured curve, whose values do not fall, gives an amount of light for, linear between its points.
+/// Returns the smallest code for which a measured curve, whose values do not fall, reaches an amount of light; linear between its points.
 fn code_of_table(table: &Tabulated, light: f64) -> f64 {
     table
         .first_reach(light)
@@ -178,7 +178,7 @@ mod tests {
         }
     }
 
-    /// The paper's curve by hand: γ = 2, α = 0.2, V = 0.6 is ((0.6 − 0.2)/0.8)² = 0.25.
+    /// The curve of the paper by hand: γ = 2, α = 0.2, V = 0.6 is ((0.6 − 0.2)/0.8)² = 0.25.
     #[test]
     fn the_curve_with_an_offset() {
         let response = Response::Gamma {
@@ -216,7 +216,7 @@ mod tests {
         assert!(response.light(response.code(0.0)) < 1e-12 && response.code(1e9) == 1.0);
     }
 
-    /// Without black it is the power 2.4; with it, (V + b)^2.4 by the equations of BT.1886, annex 1.
+    /// Without black, the curve is the power 2.4; with black, it is (V + b)^2.4 by the equations of BT.1886, annex 1.
     #[test]
     fn bt1886_is_its_equation() {
         let plain = Response::Bt1886 { black: 0.0 };

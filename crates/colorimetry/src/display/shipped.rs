@@ -1,4 +1,4 @@
-//! The displays that Pellicle carries: files of the same form as users', with their sources.
+//! The built-in displays: files in the same format as users' files, with their sources.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use super::Display;
 use super::file::parse;
 
-/// Name and file of each.
+/// Name and file of each display.
 const FILES: &[(&str, &str)] = &[
     (
         "adobe_rgb",
@@ -37,7 +37,7 @@ const FILES: &[(&str, &str)] = &[
     ("srgb", include_str!("../../data/displays/srgb.toml")),
 ];
 
-/// The tables that they name.
+/// The tables named in these files.
 const TABLES: &[(&str, &str)] = &[
     (
         "crt_1997.csv",
@@ -54,9 +54,9 @@ fn all() -> &'static BTreeMap<&'static str, Display> {
             Ok(own.map_or(String::new(), |(_, text)| (*text).to_owned()))
         };
         let display = |&(name, text): &(&'static str, &str)| {
-            // No user can cause a fault in them: the test that loads every display stands before that.
+            // No user can cause an error in them, and the test that loads every display rules it out.
             let display = parse(name, text, &table)
-                .unwrap_or_else(|error| panic!("the program's own display {name}: {error}"));
+                .unwrap_or_else(|error| panic!("the built-in display {name}: {error}"));
             (name, display)
         };
         FILES.iter().map(display).collect()

@@ -1,7 +1,7 @@
 use super::*;
 
 /// M by name: from the primaries and whites of the standards with colour-science 0.4.7 (`normalized_primary_matrix`, numpy). The
-/// same figures, to the digits that they print: W3C, CSS Color Module Level 4 (srgb, display_p3, adobe_rgb, bt2020), SMPTE EG
+/// same values are published, to fewer digits, in W3C, CSS Color Module Level 4 (srgb, display_p3, adobe_rgb, bt2020), SMPTE EG
 /// 432-1:2010 (dci_p3, ten digits), C. Poynton, Frequently asked questions about color (1997; smpte_c, six digits).
 const PUBLISHED: [(&str, [[f64; 3]; 3]); 9] = [
     (
@@ -139,7 +139,7 @@ fn matrices_are_the_published_ones() {
     }
 }
 
-/// SMPTE EG 432-1:2010 prints M of DCI-P3 and Poynton (1997) that of SMPTE C.
+/// SMPTE EG 432-1:2010 publishes M of DCI-P3, and Poynton (1997) that of SMPTE C.
 #[test]
 fn matrices_have_the_digits_of_the_standards() {
     let dci = [
@@ -158,8 +158,8 @@ fn matrices_have_the_digits_of_the_standards() {
     assert_near(found.as_flattened(), smpte.as_flattened(), 1e-6, "smpte_c");
 }
 
-/// Chromaticities of red, green, blue and white from the same spectra with the CIE 1931 observer at 5 nm, computed apart from
-/// this code (numpy).
+/// Chromaticities of red, green, blue and white from the same spectra with the CIE 1931 observer at 5 nm, computed
+/// independently (numpy).
 #[test]
 fn measured_displays_have_their_chromaticities() {
     let expected = [
@@ -184,7 +184,7 @@ fn measured_displays_have_their_chromaticities() {
     ];
     for (name, primaries, white) in expected {
         let display = named(name);
-        // Six decimals are given.
+        // The values have six decimals.
         assert_near(
             display.primaries_xy().as_flattened(),
             primaries.as_flattened(),
@@ -220,7 +220,7 @@ fn every_display_mixes_its_white_and_gives_light_back() {
     assert!((named("bt2100_pq").peak() - 10_000.0 / 203.0).abs() < 1e-9);
 }
 
-/// The areas of the triangles by hand: sRGB 0.11205, BT.2020 0.21186 in x, y.
+/// The areas of the triangles, computed by hand: sRGB 0.11205, BT.2020 0.21186 in x, y.
 #[test]
 fn gamuts_have_their_areas() {
     let srgb = named("srgb");
@@ -233,7 +233,7 @@ fn gamuts_have_their_areas() {
     assert!(named("display_p3").gamut_area_uv() > 1.2 * srgb.gamut_area_uv());
 }
 
-/// Spectra know how another observer sees them; chromaticities do not.
+/// Spectra determine the colors for another observer; chromaticities do not.
 #[test]
 fn another_observer_sees_spectra_otherwise() {
     let crt = named("crt_1997");

@@ -1,4 +1,4 @@
-//! From a description to a display.
+//! Validates a description and turns it into a display.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ use crate::chromaticity::xy_of_xyz;
 use crate::matrix::IDENTITY;
 use crate::tristimulus::{Rule, Weights};
 
-/// Turns what is written into a display.
+/// Turns a description into a display.
 pub(super) struct Checks<'a> {
     pub(super) path: &'a str,
     pub(super) read: ReadTable<'a>,
@@ -121,7 +121,7 @@ impl Checks<'_> {
         self.chromaticity(field, [x, y])
     }
 
-    /// Primaries and whites may be imaginary, but lie on one side of the line of no luminance.
+    /// Checks a chromaticity: primaries and whites may be imaginary, but must be on the same side of the line of zero luminance.
     fn chromaticity(&self, field: &'static str, xy: [f64; 2]) -> Result<[f64; 2], DisplayError> {
         let [x, y] = xy;
         if (-0.5..=1.5).contains(&x) && (1e-4..=1.5).contains(&y) {
@@ -162,7 +162,7 @@ impl Checks<'_> {
             .map_err(|error| self.fault(field, error.to_string()))
     }
 
-    /// The luminance is E ρ / π.
+    /// Reads the ambient light, whose luminance is E ρ / π.
     fn ambient(&self, written: &AmbientDescription) -> Result<Ambient, DisplayError> {
         let illuminance =
             self.number("ambient.illuminance_lux", written.illuminance_lux, 0.0, 1e6)?;
@@ -189,7 +189,7 @@ impl Checks<'_> {
                 let name = if of == Curve::Gamma { "gamma" } else { "table" };
                 return Err(self.fault(
                     field,
-                    format!("it has no effect here: it is for curve = {name:?}"),
+                    format!("it has no effect here; it requires curve = {name:?}"),
                 ));
             }
         }
@@ -230,7 +230,7 @@ impl Checks<'_> {
         Ok(responses)
     }
 
-    /// Codes and amounts relative to the last of the table.
+    /// Reads a measured response, with codes and amounts relative to the last ones of the table.
     fn measured(&self, written: &ResponseDescription) -> Result<[Response; 3], DisplayError> {
         let field = "response.csv";
         let Some(csv) = &written.csv else {
@@ -245,7 +245,7 @@ impl Checks<'_> {
             return Err(self.fault(
                 field,
                 format!(
-                    "codes must rise from 0, but the first is {} and the last {}",
+                    "codes must rise from 0, but the first is {} and the last is {}",
                     first.nm, last.nm
                 ),
             ));
@@ -266,7 +266,7 @@ impl Checks<'_> {
             Ok(table) if rises && table.clamped_at(0.0) >= 0.0 => Ok(table),
             _ => Err(self.fault(
                 "response.csv",
-                "codes must rise, and amounts of light must not be negative nor fall from one code to the next; the last must be above 0",
+                "codes must rise, and amounts of light must not be negative or fall from one code to the next; the last must be above 0",
             )),
         }
     }

@@ -1,5 +1,5 @@
-/// The test data of Sharma, Wu and Dalal, Color Res. Appl. 30, 21 (2005), table 1: two colors, the difference that they print,
-/// and the same to twelve digits, computed apart from this code (colour-science).
+/// The test data of Sharma, Wu and Dalal, Color Res. Appl. 30, 21 (2005), table 1: two colors, the difference printed there,
+/// and the same to twelve digits, computed independently (colour-science).
 const PAIRS: [([f64; 3], [f64; 3], f64, f64); 34] = [
     ([50.0, 2.677_2, -79.775_1], [50.0, 0.0, -82.748_5], 2.042_5, 2.042_459_680_16),
     ([50.0, 3.157_1, -77.280_3], [50.0, 0.0, -82.748_5], 2.861_5, 2.861_510_174_75),

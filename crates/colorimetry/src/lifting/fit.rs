@@ -1,4 +1,4 @@
-//! Finding the coefficients of a color.
+//! Fits the coefficients of a reflectance to a color.
 
 use super::{SigmoidReflectance, place};
 use crate::chromaticity::xy_of_xyz;
@@ -10,28 +10,28 @@ use pulp::{Arch, Simd, WithSimd};
 use spectra::Observer;
 use std::sync::OnceLock;
 
-/// The most steps of a fit.
+/// The largest number of steps of a fit.
 const MOST_STEPS: u32 = 60;
-/// A residual below this, in linear sRGB, is none.
+/// A residual below this, in linear sRGB, is accepted as 0.
 const GOOD_ENOUGH: f64 = 1e-6;
-/// The start is a gray from this to 1 minus this.
+/// The starting gray is limited to this and 1 minus this.
 const DARKEST: f64 = 1e-3;
-/// Coefficients stay within this: a reflectance hardly changes beyond it.
+/// The largest magnitude of a coefficient; beyond it a reflectance hardly changes.
 const LARGEST: f64 = 2000.0;
 
-/// What a reflectance is in linear sRGB: sums at 5 nm under D65.
+/// Computes linear sRGB of reflectances, by sums at 5 nm under D65.
 #[derive(Clone, Debug)]
 pub(super) struct Colors {
     arch: Arch,
-    /// t at each wavelength, filled up with places of no weight.
+    /// t at each wavelength, padded with positions of weight 0.
     places: Vec<f64>,
-    /// Weights of red, green and blue there, then the same times t, and times t².
+    /// The weights of red, green and blue at these wavelengths, then the same times t, and times t².
     weights: [Vec<f64>; 9],
-    /// What a reflectance of a half comes to.
+    /// Linear sRGB of a reflectance of 1/2.
     half: [f64; 3],
 }
 
-/// A reflectance, its color in linear sRGB, and the derivatives of that by the coefficients: a row for each color.
+/// A reflectance, its color in linear sRGB, and the derivatives of the color with respect to the coefficients: a row per channel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Known {
     pub(super) coefficients: [f64; 3],
@@ -39,20 +39,20 @@ pub(super) struct Known {
     jacobian: Matrix3,
 }
 
-/// A list is filled up to a multiple of this: of the lanes of every vector.
+/// Lists are padded to a multiple of this, which is a multiple of the lanes of every vector type.
 const MOST_LANES: usize = 8;
 
 impl Colors {
-    /// The one that all fits share.
+    /// The instance that all fits share.
     pub(super) fn shared() -> &'static Self {
         static SHARED: OnceLock<Colors> = OnceLock::new();
         SHARED.get_or_init(Self::new)
     }
 
     fn new() -> Self {
-        let d65 = spectra::illuminant("D65").expect("carried by the project");
+        let d65 = spectra::illuminant("D65").expect("D65 is built in");
         let weights = Weights::new(&d65.data, Observer::Cie1931Deg2, Rule::FiveNm);
-        let weights = weights.expect("D65 covers what is visible");
+        let weights = weights.expect("D65 covers the visible range");
         let white = xy_of_xyz(weights.white());
         let rgb_from_xyz = inverse(&xyz_from_rgb_of(PRIMARIES, white));
         let wavelengths = Rule::FiveNm.wavelengths_nm();
@@ -74,7 +74,7 @@ impl Colors {
         }
     }
 
-    /// What is to know of a reflectance.
+    /// Computes the color and derivatives of a reflectance.
     pub(super) fn known(&self, coefficients: [f64; 3]) -> Known {
         let sums = self.arch.dispatch(Sums {
             colors: self,
@@ -88,8 +88,8 @@ impl Colors {
     }
 }
 
-/// With x the quadratic: the sums of x/√(1 + x²) with the weights, and of its derivative by 2x, (1 + x²)^(−3/2) / 2, with the weights times
-/// 1, t and t².
+/// With x the quadratic: the weighted sums of x/√(1 + x²), and the sums of its derivative by 2x, (1 + x²)^(−3/2) / 2, with the weights
+/// times 1, t and t².
 struct Sums<'a> {
     colors: &'a Colors,
     coefficients: [f64; 3],
@@ -100,7 +100,7 @@ impl WithSimd for Sums<'_> {
 
     #[expect(
         clippy::inline_always,
-        reason = "vectors are only fast where it is inlined into the code for them"
+        reason = "vector operations are fast only when inlined into code compiled for their instruction set"
     )]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> [f64; 12] {
@@ -131,25 +131,25 @@ impl WithSimd for Sums<'_> {
     }
 }
 
-/// The reflectance of a color in \[0, 1\]³, by the method of Levenberg and Marquardt from a gray that is as bright.
+/// Fits a reflectance to a color in \[0, 1\]³ by the Levenberg–Marquardt method, starting from a gray with the mean of its channels.
 pub(super) fn fit(colors: &Colors, rgb: [f64; 3]) -> Fit {
-    // S⁻¹(g) = (g − 1/2) / √(g (1 − g)), kept from the ends, where the derivatives vanish.
+    // S⁻¹(g) = (g − 1/2) / √(g (1 − g)), kept away from 0 and 1, where the derivatives vanish.
     let gray = (rgb.iter().sum::<f64>() / 3.0).clamp(DARKEST, 1.0 - DARKEST);
     let flat = [0.0, 0.0, (gray - 0.5) / (gray * (1.0 - gray)).sqrt()];
     fit_from(colors, rgb, colors.known(flat))
 }
 
-/// What a fit comes to.
+/// The result of a fit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fit {
     pub(super) reflectance: SigmoidReflectance,
-    /// The last reflectance that was worked out, at most a short step from the result.
+    /// The last reflectance whose color was computed, at most a short step from the result.
     pub(super) last: Known,
-    /// Whether it comes to the color.
+    /// Whether the reflectance has the requested color.
     pub(super) is_good: bool,
 }
 
-/// The same from another start.
+/// Fits a reflectance to a color from a given start.
 pub(super) fn fit_from(colors: &Colors, rgb: [f64; 3], start: Known) -> Fit {
     let mut best = start;
     let mut error = residual(rgb, best.rgb);
@@ -189,8 +189,8 @@ pub(super) fn fit_from(colors: &Colors, rgb: [f64; 3], start: Known) -> Fit {
     }
 }
 
-/// Whether the next step leaves less than a third of [`GOOD_ENOUGH`], if it leaves no larger share of the error than the step before it: the
-/// steps converge. Both are squares of errors.
+/// Whether the next step leaves an error below a third of [`GOOD_ENOUGH`], assuming that it reduces the error by at least the same factor as
+/// the step before it, since the steps converge. Both arguments are squared errors.
 fn is_last_step(error: f64, before: f64) -> bool {
     error * error < (GOOD_ENOUGH / 3.0).powi(2) * before && before.is_finite()
 }
@@ -203,7 +203,7 @@ fn squares(v: [f64; 3]) -> f64 {
     v.iter().map(|x| x * x).sum()
 }
 
-/// (JᵀJ + μ diag JᵀJ)⁻¹ Jᵀ e.
+/// Returns the damped step (JᵀJ + μ diag JᵀJ)⁻¹ Jᵀ e.
 fn damped_step(jacobian: &Matrix3, error: [f64; 3], damping: f64) -> [f64; 3] {
     let column = |i: usize| jacobian.map(|row| row[i]);
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

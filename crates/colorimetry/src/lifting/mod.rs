@@ -1,14 +1,14 @@
-//! Smooth reflectances for RGB colors: "lifting".
+//! Smooth reflectances for RGB colors: spectral upsampling, or "lifting".
 //!
 //! W. Jakob and J. Hanika, A Low-Dimensional Function Space for Efficient Spectral Upsampling, Computer Graphics Forum 38 (2),
 //! 2019: a reflectance is the sigmoid of a quadratic in wavelength,
 //!
 //! R(λ) = S(c₀ t² + c₁ t + c₂), S(x) = 1/2 + x / (2 √(1 + x²)) (equations 4 and 5), with t = (λ − 580 nm) / 200 nm here.
 //!
-//! It always lies between 0 and 1, and every color of linear sRGB within \[0, 1\]³ has one. The authors tabulate coefficients
-//! and interpolate; here each color's own are worked out by their method of fitting (section 4), which takes microseconds and is
-//! exact. A color is what the reflectance has under D65 for the observer of 1931, and (1, 1, 1) is the perfect reflector's: grays
-//! come out flat.
+//! R is always between 0 and 1, and every color of linear sRGB within \[0, 1\]³ has such a reflectance. The authors tabulate and
+//! interpolate coefficients; here they are fitted to each color by their method (section 4), which takes microseconds and is exact.
+//! Colors are those of the reflectance under D65 for the observer of 1931, and (1, 1, 1) is the perfect reflector: grays have flat
+//! reflectances.
 //!
 //! ```
 //! use pellicle_colorimetry::lifting::SigmoidReflectance;
@@ -30,22 +30,22 @@ pub struct SigmoidReflectance {
 }
 
 impl SigmoidReflectance {
-    /// Where t is 0, nm.
+    /// The wavelength where t is 0, nm.
     pub const MIDDLE_NM: f64 = 580.0;
-    /// By how much λ grows from t = 0 to t = 1, nm.
+    /// The range of λ from t = 0 to t = 1, nm.
     pub const HALF_RANGE_NM: f64 = 200.0;
 
-    /// The reflectance of a color in linear sRGB. What lies outside \[0, 1\] is taken to the nearest end.
+    /// Returns the reflectance of a color in linear sRGB. Values outside \[0, 1\] are clamped.
     pub fn of_linear_srgb(rgb: [f64; 3]) -> Self {
         fit(Colors::shared(), within(rgb)).reflectance
     }
 
-    /// Its color in linear sRGB.
+    /// Returns the color of the reflectance in linear sRGB.
     pub fn linear_srgb(self) -> [f64; 3] {
         Colors::shared().known(self.coefficients).rgb
     }
 
-    /// The reflectance at a wavelength, from 0 to 1.
+    /// Returns the reflectance at a wavelength, from 0 to 1.
     pub fn at(self, nm: f64) -> f64 {
         let t = place(nm);
         let [c0, c1, c2] = self.coefficients;
@@ -53,15 +53,15 @@ impl SigmoidReflectance {
     }
 }
 
-/// Reflectances of colors one after another, each found sooner where it is near the one before.
+/// Computes reflectances for a sequence of colors, faster when a color is near the previous one.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Lifting {
-    /// The color before, its reflectance, and where its fit ended.
+    /// The previous color, its reflectance, and where its fit ended.
     before: Option<([f64; 3], SigmoidReflectance, Known)>,
 }
 
 impl Lifting {
-    /// The reflectance of the next color in linear sRGB, like [`SigmoidReflectance::of_linear_srgb`]'s.
+    /// Returns the reflectance of the next color in linear sRGB, as [`SigmoidReflectance::of_linear_srgb`] does.
     pub fn next(&mut self, rgb: [f64; 3]) -> SigmoidReflectance {
         let (colors, rgb) = (Colors::shared(), within(rgb));
         let near = match self.before {
@@ -80,12 +80,12 @@ fn within(rgb: [f64; 3]) -> [f64; 3] {
     rgb.map(|value| value.clamp(0.0, 1.0))
 }
 
-/// t of a wavelength.
+/// Returns t of a wavelength.
 fn place(nm: f64) -> f64 {
     (nm - SigmoidReflectance::MIDDLE_NM) / SigmoidReflectance::HALF_RANGE_NM
 }
 
-/// S(x), without cancellation where it is small.
+/// Returns S(x), without cancellation where S is small.
 fn sigmoid(x: f64) -> f64 {
     let root = (1.0 + x * x).sqrt();
     let tail = 0.5 / (root * (root + x.abs()));
@@ -100,7 +100,7 @@ mod tests {
     use crate::tristimulus::{Rule, Weights};
     use spectra::Observer;
 
-    /// ΔE2000 between colors and what their reflectances have by sums at 1 nm, the largest over steps of 1/16 of the codes.
+    /// The largest ΔE2000 between colors and those of their reflectances by sums at 1 nm, over codes in steps of 1/16.
     fn largest_error(lift: impl Fn([f64; 3]) -> SigmoidReflectance) -> f64 {
         const STEPS: u32 = 16;
         let d65 = spectra::illuminant("D65").unwrap().data;
@@ -109,7 +109,7 @@ mod tests {
         let error = |rgb: [f64; 3]| {
             let reflectance = lift(rgb);
             let found = light.xyz((380..=780).map(|nm| reflectance.at(f64::from(nm))));
-            // The standard's white has four decimals of x and y; the perfect reflector is white here.
+            // The white of the standard is rounded to four decimals of x and y; here the perfect reflector is white.
             let xyz = srgb::xyz_from_linear(rgb);
             let wanted = std::array::from_fn(|i| xyz[i] * white[i] / srgb::white_xyz()[i]);
             delta_e_2000(Lab::from_xyz(found, white), Lab::from_xyz(wanted, white))
@@ -165,7 +165,7 @@ mod tests {
         assert!(bright.at(550.0) > 0.999);
     }
 
-    /// Smooth: no reflectance turns more than once, and all stay within 0 to 1 far outside what is seen.
+    /// Reflectances are smooth: none has more than one extremum, and all stay within 0 to 1 far outside the visible range.
     #[test]
     fn reflectances_stay_within_0_and_1() {
         for rgb in [
@@ -184,7 +184,7 @@ mod tests {
         }
     }
 
-    /// Small steps, leaps, repetitions and the ends: each color comes back, whatever was before it.
+    /// Small steps, jumps, repetitions and the extremes: each color is reproduced, whatever color came before.
     #[test]
     fn colors_one_after_another_come_back() {
         let step = |i: u32| 0.5 * f64::from(i) / 200.0;
