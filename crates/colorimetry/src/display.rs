@@ -61,7 +61,7 @@ pub enum Primaries {
 #[derive(Clone, Copy, Debug, thiserror::Error, PartialEq, Eq)]
 enum MixtureError {
     /// A spectrum does not cover 380 to 780 nm or is 0 there.
-    #[error("each primary's spectrum must shine and cover 380 to 780 nm")]
+    #[error("each primary's spectrum must emit light and cover 380 to 780 nm")]
     Spectrum,
     /// The primaries cannot mix the white.
     #[error(
@@ -69,7 +69,7 @@ enum MixtureError {
     )]
     White,
     /// The ambient light is not visible.
-    #[error("it must shine and cover 380 to 780 nm")]
+    #[error("it must emit light and cover 380 to 780 nm")]
     Ambient,
 }
 

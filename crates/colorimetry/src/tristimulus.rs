@@ -92,7 +92,7 @@ pub enum WeightsError {
     #[error(transparent)]
     OutOfRange(#[from] OutOfRange),
     /// The illuminant is not visible to the observer.
-    #[error("the light has no luminance")]
+    #[error("the illuminant has no luminance")]
     Dark,
 }
 

@@ -197,11 +197,11 @@ fn mistakes_of_light_and_tables_say_where_and_what_would_be_right() {
         (spectra("none.csv"), "none.csv: cannot be opened"),
         (
             spectra("short.csv"),
-            "primaries.spectra: each primary's spectrum must shine and cover 380 to 780 nm",
+            "primaries.spectra: each primary's spectrum must emit light and cover 380 to 780 nm",
         ),
         (
             spectra("dark.csv"),
-            "primaries.spectra: each primary's spectrum must shine",
+            "primaries.spectra: each primary's spectrum must emit light",
         ),
         (table("falls.csv"), "response.csv: codes must rise"),
         (

@@ -141,7 +141,8 @@ fn component_luminances() -> [f64; 3] {
     })
 }
 
-/// Radiance of the sun above the atmosphere, W cm⁻² µm⁻¹ sr⁻¹ over 10; beyond the table, extrapolated as a black body of 5777 K.
+/// Returns the radiance of the sun above the atmosphere in units of 10 W cm⁻² µm⁻¹ sr⁻¹; beyond the table, extrapolated as a black
+/// body of 5777 K.
 fn sun_above_the_air(nm: f64) -> f64 {
     let (end, _) = SUN[SUN.len() - 1];
     let beyond = crate::black_body(nm.max(end), 5777.0) / crate::black_body(end, 5777.0);

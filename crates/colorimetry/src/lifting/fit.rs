@@ -189,8 +189,8 @@ pub(super) fn fit_from(colors: &Colors, rgb: [f64; 3], start: Known) -> Fit {
     }
 }
 
-/// Whether the next step leaves an error below a third of [`GOOD_ENOUGH`], assuming that it reduces the error by at least the same factor as
-/// the step before it, since the steps converge. Both arguments are squared errors.
+/// Whether the next step leaves an error below a third of [`GOOD_ENOUGH`], assuming that the steps converge and that it reduces the error
+/// by at least the same factor as the step before it. Both arguments are squared errors.
 fn is_last_step(error: f64, before: f64) -> bool {
     error * error < (GOOD_ENOUGH / 3.0).powi(2) * before && before.is_finite()
 }

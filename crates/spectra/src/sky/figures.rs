@@ -1,5 +1,6 @@
-//! Coefficients and tables of the sky model: A. J. Preetham, P. Shirley and B. Smits, A Practical Analytic Model for Daylight, SIGGRAPH 1999,
-//! appendices A.1 and A.2; absorption after M. Iqbal, An Introduction to Solar Radiation, Academic Press 1983, pages 127 to 130.
+//! Coefficients and tables of the sky model: A. J. Preetham, P. Shirley and B. Smits, A Practical Analytic Model for Daylight,
+//! SIGGRAPH 1999, appendices A.1 and A.2; absorption after M. Iqbal, An Introduction to Solar Radiation, Academic Press 1983,
+//! pages 127 to 130.
 
 /// Perez coefficients A to E of luminance, x and y, each as slope over turbidity and intercept (appendix A.2).
 pub(super) const PEREZ: [[[f64; 2]; 5]; 3] = [
@@ -40,7 +41,7 @@ pub(super) const ZENITH_Y: [[f64; 4]; 3] = [
     [0.153_46, -0.267_56, 0.066_70, 0.266_88],
 ];
 
-/// Radiance of the sun above the atmosphere, W cm⁻² µm⁻¹ sr⁻¹ over 10.
+/// Radiance of the sun above the atmosphere, in units of 10 W cm⁻² µm⁻¹ sr⁻¹.
 pub(super) const SUN: [(f64, f64); 38] = [
     (380.0, 165.5),
     (390.0, 162.3),
