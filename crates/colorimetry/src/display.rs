@@ -99,7 +99,7 @@ impl Primaries {
         let is_mixed = amounts
             .iter()
             .all(|&amount| amount > 0.0 && amount.is_finite());
-        // The three colors lie on a line.
+        // Whether the three colors lie on a line.
         let is_flat = determinant(&columns).abs() < 1e-9 * columns[1].iter().product::<f64>();
         if is_mixed && !is_flat {
             Ok(amounts)

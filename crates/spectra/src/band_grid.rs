@@ -41,7 +41,7 @@ impl BandGrid {
     /// Creates a grid of `count` bands from `min_nm` to `max_nm`.
     ///
     /// # Errors
-    /// When `count` is 0 or above [`Self::MAX_COUNT`], or the range does not rise or lie within [`Self::LIMITS_NM`].
+    /// When `count` is 0 or above [`Self::MAX_COUNT`], or the range does not rise or is not within [`Self::LIMITS_NM`].
     pub fn new(min_nm: f64, max_nm: f64, count: u32) -> Result<Self, BandGridError> {
         if count == 0 || count > Self::MAX_COUNT {
             return Err(BandGridError::Count(count));

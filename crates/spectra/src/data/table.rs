@@ -123,7 +123,7 @@ impl Table {
             .map_or_else(Vec::new, |block| block.columns[1..].to_vec())
     }
 
-    /// The numbers of the column that is a block by itself, or nothing where there is no such block.
+    /// Returns the numbers of a block that consists of this column only, or nothing if there is no such block.
     pub(super) fn column(&self, name: &str) -> Vec<f64> {
         let own = self.blocks.iter().find(|block| block.columns == [name]);
         let rows = own.into_iter().flat_map(|block| &block.rows);
