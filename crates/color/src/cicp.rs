@@ -4,14 +4,14 @@ use colorimetry::Display;
 use colorimetry::chromaticity::xy_of_xyz;
 use colorimetry::display::Response;
 
-/// Those of sRGB: BT.709 primaries (1), the sRGB curve (13), RGB (0), full range (1); ITU-R H.273 (2021) and the PNG
+/// Code points of sRGB: BT.709 primaries (1), the sRGB curve (13), RGB (0), full range (1); ITU-R H.273 (2021) and the PNG
 /// specification, third edition, 11.3.2.6.
 pub(crate) const SRGB: [u8; 4] = [1, 13, 0, 1];
 
 const D65: [f64; 2] = [0.3127, 0.3290];
 const C: [f64; 2] = [0.310, 0.316];
 
-/// Chromaticities of red, green, blue and white with their number: H.273, table 2.
+/// Chromaticities of red, green, blue and white with their code point: H.273, table 2.
 const PRIMARIES: [([[f64; 2]; 4], u8); 7] = [
     ([[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], D65], 1),
     ([[0.67, 0.33], [0.21, 0.71], [0.14, 0.08], C], 4),
@@ -30,10 +30,10 @@ const PRIMARIES: [([[f64; 2]; 4], u8); 7] = [
     ([[0.680, 0.320], [0.265, 0.690], [0.150, 0.060], D65], 12),
 ];
 
-/// Chromaticities of red, green, blue and white by their number; `None` where it is none of H.273, table 2, or one without three
-/// primaries on a screen.
+/// Returns the chromaticities of red, green, blue and white of a code point; `None` if the code point is not in H.273, table 2,
+/// or does not stand for three primaries of a screen.
 pub(crate) fn primaries(number: u8) -> Option<[[f64; 2]; 4]> {
-    // SMPTE ST 240 has those of SMPTE C.
+    // SMPTE ST 240 has the primaries of SMPTE C.
     let number = if number == 7 { 6 } else { number };
     let mut known = PRIMARIES.iter();
     known
@@ -41,12 +41,12 @@ pub(crate) fn primaries(number: u8) -> Option<[[f64; 2]; 4]> {
         .map(|(primaries, _)| *primaries)
 }
 
-/// How far chromaticities may lie apart and be the same: half of the last decimal where the table has three. C, for one, is
-/// 0.31006, 0.31616 elsewhere.
+/// Largest difference of chromaticities that count as equal: half of the last decimal where the table has three. White C, for
+/// example, is 0.31006, 0.31616 elsewhere.
 const TOLERANCE: f64 = 5e-4;
 
-/// The code points of a display, `None` where its primaries or its response have no number. BT.1886 has none of its own: the
-/// curves of H.273 that go with it are those of cameras.
+/// Returns the code points of a display; `None` if its primaries or its response have none. BT.1886 has no code point of its
+/// own: the related curves of H.273 are those of cameras.
 pub(crate) fn code_points(display: &Display) -> Option<[u8; 4]> {
     let [red, green, blue] = display.primaries_xy();
     let own = [red, green, blue, xy_of_xyz(display.white_xyz())];

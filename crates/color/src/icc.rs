@@ -12,24 +12,24 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum IccError {
-    /// The encoder refused it.
+    /// The encoder rejected the profile.
     #[error("no ICC profile can be made of the display {0}")]
     Encode(String, #[source] moxcms::CmsError),
 }
 
 /// XYZ of the profile connection space's white, D50 (ICC.1:2022, 6.3.4.3).
 pub(crate) const D50: [f64; 3] = [0.9642, 1.0, 0.8249];
-/// Where the header has the time of creation, six big-endian numbers of two bytes (ICC.1:2022, 7.2.8).
+/// Position of the time of creation in the header, six big-endian numbers of two bytes (ICC.1:2022, 7.2.8).
 const CREATION: std::ops::Range<usize> = 24..36;
 /// Year, month, day, hours, minutes and seconds.
 const CREATED: [u16; 6] = [2026, 1, 1, 0, 0, 0];
-/// Points of a response curve; between them readers interpolate.
+/// Number of points of a response curve; readers interpolate between them.
 const CURVE_POINTS: u16 = 4096;
 
-/// The most characters of a profile's description that are told.
+/// The most characters of a profile's description that a message shows.
 const DESCRIPTION_CHARACTERS: usize = 60;
 
-/// How a profile describes itself; `None` where it does not, or is none.
+/// Returns a profile's description; `None` if it has none or is not a profile.
 pub(crate) fn description(profile: &[u8]) -> Option<String> {
     let text = match ColorProfile::new_from_slice(profile).ok()?.description? {
         ProfileText::PlainString(text) => text,
@@ -39,14 +39,14 @@ pub(crate) fn description(profile: &[u8]) -> Option<String> {
     Some(text.chars().take(DESCRIPTION_CHARACTERS).collect())
 }
 
-/// A display's profile: a matrix and a curve per channel (ICC.1:2022, 8.3.3).
+/// Returns a display's profile: a matrix and a curve per channel (ICC.1:2022, 8.3.3).
 ///
-/// The primaries are adapted from the display's white to D50 by Bradford's matrix, which the profile holds too. Curves are tables
-/// of what the channels make of their codes; of a display that goes beyond its white (PQ) they end at the white. What the screen
-/// shows at code 0 is left out, as relative colorimetry has it.
+/// The primaries are adapted from the display's white to D50 by Bradford's matrix, which the profile contains too. The curves are
+/// tables of the channels' response to codes; for a display that exceeds its white (PQ) they end at the white. The light of
+/// code 0 is left out, as in relative colorimetry.
 ///
 /// # Errors
-/// When a figure does not fit the format.
+/// When a number does not fit the format.
 pub fn profile(display: &Display) -> Result<Vec<u8>, IccError> {
     let white = display.white_xyz();
     let to_d50 = Adaptation::Bradford.matrix(white, D50);
@@ -80,7 +80,7 @@ pub fn profile(display: &Display) -> Result<Vec<u8>, IccError> {
     let encoded = profile.encode();
     let mut bytes =
         encoded.map_err(|source| IccError::Encode(display.name().to_owned(), source))?;
-    // The encoder writes the time of day there: the same display has the same profile, whenever it is written.
+    // The encoder writes the current time there. A fixed time makes the same display always give the same profile.
     for (field, number) in bytes[CREATION].chunks_exact_mut(2).zip(CREATED) {
         field.copy_from_slice(&number.to_be_bytes());
     }
@@ -103,7 +103,7 @@ mod tests {
     use colorimetry::matrix::times;
     use std::time::Duration;
 
-    /// Every other byte is a function of the display: what is written a second later is the same.
+    /// Every other byte is a function of the display, so a profile written a second later is the same.
     #[test]
     fn a_profile_is_the_same_at_any_time() {
         let display = Display::named("display_p3").unwrap();
@@ -115,7 +115,7 @@ mod tests {
         assert_eq!(created, CREATED);
     }
 
-    /// What a reader makes of a profile: the display's own light, adapted to D50.
+    /// A reader of a profile gets the display's own light, adapted to D50.
     #[test]
     fn a_profile_says_what_the_display_does() {
         for name in Display::names() {
@@ -132,7 +132,7 @@ mod tests {
                 let column = colorants.v.map(|row| row[channel]);
                 let found = times(&back.v, column);
                 for row in 0..3 {
-                    // Sixteen bits behind the point, and the inverse of nine such numbers.
+                    // Sixteen fractional bits, and the inverse of nine such numbers.
                     let expected = display.xyz_from_rgb()[row][channel];
                     assert!((found[row] - expected).abs() < 2e-4, "{name} {found:?}");
                 }

@@ -2,20 +2,20 @@
 //!
 //! ```text
 //! spectra::SpectralImage
-//!   -> relight        its light groups under other lamps, seen by another observer
+//!   -> relight        its light groups with other lamps, seen by another observer
 //!   -> develop        exposure, white adaptation, glare, gamut mapping, the display's response, codes
 //!   -> png            a PNG file of 8 or 16 bits that says which display it is for (cICP, ICC)
 //!   -> rgb_exr        an OpenEXR file of linear red, green and blue
-//!   -> spectral_exr   a spectral OpenEXR file, from which all of the above can be done again
+//!   -> spectral_exr   a spectral OpenEXR file, from which all of the above can be repeated
 //!   -> probe          the means of a region
-//!   -> compare        how far two images are from each other
+//!   -> compare        differences of two images
 //! ```
 //!
-//! The other way, pictures as inputs: `radiance` reads Radiance files (.hdr), and `png_colors` says which colors the codes of a PNG
-//! file are.
+//! In the other direction, pictures are inputs: `radiance` reads Radiance files (.hdr), and `png_colors` converts the codes of a
+//! PNG file to colors.
 //!
 //! Arithmetic is `f64`. Nothing here knows how the image was rendered. Files are written under another
-//! name beside the one asked for and renamed when complete, so a failure leaves no half file.
+//! name in the same folder and renamed when complete, so a failure leaves no partial file.
 
 mod cicp;
 pub mod compare;

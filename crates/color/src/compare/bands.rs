@@ -1,11 +1,11 @@
-//! How far two spectral images are apart in each band.
+//! Differences of two spectral images in each band.
 
 use rayon::prelude::*;
 use spectra::SpectralImage;
 
 use super::CompareError;
 
-/// The difference of two images in one band, the second less the first, over all pixels.
+/// The difference of two images in one band, second minus first, over all pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BandDifference {
     /// The wavelength in the middle of the band, nm.
@@ -14,18 +14,18 @@ pub struct BandDifference {
     pub reference_mean: f64,
     /// Root mean square difference.
     pub rmse: f64,
-    /// Mean difference: above 0 where the second image has more light.
+    /// Mean difference: above 0 if the second image is brighter.
     pub bias: f64,
-    /// How much of that is noise, where both images know their variance.
+    /// How much of the difference is noise; `None` unless both images have a variance.
     pub noise: Option<Noise>,
-    /// How many values were left out, because one of a pair was not finite.
+    /// Number of values left out because one of the pair was not finite.
     pub left_out: usize,
 }
 
-/// What the variances of two images say of their difference, if their noise is independent (other seeds).
+/// The noise that the variances of two images predict for their difference, if their noise is independent (different seeds).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
-    /// The root mean square difference that noise alone makes, √(mean of both variances).
+    /// The root mean square difference that noise alone causes, √(mean of the sum of both variances).
     pub rmse: f64,
     /// The bias over its standard error: within ±3 it may be noise.
     pub bias_sigmas: f64,
@@ -75,7 +75,7 @@ pub fn bands(
     Ok((0..).zip(&sums).map(of_band).collect())
 }
 
-/// Rows of pixels at a time on all cores, added up in order: the same figures on any machine.
+/// Sums each row of pixels on any core and adds the rows in order, so the results are the same on every machine.
 fn sums(reference: &SpectralImage, test: &SpectralImage) -> Vec<Sums> {
     let bands = reference.bands().count() as usize;
     let row = bands * reference.width() as usize;
@@ -168,7 +168,7 @@ mod tests {
         assert!((noise.rmse - 0.05_f64.sqrt()).abs() < 1e-6);
         assert!((noise.bias_sigmas - 0.4 / 0.1_f64.sqrt()).abs() < 1e-5);
         assert_eq!((found[1].bias, found[1].rmse), (0.0, 0.0));
-        // The other way round the sign changes.
+        // Swapping the images changes the sign.
         assert!((bands(&test, &reference).unwrap()[0].bias + 0.2).abs() < 1e-6);
     }
 

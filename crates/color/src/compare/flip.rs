@@ -1,8 +1,8 @@
-//! FLIP: how different two pictures look when one flips between them, 0 (alike) to 1.
+//! FLIP: how different two pictures look when a viewer flips between them, from 0 (identical) to 1.
 //!
 //! LDR-FLIP of Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, FLIP: A Difference Evaluator for
-//! Alternating Images, Proc. ACM Comput. Graph. Interact. Tech. 3(2), 2020; the constants are those of the paper. In `f64`.
-//! All its filters are sums of products of a function of x and one of y, and are applied so.
+//! Alternating Images, Proc. ACM Comput. Graph. Interact. Tech. 3(2), 2020; the constants are those of the paper. Arithmetic is
+//! `f64`. All its filters are sums of products of a function of x and one of y, and are applied as separable filters.
 
 use std::f64::consts::PI;
 
@@ -11,11 +11,11 @@ use rayon::prelude::*;
 
 use super::{CompareError, Picture};
 
-/// Pixels per degree of a 0.7 m wide screen of 3840 pixels at 0.7 m, the paper's default.
+/// Pixels per degree of a 0.7 m wide screen of 3840 pixels seen from 0.7 m, the paper's default.
 const PIXELS_PER_DEGREE: f64 = 3840.0 * PI / 180.0;
 
-/// The difference at each pixel: ΔE_c^(1 − ΔE_f), of color and of features (equation 15 of the paper). What the display does
-/// not show is clipped, and what is not a number is black.
+/// Returns the difference at each pixel, ΔE_c^(1 − ΔE_f), of color and features (equation 15 of the paper). Colors outside the
+/// display's gamut are clipped, and NaN is black.
 ///
 /// # Errors
 /// When the pictures differ in size or are empty.
@@ -36,7 +36,7 @@ pub fn flip(reference: &Picture, test: &Picture) -> Result<Vec<f64>, CompareErro
     Ok((0..pixels).into_par_iter().map(at).collect())
 }
 
-/// XYZ over the display's white.
+/// XYZ relative to the display's white.
 fn relative_xyz(linear: [f64; 3]) -> [f64; 3] {
     let (xyz, white) = (xyz_from_linear(linear), xyz_from_linear([1.0; 3]));
     [xyz[0] / white[0], xyz[1] / white[1], xyz[2] / white[2]]
@@ -61,7 +61,7 @@ fn filter(radius: i32, weight: impl Fn(f64) -> f64) -> Filter {
     (-radius..=radius).map(|x| weight(f64::from(x))).collect()
 }
 
-/// Positive weights add up to 1, negative ones to −1.
+/// Scales a filter so that its positive weights add up to 1 and its negative ones to −1.
 fn balanced(mut filter: Filter) -> Filter {
     let positive: f64 = filter.iter().filter(|&&w| w > 0.0).sum();
     let negative: f64 = filter.iter().filter(|&&w| w < 0.0).sum();
@@ -71,7 +71,7 @@ fn balanced(mut filter: Filter) -> Filter {
     filter
 }
 
-/// A plane filtered along x, then along y; beyond the border its last value goes on.
+/// Filters a plane along x, then along y; the border values continue outside the plane.
 fn filtered(
     plane: &[f64],
     [width, height]: [usize; 2],
@@ -106,10 +106,10 @@ fn add_times(out: &mut [f64], values: &[f64], weight: f64) {
     }
 }
 
-/// A plane seen with a contrast sensitivity that is a sum of two Gaussians a √(π/b) exp(−π² r²/b), r in degrees (table 1,
-/// equation 3). All weights together are 1.
+/// Filters a plane with a contrast sensitivity that is a sum of two Gaussians a √(π/b) exp(−π² r²/b), r in degrees (table 1,
+/// equation 3). The weights add up to 1.
 fn sensed(plane: &[f64], size: [usize; 2], terms: [(f64, f64); 2]) -> Vec<f64> {
-    // Three standard deviations of the widest of all: b = 0.04.
+    // Three standard deviations of the widest Gaussian: b = 0.04.
     let radius = (3.0 * (0.04 / (2.0 * PI * PI)).sqrt() * PIXELS_PER_DEGREE).ceil() as i32;
     let gauss = |b: f64| {
         filter(radius, |x| {
@@ -134,7 +134,7 @@ fn sensed(plane: &[f64], size: [usize; 2], terms: [(f64, f64); 2]) -> Vec<f64> {
     sum
 }
 
-/// The picture blurred as the eye does it, in L*a*b* with Hunt's adjustment (sections 4.1.1 and 4.1.2).
+/// The picture blurred as the eye blurs it, in L*a*b* with Hunt's adjustment (sections 4.1.1 and 4.1.2).
 fn as_seen(planes: &[Vec<f64>; 3], size: [usize; 2]) -> Vec<[f64; 3]> {
     let sensitivities = [
         [(1.0, 0.0047), (0.0, 1e-5)],
@@ -194,14 +194,14 @@ fn redistributed(difference: f64) -> f64 {
     }
 }
 
-/// Strength of edges and of points at each pixel of the plane Y (section 4.2).
+/// Returns the strength of edges and of points at each pixel of the plane Y (section 4.2).
 fn features(y: &[f64], size: [usize; 2]) -> Vec<[f64; 2]> {
     let lightness: Vec<f64> = y.iter().map(|y| (y + 16.0) / 116.0).collect();
-    // Half of the width 0.082° of a feature.
+    // Half of a feature's width of 0.082°.
     let deviation = 0.5 * 0.082 * PIXELS_PER_DEGREE;
     let radius = (3.0 * deviation).ceil() as i32;
     let gauss = |x: f64| (-x * x / (2.0 * deviation * deviation)).exp();
-    // Along the other axis all weights are positive: balanced, they add up to 1.
+    // Along the other axis all weights are positive, so `balanced` makes them add up to 1.
     let smooth = balanced(filter(radius, gauss));
     let edge = balanced(filter(radius, |x| -x * gauss(x)));
     let point = balanced(filter(radius, |x| {
@@ -254,8 +254,8 @@ mod tests {
         assert!((found - 1.0).abs() < 1e-9, "{found}");
     }
 
-    /// Without features FLIP is the redistributed color difference alone: 100 in L* is 100^0.7 = 25.1189 of the largest
-    /// 203.36^0.7 = 41.28, thus 0.95 + 0.05 (25.1189 − 16.51) / 24.77 = 0.9674.
+    /// Without features, FLIP is only the redistributed color difference: 100 in L* is 100^0.7 = 25.1189 of the largest
+    /// 203.36^0.7 = 41.28, so FLIP is 0.95 + 0.05 (25.1189 − 16.51) / 24.77 = 0.9674.
     #[test]
     fn black_and_white_differ_as_computed_by_hand() {
         let found = mean(&filled([0; 3]), &filled([255; 3]));
@@ -280,7 +280,7 @@ mod tests {
         assert!(little > 0.02 && much > 4.0 * little, "{little} {much}");
     }
 
-    /// The same difference of color counts more where it makes an edge (section 4.2).
+    /// The same color difference counts more where it forms an edge (section 4.2).
     #[test]
     fn a_feature_raises_the_difference() {
         let base = filled([100; 3]);
@@ -297,14 +297,14 @@ mod tests {
         assert!(flip(&none, &none).is_err());
     }
 
-    /// A filter made of two along the axes is the filter of their product: checked on a single bright pixel by a corner.
+    /// Filtering along both axes equals filtering with the product of the filters: checked on a single bright pixel in a corner.
     #[test]
     fn filters_go_on_beyond_the_border() {
         let mut plane = vec![0.0; 5 * 4];
         plane[0] = 1.0;
         let (x, y) = (vec![0.25, 0.5, 0.25], vec![0.1, 0.7, 0.2]);
         let found = filtered(&plane, [5, 4], &x, &y);
-        // Left of and above the corner the plane is 1 too.
+        // To the left of the corner and above it the plane is 1 too.
         assert!((found[0] - 0.75 * 0.8).abs() < 1e-15);
         assert!((found[1] - 0.25 * 0.8).abs() < 1e-15);
         assert!((found[5] - 0.75 * 0.1).abs() < 1e-15);

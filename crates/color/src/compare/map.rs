@@ -1,9 +1,9 @@
-//! Differences as a picture.
+//! Heat maps: differences as a picture.
 
 use crate::RgbImage8;
 
-/// Magma, from black over purple and orange to pale yellow, at 17 even places: lightness rises evenly, also for those who are
-/// color-blind (S. van der Walt and N. Smith, 2015, for matplotlib; CC0 1.0).
+/// The colormap magma, from black over purple and orange to pale yellow, at 17 equal steps. Its lightness rises evenly, also for
+/// color-blind viewers (S. van der Walt and N. Smith, 2015, for matplotlib; CC0 1.0).
 const MAGMA: [[u8; 3]; 17] = [
     [0, 0, 4],
     [10, 8, 34],
@@ -24,11 +24,11 @@ const MAGMA: [[u8; 3]; 17] = [
     [252, 253, 191],
 ];
 
-/// What is not a number.
+/// The color of NaN.
 const NOT_A_NUMBER: [u8; 3] = [0, 255, 0];
 
-/// One value per pixel as a picture: 0 is black, `full` and more pale yellow, what is not a number green. `None` unless there
-/// are `width` × `height` values.
+/// Returns a picture of one value per pixel: 0 is black, `full` and above pale yellow, NaN green. `None` unless there are
+/// `width` × `height` values.
 pub fn heat_map([width, height]: [usize; 2], values: &[f64], full: f64) -> Option<RgbImage8> {
     let codes = values.iter().flat_map(|value| color(value / full));
     RgbImage8::new(width as u32, height as u32, codes.collect())

@@ -1,4 +1,4 @@
-//! How far two images are from each other: per band, in color, and to the eye.
+//! Differences of two images: per band, in color, and as perceived.
 //!
 //! ```text
 //! two spectral images -> bands      RMSE, bias and noise of each band
@@ -9,7 +9,7 @@
 //!         -> Summary, heat_map
 //! ```
 //!
-//! The first of two images is the reference; differences are the second less the first.
+//! The first of two images is the reference; differences are second minus first.
 
 mod bands;
 mod flip;
@@ -26,7 +26,7 @@ pub use summary::Summary;
 use spectra::BandGrid;
 use thiserror::Error;
 
-/// Why two images do not compare.
+/// Why two images cannot be compared.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum CompareError {

@@ -1,4 +1,4 @@
-//! Pictures to compare, and how far their colors are apart.
+//! Pictures to compare, and their color differences.
 
 use std::fs::File;
 use std::hash::{DefaultHasher, Hasher};
@@ -16,7 +16,7 @@ use crate::RgbImage8;
 use crate::icc;
 use crate::xyz::exposure_scale;
 
-/// A picture in linear sRGB, not clipped, row 0 on top.
+/// A picture in linear sRGB, not clipped, with row 0 at the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     size: [usize; 2],
@@ -24,7 +24,7 @@ pub struct Picture {
     tag: Option<String>,
 }
 
-/// Why a picture was not read.
+/// Why a picture could not be read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ReadPictureError {
@@ -33,21 +33,21 @@ pub enum ReadPictureError {
     File {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the operating system.
         source: io::Error,
     },
-    /// The file is no PNG file, or a damaged one.
+    /// The file is not a PNG file, or is damaged.
     #[error("{path} is not a PNG file that can be read")]
     Decode {
         /// The file.
         path: PathBuf,
-        /// What the decoder said.
+        /// The error of the decoder.
         source: ::png::DecodingError,
     },
 }
 
 impl Picture {
-    /// Of codes of sRGB.
+    /// Creates a picture from sRGB codes.
     pub fn of_codes(image: &RgbImage8) -> Self {
         let pixels = image.data().chunks_exact(3);
         Self {
@@ -59,7 +59,7 @@ impl Picture {
         }
     }
 
-    /// Of an image's XYZ, at an exposure in stops; neither adapted nor clipped.
+    /// Creates a picture from an image's XYZ at an exposure in stops, neither adapted nor clipped.
     pub fn of_spectral(image: &SpectralImage, exposure_ev: f64) -> Self {
         let scale = exposure_scale(exposure_ev);
         let rgb = |xyz: &[f32; 3]| srgb::linear_from_xyz(xyz.map(|value| f64::from(value) * scale));
@@ -71,11 +71,10 @@ impl Picture {
         }
     }
 
-    /// Of a PNG file of 1 to 16 bits. Its codes are taken as those of sRGB, whatever it is tagged as; transparency is
-    /// passed over.
+    /// Reads a PNG file of 1 to 16 bits. Its codes are taken as sRGB, whatever its tags say; transparency is ignored.
     ///
     /// # Errors
-    /// When it cannot be read or is no PNG file.
+    /// When the file cannot be read or is not a PNG file.
     pub fn read_png(path: &Path) -> Result<Self, ReadPictureError> {
         let file = File::open(path).map_err(|source| ReadPictureError::File {
             path: path.to_owned(),
@@ -97,12 +96,12 @@ impl Picture {
         &self.linear
     }
 
-    /// What the file says its colors are, where that is not sRGB. Files with different ICC profiles have different tags.
+    /// The color space that the file names, if it is not sRGB. Files with different ICC profiles have different tags.
     pub fn tag(&self) -> Option<&str> {
         self.tag.as_deref()
     }
 
-    /// As a display of sRGB shows it: clipped, and black where it is not a number.
+    /// The pixels as an sRGB display shows them: clipped, with 0 for NaN.
     pub(super) fn shown(&self) -> impl Iterator<Item = [f64; 3]> {
         let shown = |v: f64| if v.is_nan() { 0.0 } else { v.clamp(0.0, 1.0) };
         self.linear.iter().map(move |rgb| rgb.map(shown))
@@ -122,7 +121,7 @@ impl Picture {
     }
 }
 
-/// How much longer than itself a compressed stream becomes at most (RFC 1951: 258 bytes of two bits).
+/// The largest factor by which decompression lengthens a stream (RFC 1951: 258 bytes from two bits).
 const MAX_INFLATION: u64 = 1032;
 
 fn decode(file: BufReader<File>) -> Result<Picture, ::png::DecodingError> {
@@ -172,8 +171,8 @@ fn too_large() -> ::png::DecodingError {
     ::png::DecodingError::LimitsExceeded
 }
 
-/// What a file says its colors are, where that is not sRGB. Of several chunks the one that a reader must heed first
-/// (PNG specification, third edition, section 4.3).
+/// Returns the color space that a file names, if it is not sRGB. If there are several chunks, the one with the highest
+/// precedence counts (PNG specification, third edition, section 4.3).
 fn tag(info: &::png::Info<'_>) -> Option<String> {
     if let Some(points) = &info.coding_independent_code_points {
         let (primaries, curve) = (points.color_primaries, points.transfer_function);
@@ -187,7 +186,7 @@ fn tag(info: &::png::Info<'_>) -> Option<String> {
     }
 }
 
-/// A profile's name, its size, and a hash that tells it from others of the same name.
+/// A profile's name, its size, and a hash that distinguishes it from others of the same name.
 fn icc_tag(profile: &[u8]) -> String {
     let mut hasher = DefaultHasher::new();
     hasher.write(profile);
@@ -196,8 +195,8 @@ fn icc_tag(profile: &[u8]) -> String {
     format!("an ICC profile{name} of {bytes} bytes (hash {hash:016x})")
 }
 
-/// The color difference ΔE₀₀ at each pixel, CIELAB under the white of sRGB, colors beyond the display included; not a number
-/// where a color is none.
+/// Returns the color difference ΔE₀₀ at each pixel, from CIELAB under the white of sRGB, colors outside the gamut included; NaN
+/// where a color is not finite.
 ///
 /// # Errors
 /// When the pictures differ in size or are empty.
@@ -217,8 +216,8 @@ pub fn delta_e(reference: &Picture, test: &Picture) -> Result<Vec<f64>, CompareE
     Ok(pairs.map(of_pair).collect())
 }
 
-/// Peak signal-to-noise ratio of the pictures as sRGB codes them, −10 log₁₀ of the mean squared difference of codes from 0 to
-/// 1, in dB; infinite for pictures that are the same.
+/// Returns the peak signal-to-noise ratio of the pictures' sRGB codes, −10 log₁₀ of the mean squared difference of codes from 0
+/// to 1, in dB; infinite for equal pictures.
 ///
 /// # Errors
 /// When the pictures differ in size or are empty.
@@ -314,7 +313,7 @@ mod tests {
         assert!((found.linear()[1][0] - srgb::decode(32768.0 / 65535.0)).abs() < 1e-15);
         assert!(found.tag().unwrap().contains("primaries 12"));
 
-        // As long as each other, and of the same name: one byte of a curve differs.
+        // Profiles of the same length and name: one byte of a curve differs.
         let profile = icc::profile(&colorimetry::Display::named("lcd").unwrap()).unwrap();
         let tag_with = |profile: &[u8]| {
             let mut info = ::png::Info::with_size(1, 1);

@@ -1,11 +1,11 @@
-//! Many differences in a few figures.
+//! Summary statistics of differences.
 
-/// Mean, percentiles and largest of the differences of all pixels. What is not a number is left out and counted.
+/// Mean, percentiles and maximum of the differences of all pixels. NaN is left out and counted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary {
     /// The mean.
     pub mean: f64,
-    /// Half of the pixels differ by no more.
+    /// The median: half of the pixels differ by no more.
     pub p50: f64,
     /// The 95th percentile.
     pub p95: f64,
@@ -13,20 +13,20 @@ pub struct Summary {
     pub p99: f64,
     /// The largest.
     pub max: f64,
-    /// Index of the pixel with the largest.
+    /// Index of the pixel with the largest difference.
     pub max_at: usize,
-    /// How many pixels were left out.
+    /// Number of pixels left out.
     pub left_out: usize,
 }
 
 impl Summary {
-    /// Of one value per pixel; `None` when there is none that is a number.
+    /// Summarizes one value per pixel; `None` if no value is a number.
     pub fn new(values: &[f64]) -> Option<Self> {
         let mut sorted: Vec<f64> = values.iter().copied().filter(|v| !v.is_nan()).collect();
         let left_out = values.len() - sorted.len();
         sorted.sort_by(f64::total_cmp);
         let max = *sorted.last()?;
-        // The smallest value that this share of the pixels does not exceed.
+        // The smallest value that this fraction of the pixels does not exceed.
         let percentile = |share: f64| {
             let rank = (share * sorted.len() as f64).ceil() as usize;
             sorted[rank.clamp(1, sorted.len()) - 1]

@@ -8,18 +8,18 @@ use spectra::{Observer, SpectralImage};
 
 use super::DevelopError;
 
-/// The white that the eye is taken to be adapted to in the scene.
+/// The white to which the eye is assumed to be adapted in the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SceneWhite {
     /// This chromaticity x, y.
     Chromaticity([f64; 2]),
-    /// That of the image's mean XYZ, which is gray for a world that is gray on average (Buchsbaum, A spatial processor model for
-    /// object color perception, J. Franklin Inst. 310, 1 (1980)). A picture of one strong color is no such world.
+    /// The chromaticity of the image's mean XYZ, which is right for a world that is gray on average (Buchsbaum, A spatial processor
+    /// model for object color perception, J. Franklin Inst. 310, 1 (1980)). A picture of one strong color is not gray on average.
     Mean,
 }
 
 impl SceneWhite {
-    /// The lamp of the light group that brings the most light to the image; `None` where that lamp is not known.
+    /// The lamp of the light group that contributes the most luminance to the image; `None` if that lamp is unknown.
     pub fn of_lamps(image: &SpectralImage, observer: Observer) -> Option<Self> {
         let luminance = |group: usize| -> f64 {
             let xyz = image.group_xyz(group).iter();
@@ -30,7 +30,7 @@ impl SceneWhite {
         let groups = 0..image.light_groups().len();
         let brightest = groups.max_by(|&a, &b| luminance(a).total_cmp(&luminance(b)))?;
         let lamp = image.light_groups()[brightest].lamp.as_ref()?;
-        // A lamp may go on beyond the bands, without end.
+        // A lamp's spectrum may extend arbitrarily far beyond the bands.
         let (grid, (from_nm, to_nm)) = (image.bands(), lamp.range_nm());
         let (from_nm, to_nm) = (from_nm.max(grid.min_nm()), to_nm.min(grid.max_nm()));
         let sum = (from_nm.ceil() as u32..=to_nm.floor() as u32)
@@ -44,14 +44,14 @@ impl SceneWhite {
 /// Complete adaptation from a scene's white to the display's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WhiteAdaptation {
-    /// How.
+    /// The adaptation transform.
     pub method: Adaptation,
-    /// From which white.
+    /// The scene's white.
     pub from: SceneWhite,
 }
 
 impl WhiteAdaptation {
-    /// The matrix on XYZ that takes the scene's white to `to_white`, both with Y = 1.
+    /// Returns the matrix on XYZ that maps the scene's white to `to_white`, both with Y = 1.
     pub(super) fn matrix(
         &self,
         xyz: &[[f32; 3]],
@@ -67,9 +67,9 @@ impl WhiteAdaptation {
     }
 }
 
-/// Chromaticity of the mean XYZ of the pixels that are finite.
+/// Chromaticity of the mean XYZ of all finite pixels.
 fn mean_chromaticity(xyz: &[[f32; 3]]) -> Option<[f64; 2]> {
-    // In chunks of fixed size, so that the sum does not depend on the number of cores.
+    // Chunks of fixed size: the sum does not depend on the number of cores.
     let sums: Vec<[f64; 3]> = xyz
         .par_chunks(4096)
         .map(|pixels| {
@@ -108,7 +108,7 @@ mod tests {
         let Some(SceneWhite::Chromaticity([x, y])) = lit([1.0, 2.0, f32::NAN]) else {
             panic!("A is known");
         };
-        // CIE 015:2018 gives 0.44758, 0.40745 by sums at 5 nm.
+        // CIE 015:2018 gives 0.44758, 0.40745 from sums at 5 nm.
         assert!(
             (x - 0.44758).abs() < 5e-5 && (y - 0.40745).abs() < 5e-5,
             "{x} {y}"

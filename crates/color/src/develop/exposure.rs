@@ -1,17 +1,17 @@
-//! Exposure: how much light becomes the display's white.
+//! Exposure: which luminance becomes the display's white.
 
 use super::DevelopError;
 use crate::xyz::exposure_scale;
 
-/// How much light becomes the display's white.
+/// Which luminance becomes the display's white.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exposure {
-    /// At 0 stops a radiance of 1 at every wavelength has the luminance of the display's white; each stop halves the light that
-    /// does ([`exposure_scale`]).
+    /// Stops: at 0, a radiance of 1 at every wavelength has the luminance of the display's white; each stop halves the
+    /// luminance that becomes white ([`exposure_scale`]).
     Stops(f64),
-    /// This luminance in the scene, cd/m².
+    /// This luminance of the scene, cd/m².
     White(f64),
-    /// The luminance that this percentage of the pixels does not exceed: 99 leaves one in a hundred to be too bright.
+    /// The luminance that this percentage of the pixels does not exceed: with 99, one pixel in a hundred is too bright.
     Percentile(f64),
 }
 
@@ -22,7 +22,7 @@ impl Default for Exposure {
 }
 
 impl Exposure {
-    /// What XYZ in cd/m² is multiplied by, so that the display's white has Y = 1.
+    /// Returns the factor on XYZ in cd/m² that gives the display's white Y = 1.
     pub(super) fn scale(self, xyz: &[[f32; 3]]) -> Result<f64, DevelopError> {
         match self {
             Self::Stops(stops) => Ok(exposure_scale(stops)),
@@ -35,7 +35,7 @@ impl Exposure {
     }
 }
 
-/// The luminance that a percentage of the pixels, those of finite luminance, does not exceed.
+/// Returns the luminance that a percentage of the pixels of finite luminance does not exceed.
 fn percentile(xyz: &[[f32; 3]], percent: f64) -> Option<f64> {
     let mut luminances: Vec<f32> = xyz.iter().map(|v| v[1]).filter(|y| y.is_finite()).collect();
     let last = luminances.len().checked_sub(1)?;

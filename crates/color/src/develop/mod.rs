@@ -1,17 +1,17 @@
-//! A spectral image developed into a picture for a display.
+//! Developing a spectral image into a picture for a display.
 //!
 //! ```text
 //! Latent            XYZ per pixel, and its spectra where a step needs them
-//!   -> exposure     how much light becomes the display's white
-//!   -> adaptation   from the white of the scene to that of the display
-//!   -> glare        light that the eye scatters, or a star about what is too bright
-//!   -> LinearImage  red, green and blue of the display, linear, of any size          -> rgb_exr
-//!   -> gamut        what the display cannot show becomes what it can
-//!   -> quantize     black level taken off, response of each channel, codes, dither  -> png
+//!   -> exposure     which luminance becomes the display's white
+//!   -> adaptation   from the white of the scene to the white of the display
+//!   -> glare        light scattered in the eye, or stars around pixels that are too bright
+//!   -> LinearImage  red, green and blue of the display, linear, of any value        -> rgb_exr
+//!   -> gamut        colors that the display cannot show are mapped to colors that it can
+//!   -> quantize     subtract the black level, response of each channel, codes, dither  -> png
 //! ```
 //!
-//! [`DevelopSettings`] switches each step; one that is off costs nothing. Arithmetic is `f64`. Between the steps a pixel is kept
-//! in `f32`: its rounding, 6e-8, is a hundredth of a step of 16 bits.
+//! [`DevelopSettings`] switches each step; a step that is off costs nothing. Arithmetic is `f64`. Between the steps pixels are
+//! kept in `f32`, whose rounding error of 6e-8 is a hundredth of a step of 16 bits.
 
 pub mod adaptation;
 pub mod exposure;
@@ -33,30 +33,30 @@ pub use quantize::Code;
 
 use crate::{RgbImage8, XyzImage};
 
-/// How a picture is developed. The default is the sRGB display at 0 EV, out of gamut colors mapped, all else off.
+/// How a picture is developed. The default is the sRGB display at 0 EV with gamut mapping and everything else off.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DevelopSettings {
     /// The display that the picture is for.
     pub display: Display,
-    /// The observer that the image's XYZ are for. It need not be the display's: primaries known for CIE 1931 alone take XYZ of
-    /// others as if they were of that.
+    /// The observer of the image's XYZ. It need not be the display's: a display whose primaries are known only for CIE 1931
+    /// takes the XYZ of another observer as if they were of CIE 1931.
     pub observer: Observer,
-    /// How much light becomes its white.
+    /// Which luminance becomes the display's white.
     pub exposure: Exposure,
-    /// From which white to its own; `None` leaves colors as the light makes them.
+    /// The adaptation from the scene's white to the display's; `None` leaves colors as the light makes them.
     pub adaptation: Option<WhiteAdaptation>,
-    /// What bright light does to its environment.
+    /// The glare around bright light.
     pub glare: Glare,
-    /// What becomes of colors that it cannot show.
+    /// How colors that the display cannot show are mapped.
     pub gamut: GamutMapping,
-    /// Mark the pixels that it cannot show with stripes.
+    /// Whether pixels that the display cannot show are marked with stripes.
     pub gamut_warning: bool,
-    /// Spread the rounding to codes over neighboring pixels.
+    /// Whether the rounding to codes is spread over neighboring pixels.
     pub dither: bool,
 }
 
 impl DevelopSettings {
-    /// The default on a display, of XYZ of the observer that it is for.
+    /// The default settings for a display, with XYZ of the display's observer.
     pub fn new(display: Display) -> Self {
         Self {
             observer: display.observer(),
@@ -70,10 +70,10 @@ impl DevelopSettings {
         }
     }
 
-    /// The default on the sRGB display, exposed by `stops`.
+    /// The default settings for the sRGB display, exposed by `stops`.
     ///
     /// # Panics
-    /// Never: sRGB is among the displays that come with this software.
+    /// Never: sRGB is one of the built-in displays.
     pub fn srgb(stops: f64) -> Self {
         let display = Display::named("srgb").expect("sRGB has a name");
         Self {
@@ -83,24 +83,24 @@ impl DevelopSettings {
     }
 }
 
-/// Why an image was not developed.
+/// Why an image could not be developed.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum DevelopError {
     /// The glare depends on wavelength, and the image has no spectra.
     #[error("this glare depends on wavelength, and the image is one of colors without spectra")]
     NoSpectrum,
-    /// The scene's white is to be the mean color of an image that has none.
+    /// The scene's white should be the mean color of an image that has none.
     #[error("the mean color of the image is no white to adapt from: it is black, or no number")]
     NoWhite,
-    /// The exposure is to follow the image, which has no light.
+    /// The exposure should follow the image, which has no light.
     #[error(
         "no pixel of the image has a luminance above 0 that is a number: there is nothing to expose for"
     )]
     NoLight,
 }
 
-/// An image to develop: XYZ per pixel, and the spectra that they came from where they are at hand.
+/// An image to develop: XYZ per pixel, and the spectra from which they were computed, if available.
 #[derive(Clone, Copy, Debug)]
 pub struct Latent<'a> {
     size: [u32; 2],
@@ -128,7 +128,7 @@ impl<'a> From<&'a XyzImage> for Latent<'a> {
     }
 }
 
-/// Red, green and blue of a display per pixel, linear, 1 for its white; any values, below 0 and above 1 too. Row 0 is on top.
+/// Linear red, green and blue of a display per pixel, 1 for its white; values may be below 0 and above 1. Row 0 is at the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearImage {
     width: u32,
@@ -153,7 +153,7 @@ impl LinearImage {
         &self.rgb
     }
 
-    /// How many pixels are no numbers.
+    /// Number of pixels that are not finite.
     pub fn not_finite(&self) -> usize {
         let pixels = self.rgb.par_iter();
         pixels
@@ -161,12 +161,12 @@ impl LinearImage {
             .count()
     }
 
-    /// The luminance in the scene that is the display's white, cd/m² up to the scene's scale.
+    /// The luminance in the scene that becomes the display's white, cd/m² up to the scene's scale.
     pub fn white_cd_m2(&self) -> f64 {
         self.white_cd_m2
     }
 
-    /// Replaces each pixel, given its place, on all cores.
+    /// Replaces each pixel, given its position, on all cores.
     fn map(&mut self, change: impl Fn([usize; 2], [f64; 3]) -> [f64; 3] + Sync) {
         let width = (self.width as usize).max(1);
         let rows = self.rgb.par_chunks_mut(width).enumerate();
@@ -191,10 +191,10 @@ pub fn develop<'a>(
     Ok(quantize::codes(&linear, &settings.display, settings.dither))
 }
 
-/// Exposes, adapts and adds glare: the picture in the display's red, green and blue, before anything is cut off.
+/// Exposes, adapts and adds glare. The result is the picture in the display's red, green and blue, before anything is clipped.
 ///
 /// # Errors
-/// When a step needs what the image does not have.
+/// When a step needs data that the image lacks.
 pub fn expose<'a>(
     image: impl Into<Latent<'a>>,
     settings: &DevelopSettings,

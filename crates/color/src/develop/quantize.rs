@@ -1,8 +1,8 @@
-//! Codes: black level taken off, the response of each channel, rounding.
+//! Codes: subtracting the black level, the response of each channel, rounding.
 //!
-//! At amounts C of its primaries a display shows M C, and on top of it the light of code 0: its black level and what it reflects
-//! of the room. That light is part of what the viewer sees, so it is subtracted from what is asked for. Where less is asked for
-//! than the black gives, the code is 0 and the picture there as dark as the display can be.
+//! For amounts C of its primaries, a display shows M C plus the light of code 0: its black level and its reflection of the room.
+//! The viewer sees that light too, so it is subtracted from the wanted amount. Where the wanted amount is less than the black,
+//! the code is 0 and the pixel is as dark as the display can make it.
 
 use colorimetry::Display;
 use colorimetry::matrix::times;
@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::LinearImage;
 use crate::rgb_image::RgbImage;
 
-/// A code of a picture: `u8` or `u16`.
+/// The type of a picture's codes: `u8` or `u16`.
 pub trait Code: Copy + Default + Send + Sync {
     /// The largest code.
     const MAX: f64;
@@ -36,16 +36,17 @@ impl Code for u16 {
     }
 }
 
-/// The amounts of red, green and blue that a display's black level and flare are.
+/// Returns a display's black level and flare as amounts of red, green and blue.
 pub(super) fn black_rgb(display: &Display) -> [f64; 3] {
     times(display.rgb_from_xyz(), display.black_xyz())
 }
 
-/// The codes by which a display shows a picture. What lies outside its range is clipped; what is not a number is 0.
+/// Returns the codes with which a display shows a picture. Values outside its range are clipped; NaN becomes 0.
 ///
-/// Without dither a code is the nearest. With it, a value between two codes is the upper one in as many pixels, of a small
-/// neighborhood, as it lies close to it, so that means are kept and gradients show no steps; a value that is a code stays
-/// that code, to 1 % of a step. The pattern depends on the place alone: the same picture is the same file.
+/// Without dither, each value is rounded to the nearest code. With dither, a value between two codes is rounded up in the fraction
+/// of the pixels of a small neighborhood that its distance from the lower code gives, so means are kept and gradients show no
+/// steps. A value within 1 % of a step of a code stays that code. The pattern depends only on the position: the same picture
+/// always gives the same file.
 pub fn codes<C: Code>(image: &LinearImage, display: &Display, dither: bool) -> RgbImage<C> {
     let black = black_rgb(display);
     let (peak, responses) = (display.peak(), display.responses());
@@ -57,7 +58,7 @@ pub fn codes<C: Code>(image: &LinearImage, display: &Display, dither: bool) -> R
         .for_each(|(y, (codes, row))| {
             for (x, (codes, rgb)) in codes.chunks_exact_mut(3).zip(row).enumerate() {
                 for channel in 0..3 {
-                    // `max` takes what is not a number to 0.
+                    // `max` turns NaN into 0.
                     let light = (f64::from(rgb[channel]) - black[channel])
                         .max(0.0)
                         .min(peak);
@@ -78,11 +79,11 @@ pub fn codes<C: Code>(image: &LinearImage, display: &Display, dither: bool) -> R
     }
 }
 
-/// How far above a whole number a value is rounded up at this place: evenly spread over (0.01, 0.99), so that rounding errors of
-/// a value that is whole do not show.
+/// Returns the fractional part from which a value is rounded up at this position. It is evenly distributed over (0.01, 0.99), so
+/// rounding errors of whole values do not show.
 ///
 /// Interleaved gradient noise (J. Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare, SIGGRAPH 2014
-/// course), each channel shifted by what its author gives for another frame.
+/// course), with each channel shifted by the offset that its author gives for successive frames.
 fn threshold(x: usize, y: usize, channel: usize) -> f64 {
     let shift = 5.588_238 * channel as f64;
     let (x, y) = (x as f64 + shift, y as f64 + shift);

@@ -3,7 +3,7 @@ use crate::xyz::equal_energy_luminance;
 use colorimetry::display::Response;
 use colorimetry::srgb;
 
-/// An image of one row with these colors, XYZ relative to the white's Y = 1.
+/// An image of one row with these colors, as XYZ relative to Y = 1 of the white.
 pub(crate) fn row(colors: &[[f64; 3]]) -> XyzImage {
     let xyz = colors
         .iter()
@@ -41,7 +41,7 @@ fn what_is_not_a_number_is_black_and_stays_alone() {
     assert_eq!(picture.pixel(1, 0), Some([255; 3]));
 }
 
-/// Every code of each channel alone, of grays, and mixed ones.
+/// Every code of each channel alone, every gray, and mixed codes.
 fn all_codes() -> Vec<[u8; 3]> {
     let alone = (0..=255).flat_map(|v| [[v, 0, 0], [0, v, 0], [0, 0, v], [v; 3]]);
     let mixed = (0..4096_u32).map(|i| i.wrapping_mul(2_654_435_761).to_le_bytes());
@@ -52,7 +52,7 @@ fn all_codes() -> Vec<[u8; 3]> {
 fn every_code_comes_back() {
     for name in Display::names() {
         let display = Display::named(name).unwrap();
-        // Where several codes give the same light, as below the α of a tube, the code that comes back is one of them.
+        // Where several codes give the same light, as below the α of a tube, the recovered code may be any of them.
         let is_own = |&code: &u8| {
             let light = |code| display.responses().each_ref().map(|r| r.light(code));
             let step = 1.0 / 255.0;
@@ -63,7 +63,7 @@ fn every_code_comes_back() {
         let codes: Vec<[u8; 3]> = all_codes()
             .into_iter()
             .filter(|codes| codes.iter().all(is_own))
-            // In XYZ of 24 bits, colors fifty times as bright as the white have no room for the darkest codes of PQ.
+            // In XYZ with 24 bits, colors fifty times as bright as the white leave no precision for the darkest codes of PQ.
             .filter(|codes| display.peak() == 1.0 || codes.iter().all(|code| *code == codes[0]))
             .collect();
         assert!(codes.len() > 250, "{name} {}", codes.len());
@@ -77,7 +77,7 @@ fn every_code_comes_back() {
                 std::array::from_fn(|i| shown[i] + display.black_xyz()[i])
             })
             .collect();
-        // A power law is steep at black: the rounding of XYZ there, 1e-8, is a tenth of a code, and dither shows it.
+        // A power law is steep at black: the rounding error of XYZ there, 1e-8, is a tenth of a code, and dither shows it.
         let has_finite_slope = |r: &Response| matches!(r, Response::Linear | Response::Srgb);
         let dithers: &[bool] = if display.responses().iter().all(has_finite_slope) {
             &[false, true]

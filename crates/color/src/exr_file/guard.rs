@@ -1,7 +1,7 @@
-//! Sizes that a header may claim.
+//! Limits on the sizes that a header may claim.
 //!
-//! A few damaged bytes in a header can ask for any amount of memory. Nothing is allocated for pixels
-//! before the claims have passed here.
+//! A few damaged bytes in a header can ask for any amount of memory. Memory for pixels is allocated only
+//! after the claims have been checked here.
 
 use exr::meta::BlockDescription;
 use exr::meta::header::Header;
@@ -13,15 +13,15 @@ use crate::spectral_exr::ReadExrError;
 /// The most memory that an image read from a file may take, bytes (64 GiB).
 pub const MAX_BYTES: u128 = 64 << 30;
 
-/// A picture may be so many times as large as its pixels in the file,
+/// How many times as large as its pixels in the file a picture may be, plus [`MISSING_BYTES`].
 const MOST_MISSING: u128 = 16;
-/// and this much larger, bytes: pixels that are missing take memory that no byte of the file accounts for.
+/// By how many further bytes a picture may exceed its pixels in the file: missing pixels take memory without bytes in the file.
 const MISSING_BYTES: u128 = 1 << 30;
 
-/// The most that a compression can shrink a block, with a margin for what stands beside it.
+/// Returns the largest factor by which a compression can shrink a block, with a margin for the data around it.
 ///
 /// RLE writes runs of 128 bytes in two, B44A blocks of 32 in three. DEFLATE reaches 1032:1 on equal bytes, and PXR24 hands it three
-/// bytes of four. DWA hands it and its own code for runs coefficients of which one stands for up to 63.
+/// bytes of four. DWA hands coefficients to it and to its own run-length code, in which one coefficient stands for up to 63.
 fn most_ratio(compression: Compression) -> u128 {
     match compression {
         Compression::Uncompressed => 1,
@@ -32,7 +32,7 @@ fn most_ratio(compression: Compression) -> u128 {
     }
 }
 
-/// Refuses headers whose claims the length of the file cannot account for.
+/// Rejects headers that claim more than the length of the file can account for.
 pub(crate) fn check(
     context: &Context<'_>,
     headers: &[Header],
@@ -45,7 +45,7 @@ pub(crate) fn check(
     if table_bytes > file_bytes {
         return Err(context.damaged("the file is shorter than its own table of contents"));
     }
-    // The decoder multiplies these without looking.
+    // The decoder multiplies these without a check.
     if headers.iter().any(|header| block_bytes(header) > MAX_BYTES) {
         return Err(context.damaged("a block of pixels is larger than any image"));
     }
@@ -63,7 +63,8 @@ pub(crate) fn check(
     Ok(())
 }
 
-/// Whether an image of the display window, which takes so many bytes, may be as large as it is, and the memory for it is there.
+/// Whether an image of the display window may be as large as it is, and memory for it is available; `bytes_of` returns the bytes
+/// of an image of a width and a height.
 pub(crate) fn fits(window: &Window, bytes_of: impl Fn(u32, u32) -> u128) -> bool {
     let bytes =
         |(width, height): (usize, usize)| match (u32::try_from(width), u32::try_from(height)) {
@@ -81,11 +82,11 @@ pub(crate) fn fits(window: &Window, bytes_of: impl Fn(u32, u32) -> u128) -> bool
     {
         return false;
     }
-    // Asking for it here gives an error; asking for it in the image would end the program.
+    // A failed allocation is an error here; in the image it would abort the program.
     usize::try_from(shown).is_ok_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok())
 }
 
-/// Bytes of a header's largest block.
+/// Returns the bytes of a header's largest block.
 fn block_bytes(header: &Header) -> u128 {
     let pixels = match header.blocks {
         BlockDescription::Tiles(tiles) => {

@@ -1,4 +1,4 @@
-//! What reading spectral files and files of colors has in common: opening, checks of what a header claims, blocks, windows.
+//! Shared code for reading spectral files and color files: opening, checks of header claims, blocks, windows.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek};
@@ -23,10 +23,10 @@ mod window;
 
 pub(crate) use window::{Run, Window};
 
-/// Names that a message lists.
+/// The most names that a message lists.
 const MOST_LISTED: usize = 24;
 
-/// Opens a file and reads its header; with it comes the file's length in bytes. What the header claims is checked by
+/// Opens a file and reads its header. Returns the reader and the file's length in bytes. The header's claims are checked by
 /// [`guard::check`].
 pub(crate) fn open(path: &Path) -> Result<(Reader<BufReader<File>>, u64), ReadExrError> {
     let file_error = |source| ReadExrError::File {
@@ -49,7 +49,7 @@ pub(crate) fn open(path: &Path) -> Result<(Reader<BufReader<File>>, u64), ReadEx
     Ok((reader, length))
 }
 
-/// Refuses what the decoder does not read, by its name.
+/// Rejects data that the decoder does not support, with an error that names it.
 fn check_form(context: &Context<'_>, headers: &[Header]) -> Result<(), ReadExrError> {
     if headers.iter().any(|header| header.deep) {
         return Err(context.unsupported("deep data, that is several samples per pixel"));
@@ -78,7 +78,7 @@ fn check_form(context: &Context<'_>, headers: &[Header]) -> Result<(), ReadExrEr
     }
 }
 
-/// Whether the file begins with the four bytes of an `OpenEXR` file; leaves it at its start.
+/// Whether the file begins with the four bytes of an `OpenEXR` file. The file is left at its start.
 fn is_exr(file: &mut File) -> io::Result<bool> {
     let mut magic = Vec::new();
     Read::by_ref(file).take(4).read_to_end(&mut magic)?;
@@ -86,12 +86,12 @@ fn is_exr(file: &mut File) -> io::Result<bool> {
     Ok(magic == [0x76, 0x2f, 0x31, 0x01])
 }
 
-/// A channel's or part's name, whatever its bytes are.
+/// Returns the name of a channel or part, with invalid UTF-8 replaced.
 pub(crate) fn name_of(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// Names in quotation marks, control characters escaped; of many the first ones, and how many more there are.
+/// Lists names in quotation marks, with control characters escaped; of many names the first ones and the number of the others.
 pub(crate) fn listed(names: &[String]) -> String {
     let shown = names.iter().take(MOST_LISTED);
     let shown: Vec<String> = shown.map(|name| format!("{name:?}")).collect();
@@ -101,7 +101,7 @@ pub(crate) fn listed(names: &[String]) -> String {
     }
 }
 
-/// Decompresses the blocks of a part, some at a time on all cores, and hands those of full size on in order.
+/// Decompresses the blocks of a part, several at a time on all cores, and passes those of full size to `insert` in order.
 pub(crate) fn each_block(
     context: &Context<'_>,
     reader: Reader<BufReader<File>>,
@@ -124,7 +124,7 @@ pub(crate) fn each_block(
                 .map(|chunk| UncompressedBlock::decompress_chunk(chunk, &meta, false))
                 .collect()
         })?;
-        // Others are smaller versions of the same image.
+        // Other levels are smaller versions of the same image.
         let full_size = blocks
             .iter()
             .filter(|block| block.index.level == Vec2(0, 0));
@@ -135,7 +135,7 @@ pub(crate) fn each_block(
     }
 }
 
-/// Calls `put` with the index and value of so many samples of a line, after those to skip.
+/// Calls `put` with the index and value of `count` samples of a line, after the first `skip`.
 pub(crate) fn each_sample(
     line: LineRef<'_>,
     kind: SampleType,
@@ -155,7 +155,7 @@ pub(crate) fn each_sample(
     }
 }
 
-/// The samples of four bytes in a line.
+/// Returns the four-byte samples of a line.
 pub(crate) fn words(bytes: &[u8]) -> impl Iterator<Item = [u8; 4]> + '_ {
     bytes.chunks_exact(4).map(|b| [b[0], b[1], b[2], b[3]])
 }
@@ -181,7 +181,7 @@ impl Context<'_> {
         }
     }
 
-    /// Runs a step of the decoder. Some damage makes the decoder panic: here that is an error too.
+    /// Runs a step of the decoder. Some damage makes the decoder panic, which becomes an error here.
     pub(crate) fn run<T>(
         &self,
         step: impl FnOnce() -> exr::error::Result<T>,

@@ -1,25 +1,25 @@
-//! Where the pixels that a file holds lie in its picture.
+//! Position of a file's pixels in its picture.
 
 use exr::meta::header::Header;
 
 /// The data window, whose pixels a file holds, in the display window, which is the picture. Pixels of the picture that the file
-/// does not hold are black; those that lie outside the picture are cut off.
+/// does not hold are black; pixels of the file outside the picture are cut off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Window {
     size: (usize, usize),
     data: (usize, usize),
-    /// Place of the data window's first pixel in the picture.
+    /// Position of the data window's first pixel in the picture.
     offset: (i64, i64),
 }
 
-/// Neighboring samples of a row that lie in the picture.
+/// Consecutive samples of a row that lie in the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Run {
-    /// How many samples before them are cut off.
+    /// Number of samples before them that are cut off.
     pub(crate) skip: usize,
-    /// How many they are.
+    /// Number of samples.
     pub(crate) count: usize,
-    /// Place of the first one in the picture.
+    /// Column of the first one in the picture.
     pub(crate) x: usize,
     /// Their row in the picture.
     pub(crate) y: usize,
@@ -47,7 +47,7 @@ impl Window {
         self.size
     }
 
-    /// Width and height of what the file holds.
+    /// Width and height of the data window in pixels.
     pub(crate) fn data(&self) -> (usize, usize) {
         self.data
     }
@@ -57,7 +57,7 @@ impl Window {
         x.checked_add(count).is_some_and(|end| end <= self.data.0) && y < self.data.1
     }
 
-    /// Where `count` samples from column `x` of row `y` of the data window lie; `None` where none lies in the picture.
+    /// Returns where `count` samples from column `x` of row `y` of the data window lie; `None` if none of them is in the picture.
     pub(crate) fn place(&self, (x, y): (usize, usize), count: usize) -> Option<Run> {
         let row = usize::try_from(y as i64 + self.offset.1).ok();
         let row = row.filter(|&row| row < self.size.1)?;
@@ -72,7 +72,7 @@ impl Window {
         })
     }
 
-    /// How many pixels of a row of the picture the file holds.
+    /// Number of pixels of a row of the picture that the file holds.
     pub(crate) fn held_in_row(&self, y: usize) -> usize {
         let data_row = y as i64 - self.offset.1;
         if !(0..self.data.1 as i64).contains(&data_row) {
@@ -82,7 +82,7 @@ impl Window {
             .map_or(0, |run| run.count)
     }
 
-    /// What is black and what is cut off, if anything.
+    /// Describes which pixels are black and which are cut off, if any.
     pub(crate) fn note(&self) -> Option<String> {
         let ((width, height), (own_width, own_height)) = (self.size, self.data);
         let (x, y) = self.offset;

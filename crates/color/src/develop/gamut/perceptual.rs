@@ -1,4 +1,4 @@
-//! Constant hue and lightness in Oklab.
+//! Gamut mapping at constant hue and lightness in Oklab.
 
 use colorimetry::matrix::{inverse, product, times};
 use colorimetry::oklab::{LAB_FROM_ROOTS, LMS_FROM_XYZ};
@@ -8,10 +8,10 @@ use super::Gamut;
 
 /// A display's primaries in Oklab, adapted to its white.
 ///
-/// Oklab is made for the white D65. Its responses are divided here by those to the display's white (von Kries 1902), so that the
-/// grays of every display are the grays of the space; for a display of white D65 that changes nothing.
+/// Oklab is defined for the white D65. Its responses are divided here by the responses to the display's white (von Kries 1902),
+/// so that the grays of every display are the grays of the space; for a display of white D65 that changes nothing.
 ///
-/// With l, m, s the responses, Oklab is linear in their roots r = (∛l, ∛m, ∛s), and its gray of lightness L is r = (L, L, L).
+/// If l, m, s are the responses, Oklab is linear in their roots r = (∛l, ∛m, ∛s), and its gray of lightness L is r = (L, L, L).
 /// A line of constant hue and lightness is therefore r = L + t k, and red, green and blue along it are cubics in t.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Perceptual {
@@ -32,8 +32,8 @@ impl Perceptual {
         }
     }
 
-    /// The most chroma that the display shows of a color's hue and lightness, of that color's chroma at most. A color darker
-    /// or lighter than every gray of the display takes the lightness of the nearest gray.
+    /// Returns the color of the same hue and lightness with the most chroma that the display can show, at most the chroma of
+    /// `rgb`. A color darker or lighter than every gray of the display takes the lightness of the nearest gray.
     pub(super) fn map(&self, rgb: [f64; 3], gamut: &Gamut) -> [f64; 3] {
         let roots = times(&self.lms_from_rgb, rgb).map(f64::cbrt);
         let lightness: f64 = (0..3).map(|i| LAB_FROM_ROOTS[0][i] * roots[i]).sum();
@@ -54,15 +54,15 @@ impl Perceptual {
     }
 }
 
-/// c₀ + c₁ t + c₂ t² + c₃ t³.
+/// The cubic c₀ + c₁ t + c₂ t² + c₃ t³.
 #[derive(Clone, Copy, Debug)]
 struct Cubic([f64; 4]);
 
 impl Cubic {
-    /// Σ mᵢ (L + t kᵢ)³ with m a row of the matrix from responses to a channel.
+    /// Returns Σ mᵢ (L + t kᵢ)³, where m is a row of the matrix from responses to a channel.
     fn along(m: [f64; 3], l: f64, k: [f64; 3]) -> Self {
         let moment = |power: i32| -> f64 { (0..3).map(|i| m[i] * k[i].powi(power)).sum() };
-        // The rows of the matrix have the sum 1: gray is gray.
+        // Each row of the matrix sums to 1, so gray stays gray.
         Self([
             l * l * l,
             3.0 * l * l * moment(1),
@@ -85,7 +85,7 @@ impl Cubic {
         Self(self.0.map(|c| -c))
     }
 
-    /// How far from 0 the cubic, which is not negative there, stays so: the smallest root, or `end` if there is none before it.
+    /// Returns the smallest root above 0 of a cubic that is not negative at 0, or `end` if there is no root before it.
     fn stays_positive_to(self, end: f64) -> f64 {
         let mut from = 0.0;
         for to in self.turns_before(end) {
@@ -97,21 +97,22 @@ impl Cubic {
         end
     }
 
-    /// Where the cubic changes direction between 0 and `end`, rising, and `end` itself.
+    /// Returns the turning points of the cubic between 0 and `end` in ascending order, and then `end` itself.
     fn turns_before(self, end: f64) -> impl Iterator<Item = f64> {
         let Self([_, c1, c2, c3]) = self;
-        // c₁ + 2 c₂ t + 3 c₃ t² = 0, in the form that loses no digits (Press et al., Numerical Recipes, section 5.6).
+        // c₁ + 2 c₂ t + 3 c₃ t² = 0, solved without cancellation (Press et al., Numerical Recipes, section 5.6).
         let q = -(c2 + (c2 * c2 - 3.0 * c1 * c3).sqrt().copysign(c2));
         let (a, b) = (q / (3.0 * c3), c1 / q);
-        // Turns that are not numbers, or outside, drop out.
+        // Turning points that are NaN or out of range are dropped.
         [a.min(b), a.max(b)]
             .into_iter()
             .filter(move |&t| t > 0.0 && t < end)
             .chain([end])
     }
 
-    /// The root between a place where the cubic is not negative and one where it is, with no turn between them: Newton's steps,
-    /// and halves where they lead out. The place returned is on the side that is not negative, up to rounding.
+    /// Returns the root between a point where the cubic is not negative and one where it is negative, with no turning point
+    /// between them: Newton's method, with bisection where a step leaves the interval. The point returned is on the side that is
+    /// not negative, up to rounding.
     fn root_between(self, mut inside: f64, mut outside: f64) -> f64 {
         let Self([_, c1, c2, c3]) = self;
         let mut t = 0.5 * (inside + outside);

@@ -1,4 +1,4 @@
-//! How much of a picture a display cannot show, and by how much.
+//! How many pixels of a picture a display cannot show, and how far they are outside its gamut.
 
 use colorimetry::Lab;
 use colorimetry::lab::delta_e_2000;
@@ -7,30 +7,30 @@ use rayon::prelude::*;
 use super::{Gamut, xyz_of};
 use crate::develop::{DevelopSettings, LinearImage};
 
-/// How much of a picture lies outside the gamut of its display, and how far the mapping moves it: ΔE₀₀ between the color asked
-/// for and the one shown, under the display's white.
+/// The pixels of a picture that lie outside the gamut of its display, and how far the mapping moves them: ΔE₀₀ between the
+/// wanted color and the color shown, under the display's white.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GamutReport {
-    /// Pixels of the picture.
+    /// Number of pixels of the picture.
     pub pixels: usize,
-    /// Those that the display cannot show.
+    /// Number of pixels that the display cannot show.
     pub outside: usize,
-    /// Those among them of more luminance than the display has for any color: too bright, whatever their saturation.
+    /// Number of pixels outside that are brighter than the lightest gray of the display: too bright at any saturation.
     pub too_bright: usize,
-    /// Those among them that are no numbers, and are not in the figures below.
+    /// Number of pixels outside that are not finite; the figures below exclude them.
     pub not_finite: usize,
-    /// ΔE₀₀ of the pixels outside: mean; 0 where there are none.
+    /// Mean ΔE₀₀ of the pixels outside; 0 if there are none.
     pub mean: f64,
-    /// Median.
+    /// Median ΔE₀₀.
     pub median: f64,
-    /// 95th percentile.
+    /// 95th percentile of ΔE₀₀.
     pub p95: f64,
-    /// Largest.
+    /// Largest ΔE₀₀.
     pub max: f64,
 }
 
 impl GamutReport {
-    /// Of a picture that was exposed, and not yet mapped.
+    /// Creates the report of a picture that is exposed but not yet mapped.
     pub fn of(image: &LinearImage, settings: &DevelopSettings) -> Self {
         let gamut = Gamut::new(&settings.display);
         let outside: Vec<Outside> = image
@@ -62,7 +62,7 @@ impl GamutReport {
         }
     }
 
-    /// The share of the pixels that lies outside, 0 to 1.
+    /// The fraction of the pixels that lies outside, 0 to 1.
     pub fn share(&self) -> f64 {
         self.outside as f64 / self.pixels.max(1) as f64
     }
@@ -71,7 +71,7 @@ impl GamutReport {
 /// A pixel outside the gamut.
 struct Outside {
     too_bright: bool,
-    /// `None` for what is not a number.
+    /// `None` if it is not finite.
     delta_e: Option<f64>,
 }
 

@@ -11,7 +11,7 @@ fn display() -> Display {
     Display::named("srgb").unwrap()
 }
 
-/// Colors in and around the gamut of sRGB, far outside too.
+/// Colors inside and around the gamut of sRGB, including some far outside.
 fn colors() -> impl Iterator<Item = [f64; 3]> {
     let steps = (-6..=18).map(|i| f64::from(i) / 8.0);
     steps.clone().flat_map(move |r| {
@@ -75,7 +75,7 @@ fn perceptual_keeps_hue_and_lightness_and_takes_the_least_chroma() {
             assert!(turn.abs() < 0.6, "{rgb:?} {from:?} {to:?}");
             changed += 1;
         }
-        // A little more of the chroma is no longer shown.
+        // The display cannot show the color with slightly more chroma.
         let share = to.chroma() / from.chroma();
         if from.l > 0.05 && from.l < 0.95 {
             let more = Oklab {

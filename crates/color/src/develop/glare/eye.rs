@@ -1,4 +1,4 @@
-//! Light scattered in a human eye.
+//! Glare from light scattered in a human eye.
 //!
 //! G. Spencer, P. Shirley, K. Zimmerman and D. P. Greenberg, Physically-based glare effects for digital images, SIGGRAPH 95, 325.
 
@@ -11,7 +11,7 @@ use super::mirror::{Mirror, Spectrum};
 use super::{DevelopError, Latent, LinearImage};
 use crate::BandWeights;
 
-/// The state of the eye, which its pupil follows.
+/// The adaptation state of the eye, which determines its pupil.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Vision {
     /// Adapted to light: a small pupil, and no halo.
@@ -19,12 +19,12 @@ pub enum Vision {
     /// Between light and dark, as in front of a display in the evening.
     #[default]
     Mesopic,
-    /// Adapted to the dark: a wide pupil, whose rim gives the lenticular halo.
+    /// Adapted to the dark: a wide pupil, whose rim causes the lenticular halo.
     Scotopic,
 }
 
 impl Vision {
-    /// The shares of f₀, f₁, f₂ and f₃; their sum is 1.
+    /// The weights of f₀, f₁, f₂ and f₃; their sum is 1.
     fn shares(self) -> [f64; 4] {
         match self {
             Self::Photopic => [0.384, 0.478, 0.138, 0.0],
@@ -34,18 +34,18 @@ impl Vision {
     }
 }
 
-/// Light scattered in a human eye that looks at the scene.
+/// Glare from light scattered in a human eye that looks at the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EyeGlare {
-    /// The angle that a pixel in the middle of the picture takes of the view. The same angle is taken everywhere, which a
-    /// picture of a wide view stretches toward its corners.
+    /// The angle of view of a pixel in the middle of the picture. The same angle is used for all pixels; in a picture with a wide
+    /// view, this stretches the glare toward the corners.
     pub degrees_per_pixel: f64,
     /// The state of the eye.
     pub vision: Vision,
 }
 
 impl EyeGlare {
-    /// For a picture of a perspective camera whose view is `fov_deg` high.
+    /// Returns the glare for a picture of a perspective camera with the vertical field of view `fov_deg`.
     pub fn of_view(fov_deg: f64, height: u32, vision: Vision) -> Self {
         let half = (0.5 * fov_deg.to_radians()).tan();
         Self {
@@ -55,10 +55,10 @@ impl EyeGlare {
     }
 }
 
-/// Spencer's four functions at θ degrees from the light, per steradian:
+/// Returns Spencer's four functions at θ degrees from the source, per steradian:
 ///
 /// f₀ = 2.61·10⁶ exp(−(θ/0.02)²), f₁ = 20.91/(θ + 0.02)³, f₂ = 72.37/(θ + 0.02)² and the lenticular halo, a ring about 3° wide,
-/// f₃ = 436.9 (568/λ) exp(−19.75 (θ − 3λ/568)²) with λ in nm. Each holds all light once, over the half space in front of the eye.
+/// f₃ = 436.9 (568/λ) exp(−19.75 (θ − 3λ/568)²) with λ in nm. Each integrates to 1 over the half space in front of the eye.
 pub fn point_spread(theta_deg: f64, nm: f64) -> [f64; 4] {
     let near = theta_deg + 0.02;
     [
@@ -69,14 +69,15 @@ pub fn point_spread(theta_deg: f64, nm: f64) -> [f64; 4] {
     ]
 }
 
-/// The wavelength of light whose wavelength is not known: the one that f₃ is written for.
+/// The wavelength assumed for light of unknown wavelength: the reference wavelength of f₃.
 const MEAN_NM: f64 = 568.0;
 
-/// Scatters a picture that `rgb_from_xyz` made of `latent`, whose XYZ are those of `observer`.
+/// Scatters a picture that `rgb_from_xyz` computed from `latent`, whose XYZ are those of `observer`.
 ///
-/// The spread is cut at the picture's size and scaled to the sum 1, so that no light is lost; beyond the picture the scene is
-/// taken to go on as in mirrors. Only the halo depends on wavelength: it is spread band by band, the rest once. Where the bands
-/// do not sum up to the picture's color, the remainder is spread as light of 568 nm. What is not a number does not scatter.
+/// The kernel is cut at the picture's size and scaled to the sum 1, so no light is lost; beyond the picture the scene is assumed
+/// to continue as in mirrors. Only the halo depends on wavelength: it is spread band by band, everything else once. Where the
+/// bands do not add up to the picture's color, the remainder is spread as light of 568 nm. Pixels that are not finite do not
+/// scatter.
 pub(super) fn add(
     image: &mut LinearImage,
     latent: &Latent<'_>,
@@ -102,12 +103,12 @@ pub(super) fn add(
     Ok(())
 }
 
-/// The spread on the pixels of a picture.
+/// The point spread function as convolution kernels on the pixels of a picture.
 struct Kernels {
     mirror: Mirror,
     shares: [f64; 4],
     degrees_per_pixel: f64,
-    /// Transform and sum of f₀, f₁ and f₂ with their shares.
+    /// Transform and sum of f₀, f₁ and f₂ with their weights.
     common: (Spectrum, f64),
 }
 
@@ -130,10 +131,10 @@ impl Kernels {
         }
     }
 
-    /// The halo with its share, at a distance in pixels.
+    /// Returns the weighted halo as a function of the distance in pixels.
     fn halo(&self, nm: f64) -> impl Fn(usize, usize) -> f64 + Sync {
         let (pixel, share) = (self.degrees_per_pixel, self.shares[3]);
-        // Beyond eight widths of the ring there is nothing.
+        // Beyond eight standard deviations of the ring the halo is negligible.
         let (radius, reach) = (3.0 * nm / 568.0, 8.0 / (2.0 * 19.75_f64).sqrt() + pixel);
         move |x, y| {
             let theta = pixel * (x as f64).hypot(y as f64);
@@ -146,12 +147,12 @@ impl Kernels {
         }
     }
 
-    /// What light of a wavelength is multiplied by, so that its whole spread has the sum 1.
+    /// Returns the factor on light of a wavelength that makes its whole kernel sum to 1.
     fn scale(&self, nm: f64) -> f64 {
         1.0 / (self.common.1 + self.mirror.sum_of_kernel(self.halo(nm)))
     }
 
-    /// The transforms of red, green and blue, scattered without a halo.
+    /// Returns the transforms of red, green and blue, scattered without a halo.
     fn of_colors(&self, image: &LinearImage) -> [Spectrum; 3] {
         let (kernel, sum) = &self.common;
         std::array::from_fn(|channel| {
@@ -162,9 +163,9 @@ impl Kernels {
         })
     }
 
-    /// The transforms of red, green and blue, the halo of each band scattered apart.
+    /// Returns the transforms of red, green and blue, with the halo of each band scattered separately.
     fn of_spectrum(&self, image: &LinearImage, bands: &Bands<'_>) -> [Spectrum; 3] {
-        // Light of a band is scaled by the sum of its own spread; the remainder by that of the middle.
+        // Light of a band is scaled by the sum of its own kernel; the remainder by that of the mean wavelength.
         let middle = self.mirror.of_kernel(self.halo(MEAN_NM));
         let middle_scale = self.scale(MEAN_NM);
         let scales: Vec<f64> = bands.centers_nm.iter().map(|&nm| self.scale(nm)).collect();
@@ -202,7 +203,7 @@ impl Kernels {
     }
 }
 
-/// `sum` times `kernel`; or, of another spectrum, that times `kernel` added to it.
+/// Multiplies `sum` by `kernel`; if there is another spectrum, adds the product of it and `kernel` instead.
 fn add_product(other: Option<&Spectrum>, sum: &mut Spectrum, kernel: &Spectrum) {
     match other {
         None => sum.iter_mut().zip(kernel).for_each(|(v, k)| *v *= k),
@@ -213,7 +214,7 @@ fn add_product(other: Option<&Spectrum>, sum: &mut Spectrum, kernel: &Spectrum) 
     }
 }
 
-/// A color, or black where it is no number.
+/// A color, or black if it is not finite.
 fn finite(rgb: [f32; 3]) -> [f64; 3] {
     if rgb.iter().all(|v| v.is_finite()) {
         rgb.map(f64::from)
@@ -222,8 +223,8 @@ fn finite(rgb: [f32; 3]) -> [f64; 3] {
     }
 }
 
-/// Into how many parts each side of a pixel is cut for f₀, f₁ and f₂: an eighth of what they change over, which is 0.02° at the
-/// light and grows with the angle. Far from the light that is the whole pixel.
+/// Number of parts into which each side of a pixel is divided for f₀, f₁ and f₂. A part is an eighth of the angle over which they
+/// change, which is 0.02° at the source and grows with the distance from it. Far from the source one part is the whole pixel.
 fn core_parts([x, y]: [usize; 2], degrees_per_pixel: f64) -> usize {
     let [x, y] = [x, y].map(|v| v as f64);
     let nearest = degrees_per_pixel * (x - 0.5).max(0.0).hypot((y - 0.5).max(0.0));
@@ -235,13 +236,13 @@ fn core_parts([x, y]: [usize; 2], degrees_per_pixel: f64) -> usize {
     }
 }
 
-/// The same for f₃: a quarter of what it changes over, 0.16° at every angle.
+/// Number of parts for f₃: a part is a quarter of the angle over which it changes, 0.16° at every distance.
 fn halo_parts(degrees_per_pixel: f64) -> usize {
-    // The bound is reached by pixels of 10°, of which a picture has few.
+    // Pixels reach the bound at 10°; a picture has few of those.
     ((4.0 * degrees_per_pixel / 0.16).ceil() as usize).clamp(1, 256)
 }
 
-/// The mean of a function of the angle over the square of a pixel: that of the middles of its parts.
+/// Returns the mean of a function of the angle over the square of a pixel, from the midpoints of its parts.
 fn over_pixel(
     [x, y]: [usize; 2],
     degrees_per_pixel: f64,
@@ -259,7 +260,7 @@ fn over_pixel(
     sum / (parts * parts) as f64
 }
 
-/// The bands of an image and what each gives of red, green and blue.
+/// The bands of an image and the red, green and blue that each contributes.
 struct Bands<'a> {
     radiance: &'a [f32],
     centers_nm: Vec<f64>,
@@ -267,7 +268,7 @@ struct Bands<'a> {
 }
 
 impl<'a> Bands<'a> {
-    /// For a picture that `rgb_from_xyz` makes of the XYZ of `observer`.
+    /// The bands for a picture that `rgb_from_xyz` computes from the XYZ of `observer`.
     fn new(
         grid: &BandGrid,
         radiance: &'a [f32],
@@ -283,7 +284,7 @@ impl<'a> Bands<'a> {
         }
     }
 
-    /// The bands' sum of a channel at a pixel, each band times its scale.
+    /// Returns the sum of the bands for a channel of a pixel, each band times its scale.
     fn color(&self, pixel: usize, channel: usize, scales: Option<&[f64]>) -> f64 {
         let bands = self.weights.len();
         let values = &self.radiance[pixel * bands..(pixel + 1) * bands];
@@ -293,14 +294,14 @@ impl<'a> Bands<'a> {
             .sum()
     }
 
-    /// A band of every pixel.
+    /// Returns a band of every pixel.
     fn plane(&self, band: usize) -> Vec<f64> {
         let pixels = self.radiance.par_chunks_exact(self.weights.len());
         pixels.map(|values| lit(values[band])).collect()
     }
 }
 
-/// A radiance, or none where it is no number.
+/// A radiance, or 0 if it is not finite.
 fn lit(radiance: f32) -> f64 {
     if radiance.is_finite() {
         f64::from(radiance)

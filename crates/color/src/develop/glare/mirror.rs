@@ -1,18 +1,18 @@
-//! Convolution of a picture with an even kernel, the picture continued beyond its edges as in mirrors.
+//! Convolution of a picture with an even kernel, with the picture mirrored at its edges.
 //!
-//! What lies outside a picture is not known. Mirrors at its edges keep the sum of its values and leave an even picture even. The
-//! Fourier transform of a mirrored picture is its cosine transform, of the same size and real, and so is that of an even kernel:
-//! with X the transform of kind II of the picture and K that of kind I of the kernel's quadrant, the convolved picture has K X
-//! (S. A. Martucci, Symmetric convolution and the discrete sine and cosine transforms, IEEE Trans. Signal Process. 42, 1038
-//! (1994)).
+//! Nothing is known about the scene outside a picture. Mirroring at the edges keeps the sum of the values and leaves a uniform
+//! picture uniform. The Fourier transform of a mirrored picture is its cosine transform, of the same size and real, and so is that
+//! of an even kernel: if X is the transform of kind II of the picture and K the transform of kind I of the kernel's quadrant, the
+//! transform of the convolved picture is K X (S. A. Martucci, Symmetric convolution and the discrete sine and cosine transforms,
+//! IEEE Trans. Signal Process. 42, 1038 (1994)).
 //!
-//! In `f64`: the rounding of a transform spreads over the whole picture, in proportion to its brightest lamp.
+//! Arithmetic is `f64`: the rounding error of a transform spreads over the whole picture, in proportion to its brightest lamp.
 
 use rayon::prelude::*;
 use rustdct::{Dct1, DctPlanner, TransformType2And3};
 use std::sync::Arc;
 
-/// Transforms of pictures of one size.
+/// The transforms for pictures of one size.
 pub(super) struct Mirror {
     width: usize,
     height: usize,
@@ -34,7 +34,7 @@ impl Mirror {
         }
     }
 
-    /// The transform of a picture, row by row.
+    /// Returns the transform of a picture, given row by row.
     pub(super) fn of_picture(&self, mut picture: Vec<f64>) -> Spectrum {
         let [rows, columns] = &self.pictures;
         lines(&mut picture, self.width, |row| rows.process_dct2(row));
@@ -45,7 +45,7 @@ impl Mirror {
         spectrum
     }
 
-    /// The picture of a transform.
+    /// Returns the picture of a transform.
     pub(super) fn picture(&self, mut spectrum: Spectrum) -> Vec<f64> {
         let [rows, columns] = &self.pictures;
         let scale = 4.0 / (self.width * self.height) as f64;
@@ -58,7 +58,7 @@ impl Mirror {
         picture
     }
 
-    /// The sum of a kernel, as [`Self::of_kernel`] takes it, which is the first value of its transform.
+    /// Returns the sum of a kernel, given as for [`Self::of_kernel`]; it equals the first value of the transform.
     pub(super) fn sum_of_kernel(&self, value: impl Fn(usize, usize) -> f64 + Sync) -> f64 {
         let times = |at: usize, size: usize| if at == 0 || at == size { 1.0 } else { 2.0 };
         let row = |y: usize| -> f64 {
@@ -69,8 +69,8 @@ impl Mirror {
         rows.iter().sum()
     }
 
-    /// The transform of an even kernel, given by its values at each distance from 0 to the width and the height, both included.
-    /// It reaches no further; what is the whole width away, on either side, is the same place and counts once.
+    /// Returns the transform of an even kernel, given by its values at each distance from 0 to the width and the height inclusive.
+    /// The kernel reaches no further. Pixels one full width away, on either side, coincide and count once.
     pub(super) fn of_kernel(&self, value: impl Fn(usize, usize) -> f64 + Sync) -> Spectrum {
         let (width, height) = (self.width + 1, self.height + 1);
         let [rows, columns] = &self.kernels;
@@ -90,7 +90,7 @@ impl Mirror {
             columns.process_dct1(column);
             scale_by(column, 4.0);
         });
-        // The highest frequency, which pictures do not have, goes.
+        // Drop the highest frequency, which pictures do not have.
         let columns = spectrum.chunks_exact(height);
         columns
             .flat_map(|column| &column[..self.height])
@@ -110,10 +110,10 @@ fn lines(values: &mut [f64], length: usize, transform: impl Fn(&mut [f64]) + Sen
     values.par_chunks_mut(length).for_each(transform);
 }
 
-/// Rows of `width` values as columns.
+/// Returns rows of `width` values as columns.
 fn transposed(values: &[f64], width: usize, height: usize) -> Vec<f64> {
     let mut columns = vec![0.0; values.len()];
-    // Eight columns at a time: a cache line of each row is then used whole.
+    // Eight columns at a time use a whole cache line of each row.
     columns
         .par_chunks_mut(8 * height)
         .enumerate()
@@ -139,7 +139,7 @@ mod tests {
         }
     }
 
-    /// Index of the pixel at a place that may lie beyond the edges, by up to the size.
+    /// Index of the pixel at a position that may lie beyond the edges, by up to the size.
     fn mirrored(at: isize, size: usize) -> usize {
         let size = size as isize;
         let at = at.rem_euclid(2 * size);

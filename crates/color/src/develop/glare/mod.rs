@@ -1,7 +1,7 @@
-//! Glare: what bright light does to its environment in the eye that sees it.
+//! Glare: the light that bright sources scatter around themselves in the eye of a viewer.
 //!
-//! A display is never as bright as a lamp, and scatters less light in the eye than the lamp would. What the lamp would have
-//! scattered is put into the picture.
+//! A display is never as bright as a lamp, so less of its light scatters in the eye. The light that the lamp would have scattered
+//! is added to the picture.
 
 mod eye;
 mod mirror;
@@ -14,19 +14,19 @@ use super::{DevelopError, DevelopSettings, Latent, LinearImage};
 pub use eye::{EyeGlare, Vision, point_spread};
 pub use star::StarGlare;
 
-/// What bright light does to its environment.
+/// The glare around bright light.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Glare {
-    /// Nothing.
+    /// No glare.
     #[default]
     Off,
-    /// What is brighter than the display becomes a star with four arms.
+    /// Pixels brighter than the display's white become stars with four arms.
     Star(StarGlare),
     /// All light scatters as in a human eye.
     Eye(EyeGlare),
 }
 
-/// Adds glare to a picture that `rgb_from_xyz` made of `latent`.
+/// Adds glare to a picture that `rgb_from_xyz` computed from `latent`.
 pub(super) fn add(
     image: &mut LinearImage,
     latent: &Latent<'_>,

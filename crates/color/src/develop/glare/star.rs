@@ -1,18 +1,19 @@
-//! A star about what is too bright for the display.
+//! Star-shaped glare around pixels that are too bright for the display.
 //!
-//! Of a highlight the display shows as much as it can; the rest is smeared up, down, left and right, as Suzuki, Yokoi and Toriwaki
-//! do in their figures 15 and 16. They give no profile: here a quarter of the excess goes each way, from the highlight itself on,
-//! and falls exponentially, so that nothing is lost but what leaves the picture, and no arm is brighter than its origin.
+//! The display shows as much of a highlight as it can. The excess is smeared up, down, left and right, as in figures 15 and 16 of
+//! Suzuki, Yokoi and Toriwaki. They give no profile: here a quarter of the excess goes in each direction, starting at the
+//! highlight itself, and falls off exponentially. Only light that leaves the picture is lost, and no arm is brighter than its
+//! origin.
 
 use colorimetry::Display;
 
 use super::LinearImage;
 
-/// A star with four arms about each pixel whose luminance is above the display's brightest white. A saturated color that is no
-/// brighter than that is left to gamut mapping.
+/// A star with four arms around each pixel whose luminance is above the display's brightest white. Saturated colors that are no
+/// brighter are left to gamut mapping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StarGlare {
-    /// The distance over which an arm falls to 1/e, as a share of the picture's height.
+    /// The distance over which an arm falls to 1/e, as a fraction of the picture's height.
     pub length: f64,
 }
 
@@ -22,7 +23,7 @@ impl Default for StarGlare {
     }
 }
 
-/// Takes from each pixel what exceeds the luminance of `display`'s peak, its chromaticity kept, and smears it.
+/// Removes from each pixel the light above the luminance of `display`'s peak, keeping its chromaticity, and smears it.
 pub(super) fn add(image: &mut LinearImage, star: StarGlare, display: &Display) {
     let (luminance, peak) = (display.xyz_from_rgb()[1], display.peak());
     let (width, height) = (image.width as usize, image.height as usize);
@@ -36,7 +37,7 @@ pub(super) fn add(image: &mut LinearImage, star: StarGlare, display: &Display) {
         return;
     }
     let mut add = |line: &mut dyn Iterator<Item = usize>| {
-        // What has come along this arm so far, the pixel's own included; at each step the share `falloff` of it goes on.
+        // The light carried along this arm so far, including the pixel's own; the fraction `falloff` continues at each step.
         let mut carried = [0.0; 3];
         for at in line {
             let pixel = &mut image.rgb[at];
@@ -56,7 +57,8 @@ pub(super) fn add(image: &mut LinearImage, star: StarGlare, display: &Display) {
     }
 }
 
-/// What of a color exceeds the peak, which is left: a multiple of the color, so that both have its chromaticity.
+/// Returns the part of a color above the peak and leaves the color at the peak. Both are multiples of the color, so they keep its
+/// chromaticity.
 fn excess(rgb: &mut [f32; 3], luminance: [f64; 3], peak: f64) -> [f64; 3] {
     let color = rgb.map(f64::from);
     let y: f64 = (0..3).map(|i| luminance[i] * color[i]).sum();
@@ -101,7 +103,7 @@ mod tests {
             assert!((after / before - 1.0).abs() < 1e-6, "{before} {after}");
         }
         let at = |x: usize, y: usize| after.rgb[y * 201 + x];
-        // The center has the luminance of the white and its share of each arm.
+        // The center has the luminance of the white and its part of each arm.
         let share = f64::from(at(101, 50)[0] - 0.25) / (-1.0 / (0.02 * 101.0_f64)).exp();
         let y = 0.212_639 * 40.0 + 0.715_169 * 20.0 + 0.072_192 * 4.0;
         let expected = 40.0 / y + 4.0 * share;
@@ -130,7 +132,7 @@ mod tests {
         let mut after = before.clone();
         add(&mut after, STAR, &srgb());
         assert_eq!(after, before);
-        // On a display that goes up to 49 times its white, so does this.
+        // A display that shows up to 49 times its white leaves this color unchanged too.
         let before = point([40.0, 20.0, 4.0]);
         let mut after = before.clone();
         add(&mut after, STAR, &Display::named("bt2100_pq").unwrap());

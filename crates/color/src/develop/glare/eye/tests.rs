@@ -18,8 +18,8 @@ fn integral(index: usize, nm: f64) -> f64 {
     (0..steps).map(at).sum()
 }
 
-/// What Spencer's constants are for: each function spreads all of the light. Exactly so the first two and the halo; f₂ to the
-/// few per cent by which its tail is long.
+/// Spencer's constants normalize each function to spread all of the light: f₀, f₁ and the halo exactly; f₂ to a few percent,
+/// because of its long tail.
 #[test]
 fn each_function_holds_all_light() {
     for (index, nm, tolerance) in [
@@ -40,7 +40,7 @@ fn each_function_holds_all_light() {
     }
 }
 
-/// Of the core f₀ and of the halo the error is told as a share of the brightest, of the others as a share of the value.
+/// The error of the core f₀ and of the halo is relative to their maximum, that of the others relative to the value.
 #[test]
 fn pixels_hold_the_mean_of_the_functions() {
     for pixel in [0.02, 0.2, 0.5] {
@@ -79,7 +79,7 @@ fn pixels_hold_the_mean_of_the_functions() {
 const SIZE: [usize; 2] = [24, 16];
 const BANDS: u32 = 5;
 
-/// An image with a lamp of one band and some light elsewhere; its XYZ is a little more than its bands give.
+/// An image with a lamp of one band and some light elsewhere; its XYZ is slightly more than its bands add up to.
 fn image(lamp: f32, lamp_band: usize) -> SpectralImage {
     image_for(lamp, lamp_band, Observer::Cie1931Deg2)
 }
@@ -128,7 +128,7 @@ fn mirrored(at: isize, size: usize) -> usize {
     at.min(2 * size - 1 - at) as usize
 }
 
-/// Every pixel spreads the light of every band over every other, one by one.
+/// Direct sum: every pixel spreads the light of every band over every other pixel.
 fn direct(image: &SpectralImage, eye: EyeGlare, observer: Observer) -> Vec<[f64; 3]> {
     let plain = exposed(image, Glare::Off);
     let scale = crate::xyz::exposure_scale(0.0);
@@ -188,7 +188,7 @@ fn direct(image: &SpectralImage, eye: EyeGlare, observer: Observer) -> Vec<[f64;
     result
 }
 
-/// How far a picture is from the direct sum.
+/// The largest difference of a picture from the direct sum.
 fn worst(found: &LinearImage, expected: &[[f64; 3]]) -> f64 {
     let found = found.rgb().as_flattened().iter();
     let pairs = found.zip(expected.as_flattened());
@@ -208,7 +208,7 @@ fn it_is_the_direct_sum() {
             let found = worst(&exposed_for(&image, glare, observer), &expected);
             // The picture is kept in f32, and its brightest value is about 20.
             assert!(found < 2e-5, "{observer} {vision:?} {found}");
-            // Without a halo there are no bands to weigh.
+            // Without a halo the bands are not used.
             if observer != of_1931 && vision != Vision::Photopic {
                 let mistaken = worst(&exposed_for(&image, glare, of_1931), &expected);
                 assert!(mistaken > 5.0 * 2e-5, "{vision:?} {mistaken}");
@@ -245,7 +245,7 @@ fn no_light_is_lost_and_it_is_linear() {
     }
 }
 
-/// The halo of red light is wider than that of blue, as wavelengths are longer.
+/// The halo of red light is wider than that of blue light, since its wavelength is longer.
 #[test]
 fn the_halo_follows_wavelength() {
     let radius_deg = |nm: f64| {
