@@ -6,23 +6,23 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// Where a name leads.
+/// Where a path leads.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Destination {
-    /// To a file that is there or may be made, its links followed: it is replaced whole.
+    /// A file that exists or can be created, with symbolic links resolved. The file is replaced as a whole.
     File(PathBuf),
-    /// To a pipe or a device, which is written to as it stands.
+    /// A pipe or a device, which is written to in place.
     Stream(PathBuf),
 }
 
-/// As many links as systems follow.
+/// The most links to follow, as in operating systems.
 const MOST_LINKS: usize = 40;
 
 impl Destination {
-    /// Follows the links of a name; the last need not lead to a file.
+    /// Follows the links of a path; the file at the end need not exist.
     ///
     /// # Errors
-    /// When it is a folder, does not end in a file name, or its links lead nowhere.
+    /// When the path is a folder or does not end in a file name, or when its links form a loop.
     pub fn of(path: &Path) -> io::Result<Self> {
         let ends_in_separator = path.to_string_lossy().ends_with(std::path::is_separator);
         if ends_in_separator || path.file_name().is_none() {
@@ -37,24 +37,24 @@ impl Destination {
                 let message = "is a directory";
                 return Err(io::Error::new(io::ErrorKind::IsADirectory, message));
             }
-            // The names of open files lie there, which may be files themselves.
+            // Open files have names in these folders, and may be regular files.
             let is_of_system = path.starts_with("/dev/") || path.starts_with("/proc/");
             let is_special = kind.is_some_and(|kind| !kind.is_file());
             if is_special || (is_of_system && kind.is_some()) {
                 return Ok(Self::Stream(path));
             }
             match fs::read_link(&path) {
-                // A relative link starts where it stands.
+                // A relative link starts in its own folder.
                 Ok(link) => path = path.with_file_name("").join(link),
                 Err(_) => return Ok(Self::File(path)),
             }
         }
-        Err(io::Error::other("its links lead around"))
+        Err(io::Error::other("its symbolic links form a loop"))
     }
 }
 
-/// A file being written beside its place, under another name, so that a failure leaves no half file. What goes to a pipe or a device is
-/// gathered in the folder for temporary files. Dropped without [`PendingFile::commit`], it is removed.
+/// A file being written under another name in the folder of its target, so that a failure leaves no partial file. Output for a pipe
+/// or a device is collected in the folder for temporary files. A file dropped without [`PendingFile::commit`] is removed.
 #[derive(Debug)]
 pub struct PendingFile {
     target: Destination,
@@ -66,7 +66,7 @@ impl PendingFile {
     /// Opens a new file in the directory that `target` leads to.
     ///
     /// # Errors
-    /// Those of [`Destination::of`], and when the folder cannot be written to.
+    /// As [`Destination::of`], and when the folder cannot be written to.
     pub fn create(target: &Path) -> io::Result<Self> {
         static COUNTER: AtomicU32 = AtomicU32::new(0);
         let target = Destination::of(target)?;
@@ -94,10 +94,10 @@ impl PendingFile {
         })
     }
 
-    /// The file to write to. Dropping what is returned does not close the file.
+    /// Returns a handle to write with. Dropping the handle does not close the file.
     ///
     /// # Errors
-    /// When the system gives no second handle.
+    /// When the system provides no second handle.
     pub fn handle(&self) -> io::Result<File> {
         match &self.file {
             Some(file) => file.try_clone(),
@@ -105,10 +105,10 @@ impl PendingFile {
         }
     }
 
-    /// Puts the file in its place, over any file that stood there, or writes it to the pipe or device.
+    /// Renames the file to its target, replacing any file there, or writes it to the pipe or device.
     ///
     /// # Errors
-    /// When the file cannot be brought to the disk, renamed or written; it is then removed.
+    /// When the file cannot be flushed to disk, renamed or written; it is then removed.
     pub fn commit(mut self) -> io::Result<()> {
         match &self.target {
             Destination::File(target) => {
@@ -130,7 +130,7 @@ impl PendingFile {
 impl Drop for PendingFile {
     fn drop(&mut self) {
         if self.file.take().is_some() {
-            // An error is already on its way to the caller; there is no better place for this one.
+            // The caller already gets another error; this one cannot be reported.
             let _ = fs::remove_file(&self.temporary);
         }
     }
@@ -188,7 +188,7 @@ mod tests {
         pending.commit().unwrap();
     }
 
-    /// Relative and absolute links, links to links, and a link to what is not there yet.
+    /// Relative and absolute links, links to links, and a link to a file that does not exist yet.
     #[cfg(unix)]
     #[test]
     fn links_stay_and_what_they_lead_to_is_replaced() {
@@ -233,7 +233,7 @@ mod tests {
         assert_eq!(names(directory.path()), ["pipe"]);
     }
 
-    /// Nothing else is tried where it would be no device afterwards.
+    /// The destination is checked first, since a wrong one would replace the device by a file.
     #[cfg(unix)]
     #[test]
     fn the_null_device_is_written_to_and_stays() {

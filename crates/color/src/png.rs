@@ -1,4 +1,4 @@
-//! PNG files that say which color space they are in.
+//! PNG files that declare their color space.
 
 use std::borrow::Cow;
 use std::fs::File;
@@ -14,38 +14,38 @@ use crate::icc::{self, IccError};
 use crate::pending_file::PendingFile;
 use crate::{RgbImage, RgbImage8, cicp};
 
-/// Why a PNG file was not written. No file is left behind.
+/// Why a PNG file could not be written. No file is left behind.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WritePngError {
-    /// The file could not be opened, written or put in its place.
+    /// The file could not be opened, written or renamed to its target.
     #[error("cannot write {path}")]
     File {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// The picture cannot be put into a PNG file: it has no pixels, or too many.
     #[error("cannot encode {path} as PNG")]
     Encode {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
-        /// What the encoder said.
+        /// The error of the encoder.
         source: ::png::EncodingError,
     },
-    /// No profile can be made of the display.
+    /// The display cannot be described by a profile.
     #[error("cannot say in {path} which display it is for")]
     Profile {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
-        /// Why not.
+        /// The reason.
         source: IccError,
     },
 }
 
-/// Writes an 8-bit RGB PNG with an sRGB chunk, for readers of the third edition a cICP chunk that
-/// says the same, and the software's name.
+/// Writes an 8-bit RGB PNG with an sRGB chunk, an equivalent cICP chunk for readers of the third
+/// edition, and the name of the software.
 ///
 /// # Errors
 /// When the file cannot be written or the picture has no pixels.
@@ -56,11 +56,12 @@ pub fn write(path: &Path, image: &RgbImage8) -> Result<(), WritePngError> {
 
 /// Writes an RGB PNG of 8 or 16 bits per channel whose codes are those of `display`.
 ///
-/// The file says so with the code points of ITU-R H.273 (cICP) where the display has them, which the third edition of PNG puts
-/// first; with an ICC profile ([`icc`]), which all software knows; and for sRGB with the sRGB chunk in its place.
+/// The file declares the display with the code points of ITU-R H.273 (cICP) if the display has them, which take precedence in the
+/// third edition of PNG, and with an ICC profile ([`icc`]), which all software knows; for sRGB with the sRGB chunk instead of the
+/// profile.
 ///
 /// # Errors
-/// As [`write()`]; and when the display's figures do not fit a profile.
+/// As [`write()`], and when the display's numbers do not fit a profile.
 pub fn write_for_display<C: PngCode>(
     path: &Path,
     image: &RgbImage<C>,
@@ -70,11 +71,11 @@ pub fn write_for_display<C: PngCode>(
         path: path.to_owned(),
         source,
     })?;
-    // Rendered pictures have noise, which does not compress whatever it costs.
+    // Rendered pictures have noise, which does not compress at any effort.
     write_tagged(path, image, &tags, Compression::Fast)
 }
 
-/// What a file says about its color space.
+/// The declarations of a file about its color space.
 struct Tags {
     is_srgb: bool,
     cicp: Option<[u8; 4]>,
@@ -103,12 +104,12 @@ impl Tags {
     }
 }
 
-/// A code that a PNG file can hold.
+/// A type of codes that a PNG file can hold.
 pub trait PngCode: Code {
     /// Bits of a code.
     const DEPTH: ::png::BitDepth;
 
-    /// The codes as the file has them.
+    /// Returns the codes as bytes of the file.
     fn bytes(codes: &[Self]) -> Cow<'_, [u8]>;
 }
 
@@ -231,7 +232,7 @@ mod tests {
         assert!(place("sRGB") < place("IDAT") && place("cICP") < place("IDAT"));
     }
 
-    /// Codes, and what the file says of their space, for every display that comes with this software.
+    /// Codes and the declared color space are right for every built-in display.
     #[test]
     fn every_display_has_its_tags() {
         let directory = tempfile::tempdir().unwrap();

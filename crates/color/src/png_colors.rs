@@ -1,8 +1,8 @@
-//! The colors that the codes of a PNG file are.
+//! The colors of the codes of a PNG file.
 //!
-//! Of what a file says the first counts that can be used: `cICP`, `iCCP`, `sRGB`, `gAMA` with `cHRM` (PNG specification, third
-//! edition, 4.3). A file that says nothing is in sRGB. White, the largest codes, stays white: where it is not D65 the colors are
-//! adapted to it by Bradford's matrix, as ICC profiles have it.
+//! The first usable declaration of a file counts: `cICP`, `iCCP`, `sRGB`, `gAMA` with `cHRM` (PNG specification, third
+//! edition, 4.3). A file without a declaration is in sRGB. White, the largest codes, stays white: if it is not D65, the colors are
+//! adapted to D65 by Bradford's matrix, as in ICC profiles.
 
 mod icc_profile;
 #[cfg(test)]
@@ -22,12 +22,12 @@ use icc_profile::ProfileCurve;
 
 /// The most bytes that a file's tags may take.
 const MAX_TAG_BYTES: usize = 64 << 20;
-/// How far linear values may be from those of sRGB and be the same: profiles of sRGB hold rounded figures.
+/// Largest difference of linear values that count as those of sRGB: profiles of sRGB hold rounded numbers.
 const SAME: f64 = 1e-3;
-/// The gammas (of `gAMA`) that pictures have.
+/// The range of plausible gammas of `gAMA`.
 const GAMMA: std::ops::RangeInclusive<f64> = 0.1..=10.0;
 
-/// Why the codes of a file are no colors.
+/// Why the codes of a file cannot be converted to colors.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PngColorsError {
@@ -35,60 +35,60 @@ pub enum PngColorsError {
     #[error("is not a PNG picture that can be read: {0}")]
     Decode(#[from] ::png::DecodingError),
     /// A chunk is damaged.
-    #[error("its {0} chunk is damaged, or says what PNG does not allow")]
+    #[error("its {0} chunk is damaged, or has a value that PNG does not allow")]
     Chunk(&'static str),
-    /// The codes are no amounts of light that a surface could reflect.
+    /// The codes do not stand for amounts of light that a surface could reflect.
     #[error(
-        "its {0} chunk says that its codes are {1}, which no reflectance is; convert it to sRGB"
+        "its {0} chunk says that its codes are {1}, which does not encode reflectances; convert it to sRGB"
     )]
     Light(&'static str, &'static str),
-    /// A number of H.273 that is not read.
+    /// A code point of H.273 that is not supported.
     #[error(
-        "its cICP chunk has {what} {number}, which is not read; primaries 1, 4 to 7, 9, 11 and 12 are, and transfer functions 1, 4, 5, 6, 8, 13, \
-         14 and 15"
+        "its cICP chunk has {what} {number}, which is not supported; use primaries 1, 4 to 7, 9, 11 or 12 and transfer function 1, 4, 5, 6, 8, \
+         13, 14 or 15"
     )]
     CodePoint {
-        /// What the number is of.
+        /// What the number denotes.
         what: &'static str,
         /// The number.
         number: u8,
     },
-    /// Narrow range.
+    /// The codes have narrow range.
     #[error(
         "its cICP chunk says that its codes have the narrow range of video; convert it to the full range"
     )]
     NarrowRange,
-    /// `gAMA` is out of all bounds.
-    #[error("its gAMA chunk says {0}; from 0.1 to 10 is possible")]
+    /// `gAMA` is out of range.
+    #[error("its gAMA chunk says {0}; it must be from 0.1 to 10")]
     Gamma(f64),
-    /// `cHRM` is no three primaries.
-    #[error("its cHRM chunk has no three primaries that mix to a white")]
+    /// `cHRM` does not describe three primaries.
+    #[error("its cHRM chunk does not have three primaries that mix to a white")]
     Primaries,
 }
 
-/// What the codes of a picture are.
+/// The conversion from the codes of a picture to colors.
 #[derive(Debug)]
 pub struct CodeColors {
     curve: Curve,
-    /// From the picture's primaries to those of sRGB; `None` where they are that.
+    /// From the picture's primaries to those of sRGB; `None` if they are the same.
     to_srgb: Option<Matrix3>,
     notes: Vec<String>,
 }
 
-/// From codes to light.
+/// A function from codes to light.
 #[derive(Debug)]
 enum Curve {
     Srgb,
-    /// A code to this power.
+    /// The code to this power.
     Power(f64),
-    /// The camera's curve of BT.709 backwards, with the constants of H.273, table 3.
+    /// The inverse of the camera curve of BT.709, with the constants of H.273, table 3.
     Camera,
-    /// Those of an ICC profile for red, green and blue.
+    /// The curves of an ICC profile for red, green and blue.
     Profile(Box<[ProfileCurve; 3]>),
 }
 
 impl CodeColors {
-    /// Codes of sRGB.
+    /// The conversion of sRGB codes.
     pub fn srgb() -> Self {
         Self {
             curve: Curve::Srgb,
@@ -97,10 +97,10 @@ impl CodeColors {
         }
     }
 
-    /// What a PNG file says of its codes.
+    /// The conversion that a PNG file declares for its codes.
     ///
     /// # Errors
-    /// When it cannot be decoded, or says what cannot be honored.
+    /// When the file cannot be decoded, or declares a color space that is not supported.
     pub fn of_png(file: &[u8]) -> Result<Self, PngColorsError> {
         let limits = ::png::Limits {
             bytes: MAX_TAG_BYTES,
@@ -124,12 +124,12 @@ impl CodeColors {
         Ok(colors)
     }
 
-    /// What was honored, and what could not be, a line each; nothing of a picture in sRGB.
+    /// The declarations that were used and those that could not be, one line each; empty for a picture in sRGB.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
-    /// Linear red, green and blue of sRGB of codes of 16 bits: below 0 or above 1 where sRGB does not reach.
+    /// Converts 16-bit codes to linear red, green and blue of sRGB; values are below 0 or above 1 outside the gamut of sRGB.
     pub fn linear_srgb(&self, codes: [u16; 3]) -> [f64; 3] {
         let codes = codes.map(|code| f64::from(code) / 65_535.0);
         let linear = std::array::from_fn(|i| self.curve.light(codes[i], i));
@@ -139,7 +139,7 @@ impl CodeColors {
         }
     }
 
-    /// Whether it makes no difference to read it as sRGB.
+    /// Whether reading the codes as sRGB makes no difference.
     fn is_srgb(&self) -> bool {
         let steps = (0..=32).map(|i| i * 2047_u16);
         let codes = steps.flat_map(|v| [[v, v, v], [v, 0, 0], [0, v, 0], [0, 0, v]]);
@@ -172,7 +172,7 @@ impl Curve {
     }
 }
 
-/// The first of a file's statements that can be used, and how it is told.
+/// Returns the first usable declaration of a file, and the note that reports it.
 fn first_said(
     info: &::png::Info,
     chunks: &[Chunk],
@@ -206,10 +206,10 @@ fn first_said(
     of_gamma_and_primaries(info, has(b"gAMA"), has(b"cHRM"))
 }
 
-/// The name of a chunk and what it holds.
+/// The name of a chunk and its data.
 type Chunk<'a> = ([u8; 4], &'a [u8]);
 
-/// The chunks before the first `IDAT`.
+/// Returns the chunks before the first `IDAT`.
 fn chunks_before_data(file: &[u8]) -> Vec<Chunk<'_>> {
     let mut chunks = Vec::new();
     let mut rest = file.get(8..).unwrap_or_default();
@@ -230,7 +230,7 @@ fn chunks_before_data(file: &[u8]) -> Vec<Chunk<'_>> {
     chunks
 }
 
-/// The name of a chunk about colors of which the decoder could only say that it is wrong.
+/// Returns the name of a damaged color chunk, for which the decoder gives no specific error.
 fn damaged((name, data): &Chunk) -> Option<&'static str> {
     let (name, is_sound) = match name {
         b"cICP" => ("cICP", matches!(data, [_, _, 0, 0 | 1])),
@@ -253,7 +253,7 @@ fn of_code_points(
     let (curve, name) = match number {
         1 | 6 | 14 | 15 => (
             Curve::Camera,
-            "the camera's curve of BT.709 backwards (not a screen's, BT.1886)",
+            "the inverse of the camera curve of BT.709 (not the display curve of BT.1886)",
         ),
         4 => (Curve::Power(2.2), "gamma 2.2"),
         5 => (Curve::Power(2.8), "gamma 2.8"),
@@ -307,7 +307,7 @@ fn of_gamma_and_primaries(
     Ok(Some((colors, said.join("; "))))
 }
 
-/// From amounts of these primaries to those of sRGB, white to white; `None` where they are the same.
+/// Returns the matrix from amounts of these primaries to those of sRGB, white to white; `None` if they are the same.
 fn to_srgb(primaries: [[f64; 2]; 3], white: [f64; 2]) -> Result<Option<Matrix3>, PngColorsError> {
     if primaries == srgb::PRIMARIES && white == srgb::WHITE {
         return Ok(None);
@@ -320,7 +320,7 @@ fn to_srgb(primaries: [[f64; 2]; 3], white: [f64; 2]) -> Result<Option<Matrix3>,
         product(&to_d65, &to_xyz)
     };
     let matrix = product(srgb::rgb_from_xyz(), &adapted);
-    // Points on one line, or nearly, have no such matrix.
+    // Points on one line, or nearly on one, have no such matrix.
     let mut numbers = matrix.iter().chain(&to_xyz).flatten();
     if numbers.all(|m| m.is_finite() && m.abs() < 100.0) {
         Ok(Some(matrix))

@@ -1,4 +1,4 @@
-//! What a pixel or a region of a spectral image shows.
+//! The mean values of a pixel or a region of a spectral image.
 
 use spectra::SpectralImage;
 use thiserror::Error;
@@ -6,9 +6,9 @@ use thiserror::Error;
 /// A rectangle of pixels.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct Region {
-    /// Pixels to the left of it.
+    /// Number of columns to the left of it.
     pub x: u32,
-    /// Rows above it.
+    /// Number of rows above it.
     pub y: u32,
     /// Width in pixels, at least 1.
     pub width: u32,
@@ -39,20 +39,20 @@ impl Region {
         }
     }
 
-    /// The place of its middle, in pixels from the left and the top.
+    /// The position of its center, in pixels from the left and the top.
     pub fn center(&self) -> [f64; 2] {
         let middle = |start: u32, size: u32| f64::from(start) + 0.5 * f64::from(size);
         [middle(self.x, self.width), middle(self.y, self.height)]
     }
 }
 
-/// A region that an image does not have.
+/// Why a region is not one of an image.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum RegionError {
     /// It has no pixels.
     #[error("a region of {}×{} has no pixels", .0.width, .0.height)]
     Empty(Region),
-    /// It reaches beyond the image.
+    /// It extends beyond the image.
     #[error("{} lies outside the image of {width}×{height} pixels, which go from 0,0 to {},{}",
         described(.region), width.saturating_sub(1), height.saturating_sub(1))]
     Outside {
@@ -81,19 +81,19 @@ fn described(region: &Region) -> String {
 /// The means of a region.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probe {
-    /// Where.
+    /// The region.
     pub region: Region,
     /// Mean radiance of each band.
     pub radiance: Vec<f64>,
-    /// Standard deviation of that mean by the noise of the pixels; `None` where no pixel knows it.
+    /// Standard deviation of that mean due to the noise of the pixels; `None` if no pixel has a variance.
     pub deviation: Option<Vec<f64>>,
     /// Mean XYZ, cd/m² up to the scene's scale.
     pub xyz: [f64; 3],
-    /// The share of each of the image's light groups in radiance and XYZ, in their order.
+    /// The part of each of the image's light groups in radiance and XYZ, in the order of the groups.
     pub light_groups: Vec<GroupProbe>,
-    /// Samples of all its pixels.
+    /// Number of samples of all its pixels.
     pub samples: u64,
-    /// Pixels that were left out because something in them is not a number.
+    /// Number of pixels left out because one of their values is not finite.
     pub left_out: u64,
 }
 
@@ -106,10 +106,10 @@ pub struct GroupProbe {
     pub xyz: [f64; 3],
 }
 
-/// The means of a region; of nothing but pixels that are not a number they are not numbers either.
+/// Returns the means of a region; they are NaN if no pixel of the region is finite.
 ///
 /// # Errors
-/// When the region is empty or reaches beyond the image.
+/// When the region is empty or extends beyond the image.
 pub fn probe(image: &SpectralImage, region: Region) -> Result<Probe, RegionError> {
     let (width, height) = (image.width(), image.height());
     if region.width == 0 || region.height == 0 {

@@ -24,43 +24,43 @@ mod read;
 pub use primaries::BadPrimaries;
 pub use read::{ReadRgbError, RgbFile};
 
-/// How a file holds a value.
+/// The format of a file's values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Samples {
-    /// 16 bits: eleven of precision, up to 65504. What most software expects.
+    /// 16 bits: eleven bits of precision, up to 65504. Most software expects this.
     #[default]
     Half,
-    /// 32 bits, without loss.
+    /// 32 bits, lossless.
     Float,
 }
 
-/// Why a file was not written. No file is left behind.
+/// Why a file could not be written. No file is left behind.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WriteRgbError {
-    /// The file could not be opened, written or put in its place.
+    /// The file could not be opened, written or renamed to its target.
     #[error("cannot write {path}")]
     File {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// The image cannot be put into an OpenEXR file: it has no pixels, or too many.
     #[error("cannot encode {path} as OpenEXR")]
     Encode {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
-        /// What the encoder said.
+        /// The error of the encoder.
         source: exr::error::Error,
     },
 }
 
 /// Writes channels R, G and B, 1 for the display's white, with the chromaticities of the display's primaries and white, and
-/// `whiteLuminance`: what luminance in the scene that is, cd/m².
+/// `whiteLuminance`, the luminance of that white in the scene, cd/m².
 ///
-/// The display's black level is not taken off: the file is the light asked for. Half floats end at 65504; what is more is written
-/// as that.
+/// The display's black level is not subtracted: the file holds the wanted light. Half floats end at 65504; larger values are written
+/// as 65504.
 ///
 /// # Errors
 /// When the file cannot be written or the image has no pixels.
@@ -87,7 +87,7 @@ pub fn write(
     pending.commit().map_err(file_error)
 }
 
-/// The nearest half float; what is finite stays so.
+/// Returns the nearest half float; finite values stay finite.
 fn half(value: f32) -> f16 {
     if value.is_finite() {
         f16::from_f32(value.clamp(f16::MIN.to_f32(), f16::MAX.to_f32()))
@@ -208,7 +208,7 @@ mod tests {
         let matrix = primaries::srgb_from(primaries()).unwrap().unwrap();
         for (row, expected) in matrix.iter().zip([1.2249, -0.0421, -0.0196]) {
             assert!((row[0] - expected).abs() < 1e-4, "{matrix:?}");
-            // One white.
+            // Both have the same white.
             assert!((row.iter().sum::<f64>() - 1.0).abs() < 1e-4);
         }
         let srgb = Display::named("srgb").unwrap();

@@ -341,7 +341,7 @@ fn the_primaries_of_a_file_are_honored() {
         &[1.0; 2],
         Some(line),
     );
-    let phrases = ["line.exr", "`chromaticities`", "no three primaries"];
+    let phrases = ["line.exr", "`chromaticities`", "not three primaries"];
     assert_reported(
         surrounded_by(directory.path(), "line.exr"),
         "environment.image",

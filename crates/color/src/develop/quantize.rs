@@ -43,10 +43,10 @@ pub(super) fn black_rgb(display: &Display) -> [f64; 3] {
 
 /// Returns the codes with which a display shows a picture. Values outside its range are clipped; NaN becomes 0.
 ///
-/// Without dither, each value is rounded to the nearest code. With dither, a value between two codes is rounded up in the fraction
-/// of the pixels of a small neighborhood that its distance from the lower code gives, so means are kept and gradients show no
-/// steps. A value within 1 % of a step of a code stays that code. The pattern depends only on the position: the same picture
-/// always gives the same file.
+/// Without dither, each value is rounded to the nearest code. With dither, a value between two codes is rounded up in a fraction of
+/// the pixels of a small neighborhood that equals its distance from the lower code, so means are kept and gradients show no steps.
+/// A value within 1 % of a step of a code becomes that code. The pattern depends only on the position: the same picture always
+/// gives the same file.
 pub fn codes<C: Code>(image: &LinearImage, display: &Display, dither: bool) -> RgbImage<C> {
     let black = black_rgb(display);
     let (peak, responses) = (display.peak(), display.responses());

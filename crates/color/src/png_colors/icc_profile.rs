@@ -1,4 +1,4 @@
-//! ICC profiles of pictures: a matrix and curves, or a curve of gray.
+//! ICC profiles of pictures: a matrix and curves, or a gray curve.
 
 use colorimetry::adaptation::Adaptation;
 use colorimetry::matrix::product;
@@ -11,9 +11,9 @@ use crate::icc;
 /// A channel's curve (ICC.1:2022, 10.6 and 10.18).
 #[derive(Clone, Debug)]
 pub(super) enum ProfileCurve {
-    /// Values at even steps of the code, at least two.
+    /// Values at equal steps of the code, at least two.
     Table(Vec<u16>),
-    /// (a x + b)^g + e from d on, c x + f below it: `[g, a, b, c, d, e, f]`.
+    /// (a x + b)^g + e for x ≥ d, c x + f below d: `[g, a, b, c, d, e, f]`.
     Function([f64; 7]),
 }
 
@@ -23,7 +23,7 @@ impl ProfileCurve {
         match curve {
             ToneReprCurve::Lut(table) => Some(match **table {
                 [] => power(1.0),
-                // Eight bits behind the point.
+                // Eight fractional bits.
                 [gamma] => power(f64::from(gamma) / 256.0),
                 _ => Self::Table(table.clone()),
             }),
@@ -41,7 +41,7 @@ impl ProfileCurve {
         }
     }
 
-    /// The amount of light of a code in \[0, 1\].
+    /// Returns the amount of light of a code in \[0, 1\].
     pub(super) fn light(&self, code: f64) -> f64 {
         match self {
             Self::Table(table) => {
@@ -63,9 +63,9 @@ impl ProfileCurve {
     }
 }
 
-/// The colors that a profile says and how they are told, or why it cannot be used.
+/// Returns the conversion that a profile describes and the note that reports it, or why the profile cannot be used.
 ///
-/// A profile's white is (1, 1, 1), as relative colorimetry has it. Where there are tables beside a matrix the matrix counts.
+/// A profile's white is (1, 1, 1), as in relative colorimetry. If a profile has both tables and a matrix, the matrix is used.
 pub(super) fn colors(
     bytes: &[u8],
     is_gray: bool,
@@ -83,8 +83,8 @@ pub(super) fn colors(
     let found = match profile.color_space {
         DataColorSpace::Rgb => of_rgb(&profile),
         DataColorSpace::Gray if is_gray => of_gray(&profile),
-        DataColorSpace::Gray => Err("is one of gray, and the picture has colors"),
-        _ => Err("is neither of red, green and blue nor of gray"),
+        DataColorSpace::Gray => Err("is for gray, but the picture has colors"),
+        _ => Err("is neither for red, green and blue nor for gray"),
     };
     Ok(found.map(|colors| {
         let name = icc::description(bytes).unwrap_or_default();
@@ -106,10 +106,10 @@ fn of_rgb(profile: &ColorProfile) -> Result<CodeColors, &'static str> {
     let to_d65 = Adaptation::Bradford.matrix(icc::D50, srgb::white_xyz());
     let from_d50 = product(srgb::rgb_from_xyz(), &to_d65);
     let matrix = product(&from_d50, &profile.colorant_matrix().v);
-    // A matrix of which white is none is damaged, or one of a space that no picture is in.
+    // A matrix that does not map white to white is damaged, or is for a space that pictures do not use.
     let is_white = |row: &[f64; 3]| (row.iter().sum::<f64>() - 1.0).abs() < 0.05;
     if !matrix.iter().all(is_white) {
-        return Err("has a matrix that makes no white of (1, 1, 1)");
+        return Err("has a matrix that does not map (1, 1, 1) to white");
     }
     let colors = CodeColors {
         curve: Curve::Profile(Box::new([red, green, blue])),
@@ -129,7 +129,7 @@ fn of_gray(profile: &ColorProfile) -> Result<CodeColors, &'static str> {
     })
 }
 
-/// Refuses curves that give what is no number, or far from a reflectance.
+/// Rejects curves whose values are NaN or far outside the range of reflectances.
 fn checked(colors: CodeColors) -> Result<CodeColors, &'static str> {
     let mut codes = (0..=255).map(|i: u16| [i * 257; 3]);
     let is_sound = codes.all(|codes| {

@@ -1,7 +1,7 @@
 use super::*;
 use moxcms::ColorProfile;
 
-/// A picture of one pixel that says this of its colors.
+/// A picture of one pixel with these declarations of its colors.
 #[derive(Default)]
 struct Tagged {
     icc: Option<Vec<u8>>,
@@ -64,12 +64,12 @@ fn cicp(points: [u8; 4]) -> Tagged {
     tagged(*b"cICP", &points)
 }
 
-/// Numbers of `gAMA` and `cHRM` in units of 1e-5.
+/// Numbers of `gAMA` and `cHRM`, in units of 1e-5, as bytes.
 fn scaled(numbers: &[u32]) -> Vec<u8> {
     numbers.iter().flat_map(|n| n.to_be_bytes()).collect()
 }
 
-/// The white and Adobe RGB's (1998) primaries.
+/// White and primaries of Adobe RGB (1998).
 const ADOBE: [u32; 8] = [31_270, 32_900, 64_000, 33_000, 21_000, 71_000, 15_000, 6000];
 
 fn assert_near(found: [f64; 3], expected: [f64; 3], within: f64) {
@@ -110,7 +110,7 @@ fn assert_columns(colors: &CodeColors, expected: [[f64; 3]; 3], within: f64) {
     }
 }
 
-/// To the bit, and without a word.
+/// Exact to the bit, and without a note.
 #[test]
 fn pictures_in_srgb_are_read_as_such() {
     for picture in [
@@ -154,7 +154,7 @@ fn code_points_are_honored() {
     assert_columns(&cicp([9, 8, 0, 1]).colors(), BT2020, 1e-4);
     let note = &cicp([12, 13, 0, 1]).colors().notes()[0].clone();
     assert!(note.contains("cICP") && note.contains("12"), "{note}");
-    // DCI's white and C are not D65, but white all the same.
+    // DCI's white and C are not D65, but still map to white.
     for primaries in [4, 5, 6, 7, 9, 11, 12] {
         let colors = cicp([primaries, 8, 0, 1]).colors();
         assert_near(colors.linear_srgb([u16::MAX; 3]), [1.0; 3], 1e-12);
@@ -186,7 +186,7 @@ fn gamma_and_primaries_are_honored() {
     assert_columns(&alone, ADOBE_TO_SRGB, 1e-4);
     let linear = alone.linear_srgb([code; 3]);
     assert_near(linear, [srgb::decode(v); 3], 1e-12);
-    // Primaries of sRGB about another white: white is white.
+    // With another white, white still maps to white.
     let mut warm = ADOBE;
     warm[..2].copy_from_slice(&[34_567, 35_850]);
     let colors = tagged(*b"cHRM", &scaled(&warm)).colors();
@@ -223,7 +223,7 @@ fn profiles_are_honored() {
     assert_near(found, [0.287_175; 3], 3e-4);
 }
 
-/// Curves of profiles, each at codes where the value is plain arithmetic.
+/// Curves of profiles, each at codes where the value is simple arithmetic.
 #[test]
 fn curves_of_profiles() {
     let function = |numbers: &[f32]| moxcms::ToneReprCurve::Parametric(numbers.to_vec());
@@ -237,7 +237,7 @@ fn curves_of_profiles() {
             vec![(0.25, 0.1), (0.5, 0.2), (0.75, 0.6), (1.0, 1.0)],
         ),
         (function(&[3.0]), vec![(0.5, 0.125)]),
-        // (2 x − 1)^2 from 1/2 on.
+        // (2 x − 1)^2 for x ≥ 1/2.
         (function(&[2.0, 2.0, -1.0]), vec![(0.25, 0.0), (0.75, 0.25)]),
         (
             function(&[2.0, 2.0, -1.0, 0.125]),
@@ -270,13 +270,13 @@ fn profiles_that_cannot_be_used_are_reported() {
     for (profile, problem) in [
         (
             ColorProfile::new_gray_with_gamma(1.8).encode(),
-            "is one of gray",
+            "is for gray",
         ),
         (tables.encode(), "tables are not read"),
-        (black.encode(), "makes no white"),
+        (black.encode(), "does not map (1, 1, 1) to white"),
         (
             ColorProfile::new_lab().encode(),
-            "neither of red, green and blue nor of gray",
+            "neither for red, green and blue nor for gray",
         ),
         (Ok(b"no profile".to_vec()), "is damaged"),
     ] {
@@ -287,13 +287,13 @@ fn profiles_that_cannot_be_used_are_reported() {
         let colors = picture.with(*b"gAMA", &scaled(&[100_000])).colors();
         let notes = colors.notes();
         assert!(notes[0].contains(problem), "{notes:?}");
-        // What comes next counts.
+        // The next declaration counts.
         assert!(notes[1].contains("gAMA 1"), "{notes:?}");
         assert_near(colors.linear_srgb([u16::MAX / 5; 3]), [0.2; 3], 1e-12);
     }
 }
 
-/// cICP before iCCP, that before sRGB, and that before gAMA and cHRM.
+/// cICP takes precedence over iCCP, iCCP over sRGB, and sRGB over gAMA and cHRM.
 #[test]
 fn the_first_that_is_said_counts() {
     let gamma = scaled(&[100_000]);
@@ -314,7 +314,7 @@ fn the_first_that_is_said_counts() {
         "{:?}",
         open.notes()
     );
-    // What comes after the pixels does not count.
+    // Chunks after the pixels do not count.
     let mut late = Tagged::default().file();
     let end = late.split_off(late.len() - 12);
     let whole = tagged(*b"gAMA", &gamma).file();
@@ -340,9 +340,12 @@ fn what_cannot_be_honored_is_refused() {
         (tagged(*b"gAMA", &scaled(&[u32::MAX])), "from 0.1 to 10"),
         (
             tagged(*b"cHRM", &scaled(&[31_270; 8])),
-            "no three primaries",
+            "not have three primaries",
         ),
-        (tagged(*b"cHRM", &scaled(&[0; 8])), "no three primaries"),
+        (
+            tagged(*b"cHRM", &scaled(&[0; 8])),
+            "not have three primaries",
+        ),
         (tagged(*b"cHRM", &[1, 2, 3]), "its cHRM chunk is damaged"),
     ] {
         let said = picture.refusal();
@@ -371,7 +374,7 @@ fn damage_is_never_a_panic() {
             let _ = CodeColors::of_png(&damaged);
         }
     }
-    // Profiles themselves, which the file's checksums would hide.
+    // Damage in the profile itself, which the file's checksums would catch first.
     let profile = ColorProfile::new_adobe_rgb().encode().unwrap();
     for at in 0..profile.len() {
         for value in [0, 1, 127, 255] {

@@ -1,4 +1,4 @@
-//! The header of a Radiance picture: lines of text, an empty one, and one that says how large it is and how it lies.
+//! The header of a Radiance picture: lines of text, an empty line, and a line with the size and orientation.
 
 use colorimetry::Matrix3;
 use colorimetry::display::xyz_from_rgb_of;
@@ -11,14 +11,14 @@ use super::RadianceError;
 const MAX_BYTES: usize = 64 << 10;
 /// The most characters of a line that an error shows.
 const SHOWN: usize = 60;
-/// How far chromaticities may lie apart and be the same: writers round them to three decimals.
+/// Largest difference of chromaticities that count as equal: writers round them to three decimals.
 const SAME: f64 = 6e-4;
 
-/// What a header says.
+/// The contents of a header.
 #[derive(Debug)]
 pub(super) struct Header {
     pub(super) layout: Layout,
-    /// From the file's three numbers to linear red, green and blue of sRGB; `None` where they are that.
+    /// From the file's three numbers to linear red, green and blue of sRGB; `None` if they are the same.
     pub(super) to_linear: Option<Matrix3>,
     pub(super) notes: Vec<String>,
 }
@@ -30,16 +30,16 @@ pub(super) struct Layout {
     pub(super) width: u32,
     /// Pixels from top to bottom.
     pub(super) height: u32,
-    /// Scanlines are columns.
+    /// Whether scanlines are columns.
     is_turned: bool,
-    /// x grows from right to left.
+    /// Whether x increases from right to left.
     from_right: bool,
-    /// Rows come from the bottom.
+    /// Whether rows start at the bottom.
     from_bottom: bool,
 }
 
 impl Layout {
-    /// How many scanlines there are, and their length.
+    /// The number of scanlines and their length.
     pub(super) fn scanlines(&self) -> [u32; 2] {
         if self.is_turned {
             [self.width, self.height]
@@ -48,7 +48,7 @@ impl Layout {
         }
     }
 
-    /// Where a pixel of a scanline stands among the rows of the picture when it is upright.
+    /// Index of a pixel of a scanline in the rows of the upright picture.
     pub(super) fn place(&self, scanline: u32, along: u32) -> usize {
         let (x, y) = if self.is_turned {
             (scanline, along)
@@ -62,7 +62,7 @@ impl Layout {
         y as usize * self.width as usize + x as usize
     }
 
-    /// `-Y 2 +X 3`: two scanlines from the top, each of three pixels from the left.
+    /// Parses a line such as `-Y 2 +X 3`: two scanlines from the top, each of three pixels from the left.
     fn parse(line: &str) -> Option<Self> {
         let mut words = line.split_ascii_whitespace();
         let mut axis = || {
@@ -90,7 +90,7 @@ impl Layout {
     }
 }
 
-/// The lines of a header with their ends, `\n` or `\r\n`, taken off.
+/// The lines of a header without their ends, `\n` or `\r\n`.
 struct Lines<'a> {
     bytes: &'a [u8],
     /// Bytes and lines read so far.
@@ -110,7 +110,7 @@ impl Lines<'_> {
     }
 }
 
-/// What the lines come to.
+/// The combined contents of the lines.
 struct Said {
     exposure: f64,
     corrections: [f64; 3],
@@ -120,7 +120,7 @@ struct Said {
 }
 
 impl Header {
-    /// The header, and how many bytes it takes.
+    /// Reads the header. Returns it and its length in bytes.
     pub(super) fn read(file: &[u8]) -> Result<(Self, usize), RadianceError> {
         if !super::is_radiance(file) {
             return Err(RadianceError::NotRadiance);
@@ -176,7 +176,7 @@ impl Said {
         };
         match name {
             "EXPOSURE" => {
-                let [factor] = numbers(value).ok_or("is no number")?;
+                let [factor] = numbers(value).ok_or("is not a number")?;
                 if self.is_factor(factor, text) {
                     self.exposure *= factor;
                 }
@@ -196,7 +196,7 @@ impl Said {
                 }
                 if !matches!(value.as_str(), "32-bit_rle_rgbe" | "32-bit_rle_xyze") {
                     return Err(
-                        "is a format that is not read; 32-bit_rle_rgbe and 32-bit_rle_xyze are",
+                        "is a format that is not supported; 32-bit_rle_rgbe and 32-bit_rle_xyze are",
                     );
                 }
                 self.format = Some(value);
@@ -208,13 +208,13 @@ impl Said {
                     return Err("contradicts the PRIMARIES before it");
                 }
                 if from_primaries(value).is_none() {
-                    return Err("is no three primaries that mix to a white");
+                    return Err("is not three primaries that mix to a white");
                 }
                 self.primaries = Some(value);
             }
             "GAMMA" if numbers(value) != Some([1.0]) => {
                 let note = format!(
-                    "{}: the pixels are read as linear all the same",
+                    "{} is ignored: the pixels are read as linear",
                     short(text)
                 );
                 self.notes.push(note);
@@ -224,7 +224,7 @@ impl Said {
         Ok(())
     }
 
-    /// Whether pixels can have been multiplied by it.
+    /// Whether pixels can have been multiplied by a factor; notes a factor that is ignored.
     fn is_factor(&mut self, factor: f64, text: &str) -> bool {
         let is_sound = factor.is_finite() && factor > 0.0;
         if !is_sound {
@@ -268,13 +268,13 @@ impl Said {
         })
     }
 
-    /// The matrix to linear sRGB, `None` where the numbers are that.
+    /// Returns the matrix to linear sRGB; `None` if the numbers already are linear sRGB.
     fn colors(&mut self) -> Option<Matrix3> {
         match (self.format.as_deref(), self.primaries) {
             (Some("32-bit_rle_xyze"), primaries) => {
                 self.notes.push(
-                    "XYZE: Y = 1 is the luminance of (1, 1, 1); where it is in cd/m², as Radiance writes it, scale = 1/179 makes it what \
-                     Radiance has in red, green and blue"
+                    "XYZE: Y = 1 is the luminance of (1, 1, 1); if Y is in cd/m², as Radiance writes it, scale = 1/179 gives the values that \
+                     Radiance writes in red, green and blue"
                         .to_owned(),
                 );
                 if primaries.is_some() {
@@ -300,7 +300,7 @@ impl Said {
     }
 }
 
-/// As many numbers, with blanks between them.
+/// Parses exactly `N` numbers separated by blanks.
 fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let numbers: Option<Vec<f64>> = text
         .split_ascii_whitespace()
@@ -318,10 +318,10 @@ fn is_srgb(found: [f64; 8]) -> bool {
     found.iter().zip(own).all(|(a, b)| (a - b).abs() < SAME)
 }
 
-/// From amounts of these primaries to those of sRGB; `None` where they are none.
+/// Returns the matrix from amounts of these primaries to those of sRGB; `None` if they are not primaries.
 fn from_primaries([rx, ry, gx, gy, bx, by, wx, wy]: [f64; 8]) -> Option<Matrix3> {
     let to_xyz = xyz_from_rgb_of([[rx, ry], [gx, gy], [bx, by]], [wx, wy]);
-    // Points on one line, or nearly, have no such matrix.
+    // Points on one line, or nearly on one, have no such matrix.
     let is_sound = to_xyz
         .iter()
         .flatten()

@@ -1,4 +1,4 @@
-//! The scanlines of a Radiance picture: flat, with repeated pixels (the old way), or with runs in each component (the new way).
+//! The scanlines of a Radiance picture: flat, with repeated pixels (the old encoding), or with runs in each component (the new one).
 
 use super::RadianceError;
 use super::header::Layout;
@@ -6,13 +6,13 @@ use super::header::Layout;
 /// The lengths of scanlines that may have runs in each component.
 const WITH_RUNS: std::ops::RangeInclusive<usize> = 8..=0x7fff;
 
-/// A scanline's number, from 0, and its pixels.
+/// A scanline's index, from 0, and its pixels.
 type Scanline<'a> = (u32, &'a [[u8; 4]]);
 
-/// Reads one scanline after the other.
+/// Reads the scanlines one by one.
 pub(super) struct Scanlines<'a> {
     data: &'a [u8],
-    /// The scanline that comes next, from 0, and how many there are.
+    /// The next scanline, from 0, and the number of scanlines.
     next: u32,
     count: u32,
     pixels: Vec<[u8; 4]>,
@@ -35,7 +35,7 @@ impl<'a> Scanlines<'a> {
         }
     }
 
-    /// The next scanline with its number from 0; `None` after the last.
+    /// Returns the next scanline with its index from 0; `None` after the last.
     pub(super) fn next(&mut self) -> Result<Option<Scanline<'_>>, RadianceError> {
         if self.next == self.count {
             return Ok(None);
@@ -63,7 +63,7 @@ fn take<const N: usize>(data: &mut &[u8]) -> Result<[u8; N], Fault> {
 fn read(data: &mut &[u8], pixels: &mut [[u8; 4]]) -> Result<(), Fault> {
     let length = pixels.len();
     match *data {
-        // A pixel of these bytes would be a dark one of which the exponent could be less.
+        // As a pixel these bytes would be a dark color that is not normalized: its exponent could be smaller.
         [2, 2, high @ 0..0x80, low, rest @ ..] if WITH_RUNS.contains(&length) => {
             if usize::from(*high) << 8 | usize::from(*low) != length {
                 return Err(Fault::Damaged("says that it has another length"));
@@ -75,7 +75,7 @@ fn read(data: &mut &[u8], pixels: &mut [[u8; 4]]) -> Result<(), Fault> {
     }
 }
 
-/// Runs of one value and rows of different ones.
+/// Reads a component: runs of one value, and sequences of different values.
 fn read_component(data: &mut &[u8], pixels: &mut [[u8; 4]], component: usize) -> Result<(), Fault> {
     let mut at = 0;
     while at < pixels.len() {
@@ -104,7 +104,8 @@ fn read_component(data: &mut &[u8], pixels: &mut [[u8; 4]], component: usize) ->
     Ok(())
 }
 
-/// Pixels as they are; (1, 1, 1, n) repeats the one before n times, and what of these follows another counts 256 times as much.
+/// Reads plain pixels; (1, 1, 1, n) repeats the pixel before it n times, and each directly following (1, 1, 1, n) counts 256 times
+/// as much as the one before it.
 fn read_pixels(data: &mut &[u8], pixels: &mut [[u8; 4]]) -> Result<(), Fault> {
     let (mut at, mut shift) = (0_usize, 0_u32);
     while at < pixels.len() {

@@ -1,6 +1,6 @@
 use super::*;
 
-/// A file of these header lines, which an empty line ends, and pixels.
+/// A file of these header lines, an empty line, a line with the size, and pixels.
 fn file(lines: &[&str], size: &str, pixels: &[u8]) -> Vec<u8> {
     let mut bytes = lines.join("\n").into_bytes();
     bytes.extend_from_slice(format!("\n\n{size}\n").as_bytes());
@@ -28,7 +28,7 @@ fn read(bytes: &[u8]) -> Result<Read, RadianceError> {
     })
 }
 
-/// What a single pixel of these bytes is with these header lines.
+/// The color and the notes of a single pixel of these bytes with these header lines.
 fn one(lines: &[&str], pixel: [u8; 4]) -> (Vec<f64>, Vec<String>) {
     let read = read(&file(lines, "-Y 1 +X 1", &pixel)).unwrap();
     (read.pixels[0].map(f64::from).to_vec(), read.notes)
@@ -58,13 +58,13 @@ fn magics_and_line_ends() {
     let (pixel, notes) = one(&["#?RADIANCE"], [128, 0, 0, 129]);
     assert_eq!(pixel, [1.0, 0.0, 0.0]);
     assert!(notes[0].contains("no FORMAT"), "{notes:?}");
-    // An exponent of 0 is black, whatever the mantissas; 255 is the most: 255 · 2^119.
+    // An exponent of 0 is black, whatever the mantissas; the largest value is 255 · 2^119, with exponent 255.
     assert_eq!(one(&PLAIN, [255, 255, 255, 0]).0, [0.0; 3]);
     assert_eq!(one(&PLAIN, [255, 0, 0, 255]).0[0], 255.0 * 2_f64.powi(119));
     assert_eq!(one(&PLAIN, [200, 0, 0, 1]).0[0], 200.0 * 2_f64.powi(-135));
 }
 
-/// The picture a b c over d e f, its scanlines written out by hand for each way that it may lie.
+/// The picture a b c over d e f, with its scanlines written by hand for each orientation.
 #[test]
 fn every_orientation_is_turned_upright() {
     for (size, order) in [
@@ -88,7 +88,7 @@ fn every_orientation_is_turned_upright() {
     }
 }
 
-/// Pixels may be flat, the old way with repeats, or the new way with runs: the same picture in all of them.
+/// Flat pixels, the old encoding with repeats and the new one with runs give the same picture.
 #[test]
 fn every_way_to_write_scanlines() {
     // Ten times (9, 8, 7), then (6, 5, 4) twice.
@@ -104,11 +104,11 @@ fn every_way_to_write_scanlines() {
         let found = read(&file(&PLAIN, "-Y 1 +X 12", pixels)).unwrap();
         assert_eq!(found.pixels, expected);
     }
-    // 3 + 256 · 1 repeats of the first of 260 pixels; the second scanline begins anew.
+    // 3 + 256 · 1 repeats of the first of 260 pixels; the second scanline starts over.
     let long = [9, 8, 7, ONE, 1, 1, 1, 3, 1, 1, 1, 1];
     let found = read(&file(&PLAIN, "-Y 2 +X 260", &long.repeat(2))).unwrap();
     assert_eq!(found.pixels, vec![[9.0, 8.0, 7.0]; 520]);
-    // A flat scanline of eight pixels and more may begin with 2, 2 where the third byte says that it has no runs.
+    // A flat scanline of eight or more pixels may begin with 2, 2 if its third byte shows that it has no runs.
     let dark = [2, 2, 130, ONE].repeat(8);
     let found = read(&file(&PLAIN, "-Y 1 +X 8", &dark)).unwrap();
     assert_eq!(found.pixels, vec![[2.0, 2.0, 130.0]; 8]);
@@ -166,22 +166,22 @@ fn exposures_and_corrections_are_divided_by() {
     for (line, problem) in [
         (
             "EXPOSURE=two",
-            "line 2 of its header, \"EXPOSURE=two\", is no number",
+            "line 2 of its header, \"EXPOSURE=two\", is not a number",
         ),
         ("COLORCORR=1 2", "is not three numbers"),
         ("PRIMARIES=1 2", "is not the eight numbers"),
         (
             "PRIMARIES=.64 .33 .64 .33 .15 .06 .3127 .3290",
-            "no three primaries",
+            "not three primaries",
         ),
-        ("FORMAT=Radiance_spectra", "is a format that is not read"),
+        ("FORMAT=Radiance_spectra", "is a format that is not supported"),
     ] {
         let said = said(&file(&["#?RADIANCE", line], "-Y 1 +X 1", &[8, 8, 8, ONE]));
         assert!(said.contains(problem), "{said}");
     }
 }
 
-/// XYZ (1/4, 1/2, 1/8) by the matrix that IEC 61966-2-1 prints: R = 3.2406 · 0.25 − 1.5372 · 0.5 − 0.4986 · 0.125, and so on.
+/// XYZ (1/4, 1/2, 1/8) by the matrix printed in IEC 61966-2-1: R = 3.2406 · 0.25 − 1.5372 · 0.5 − 0.4986 · 0.125, and so on.
 #[test]
 fn xyz_becomes_srgb() {
     let lines = ["#?RADIANCE", "FORMAT=32-bit_rle_xyze", "EXPOSURE=2"];
@@ -191,8 +191,8 @@ fn xyz_becomes_srgb() {
     assert!(notes.iter().any(|note| note.contains("1/179")), "{notes:?}");
 }
 
-/// Matrices between primaries of one white as they are printed elsewhere: Adobe RGB (1998) and Display P3 to sRGB, both of D65
-/// (CSS Color Module Level 4, section 18).
+/// Published matrices between primaries of one white: Adobe RGB (1998) and Display P3 to sRGB, both with D65 (CSS Color Module
+/// Level 4, section 18).
 #[test]
 fn primaries_become_those_of_srgb() {
     let adobe = "PRIMARIES=0.64 0.33 0.21 0.71 0.15 0.06 0.3127 0.3290";
@@ -223,11 +223,11 @@ fn primaries_become_those_of_srgb() {
             assert!(notes[0].starts_with("PRIMARIES=0.6"), "{notes:?}");
         }
     }
-    // Those of sRGB change no bit, and are nothing to tell of.
+    // The primaries of sRGB change no bit and give no note.
     let own = "PRIMARIES=0.640 0.330 0.300 0.600 0.150 0.060 0.313 0.329";
     let (found, notes) = one(&[PLAIN[0], PLAIN[1], own], [77, 3, 211, 121]);
     assert_eq!((found, notes), one(&PLAIN, [77, 3, 211, 121]));
-    // Radiance's white (0.333, 0.333) stays what it is: XYZ (1, 1, 1.003) by the matrix of IEC 61966-2-1.
+    // Radiance's white (0.333, 0.333) is not adapted: XYZ (1, 1, 1.003) by the matrix of IEC 61966-2-1.
     let radiance = "PRIMARIES=0.640 0.330 0.290 0.600 0.150 0.060 0.333 0.333";
     let (found, _) = one(&[PLAIN[0], PLAIN[1], radiance], [128, 128, 128, 129]);
     assert_near(&found, [1.2033, 0.9485, 0.9119], 5e-4);
@@ -308,14 +308,14 @@ fn what_is_no_picture_is_one_error() {
     assert!(said(&file(&both, "-Y 1 +X 1", &pixel)).contains("line 3"));
 }
 
-/// A file that claims 2^60 pixels and holds one takes no memory for them.
+/// No memory is allocated for a file that claims about 10^10 pixels and holds nine.
 #[test]
 fn absurd_sizes_are_cut_short() {
     let bytes = file(&PLAIN, "-Y 1073741824 +X 9", &[8, 8, 8, ONE].repeat(9));
     assert!(said(&bytes).contains("scanline 2 of 1073741824"));
 }
 
-/// Every beginning of a file, and every file of which a byte is another: what is read has as many pixels as it says.
+/// Every prefix of a file, and files with one byte changed: any picture that is read has the number of pixels that it claims.
 #[test]
 fn damage_is_never_a_panic() {
     let mut pixels = vec![2, 2, 0, 12];

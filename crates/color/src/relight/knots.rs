@@ -1,11 +1,11 @@
-//! Integrals over products of tables.
+//! Integrals of products of tables.
 
 use spectra::{BandGrid, Tabulated};
 
-/// Wavelengths between which lamps and observers are straight lines, over a grid.
+/// Wavelengths, over a grid, between which lamps and observers are linear.
 pub(super) struct Knots(Vec<f64>);
 
-/// Gauss and Legendre's rule of three points over \[−1, 1\] (Abramowitz and Stegun 1964, table 25.4): place and weight.
+/// The three-point Gauss–Legendre rule over \[−1, 1\] (Abramowitz and Stegun 1964, table 25.4): position and weight.
 const GAUSS: [(f64, f64); 3] = [
     (-0.774_596_669_241_483_4, 5.0 / 9.0),
     (0.0, 8.0 / 9.0),
@@ -13,7 +13,7 @@ const GAUSS: [(f64, f64); 3] = [
 ];
 
 impl Knots {
-    /// Those of lamps, and the whole nanometers, which are those of the observers.
+    /// Merges the points of the lamps with the whole nanometers, which are the knots of the observers.
     pub(super) fn new(grid: &BandGrid, lamps: &[&Tabulated]) -> Self {
         let (first, last) = (grid.min_nm().ceil() as i32, grid.max_nm() as i32);
         let mut knots: Vec<f64> = (first..=last).map(f64::from).collect();
@@ -25,8 +25,8 @@ impl Knots {
         Self(knots)
     }
 
-    /// Calls `add` with wavelengths and what they stand for. The sum is exact for what is a polynomial of degree 5 between
-    /// neighboring knots: a lamp times a parabola times an observer has degree 4.
+    /// Calls `add` with wavelengths and their weights in nm. The sum is exact for functions that are polynomials of degree 5
+    /// between neighboring knots: a lamp times a parabola times an observer has degree 4.
     pub(super) fn integrate(&self, from_nm: f64, to_nm: f64, mut add: impl FnMut(f64, f64)) {
         let first = self.0.partition_point(|&nm| nm <= from_nm);
         let inner = self.0[first..].iter().copied();
@@ -45,7 +45,7 @@ impl Knots {
 mod tests {
     use super::*;
 
-    /// ∫ (λ − 400)⁵ dλ = (λ − 400)⁶ / 6, and a kink that lies on a knot costs nothing.
+    /// ∫ (λ − 400)⁵ dλ = (λ − 400)⁶ / 6, and a kink on a knot causes no error.
     #[test]
     fn polynomials_of_degree_five_are_exact_between_knots() {
         let grid = BandGrid::new(400.5, 406.25, 1).unwrap();

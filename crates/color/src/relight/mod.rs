@@ -1,4 +1,4 @@
-//! An image seen under other lamps, without rendering again.
+//! Relighting: changing the lamps of an image without rendering again.
 
 mod knots;
 mod weights;
@@ -9,31 +9,31 @@ use rayon::prelude::*;
 use spectra::{BandGrid, Observer, OutOfRange, RowMut, SpectralImage, Spectrum, Tabulated};
 use thiserror::Error;
 
-/// What is changed about a light group.
+/// The change of a light group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Relight {
-    /// The lamp that its lights burn with from now on, at the scales that they have; `None` keeps theirs.
+    /// The new lamp of its emitters, at their present scales; `None` keeps the present lamp.
     pub lamp: Option<Spectrum>,
-    /// What their light is multiplied by, from 0.
+    /// The factor on its light, at least 0.
     pub factor: f64,
 }
 
-/// Why an image cannot be relit. It is then left as it was.
+/// Why an image cannot be relit. The image is then left unchanged.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum RelightError {
     /// No light group has the name.
     #[error("the image has no light group {name:?}; it has {}", .known.join(", "))]
     UnknownLightGroup {
-        /// The name asked for.
+        /// The requested name.
         name: String,
-        /// The names that there are.
+        /// The names of the image's light groups.
         known: Vec<String>,
     },
     /// A light group is changed twice.
     #[error("the light group {0:?} is given twice")]
     Repeated(String),
-    /// A factor is negative or no number.
+    /// A factor is negative or not finite.
     #[error(
         "the light group {name:?} cannot be made {factor} times as bright: a factor is a number from 0"
     )]
@@ -43,9 +43,9 @@ pub enum RelightError {
         /// The factor.
         factor: f64,
     },
-    /// The lights of a group differ, or the image does not tell what they burn with.
+    /// The lights of a group have different lamps, or the image does not record their lamp.
     #[error(
-        "the lamp of the light group {0:?} cannot be changed, only its factor: its lights differ, or the image does not tell what they burn with"
+        "the lamp of the light group {0:?} cannot be changed, only its factor: its lights differ, or the image does not record their lamp"
     )]
     UnknownLamp(String),
     /// The new lamp has no value at a wavelength of the image.
@@ -53,40 +53,40 @@ pub enum RelightError {
     OutOfRange {
         /// The light group.
         name: String,
-        /// Where.
+        /// The wavelength and the range of the lamp.
         source: OutOfRange,
     },
-    /// The new lamp gives light that is seen where the old one gives none.
+    /// The new lamp has visible light where the old lamp has none.
     #[error(
-        "the light group {name:?} cannot burn with this lamp: from {} to {} nm it gives light that is seen, and the lamp that the image \
-         was rendered with gives none, so that nothing is known there",
+        "the light group {name:?} cannot have this lamp: from {} to {} nm it has visible light, but the lamp that the image was rendered \
+         with has none, so nothing is known there",
         .band.from_nm, .band.to_nm
     )]
     Dark {
         /// The light group.
         name: String,
-        /// The band where most of it is seen.
+        /// The dark band with the most luminance.
         band: DarkBand,
     },
 }
 
 /// Changes the lamps of light groups, and the observer.
 ///
-/// Bands and XYZ of an image become those that a render with the new lamps would have, as far as the bands tell
-/// ([`BandWeights`]). A light group that keeps its lamp keeps its bands, and with the observer of 1931 its XYZ, which were summed
-/// at the very wavelengths drawn: to the last bit, times its factor. XYZ of another observer are scaled so that an equal-energy
-/// radiance of 1 keeps its Y.
+/// Bands and XYZ of an image become those of a render with the new lamps, as far as the bands allow ([`BandWeights`]). A light
+/// group that keeps its lamp keeps its bands exactly, times its factor. With the observer of 1931 it also keeps its XYZ exactly,
+/// which were summed at the sampled wavelengths themselves. XYZ of another observer are scaled so that an equal-energy radiance of 1
+/// keeps its Y.
 ///
-/// A band that a new lamp would take below 0 is 0; XYZ are summed before, and are not cut there. Bands in which the old lamp gives no
-/// light stay dark. That is refused where more than [`BandWeights::DARK_SHARE`] of the new lamp's Y lies in them.
+/// A band that a new lamp would make negative is 0; XYZ are summed before that and are not clipped. Bands in which the old lamp has
+/// no light stay dark; that is an error if they contain more than [`BandWeights::DARK_SHARE`] of the new lamp's Y.
 ///
-/// The variance of a band keeps its relative size: what of it comes from which light group is not known. Where the band was 0,
-/// or is no number, it keeps its value.
+/// The variance of a band keeps its relative size, since the part of each light group in it is unknown. Where the band was 0 or is
+/// not finite, the variance keeps its value.
 ///
-/// The image must hold XYZ of the observer of 1931, as one that was rendered or read does.
+/// The image must hold XYZ of the observer of 1931, as rendered images and images read from files do.
 ///
 /// # Errors
-/// When a light group is not there, or its lamp cannot be changed to the one given.
+/// When a light group does not exist, or its lamp cannot be changed to the new one.
 pub fn relight(
     image: &mut SpectralImage,
     changes: &[(String, Relight)],
@@ -132,11 +132,11 @@ fn check_names(image: &SpectralImage, changes: &[(String, Relight)]) -> Result<(
     Ok(())
 }
 
-/// What happens to a light group.
+/// The planned change of a light group.
 struct Change {
     /// The new lamp.
     lamp: Option<Tabulated>,
-    /// What makes XYZ, and bands where there is a new lamp; none where both only get a factor.
+    /// The weights for XYZ and, with a new lamp, for the bands; `None` if both are only multiplied by the factor.
     weights: Option<BandWeights>,
     factor: f64,
 }
@@ -208,7 +208,7 @@ impl Change {
     }
 }
 
-/// A lamp over the bands.
+/// Tabulates a lamp over the bands.
 pub(crate) fn over(grid: &BandGrid, lamp: &Spectrum) -> Result<Tabulated, OutOfRange> {
     let ends = [grid.min_nm(), grid.max_nm()];
     for nm in ends {
@@ -218,7 +218,7 @@ pub(crate) fn over(grid: &BandGrid, lamp: &Spectrum) -> Result<Tabulated, OutOfR
         Spectrum::Constant(value) => Tabulated::new(ends.map(|nm| (nm, *value)).to_vec()).ok(),
         other => grid.lamp(other),
     };
-    // It has values at both ends, so that a table is made; formulas are no lamps.
+    // The lamp has values at both ends, so there is a table; formulas are not lamps.
     table.ok_or(OutOfRange {
         nm: ends[0],
         min_nm: ends[0],

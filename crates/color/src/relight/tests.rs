@@ -46,7 +46,7 @@ fn what_is_left_as_it_is_keeps_its_bits() {
     let same = [change("key", Some("D65"), 1.0), change("sky", None, 1.0)];
     relight(&mut after, &same, DEG2).unwrap();
     assert_eq!(after, before);
-    // A new lamp for one leaves the other alone.
+    // A new lamp for one light group leaves the other unchanged.
     relight(&mut after, &[change("key", Some("A"), 1.0)], DEG2).unwrap();
     assert_eq!(after.group_radiance(1), before.group_radiance(1));
     assert_eq!(after.group_xyz(1), before.group_xyz(1));
@@ -103,7 +103,7 @@ fn a_new_lamp_on_white_is_the_new_lamp() {
         image.set_pixel_by_light((1, 1), &white, &[0.0; 16], &xyz, 1);
         let doubled = [change("all", Some("FL11"), 2.0)];
         relight(&mut image, &doubled, DEG2).unwrap();
-        // As a render over the bands burns it.
+        // The lamp as a render over the bands uses it.
         let fl11 = Spectrum::Table(group(&grid, "", Some("FL11")).lamp.unwrap());
         for (band, &found) in (0..).zip(image.pixel(1, 1)) {
             let expected = 2.0 * mean(&fl11, band);
@@ -118,7 +118,7 @@ fn a_new_lamp_on_white_is_the_new_lamp() {
         }
         let found = f64::from(image.xyz()[4][1]);
         assert!((found / y - 1.0).abs() < 1e-4, "{found} {y}");
-        // And back again.
+        // And back to the first lamp.
         relight(&mut image, &[change("all", Some("D65"), 0.5)], DEG2).unwrap();
         for (found, expected) in image.pixel(1, 1).iter().zip(&white) {
             assert!((found / expected - 1.0).abs() < 2e-2, "{found} {expected}");

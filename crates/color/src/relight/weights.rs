@@ -1,4 +1,4 @@
-//! What bands that were seen under one lamp weigh under another.
+//! Weights that convert bands rendered with one lamp to another lamp.
 
 use colorimetry::matrix::{determinant, inverse};
 use spectra::{BandGrid, KM_LUMENS_PER_WATT, Observer, Tabulated};
@@ -6,26 +6,27 @@ use spectra::{BandGrid, KM_LUMENS_PER_WATT, Observer, Tabulated};
 use super::knots::Knots;
 use crate::xyz::equal_energy_luminance;
 
-/// Turns the bands of a light group into its XYZ, and into its bands, under a lamp.
+/// Weights that convert the bands of a light group to its XYZ and its bands with a lamp.
 ///
-/// Light of a lamp S(λ) reaches a pixel as L(λ) = T(λ) S(λ), with T the transfer of the scene (all reflections and
-/// transmissions along all paths), which no lamp changes. A band holds the mean of T S over its width. T is reconstructed
-/// from these means: within a band as the parabola whose means, weighted by S, over the band itself and its two neighbors are
-/// those of the image (at the ends of the grid, over the last three bands), so that the band's own value is kept exactly.
+/// Light of a lamp S(λ) reaches a pixel as L(λ) = T(λ) S(λ), where T is the transfer of the scene (all reflections and
+/// transmissions along all paths), which does not depend on the lamp. A band holds the mean of T S over its width. T is
+/// reconstructed from these means: within a band it is the parabola whose means, weighted by S, over the band itself and its two
+/// neighbors (at the ends of the grid, over the last three bands) are those of the image, so the band's own value is kept exactly.
 /// Then X′ = Kₘ ∫ T S′ x̄ dλ and L′ᵦ = ∫ᵦ T S′ dλ / Δλ. All of this is linear in the bands: one weight per band for
 /// each of X, Y, Z and for each band.
 ///
-/// It is exact where T is a parabola over three bands. Where S is no guide (its lines lie too close to a common edge of two
-/// bands, or a neighbor is dark) the parabola is a line, or a constant; where it gives no light at all a band stays dark.
+/// The result is exact if T is a parabola over three bands. Where S does not determine the parabola (its lines are too close to a
+/// common edge of two bands, or a neighbor is dark), a line or a constant replaces it; where S has no light at all, a band stays
+/// dark.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BandWeights {
     /// X, Y, Z per band.
     xyz: Vec<[f64; 3]>,
-    /// Band by band: the first band that it is made of, and the weights of this and the next ones.
+    /// For each band: the first band from which it is computed, and the weights of that band and the next two.
     bands: Vec<(usize, [f64; 3])>,
 }
 
-/// A lamp gives light that is seen where the lamp that an image was rendered with gives none, so that nothing is known there.
+/// A band in which a lamp has visible light but the lamp of the render has none, so nothing is known there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DarkBand {
     /// Lower end of the band, nm.
@@ -35,10 +36,10 @@ pub struct DarkBand {
 }
 
 impl BandWeights {
-    /// The largest share of a new lamp's Y that may lie in bands where the old lamp gives no light.
+    /// The largest fraction of a new lamp's Y that may lie in bands where the old lamp has no light.
     pub const DARK_SHARE: f64 = 1e-4;
 
-    /// For light whose lamp is not known: its own spectrum takes the transfer's place.
+    /// The weights for light whose lamp is unknown: its own spectrum takes the place of the transfer.
     pub fn observed(grid: &BandGrid, observer: Observer) -> Self {
         let one = |_| 1.0;
         let knots = Knots::new(grid, &[]);
@@ -50,14 +51,14 @@ impl BandWeights {
         )
     }
 
-    /// For light of the lamp `before` that is to be light of the lamp `after`; both cover the grid, and are linear between
-    /// their points, as [`BandGrid::lamp`] makes them.
+    /// The weights that change light of the lamp `before` to light of the lamp `after`. Both cover the grid and are linear between
+    /// their points, as returned by [`BandGrid::lamp`].
     ///
-    /// Bands in which `before` gives no light stay dark, as long as nobody sees that: they may have a share of
+    /// Bands in which `before` has no light stay dark, provided that this is invisible: they may contain the fraction
     /// [`Self::DARK_SHARE`] of the Y of `after`.
     ///
     /// # Errors
-    /// When they have a larger one: the band with most of it.
+    /// When they contain more; the error is the band with most of it.
     pub fn new(
         grid: &BandGrid,
         before: &Tabulated,
@@ -73,7 +74,7 @@ impl BandWeights {
         }
     }
 
-    /// The weights from the lamp `before` to that of the power `after`; 0 in bands where `before` gives no light.
+    /// The weights from the lamp `before` to a lamp of the power `after`; 0 in bands where `before` has no light.
     fn of_powers(
         before: &Lamp,
         after: &dyn Fn(f64) -> f64,
@@ -107,15 +108,15 @@ impl BandWeights {
         Self { xyz, bands }
     }
 
-    /// XYZ, Y in cd/m² up to the scene's scale, that a value of 1 in each band adds.
+    /// The XYZ that a value of 1 in each band contributes, with Y in cd/m² up to the scene's scale.
     pub fn weights(&self) -> &[[f64; 3]] {
         &self.xyz
     }
 
-    /// XYZ, Y in cd/m² up to the scene's scale, of one value of radiance per band.
+    /// Returns the XYZ of one value of radiance per band, with Y in cd/m² up to the scene's scale.
     ///
     /// # Panics
-    /// When there is not one value per band.
+    /// When the number of values is not the number of bands.
     pub fn xyz(&self, radiance: &[f32]) -> [f64; 3] {
         assert_eq!(radiance.len(), self.xyz.len(), "one value per band");
         let mut xyz = [0.0; 3];
@@ -127,10 +128,10 @@ impl BandWeights {
         xyz
     }
 
-    /// The mean radiance over each band under the new lamp; nowhere below 0.
+    /// Returns the mean radiance over each band with the new lamp; never below 0.
     ///
     /// # Panics
-    /// When there is not one value per band.
+    /// When the number of values is not the number of bands.
     pub fn relit<'a>(&'a self, radiance: &'a [f32]) -> impl Iterator<Item = f64> + 'a {
         assert_eq!(radiance.len(), self.bands.len(), "one value per band");
         self.bands.iter().map(|(first, weights)| {
@@ -141,8 +142,8 @@ impl BandWeights {
     }
 }
 
-/// Kₘ, and for observers other than that of 1931 what makes an equal-energy radiance of 1 as bright as to that one: an
-/// exposure then means the same for all of them.
+/// Returns Kₘ; for observers other than that of 1931 the factor that gives an equal-energy radiance of 1 the same Y as for that
+/// observer, so an exposure means the same for all of them.
 fn luminous_scale(observer: Observer) -> f64 {
     if observer == Observer::Cie1931Deg2 {
         return KM_LUMENS_PER_WATT;
@@ -151,8 +152,8 @@ fn luminous_scale(observer: Observer) -> f64 {
     equal_energy_luminance() / sum
 }
 
-/// Of the bands in which `before` gives no light the one that has most of the Y of `after`; `None` where all of them together
-/// have too little to be seen.
+/// Returns the band with the most Y of `after` among the bands in which `before` has no light; `None` if all of them together
+/// have too little to be visible.
 fn dark_band(
     before: &Lamp,
     after: &dyn Fn(f64) -> f64,
@@ -184,13 +185,13 @@ fn ends_of(grid: &BandGrid, band: usize) -> (f64, f64) {
     (at(0.0), at(1.0))
 }
 
-/// A lamp as the bands see it.
+/// The moments of a lamp in the bands.
 struct Lamp {
     /// Its mean over each band.
     means: Vec<f64>,
     /// Its centroid in each band, in band widths from the first band's center.
     centroids: Vec<f64>,
-    /// The mean square of the place about the centroid, likewise.
+    /// Its mean square distance from the centroid in each band, in squared band widths.
     spreads: Vec<f64>,
 }
 
@@ -222,7 +223,7 @@ impl Lamp {
         }
     }
 
-    /// How the transfer in a band follows from bands.
+    /// Returns how the transfer in a band follows from the values of bands.
     fn stencil(&self, band: usize) -> Stencil {
         let count = self.means.len();
         if count >= 3 && self.means[band] > 0.0 {
@@ -237,7 +238,7 @@ impl Lamp {
         Stencil::constant(band, count)
     }
 
-    /// The parabola whose weighted means over three bands are theirs.
+    /// The parabola whose weighted means over three bands equal the bands' values.
     fn parabola(&self, band: usize, first: usize) -> Option<Stencil> {
         let is_lit = |i: &usize| self.means[*i] > 0.0;
         let apart = |i: usize| self.centroids[i + 1] - self.centroids[i] >= MIN_APART;
@@ -255,7 +256,7 @@ impl Lamp {
         })
     }
 
-    /// The line through the band's weighted mean with the slope of its neighbors, or toward the one that is lit.
+    /// The line through the band's weighted mean with the slope between its neighbors, or to the one neighbor that is lit.
     fn line(&self, band: usize, first: usize) -> Option<Stencil> {
         let pairs = [
             (first, first + 2),
@@ -278,19 +279,20 @@ impl Lamp {
     }
 }
 
-/// Centroids of bands that are nearer than this, in band widths, give no slope between them: noise would grow more than twofold.
+/// Centroids of bands closer than this, in band widths, define no slope: it would amplify noise more than twofold.
 const MIN_APART: f64 = 0.5;
 
-/// The transfer in a band as a polynomial of the place in the band, its coefficients linear in the transfers of three bands.
+/// The transfer in a band as a polynomial of the position in the band, with coefficients that are linear in the transfers of three
+/// bands.
 struct Stencil {
     /// The first of the bands.
     first: usize,
-    /// Of 1, u and u², for each of the bands.
+    /// Coefficients of 1, u and u², for each of the bands.
     coefficients: [[f64; 3]; 3],
 }
 
 impl Stencil {
-    /// The band's own transfer.
+    /// A constant: the band's own transfer.
     fn constant(band: usize, count: usize) -> Self {
         let first = band.saturating_sub(1).min(count.saturating_sub(3));
         let mut coefficients = [[0.0; 3]; 3];
@@ -301,7 +303,7 @@ impl Stencil {
         }
     }
 
-    /// The share of each of the bands in the transfer at `u`, in band widths from the band's center.
+    /// The weight of each of the bands in the transfer at `u`, in band widths from the band's center.
     fn shares(&self, u: f64) -> [f64; 3] {
         let [one, slope, bend] = &self.coefficients;
         std::array::from_fn(|i| one[i] + u * (slope[i] + u * bend[i]))

@@ -1,10 +1,10 @@
-//! The layers of colors that a file has, by the names of its channels and parts.
+//! The color layers of a file, found by the names of its channels and parts.
 
 use exr::meta::header::Header;
 
 use crate::exr_file::name_of;
 
-/// What the channels of a layer are.
+/// The kind of a layer's channels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// R, G and B.
@@ -15,26 +15,26 @@ pub(super) enum Kind {
     Luminance,
 }
 
-/// A set of channels that are a picture.
+/// A set of channels that form a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ColorLayer {
-    /// What stands before the last dot of the channels' names, with the name of the part where there are several; empty for plain
-    /// `R`, `G` and `B`.
+    /// The channels' names up to the last dot, preceded by the name of the part if the file has several; empty for plain `R`, `G`
+    /// and `B`.
     pub(super) name: String,
     /// Index of the part.
     pub(super) part: usize,
     pub(super) kind: Kind,
     /// The channels in the order of the kind.
     pub(super) channels: Vec<usize>,
-    /// A channel of the layer that the part has twice.
+    /// A channel of the layer that occurs twice in the part.
     pub(super) twice: Option<String>,
-    /// Whether it has RY or BY too.
+    /// Whether the layer also has RY or BY.
     pub(super) has_chroma: bool,
-    /// What stands before the dot in the channels' names alone.
+    /// The channels' names up to the last dot, without the name of the part.
     prefix: String,
 }
 
-/// All layers of colors.
+/// Returns all color layers.
 pub(super) fn of_headers(headers: &[Header]) -> Vec<ColorLayer> {
     let mut layers = Vec::new();
     for (part, header) in headers.iter().enumerate() {
@@ -46,13 +46,13 @@ pub(super) fn of_headers(headers: &[Header]) -> Vec<ColorLayer> {
     layers
 }
 
-/// The names of a part's channels.
+/// Returns the names of a part's channels.
 pub(super) fn names(header: &Header) -> Vec<String> {
     let channels = header.channels.list.iter();
     channels.map(|c| name_of(c.name.as_slice())).collect()
 }
 
-/// The channels of one layer by their last names, and how often each stands there.
+/// The channels of one layer by their last names, and how often each occurs.
 #[derive(Default)]
 struct Found<'a> {
     places: std::collections::BTreeMap<&'a str, (usize, usize)>,
@@ -94,7 +94,7 @@ fn of_part(part: usize, part_name: &str, names: &[String], layers: &mut Vec<Colo
     }
 }
 
-/// Some writers repeat the part's name in those of its channels.
+/// Returns the name of a layer. Some writers repeat the part's name in the names of its channels.
 fn full_name(part: &str, prefix: &str) -> String {
     let repeats = prefix
         .strip_prefix(part)
@@ -115,8 +115,9 @@ pub(super) enum NotChosen {
     NoSuch(Vec<String>),
 }
 
-/// The layer asked for; else the only one of R, G and B, or the one without a prefix; else the same among those that are no more
-/// than a luminance, or XYZ without a prefix, for vectors are named so too.
+/// Returns the requested layer; otherwise the only layer of R, G and B, or the one without a prefix; otherwise X, Y and Z without a
+/// prefix (vectors have these names too), and then a luminance by the same rule as R, G and B. The flag says whether the choice
+/// should be reported.
 pub(super) fn choose(
     layers: &[ColorLayer],
     asked: Option<&str>,
@@ -225,7 +226,7 @@ mod tests {
         assert_eq!(kind(&["A", "Y"]), Ok(Kind::Luminance));
         assert_eq!(kind(&["X", "Y", "Z"]), Ok(Kind::Xyz));
         assert_eq!(kind(&["B", "G", "R", "X", "Y", "Z"]), Ok(Kind::Rgb));
-        // Normals and positions are named so.
+        // Normals and positions have these names.
         assert_eq!(kind(&["N.X", "N.Y", "N.Z"]), Err(NotChosen::None));
         assert_eq!(kind(&["Z"]), Err(NotChosen::None));
         assert_eq!(kind(&["B", "G"]), Err(NotChosen::None));

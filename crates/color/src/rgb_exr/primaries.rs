@@ -1,4 +1,4 @@
-//! The primaries that an `OpenEXR` file's red, green and blue are amounts of.
+//! The primaries of an `OpenEXR` file's red, green and blue.
 
 use colorimetry::Matrix3;
 use colorimetry::display::xyz_from_rgb_of;
@@ -8,13 +8,13 @@ use exr::math::Vec2;
 use exr::meta::attribute::Chromaticities;
 use thiserror::Error;
 
-/// How far chromaticities may lie apart and be the same: writers round them to three decimals.
+/// Largest difference of chromaticities that count as equal: writers round them to three decimals.
 const SAME: f32 = 6e-4;
 
-/// A file's chromaticities are those of no three primaries and a white.
+/// A file's chromaticities are not those of three primaries and a white.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[error(
-    "its `chromaticities`, red {red:?}, green {green:?}, blue {blue:?} and white {white:?}, are no three primaries that mix to a white"
+    "its `chromaticities`, red {red:?}, green {green:?}, blue {blue:?} and white {white:?}, are not three primaries that mix to a white"
 )]
 pub struct BadPrimaries {
     /// x, y of red.
@@ -27,12 +27,12 @@ pub struct BadPrimaries {
     pub white: [f32; 2],
 }
 
-/// The matrix from a file's red, green and blue to those of sRGB, without chromatic adaptation: colors stay what they are. `None`
-/// where the header says nothing (the format's default is the primaries of Rec. ITU-R BT.709, which are those of sRGB) and where
-/// it says sRGB.
+/// Returns the matrix from a file's red, green and blue to those of sRGB, without chromatic adaptation, so colors are unchanged.
+/// `None` if the header has no chromaticities (the format's default is the primaries of Rec. ITU-R BT.709, which are those of
+/// sRGB) or those of sRGB.
 ///
 /// # Errors
-/// When the header's chromaticities are no primaries.
+/// When the header's chromaticities are not primaries.
 pub(super) fn srgb_from(found: Option<Chromaticities>) -> Result<Option<Matrix3>, BadPrimaries> {
     let Some(found) = found else {
         return Ok(None);
@@ -45,7 +45,7 @@ pub(super) fn srgb_from(found: Option<Chromaticities>) -> Result<Option<Matrix3>
     let to_xyz = xyz_from_rgb_of(primaries, point(found.white));
     let matrix = product(srgb::rgb_from_xyz(), &to_xyz);
     let numbers = || to_xyz.iter().flatten();
-    // Points on one line, or nearly, have no such matrix.
+    // Points on one line, or nearly on one, have no such matrix.
     let is_sound = numbers().all(|m| m.is_finite() && m.abs() < 100.0);
     is_sound.then_some(Some(matrix)).ok_or(BadPrimaries {
         red: [found.red.x(), found.red.y()],

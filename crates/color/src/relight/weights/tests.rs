@@ -7,7 +7,7 @@ fn lamp(grid: &BandGrid, name: &str) -> Tabulated {
     grid.lamp(&spectra::illuminant(name).unwrap().data).unwrap()
 }
 
-/// Bands of light of a lamp after a transfer, means over 200 points each.
+/// The bands of a lamp's light after a transfer, each the mean over 200 points.
 fn bands(grid: &BandGrid, lamp: &Tabulated, transfer: impl Fn(f64) -> f64) -> Vec<f32> {
     let mean = |band| {
         let points = (0..200).map(|i| grid.wavelength_nm(band, (f64::from(i) + 0.5) / 200.0));
@@ -24,7 +24,7 @@ fn assert_near(found: [f64; 3], expected: [f64; 3], tolerance: f64, what: &str) 
     }
 }
 
-/// Reflectance of a free film of index 4/3 in air at normal incidence, Airy's sum of all beams.
+/// Reflectance of a free film of index 4/3 in air at normal incidence, by Airy's sum over all beams.
 fn film(thickness_nm: f64, nm: f64) -> f64 {
     let n = 4.0_f64 / 3.0;
     let r2 = ((1.0 - n) / (1.0 + n)).powi(2);
@@ -39,21 +39,21 @@ fn equal_energy_of_one_is_one_to_every_observer() {
         let grid = BandGrid::visible(bands).unwrap();
         for observer in Observer::ALL {
             let xyz = BandWeights::observed(&grid, observer).xyz(&vec![1.0; bands as usize]);
-            // The 1 nm sum counts both ends whole, the integral by half: 2.5e-7 in Y. The tables of 2015 start at 390 nm.
+            // The 1 nm sum counts both ends fully, the integral by half: 2.5e-7 in Y. The tables of 2015 start at 390 nm.
             let error = xyz[1] * exposure_scale(0.0) - 1.0;
             assert!(error.abs() < 2e-6, "{bands}, {observer:?}: {error:e}");
         }
     }
 }
 
-/// XYZ of free films of index 4/3 in D65, sums at 1 nm, computed apart from this code (numpy).
+/// XYZ of free films of index 4/3 in D65, from sums at 1 nm, computed independently of this code (numpy).
 const FILMS: [(f64, [f64; 3]); 3] = [
     (100.0, [7.162_974_235, 7.723_408_026, 7.901_314_441]),
     (250.0, [2.467_596_401, 3.044_270_922, 8.058_016_66]),
     (320.0, [5.732_695_308, 6.910_545_627, 1.753_966_797]),
 ];
 
-/// From the bands of the film under D65 itself, and from those under another lamp.
+/// From the bands of the film under D65 itself, and from its bands under another lamp.
 #[test]
 fn films_have_the_color_of_an_independent_computation() {
     for (thickness_nm, expected) in FILMS {
@@ -72,7 +72,7 @@ fn films_have_the_color_of_an_independent_computation() {
     }
 }
 
-/// A transfer that is a parabola is found whole, whatever the lamps and however wide the bands.
+/// A transfer that is a parabola is recovered exactly, whatever the lamps and the width of the bands.
 #[test]
 fn a_parabola_is_relit_exactly() {
     let transfer = |nm: f64| 0.3 + ((nm - 560.0) / 300.0).powi(2) + (nm - 560.0) / 900.0;
@@ -83,7 +83,7 @@ fn a_parabola_is_relit_exactly() {
         let seen = bands(&grid, &before, transfer);
         let fine = BandGrid::visible(400).unwrap();
         let expected = BandWeights::observed(&fine, OBSERVER).xyz(&bands(&fine, &after, transfer));
-        // The expected bands are means of 1 nm, whose product with the observer leaves 1e-4.
+        // The expected bands are means over 1 nm, whose product with the observer has an error of 1e-4.
         assert_near(
             weights.xyz(&seen),
             expected,
@@ -116,7 +116,7 @@ fn the_same_lamp_leaves_the_bands_as_they_are() {
     }
 }
 
-/// Noise of the bands grows by no more than a factor, whichever lamp was rendered with.
+/// The noise of the bands grows by a bounded factor, whatever the lamp of the render.
 #[test]
 fn line_lamps_do_not_magnify_noise() {
     for name in ["FL11", "HP1", "HP5", "LED-RGB1"] {
@@ -148,7 +148,7 @@ fn light_from_nothing_is_refused() {
     let yellow = Tabulated::new(points).unwrap();
     let d65 = lamp(&grid, "D65");
     let refused = BandWeights::new(&grid, &yellow, &d65, OBSERVER);
-    // Four dark bands have 4e-4 of the Y of D65; the last of them has most.
+    // Four dark bands have 4e-4 of the Y of D65; the last of them has the most.
     let (from_nm, to_nm) = (410.0, 420.0);
     assert_eq!(refused, Err(DarkBand { from_nm, to_nm }));
     assert!(BandWeights::new(&grid, &d65, &yellow, OBSERVER).is_ok());
@@ -172,8 +172,8 @@ fn dark_bands_that_nobody_sees_stay_dark() {
     assert!(relit.iter().skip(1).all(|&value| value > 0.1));
 }
 
-/// A lamp with a line between two knots: the image holds what the knots burned, and a transfer that is a parabola comes back to
-/// the rounding of the image's f32. The lamp's own points give another result.
+/// A lamp with a spectral line between two knots: the image holds the light of the knots, and a transfer that is a parabola is
+/// recovered up to the `f32` rounding of the image. The lamp's own points give another result.
 #[test]
 fn a_line_between_knots_is_the_one_that_was_rendered() {
     let grid = BandGrid::visible(16).unwrap();
