@@ -261,7 +261,7 @@ fn a_view_that_is_not_known_is_asked_for() {
         ("--exposure auto", "nothing to expose for"),
         (
             "--adapt bradford --adapt-from mean",
-            "no white to adapt from",
+            "not a white to adapt from",
         ),
     ] {
         let error = place

@@ -13,7 +13,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum IccError {
     /// The encoder rejected the profile.
-    #[error("no ICC profile can be made of the display {0}")]
+    #[error("cannot make an ICC profile of the display {0}")]
     Encode(String, #[source] moxcms::CmsError),
 }
 

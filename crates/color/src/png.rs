@@ -35,7 +35,7 @@ pub enum WritePngError {
         source: ::png::EncodingError,
     },
     /// The display cannot be described by a profile.
-    #[error("cannot say in {path} which display it is for")]
+    #[error("cannot tag {path} with the color space of its display")]
     Profile {
         /// The requested file.
         path: PathBuf,

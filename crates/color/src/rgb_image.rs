@@ -1,6 +1,6 @@
 //! Pictures of display codes.
 
-/// A picture of display codes, row 0 on top.
+/// A picture of display codes, with row 0 at the top.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub struct RgbImage<Code> {
     pub(crate) width: u32,
@@ -14,8 +14,8 @@ pub type RgbImage8 = RgbImage<u8>;
 pub type RgbImage16 = RgbImage<u16>;
 
 impl<Code: Copy> RgbImage<Code> {
-    /// A picture of these codes, red, green and blue of each pixel in turn, row by row; `None` unless there are
-    /// 3 × `width` × `height` of them.
+    /// Creates a picture from codes, red, green and blue of each pixel in turn, row by row; `None` unless there are
+    /// 3 × `width` × `height` codes.
     pub fn new(width: u32, height: u32, data: Vec<Code>) -> Option<Self> {
         let pixels = (width as usize).checked_mul(height as usize)?;
         let expected = pixels.checked_mul(3)?;
@@ -59,7 +59,7 @@ mod tests {
     fn a_picture_has_three_codes_per_pixel() {
         assert!(RgbImage8::new(2, 1, vec![0; 6]).is_some());
         assert_eq!(RgbImage8::new(2, 1, vec![0; 5]), None);
-        // 3 (2³² − 1)² does not fit 64 bits.
+        // 3 (2³² − 1)² does not fit into 64 bits.
         assert_eq!(RgbImage8::new(u32::MAX, u32::MAX, Vec::new()), None);
     }
 }

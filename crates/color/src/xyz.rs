@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use spectra::{KM_LUMENS_PER_WATT, observer_1931};
 
-/// Y, in cd/m², of the radiance 1 W m⁻² sr⁻¹ nm⁻¹ at every wavelength.
+/// Returns Y, in cd/m², of the radiance 1 W m⁻² sr⁻¹ nm⁻¹ at every wavelength.
 ///
 /// Y = Kₘ Σ ȳ(λ) Δλ at 380, 381 … 780 nm with Kₘ = 683 lm/W (CIE 015:2018), about 7.298e4.
 pub fn equal_energy_luminance() -> f64 {
@@ -16,8 +16,8 @@ pub fn equal_energy_luminance() -> f64 {
     })
 }
 
-/// What XYZ in cd/m² is multiplied by at an exposure of `exposure_ev` stops: the radiance 1 at every
-/// wavelength then has Y = 2^EV.
+/// Returns the factor on XYZ in cd/m² at an exposure of `exposure_ev` stops, which gives the radiance
+/// 1 at every wavelength Y = 2^EV.
 pub fn exposure_scale(exposure_ev: f64) -> f64 {
     exposure_ev.exp2() / equal_energy_luminance()
 }

@@ -1,11 +1,11 @@
-//! An image of colors without their spectra.
+//! An image of colors without spectra.
 
 use rayon::prelude::*;
 use spectra::{Observer, SpectralImage};
 
 use crate::BandWeights;
 
-/// XYZ per pixel, row 0 on top: what developing needs of a spectral image.
+/// XYZ per pixel, with row 0 at the top: the part of a spectral image that developing needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct XyzImage {
     width: u32,
@@ -14,8 +14,8 @@ pub struct XyzImage {
 }
 
 impl XyzImage {
-    /// An image of these colors, Y in cd/m² up to the scene's scale, row by row; `None` unless there are `width` × `height` of
-    /// them.
+    /// Creates an image from colors, row by row, with Y in cd/m² up to the scene's scale; `None` unless there are `width` ×
+    /// `height` colors.
     pub fn new(width: u32, height: u32, xyz: Vec<[f32; 3]>) -> Option<Self> {
         (xyz.len() == width as usize * height as usize).then_some(Self { width, height, xyz })
     }
@@ -37,8 +37,8 @@ impl XyzImage {
 }
 
 impl XyzImage {
-    /// The colors that the bands of an image sum up to ([`BandWeights::observed`]). Those that the image carries are summed at the very
-    /// wavelengths drawn, and are nearer to the truth.
+    /// Computes the colors from the bands of an image ([`BandWeights::observed`]). The colors that the image holds were summed at the
+    /// sampled wavelengths themselves and are more accurate.
     pub fn of_bands(image: &SpectralImage) -> Self {
         let observer = BandWeights::observed(image.bands(), Observer::Cie1931Deg2);
         let bands = image.bands().count() as usize;

@@ -1,4 +1,4 @@
-//! Files of colors as other programs write them.
+//! Color files as other programs write them.
 
 use std::path::Path;
 
@@ -25,7 +25,7 @@ fn layer(
     Layer::new((2, 1), attributes, encoding, channels)
 }
 
-/// One part of 2×1 pixels.
+/// Writes a file of one part with 2×1 pixels.
 fn write(path: &Path, channels: Vec<Named<'_>>) {
     let layer = layer(None, channels, Encoding::FAST_LOSSLESS);
     Image::from_layer(layer).write().to_file(path).unwrap();
@@ -179,7 +179,7 @@ fn luminance_and_xyz_are_colors() {
     );
 }
 
-/// 1.5 and 2 are exact in every type but whole numbers, which round to 1 and 2.
+/// 1.5 and 2 are exact in every type except integers, where the values are 1 and 2.
 #[test]
 fn types_tiles_and_compressions_are_read() {
     let folder = tempfile::tempdir().unwrap();
@@ -249,7 +249,7 @@ fn windows_are_those_of_the_picture() {
     assert!(refused(&path, None).to_string().contains("too large"));
 }
 
-/// Bytes of a sound file changed: each is refused by name, or read.
+/// Changes bytes of a valid file: unsupported forms are errors that name them, and no damage is a panic.
 #[test]
 fn what_is_not_read_is_named() {
     let folder = tempfile::tempdir().unwrap();

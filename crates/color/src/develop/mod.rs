@@ -88,14 +88,14 @@ impl DevelopSettings {
 #[non_exhaustive]
 pub enum DevelopError {
     /// The glare depends on wavelength, and the image has no spectra.
-    #[error("this glare depends on wavelength, and the image is one of colors without spectra")]
+    #[error("this glare depends on wavelength, but the image has only colors, without spectra")]
     NoSpectrum,
     /// The scene's white should be the mean color of an image that has none.
-    #[error("the mean color of the image is no white to adapt from: it is black, or no number")]
+    #[error("the mean color of the image is not a white to adapt from: it is black or not a number")]
     NoWhite,
     /// The exposure should follow the image, which has no light.
     #[error(
-        "no pixel of the image has a luminance above 0 that is a number: there is nothing to expose for"
+        "no pixel of the image has a finite luminance above 0: there is nothing to expose for"
     )]
     NoLight,
 }

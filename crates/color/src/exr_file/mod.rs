@@ -62,8 +62,8 @@ fn check_form(context: &Context<'_>, headers: &[Header]) -> Result<(), ReadExrEr
     if !coarse.is_empty() {
         let all: Vec<String> = channels().map(|c| name_of(c.name.as_slice())).collect();
         return Err(context.unsupported(&format!(
-            "channels with fewer samples than pixels ({}), as luminance and chroma have them; write it with a sample per pixel, \
-             as R, G and B. Its channels are {}",
+            "channels with fewer samples than pixels ({}), as for luminance and chroma; write it with one sample per pixel, \
+             as R, G and B; its channels are {}",
             listed(&coarse),
             listed(&all)
         )));
@@ -195,8 +195,8 @@ impl Context<'_> {
             }),
             Ok(Err(Error::NotSupported(reason))) => Err(self.unsupported(&reason)),
             Ok(Err(Error::Invalid(reason))) => Err(self.damaged(&reason)),
-            Ok(Err(Error::Aborted)) => Err(self.damaged("reading was broken off")),
-            Err(_) => Err(self.damaged("the decoder gave up")),
+            Ok(Err(Error::Aborted)) => Err(self.damaged("reading was interrupted")),
+            Err(_) => Err(self.damaged("the decoder failed")),
         }
     }
 }

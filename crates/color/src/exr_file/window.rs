@@ -94,12 +94,12 @@ impl Window {
         let short = is_short(x, own_width, width) || is_short(y, own_height, height);
         let done = match (over, short) {
             (false, false) => return None,
-            (true, false) => "what lies outside is cut off",
+            (true, false) => "pixels outside it are cut off",
             (false, true) => "the pixels without data are black",
-            (true, true) => "what lies outside is cut off, and the pixels without data are black",
+            (true, true) => "pixels outside it are cut off, and the pixels without data are black",
         };
         Some(format!(
-            "holds {own_width}×{own_height} pixels from {x},{y} on of a picture of {width}×{height}: {done}"
+            "holds {own_width}×{own_height} pixels at {x},{y} of a picture of {width}×{height}: {done}"
         ))
     }
 }
@@ -160,9 +160,9 @@ mod tests {
         let said = |offset, data| window(offset, data).note().unwrap_or_default();
         assert!(
             said((2, 1), (4, 2))
-                .ends_with("from 2,1 on of a picture of 8×4: the pixels without data are black")
+                .ends_with("at 2,1 of a picture of 8×4: the pixels without data are black")
         );
-        assert!(said((-1, 0), (10, 4)).ends_with(": what lies outside is cut off"));
+        assert!(said((-1, 0), (10, 4)).ends_with(": pixels outside it are cut off"));
         assert!(said((-1, 0), (4, 4)).contains("cut off, and"));
     }
 }

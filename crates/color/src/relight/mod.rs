@@ -35,7 +35,7 @@ pub enum RelightError {
     Repeated(String),
     /// A factor is negative or not finite.
     #[error(
-        "the light group {name:?} cannot be made {factor} times as bright: a factor is a number from 0"
+        "the light group {name:?} cannot be made {factor} times as bright: a factor is a finite number of at least 0"
     )]
     Factor {
         /// The light group.

@@ -154,8 +154,8 @@ fn what_cannot_be_relit_is_reported_and_left() {
             vec![change("key", None, 1.0), change("key", None, 2.0)],
             "given twice",
         ),
-        (vec![change("key", None, -1.0)], "a number from 0"),
-        (vec![change("key", None, f64::NAN)], "a number from 0"),
+        (vec![change("key", None, -1.0)], "number of at least 0"),
+        (vec![change("key", None, f64::NAN)], "number of at least 0"),
         (vec![change("sky", Some("A"), 1.0)], "only its factor"),
         (vec![("key".to_owned(), narrow)], "does not cover"),
     ] {

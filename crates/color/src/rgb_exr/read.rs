@@ -1,4 +1,4 @@
-//! Reading colors from an `OpenEXR` file.
+//! Reading the colors of an `OpenEXR` file.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -16,52 +16,52 @@ use super::primaries::{BadPrimaries, srgb_from};
 use crate::exr_file::{self, Context, Window, each_block, each_sample, guard, listed};
 use crate::spectral_exr::ReadExrError;
 
-/// Why the colors of a file were not read.
+/// Why the colors of a file could not be read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ReadRgbError {
-    /// The file is none, is damaged, or has a form that is not read.
+    /// The file is not an `OpenEXR` file, is damaged, or has an unsupported form.
     #[error(transparent)]
     File(#[from] ReadExrError),
-    /// No channels are colors.
+    /// The file has no color channels.
     #[error(
         "{path} has neither channels R, G and B, nor X, Y and Z, nor Y, nor spectral ones (`S0.550,000000nm`); its channels are {channels}"
     )]
     NoColors {
         /// The file.
         path: PathBuf,
-        /// The channels that there are.
+        /// The channels of the file.
         channels: String,
     },
-    /// Several layers, none of which is the main one.
-    #[error("{path} has several layers of colors, {layers}; say with `layer` which to take")]
+    /// The file has several layers, and none is the main one.
+    #[error("{path} has several layers of colors, {layers}; choose one with `layer`")]
     SeveralLayers {
         /// The file.
         path: PathBuf,
         /// Their names.
         layers: String,
     },
-    /// The layer asked for is not there.
-    #[error("{path} has no layer {layer:?} of colors; those that it has are {layers}")]
+    /// The requested layer does not exist.
+    #[error("{path} has no layer {layer:?} of colors; its layers are {layers}")]
     NoSuchLayer {
         /// The file.
         path: PathBuf,
-        /// The name asked for.
+        /// The requested name.
         layer: String,
         /// Their names.
         layers: String,
     },
-    /// The primaries of red, green and blue are none.
+    /// The chromaticities of red, green and blue are not primaries.
     #[error("the colors of {path} cannot be used")]
     Primaries {
         /// The file.
         path: PathBuf,
-        /// What they are.
+        /// The chromaticities.
         source: BadPrimaries,
     },
 }
 
-/// A file of colors whose header has been read and checked, but not its pixels.
+/// A color file whose header has been read and checked, but whose pixels have not been read.
 #[derive(Debug)]
 pub struct RgbFile {
     path: PathBuf,
@@ -73,11 +73,11 @@ pub struct RgbFile {
 }
 
 impl RgbFile {
-    /// Opens a file and chooses the layer to read: the one of this name; else its only R, G and B, or those without a layer's name;
-    /// else X, Y and Z without one, taken as CIE XYZ, white at Y = 1; else a luminance Y, taken as gray.
+    /// Opens a file and chooses the layer to read: the layer of this name; otherwise the only R, G and B, or those without a layer
+    /// name; otherwise X, Y and Z without a layer name, taken as CIE XYZ, white at Y = 1; otherwise a luminance Y, taken as gray.
     ///
-    /// A layer's name is what stands before the last dot of its channels' names (`ViewLayer.Combined` of `ViewLayer.Combined.R`),
-    /// with the name of the part before it in a file of several. Alpha is passed over.
+    /// A layer's name is its channels' names up to the last dot (`ViewLayer.Combined` of `ViewLayer.Combined.R`), preceded by the
+    /// name of the part in a file of several parts. Alpha is ignored.
     ///
     /// # Errors
     /// When the file cannot be read, is larger than its length or this machine's memory can account for, or has no such layer.
@@ -115,20 +115,20 @@ impl RgbFile {
         })
     }
 
-    /// Width and height in pixels: of the display window.
+    /// Width and height of the display window in pixels.
     pub fn size(&self) -> [u32; 2] {
         let (width, height) = self.window.size();
-        // Sides that memory holds, which has been looked at.
+        // `open` has checked that an image of these sides fits into memory.
         [width, height].map(|side| u32::try_from(side).unwrap_or(u32::MAX))
     }
 
-    /// What is assumed, each as what is said after the file's name.
+    /// The assumptions made, each worded to follow the file's name.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
-    /// Reads the pixels row by row as linear red, green and blue of the primaries of sRGB, without chromatic adaptation. Those that
-    /// the file lacks are black. Numbers are as they stand in the file: `whiteLuminance` is not used, who reads says how bright 1 is.
+    /// Reads the pixels row by row as linear red, green and blue of the primaries of sRGB, without chromatic adaptation. Pixels that
+    /// the file lacks are black. Values are not scaled: `whiteLuminance` is not used; the caller decides how bright 1 is.
     ///
     /// # Errors
     /// When the pixels are damaged or missing.
@@ -216,7 +216,7 @@ fn chosen(
     Ok((layer, is_choice))
 }
 
-/// What was assumed of the channels.
+/// Returns a note on the assumptions about the channels.
 fn note(layer: &ColorLayer, is_choice: bool) -> Option<String> {
     let of_layer = if layer.name.is_empty() {
         String::new()
@@ -225,9 +225,9 @@ fn note(layer: &ColorLayer, is_choice: bool) -> Option<String> {
     };
     match layer.kind {
         Kind::Rgb if is_choice && layer.name.is_empty() => {
-            Some("has several layers: R, G and B without a layer's name are taken".to_owned())
+            Some("has several layers: R, G and B without a layer name are used".to_owned())
         }
-        Kind::Rgb if is_choice => Some(format!("R, G and B{of_layer} are taken")),
+        Kind::Rgb if is_choice => Some(format!("R, G and B{of_layer} are used")),
         Kind::Rgb => None,
         Kind::Xyz => Some(format!(
             "X, Y and Z{of_layer} are taken as CIE XYZ, white at Y = 1"

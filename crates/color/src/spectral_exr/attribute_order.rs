@@ -1,23 +1,23 @@
-//! What the encoder leaves to do in the header of a written file.
+//! Corrections to the header that the encoder writes.
 //!
-//! It keeps attributes in a hash map, so that their order, and with it the file's bytes, would change from run to run. `OpenEXR`
-//! allows any order; ours is that of the names. And it does not say in the version field that names of channels are long, as
-//! the format asks for.
+//! The encoder keeps attributes in a hash map, so their order, and with it the file's bytes, would change from run to run. `OpenEXR`
+//! allows any order; here attributes are sorted by name. The encoder also does not set the flag for long channel names in the
+//! version field, which the format requires.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 
-/// Where the version field is.
+/// Position of the version field.
 const VERSION: u64 = 4;
-/// Bit 10 of the version field, in the second of its four bytes: some names are longer than [`SHORT_NAME`].
+/// Bit 10 of the version field, in the second of its four bytes: some names are longer than [`SHORT_NAME`] bytes.
 const LONG_NAMES: u8 = 1 << 2;
-/// The longest name, in bytes, that every reader must take.
+/// The longest name, in bytes, that every reader must accept.
 const SHORT_NAME: usize = 31;
-/// What stands behind a channel's name and its 0: type, a flag, three bytes to spare, and two numbers for the sampling.
+/// Bytes that follow a channel's name and its 0: type, a flag, three reserved bytes, and two numbers for the sampling.
 const CHANNEL: usize = 16;
 
-/// Sorts the attributes of a finished single-part file in place, and marks long names. The bytes keep their total length, so that
-/// nothing behind them moves.
+/// Sorts the attributes of a finished single-part file in place, and sets the flag for long names. The total length stays the same,
+/// so nothing after the header moves.
 pub(super) fn finish_header(mut file: File) -> io::Result<()> {
     file.seek(SeekFrom::Start(VERSION))?;
     let mut version = [0; 4];
@@ -37,12 +37,12 @@ pub(super) fn finish_header(mut file: File) -> io::Result<()> {
 #[derive(Debug, Eq, Ord, PartialEq, PartialOrd)]
 struct Attribute {
     bytes: Vec<u8>,
-    /// Where the value begins.
+    /// Position of the value.
     value: usize,
 }
 
 impl Attribute {
-    /// Whether its name or, in a list of channels, one of theirs is long.
+    /// Whether its name or type or, in a list of channels, the name of a channel is long.
     fn has_long_name(&self) -> bool {
         let mut parts = self.bytes.split(|&byte| byte == 0);
         let name = parts.next().unwrap_or_default();
@@ -60,7 +60,7 @@ impl Attribute {
     }
 }
 
-/// An empty name ends the list.
+/// Reads attributes up to the empty name that ends the list.
 fn read_attributes(source: &mut impl BufRead) -> io::Result<Vec<Attribute>> {
     let mut attributes = Vec::new();
     loop {

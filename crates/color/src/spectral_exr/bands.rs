@@ -1,11 +1,11 @@
-//! The bands that a file's channels make, and the band grid that they are read onto.
+//! The bands of a file's channels, and the band grid onto which they are read.
 
 use spectra::{BandGrid, BandGridError};
 use thiserror::Error;
 
 use super::wavelength::Place;
 
-/// Why the spectral channels of a file do not make a band grid.
+/// Why the spectral channels of a file do not form a band grid.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum BandLayoutError {
@@ -14,26 +14,26 @@ pub enum BandLayoutError {
         "channel {0:?} does not name a wavelength or a frequency, such as `S0.550,000000nm`, `S0.0,55um` or `S0.545THz`"
     )]
     NotAWavelength(String),
-    /// Two channels of the same wavelength.
+    /// Two channels have the same wavelength.
     #[error("two channels have the wavelength {0} nm")]
     Duplicate(f64),
-    /// A single band, whose width nothing tells.
-    #[error("a single band at {0} nm, and no attribute that gives its width")]
+    /// There is a single band of unknown width.
+    #[error("there is a single band, at {0} nm, and no attribute that gives its width")]
     SingleBand(f64),
     /// The file gives the ends of a uniform grid, and a channel is not on it.
-    #[error("the file's bands should be evenly spaced, but {nm} nm lies {off_nm} nm off its place")]
+    #[error("the file's bands should be evenly spaced, but the band at {nm} nm is {off_nm} nm off")]
     NotUniform {
         /// The channel's wavelength.
         nm: f64,
-        /// How far it lies from where an even spacing puts it.
+        /// Its distance from its position with even spacing.
         off_nm: f64,
     },
-    /// Two bands overlap, or nothing tells what is between them.
+    /// Two bands overlap, or there is a gap between them.
     #[error("the band that ends at {end_nm} nm is followed by one that starts at {start_nm} nm")]
     NotConnected {
-        /// Where one band ends.
+        /// The end of one band.
         end_nm: f64,
-        /// Where the next one starts.
+        /// The start of the next one.
         start_nm: f64,
     },
     /// No band is visible.
@@ -45,58 +45,58 @@ pub enum BandLayoutError {
         /// The longest wavelength.
         last_nm: f64,
     },
-    /// The bands make no grid that this program works with.
+    /// The bands form a grid that is not supported.
     #[error(transparent)]
     Grid(#[from] BandGridError),
 }
 
-/// How far a band may lie from its place, as a share of the band width: names have few decimals.
+/// How far a band may be from its position, as a fraction of the band width: names have few decimals.
 const UNIFORM_WITHIN: f64 = 1e-3;
 
-/// A band that reaches beyond [`BandGrid::LIMITS_NM`] is left out unless some of it is in this range, where people see.
+/// The visible range. A band that extends beyond [`BandGrid::LIMITS_NM`] is left out unless part of it is in this range.
 const SEEN_NM: (f64, f64) = (380.0, 780.0);
 
 /// The layer of the emissive, unpolarized radiance: the first Stokes component.
 const PREFIX: &str = "S0.";
 
-/// A wavelength as the layout writes it: `385,000000nm`.
+/// Formats a wavelength as in the layout: `385,000000nm`.
 pub(super) fn wavelength_text(nm: f64) -> String {
     format!("{nm:.6}nm").replace('.', ",")
 }
 
-/// The band whose center this text is, as [`wavelength_text`] writes it.
+/// Returns the band whose center is this text, in the format of [`wavelength_text`].
 pub(super) fn band_of_text(text: &str, grid: &BandGrid) -> Option<usize> {
     let nm: f64 = text.strip_suffix("nm")?.replace(',', ".").parse().ok()?;
     let band = ((nm - grid.min_nm()) / grid.width_nm()).floor();
-    // A cast takes what is negative or not a number to 0, and the text then differs.
+    // A cast turns negative values and NaN into 0, and the text then differs.
     let band = (band as u32).min(grid.count() - 1);
     (wavelength_text(grid.center_nm(band)) == text).then_some(band as usize)
 }
 
-/// The name of the channel of the band with center `nm`.
+/// Returns the name of the channel of the band with center `nm`.
 pub(super) fn radiance_name(nm: f64) -> String {
     format!("{PREFIX}{}", wavelength_text(nm))
 }
 
-/// The grid that a file's bands are read onto.
+/// The grid onto which a file's bands are read.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Bands {
     /// The grid.
     pub(super) grid: BandGrid,
-    /// Which of the file's bands, counted from the shortest wavelength, are used.
+    /// The file's bands that are used, counted from the shortest wavelength.
     pub(super) used: std::ops::Range<usize>,
-    /// How those make the grid's bands; `None` where they are the grid's bands.
+    /// How the grid's bands are computed from them; `None` if they are the grid's bands.
     pub(super) shares: Option<Shares>,
-    /// The ends of the bands where [`Bands::reaching_the_ends`] went on beyond them, nm.
+    /// The ends of the file's bands, nm, if [`Bands::reaching_the_ends`] extended them.
     pub(super) ends_nm: Option<(f64, f64)>,
 }
 
-/// For each band of the grid the bands that it is made of, counted from the first one used, and their shares. The integral
-/// over wavelength is kept.
+/// For each band of the grid the bands from which it is computed, counted from the first one used, and their weights. The
+/// integral over wavelength is preserved.
 pub(super) type Shares = Vec<Vec<(usize, f32)>>;
 
 impl Bands {
-    /// Of bands in order of their wavelengths. `range_nm` gives the ends of a uniform grid where the file tells them.
+    /// Creates the grid for bands in order of their wavelengths. `range_nm` gives the ends of a uniform grid if the file has them.
     pub(super) fn new(
         places: &[Place],
         range_nm: Option<(f64, f64)>,
@@ -140,7 +140,7 @@ impl Bands {
             .windows(2)
             .map(|e| e[1] - e[0])
             .fold(f64::INFINITY, f64::min);
-        // A hair less, so that a whole number of bands stays one.
+        // Slightly less, so that a whole number of bands is not rounded up.
         let count = ((last - first) / narrowest - 1e-6).ceil();
         let grid = BandGrid::new(first, last, (count as u32).clamp(1, BandGrid::MAX_COUNT))?;
         Ok(Self {
@@ -152,14 +152,15 @@ impl Bands {
     }
 }
 
-/// Bands may begin and end so near to the ends of [`SEEN_NM`], nm: less than 0.1 % of any lamp's X, Y or Z lies beyond.
+/// How far from the ends of [`SEEN_NM`] bands may begin and end, nm: less than 0.1 % of any lamp's X, Y or Z lies beyond.
 const NEAR_ENDS_NM: f64 = 5.0;
-/// In how many parts bands may be split to come that near.
+/// The most parts into which bands are split to come that near.
 const MOST_PARTS: u32 = 8;
 
 impl Bands {
-    /// Bands that go from one end of [`SEEN_NM`] to the other, as reflectances need them to be seen under lamps: where the file's
-    /// end before, the last one goes on; what lies beyond is left out. Bands are split where that takes them nearer.
+    /// Extends or cuts the bands so that they reach from one end of [`SEEN_NM`] to the other, which reflectances need to be shown
+    /// under lamps. If the file's bands end before, the last one is continued; bands beyond are left out. Bands are split if that
+    /// brings them nearer to the ends.
     pub(super) fn reaching_the_ends(self) -> Result<Self, BandLayoutError> {
         let (low, high) = SEEN_NM;
         let (count, width_nm) = (f64::from(self.grid.count()), self.grid.width_nm());
@@ -192,7 +193,7 @@ impl Bands {
         let last = self.grid.count() - 1;
         let source = |band: u32| {
             let old = ((first + f64::from(band)) / f64::from(parts) + 1e-6).floor();
-            // A cast takes what is negative to 0.
+            // A cast turns negative values into 0.
             let old = (old as u32).min(last) as usize;
             match &self.shares {
                 Some(shares) => shares[old].clone(),
@@ -209,7 +210,7 @@ impl Bands {
     }
 }
 
-/// A center that is not on the grid, and how far off it is.
+/// Returns the center that is furthest off the grid, and its distance; `None` if all are on the grid.
 fn furthest_off(grid: &BandGrid, centers: &[f64]) -> Option<(f64, f64)> {
     let off = (0..)
         .zip(centers)
@@ -218,8 +219,8 @@ fn furthest_off(grid: &BandGrid, centers: &[f64]) -> Option<(f64, f64)> {
     (off.1 > UNIFORM_WITHIN * grid.width_nm()).then_some(off)
 }
 
-/// Where bands end. Between two centers that is half way, as the layout has it for channels without a response curve; the first
-/// and the last band are symmetrical.
+/// Returns the edges of the bands. Between two centers the edge is halfway, as the layout specifies for channels without a response
+/// curve; the first and the last band are symmetrical.
 fn edges(places: &[Place], centers: &[f64]) -> Result<Vec<f64>, BandLayoutError> {
     if let [Place::Range(first, _), ..] = places {
         let mut edges = vec![*first];
@@ -253,7 +254,7 @@ fn edges(places: &[Place], centers: &[f64]) -> Result<Vec<f64>, BandLayoutError>
     Ok(edges)
 }
 
-/// The bands that are within the limits, or reach over them from where people see.
+/// Returns the bands that are within the limits, or that cross them from the visible range.
 fn used(edges: &[f64]) -> Result<std::ops::Range<usize>, BandLayoutError> {
     let (low, high) = BandGrid::LIMITS_NM;
     let is_used = |band: &usize| {
@@ -270,7 +271,7 @@ fn used(edges: &[f64]) -> Result<std::ops::Range<usize>, BandLayoutError> {
     Ok(first..used.next_back().unwrap_or(first) + 1)
 }
 
-/// Each band of the grid is the mean over its width of what is constant between the edges.
+/// Returns weights that make each band of the grid the mean over its width of a spectrum that is constant between the edges.
 fn shares(edges: &[f64], grid: &BandGrid) -> Shares {
     let share = |band: u32| {
         let (low, high) = (grid.wavelength_nm(band, 0.0), grid.wavelength_nm(band, 1.0));
@@ -319,7 +320,7 @@ mod tests {
             let range = (grid.min_nm(), grid.max_nm());
             let found = Bands::new(&places, Some(range)).unwrap();
             assert_eq!(found, uniform(380.0, 780.0, 0..count as usize));
-            // Six decimals of the name are all that is left without the range.
+            // Without the range there are only the six decimals of the name.
             let found = Bands::new(&places, None).unwrap();
             assert!(found.shares.is_none());
             assert!((found.grid.min_nm() - 380.0).abs() < 2e-6);
@@ -329,7 +330,7 @@ mod tests {
 
     #[test]
     fn bands_beyond_vision_are_left_out() {
-        // 300 to 900 nm by 5: half of 357.5 to 362.5 nm is beyond the limit, and people do not see it.
+        // 300 to 900 nm by 5: half of 357.5 to 362.5 nm is beyond the limit, and the band is invisible.
         let nm: Vec<f64> = (60..=180).map(|i| 5.0 * f64::from(i)).collect();
         let found = Bands::new(&centers(&nm), None).unwrap();
         assert_eq!(found, uniform(362.5, 827.5, 13..106));
@@ -337,7 +338,7 @@ mod tests {
         assert!(matches!(beyond, Err(BandLayoutError::OutOfRange { .. })));
     }
 
-    /// A wide band that reaches into the violet is cut at the limit, and keeps its radiance there.
+    /// A wide band that reaches into the violet is cut at the limit and keeps its radiance there.
     #[test]
     fn a_wide_band_is_cut_at_the_limit() {
         let found = Bands::new(&centers(&[350.0, 450.0, 550.0]), None).unwrap();
@@ -372,8 +373,8 @@ mod tests {
         }
     }
 
-    /// 400 to 700 nm by 20 are 390 to 710 nm, ten short of the violet end: halves of 10 nm reach it. 380 to 780 nm by 20 reach
-    /// over both ends by half a band. 400 to 700 nm by 10 begin at 395.
+    /// 400 to 700 nm by 20 are 390 to 710 nm, ten short of the violet end: halves of 10 nm reach it. 380 to 780 nm by 20 extend
+    /// beyond both ends by half a band. 400 to 700 nm by 10 begin at 395.
     #[test]
     fn reflectances_go_on_to_where_people_see() {
         for (from, step, count, grid, ends) in [
@@ -390,7 +391,7 @@ mod tests {
             assert!((found.grid.min_nm() - low).abs() < 1e-9, "{found:?}");
             assert!((found.grid.max_nm() - high).abs() < 1e-9, "{found:?}");
             assert_eq!((found.grid.count(), found.ends_nm), (bands, ends));
-            // Each band is the one of the file that it lies in, or the nearest.
+            // Each band is the band of the file that contains it, or the nearest.
             for (band, shares) in (0..).zip(found.shares.unwrap()) {
                 let place = (found.grid.center_nm(band) - nm[found.used.start]) / step;
                 let place = place.round().clamp(0.0, places as f64) as usize;
@@ -421,7 +422,7 @@ mod tests {
         assert_eq!(of(&[400.0, 400.0, 410.0], None), Err(E::Duplicate(400.0)));
         assert_eq!(of(&[400.0], None), Err(E::SingleBand(400.0)));
         assert!(of(&[400.0], Some((395.0, 405.0))).is_ok());
-        // A range that the channels contradict.
+        // The channels contradict the range.
         assert!(matches!(
             of(&[400.0, 410.0], Some((400.0, 420.0))),
             Err(E::NotUniform { .. })

@@ -1,4 +1,4 @@
-//! Which channels a file of ours has, and which one means what.
+//! The channels of files written here, and their contents.
 
 use exr::meta::attribute::{ChannelDescription, SampleType, Text};
 use exr::prelude::SmallVec;
@@ -7,12 +7,12 @@ use spectra::{BandGrid, LightGroup};
 use super::bands::{band_of_text, radiance_name, wavelength_text};
 use super::lights;
 
-/// The names of our own channels start so.
+/// Prefix of the names of our own channels.
 const OWN: &str = "pellicle.";
-/// The names of the variances go on so.
+/// What follows [`OWN`] in the names of variances.
 const VARIANCE: &str = "variance.";
 
-/// What a channel holds.
+/// The content of a channel.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(super) enum Content {
     /// Radiance of this band.
@@ -25,11 +25,11 @@ pub(super) enum Content {
     Rgb(usize),
     /// Number of samples.
     Samples,
-    /// Of the light group with this number.
+    /// Content of the light group with this index.
     Light(usize, LightContent),
 }
 
-/// What a channel of a light group holds.
+/// The content of a channel of a light group.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(super) enum LightContent {
     /// Radiance of this band.
@@ -49,22 +49,22 @@ impl Content {
     }
 }
 
-/// Name of the variance channel of the band with center `nm`.
+/// Returns the name of the variance channel of the band with center `nm`.
 fn variance_name(nm: f64) -> String {
     format!("{OWN}{VARIANCE}{}", wavelength_text(nm))
 }
 
-/// The channels beside the spectrum, by name.
+/// Returns the channels other than the spectrum, by name.
 fn plain() -> impl Iterator<Item = (String, Content)> {
     let rgb = ["R", "G", "B"].into_iter().enumerate();
-    // A name that ends in `.Z` would be a depth to many readers.
+    // Many readers would take a name that ends in `.Z` for a depth.
     let xyz = ["cieX", "cieY", "cieZ"].into_iter().enumerate();
     rgb.map(|(i, name)| (name.to_owned(), Content::Rgb(i)))
         .chain(xyz.map(|(i, name)| (format!("{OWN}{name}"), Content::Xyz(i))))
         .chain([(format!("{OWN}samples"), Content::Samples)])
 }
 
-/// What a channel beside the spectrum holds, by its name; `None` for channels that are not ours.
+/// Returns the content of a channel other than the spectrum by its name; `None` for channels that are not ours.
 pub(super) fn plain_content(name: &str) -> Option<Content> {
     let mut channels = plain();
     channels
@@ -72,15 +72,15 @@ pub(super) fn plain_content(name: &str) -> Option<Content> {
         .map(|(_, content)| content)
 }
 
-/// The band whose variance a channel of this name holds.
+/// Returns the band whose variance a channel of this name holds.
 pub(super) fn variance_band(name: &str, grid: &BandGrid) -> Option<usize> {
     band_of_text(name.strip_prefix(OWN)?.strip_prefix(VARIANCE)?, grid)
 }
 
-/// The channels that an image is written with, in the order of their names, which the format asks for.
+/// The channels of an image to write, in the order of their names, which the format requires.
 #[derive(Debug)]
 pub(super) struct Channels {
-    /// What each channel holds, in that order.
+    /// The content of each channel, in that order.
     pub(super) contents: Vec<Content>,
     /// The channels as the header lists them.
     pub(super) descriptions: SmallVec<[ChannelDescription; 5]>,
@@ -110,7 +110,7 @@ impl Channels {
 }
 
 fn description(name: &str, content: Content) -> ChannelDescription {
-    // Names are ASCII. The second flag matters to lossy compression only.
+    // Names are ASCII. The last flag matters only for lossy compression.
     let name = Text::from_slice_unchecked(name.as_bytes());
     ChannelDescription::new(name, content.sample_type(), false)
 }

@@ -1,4 +1,4 @@
-//! Light groups in a file: their channels, and the attributes that tell their names and lamps.
+//! Light groups in a file: their channels, and the attributes with their names and lamps.
 
 use std::fmt::Write;
 
@@ -10,18 +10,18 @@ use super::bands::{band_of_text, wavelength_text};
 use super::channels::{Content, LightContent};
 use super::metadata::{text, unicode};
 
-/// The names of the channels start so, and go on with the light group's name.
+/// Prefix of the names of the channels, followed by the light group's name.
 const LAYER: &str = "pellicle.light.";
-/// Attribute: the names in their order, with spaces between them.
+/// Attribute: the names in order, separated by spaces.
 const NAMES: &str = "pellicle.lightGroups";
-/// A list of more names is none of ours.
+/// The most names of a list; a longer list was not written here.
 const MOST: usize = 256;
-/// A lamp of more power than this is none: its products with other figures would not be finite in `f32`.
+/// The largest power of a lamp: products of larger powers with other numbers would not be finite in `f32`.
 const MOST_POWER: f64 = 1e30;
-/// The names of X, Y and Z behind that of the light group.
+/// The names of X, Y and Z after the name of the light group.
 const XYZ: [&str; 3] = ["cieX", "cieY", "cieZ"];
 
-/// The channels of an image with several light groups, by name; none where the only one is the total.
+/// Returns the channels of an image with several light groups, by name; none if there is only one, which is the total.
 pub(super) fn channels(groups: &[LightGroup], grid: &BandGrid) -> Vec<(String, Content)> {
     let mut named = Vec::new();
     for (index, LightGroup { name, .. }) in groups.iter().enumerate() {
@@ -41,8 +41,8 @@ pub(super) fn channels(groups: &[LightGroup], grid: &BandGrid) -> Vec<(String, C
     if groups.len() > 1 { named } else { Vec::new() }
 }
 
-/// What a channel of one of several light groups holds, by its name; `None` for other channels and for red, green and blue,
-/// which are developed again from XYZ.
+/// Returns the content of a channel of one of several light groups by its name; `None` for other channels and for red, green and
+/// blue, which are developed again from XYZ.
 pub(super) fn content(name: &str, groups: &[LightGroup], grid: &BandGrid) -> Option<Content> {
     let (group, rest) = name.strip_prefix(LAYER)?.split_once('.')?;
     let index = groups.iter().position(|known| known.name == group)?;
@@ -56,7 +56,7 @@ pub(super) fn content(name: &str, groups: &[LightGroup], grid: &BandGrid) -> Opt
     Some(Content::Light(index, LightContent::Radiance(band)))
 }
 
-/// The first light group without some of its channels.
+/// Returns the first light group that lacks some of its channels.
 pub(super) fn incomplete<'a>(
     groups: &'a [LightGroup],
     contents: &[Option<Content>],
@@ -76,7 +76,7 @@ pub(super) fn incomplete<'a>(
     Some(&groups[short].name)
 }
 
-/// The first name that cannot stand in a file, or stands twice.
+/// Returns the first name that a file cannot hold, or that occurs twice.
 pub(super) fn bad_name(groups: &[LightGroup]) -> Option<&str> {
     let mut names = groups.iter().map(|group| group.name.as_str()).enumerate();
     let is_bad = |(position, name): &(usize, &str)| {
@@ -86,7 +86,7 @@ pub(super) fn bad_name(groups: &[LightGroup]) -> Option<&str> {
     names.find(is_bad).map(|(_, name)| name)
 }
 
-/// Puts names and lamps into the header of a file; nothing where nothing is known.
+/// Writes names and lamps into the header of a file; nothing if the only light group is unknown.
 pub(super) fn into_header(groups: &[LightGroup], header: &mut Header) {
     if groups == [LightGroup::unknown()] {
         return;
@@ -104,8 +104,8 @@ pub(super) fn into_header(groups: &[LightGroup], header: &mut Header) {
     }
 }
 
-/// The light groups that the header of a file tells of; a single unknown one where it tells of none, or not in our way. A lamp
-/// that cannot be that of an image with these bands is unknown, with a note.
+/// Returns the light groups in the header of a file; a single unknown one if the header has none, or not in our format. A lamp
+/// that cannot be the lamp of an image with these bands becomes unknown, with a note.
 pub(super) fn of_header(
     header: &Header,
     grid: &BandGrid,
@@ -125,7 +125,7 @@ pub(super) fn of_header(
             *lamp = parsed(&text, grid);
             if lamp.is_none() {
                 notes.push(format!(
-                    "the lamp of its light group {name:?} is no spectrum over its bands: it is taken as unknown"
+                    "the lamp of its light group {name:?} is not a spectrum over its bands and is taken as unknown"
                 ));
             }
         }
@@ -133,7 +133,7 @@ pub(super) fn of_header(
     groups
 }
 
-/// Attribute: wavelength in nm and power at scale 1, in lines of two numbers with a comma between them.
+/// Returns the attribute for a lamp: lines of wavelength in nm, a comma, and power at scale 1.
 fn lamp_key(name: &str) -> String {
     format!("{LAYER}{name}.lamp")
 }
@@ -146,7 +146,7 @@ fn table(lamp: &Tabulated) -> String {
     })
 }
 
-/// `None` unless it is the spectrum of a lamp over all of the bands.
+/// Parses a lamp; `None` unless it is a spectrum over all of the bands.
 fn parsed(text: &str, grid: &BandGrid) -> Option<Tabulated> {
     let (low, high) = BandGrid::LIMITS_NM;
     let point = |line: &str| {

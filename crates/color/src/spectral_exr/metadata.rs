@@ -1,4 +1,4 @@
-//! What a spectral file says about itself, and its attributes.
+//! The metadata of a spectral file, and its attributes.
 
 use std::collections::BTreeMap;
 
@@ -17,32 +17,32 @@ const LAMBDA_MAX: &str = "pellicle.lambdaMax";
 const EXPOSURE: &str = "pellicle.exposureEv";
 const SETTING: &str = "pellicle.setting.";
 
-/// The most stops, up or down, that a file's exposure is believed to be.
+/// The largest plausible exposure of a file, in stops up or down.
 const MOST_STOPS: f64 = 40.0;
 
 /// The most bytes that an attribute's name may have in an `OpenEXR` file.
 const NAME_BYTES: usize = 255;
 
-/// Name and version of this software, as files name it.
+/// Returns name and version of this software, as written into files.
 pub fn software() -> String {
     concat!("Pellicle ", env!("CARGO_PKG_VERSION")).to_owned()
 }
 
-/// What a file says beside its pixels.
+/// The data of a file other than its pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Metadata {
-    /// Name and version of the software that wrote the file; empty when the file does not say.
+    /// Name and version of the software that wrote the file; empty if the file does not name it.
     pub software: String,
-    /// The exposure, in stops, that the file's R, G and B were developed with.
+    /// The exposure of the file's R, G and B, in stops.
     pub exposure_ev: f64,
-    /// The unit of radiance, by the layout's spelling. Always `W.m^-2.sr^-1.nm^-1` in files written here; a unit that is
-    /// a scale away is converted on reading, any other is told as the file has it. `W.m^-2.sr^-1`, the layout's own
-    /// example, means per nm. Empty when the file does not say.
+    /// The unit of radiance, in the layout's spelling. Always `W.m^-2.sr^-1.nm^-1` in files written here. A unit that differs
+    /// only by a scale is converted on reading; any other is kept as in the file. `W.m^-2.sr^-1`, the layout's own
+    /// example, means per nm. Empty if the file has no unit.
     pub emissive_units: String,
-    /// How the image came about: seed, samples, adapter. Names of 1 to 238 bytes.
+    /// How the image was made: seed, samples, adapter. Names have 1 to 238 bytes.
     pub settings: BTreeMap<String, String>,
-    /// What reading the file had to assume or change, each as what is said after the file's name; nothing for files written
-    /// here. It is not written.
+    /// The assumptions and changes made on reading the file, each worded to follow the file's name; empty for files written
+    /// here. Notes are not written.
     pub notes: Vec<String>,
 }
 
@@ -59,7 +59,7 @@ impl Default for Metadata {
 }
 
 impl Metadata {
-    /// The first setting whose name cannot be an attribute's.
+    /// Returns the first setting whose name cannot be the name of an attribute.
     pub(super) fn bad_setting(&self) -> Option<&str> {
         let is_bad = |name: &str| {
             name.is_empty() || name.contains('\0') || SETTING.len() + name.len() > NAME_BYTES
@@ -68,7 +68,7 @@ impl Metadata {
         names.find(|name| is_bad(name))
     }
 
-    /// Puts everything into the header of a file.
+    /// Writes everything into the header of a file.
     pub(super) fn into_header(self, grid: &BandGrid, header: &mut Header) {
         let own = &mut header.own_attributes;
         own.layer_name = None;
@@ -85,7 +85,7 @@ impl Metadata {
         header.shared_attributes.chromaticities = Some(chromaticities());
     }
 
-    /// Reads everything from the header of a file; what is missing is empty or 0.
+    /// Reads everything from the header of a file; missing entries are empty or 0.
     pub(super) fn of_header(header: &Header) -> Self {
         let own = &header.own_attributes;
         let mut notes = Vec::new();
@@ -106,7 +106,7 @@ impl Metadata {
         }
     }
 
-    /// What the file's radiances are multiplied by; the unit is then ours, where it is a scale away from it.
+    /// Returns the factor on the file's radiances, and replaces a unit that differs from ours only by a scale with ours.
     pub(super) fn take_units(&mut self) -> f64 {
         let unit = self.emissive_units.as_str();
         match radiance_scale(unit) {
@@ -119,7 +119,8 @@ impl Metadata {
                 scale
             }
             None => {
-                let note = format!("its unit {unit:?} is no spectral radiance: values are kept");
+                let note =
+                    format!("its unit {unit:?} is not one of spectral radiance: values are kept");
                 self.notes.push(note);
                 1.0
             }
@@ -127,12 +128,12 @@ impl Metadata {
     }
 }
 
-/// The ends of the band grid in nm, where the file tells them.
+/// Returns the ends of the band grid in nm, if the file has them.
 pub(super) fn range_nm(header: &Header) -> Option<(f64, f64)> {
     Some((number(header, LAMBDA_MIN)?, number(header, LAMBDA_MAX)?))
 }
 
-/// The exposure, in stops; 0 where the file does not say, or nothing that an exposure can be.
+/// Returns the exposure in stops; 0 if the file has none, or none that is plausible.
 fn exposure_ev(header: &Header, notes: &mut Vec<String>) -> f64 {
     let told = number(header, EXPOSURE).unwrap_or(0.0);
     // A NaN fails the comparison.
@@ -140,7 +141,7 @@ fn exposure_ev(header: &Header, notes: &mut Vec<String>) -> f64 {
         return told;
     }
     notes.push(format!(
-        "its exposure of {told} stops is none from -{MOST_STOPS} to {MOST_STOPS}: 0 is taken"
+        "its exposure of {told} stops is not from -{MOST_STOPS} to {MOST_STOPS}: 0 is used"
     ));
     0.0
 }
@@ -156,7 +157,7 @@ fn emissive_units(shared: &ImageAttributes, own: &LayerAttributes) -> Option<Str
     attribute_text(shared, own, UNITS_KEY)
 }
 
-/// An attribute that is a string, of the part or of the whole file.
+/// Returns a string attribute of the part or of the whole file.
 pub(super) fn attribute_text(
     shared: &ImageAttributes,
     own: &LayerAttributes,
@@ -169,7 +170,7 @@ pub(super) fn attribute_text(
     }
 }
 
-/// Strings stand in the file as UTF-8, which the format asks for.
+/// Converts a string for the file. The bytes are UTF-8, which the format requires.
 pub(super) fn text(string: &str) -> Text {
     Text::from_slice_unchecked(string.as_bytes())
 }
@@ -178,7 +179,7 @@ fn string(value: &str) -> AttributeValue {
     AttributeValue::Text(text(value))
 }
 
-/// What a string of a file says, whatever its bytes are.
+/// Converts a string of a file, with invalid UTF-8 replaced.
 pub(super) fn unicode(text: &Text) -> String {
     String::from_utf8_lossy(text.as_slice()).into_owned()
 }

@@ -9,9 +9,9 @@
 //! | `R`, `G`, `B` | float | developed linear sRGB for viewers, not clipped |
 //! | `pellicle.cieX`, `.cieY`, `.cieZ` | float | CIE 1931 XYZ of the pixel, cd/m² |
 //! | `pellicle.samples` | uint | number of samples of the pixel |
-//! | `pellicle.variance.385,000000nm` … | float | variance of the mean of `S0.…`, where asked for |
-//! | `pellicle.light.key.385,000000nm` …, `.cieX`, `.cieY`, `.cieZ` | float | the same of the light group `key` alone |
-//! | `key.R`, `key.G`, `key.B` | float | that developed, as a layer for viewers |
+//! | `pellicle.variance.385,000000nm` … | float | variance of the mean of `S0.…`, if requested |
+//! | `pellicle.light.key.385,000000nm` …, `.cieX`, `.cieY`, `.cieZ` | float | radiance and XYZ of the light group `key` alone |
+//! | `key.R`, `key.G`, `key.B` | float | developed color of the light group, as a layer for viewers |
 //!
 //! | attribute | type | content |
 //! | --- | --- | --- |
@@ -20,21 +20,21 @@
 //! | `chromaticities` | | primaries and white of sRGB |
 //! | `software` | string | name and version |
 //! | `pellicle.lambdaMin`, `pellicle.lambdaMax` | double | ends of the band grid, nm |
-//! | `pellicle.exposureEv` | double | the exposure that R, G and B were developed with |
-//! | `pellicle.lightGroups` | string | names of the light groups, with spaces between them |
-//! | `pellicle.light.key.lamp` | string | lamp of `key` where it is known: lines of wavelength in nm, a comma, and power at scale 1 |
-//! | `pellicle.setting.…` | string | settings that the caller gave |
+//! | `pellicle.exposureEv` | double | the exposure of R, G and B |
+//! | `pellicle.lightGroups` | string | names of the light groups, separated by spaces |
+//! | `pellicle.light.key.lamp` | string | lamp of `key`, if known: lines of wavelength in nm, a comma, and power at scale 1 |
+//! | `pellicle.setting.…` | string | settings given by the caller |
 //!
-//! Light groups have channels where there are several; the sum of their bands is `S0.…`. Lamps are told in any case.
+//! Light groups have channels if there are several; the sum of their bands is `S0.…`. Lamps are written in any case.
 //!
-//! Our own channels stand in a layer of their own, so that neither an ordinary viewer nor a reader
-//! of the layout takes them for color, depth or spectrum.
+//! Our own channels are in a separate layer, so that neither an ordinary viewer nor a reader of the
+//! layout takes them for color, depth or spectrum.
 //!
-//! Files of other origin are read too: wavelengths with any prefix of the SI or as frequencies, in any order, with a comma or a
-//! dot; bands of different widths; half floats; several parts; units that are a scale away; reflectances (`T.550nm`) and bands
-//! named by their ends (`400.00-410.00nm`). What reading had to change or assume stands in [`Metadata::notes`].
+//! Files of other programs are read too: wavelengths with any SI prefix or as frequencies, in any order, with a comma or a dot;
+//! bands of different widths; half floats; several parts; units that differ by a scale; reflectances (`T.550nm`) and bands named
+//! by their ends (`400.00-410.00nm`). [`Metadata::notes`] lists the changes and assumptions made on reading.
 //!
-//! The file is in scan lines, compressed without loss; see [`write`](write()) for what that costs.
+//! The file has scan lines with lossless compression; see [`write`](write()) for its cost.
 
 mod attribute_order;
 mod bands;

@@ -24,7 +24,7 @@ use colors::Colors;
 use pixels::Pixels;
 use plan::Plan;
 
-/// Why a spectral file was not read.
+/// Why a spectral file could not be read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ReadExrError {
@@ -33,10 +33,10 @@ pub enum ReadExrError {
     File {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the operating system.
         source: io::Error,
     },
-    /// The file does not begin as an `OpenEXR` file does.
+    /// The file does not begin like an `OpenEXR` file.
     #[error("{path} is not an OpenEXR file")]
     NotExr {
         /// The file.
@@ -47,15 +47,15 @@ pub enum ReadExrError {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What was found wrong.
+        /// The fault that was found.
         reason: String,
     },
-    /// The file may be sound, but has a form that is not read here.
+    /// The file may be valid, but has a form that is not supported here.
     #[error("{path} has a form that is not supported: {reason}")]
     Unsupported {
         /// The file.
         path: PathBuf,
-        /// Which form.
+        /// The form.
         reason: String,
     },
     /// No channel is spectral.
@@ -64,15 +64,15 @@ pub enum ReadExrError {
         /// The file.
         path: PathBuf,
     },
-    /// The spectral channels make no band grid.
+    /// The spectral channels do not form a band grid.
     #[error("the spectral channels of {path} cannot be used")]
     Bands {
         /// The file.
         path: PathBuf,
-        /// Why not.
+        /// The reason.
         source: BandLayoutError,
     },
-    /// The image would take more memory than [`MAX_BYTES`] or than there is.
+    /// The image would take more memory than [`MAX_BYTES`] or than is available.
     #[error(
         "{path} holds an image of {width}×{height} pixels and {bands} bands, too large to read"
     )]
@@ -88,24 +88,24 @@ pub enum ReadExrError {
     },
 }
 
-/// Reads a spectral file: one written by [`write`](super::write()), or one of other origin in the same layout.
+/// Reads a spectral file written by [`write`](super::write()), or by another program in the same layout.
 ///
-/// The bands of others may have any widths. Each is taken as constant from half way to its neighbor on one side to half way
-/// on the other, as the layout has it; where the widths differ, the bands are read onto even ones as narrow as the narrowest
-/// (1024 at most), which keeps the integral over wavelength. Bands beyond 360 to 830 nm are left out, and one that reaches over
-/// an end from where people see (380 to 780 nm) is cut there.
+/// The bands of other programs may have any widths. Each is taken as constant from halfway to one neighbor to halfway to the other,
+/// as in the layout. If the widths differ, the bands are read onto even ones as narrow as the narrowest (1024 at most), which
+/// preserves the integral over wavelength. Bands beyond 360 to 830 nm are left out; a band that crosses one of these ends from the
+/// visible range (380 to 780 nm) is cut there.
 ///
-/// What a file of other origin lacks is filled in: XYZ by summing the bands
+/// Data that a file of another program lacks is filled in: XYZ by summing the bands
 /// ([`BandWeights::observed`](crate::BandWeights::observed)), variance and sample count as 0.
 ///
-/// Reflectances, where there is no radiance in the file, are looked at under an illuminant: the one that the file's attribute
-/// `illuminant` names or has a table of, else D65. It is as bright as a radiance of 1 at every wavelength, so that a perfect white
-/// is a display's white at 0 EV. It is the lamp of the image's only light group, `illuminant`. Beyond the file's bands, from 380 to
-/// 780 nm, the reflectance stays what it is at the ends (CIE 15:2018, 7.2.3).
+/// Reflectances, if the file has no radiance, are shown under an illuminant: the one that the file's attribute `illuminant` names or
+/// tabulates, otherwise D65. It is as bright as a radiance of 1 at every wavelength, so a perfect white is a display's white at 0 EV.
+/// It is the lamp of the image's only light group, `illuminant`. Beyond the file's bands, within 380 to 780 nm, the reflectance has
+/// its value at the nearest end (CIE 15:2018, 7.2.3).
 ///
-/// The image is the file's display window: pixels of it that the data window lacks are black and have 0 samples, those outside are
-/// cut off. Polarized components, light emitted at another wavelength than it was absorbed at,
-/// and other channels are passed over. What was assumed or changed is in the metadata's notes.
+/// The image is the file's display window: its pixels that the data window lacks are black and have 0 samples; pixels outside it are
+/// cut off. Polarized components, light emitted at a wavelength other than that of its absorption,
+/// and other channels are ignored. Assumptions and changes are in the metadata's notes.
 ///
 /// # Errors
 /// When the file cannot be read, is damaged, has no such spectrum, or is larger than its length or
@@ -115,19 +115,19 @@ pub fn read(path: &Path) -> Result<(SpectralImage, Metadata), ReadExrError> {
     Ok((pixels(&Context { path }, reader, plan)?, metadata))
 }
 
-/// How large the image of a spectral file is: width and height in pixels, and its bands. Its pixels are not read.
+/// Reads the size of a spectral file's image: width and height in pixels, and its bands. Pixels are not read.
 ///
 /// # Errors
-/// As [`read`], but for what is wrong with pixels.
+/// As [`read`], except errors in pixels.
 pub fn read_size(path: &Path) -> Result<([u32; 2], BandGrid), ReadExrError> {
     let (_, plan, _) = open(path)?;
-    // Sides that memory holds, which has been looked at.
+    // `open` has checked that an image of these sides fits into memory.
     let side = |side| u32::try_from(side).unwrap_or(u32::MAX);
     let (width, height) = plan.window.size();
     Ok(([side(width), side(height)], plan.grid))
 }
 
-/// Reads the colors of a spectral file, without its spectra: the same XYZ as [`read`] gives, sooner.
+/// Reads the colors of a spectral file without its spectra. The XYZ are those of [`read`], but reading is faster.
 ///
 /// # Errors
 /// As [`read`].
@@ -147,7 +147,7 @@ pub fn read_xyz(path: &Path) -> Result<(XyzImage, Metadata), ReadExrError> {
     Ok((image.ok_or_else(missing)?, metadata))
 }
 
-/// Opens a file and reads what its header says, which is checked.
+/// Opens a file, and reads and checks its header.
 fn open(path: &Path) -> Result<(Reader<BufReader<File>>, Plan, Metadata), ReadExrError> {
     let (reader, length) = exr_file::open(path)?;
     let context = Context { path };
@@ -167,7 +167,7 @@ fn open(path: &Path) -> Result<(Reader<BufReader<File>>, Plan, Metadata), ReadEx
     Ok((reader, plan, metadata))
 }
 
-/// The whole image.
+/// Reads the whole image.
 fn pixels(
     context: &Context<'_>,
     reader: Reader<BufReader<File>>,

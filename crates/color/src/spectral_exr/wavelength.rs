@@ -1,11 +1,11 @@
-//! Wavelengths in the names of channels, as the layout and other programs write them.
+//! Wavelengths in channel names, as in the layout and as other programs write them.
 
 use super::bands::BandLayoutError;
 
 /// Speed of light in vacuum, m/s (exact in the SI).
 const LIGHT_M_PER_S: f64 = 299_792_458.0;
 
-/// Prefixes of the SI with their powers of ten, those of two letters before those of one.
+/// SI prefixes with their powers of ten, prefixes of two letters before those of one.
 const PREFIXES: [(&str, i32); 22] = [
     ("da", 1),
     ("Y", 24),
@@ -31,28 +31,28 @@ const PREFIXES: [(&str, i32); 22] = [
     ("y", -24),
 ];
 
-/// What a spectral channel holds.
+/// The quantity in a spectral channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Quantity {
-    /// Emissive and unpolarized, the first Stokes component: `S0.550nm`.
+    /// Emissive, unpolarized radiance, the first Stokes component: `S0.550nm`.
     Radiance,
-    /// Reflective: `T.550nm`.
+    /// Reflectance: `T.550nm`.
     Reflectance,
     /// Radiance over a band whose ends the name gives: `400.00-410.00nm`. Mitsuba 0.6 and ART write such names.
     Range,
 }
 
-/// Where in the spectrum a channel lies, nm.
+/// The position of a channel in the spectrum, nm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Place {
-    /// A band around this wavelength; its neighbors tell how wide it is.
+    /// A band around this wavelength, whose width follows from its neighbors.
     Center(f64),
     /// A band from one wavelength to another.
     Range(f64, f64),
 }
 
 impl Place {
-    /// The middle of the band.
+    /// The center of the band.
     pub(super) fn center_nm(self) -> f64 {
         match self {
             Self::Center(nm) => nm,
@@ -61,7 +61,7 @@ impl Place {
     }
 }
 
-/// What a channel of this name holds; `None` when it is no spectral channel that is read here.
+/// Returns the quantity and position of a channel by its name; `None` if it is not a spectral channel that is read here.
 pub(super) fn spectral_channel(name: &str) -> Option<Result<(Quantity, Place), BandLayoutError>> {
     if let Some(text) = name.strip_prefix("S0.") {
         return match wavelength_nm(text) {
@@ -71,7 +71,7 @@ pub(super) fn spectral_channel(name: &str) -> Option<Result<(Quantity, Place), B
             None => Some(Err(BandLayoutError::NotAWavelength(name.to_owned()))),
         };
     }
-    // Some readers take the name without its dot, and so do some writers.
+    // Some readers and some writers omit the dot.
     let bare = name.strip_prefix("S0").and_then(wavelength_nm);
     let reflective = || wavelength_nm(name.strip_prefix('T')?.trim_start_matches('.'));
     let range = || {
@@ -86,7 +86,7 @@ pub(super) fn spectral_channel(name: &str) -> Option<Result<(Quantity, Place), B
     Some(Ok(found))
 }
 
-/// Two wavelengths with a dot between them.
+/// Whether a text is two wavelengths separated by a dot.
 fn is_reradiation(text: &str) -> bool {
     let dots = text.match_indices('.');
     dots.into_iter().any(|(at, _)| {
@@ -94,8 +94,8 @@ fn is_reradiation(text: &str) -> bool {
     })
 }
 
-/// A wavelength (`550nm`, `0,55um`) or a frequency (`5,45e2THz`) in nm: a number with a comma or a dot, a prefix, and m or
-/// Hz (Fichet, Pacanowski and Wilkie, section 4).
+/// Parses a wavelength (`550nm`, `0,55um`) or a frequency (`5,45e2THz`) into nm: a number with a comma or a dot, a prefix, and
+/// m or Hz (Fichet, Pacanowski and Wilkie, section 4).
 pub(super) fn wavelength_nm(text: &str) -> Option<f64> {
     let nm = if let Some(text) = text.strip_suffix("Hz") {
         let (value, exponent) = prefixed(text)?;
@@ -107,13 +107,13 @@ pub(super) fn wavelength_nm(text: &str) -> Option<f64> {
     (nm.is_finite() && nm > 0.0).then_some(nm)
 }
 
-/// 10^`exponent`, to the last digit, so that 555.5 nm stay 555.5.
+/// Returns 10^`exponent`, exact to the last digit, so that 555.5 nm stays 555.5.
 fn power_of_ten(exponent: i32) -> f64 {
     let size = f64::powi(10.0, exponent.abs());
     if exponent < 0 { 1.0 / size } else { size }
 }
 
-/// A number and the power of ten of the prefix behind it.
+/// Parses a number and the SI prefix after it, as a power of ten.
 fn prefixed(text: &str) -> Option<(f64, i32)> {
     if let Some(value) = number(text) {
         return Some((value, 0));
@@ -130,11 +130,11 @@ pub(super) fn number(text: &str) -> Option<f64> {
     is_number.then(|| text.replace(',', ".").parse().ok())?
 }
 
-/// The factor that takes values in `unit` to W m⁻² sr⁻¹ nm⁻¹; `None` when the unit is no spectral radiance, or another one
-/// than a scale away.
+/// Returns the factor that converts values in `unit` to W m⁻² sr⁻¹ nm⁻¹; `None` if the unit is not a spectral radiance, or differs
+/// by more than a scale.
 ///
-/// A unit is written like `mW.cm^-2.sr^-1.um^-1`. The layout's own example, `W.m^-2.sr^-1`, which most programs write, says
-/// nothing of the wavelength and means per nm.
+/// A unit is written like `mW.cm^-2.sr^-1.um^-1`. The layout's own example, `W.m^-2.sr^-1`, which most programs write, does not
+/// mention the wavelength and means per nm.
 pub(super) fn radiance_scale(unit: &str) -> Option<f64> {
     let (mut exponent, mut meters, mut watts, mut steradians) = (0_i32, 0_i32, 0_i32, 0_i32);
     for factor in unit.split(['.', '*', ' ', '\u{b7}']) {

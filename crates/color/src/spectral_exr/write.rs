@@ -23,10 +23,10 @@ use crate::pending_file::PendingFile;
 use crate::xyz::exposure_scale;
 use colorimetry::srgb;
 
-/// What to leave out of a file.
+/// Options for writing a file.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct WriteOptions {
-    /// Write the variance of every band too, which doubles the file. On by default.
+    /// Whether to write the variance of every band too, which doubles the file size. On by default.
     pub variance: bool,
 }
 
@@ -36,11 +36,11 @@ impl Default for WriteOptions {
     }
 }
 
-/// The most bytes of uncompressed blocks at a time (a single block may be larger).
+/// The most bytes of uncompressed blocks in memory at a time (a single block may be larger).
 pub const BATCH_BYTES: usize = 256 << 20;
 
-/// How many blocks are worked on in parallel before the next are read or these written: two for each core, more where they
-/// are small.
+/// Number of blocks to process in parallel before the next are read or these are written: two for each core, more if they are
+/// small.
 pub(crate) fn blocks_at_a_time(block_bytes: usize) -> usize {
     const SMALL: usize = 16 << 20;
     let block_bytes = block_bytes.max(1);
@@ -48,36 +48,36 @@ pub(crate) fn blocks_at_a_time(block_bytes: usize) -> usize {
     (BATCH_BYTES / block_bytes).clamp(1, enough)
 }
 
-/// Why a spectral file was not written. No file is left behind.
+/// Why a spectral file could not be written. No file is left behind.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WriteExrError {
-    /// The file could not be opened, written or put in its place.
+    /// The file could not be opened, written or renamed to its target.
     #[error("cannot write {path}")]
     File {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// The image has no pixels.
     #[error("cannot write {path}: the image has no pixels")]
     Empty {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
     },
     /// A setting's name is empty, too long or contains a zero.
     #[error("cannot write {path}: {name:?} cannot be the name of a setting")]
     SettingName {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
-        /// The name as given.
+        /// The given name.
         name: String,
     },
-    /// A light group's name cannot be that of a layer, or stands twice.
-    #[error("cannot write {path}: {name:?} cannot be the name of a light group, or is that of two")]
+    /// A light group's name cannot be the name of a layer, or occurs twice.
+    #[error("cannot write {path}: {name:?} cannot be the name of a light group, or names two of them")]
     LightGroup {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
         /// The name.
         name: String,
@@ -85,27 +85,27 @@ pub enum WriteExrError {
     /// The image cannot be put into an `OpenEXR` file.
     #[error("cannot encode {path} as OpenEXR")]
     Encode {
-        /// The file asked for.
+        /// The requested file.
         path: PathBuf,
-        /// What the encoder said.
+        /// The error of the encoder.
         source: exr::error::Error,
     },
 }
 
 /// Writes a spectral file.
 ///
-/// Compression is RLE, line by line, which is lossless. Noise fills the mantissas, so no lossless compression gains much, and
-/// what it costs to read decides. Measured on 1920×1080 pixels, 40 bands without variance, 5 % noise, a third of the picture
-/// black, on two cores that had other work too: 390 MB uncompressed (0.7 s to write, 0.9 s to read) become 274 MB with RLE
+/// Compression is RLE, line by line, which is lossless. Noise fills the mantissas, so no lossless compression gains much, and the
+/// cost of reading decides. Measured on 1920×1080 pixels, 40 bands without variance, 5 % noise, a third of the picture black, on
+/// two cores that were also doing other work: 390 MB uncompressed (0.7 s to write, 0.9 s to read) become 274 MB with RLE
 /// (1.1 s, 1.2 s), 259 MB with ZIP by line (5.2 s, 1.3 s), 258 MB with ZIP by 16 lines (11 s, 2.4 s) and 230 MB with PIZ
-/// (5.8 s, 10.7 s). Neither RLE nor PIZ carries a checksum: damage to the pixels, unlike damage to the header, may be read as
-/// other values, with RLE in one line at most.
+/// (5.8 s, 10.7 s). Neither RLE nor PIZ has a checksum: damaged pixels, unlike a damaged header, may be read as other values, with
+/// RLE in one line at most.
 ///
-/// Lines are cut from the image, compressed on all cores and written in order, some at a time; compressing takes up to three
-/// times their bytes beside the image.
+/// Lines are taken from the image, compressed on all cores and written in order, several at a time. Compression needs up to three
+/// times their bytes in addition to the image.
 ///
 /// # Errors
-/// When the file cannot be written, the image has no pixels, or the name of a setting or light group cannot stand in a file.
+/// When the file cannot be written, the image has no pixels, or a file cannot hold the name of a setting or light group.
 pub fn write(
     path: &Path,
     image: &SpectralImage,
@@ -174,7 +174,7 @@ fn encode(
     })
 }
 
-/// Where the samples of a file come from.
+/// The source of a file's samples.
 struct Source<'a> {
     image: &'a SpectralImage,
     contents: &'a [Content],
@@ -202,7 +202,7 @@ impl Source<'_> {
         Ok(())
     }
 
-    /// Linear sRGB, not clipped.
+    /// Converts to linear sRGB, not clipped.
     fn linear_rgb(&self, xyz: [f32; 3]) -> [f64; 3] {
         srgb::linear_from_xyz(xyz.map(|value| f64::from(value) * self.scale))
     }
@@ -212,7 +212,7 @@ impl Source<'_> {
         UncompressedBlock::from_lines(channels, index, |line| self.fill(line.location, line.value))
     }
 
-    /// The samples of one channel in one row of pixels.
+    /// Fills in the samples of one channel in one row of pixels.
     fn fill(&self, location: LineIndex, out: &mut [u8]) {
         let bands = self.image.bands().count() as usize;
         let start = location.position.y() * self.image.width() as usize;

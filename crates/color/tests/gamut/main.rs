@@ -1,4 +1,4 @@
-//! Which space keeps hue: against what observers saw, and on interference colors that no display shows.
+//! Which space keeps hue, compared with the judgment of observers and for interference colors outside the gamut.
 
 use color::BandWeights;
 use color::develop::{Gamut, GamutMapping};
@@ -12,7 +12,7 @@ use pellicle_color as color;
 use spectra::BandGrid;
 use std::collections::BTreeMap;
 
-/// Colors seen in the same hue, by its name, and their white.
+/// Colors seen as the same hue, by the name of the hue, and their white.
 struct Loci {
     white: [f64; 3],
     hues: BTreeMap<&'static str, Vec<[f64; 3]>>,
@@ -43,7 +43,7 @@ impl Loci {
     }
 }
 
-/// A space: lightness and the two coordinates of hue, there and back.
+/// A color space: conversions from and to XYZ of lightness and the two coordinates of hue.
 struct Space {
     name: &'static str,
     of_xyz: Box<dyn Fn([f64; 3]) -> [f64; 3]>,
@@ -54,7 +54,8 @@ fn spaces(white: [f64; 3]) -> [Space; 3] {
     let d65 = Display::named("srgb").unwrap().white_xyz();
     let to_d65 = Adaptation::Bradford.matrix(white, d65);
     let from_d65 = inverse(&to_d65);
-    // As CIECAM16's authors compare spaces: an average surround, and an adapting field of a fifth of 64 cd/m².
+    // The conditions with which the authors of CIECAM16 compare spaces: an average surround, and an adapting field of a fifth of
+    // 64 cd/m².
     let conditions =
         ViewingConditions::new(white.map(|v| 100.0 * v), 64.0, 20.0, Surround::Average);
     [
@@ -87,7 +88,7 @@ fn spaces(white: [f64; 3]) -> [Space; 3] {
     ]
 }
 
-/// How far each color moves, in ΔE₀₀, when it takes the mean hue of those seen alike.
+/// Returns how far each color moves, in ΔE₀₀, when it takes the mean hue of the colors seen as the same hue.
 fn errors(space: &Space, colors: &[[f64; 3]], white: [f64; 3]) -> Vec<f64> {
     let own: Vec<[f64; 3]> = colors.iter().map(|&xyz| (space.of_xyz)(xyz)).collect();
     let directions = own
@@ -106,7 +107,7 @@ fn errors(space: &Space, colors: &[[f64; 3]], white: [f64; 3]) -> Vec<f64> {
         .collect()
 }
 
-/// Mean, 95th percentile and largest.
+/// Returns mean, 95th percentile and maximum.
 fn summary(errors: &mut [f64]) -> [f64; 3] {
     errors.sort_by(f64::total_cmp);
     let mean = errors.iter().sum::<f64>() / errors.len() as f64;
@@ -114,8 +115,8 @@ fn summary(errors: &mut [f64]) -> [f64; 3] {
     [mean, p95, errors[errors.len() - 1]]
 }
 
-/// The table where the default is chosen, to its last digit: mean, 95 %, blue where there is one, max. The means agree with an
-/// independent computation (colour-science 0.4.7).
+/// The table in the documentation of gamut mapping is right to its last digit: mean, 95 %, blue if there is one, max. The means
+/// agree with an independent computation (colour-science 0.4.7).
 #[test]
 fn oklab_keeps_hue_best() {
     for (loci, count, table) in [
@@ -149,7 +150,7 @@ fn oklab_keeps_hue_best() {
     }
 }
 
-/// XYZ of free films in D65, 5 to 1500 nm thick, exposed so that the brightest are near the white.
+/// Returns the XYZ of free films in D65, 5 to 1500 nm thick, exposed so that the brightest are near the white.
 fn films(index: f64) -> Vec<[f64; 3]> {
     let grid = BandGrid::visible(200).unwrap();
     let observer = BandWeights::observed(&grid, spectra::Observer::Cie1931Deg2);
@@ -173,7 +174,7 @@ fn films(index: f64) -> Vec<[f64; 3]> {
     (1..=300).map(|i| film(5.0 * f64::from(i))).collect()
 }
 
-/// A judge that none of the mappings was made with: the hue angle of CIECAM16.
+/// Hue is measured by the hue angle of CIECAM16, on which none of the mappings is based.
 #[test]
 fn interference_colors_keep_their_hue() {
     let display = Display::named("srgb").unwrap();
@@ -191,7 +192,7 @@ fn interference_colors_keep_their_hue() {
         .map(|xyz| times(display.rgb_from_xyz(), xyz))
         .filter(|&rgb| !gamut.contains(rgb))
         .collect();
-    // The figures where the default is chosen.
+    // The numbers in the documentation of gamut mapping.
     assert_eq!(outside.len(), 126);
     let turns = |mapping| {
         let turn = |&rgb: &[f64; 3]| {

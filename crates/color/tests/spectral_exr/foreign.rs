@@ -1,4 +1,4 @@
-//! Files that other programs wrote.
+//! Files of other programs.
 
 use std::path::Path;
 
@@ -43,7 +43,7 @@ fn files_of_other_programs_are_read() {
     assert_eq!(image.xyz()[5].map(f32::to_bits), xyz.map(f32::to_bits));
 }
 
-/// A unit in the header, as other programs write it.
+/// Writes a file with a unit in the header, as other programs do.
 fn write_with_unit(path: &Path, names: &[&str], unit: &str) {
     use exr::prelude::*;
 
@@ -57,7 +57,7 @@ fn write_with_unit(path: &Path, names: &[&str], unit: &str) {
     image.write().to_file(path).unwrap();
 }
 
-/// The file's samples are 0 to 5, the same in every channel.
+/// Writes and reads a file whose samples are 0 to 5, the same in every channel.
 fn read_foreign(path: &Path, names: &[&str]) -> (SpectralImage, Metadata) {
     write_foreign(path, names);
     spectral_exr::read(path).unwrap()
@@ -88,14 +88,14 @@ fn any_unit_and_order_of_wavelengths_is_the_same_spectrum() {
     }
 }
 
-/// Each channel has a number of its own, so that a band in the wrong place is noticed.
+/// Each channel has its own number, so a band in the wrong position is noticed.
 #[test]
 fn each_band_comes_from_its_own_channel() {
     use exr::prelude::*;
 
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("foreign.exr");
-    // The order of names is not that of wavelengths: 1000 nm is left out, 0,7um is the longest.
+    // The names are not in the order of wavelengths; 1000 nm is left out.
     let values = [
         ("S0.0,7um", 3.0),
         ("S0.1000nm", 4.0),
@@ -111,7 +111,7 @@ fn each_band_comes_from_its_own_channel() {
         .unwrap();
     let (image, metadata) = spectral_exr::read(&path).unwrap();
     let (min_nm, max_nm) = (image.bands().min_nm(), image.bands().max_nm());
-    // 325 nm, cut at 360; 850 nm begins at 775, where people see, and is cut at 830.
+    // The first band begins at 325 nm and is cut at 360; the band at 850 nm begins at 775, in the visible range, and is cut at 830.
     assert_eq!((min_nm, max_nm), (360.0, 830.0));
     let pixel = image.pixel(2, 1);
     assert_eq!((pixel[0], pixel[pixel.len() - 1]), (1.0, 5.0));
@@ -137,7 +137,7 @@ fn units_are_converted_where_they_are_a_scale_away() {
     }
 }
 
-/// Light is neither lost nor made where bands of different widths are read onto even ones.
+/// Reading bands of different widths onto even ones neither loses nor adds light.
 #[test]
 fn uneven_bands_keep_their_light() {
     let directory = tempfile::tempdir().unwrap();
@@ -212,7 +212,7 @@ fn spectra_that_cannot_be_used_are_distinguished() {
     }
 }
 
-/// More channels than a band grid may have bands.
+/// A file may have more channels than a band grid may have bands.
 #[test]
 fn too_many_bands_are_refused() {
     let directory = tempfile::tempdir().unwrap();

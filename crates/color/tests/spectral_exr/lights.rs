@@ -1,4 +1,4 @@
-//! Light groups are written as layers, and read again.
+//! Light groups are written as layers and read back.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -10,7 +10,7 @@ use spectra::{BandGrid, LightGroup, SpectralImage};
 
 use crate::support::{metadata, noise};
 
-/// An image in which every number differs, of light groups with these lamps.
+/// An image of light groups with these lamps in which every number differs.
 fn image(groups: &[(&str, Option<&str>)]) -> SpectralImage {
     let grid = BandGrid::visible(5).unwrap();
     let lamp = |name: &str| grid.lamp(&spectra::illuminant(name).unwrap().data);
@@ -77,7 +77,7 @@ fn each_of_several_light_groups_is_a_layer() {
     }
 }
 
-/// Bit 10 of the version field is for names beyond 31 bytes.
+/// Bit 10 of the version field marks names longer than 31 bytes.
 #[test]
 fn long_names_are_marked() {
     let directory = tempfile::tempdir().unwrap();
@@ -158,7 +158,7 @@ fn a_unit_that_is_a_scale_away_is_that_of_all_light() {
     );
 }
 
-/// A lamp of any wavelengths could keep a reader busy for ever.
+/// A lamp with unlimited wavelengths could keep a reader busy forever.
 #[test]
 fn a_lamp_that_is_none_is_unknown_and_noted() {
     let directory = tempfile::tempdir().unwrap();
@@ -181,7 +181,7 @@ fn a_lamp_that_is_none_is_unknown_and_noted() {
     assert!(note.contains("\"sky\""), "{note}");
 }
 
-/// The same file with some bytes replaced by as many others.
+/// Replaces some bytes of a file by the same number of other bytes.
 fn replaced(path: &Path, from: &str, to: &str) {
     assert_eq!(from.len(), to.len());
     let mut bytes = fs::read(path).unwrap();
@@ -203,7 +203,7 @@ fn a_light_group_without_its_channels_is_damage() {
         }
         other => panic!("{other:?}"),
     }
-    // A list of names that says nothing: the total is there.
+    // The list of names is not usable, but the total is there.
     let image = image(&[("sky", None), ("key", None)]);
     write(&path, &image).unwrap();
     replaced(&path, "sky key", "sky sky");

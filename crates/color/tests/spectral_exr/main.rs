@@ -1,4 +1,4 @@
-//! Spectral files: what is written is read again, and damaged files are told so.
+//! Spectral files: written files are read back, and damaged files are reported.
 
 mod damaged;
 mod foreign;

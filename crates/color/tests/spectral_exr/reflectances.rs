@@ -1,4 +1,4 @@
-//! Files of reflectances, looked at under an illuminant.
+//! Files of reflectances, shown under an illuminant.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use pellicle_color::xyz::equal_energy_luminance;
 use pellicle_color::{Relight, relight};
 use spectra::{Observer, SpectralImage, illuminant};
 
-/// D65 at a few wavelengths (CIE 15), as other programs note it.
+/// D65 at a few wavelengths (CIE 15), in the form that other programs write.
 const D65_TABLE: &str =
     "380nm:50.0;440nm:104.9;500nm:109.4;560nm:100.0;620nm:87.7;680nm:78.3;740nm:75.1;780nm:63.4";
 
@@ -38,7 +38,7 @@ fn read(reflectance: f32, illuminant: Option<&str>) -> (SpectralImage, Metadata)
     (image, metadata)
 }
 
-/// XYZ, 1 for the Y of a perfect white.
+/// Returns XYZ with Y = 1 for a perfect white.
 fn xyz(image: &SpectralImage) -> [f64; 3] {
     image.xyz()[1].map(|value| f64::from(value) / equal_energy_luminance())
 }
@@ -50,7 +50,7 @@ fn a_gray_under_d65_is_that_share_of_the_white() {
         (None, "names no illuminant"),
         (Some("D65"), "its illuminant D65"),
         (Some("CIE d65"), "its illuminant D65"),
-        (Some(D65_TABLE), "under D65, of which it has a table"),
+        (Some(D65_TABLE), "under D65, which its table matches"),
         (Some("my lamp\u{1b}[2J"), "not known"),
         (Some("nm:1;2"), "not known"),
         (Some("NaNnm:1;500nm:1"), "not known"),

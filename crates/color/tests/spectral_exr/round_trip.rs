@@ -1,4 +1,4 @@
-//! What is written is read again, in the form that the layout asks for.
+//! Written files are read back, and have the form that the layout requires.
 
 use std::fs;
 
@@ -199,7 +199,7 @@ fn colors_alone_are_those_of_the_whole_image() {
     );
     assert_eq!(found_metadata, metadata());
 
-    // Cut short, it is an error here too.
+    // A file that is cut short is an error here too.
     let bytes = fs::read(&path).unwrap();
     fs::write(&path, &bytes[..bytes.len() - bytes.len() / 4]).unwrap();
     assert!(spectral_exr::read_xyz(&path).is_err());

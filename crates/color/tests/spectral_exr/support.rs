@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use pellicle_color::spectral_exr::{self, Metadata, WriteOptions};
 use spectra::{BandGrid, SpectralImage};
 
-/// A number in [0, 1) from an index, without order.
+/// A pseudorandom number in [0, 1) from an index.
 pub(crate) fn noise(index: u32) -> f32 {
     let mut hash = index.wrapping_mul(0x9e37_79b9) ^ 0x85eb_ca6b;
     hash = (hash ^ (hash >> 15)).wrapping_mul(0x2c1b_3c6d);
@@ -48,7 +48,7 @@ pub(crate) fn metadata() -> Metadata {
 
 pub(crate) fn write_noisy(directory: &Path, variance: bool) -> (PathBuf, SpectralImage) {
     let path = directory.join("image.exr");
-    // Neither side a multiple of the block's 32 lines.
+    // Neither side is a multiple of a block's 32 lines.
     let image = noisy(23, 37, 6);
     spectral_exr::write(&path, &image, &metadata(), WriteOptions { variance }).unwrap();
     (path, image)

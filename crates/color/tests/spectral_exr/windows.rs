@@ -7,7 +7,7 @@ use pellicle_color::spectral_exr;
 
 const NAMES: [&str; 2] = ["S0.450nm", "S0.460nm"];
 
-/// Samples count up from 1, row by row.
+/// Writes a file whose samples count up from 1, row by row.
 fn write(path: &Path, (position, size): ([i32; 2], [usize; 2]), display: ([i32; 2], [usize; 2])) {
     let count = size[0] * size[1];
     let channel = |name: &&str| {
@@ -53,7 +53,7 @@ fn a_crop_is_placed_in_black() {
         let (values, notes) = first_band(&path);
         assert_eq!(values, [0., 0., 0., 0., 0., 1., 2., 0., 0., 0., 0., 0.]);
         assert!(
-            notes[0].contains("2×1 pixels from 1,1 on of a picture of 4×3"),
+            notes[0].contains("2×1 pixels at 1,1 of a picture of 4×3"),
             "{notes:?}"
         );
     }
@@ -67,7 +67,7 @@ fn overscan_is_cut_off() {
     let (values, notes) = first_band(&path);
     assert_eq!(values, [6., 7.]);
     assert!(notes[0].contains("cut off"), "{notes:?}");
-    // Above and to the left of the picture, and short of its right end.
+    // The data window starts above and to the left of the picture and ends before its right edge.
     write(&path, ([-1, -1], [2, 2]), ([0, 0], [2, 1]));
     assert_eq!(first_band(&path).0, [4., 0.]);
     write(&path, ([3, 3], [2, 2]), ([3, 3], [2, 2]));

@@ -1,4 +1,4 @@
-//! Gathering XYZ alone from blocks of samples.
+//! Collecting only XYZ from blocks of samples.
 
 use exr::block::UncompressedBlock;
 use exr::meta::attribute::ChannelList;
@@ -12,7 +12,7 @@ use crate::spectral_exr::channels::Content;
 pub(super) struct Colors {
     size: (usize, usize),
     xyz: Vec<[f32; 3]>,
-    /// How many samples of X, Y and Z have been written.
+    /// Number of samples of X, Y and Z stored so far.
     filled: usize,
 }
 
@@ -26,7 +26,7 @@ impl Colors {
         }
     }
 
-    /// Takes over a block's X, Y and Z; `None` when it does not lie within the image.
+    /// Stores a block's X, Y and Z; `None` if the block is not within the image.
     pub(super) fn insert(
         &mut self,
         plan: &Plan,
@@ -56,7 +56,7 @@ impl Colors {
         Some(())
     }
 
-    /// The colors, if every sample came.
+    /// Returns the colors, if every sample was stored.
     pub(super) fn finish(self, plan: &Plan) -> Option<XyzImage> {
         let (width, height) = self.size;
         let held = plan.window.data();

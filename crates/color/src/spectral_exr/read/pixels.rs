@@ -1,4 +1,4 @@
-//! Gathering blocks of samples into an image.
+//! Collecting blocks of samples into an image.
 
 use exr::block::UncompressedBlock;
 use exr::block::lines::LineRef;
@@ -14,9 +14,9 @@ use crate::spectral_exr::channels::{Content, LightContent};
 pub(super) struct Pixels {
     plan: Plan,
     image: SpectralImage,
-    /// How many pixels of each row have been written.
+    /// Number of pixels of each row stored so far.
     filled: Vec<usize>,
-    /// Makes XYZ where the file has none.
+    /// Computes XYZ if the file has none.
     observer: Option<BandWeights>,
 }
 
@@ -26,8 +26,9 @@ struct Row {
     variance: Vec<f32>,
     xyz: Vec<[f32; 3]>,
     samples: Vec<u32>,
-    /// How many radiances and how many variances each pixel has.
+    /// Number of radiances of each pixel.
     channels: usize,
+    /// Number of variances of each pixel.
     bands: usize,
     /// Radiance and XYZ of each of several light groups.
     lights: Vec<(Vec<f32>, Vec<[f32; 3]>)>,
@@ -55,7 +56,7 @@ impl Pixels {
         self.plan.layer
     }
 
-    /// Takes a block's pixels over; `None` when it does not lie within the image.
+    /// Stores a block's pixels; `None` if the block is not within the image.
     pub(super) fn insert(
         &mut self,
         block: &UncompressedBlock,
@@ -126,7 +127,7 @@ impl Pixels {
         self.filled[run.y] += run.count;
     }
 
-    /// The image, if every pixel came exactly once.
+    /// Returns the image, if every pixel was stored exactly once.
     pub(super) fn finish(self) -> Option<SpectralImage> {
         let window = self.plan.window;
         let mut rows = self.filled.iter().enumerate();
@@ -151,7 +152,7 @@ impl Row {
         }
     }
 
-    /// What the light groups bring to a pixel: radiance as `[light group][band]`, and XYZ.
+    /// Collects the light groups of a pixel: radiance as `[light group][band]`, and XYZ.
     fn by_light(&self, x: usize, (radiance, xyz): &mut (Vec<f32>, Vec<[f32; 3]>)) {
         let bands = self.bands;
         radiance.clear();
@@ -162,7 +163,7 @@ impl Row {
         }
     }
 
-    /// Takes over the samples of one channel. A unit that is a scale away is that of all light in the file.
+    /// Stores the samples of one channel. The scale of the file's unit applies to all light in the file.
     fn take(&mut self, line: LineRef<'_>, kind: SampleType, content: Content, scale: f32) {
         let (channels, bands) = (self.channels, self.bands);
         match content {

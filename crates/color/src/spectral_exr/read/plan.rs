@@ -1,4 +1,4 @@
-//! What to read from a file: which layer, which of its channels.
+//! The plan for reading a file: which layer and which of its channels.
 
 use exr::meta::header::Header;
 use spectra::{BandGrid, LightGroup, Spectrum};
@@ -12,26 +12,26 @@ use crate::spectral_exr::lights;
 use crate::spectral_exr::metadata::{Metadata, range_nm};
 use crate::spectral_exr::wavelength::{Place, Quantity, spectral_channel};
 
-/// The layer with the spectrum and what its channels hold.
+/// The layer with the spectrum, and the contents of its channels.
 #[derive(Debug)]
 pub(super) struct Plan {
     /// Index of the layer.
     pub(super) layer: usize,
-    /// The picture, and where the layer's pixels lie in it.
+    /// The picture, and the position of the layer's pixels in it.
     pub(super) window: Window,
     /// The bands.
     pub(super) grid: BandGrid,
-    /// What each channel of the layer holds, `None` where it is passed over.
+    /// The content of each channel of the layer; `None` for channels that are ignored.
     pub(super) contents: Vec<Option<Content>>,
-    /// How many channels [`Content::Radiance`] counts.
+    /// Number of channels with [`Content::Radiance`].
     pub(super) spectral_channels: usize,
-    /// How the spectral channels make the grid's bands; `None` where they are the grid's bands.
+    /// How the grid's bands are computed from the spectral channels; `None` if the channels are the grid's bands.
     pub(super) shares: Option<Shares>,
-    /// What radiances and XYZ are multiplied by, and variances twice.
+    /// The factor on radiances and XYZ; variances are multiplied by its square.
     pub(super) scale: f32,
     /// The light groups, at least one.
     pub(super) light_groups: Vec<LightGroup>,
-    /// What lights reflectances; `None` where the channels are of light.
+    /// The illuminant of reflectances; `None` if the channels are radiances.
     pub(super) illuminant: Option<Spectrum>,
 }
 
@@ -42,8 +42,8 @@ struct Spectral {
 }
 
 impl Plan {
-    /// The first flat layer that has a spectrum: radiances rather than reflectances. What it takes to read it goes into
-    /// the notes of `metadata`, with its other entries.
+    /// Chooses the first flat layer that has a spectrum, with radiances preferred to reflectances. The changes and assumptions that
+    /// reading needs are in the notes of the returned metadata.
     pub(super) fn new(
         context: &Context<'_>,
         headers: &[Header],
@@ -108,7 +108,7 @@ impl Plan {
     }
 }
 
-/// The layer to read, with its spectrum.
+/// Finds the layer to read, with its spectrum.
 fn find(headers: &[Header]) -> Result<Option<(usize, Spectral)>, BandLayoutError> {
     for quantity in [Quantity::Radiance, Quantity::Range, Quantity::Reflectance] {
         for (layer, header) in headers.iter().enumerate().filter(|(_, h)| !h.deep) {
@@ -132,7 +132,7 @@ impl Spectral {
                 }
             }
         }
-        // Other writers need not pad their numbers, so that the order of names is not that of wavelengths.
+        // Other writers may not pad their numbers, so names may not be in the order of wavelengths.
         channels.sort_by(|a, b| a.0.center_nm().total_cmp(&b.0.center_nm()));
         Ok(Self { quantity, channels })
     }
@@ -145,7 +145,7 @@ fn names(header: &Header) -> Vec<String> {
         .collect()
 }
 
-/// What each channel holds.
+/// Returns the content of each channel.
 fn contents(
     header: &Header,
     spectrum: &Spectral,
@@ -153,7 +153,7 @@ fn contents(
     light_groups: &[LightGroup],
 ) -> Vec<Option<Content>> {
     let content = |name: &String| match plain_content(name) {
-        // Developed again from XYZ when needed.
+        // R, G and B are developed again from XYZ when needed.
         Some(Content::Rgb(_)) => None,
         Some(content) => Some(content),
         None => variance_band(name, &bands.grid)
@@ -167,7 +167,7 @@ fn contents(
     contents
 }
 
-/// Says what was chosen and changed.
+/// Adds notes on choices and changes.
 fn note(metadata: &mut Metadata, headers: &[Header], spectrum: &Spectral, bands: &Bands) {
     let mut say = |note: String| metadata.notes.push(note);
     let spectral_layers = headers.iter().filter(|header| {
@@ -187,12 +187,12 @@ fn note(metadata: &mut Metadata, headers: &[Header], spectrum: &Spectral, bands:
     }
     if let Some((from_nm, to_nm)) = bands.ends_nm {
         say(format!(
-            "its bands cover {from_nm} to {to_nm} nm: beyond, the reflectance stays what it is there"
+            "its bands cover {from_nm} to {to_nm} nm: beyond them, the reflectance has its value at the ends"
         ));
     }
     if bands.shares.is_some() && spectrum.quantity != Quantity::Reflectance {
         say(format!(
-            "its {} bands are of different widths: read onto {} even ones of {:.3} nm, which keeps the integral",
+            "its {} bands have different widths: they are read onto {} even ones of {:.3} nm, which keeps the integral",
             bands.used.len(),
             bands.grid.count(),
             bands.grid.width_nm()

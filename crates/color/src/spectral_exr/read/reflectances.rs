@@ -1,4 +1,4 @@
-//! Reflectances, and the illuminant that they are looked at under.
+//! Reflectances, and the illuminant under which they are shown.
 
 use exr::meta::header::Header;
 use spectra::{
@@ -15,16 +15,16 @@ use crate::xyz::equal_energy_luminance;
 const GROUP: &str = "illuminant";
 /// The attribute of the layout: the illuminant's name, or its table as `380nm:50.0;440nm:104.9`.
 const ATTRIBUTE: &str = "illuminant";
-/// The illuminant of files that tell none that can be used.
+/// The illuminant of files without a usable one.
 const USUAL: &str = "D65";
-/// A table of so many points is recognized as one of a known illuminant,
+/// The fewest points of a table that can be recognized as a known illuminant.
 const LEAST_POINTS: usize = 6;
-/// when, up to a factor, its values are that close to the illuminant's.
+/// Relative tolerance within which the values of a table are those of a known illuminant, up to a factor.
 const SAME: f64 = 2e-3;
-/// A table of more points is none.
+/// The most points of a table; longer tables are not used.
 const MOST_POINTS: usize = 4096;
 
-/// What the image is lit by while it is read: a radiance of 1.
+/// The light group of the image while it is read: its lamp has a radiance of 1.
 pub(super) fn light_groups(grid: &BandGrid) -> Vec<LightGroup> {
     vec![LightGroup {
         name: GROUP.to_owned(),
@@ -32,7 +32,7 @@ pub(super) fn light_groups(grid: &BandGrid) -> Vec<LightGroup> {
     }]
 }
 
-/// Lights an image that was read as lit by a radiance of 1; a perfect white gets the Y of that radiance.
+/// Applies the illuminant to an image that was read as lit by a radiance of 1; a perfect white keeps the Y of that radiance.
 pub(super) fn light(image: &mut SpectralImage, illuminant: Spectrum) -> Result<(), RelightError> {
     let factor = white_factor(image.bands(), &illuminant).unwrap_or(1.0);
     let change = Relight {
@@ -42,7 +42,7 @@ pub(super) fn light(image: &mut SpectralImage, illuminant: Spectrum) -> Result<(
     relight(image, &[(GROUP.to_owned(), change)], Observer::Cie1931Deg2)
 }
 
-/// By how much a perfect white over these bands misses the Y of a radiance of 1.
+/// Returns the factor that gives a perfect white over these bands the Y of a radiance of 1.
 fn white_factor(grid: &BandGrid, illuminant: &Spectrum) -> Option<f64> {
     let flat = over(grid, &Spectrum::Constant(1.0)).ok()?;
     let lamp = over(grid, illuminant).ok()?;
@@ -52,49 +52,49 @@ fn white_factor(grid: &BandGrid, illuminant: &Spectrum) -> Option<f64> {
     factor.is_finite().then_some(factor)
 }
 
-/// The illuminant that a file names or has a table of, else D65; what is taken is said.
+/// Returns the illuminant that a file names or tabulates, otherwise D65, and adds a note on the choice.
 pub(super) fn illuminant(header: &Header, grid: &BandGrid, notes: &mut Vec<String>) -> Spectrum {
     let said = attribute_text(&header.shared_attributes, &header.own_attributes, ATTRIBUTE);
     let mut say = |how: &str| notes.push(format!("holds reflectances: {how}"));
     if let Some(said) = &said {
         if let Some((name, spectrum)) = named(said.trim()) {
-            say(&format!("they are looked at under its illuminant {name}"));
+            say(&format!("they are shown under its illuminant {name}"));
             return spectrum;
         }
         if let Some(table) = table(said) {
             if let Some((name, spectrum)) = recognized(&table) {
                 say(&format!(
-                    "they are looked at under {name}, of which it has a table"
+                    "they are shown under {name}, which its table matches"
                 ));
                 return spectrum;
             }
             if let Some(spectrum) = normalized(&table, grid) {
                 let (from_nm, to_nm) = table.range_nm();
                 let rest = if from_nm > 380.0 || to_nm < 780.0 {
-                    format!(", which goes on evenly beyond {from_nm} to {to_nm} nm")
+                    format!(", which is constant beyond {from_nm} to {to_nm} nm")
                 } else {
                     String::new()
                 };
                 say(&format!(
-                    "they are looked at under the illuminant that it has a table of{rest}"
+                    "they are shown under the illuminant of its table{rest}"
                 ));
                 return spectrum;
             }
         }
     }
     match said {
-        None => say("it names no illuminant, and they are looked at under D65"),
+        None => say("it names no illuminant, so they are shown under D65"),
         Some(said) => {
             let start: String = said.chars().take(40).collect();
             say(&format!(
-                "its illuminant {start:?} is not known, and they are looked at under D65"
+                "its illuminant {start:?} is not known, so they are shown under D65"
             ));
         }
     }
     find_illuminant(USUAL).map_or(Spectrum::Constant(1.0), |set| set.data)
 }
 
-/// An illuminant by its name, however that is written: `D65`, `d65`, `CIE D65`.
+/// Finds an illuminant by its name in any of the spellings `D65`, `d65`, `CIE D65`.
 fn named(text: &str) -> Option<(String, Spectrum)> {
     let bare = text.strip_prefix("CIE").unwrap_or(text);
     let bare = bare.trim_start_matches([' ', '-', '_']);
@@ -105,7 +105,7 @@ fn named(text: &str) -> Option<(String, Spectrum)> {
     Some((set.name.into_owned(), set.data))
 }
 
-/// `380nm:50.0;440nm:104.9`, wavelengths as in the names of channels.
+/// Parses a table like `380nm:50.0;440nm:104.9`, with wavelengths as in the names of channels.
 fn table(text: &str) -> Option<Tabulated> {
     let point = |entry: &str| {
         let (place, value) = entry.split_once(':')?;
@@ -119,7 +119,7 @@ fn table(text: &str) -> Option<Tabulated> {
     Tabulated::new(points).ok()
 }
 
-/// The known illuminant whose values a table has, up to a factor and rounding.
+/// Returns the known illuminant whose values a table has, up to a factor and rounding.
 fn recognized(table: &Tabulated) -> Option<(String, Spectrum)> {
     let is_same = |known: &Spectrum| {
         let ratio = |(nm, value): (f64, f64)| Some(value / known.at(nm).ok()?);
@@ -142,7 +142,7 @@ fn recognized(table: &Tabulated) -> Option<(String, Spectrum)> {
     known.find(|(_, spectrum)| is_same(spectrum))
 }
 
-/// A table as an illuminant over the bands with the Y of the constant 1; evenly beyond its ends.
+/// Returns a table as an illuminant over the bands, scaled to the Y of the constant 1 and constant beyond its ends.
 fn normalized(table: &Tabulated, grid: &BandGrid) -> Option<Spectrum> {
     let (low, high) = (grid.min_nm(), grid.max_nm());
     let inner = table.points().filter(|(nm, _)| (low..=high).contains(nm));
