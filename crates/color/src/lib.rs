@@ -4,7 +4,7 @@
 //! spectra::SpectralImage
 //!   -> relight        its light groups with other lamps, seen by another observer
 //!   -> develop        exposure, white adaptation, glare, gamut mapping, the display's response, codes
-//!   -> png            a PNG file of 8 or 16 bits that says which display it is for (cICP, ICC)
+//!   -> png            a PNG file of 8 or 16 bits, tagged with its display (cICP, ICC)
 //!   -> rgb_exr        an OpenEXR file of linear red, green and blue
 //!   -> spectral_exr   a spectral OpenEXR file, from which all of the above can be repeated
 //!   -> probe          the means of a region

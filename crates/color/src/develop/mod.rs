@@ -5,7 +5,7 @@
 //!   -> exposure     which luminance becomes the display's white
 //!   -> adaptation   from the white of the scene to the white of the display
 //!   -> glare        light scattered in the eye, or stars around pixels that are too bright
-//!   -> LinearImage  red, green and blue of the display, linear, of any value        -> rgb_exr
+//!   -> LinearImage  red, green and blue of the display, linear, any values             -> rgb_exr
 //!   -> gamut        colors that the display cannot show are mapped to colors that it can
 //!   -> quantize     subtract the black level, response of each channel, codes, dither  -> png
 //! ```
@@ -91,12 +91,12 @@ pub enum DevelopError {
     #[error("this glare depends on wavelength, but the image has only colors, without spectra")]
     NoSpectrum,
     /// The scene's white should be the mean color of an image that has none.
-    #[error("the mean color of the image is not a white to adapt from: it is black or not a number")]
+    #[error(
+        "the mean color of the image is not a white to adapt from: it is black or not a number"
+    )]
     NoWhite,
     /// The exposure should follow the image, which has no light.
-    #[error(
-        "no pixel of the image has a finite luminance above 0: there is nothing to expose for"
-    )]
+    #[error("no pixel of the image has a finite luminance above 0: there is nothing to expose for")]
     NoLight,
 }
 

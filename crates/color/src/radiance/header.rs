@@ -213,10 +213,7 @@ impl Said {
                 self.primaries = Some(value);
             }
             "GAMMA" if numbers(value) != Some([1.0]) => {
-                let note = format!(
-                    "{} is ignored: the pixels are read as linear",
-                    short(text)
-                );
+                let note = format!("{} is ignored: the pixels are read as linear", short(text));
                 self.notes.push(note);
             }
             _ => {}

@@ -174,7 +174,10 @@ fn exposures_and_corrections_are_divided_by() {
             "PRIMARIES=.64 .33 .64 .33 .15 .06 .3127 .3290",
             "not three primaries",
         ),
-        ("FORMAT=Radiance_spectra", "is a format that is not supported"),
+        (
+            "FORMAT=Radiance_spectra",
+            "is a format that is not supported",
+        ),
     ] {
         let said = said(&file(&["#?RADIANCE", line], "-Y 1 +X 1", &[8, 8, 8, ONE]));
         assert!(said.contains(problem), "{said}");

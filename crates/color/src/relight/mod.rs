@@ -73,9 +73,9 @@ pub enum RelightError {
 /// Changes the lamps of light groups, and the observer.
 ///
 /// Bands and XYZ of an image become those of a render with the new lamps, as far as the bands allow ([`BandWeights`]). A light
-/// group that keeps its lamp keeps its bands exactly, times its factor. With the observer of 1931 it also keeps its XYZ exactly,
-/// which were summed at the sampled wavelengths themselves. XYZ of another observer are scaled so that an equal-energy radiance of 1
-/// keeps its Y.
+/// group that keeps its lamp keeps its bands to the last bit, times its factor. With the observer of 1931 the same holds for its
+/// XYZ, which were summed at the sampled wavelengths themselves. XYZ of another observer are scaled so that an equal-energy radiance
+/// of 1 keeps its Y.
 ///
 /// A band that a new lamp would make negative is 0; XYZ are summed before that and are not clipped. Bands in which the old lamp has
 /// no light stay dark; that is an error if they contain more than [`BandWeights::DARK_SHARE`] of the new lamp's Y.

@@ -75,7 +75,9 @@ pub enum WriteExrError {
         name: String,
     },
     /// A light group's name cannot be the name of a layer, or occurs twice.
-    #[error("cannot write {path}: {name:?} cannot be the name of a light group, or names two of them")]
+    #[error(
+        "cannot write {path}: {name:?} cannot be the name of a light group, or names two of them"
+    )]
     LightGroup {
         /// The requested file.
         path: PathBuf,

@@ -20,7 +20,7 @@ pub enum Glare {
     /// No glare.
     #[default]
     Off,
-    /// Pixels brighter than the display's white become stars with four arms.
+    /// Pixels brighter than the display's peak become stars with four arms.
     Star(StarGlare),
     /// All light scatters as in a human eye.
     Eye(EyeGlare),
