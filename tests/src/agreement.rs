@@ -9,11 +9,11 @@ pub struct Tolerance {
     pub relative: f64,
 }
 
-/// Compares two lists and says where they differ too much. A number that is not finite never agrees, nor do
-/// lists of different or no length.
+/// Compares two lists and reports where they differ too much. A number that is not finite never agrees; lists of different
+/// lengths and empty lists never agree either.
 ///
 /// # Errors
-/// A report of how many differ, the worst, and the distribution of the error over what is allowed.
+/// A report of how many numbers differ, the worst one, and the distribution of the error divided by the allowed error.
 pub fn compare(actual: &[f64], expected: &[f64], tolerance: Tolerance) -> Result<String, String> {
     if actual.len() != expected.len() || actual.is_empty() {
         return Err(format!(
@@ -31,7 +31,7 @@ pub fn compare(actual: &[f64], expected: &[f64], tolerance: Tolerance) -> Result
     let at = |q: f64| shares[((shares.len() - 1) as f64 * q) as usize].0;
     let (worst, index) = shares[shares.len() - 1];
     let report = format!(
-        "error over allowed: median {:.2e}, p99 {:.2e}, max {worst:.2e} (number {index}: {:e} against {:e})",
+        "error / allowed: median {:.2e}, p99 {:.2e}, max {worst:.2e} (number {index}: {:e} instead of {:e})",
         at(0.5),
         at(0.99),
         actual[index],

@@ -1,6 +1,6 @@
-//! Color of a reflectance by plain sums, apart from the renderer's own way.
+//! Color of a reflectance by plain sums, independent of the renderer.
 
-/// XYZ under an illuminant, with Y = 100 for a perfect mirror, for the CIE 1931 2° observer, by sums at 380, 381 … 780 nm.
+/// XYZ under an illuminant, with Y = 100 for a perfect mirror, for the CIE 1931 2° observer, summed at 380, 381 … 780 nm.
 ///
 /// # Panics
 /// If there is no such illuminant.
@@ -19,7 +19,7 @@ pub fn xyz(illuminant: &str, reflectance: impl Fn(f64) -> f64) -> [f64; 3] {
     sum.map(|total| 100.0 * total / white)
 }
 
-/// CIELAB: L*, a*, b* of XYZ beside a white (CIE 015:2018, section 8.2.1).
+/// CIELAB: L*, a*, b* of XYZ relative to a white (CIE 015:2018, section 8.2.1).
 pub fn lab(xyz: [f64; 3], white: [f64; 3]) -> [f64; 3] {
     let [x, y, z] = std::array::from_fn(|i| {
         let share: f64 = xyz[i] / white[i];
@@ -48,7 +48,7 @@ mod tests {
         assert!((chroma - 79.82).abs() < 0.005 && (hue - 271.92).abs() < 0.005);
     }
 
-    /// White is L* 100 without chroma, a gray of 18.42 % L* 50, and below 216/24389 L* is 903.3 Y (CIE 015:2018).
+    /// White has L* 100 and no chroma, a gray of 18.42 % has L* 50, and below 216/24389 L* is 903.3 Y (CIE 015:2018).
     #[test]
     fn lightness_follows_its_definition() {
         let white = xyz("D65", |_| 1.0);

@@ -9,7 +9,7 @@ use std::process::{Command, Output, Stdio};
 use std::sync::OnceLock;
 use tempfile::TempDir;
 
-/// A program of the workspace by its name, built first if it is not up to date.
+/// Path of a program of the workspace, built first if it is not up to date.
 ///
 /// # Panics
 /// When the build fails or there is no such program.
@@ -21,15 +21,15 @@ pub fn program(name: &str) -> &'static Path {
         .unwrap_or_else(|| panic!("there is no program {name} among {:?}", programs.keys()))
 }
 
-/// Builds the programs the way this executable was built, which is `…/target/<profile>/deps/<name>`: what `cargo test`
-/// has already compiled for the workspace is then not compiled again.
+/// Builds the programs the way this executable was built, which is `…/target/<profile>/deps/<name>`, so that what `cargo test`
+/// has already compiled for the workspace is not compiled again.
 fn build() -> BTreeMap<String, PathBuf> {
     let executable = std::env::current_exe().unwrap();
     let profile_folder = executable.parent().and_then(Path::parent).unwrap();
     let profile = match profile_folder.file_name().and_then(OsStr::to_str) {
         Some("debug") => "dev",
         Some(other) => other,
-        None => panic!("{} lies in no profile's folder", executable.display()),
+        None => panic!("{} is not in the folder of a profile", executable.display()),
     };
     let output = Command::new(env!("CARGO"))
         .current_dir(root())
@@ -55,10 +55,10 @@ fn build() -> BTreeMap<String, PathBuf> {
         .collect()
 }
 
-/// What a program did.
+/// Result of running a program.
 #[derive(Clone, Debug)]
 pub struct Ran {
-    /// Whether it ended with 0.
+    /// Whether the exit code was 0.
     pub success: bool,
     /// Standard output.
     pub stdout: String,
@@ -68,7 +68,7 @@ pub struct Ran {
 
 impl Ran {
     /// # Panics
-    /// When it is not UTF-8, or the program panicked: no test wants that.
+    /// When the output is not UTF-8, or the program panicked, which no test expects.
     pub fn of(output: &Output) -> Self {
         let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
         let ours = |line: &&str| !line.contains("XDG_RUNTIME_DIR");
@@ -76,7 +76,7 @@ impl Ran {
         assert!(!stderr.contains("panicked"), "{stderr}");
         assert!(
             output.status.code().is_some(),
-            "ended by a signal: {stderr}"
+            "was ended by a signal: {stderr}"
         );
         Self {
             success: output.status.success(),
@@ -93,12 +93,12 @@ impl Ran {
         self
     }
 
-    /// What it said on standard error.
+    /// The text that a failing program wrote to standard error.
     ///
     /// # Panics
-    /// When it did not fail, or failed without a word.
+    /// When it did not fail, or failed without a message.
     pub fn failed(self) -> String {
-        assert!(!self.success, "it should have failed: {}", self.stderr);
+        assert!(!self.success, "did not fail: {}", self.stderr);
         assert!(!self.stderr.trim().is_empty());
         self.stderr
     }
@@ -133,7 +133,7 @@ impl Place {
         names
     }
 
-    /// The command, with arguments separated by blanks, to be changed further before it runs.
+    /// The command with arguments, which are separated by spaces; it can still be changed before it runs.
     pub fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(program("pellicle"));
         command
@@ -151,7 +151,7 @@ impl Place {
         Ran::of(&self.command(arguments).output().unwrap())
     }
 
-    /// Runs the command with this on its standard input.
+    /// Runs the command with `input` on its standard input.
     ///
     /// # Panics
     /// When it panics or cannot be started.
@@ -167,7 +167,7 @@ impl Place {
         Ran::of(&child.wait_with_output().unwrap())
     }
 
-    /// Runs the command where no driver is found.
+    /// Runs the command in an environment without a driver.
     ///
     /// # Panics
     /// When it panics.

@@ -3,17 +3,17 @@
 use crate::tolerances::{FrameTolerance, VarianceTolerance, Z_MEAN, Z_OVER_3};
 use spectra::SpectralImage;
 
-/// Values of `count` pixels, `bands` of each, pixel by pixel.
+/// Values of an image, pixel by pixel, `bands` per pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Values<'a> {
-    /// Bands of each pixel.
+    /// Number of bands per pixel.
     pub bands: usize,
     /// The values.
     pub values: &'a [f32],
 }
 
 impl<'a> Values<'a> {
-    /// Of a picture.
+    /// The radiance of an image.
     pub fn of(image: &'a SpectralImage) -> Self {
         Self {
             bands: image.bands().count() as usize,
@@ -21,7 +21,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// Of a picture's XYZ: three bands.
+    /// The XYZ of an image, as three bands.
     pub fn of_xyz(image: &'a SpectralImage) -> Self {
         Self {
             bands: 3,
@@ -29,7 +29,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// Of the light of one of a picture's light groups.
+    /// The radiance of one light group of an image.
     pub fn of_light(image: &'a SpectralImage, light_group: usize) -> Self {
         Self {
             values: image.group_radiance(light_group),
@@ -37,7 +37,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// Of that light's XYZ.
+    /// The XYZ of one light group of an image.
     pub fn of_light_xyz(image: &'a SpectralImage, light_group: usize) -> Self {
         Self {
             bands: 3,
@@ -45,7 +45,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// Of a picture's variance.
+    /// The variance of an image.
     fn of_variance(image: &'a SpectralImage) -> Self {
         Self {
             values: image.variance(),
@@ -62,11 +62,11 @@ impl<'a> Values<'a> {
     }
 }
 
-/// Compares two pictures of the same random numbers.
+/// Compares two pictures rendered with the same random numbers.
 ///
 /// # Errors
-/// A report of what exceeds the tolerance: 99th percentile and signed bias of every band, share of outliers. A value that is
-/// not finite, a shape that differs, and a reference that is all black are errors too.
+/// A report of what exceeds the tolerance: 99th percentile and signed bias of every band, fraction of outliers. A value that is
+/// not finite, shapes that differ, and a reference that is all black are errors too.
 pub fn same_numbers(
     actual: Values,
     expected: Values,
@@ -114,7 +114,7 @@ pub fn same_numbers(
     if good { Ok(report) } else { Err(report) }
 }
 
-/// The largest mean signed error over the mean, and its band, outliers left out.
+/// The largest mean signed error divided by the mean, and its band, without the outliers.
 fn worst_bias(actual: Values, expected: Values, is_outlier: &[bool]) -> (f64, usize) {
     let mut worst = (0.0_f64, 0);
     for band in 0..actual.bands {
@@ -133,10 +133,10 @@ fn worst_bias(actual: Values, expected: Values, is_outlier: &[bool]) -> (f64, us
     worst
 }
 
-/// Compares the variances of two pictures of the same random numbers, pixel by pixel.
+/// Compares the variances of two pictures rendered with the same random numbers, pixel by pixel.
 ///
 /// # Errors
-/// A report of the largest 99th percentile of a band. A variance that is negative or not finite and a shape that differs are
+/// A report of the largest 99th percentile of any band. A variance that is negative or not finite, and shapes that differ, are
 /// errors too.
 pub fn same_variances(
     actual: &SpectralImage,
@@ -179,11 +179,11 @@ pub fn same_variances(
     }
 }
 
-/// Compares two pictures of different random numbers: the mean of every band, and of every block of 8×8 pixels, must differ
-/// by no more than both variances explain.
+/// Compares two pictures rendered with different random numbers: the mean of every band, and of every block of 8×8 pixels,
+/// must differ by no more than both variances explain.
 ///
 /// # Errors
-/// A report of the largest z of a mean and the share of blocks beyond 3.
+/// A report of the largest z of a mean and the fraction of blocks beyond 3.
 pub fn same_expectation(a: &SpectralImage, b: &SpectralImage) -> Result<String, String> {
     const SIDE: u32 = 8;
     let bands = a.bands().count() as usize;
@@ -220,7 +220,7 @@ pub fn same_expectation(a: &SpectralImage, b: &SpectralImage) -> Result<String, 
     }
 }
 
-/// z of a difference and its variance; without noise, 0 where they agree to f32 and infinity where not.
+/// z of a difference with its variance; without noise, 0 where the values agree to f32 and infinity where they do not.
 fn standardized((difference, variance): (f64, f64)) -> f64 {
     if variance > 0.0 {
         difference / variance.sqrt()
@@ -274,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_picture_agrees() {
+    fn a_picture_agrees_with_itself() {
         assert!(check(&picture()).is_ok());
     }
 
@@ -334,7 +334,7 @@ mod tests {
         assert!(same_expectation(&image(1.0), &image(f32::NAN)).is_err());
     }
 
-    /// A picture whose variance and XYZ differ from pixel to pixel, with both passed through functions.
+    /// A picture whose variance and XYZ differ from pixel to pixel, each mapped by a function.
     fn uneven(variance: impl Fn(f32) -> f32, xyz: impl Fn([f32; 3]) -> [f32; 3]) -> SpectralImage {
         let mut image = SpectralImage::new(20, 20, spectra::BandGrid::visible(2).unwrap());
         for i in 0..400 {

@@ -1,20 +1,20 @@
-//! Running single WGSL functions over tables of inputs.
+//! Runs single WGSL functions on tables of inputs.
 
 use gpu::modules::{RecordLimits, Shader, Specialization};
 use gpu::{Gpu, PackedScene};
 use std::collections::BTreeSet;
 use wgpu::util::DeviceExt;
 
-/// What a probe leaves where the shader wrote nothing: no function returns it.
+/// Marks results that the shader did not write: no function returns this value.
 const UNWRITTEN: f32 = -1.234_567_9e33;
 
 /// A shader that calls functions under test for each row of a table.
 pub struct Probe<'a> {
     /// WGSL statements: `a(0)`, `a4(1)` … read the row and `put(0, x)`, `put4(1, v)` … write results; `direction_at(0)` is the unit
-    /// vector of a cosine and an azimuth in turns. An integer
-    /// travels as two halves of 16 bits (`integer`, `put_integer`), since a float's bits may be flushed on the way.
+    /// vector with a cosine and an azimuth in turns. An integer travels as two halves of 16 bits (`integer`, `put_integer`), since
+    /// the bits of a float may be flushed on the way.
     pub body: &'a str,
-    /// Numbers of a row, and results of a row.
+    /// Count of numbers in a row, and of results in a row.
     pub shape: (usize, usize),
     /// The scene behind the bindings, for functions that read one.
     pub scene: Option<&'a PackedScene>,
@@ -64,7 +64,7 @@ impl Probe<'_> {
         Shader::assemble(&made_for, &extra)
     }
 
-    /// The functions that the probe can call, directly or through others, whatever a scene has.
+    /// The functions that the probe can call, directly or through others, whatever the scene contains.
     ///
     /// # Panics
     /// When the probe is not valid WGSL.
@@ -91,7 +91,7 @@ impl Probe<'_> {
         let (arity, results) = self.shape;
         assert!(
             !table.is_empty() && table.len().is_multiple_of(arity),
-            "the table has no whole rows"
+            "the table does not consist of whole rows"
         );
         let rows = table.len() / arity;
         let shader = self.shader(Some(gpu));
@@ -154,12 +154,12 @@ impl Probe<'_> {
             .iter()
             .filter(|x| x.to_bits() == UNWRITTEN.to_bits())
             .count();
-        assert_eq!(unwritten, 0, "results were not written");
+        assert_eq!(unwritten, 0, "the shader did not write all results");
         found
     }
 }
 
-/// Functions that a block calls.
+/// The functions that a block calls.
 fn calls_of(block: &naga::Block) -> Vec<naga::Handle<naga::Function>> {
     let mut found = Vec::new();
     for statement in block {

@@ -3,7 +3,7 @@
 use crate::wgsl::root;
 use scene::{Scene, SceneFile};
 
-/// Scenes of `scenes/`.
+/// Scenes in `scenes/`.
 pub const SHIPPED: &[&str] = &[
     "soap_bubble",
     "floating_bubble",
@@ -32,28 +32,28 @@ pub const SHIPPED: &[&str] = &[
     "bench/wedge",
 ];
 
-/// A scene with every kind of surface, pattern, thickness, light and environment that there is.
+/// A scene with every kind of surface, pattern, thickness, light and environment.
 pub const EVERYTHING: &str = include_str!("everything.toml");
 
-/// A scene with Cook's model in every form and with every kind of body below a coat.
+/// A scene with Cook's model in every form and with every kind of base below a coat.
 pub const EVERYTHING_BODIES: &str = include_str!("everything_bodies.toml");
 
-/// What they have not got: environment by a picture, a panorama.
+/// What the other two lack: an environment from a picture, and a panorama.
 pub const EVERYTHING_PICTURED: &str = include_str!("everything_pictured.toml");
 
-/// The names of the scenes that are made for the suites.
+/// The names of the scenes that were written for the suites.
 pub const MADE: &[&str] = &["everything", "everything_bodies", "everything_pictured"];
 
-/// All of both.
+/// All scenes: [`SHIPPED`] and [`MADE`].
 pub fn all() -> Vec<&'static str> {
     SHIPPED.iter().chain(MADE).copied().collect()
 }
 
-/// Bands of the suites that compare whole scenes: three groups, the last one half empty. All take the same number, so that a driver
-/// that keeps what it compiled compiles each scene once.
+/// Number of bands in the suites that compare whole scenes: three groups, the last one half empty. It is the same in all, so that a
+/// driver with a cache of compiled shaders compiles each scene once.
 pub const BANDS: u32 = 10;
 
-/// A scene of `scenes/`, or one of [`MADE`], as a file that can still be changed.
+/// A scene in `scenes/`, or one of [`MADE`], as a file that can still be changed.
 ///
 /// # Panics
 /// When it cannot be read.
@@ -68,7 +68,7 @@ pub fn file(name: &str) -> SceneFile {
     read.unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// The same, small, with few samples, rounded to f32 so that both renderers get the same numbers.
+/// The same scene with the given settings, rounded to f32 so that both renderers get the same numbers.
 ///
 /// # Panics
 /// When it is not valid.

@@ -8,12 +8,12 @@ use std::path::{Path, PathBuf};
 pub struct Source {
     /// Its path from the root of the workspace, with `/`.
     pub path: String,
-    /// What it says.
+    /// Its content.
     pub text: String,
 }
 
 impl Source {
-    /// Whether the file's name ends in `.` and this.
+    /// Whether the file name ends in `.` and `ending`.
     pub fn ends_in(&self, ending: &str) -> bool {
         Path::new(&self.path)
             .extension()
@@ -32,7 +32,7 @@ const FOLDERS: &[&str] = &[
 ];
 const ENDINGS: &[&str] = &["csv", "json", "md", "py", "rs", "sh", "toml", "wgsl"];
 
-/// All files that people wrote, from the root and the project's folders. Generated inputs of the fuzzing corpus are not among them.
+/// All files that people wrote, in the root and the project's folders. The generated inputs of the fuzzing corpus are left out.
 ///
 /// # Panics
 /// When a file cannot be read.
@@ -52,7 +52,7 @@ pub fn sources() -> Vec<Source> {
             .unwrap_or_else(|error| panic!("{}: {error}", path.display())),
         path: path
             .strip_prefix(&root)
-            .expect("it lies below")
+            .expect("the path is below the root")
             .to_string_lossy()
             .replace('\\', "/"),
     };

@@ -1,4 +1,4 @@
-//! The tables of `data/`: comma-separated cells, comments before them, one line of headings.
+//! Readers of the tables in `data/`: comma-separated cells, with comments and a line of headings before them.
 
 /// The cells of a table, without its comments and its headings.
 pub fn rows(table: &str) -> impl Iterator<Item = Vec<&str>> {
@@ -6,11 +6,11 @@ pub fn rows(table: &str) -> impl Iterator<Item = Vec<&str>> {
     lines.skip(1).map(|line| line.split(',').collect())
 }
 
-/// A cell that must be a number.
+/// The number in a cell.
 ///
 /// # Panics
-/// If it is not.
+/// If the cell is not a number.
 pub fn number(cell: &str) -> f64 {
     cell.parse()
-        .unwrap_or_else(|_| panic!("{cell} is no number"))
+        .unwrap_or_else(|_| panic!("{cell} is not a number"))
 }

@@ -9,7 +9,7 @@ pub fn root() -> PathBuf {
     tests.parent().map_or(tests.clone(), PathBuf::from)
 }
 
-/// The identifiers of a WGSL text in order, comments and numbers left out; a name after a dot keeps the dot.
+/// The identifiers of a WGSL text in order, without comments and numbers; a name after a dot keeps the dot.
 pub fn identifiers(source: &str) -> Vec<String> {
     let mut found = Vec::new();
     for line in source.lines() {
@@ -39,7 +39,7 @@ pub fn identifiers(source: &str) -> Vec<String> {
 pub fn declarations(source: &str) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     for line in source.lines() {
-        // Declarations stand at the beginning of a line, after attributes.
+        // Declarations start at the beginning of a line, after attributes.
         let code = line
             .rsplit(") var")
             .next()

@@ -1,4 +1,4 @@
-//! Work on many scenes, divided among the cores: a driver compiles a pipeline on one of them.
+//! Divides work on many scenes among the cores, because a driver compiles a pipeline on one of them.
 
 use crate::device::open;
 use gpu::Gpu;
@@ -6,15 +6,15 @@ use std::num::NonZero;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Whether a case is to run: all, or the one that `PELLICLE_ONLY` names.
+/// Whether a case should run: all cases, or the one that `PELLICLE_ONLY` names.
 pub fn is_asked_for(name: &str) -> bool {
     std::env::var("PELLICLE_ONLY").map_or(true, |only| only == name)
 }
 
-/// Does the work for each name that [`is_asked_for`], each core with a device of its own, and returns what went wrong; what went well is printed.
+/// Does the work for each name that [`is_asked_for`], with one device per core, and returns the failures; successes are printed.
 ///
 /// # Panics
-/// Where there is no driver, no name that is asked for, or the work panics.
+/// When there is no driver, when no name is asked for, or when the work panics.
 pub fn failures_of(
     names: &[&str],
     work: impl Fn(&Gpu, &str) -> Vec<Result<String, String>> + Sync,
@@ -24,7 +24,7 @@ pub fn failures_of(
         .copied()
         .filter(|name| is_asked_for(name))
         .collect();
-    assert!(!names.is_empty(), "PELLICLE_ONLY names none of the cases");
+    assert!(!names.is_empty(), "PELLICLE_ONLY does not name any of the cases");
     let next = AtomicUsize::new(0);
     let failures = Mutex::new(Vec::new());
     let workers = std::thread::available_parallelism().map_or(1, NonZero::get);
