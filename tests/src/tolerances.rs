@@ -49,7 +49,8 @@ pub const SURFACE_FUNCTIONS: Tolerance = of(2e-6, 3e-4);
 pub const RECIPROCITY: Tolerance = of(1e-9, 1e-5);
 /// Directions of facets sampled with numbers up to 0.999, where the density of the slope has fallen to 1e-2 of its maximum.
 pub const FACET_DIRECTION: Tolerance = of(3e-5, 0.0);
-/// Densities of facets of α from 0.02, also near the horizon: a half vector's slope is off by 1e-6/α, and by more where both cosines are small.
+/// Densities of facets of α from 0.02, also near the horizon: a half vector's slope is off by 1e-6/α, more where both cosines are
+/// small.
 pub const NARROW_FACETS: Tolerance = of(2e-6, 1e-3);
 /// Directions of facets sampled with the last number below 1, where one part in 2²⁴ changes the slope by 0.06 of 3.7.
 pub const FACET_TAIL: Tolerance = of(2e-3, 0.0);
@@ -145,8 +146,8 @@ pub const BASELINE: f64 = 1e-6;
 /// Identities of stacks in f64 (energy, both directions, layers split or absent): rounding of some ten layers, times the
 /// number of round trips of light in a layer near grazing.
 pub const IDENTITY: f64 = 1e-12;
-/// Stacks against 50-digit figures: rounding of up to 21 layers, and of a phase of up to 1200 rad (1e-13) in films of 30 µm; observed: 4e-15
-/// for ordinary stacks, 2e-14 for thick ones and mirrors.
+/// Stacks against 50-digit figures: rounding of up to 21 layers, and of a phase of up to 1200 rad (1e-13) in films of 30 µm; observed:
+/// 4e-15 for ordinary stacks, 2e-14 for thick ones and mirrors.
 pub const ORACLE_STACKS: Tolerance = of(1e-13, 0.0);
 /// The two-beam formula against independent f64 figures of 15 digits: a cosine of some ten turns and four products.
 pub const ORACLE_TWO_BEAM: Tolerance = of(1e-10, 0.0);

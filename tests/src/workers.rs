@@ -24,7 +24,10 @@ pub fn failures_of(
         .copied()
         .filter(|name| is_asked_for(name))
         .collect();
-    assert!(!names.is_empty(), "PELLICLE_ONLY does not name any of the cases");
+    assert!(
+        !names.is_empty(),
+        "PELLICLE_ONLY does not name any of the cases"
+    );
     let next = AtomicUsize::new(0);
     let failures = Mutex::new(Vec::new());
     let workers = std::thread::available_parallelism().map_or(1, NonZero::get);
