@@ -1,4 +1,4 @@
-//! Bare metals, Cook's model and bodies below a coat, rendered and held against what is known of them.
+//! Renders bare metals, Cook's model and bases below a coat, and compares them with what is known of them.
 
 use colorimetry::lab::Lab;
 use pellicle_tests::tolerances::{FURNACE_ERROR, FURNACE_ROUGH, Z_FURNACE};
@@ -13,11 +13,11 @@ fn rendered(scene: &Scene) -> [(&'static str, SpectralImage); 2] {
     let on_cpu = reference::render(scene, &mut |_| ControlFlow::Continue(()));
     [
         ("gpu", on_gpu.unwrap_or_else(|error| panic!("{error}"))),
-        ("cpu", on_cpu.expect("nobody stops it")),
+        ("cpu", on_cpu.expect("nothing stops the render")),
     ]
 }
 
-/// A plane of a material, seen from `degrees` off its normal in even light.
+/// A plane of a material, seen `degrees` off its normal under uniform illumination.
 fn plane(material: &str, degrees: f64, light: &str, render: &str) -> Scene {
     let (sine, cosine) = degrees.to_radians().sin_cos();
     let text = format!(
@@ -37,7 +37,7 @@ fn plane(material: &str, degrees: f64, light: &str, render: &str) -> Scene {
 
 const NANOMETERS: &str = "size = [1, 1], samples = 1, bands = 400, sampling = 'center'";
 
-/// XYZ of the picture's only pixel.
+/// XYZ of the only pixel of the picture.
 fn seen(material: &str, who: usize) -> [f64; 3] {
     let scene = plane(material, 0.0, "{ illuminant = 'D65' }", NANOMETERS);
     rendered(&scene)[who].1.xyz()[0].map(f64::from)
@@ -49,7 +49,7 @@ fn lab_of(material: &str, who: usize) -> [f64; 3] {
     [lab.l, lab.a, lab.b]
 }
 
-/// L*, a*, b* of bare metals at normal incidence under D65, CIE 1931 observer, steps of 1 nm, computed apart from this code in
+/// L*, a*, b* of bare metals at normal incidence under D65, CIE 1931 observer, steps of 1 nm, computed independently in
 /// double precision (tmm 0.2.0 after S. J. Byrne, arXiv:1603.02720, and numpy) from the same indices: Johnson and Christy (1972) for
 /// gold, silver and copper, Rakić (1995) for aluminum.
 const METALS: [(&str, [f64; 3]); 4] = [
@@ -64,7 +64,7 @@ fn difference(found: [f64; 3], expected: [f64; 3]) -> f64 {
     squares.sum::<f64>().sqrt()
 }
 
-/// From the scene file through the picture to CIELAB. The picture's wavelengths lie half a nanometer beside those of the figures.
+/// Tests the whole chain from scene file to CIELAB. The wavelengths of the render are half a nanometer off those of the figures.
 #[test]
 fn bare_metals_have_their_colors() {
     for (name, expected) in METALS {
@@ -75,7 +75,7 @@ fn bare_metals_have_their_colors() {
             assert!(off < 0.05, "{name}: {found:?} {expected:?}");
         }
     }
-    // Another set of figures for copper is another color.
+    // Another data set for copper gives another color.
     let other = lab_of("{ type = 'conductor', index = 'copper_mcpeak' }", 1);
     assert!(difference(other, METALS[2].1) > 1.0, "{other:?}");
 }
@@ -88,8 +88,8 @@ fn mean(image: &SpectralImage) -> (f64, f64) {
     (sum / count, variance.sqrt() / count)
 }
 
-/// White furnace: a white base below a clear coat returns everything, whatever the coat's index, roughness and grain, to 85°. The standard
-/// error is that of independent samples; those of Sobol's points lie far closer.
+/// White furnace: a white base below a clear coat returns everything, whatever the index, roughness and grain of the coat, up to 85°.
+/// The standard error is that of independent samples; the means of Sobol points lie far closer.
 #[test]
 fn a_white_base_below_a_coat_returns_everything() {
     const RENDER: &str = "size = [24, 24], samples = 256, bands = 1";
@@ -119,7 +119,7 @@ fn a_white_base_below_a_coat_returns_everything() {
     }
 }
 
-/// The furnace can fail: a base that keeps three per cent is seen to.
+/// The furnace test can fail: it detects a base that absorbs three percent.
 #[test]
 fn a_base_that_absorbs_is_noticed() {
     let material = "{ type = 'dielectric', index = 1.5, base = 0.97 }";
@@ -129,7 +129,7 @@ fn a_base_that_absorbs_is_noticed() {
     assert!(mean < 0.99 - Z_FURNACE * error, "{mean} ± {error}");
 }
 
-/// With D2 and the printed π the model returns four times what it does with D2/π and 4, path by path.
+/// With D2 and the printed π, the model returns four times what it returns with D2/π and 4, path by path.
 #[test]
 fn the_printed_constant_is_four_times_the_normalized() {
     let of = |normalization: &str| {
@@ -150,7 +150,7 @@ fn the_printed_constant_is_four_times_the_normalized() {
         println!("{who}: {mean}");
         assert!(
             mean > 1.5,
-            "the print sends back more than falls in: {mean}"
+            "the printed constant should reflect more than arrives: {mean}"
         );
     }
 }

@@ -1,4 +1,4 @@
-//! `pellicle color`, `pellicle display` and the lamps of `pellicle film` from end to end, as a user runs them.
+//! End-to-end tests of `pellicle color`, `pellicle display` and the illuminants of `pellicle film`.
 
 use colorimetry::{Display, srgb};
 use pellicle::coating::{Angle, Stack};
@@ -7,7 +7,7 @@ use pellicle_tests::tables::{number, rows};
 use serde_json::Value;
 use std::fmt::Write as _;
 
-/// Colors of stacks by an independent computation; its head says how.
+/// Colors of stacks by an independent computation, which the head of the file describes.
 const STACK_COLORS: &str = include_str!("../../crates/coating/tests/data/stack_colors.csv");
 /// White points by an independent computation.
 const WHITE_POINTS: &str = include_str!("../../crates/colorimetry/tests/data/white_points.csv");
@@ -45,7 +45,8 @@ fn floats(value: &Value) -> Vec<f64> {
     values.map(|value| value.as_f64().unwrap()).collect()
 }
 
-/// The largest difference of `color`'s figures from a row of the table: relative of XYZ, absolute of the rest, of CIELAB over 100.
+/// The largest difference between the figures of `color` and a row of the table: relative for XYZ, absolute for the rest, over 100 for
+/// CIELAB.
 fn difference(place: &Place, row: &[&str], illuminant: &str) -> f64 {
     let expected: Vec<f64> = row[4..].iter().map(|cell| number(cell)).collect();
     let rule = row[3];
@@ -90,10 +91,10 @@ fn stacks_have_the_colors_of_an_independent_computation() {
             written = of;
         }
         let worst = difference(&place, &row, row[2]);
-        // Twelve digits are given.
+        // The table has twelve digits.
         assert!(worst < 1e-9, "{row:?}: {worst:e}");
         if count == 0 {
-            // Another light is noticed.
+            // Another illuminant is noticed.
             assert!(difference(&place, &row, "D55") > 1e-3);
         }
         count += 1;
@@ -101,7 +102,7 @@ fn stacks_have_the_colors_of_an_independent_computation() {
     assert_eq!(count, 14 * 2 * 3 * 2);
 }
 
-/// The lamps' own tables as emissions: their white points for every observer that the table has.
+/// The tables of the illuminants themselves as emissions: their white points for every observer in the table.
 #[test]
 fn emissions_have_the_white_points_of_an_independent_computation() {
     let place = Place::default();
@@ -143,7 +144,7 @@ fn emissions_have_the_white_points_of_an_independent_computation() {
 }
 
 #[test]
-fn lamps_with_lines_are_summed_at_5_nm_unless_another_rule_is_asked_for() {
+fn lamps_with_lines_are_summed_at_5_nm_by_default() {
     let place = Place::default();
     std::fs::write(place.path("gray.csv"), csv([(380.0, 0.5), (780.0, 0.5)])).unwrap();
     let rule = |options: &str| {
@@ -196,7 +197,7 @@ fn white_is_adapted_to_the_display_and_codes_follow_its_curve() {
 }
 
 #[test]
-fn a_table_says_the_same_in_words() {
+fn a_table_says_the_same_in_text() {
     let place = Place::default();
     std::fs::write(
         place.path("red.csv"),
@@ -232,7 +233,7 @@ fn black_has_no_chromaticity() {
     );
 }
 
-/// A table with this text must be refused with all of `said`.
+/// Checks that a table with this text is refused, with all of `said` in the message.
 fn refused(text: &str, options: &str, said: &[&str]) {
     let place = Place::default();
     std::fs::write(place.path("t.csv"), text).unwrap();
@@ -304,7 +305,7 @@ fn tables_that_cannot_be_used_say_why() {
     std::fs::write(place.path("t.csv"), "400,0.5\n700,0.5\n").unwrap();
     let clamped = json(&place, "color t.csv --clamp");
     assert!((floats(&clamped["xyz"])[1] - 50.0).abs() < 1e-12);
-    // A lamp that is too short is told by its option.
+    // A lamp whose data are too short is reported by its option.
     let stderr = place.run("color t.csv --clamp --illuminant t.csv").failed();
     assert!(
         stderr.contains("--illuminant") && stderr.contains("no value at 380 nm"),
@@ -361,7 +362,7 @@ fn displays_are_listed_and_shown() {
 }
 
 #[test]
-fn a_display_of_ones_own_is_a_file() {
+fn a_custom_display_is_a_file() {
     let place = Place::default();
     std::fs::create_dir(place.path("screens")).unwrap();
     let file = "
@@ -425,7 +426,7 @@ fn film_and_color_agree_for_any_lamp_and_observer() {
         "--illuminant LED-RGB1 --observer 2015_10",
         "--illuminant lamp.csv",
     ] {
-        // A reflectance in a file is summed at the 5 nm of a lamp with lines, a film integrated between them.
+        // A reflectance in a file is summed at the 5 nm steps of a lamp with lines; a film is integrated between them.
         let allowed = if options.ends_with("FL11") {
             0.01
         } else {

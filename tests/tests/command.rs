@@ -1,4 +1,4 @@
-//! The command from end to end, as a user runs it, and the library's examples.
+//! End-to-end tests of the command, and tests of the library's examples.
 
 use color::spectral_exr::{Metadata, read};
 use pellicle_tests::command::{Place, Ran, program};
@@ -9,7 +9,7 @@ use spectra::SpectralImage;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// A picture small enough to be rendered often.
+/// Settings of a picture small enough to be rendered often.
 const SMALL: &str = "--size 32x24 --samples 2 --bands 6";
 
 fn scene(name: &str) -> String {
@@ -17,7 +17,7 @@ fn scene(name: &str) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-/// `render` of the soap bubble with further arguments.
+/// The command `render` for the soap bubble, with further arguments.
 fn render(arguments: &str) -> String {
     format!("render {} {arguments}", scene("soap_bubble.toml"))
 }
@@ -34,7 +34,7 @@ fn png(place: &Place, name: &str) -> image::RgbImage {
     image::open(place.path(name)).unwrap().into_rgb8()
 }
 
-/// Runs `render` of the soap bubble, which must fail with all of `said` and leave no file.
+/// Runs `render` for the soap bubble and checks that it fails with all of `said` and leaves no file.
 fn refused(arguments: &str, said: &[&str]) {
     let place = Place::default();
     told(&place.run(&render(arguments)).failed(), said, arguments);
@@ -64,7 +64,7 @@ fn a_render_writes_both_files_named_after_the_scene() {
 }
 
 #[test]
-fn o_chooses_what_is_written() {
+fn the_output_option_chooses_what_is_written() {
     for (asked, expected) in [
         ("-o a.png", vec!["a.png"]),
         ("-o a.exr", vec!["a.exr"]),
@@ -109,7 +109,7 @@ fn options_replace_the_settings_of_the_scene() {
 }
 
 #[test]
-fn the_same_command_gives_the_same_bits_and_another_seed_others() {
+fn equal_seeds_give_equal_bits_and_other_seeds_do_not() {
     for backend in ["gpu", "cpu"] {
         let place = Place::default();
         for (name, seed) in [("a", 1), ("b", 1), ("c", 2)] {
@@ -129,7 +129,7 @@ fn the_same_command_gives_the_same_bits_and_another_seed_others() {
 #[test]
 fn gpu_and_cpu_give_nearly_the_same_files() {
     let place = Place::default();
-    // Numbers of bands that fill groups of four and that do not, and pictures of one pixel, row or column.
+    // Numbers of bands that fill groups of four and some that do not, and pictures of one pixel, one row or one column.
     for options in [
         SMALL,
         "--size 24x24 --samples 4 --bands 1",
@@ -149,11 +149,11 @@ fn gpu_and_cpu_give_nearly_the_same_files() {
         let (gpu, cpu) = (png(&place, "gpu.png"), png(&place, "cpu.png"));
         let codes = gpu.as_raw().iter().zip(cpu.as_raw());
         let apart = codes.filter(|(a, b)| a.abs_diff(**b) > 1).count();
-        // Two codes or more is 1 % of light: an outlier, of which there may be as many as in the spectra.
+        // Two codes or more are 1 % of light: an outlier. There may be as many as in the spectra.
         let allowed = FRAMES.outlier_share * cpu.as_raw().len() as f64;
         assert!(
             apart as f64 <= allowed,
-            "{options}: {apart} codes lie apart"
+            "{options}: {apart} codes differ by more than one"
         );
         assert!(
             cpu.as_raw().iter().any(|&code| code > 50),
@@ -184,7 +184,7 @@ fn without_a_driver_auto_renders_on_the_cpu_and_says_so() {
 
 /// The CPU is faster than a software driver, and starts at once.
 #[test]
-fn auto_takes_a_gpu_but_no_software_driver() {
+fn auto_uses_a_gpu_but_not_a_software_driver() {
     let place = Place::default();
     let ran = place.run(&render(&format!("{SMALL} -o auto"))).succeeded();
     let adapter = &gpu::adapters()[0];
@@ -202,7 +202,7 @@ fn auto_takes_a_gpu_but_no_software_driver() {
 }
 
 #[test]
-fn without_a_driver_gpu_fails_with_the_line_that_installs_one() {
+fn without_a_driver_gpu_fails_with_the_command_that_installs_one() {
     let place = Place::default();
     let ran = place.run_without_driver(&render(&format!("{SMALL} --backend gpu")));
     let stderr = ran.failed();
@@ -244,7 +244,7 @@ fn an_adapter_is_chosen_by_a_part_of_its_name() {
 }
 
 #[test]
-fn check_tells_what_a_scene_is() {
+fn check_summarizes_a_scene() {
     let place = Place::default();
     let ran = place.run(&format!("check {}", scene("film_wedge.toml")));
     let said = ran.succeeded();
@@ -266,7 +266,7 @@ fn check_tells_what_a_scene_is() {
 }
 
 #[test]
-fn the_schema_is_the_one_that_is_shipped() {
+fn the_printed_schema_is_the_shipped_one() {
     let printed = Place::default().run("schema").succeeded().stdout;
     let shipped = std::fs::read_to_string(scene("scene.schema.json")).unwrap();
     let parse = |text: &str| serde_json::from_str::<serde_json::Value>(text).unwrap();
@@ -281,13 +281,13 @@ fn off_a_terminal_there_is_no_progress_bar() {
     for sign in ['\r', '\u{1b}', '█', '░', '%'] {
         assert!(!said.contains(sign), "{sign:?} in {said:?}");
     }
-    // Who renders, what it takes, how fast it was, and two files.
+    // The lines name the renderer, the work, the speed, and two files.
     assert_eq!(said.lines().count(), 5, "{said}");
 }
 
 /// `pellicle schema | head -1` must not end in a panic.
 #[test]
-fn a_reader_that_goes_away_is_no_error() {
+fn a_closed_pipe_is_no_error() {
     let place = Place::default();
     let mut command = place.command("schema");
     let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -298,7 +298,7 @@ fn a_reader_that_goes_away_is_no_error() {
 }
 
 #[test]
-fn files_that_are_no_scenes_are_refused() {
+fn files_that_are_not_scenes_are_refused() {
     let place = Place::default();
     std::fs::write(place.path("empty.toml"), "").unwrap();
     std::fs::write(place.path("binary.toml"), [0x89, b'P', 0, 0xff, 0xfe]).unwrap();
@@ -356,8 +356,8 @@ fn impossible_settings_are_refused() {
 }
 
 #[test]
-fn places_that_cannot_be_written_to_are_refused_before_the_render() {
-    // So large that a test would notice if it were rendered.
+fn outputs_that_cannot_be_written_are_refused_before_the_render() {
+    // So large that the test would take very long if it were rendered.
     let large = "--size 4000x4000 --samples 100000 --backend cpu";
     let refused = |output: &str, said: &[&str]| refused(&format!("{large} -o {output}"), said);
     refused("x.jpg", &["x.jpg", ".png", ".exr"]);
@@ -427,7 +427,7 @@ fn the_examples_run() {
     told(&said, &["pixel (16, 4)", "XYZ"], "read_a_pixel");
 }
 
-/// A film that grows thicker with time, a frame each second.
+/// A film that grows thicker with time, one frame per second.
 const GROWING: &str = "
 render = { size = [16, 12], samples = 2, bands = 6, time_s = 10, time_step_s = 5 }
 camera = { type = 'perspective', position = [0, 0, 3], look_at = [0, 0, 0], fov_deg = 30 }
@@ -466,7 +466,7 @@ fn a_sequence_has_a_numbered_file_for_each_frame_at_its_time() {
 }
 
 #[test]
-fn a_sequence_of_a_scene_that_stands_still_is_reported() {
+fn a_sequence_of_a_scene_without_motion_is_reported() {
     let place = Place::default();
     let drainage = "{ drainage = { initial = 900, radius_m = 0.01, viscosity_pa_s = 1e-7 } }";
     assert!(GROWING.contains(drainage));
@@ -483,7 +483,7 @@ fn a_sequence_of_a_scene_that_stands_still_is_reported() {
 }
 
 #[test]
-fn sequences_that_cannot_be_are_refused_before_they_begin() {
+fn impossible_sequences_are_refused_before_they_begin() {
     for (frames, said) in [
         ("--frames 4", "written like 0:48"),
         ("--frames 4:4", "must be larger than the first"),

@@ -1,4 +1,4 @@
-//! `pellicle develop`, and the same options of `pellicle render`.
+//! Tests of `pellicle develop`, and of the same options in `pellicle render`.
 
 use color::BandWeights;
 use color::spectral_exr::{self, Metadata, WriteOptions};
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 const SIZE: [u32; 2] = [12, 8];
 
-/// A place with `image.exr`: grays, a row of saturated lines of the spectrum, and a lamp.
+/// A folder with `image.exr`: grays, a row of saturated spectral lines, and a lamp.
 fn place() -> Place {
     let place = Place::default();
     let grid = BandGrid::visible(40).unwrap();
@@ -90,7 +90,7 @@ fn each_step_is_switched_by_its_option() {
 }
 
 #[test]
-fn a_lamp_s_light_stays_in_the_picture() {
+fn glare_keeps_the_light_of_a_lamp() {
     let place = place();
     let lamp = |picture: &RgbImage| picture.get_pixel(6, 5).0;
     let beside = |picture: &RgbImage| u32::from(picture.get_pixel(4, 5).0[1]);
@@ -110,7 +110,7 @@ fn the_gamut_report_counts_what_the_warning_marks() {
     let place = place();
     let ran = place.run("develop image.exr -o out.png --gamut-report --gamut-warning");
     let report = ran.succeeded().stdout;
-    // A row of spectral lines, the lamp, and grays that are brighter than the white.
+    // The row of spectral lines, the lamp, and grays that are brighter than white.
     let count: u32 = report
         .split(['(', ' '])
         .find_map(|word| word.parse::<u32>().ok().filter(|&n| n > 12))
@@ -125,7 +125,7 @@ fn the_gamut_report_counts_what_the_warning_marks() {
     };
     let (mut seen, mut hidden) = (0, 0);
     for (x, y, pixel) in plain.enumerate_pixels() {
-        // Where a pixel has the stripe's color anyway, nothing tells whether it is marked.
+        // Where a pixel already has the color of the stripe, nothing shows whether it is marked.
         if pixel.0 == stripe(x, y) {
             hidden += 1;
         } else if marked.get_pixel(x, y) != pixel {
@@ -149,7 +149,7 @@ fn the_gamut_report_counts_what_the_warning_marks() {
 }
 
 #[test]
-fn files_have_the_depth_that_is_asked_for() {
+fn files_have_the_requested_bit_depth() {
     let place = place();
     for (name, bits, expected) in [
         ("eight.png", "", image::ColorType::Rgb8),
@@ -184,7 +184,7 @@ fn files_have_the_depth_that_is_asked_for() {
 }
 
 #[test]
-fn what_cannot_be_is_reported_and_nothing_is_written() {
+fn impossible_options_are_reported_and_nothing_is_written() {
     let place = place();
     std::fs::write(place.path("notes.txt"), "no image").unwrap();
     for (arguments, said) in [
@@ -233,9 +233,9 @@ fn what_cannot_be_is_reported_and_nothing_is_written() {
     assert_eq!(place.names(), ["image.exr", "notes.txt"]);
 }
 
-/// The glare of an eye needs the angle of view: from the scene's camera, which the file remembers, or from the option.
+/// Glare in a human eye depends on the field of view: from the scene's camera, which is stored in the file, or from the option.
 #[test]
-fn a_view_that_is_not_known_is_asked_for() {
+fn an_unknown_field_of_view_must_be_given() {
     let place = Place::default();
     let grid = BandGrid::visible(4).unwrap();
     let image = SpectralImage::new(3, 2, grid);
@@ -256,7 +256,7 @@ fn a_view_that_is_not_known_is_asked_for() {
             .run("develop image.exr -o out.png --glare scotopic --glare-fov 30")
             .success
     );
-    // A black image is one; but there is nothing in it to expose for, or to adapt from.
+    // A black image can be developed, but it has nothing to expose for or to adapt from.
     for (option, said) in [
         ("--exposure auto", "nothing to expose for"),
         (
@@ -287,9 +287,9 @@ center = [0, 0, 0]
 radius = 1
 "#;
 
-/// A render and its file developed are the same picture, to the byte, whatever the options.
+/// Developing the file of a render gives the same picture as rendering it, to the byte, whatever the options.
 #[test]
-fn render_is_render_then_develop() {
+fn rendering_equals_rendering_then_developing() {
     let place = Place::default();
     std::fs::write(place.path("scene.toml"), SCENE).unwrap();
     for options in [

@@ -1,4 +1,4 @@
-//! Direct light by rays to lights, by scattered rays that meet them, and by both: the same light, and both are hardly ever noisier
+//! Direct light by emitter sampling, by BSDF sampling, and by both: the means agree, and both together are hardly ever noisier
 //! than the better of the two.
 
 use pellicle_tests::wgsl::root;
@@ -8,11 +8,11 @@ use scene::{DirectLight, Problems, Scene, SceneFile};
 const SIDE: u32 = 20;
 const SAMPLES: u32 = 200;
 
-/// Standard errors by which two means may differ. For one comparison 3 would be exceeded once in 370 times; here all comparisons
-/// of the suite together, at most 500, are to fail as rarely, so that each has 0.0027 / 500 = 5.4e-6: 4.55 (Bonferroni).
+/// Standard errors by which two means may differ. A single comparison would exceed 3 once in 370 times; here all comparisons
+/// of the suite together, at most 500, should fail as rarely, so each has 0.0027 / 500 = 5.4e-6: 4.55 (Bonferroni).
 const Z: f64 = 4.55;
 
-/// Most of the lower variance that both ways together may have.
+/// Largest allowed ratio of the variance of both techniques together to the lower variance of the two.
 const MOST_VARIANCE: f64 = 1.2;
 
 const LIGHTS: &[(&str, &str)] = &[
@@ -41,14 +41,14 @@ const LIGHTS: &[(&str, &str)] = &[
         "[environment]\ntype = \"image\"\nimage = \"tests/data/environment.hdr\"\n",
     ),
     (
-        // Its sun is so small that scattered rays hardly ever find it.
+        // The sun is so small that BSDF sampling hardly ever finds it.
         "sky without its sun",
         "[environment]\ntype = \"sky\"\nsun_elevation_deg = 40\nsun_azimuth_deg = 10\nsun = false\n",
     ),
     ("several", SEVERAL),
 ];
 
-/// Lights that no scattered ray meets.
+/// Lights that BSDF sampling cannot find.
 const SINGLE_DIRECTIONS: &[(&str, &str)] = &[
     (
         "direction",
@@ -127,7 +127,7 @@ fn read(light: &str, surface: &str, direct: DirectLight) -> Result<Scene, Proble
     file.validate()
 }
 
-/// Mean over the picture, the variance of that mean, both of direct light alone.
+/// Mean over the picture and the variance of that mean, for direct light alone.
 fn mean_and_variance(light: &str, surface: &str, direct: DirectLight) -> (f64, f64) {
     let scene = scene(light, surface, direct);
     let prepared = reference::PreparedScene::new(&scene);
@@ -151,7 +151,7 @@ fn mean_and_variance(light: &str, surface: &str, direct: DirectLight) -> (f64, f
 }
 
 fn z((a, variance_a): (f64, f64), (b, variance_b): (f64, f64)) -> f64 {
-    // Where nothing is left to chance, rounding is.
+    // Where nothing is random, rounding remains.
     (a - b) / (variance_a + variance_b + (1e-9 * a).powi(2)).sqrt()
 }
 
@@ -190,7 +190,7 @@ fn three_ways_agree_and_both_together_are_never_much_noisier() {
 }
 
 #[test]
-fn light_from_a_single_direction_is_found_by_sending_alone() {
+fn light_from_a_single_direction_is_found_by_emitter_sampling_alone() {
     for (light_name, light) in SINGLE_DIRECTIONS {
         for (surface_name, surface) in SURFACES {
             let of = |direct| mean_and_variance(light, surface, direct);
@@ -204,9 +204,9 @@ fn light_from_a_single_direction_is_found_by_sending_alone() {
     }
 }
 
-/// By scattered rays alone such light would be dark, so that is refused.
+/// BSDF sampling alone would leave such light dark, so it is refused.
 #[test]
-fn light_from_a_single_direction_is_refused_without_sending() {
+fn light_from_a_single_direction_is_refused_without_emitter_sampling() {
     for (name, light) in SINGLE_DIRECTIONS {
         let problems = read(light, SURFACES[0].1, DirectLight::Bsdf).expect_err(name);
         let fields: Vec<_> = problems.iter().map(|p| p.field.to_string()).collect();
@@ -214,7 +214,7 @@ fn light_from_a_single_direction_is_refused_without_sending() {
     }
 }
 
-/// The comparison can fail: one lamp two per cent brighter.
+/// The comparison can fail: it detects a lamp that is two percent brighter.
 #[test]
 fn a_wrong_light_is_noticed() {
     let (_, surface) = SURFACES[0];

@@ -1,4 +1,4 @@
-//! Pictures of all directions, absolutely: a ray that escapes brings what the file says of its direction.
+//! Pictures of all directions, absolutely: an escaped ray gets the radiance that the file has in its direction.
 
 use color::spectral_exr::{Metadata, WriteOptions};
 use color::xyz::exposure_scale;
@@ -16,11 +16,12 @@ use std::path::Path;
 use tempfile::TempDir;
 
 const BANDS: u32 = 8;
-/// The scene is at f32, and so are its texels; a ray to the middle of a pixel takes another one by chance of as much.
+/// The scene is in f32, and so are its texels; a ray to the middle of a pixel uses a neighbor with a probability of
+/// this size.
 const ROUNDED: f64 = 2e-5;
 
-/// Toward the middle of a pixel, as the documentation has it: the picture's middle is toward −Z, its right half toward +X, its top
-/// toward +Y; it is turned about +Y from +Z toward +X.
+/// Direction of the middle of a pixel, as documented: the middle of the picture is toward −Z, its right half toward +X, its top
+/// toward +Y; it is rotated about +Y from +Z toward +X.
 fn toward([x, y]: [u32; 2], [width, height]: [u32; 2], rotation_deg: f64) -> DVec3 {
     let longitude = TAU * ((f64::from(x) + 0.5) / f64::from(width) - 0.5);
     let latitude = PI * (0.5 - (f64::from(y) + 0.5) / f64::from(height));
@@ -34,7 +35,7 @@ fn toward([x, y]: [u32; 2], [width, height]: [u32; 2], rotation_deg: f64) -> DVe
     )
 }
 
-/// A scene of environment alone, seen in parallel in one direction.
+/// A scene with nothing but its environment, seen in parallel projection in one direction.
 fn looking(direction: DVec3, folder: &Path, environment: &str, bands: u32) -> Scene {
     let up = if direction.y.abs() > 0.9 {
         "[1, 0, 0]"
@@ -52,7 +53,7 @@ fn looking(direction: DVec3, folder: &Path, environment: &str, bands: u32) -> Sc
 }
 
 fn on_cpu(scene: &Scene) -> SpectralImage {
-    reference::render(scene, &mut |_| ControlFlow::Continue(())).expect("nobody stops it")
+    reference::render(scene, &mut |_| ControlFlow::Continue(())).expect("nothing stops the render")
 }
 
 /// Mean spectrum of all pixels.
@@ -81,7 +82,7 @@ fn assert_near(what: &str, found: &[f64], expected: &[f64], allowance: f64) {
     }
 }
 
-/// A spectrum that no other pixel and no other band has.
+/// A spectrum that differs between all pixels and all bands.
 fn spectrum_of(x: u32, y: u32) -> Vec<f32> {
     let start = 1.0 + x as f32 + 16.0 * y as f32;
     (0..BANDS)
@@ -89,7 +90,7 @@ fn spectrum_of(x: u32, y: u32) -> Vec<f32> {
         .collect()
 }
 
-/// A folder with `a.exr`, a picture of spectra.
+/// A folder with `a.exr`, a spectral image.
 fn folder_of_spectra(size: [u32; 2]) -> TempDir {
     let folder = TempDir::new().unwrap();
     let mut picture = SpectralImage::new(size[0], size[1], BandGrid::visible(BANDS).unwrap());
@@ -104,9 +105,9 @@ fn folder_of_spectra(size: [u32; 2]) -> TempDir {
     folder
 }
 
-/// A rough metal, a floor and a film, lit by spectra: rays are sent for them, and escape to them.
+/// A rough metal, a floor and a film, lit by a spectral image: emitter sampling and escaping rays both use it.
 #[test]
-fn both_renderers_are_lit_by_spectra_alike() {
+fn spectral_environments_light_both_renderers_equally() {
     const LIT: &str = "camera = { type = 'perspective', position = [0, 1.5, 5], look_at = [0, 0.4, 0], fov_deg = 35 }\n\
         environment = { type = 'image', image = 'a.exr', rotation_deg = 20 }\n\
         render = { size = [48, 36], samples = 16, bands = 10 }\n\
@@ -127,7 +128,7 @@ fn both_renderers_are_lit_by_spectra_alike() {
 }
 
 #[test]
-fn spectra_come_back_as_they_are() {
+fn spectra_come_back_unchanged() {
     let size = [16, 8];
     let folder = folder_of_spectra(size);
     let gpu = open();
@@ -148,7 +149,7 @@ fn spectra_come_back_as_they_are() {
             let on_gpu = gpu::render(&gpu, &scene, &mut |_| ControlFlow::Continue(())).unwrap();
             assert_near(&what, &mean(&on_gpu), &half, ROUNDED);
         }
-        // Wider bands have the means over theirs.
+        // Wider bands have the mean of the narrow ones that they contain.
         let scene = looking(direction, folder.path(), &environment, BANDS / 2);
         let pairs: Vec<f64> = half
             .chunks(2)
@@ -160,7 +161,7 @@ fn spectra_come_back_as_they_are() {
 
 /// The four quarters of the horizon, by name.
 #[test]
-fn directions_are_where_the_documentation_has_them() {
+fn directions_are_as_documented() {
     let near = |a: DVec3, b: DVec3| assert!((a - b).length() < 0.02, "{a} {b}");
     let size = [1024, 512];
     near(toward([512, 256], size, 0.0), DVec3::NEG_Z);
@@ -200,7 +201,7 @@ fn directions_are_where_the_documentation_has_them() {
     }
 }
 
-/// Linear (r, g, b) of a file, at the exposure of its own (1, 1, 1): the color of what a ray brings, as lifting promises.
+/// Linear (r, g, b) of a file, at the exposure of its own (1, 1, 1): the color of the ray's radiance, as upsampling promises.
 #[test]
 fn colors_come_back_as_colors() {
     let folder = TempDir::new().unwrap();
@@ -235,7 +236,7 @@ zenith = { illuminant = "D65" }
 horizon = { illuminant = "A", scale = 2 }
 "#;
 
-/// A scene seen by the panorama camera, written and read, gives the same panorama again: away from edges, where the picture is
+/// A scene seen by the panorama camera, written and read, gives the same panorama again, away from edges, where the picture is
 /// bilinear between pixels.
 #[test]
 fn a_panorama_is_the_environment_that_it_saw() {
@@ -253,7 +254,7 @@ fn a_panorama_is_the_environment_that_it_saw() {
     let (metadata, options) = (Metadata::default(), WriteOptions::default());
     color::spectral_exr::write(&folder.path().join("room.exr"), &seen, &metadata, options).unwrap();
     let environment = "type = \"image\"\nimage = \"room.exr\"";
-    // On the panel toward +X, beside it, straight up and down.
+    // On the panel toward +X, beside it, straight up and straight down.
     for pixel in [[48, 14], [47, 16], [16, 10], [30, 1], [5, 30]] {
         let direction = toward(pixel, size, 0.0);
         let found = mean(&on_cpu(&looking(
@@ -268,7 +269,7 @@ fn a_panorama_is_the_environment_that_it_saw() {
             .map(|&v| f64::from(v))
             .collect();
         assert_near(&format!("{pixel:?}"), &found, &of_file, ROUNDED);
-        // And it is what stands there: a pixel's mean over its few degrees is its middle's value within 3 %.
+        // It also equals the room in that direction: the mean of a pixel over its few degrees is the value at its middle within 3 %.
         let text = text.replace("type = \"panorama\", position = [0, 0, 0]", &format!(
             "type = \"orthographic\", position = [0, 0, 0], look_at = {:?}, up = [0, 0.3, 1], height = 1e-3", direction.to_array()
         ));

@@ -1,4 +1,4 @@
-//! Each kind of thickness alone: a scene's pipeline is made for what the scene has, so every kind must render without the others.
+//! Renders each kind of thickness alone: a pipeline is specialized to its scene, so every kind must render without the others.
 
 use pellicle_tests::frames::{Values, same_numbers};
 use pellicle_tests::tolerances::FRAMES;
@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 
 const ALONG: &str = "from = [-0.5, 0.4, 0], to = [0.6, -0.5, 0.2]";
 
-/// A bubble and a film beside it, both of this thickness; two bubbles where it is for bubbles alone.
+/// A bubble and a film beside it, both with this thickness; two bubbles if the thickness applies only to bubbles.
 fn scene(thickness: &str) -> Scene {
     let is_for_spheres = thickness.contains("pole") || thickness.contains("radius_m");
     let beside = if is_for_spheres {
@@ -34,7 +34,7 @@ fn compared(actual: &Scene, expected: &Scene) -> Result<String, String> {
     let gpu = pellicle_tests::device::open();
     let mut go_on = |_| ControlFlow::Continue(());
     let actual = gpu::render(&gpu, actual, &mut go_on).unwrap_or_else(|error| panic!("{error}"));
-    let expected = reference::render(expected, &mut go_on).expect("nobody stops it");
+    let expected = reference::render(expected, &mut go_on).expect("nothing stops the render");
     same_numbers(Values::of(&actual), Values::of(&expected), &FRAMES)
 }
 
@@ -70,7 +70,7 @@ fn each_kind_of_thickness_renders_alone() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// The comparison can fail: swirls a tenth of their life later are another picture.
+/// The comparison can fail: swirls a tenth of their lifetime later are another picture.
 #[test]
 fn another_time_is_noticed() {
     let at = |rate: f64| {

@@ -1,4 +1,4 @@
-//! `pellicle film` from end to end, as a user runs it.
+//! End-to-end tests of `pellicle film`.
 
 use pellicle::coating::{Angle, Stack};
 use pellicle_tests::command::{Place, Ran, program};
@@ -10,7 +10,7 @@ use std::process::Command;
 /// Silica on silicon.
 const STEP: &str = "1 | silica 300nm | silicon";
 
-/// Runs `film` with a stack, which may have blanks, and further arguments separated by blanks.
+/// Runs `film` with a stack, which may contain spaces, and further arguments separated by spaces.
 fn film_in(place: &Place, stack: &str, arguments: &str) -> Ran {
     let mut command = place.command("film");
     command.arg(stack).args(arguments.split_whitespace());
@@ -21,7 +21,7 @@ fn film(stack: &str, arguments: &str) -> Ran {
     film_in(&Place::default(), stack, arguments)
 }
 
-/// The rows of a CSV, without its head.
+/// The rows of a CSV, without its header.
 fn rows(csv: &str) -> Vec<Vec<f64>> {
     let row = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect();
     csv.lines().skip(1).map(row).collect()
@@ -34,7 +34,7 @@ fn told(said: &str, words: &[&str], case: &str) {
 }
 
 #[test]
-fn csv_goes_by_angle_then_by_wavelength_and_keeps_every_digit() {
+fn csv_is_ordered_by_angle_then_wavelength_and_keeps_every_digit() {
     let ran = film(STEP, "--angles 0,60 --wavelengths 400:600:100 --format csv").succeeded();
     let head = ran.stdout.lines().next().unwrap();
     assert_eq!(head, "wavelength_nm,angle_deg,Rs,Rp,Ts,Tp");
@@ -51,7 +51,7 @@ fn csv_goes_by_angle_then_by_wavelength_and_keeps_every_digit() {
             (600.0, 60.0)
         ]
     );
-    // Seventeen digits give back the very number.
+    // Seventeen digits restore the exact number.
     let stack = Stack::parse(STEP).unwrap();
     let sampled = stack.sampled(&[400.0, 500.0, 600.0]).unwrap();
     let angles = [0.0, 60.0].map(|deg| Angle::from_degrees(deg).unwrap());
@@ -63,8 +63,8 @@ fn csv_goes_by_angle_then_by_wavelength_and_keeps_every_digit() {
     assert!(ran.stdout.contains('e'), "{}", ran.stdout);
 }
 
-/// A case of independent figures: its media from the incident one on, each with its thickness, and rows of wavelength, angle,
-/// Rs, Rp, Ts and Tp.
+/// A case of independently computed figures: its media from the incident one on, each with its thickness, and rows of wavelength,
+/// angle, Rs, Rp, Ts and Tp.
 #[derive(Default)]
 struct Case {
     media: BTreeMap<usize, (f64, [Vec<f64>; 3])>,
@@ -97,7 +97,7 @@ fn cases() -> BTreeMap<&'static str, Case> {
     cases
 }
 
-/// A stack file with its tables in place.
+/// A stack file with its tables inside.
 fn stack_file(case: &Case) -> String {
     let table =
         |(_, [nm, n, k]): &(f64, [Vec<f64>; 3])| format!("{{ nm = {nm:?}, n = {n:?}, k = {k:?} }}");
@@ -137,7 +137,7 @@ fn stack_files_give_the_figures_of_an_independent_computation() {
 }
 
 #[test]
-fn json_says_what_it_is() {
+fn json_describes_its_content() {
     let place = Place::default();
     let text =
         "incident = 1\nsubstrate = \"silicon\"\n[[layer]]\nindex = [1.5, 0.1]\nthickness_nm = 80\n";
@@ -167,7 +167,7 @@ fn json_says_what_it_is() {
 }
 
 #[test]
-fn without_a_file_there_is_a_table_with_the_colors() {
+fn without_a_file_a_table_with_the_colors_is_printed() {
     let ran = film(STEP, "--angles 0,60").succeeded();
     told(
         &ran.stdout,
@@ -206,7 +206,7 @@ fn without_a_file_there_is_a_table_with_the_colors() {
     );
 }
 
-/// Both in `f64` and in `f32`, which are not the same numbers.
+/// The CPU computes in `f64` and the GPU in `f32`, so the numbers differ a little.
 #[test]
 fn the_gpu_agrees_with_the_cpu() {
     let stack = "1.5 | titania 60nm | silica 90nm | gold 20nm | bk7";
@@ -222,7 +222,10 @@ fn the_gpu_agrees_with_the_cpu() {
     for (a, b) in pairs() {
         assert!((a - b).abs() < 5e-5, "{a} {b}");
     }
-    assert!(pairs().any(|(a, b)| a != b), "the CPU computed both");
+    assert!(
+        pairs().any(|(a, b)| a != b),
+        "all numbers are equal: both runs used the CPU"
+    );
 }
 
 #[test]
@@ -268,9 +271,9 @@ fn pictures_are_written_the_same_each_time() {
     );
 }
 
-/// The thickness whose color was asked for comes out first, and the color that is printed leads back to it.
+/// The thickness with the wanted color comes first, and the printed color leads back to it.
 #[test]
-fn a_wanted_color_is_found_again() {
+fn the_thickness_for_a_wanted_color_is_found() {
     let ran = film(STEP, "--match #4d6caf --vary 1:20:700").succeeded();
     let lines: Vec<&str> = ran
         .stdout
@@ -284,7 +287,7 @@ fn a_wanted_color_is_found_again() {
     };
     let best = cells(lines[0]);
     let (thickness_nm, delta_e): (f64, f64) = (best[1].parse().unwrap(), best[2].parse().unwrap());
-    // Codes of eight bits leave half a unit.
+    // Codes of eight bits leave an uncertainty of half a unit.
     assert!(
         (thickness_nm - 300.0).abs() < 1.0 && delta_e < 0.5,
         "{}",
@@ -300,9 +303,9 @@ fn a_wanted_color_is_found_again() {
     assert!(told_exposure.succeeded().stdout.contains("EV"));
 }
 
-/// Nothing is seen of a layer below opaque gold.
+/// A layer below opaque gold cannot be seen.
 #[test]
-fn a_layer_that_is_not_seen_is_reported() {
+fn an_invisible_layer_is_reported() {
     let stack = "air | gold 500nm | silica 100nm | 1.5";
     let said = film(stack, "--match #2e6fd0 --vary 2:0:400").succeeded();
     told(&said.stdout, &["does not depend on this layer"], "");
@@ -340,7 +343,7 @@ fn tolerance_and_sensitivity_are_reported_per_layer() {
 }
 
 #[test]
-fn bad_stacks_are_reported_with_their_place() {
+fn bad_stacks_are_reported_with_their_position() {
     for (stack, words) in [
         ("", vec!["no stack file", "air | silica 300nm | silicon"]),
         (
@@ -489,7 +492,7 @@ fn bad_arguments_are_reported_and_leave_no_file() {
 }
 
 #[test]
-fn a_stack_file_is_not_written_over() {
+fn a_stack_file_is_not_overwritten() {
     let place = Place::default();
     let text = "substrate = 1.5\n";
     std::fs::write(place.path("stack.png"), text).unwrap();
@@ -504,9 +507,9 @@ fn a_stack_file_is_not_written_over() {
     );
 }
 
-/// Data that stop within visible light have spectra, but no color.
+/// Data that end within the visible range give spectra, but no color.
 #[test]
-fn without_data_for_visible_light_there_is_no_color() {
+fn without_data_for_the_visible_range_there_is_no_color() {
     let place = Place::default();
     let text = "substrate = { nm = [400, 700], n = [1.5, 1.4] }\n";
     std::fs::write(place.path("stack.toml"), text).unwrap();
@@ -516,7 +519,7 @@ fn without_data_for_visible_light_there_is_no_color() {
     told(&said, &["380 nm", "the substrate", "400 to 700 nm"], "");
 }
 
-/// What the README shows runs, as a shell runs it, on the file that it shows.
+/// The commands of the README run, as in a shell, on the file that it shows.
 #[test]
 fn the_commands_of_the_readme_run() {
     let readme = std::fs::read_to_string(root().join("README.md")).unwrap();

@@ -1,4 +1,4 @@
-//! `pellicle film` with media beyond their data and by two beams.
+//! Tests of `pellicle film` with media beyond their data and with the two-beam model.
 
 use color::spectral_exr::read;
 use pellicle_tests::agreement::compare;
@@ -23,9 +23,9 @@ fn figures(csv: &str) -> Vec<Vec<f64>> {
     csv.lines().skip(1).map(row).collect()
 }
 
-/// Rs and Rp of `two_beam.csv`, which were computed by another program.
+/// Rs and Rp of `two_beam.csv`, which another program computed.
 #[test]
-fn two_beams_have_the_figures_of_an_independent_computation() {
+fn two_beams_agree_with_an_independent_computation() {
     let (mut found, mut expected) = (Vec::new(), Vec::new());
     let table: Vec<_> = rows(include_str!("../data/two_beam.csv")).collect();
     for chunk in table.iter().step_by(23) {
@@ -43,9 +43,9 @@ fn two_beams_have_the_figures_of_an_independent_computation() {
     }
 }
 
-/// A film before black in environment of 1 is as bright as it reflects.
+/// A film in front of black in an environment of radiance 1 has the radiance of its reflectance.
 #[test]
-fn two_beams_are_those_of_scenes() {
+fn the_command_and_scenes_agree_on_two_beams() {
     for path in ["optical", "as_printed"] {
         let place = Place::default();
         let scene = format!(
@@ -76,7 +76,7 @@ fn two_beams_are_those_of_scenes() {
         let rows = figures(&film("1 | 1.5 400nm | 1", &asked).succeeded().stdout);
         for (band, row) in rows.iter().enumerate() {
             let seen = f64::from(image.pixel(0, 0)[band]);
-            // An image holds f32.
+            // An image stores f32.
             assert!((seen - row[2]).abs() < 1e-6, "{path} {row:?}: {seen}");
         }
         assert!((rows[0][2] - 0.04).abs() > 0.005);
@@ -88,7 +88,7 @@ fn the_model_is_named_and_has_no_absorptance() {
     let stack = "1 | 1.5 83.33333333333333nm | 1";
     let two = "--model two_beam --wavelengths 500";
     let ran = film(stack, two).succeeded();
-    // 0.153664 and 0.9216, worked out by hand: r² = 0.04.
+    // 0.153664 and 0.9216, computed by hand: r² = 0.04.
     for words in ["two beams, path difference optical", "0.153664", "0.921600"] {
         assert!(ran.stdout.contains(words), "{words}: {}", ran.stdout);
     }
@@ -113,7 +113,7 @@ fn the_model_is_named_and_has_no_absorptance() {
 }
 
 #[test]
-fn what_two_beams_are_not_for_is_refused() {
+fn cases_outside_the_two_beam_model_are_refused() {
     let two = "--model two_beam";
     for (stack, arguments, said) in [
         ("1 | 1.5 1nm | 1.4 1nm | 1", two, "has 2 layers"),
@@ -143,7 +143,7 @@ fn what_two_beams_are_not_for_is_refused() {
 
 /// Rutile's data begin at 430 nm.
 #[test]
-fn clamp_goes_on_with_the_end_values() {
+fn clamp_extends_data_with_their_end_values() {
     let stack = "1 | rutile 100nm | silica";
     let failed = film(stack, "").failed();
     assert!(failed.contains("--clamp"), "{failed}");
@@ -161,7 +161,7 @@ fn clamp_goes_on_with_the_end_values() {
     let json: Value = serde_json::from_str(&clamped.stdout).unwrap();
     let index = &json["indices"]["layer"][0]["n"];
     assert_eq!(index[0], index[1]);
-    // What lies within the data is the same as without, and nothing is noted.
+    // Within the data, the results are the same with and without --clamp, and nothing is noted.
     let inside = "--wavelengths 430,500 --format csv";
     let (with, without) = (
         film(stack, &format!("--clamp {inside}")),

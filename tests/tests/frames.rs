@@ -1,5 +1,5 @@
-//! Whole pictures: the GPU renderer against the reference, with the same random numbers and with different ones, and where
-//! the truth is known.
+//! Whole pictures: the GPU renderer against the reference, with the same random numbers and with different ones, and against
+//! known results.
 
 use gpu::Gpu;
 use pellicle_tests::device::{is_short, open};
@@ -18,10 +18,10 @@ fn on_gpu(gpu: &Gpu, scene: &Scene) -> SpectralImage {
 }
 
 fn on_cpu(scene: &Scene) -> SpectralImage {
-    reference::render(scene, &mut |_| ControlFlow::Continue(())).expect("nobody stops it")
+    reference::render(scene, &mut |_| ControlFlow::Continue(())).expect("nothing stops the render")
 }
 
-/// With the same random numbers and with different ones: by the same pipeline, which is compiled once.
+/// With the same random numbers and with different ones, by the same pipeline, which is compiled once.
 #[test]
 fn both_renderers_give_the_same_pictures() {
     let wrong = failures_of(&all(), |gpu, name| {
@@ -48,9 +48,9 @@ fn by_the_same_numbers(gpu: &Gpu, name: &str) -> Vec<Result<String, String>> {
     whole.into_iter().chain(by_light).collect()
 }
 
-/// The noise is that of the reference's samples: more than two for each of them on the GPU would sharpen the test by a tenth. Where
-/// samples are Sobol's their standard errors are less than the picture says, and the test is that much blunter; the scenes that
-/// have everything take independent ones.
+/// The noise is that of the reference's samples: more than two GPU samples for each of them would sharpen the test by only a tenth.
+/// Sobol samples have smaller standard errors than the picture reports, which makes the test that much weaker; the scenes
+/// that contain everything use independent samples.
 fn by_different_numbers(gpu: &Gpu, name: &str) -> Result<String, String> {
     let seen = |samples, seed| {
         let mut file = file(name);
@@ -66,7 +66,7 @@ fn by_different_numbers(gpu: &Gpu, name: &str) -> Result<String, String> {
     same_expectation(&actual, &expected)
 }
 
-/// The light of each group, where there are several.
+/// Compares the light of each group, if there are several.
 fn same_light_groups(
     actual: &SpectralImage,
     expected: &SpectralImage,
@@ -88,7 +88,7 @@ fn same_light_groups(
     compared.collect()
 }
 
-/// XYZ is accumulated apart from the bands, so its mean over the picture is compared apart too.
+/// Compares the mean XYZ of the pictures, because XYZ is accumulated separately from the bands.
 fn same_colors(actual: &SpectralImage, expected: &SpectralImage) -> Result<String, String> {
     let mut worst = 0.0_f64;
     for axis in 0..3 {
@@ -108,9 +108,9 @@ fn same_colors(actual: &SpectralImage, expected: &SpectralImage) -> Result<Strin
     Ok(format!("mean XYZ off by {worst:.1e} at most"))
 }
 
-/// Lights found by one of the two ways alone.
+/// Emitters found by only one of the two techniques.
 #[test]
-fn each_way_to_find_lights_gives_the_same_pictures() {
+fn each_technique_of_direct_lighting_gives_the_same_pictures() {
     use scene::DirectLight::{Bsdf, Emitters};
     let wrong = failures_of(
         &["everything_bodies", "everything_pictured"],
@@ -132,8 +132,8 @@ fn each_way_to_find_lights_gives_the_same_pictures() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// The same picture in several light groups and in one: the sum of the groups is the total, and neither it nor the variance
-/// depends on how the light is told apart.
+/// The same picture in several light groups and in one: the sum of the groups is the total, and neither the total nor the variance
+/// depends on the grouping.
 #[test]
 fn light_groups_add_up_to_the_picture() {
     let gpu = open();
@@ -160,13 +160,13 @@ fn light_groups_add_up_to_the_picture() {
                 compared.unwrap_or_else(|report| panic!("{who}: {report}"))
             );
         }
-        // A light group that is left out, or counted twice, is noticed.
+        // A light group that is left out or counted twice is noticed.
         let without = Values::of_light(&apart, 0);
         assert!(same_numbers(without, Values::of(&together), &SUMS).is_err());
     }
 }
 
-/// A film whose index is one per cent off, or whose bands are swapped, is another picture.
+/// A film whose index is one percent off, or whose bands are swapped, gives another picture.
 #[test]
 fn a_wrong_picture_is_noticed() {
     let gpu = open();
@@ -207,7 +207,7 @@ fn the_furnace_is_white() {
             let mean = radiance.iter().sum::<f64>() / radiance.len() as f64;
             let error = variance.iter().sum::<f64>().sqrt() / radiance.len() as f64;
             println!("{who}, band {band}: {mean} ± {error}");
-            // 32 segments leave out 2⁻³² of the light, f32 rounds to 6e-8 a bounce.
+            // 32 segments leave out 2⁻³² of the light; f32 rounds by 6e-8 per bounce.
             assert!(
                 (mean - 1.0).abs() <= Z_FURNACE * error + 1e-6,
                 "{who}, band {band}: {mean} ± {error}"
@@ -216,11 +216,11 @@ fn the_furnace_is_white() {
     }
 }
 
-/// The wedge before a constant light is R(λ) L(λ): the picture against optics alone, without a renderer.
+/// In front of a constant light the wedge shows R(λ) L(λ): compares the picture with optics alone, without a renderer.
 #[test]
-fn the_wedge_is_the_films_reflectance() {
+fn the_wedge_shows_the_reflectance_of_its_film() {
     const SIZE: [u32; 2] = [200, 50];
-    // Independent samples, whose standard errors are what they say.
+    // Independent samples, whose reported standard errors are exact.
     let mut file = file("film_wedge");
     let render = &mut file.description.render;
     (render.size, render.samples, render.bands, render.seed) = (SIZE, 128, 8, 9);
@@ -259,7 +259,7 @@ fn the_wedge_is_the_films_reflectance() {
     );
 }
 
-/// Spectra of the film's index and of the light, and the film's thickness at its ends.
+/// Spectra of the film's index and of the light, and the thickness of the film at both ends.
 fn wedge_of(scene: &Scene) -> ((scene::SpectrumId, scene::SpectrumId), (f64, f64)) {
     let film = scene
         .materials()
@@ -310,10 +310,10 @@ fn mean_over_band(
     (0..steps).map(at).sum::<f64>() / f64::from(steps)
 }
 
-/// Some drivers end the loops of an invocation that runs long, and say nothing. Runs of many samples in few pixels are divided
-/// so that this does not happen, and where it happens all the same it is an error.
+/// Some drivers silently end the loops of an invocation that runs for long. Runs of many samples in few pixels are divided to avoid
+/// this; if it happens nevertheless, it must be an error.
 #[test]
-fn long_runs_of_samples_are_whole_or_refused() {
+fn long_runs_of_samples_are_complete_or_refused() {
     let gpu = open();
     let scene = small("film_wedge", [4, 4], 20_000, 8, 1);
     let divided = |samples: Option<u32>| {
@@ -325,14 +325,14 @@ fn long_runs_of_samples_are_whole_or_refused() {
     match divided(Some(20_000)) {
         Ok(image) => assert_eq!(image, whole),
         Err(gpu::RenderError::CutShort { counted, samples }) => {
-            println!("in one run the driver lets {counted} of {samples} samples be");
+            println!("in one run the driver completed {counted} of {samples} samples");
             assert!(counted < samples, "{counted} of {samples}");
         }
         Err(other) => panic!("{other}"),
     }
 }
 
-/// However the samples are divided, and whichever tile a pixel is in, its bits are the same.
+/// A pixel has the same bits however the samples are divided, and whichever tile it is in.
 #[test]
 fn the_bits_do_not_depend_on_the_division_of_the_work() {
     let gpu = open();
@@ -350,5 +350,9 @@ fn the_bits_do_not_depend_on_the_division_of_the_work() {
     assert_eq!(at_once, on_gpu(&gpu, &scene));
     assert_eq!(at_once.light_groups().len(), 2);
     let other = small("soap_bubble", [600, 40], 6, 5, 4);
-    assert_ne!(at_once, on_gpu(&gpu, &other), "another seed");
+    assert_ne!(
+        at_once,
+        on_gpu(&gpu, &other),
+        "another seed gave the same picture"
+    );
 }

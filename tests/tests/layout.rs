@@ -1,4 +1,4 @@
-//! The layout that host and shader share: the generated file is fresh, and naga sees the same offsets as Rust.
+//! Checks the layout that host and shader share: the generated files are fresh, and naga sees the same offsets as Rust.
 
 use pellicle_tests::wgsl::root;
 use std::collections::BTreeMap;
@@ -16,7 +16,7 @@ fn the_generated_files_are_fresh() {
         let found = std::fs::read_to_string(&path).expect("the file exists");
         assert!(
             found == expected,
-            "shaders/{name}.wgsl is stale; write it anew with PELLICLE_BLESS=1 cargo test -p pellicle-tests --test layout"
+            "shaders/{name}.wgsl is stale; regenerate it with PELLICLE_BLESS=1 cargo test -p pellicle-tests --test layout"
         );
     }
 }
@@ -62,7 +62,7 @@ fn naga_sees_the_offsets_of_rust() {
     assert_layout!(structs, RunStack: substrate, first_layer, layer_count);
 }
 
-/// The comparison above can fail: a struct with a member more has another size.
+/// The comparison above can fail: a struct with one more member has another size.
 #[test]
 fn a_shifted_member_is_noticed() {
     let shifted = gpu::layout::wgsl().replace(

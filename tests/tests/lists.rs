@@ -1,5 +1,5 @@
-//! The lists of a scene give the same bits in a storage buffer, a uniform buffer and a texture; and scenes with long lists, or of what lies
-//! side by side in few scenes, agree with the reference.
+//! The lists of a scene give the same bits in a storage buffer, a uniform buffer and a texture, and scenes with long lists or with
+//! rare combinations agree with the reference.
 
 use gpu::{Gpu, PackedScene};
 use pellicle_tests::device::open;
@@ -19,7 +19,7 @@ fn on_gpu(gpu: &Gpu, scene: &Scene) -> SpectralImage {
 }
 
 fn on_cpu(scene: &Scene) -> SpectralImage {
-    reference::render(scene, &mut |_| ControlFlow::Continue(())).expect("nobody stops it")
+    reference::render(scene, &mut |_| ControlFlow::Continue(())).expect("nothing stops the render")
 }
 
 fn parsed(text: &str) -> Scene {
@@ -32,13 +32,13 @@ fn parsed(text: &str) -> Scene {
 const HEAD: &str = "camera = { type = 'perspective', position = [0, 3, 12], look_at = [0, 0, 0], fov_deg = 45 }\n\
      render = { size = [48, 36], samples = 2, bands = 8, max_path_segments = 2 }\n";
 
-/// A place in a cube by a number.
+/// A position in a cube, computed from a number.
 fn place(i: u32) -> [f64; 3] {
     [0x9e37_79b9, 0x85eb_ca6b, 0xc2b2_ae35]
         .map(|k| f64::from(i.wrapping_mul(k) >> 8 & 0xffff) / 8192.0 - 4.0)
 }
 
-/// So many spheres, of which every third shines; each has one of so many materials.
+/// A scene with this many spheres, every third of them an emitter, and this many materials.
 fn many(spheres: u32, materials: u32) -> Scene {
     let mut text =
         format!("{HEAD}[materials.lamp]\ntype = 'emitter'\nemission = {{ constant = 5 }}\n");
@@ -48,7 +48,7 @@ fn many(spheres: u32, materials: u32) -> Scene {
             text,
             "[materials.m{i}]\ntype = 'diffuse'\nreflectance = {reflectance}"
         )
-        .expect("a string takes it");
+        .expect("writing to a string succeeds");
     }
     for i in 0..spheres {
         let material = match i % 3 {
@@ -60,13 +60,13 @@ fn many(spheres: u32, materials: u32) -> Scene {
             "[[objects]]\ntype = 'sphere'\nmaterial = '{material}'\ncenter = {:?}\nradius = 0.16",
             place(i)
         )
-        .expect("a string takes it");
+        .expect("writing to a string succeeds");
     }
     parsed(&text)
 }
 
-/// A mirror that reflects all but 4e-9, beside a rough metal: the color of light that met several facets has no value
-/// for the mirror, and must not be asked for.
+/// A mirror that reflects all but 4e-9, beside a rough metal: the color of light that was reflected by several facets has no value
+/// for the mirror, and must not be read.
 fn mirror_beside_a_rough_metal() -> Scene {
     parsed(&format!(
         "{HEAD}environment = {{ type = 'gradient', zenith = {{ constant = 2 }}, horizon = {{ constant = 1 }} }}\n\
@@ -77,7 +77,7 @@ fn mirror_beside_a_rough_metal() -> Scene {
     ))
 }
 
-/// A coating of 64 layers on a ball, and a free stack of as many.
+/// A coating of 64 layers on a ball, and a free stack with the same number.
 fn layered() -> Scene {
     let layers: Vec<_> = (0..64)
         .map(|i| {

@@ -1,4 +1,4 @@
-//! `pellicle compare` and `pellicle inspect` from end to end, as a user runs them.
+//! End-to-end tests of `pellicle compare` and `pellicle inspect`.
 
 use color::BandWeights;
 use color::spectral_exr::{self, Metadata, WriteOptions};
@@ -10,7 +10,7 @@ use serde_json::Value;
 use spectra::{BandGrid, Observer, SpectralImage};
 use std::path::Path;
 
-/// An image of the spectra that `radiance` gives at each pixel, of a deviation of 1 %.
+/// An image with the spectra that `radiance` returns for each pixel, and a deviation of 1 %.
 fn image(size: [u32; 2], bands: u32, radiance: impl Fn(u32, u32) -> Vec<f32>) -> SpectralImage {
     let grid = BandGrid::visible(bands).unwrap();
     let observer = BandWeights::observed(&grid, Observer::Cie1931Deg2);
@@ -31,7 +31,7 @@ fn write(path: &Path, image: &SpectralImage) {
     spectral_exr::write(path, image, &metadata, WriteOptions::default()).unwrap();
 }
 
-/// Radiance 0.2 everywhere, and at `odd` that times 1.5 in the first half of the bands.
+/// Radiance 0.2 everywhere; at `odd` it is 1.5 times that in the first half of the bands.
 fn gray(size: [u32; 2], bands: u32, odd: Option<(u32, u32)>) -> SpectralImage {
     image(size, bands, |x, y| {
         let bright = if odd == Some((x, y)) { 1.5 } else { 1.0 };
@@ -103,10 +103,10 @@ fn a_pixel_that_differs_is_found_and_measured() {
         );
     }
     assert!(found["rmse_over_noise"].as_f64().unwrap() > 3.0);
-    // The other way round the bias has the other sign.
+    // In the other order the bias has the other sign.
     let back = json(place.run("compare b.exr a.exr --format json"));
     assert!(back["bands"][0]["bias"].as_f64().unwrap() < 0.0);
-    // The map is black but for that pixel.
+    // The map is black except for that pixel.
     let map = image::open(place.path("map.png")).unwrap().into_rgb8();
     for (x, y, pixel) in map.enumerate_pixels() {
         assert_eq!(pixel.0 != [0, 0, 4], (x, y) == (5, 2), "{x},{y}");
@@ -135,7 +135,7 @@ fn pictures_compare_with_each_other_and_with_spectral_images() {
     let settings = DevelopSettings::srgb(1.0);
     let developed = color::develop(&gray([6, 4], 8, None), &settings).unwrap();
     color::png::write(&place.path("c.png"), &developed).unwrap();
-    // sRGB clips what equal energy has of red: the rest is a rounding of the codes.
+    // sRGB clips the red of equal energy; the rest is rounding of the codes.
     let alike = json(place.run("compare c.exr c.png --exposure 1 --format json"));
     assert!(alike["delta_e_2000"]["max"].as_f64().unwrap() < 1.0);
     let darker = json(place.run("compare c.exr c.png --exposure 0 --format json"));
@@ -143,7 +143,7 @@ fn pictures_compare_with_each_other_and_with_spectral_images() {
 }
 
 #[test]
-fn what_does_not_compare_is_one_clear_error() {
+fn files_that_do_not_compare_give_one_clear_error() {
     let place = Place::default();
     write(&place.path("a.exr"), &gray([6, 4], 8, None));
     write(&place.path("wide.exr"), &gray([7, 4], 8, None));
@@ -171,11 +171,11 @@ fn what_does_not_compare_is_one_clear_error() {
         let said = place.run(&format!("compare {arguments}")).failed();
         told(&said, words);
     }
-    assert_eq!(place.names(), before, "nothing half-written");
+    assert_eq!(place.names(), before, "a partly written file was left");
 }
 
 #[test]
-fn a_pixel_and_a_region_are_reported_as_they_are() {
+fn a_pixel_and_a_region_are_reported_correctly() {
     let place = Place::default();
     let made = image([4, 3], 5, |x, y| {
         (0..5)
@@ -217,7 +217,7 @@ fn a_pixel_and_a_region_are_reported_as_they_are() {
     );
     let whole = place.run("inspect a.exr").succeeded().stdout;
     told(&whole, &["the whole image", "192 samples"]);
-    // One stop is twice the light.
+    // One stop is a factor of two.
     let shown = |ev: &str| {
         let found = json(place.run(&format!("inspect a.exr --format json --exposure {ev}")));
         found["places"][0]["xyz_shown"][1].as_f64().unwrap()
@@ -240,7 +240,7 @@ fn spectra_are_plotted() {
 }
 
 #[test]
-fn what_cannot_be_inspected_is_one_clear_error() {
+fn files_that_cannot_be_inspected_give_one_clear_error() {
     let place = Place::default();
     write(&place.path("a.exr"), &gray([4, 3], 5, None));
     let before = place.names();
@@ -268,12 +268,12 @@ fn what_cannot_be_inspected_is_one_clear_error() {
         let said = place.run(&format!("inspect {arguments}")).failed();
         told(&said, words);
     }
-    assert_eq!(place.names(), before, "nothing half-written");
+    assert_eq!(place.names(), before, "a partly written file was left");
 }
 
-/// What `inspect --film` finds at pixel 0 (a film of 412 nm at 30° in FL11), 1 (a gray surface in it) and 2 (black).
+/// Results of `inspect --film` at pixel 0 (a film of 412 nm at 30° in FL11), 1 (a gray surface in it) and 2 (black).
 #[test]
-fn a_film_is_recognized_and_what_is_none_is_reported() {
+fn a_film_is_recognized_and_other_pixels_are_reported() {
     let grid = BandGrid::visible(40).unwrap();
     let stack = Stack::parse("1 | water 0nm | 1").unwrap();
     let lamp = spectra::illuminant("FL11").unwrap().data;
@@ -321,7 +321,7 @@ fn a_film_is_recognized_and_what_is_none_is_reported() {
     assert!((best["scale"].as_f64().unwrap() - 3.0).abs() < 1e-2);
     assert_eq!(film(1)["verdict"], "lamp");
     assert!(film(2)["verdict"].is_null());
-    // Another lamp, and another film, do not fit.
+    // Another lamp or another film does not fit.
     for (film, arguments) in [
         (water, "--angle 30 --lamp A"),
         ("1 | 2.4 0nm | gold", "--angle 30 --lamp FL11"),
@@ -349,9 +349,9 @@ fn a_film_is_recognized_and_what_is_none_is_reported() {
     told(&beyond.stdout, &["nothing fits from 600 to 900 nm"]);
 }
 
-/// A rendered bubble, looked at with its scene: the film's thickness comes out of the spectrum alone.
+/// A rendered bubble, inspected with its scene: the film's thickness follows from the spectrum alone.
 #[test]
-fn the_scene_tells_which_film_a_pixel_shows() {
+fn the_scene_identifies_the_film_at_a_pixel() {
     let place = Place::default();
     let scene = root().join("scenes/soap_bubble.toml");
     let scene = scene.display();
@@ -368,7 +368,7 @@ fn the_scene_tells_which_film_a_pixel_shows() {
         let film = &found["places"][index]["film"];
         let known = film["scene_thickness_nm"].as_f64().unwrap();
         let best = film["by_shape"][0]["thickness_nm"].as_f64().unwrap();
-        println!("{known:.1} nm in the scene, {best:.1} nm of the spectrum: {film}");
+        println!("{known:.1} nm in the scene, {best:.1} nm from the spectrum: {film}");
         assert_eq!(film["material"], "soap");
         // The film varies by some 25 nm over a pixel of this size.
         assert!((best - known).abs() < 15.0, "{best} {known}");
@@ -382,7 +382,7 @@ fn the_scene_tells_which_film_a_pixel_shows() {
         .run(&format!("inspect a.exr --at 1,1 --scene {scene}"))
         .succeeded();
     told(&table.stdout, &["no film: the scene has \"velvet\""]);
-    // A scene that it was not rendered from says something else; its bands are fitted to the image's.
+    // A scene that the image was not rendered from gives other results; its bands are fitted to those of the image.
     let _ = place
         .run(&format!(
             "inspect a.exr --at 24,14 --scene {}",
@@ -391,7 +391,7 @@ fn the_scene_tells_which_film_a_pixel_shows() {
         .succeeded();
 }
 
-/// What reading a file of other origin assumed is said once, on standard error.
+/// Assumptions made in reading a file of other origin are reported once, on standard error.
 #[test]
 fn files_of_other_origin_are_reported() {
     use exr::prelude::*;
@@ -421,7 +421,7 @@ fn files_of_other_origin_are_reported() {
     assert_eq!(found["notes"].as_array().unwrap().len(), 2);
 }
 
-/// A rendered bubble under four lamps on one sheet: each picture is what `develop` makes of the image relit by it.
+/// A rendered bubble under four lamps on one sheet: each picture equals the output of `develop` for the image relit by that lamp.
 #[test]
 fn a_booth_shows_each_lamp() {
     let place = Place::default();
@@ -453,7 +453,7 @@ fn a_booth_shows_each_lamp() {
         let found = sheet.get_pixel(12 + x, 52 + y).0;
         same += u32::from((0..3).all(|i| found[i].abs_diff(pixel.0[i]) <= 1));
     }
-    // Its own lamp changes nothing but roundings; A is redder than D65.
+    // The image's own lamp changes nothing beyond rounding; A is redder than D65.
     assert_eq!(same, 64 * 48);
     assert!(
         of_lamps[1][0] > of_lamps[0][0] && of_lamps[1][2] < of_lamps[0][2],
@@ -469,7 +469,7 @@ fn a_booth_shows_each_lamp() {
     ] {
         told(&place.run(&format!("develop {arguments}")).failed(), words);
     }
-    // What does not know its lamp cannot burn with another.
+    // An image with an unknown lamp cannot be relit by another.
     write(&place.path("unknown.exr"), &gray([4, 3], 5, None));
     let said = place.run("develop unknown.exr --booth A -o b.png").failed();
     told(&said, &["--booth A", "cannot be changed"]);

@@ -1,4 +1,4 @@
-//! The command `pellicle materials`, and the materials in a scene.
+//! Tests of the command `pellicle materials`, and of the materials in a scene.
 
 use pellicle_tests::command::{Place, Ran};
 use scene::SceneFile;
@@ -35,7 +35,7 @@ fn all_materials_are_listed_with_set_range_and_paper() {
 }
 
 #[test]
-fn names_of_chemistry_are_shown_and_taken() {
+fn chemical_names_are_shown_and_accepted() {
     let glass = printed("N-BK7");
     assert_eq!(glass, printed("bk7"));
     assert!(glass.contains("also      BK7, N-BK7, NBK7\n"), "{glass}");
@@ -67,7 +67,7 @@ fn a_material_is_shown_with_source_figures_and_plot() {
     );
     assert!(
         !shown.contains('\x1b'),
-        "off a terminal there are no escapes"
+        "output that is not a terminal has escapes"
     );
     // Without absorption there is one curve, and outside its range a material has no figures.
     let rutile = printed("rutile");
@@ -117,7 +117,7 @@ fn json_says_the_same() {
     let constants = spectra::optical_constants("gold").unwrap().data;
     for (index, &nm) in nm.iter().enumerate() {
         let expected = constants.at(nm as f64).unwrap();
-        // The parser of these tests may miss the last digit.
+        // The JSON parser of these tests may miss the last digit.
         let near =
             |found: &Value, expected: f64| (found.as_f64().unwrap() - expected).abs() < 1e-14;
         assert!(
@@ -149,7 +149,7 @@ fn a_part_of_a_name_or_of_a_paper_finds_materials() {
 }
 
 #[test]
-fn what_is_unknown_is_reported_with_what_may_have_been_meant() {
+fn unknown_names_are_reported_with_suggestions() {
     for (arguments, said) in [
         (
             "glod",
@@ -199,7 +199,7 @@ fn an_index_of_any_form_makes_a_scene() {
         .and_then(|file| file.validate())
         .unwrap_or_else(|problems| panic!("{problems:#}"));
     assert_eq!(scene.materials().len(), forms.len());
-    // A folder elsewhere does not have the files.
+    // Another folder does not have the files.
     let elsewhere = SceneFile::parse("forms.toml", &text, Path::new("")).unwrap();
     assert_eq!(elsewhere.validate().unwrap_err().iter().len(), 2);
 }

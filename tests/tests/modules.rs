@@ -1,4 +1,4 @@
-//! The WGSL modules: every file is one, together they are valid, and mistakes are told with their places.
+//! Tests of the WGSL modules: every file is one, together they are valid, and mistakes are reported with their positions.
 
 use gpu::modules::{MODULES, RecordLimits, Shader, Specialization};
 use pellicle_tests::wgsl::root;
@@ -13,7 +13,7 @@ const SIZES: RecordLimits = RecordLimits {
     splits: 2,
 };
 
-/// Names of the files below a folder of `shaders/`, without their endings.
+/// Names of the files in a subfolder of `shaders/`, without their extensions.
 fn files_in(folder: &Path) -> BTreeSet<String> {
     let entries = std::fs::read_dir(root().join("shaders").join(folder));
     let entries = entries.expect("the folder exists");
@@ -38,11 +38,7 @@ fn every_file_is_a_module() {
         .collect();
     assert!(files.len() > 30, "few shaders found: {files:?}");
     assert_eq!(files, modules.iter().cloned().collect());
-    assert_eq!(
-        modules.len(),
-        files.len(),
-        "a module stands twice in the list"
-    );
+    assert_eq!(modules.len(), files.len(), "a module is in the list twice");
 }
 
 fn parsed(extra: &str) -> Result<naga::Module, String> {
@@ -62,7 +58,7 @@ fn all_modules_together_are_valid() {
 }
 
 #[test]
-fn what_is_broken_is_refused() {
+fn broken_modules_are_refused() {
     assert!(parsed("fn f() -> f32 { return 1u; }").is_err());
     assert!(parsed("fn sin_pi4(x: f32) -> f32 { return x; }").is_err());
 }

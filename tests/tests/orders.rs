@@ -1,16 +1,16 @@
-//! The orders of interference colors that were observed and published, by hue; no device is needed.
+//! Orders of interference colors that were observed and published, by hue; no device is needed.
 
 use num_complex::Complex64;
 use optics::{Layer, film, stack};
 use pellicle_tests::colorimetry::{chroma_hue, lab, xyz};
 use spectra::OpticalConstants;
 
-/// What a color's name means: hue from .. to (degrees in CIELAB, against the clock, through 0 where from > to) and chroma.
+/// The meaning of a color's name: hue from .. to (degrees in CIELAB, counterclockwise, through 0 where from > to) and chroma.
 ///
-/// The hues around which names gather are those of the unique hues in CIELAB (red 25°, yellow 90°, green 165°, blue 250°; Fairchild,
-/// Color Appearance Models, 2013) and of the purples between blue and red; boxes are 50° to 95° wide because observers
-/// of a film name a color beside its neighbors and not on its own. "Pale" and "silver" ask for little chroma, the other
-/// names for enough to be seen.
+/// The hues around which names cluster are the unique hues in CIELAB (red 25°, yellow 90°, green 165°, blue 250°; Fairchild,
+/// Color Appearance Models, 2013) and the purples between blue and red; boxes are 50° to 95° wide because observers
+/// of a film name a color relative to its neighbors and not in isolation. "Pale" and "silver" require little chroma, the other
+/// names enough to be visible.
 struct Name {
     word: &'static str,
     hue: (f64, f64),
@@ -46,7 +46,7 @@ const NAMES: [Name; 16] = [
     name("silver", 0.0, 360.0, PALE),
 ];
 
-/// Whether a color of such chroma and hue may be called so.
+/// Whether a color with this chroma and hue may have this name.
 fn is_called(called: &str, (chroma, hue): (f64, f64)) -> bool {
     let of_name = |name: &&Name| name.word == called;
     let name = NAMES.iter().find(of_name).expect("the name is in the list");
@@ -105,7 +105,7 @@ const PLISKIN_CONRAD: [(f64, &str); 14] = [
     (630.0, "violet"),
 ];
 
-/// Which names of an order a film of so many times the thickness does not have.
+/// The names of an order that a film with this multiple of the thickness does not have.
 fn missed(
     order: &[(f64, &'static str)],
     scale: f64,
@@ -160,7 +160,7 @@ fn anodized_titanium_follows_its_order() {
     assert_eq!(anodized_titanium(1.0), [""; 0]);
 }
 
-/// The boxes tell films apart that are a seventh too thin or too thick.
+/// The boxes distinguish films that are a seventh too thin or too thick.
 #[test]
 fn a_wrong_thickness_breaks_the_orders() {
     for scale in [0.85, 1.15] {
@@ -170,7 +170,7 @@ fn a_wrong_thickness_breaks_the_orders() {
     }
 }
 
-/// Where a function of whole steps has its maxima and minima.
+/// Positions of the maxima and minima of a sampled function.
 fn extrema(values: &[(f64, f64)]) -> (Vec<f64>, Vec<f64>) {
     let (mut maxima, mut minima) = (vec![], vec![]);
     for three in values.windows(3) {
@@ -206,8 +206,8 @@ fn a_soap_film_is_brightest_and_darkest_where_published() {
     assert!((peak - 0.0778).abs() < 5e-5, "{peak}");
 }
 
-/// Michel-Lévy's chart: between crossed polarizers a retardation Γ passes sin²(πΓ/λ); the darkest are Γ = 551 nm, the sensitive tint at the
-/// end of the first order, and 1106 and 1666 nm at the ends of the second and third.
+/// Michel-Lévy's chart: between crossed polarizers a retardation Γ transmits sin²(πΓ/λ); the darkest are Γ = 551 nm, the sensitive tint
+/// at the end of the first order, and 1106 and 1666 nm at the ends of the second and third.
 #[test]
 fn the_orders_of_michel_levy_end_where_published() {
     let luminance = |retardation: f64| {

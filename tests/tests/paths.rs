@@ -11,15 +11,15 @@ use std::ops::ControlFlow;
 
 const SIDE: u32 = 96;
 
-/// One sample of every pixel, by the renderer itself: the radiance of each light group.
+/// Compares one sample of every pixel, by the renderer itself: the radiance of each light group.
 #[test]
 fn every_path_agrees_with_the_reference() {
     let wrong = failures_of(&all(), |gpu, name| {
         let scene = small(name, [SIDE, SIDE], 1, BANDS, 3);
         let actual = gpu::render(gpu, &scene, &mut |_| ControlFlow::Continue(()))
             .unwrap_or_else(|error| panic!("{error}"));
-        let expected =
-            reference::render(&scene, &mut |_| ControlFlow::Continue(())).expect("nobody stops it");
+        let expected = reference::render(&scene, &mut |_| ControlFlow::Continue(()))
+            .expect("nothing stops the render");
         let compared = |light_group| {
             let of = |image| Values::of_light(image, light_group);
             same_numbers(of(&actual), of(&expected), &PATHS)
@@ -29,7 +29,7 @@ fn every_path_agrees_with_the_reference() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// What the renderer does for each sample.
+/// The work of the renderer for each sample.
 fn probe(packed: &PackedScene) -> Probe<'_> {
     Probe {
         body: "let at = trace_path(Sample(vec2u(u32(a(0u)), u32(a(1u))), u32(a(2u))));
@@ -41,7 +41,7 @@ fn probe(packed: &PackedScene) -> Probe<'_> {
     }
 }
 
-/// What the renderer does for each sample reaches all that this suite is said to prove.
+/// The renderer's work for each sample reaches all functions that this suite claims to prove.
 #[test]
 fn the_probe_reaches_the_whole_path_tracer() {
     let called: BTreeSet<String> = MADE
@@ -56,5 +56,5 @@ fn the_probe_reaches_the_whole_path_tracer() {
     }
 }
 
-/// Functions that this suite proves; the suite `functions` counts on it.
+/// Functions that this suite proves; the suite `functions` relies on it.
 const PROVED: &[&str] = pellicle_tests::scenes::PROVED_ON_PATHS;

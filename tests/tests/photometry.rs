@@ -1,4 +1,4 @@
-//! Lights in units: what a picture reads against closed forms. Km is 683 lm/W.
+//! Lights in physical units: compares the values of a picture with closed forms. Km is 683 lm/W.
 
 use pellicle_tests::device::open;
 use pellicle_tests::wgsl::root;
@@ -8,10 +8,10 @@ use spectra::{KM_LUMENS_PER_WATT, SpectralImage, observer_1931};
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-/// The promise, relative.
+/// The promised relative error.
 const PROMISE: f64 = 1e-3;
 
-/// A scene seen from above through a view of a hundredth of a unit.
+/// A scene seen from above, with a view of a hundredth of a unit.
 fn scene(light: &str) -> Scene {
     let text = format!(
         "[camera]\ntype = \"orthographic\"\nposition = [0, 0.5, 0]\nlook_at = [0, 0, 0]\nup = [0, 0, -1]\nheight = 0.01\n\
@@ -30,7 +30,7 @@ fn rendered(scene: &Scene) -> SpectralImage {
         .unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Mean Y of the samples' own wavelengths, cd/m².
+/// Mean Y, summed at the wavelengths of the samples, cd/m².
 fn luminance(image: &SpectralImage) -> f64 {
     let xyz = image.xyz();
     xyz.iter().map(|xyz| f64::from(xyz[1])).sum::<f64>() / xyz.len() as f64
@@ -131,7 +131,7 @@ fn a_distant_light_gives_its_illuminance_whatever_its_diameter() {
         let image = rendered(&scene(&light));
         assert_near(&format!("{diameter}°"), luminance(&image), 1000.0 / PI);
     }
-    // At 60° to the normal half of it arrives.
+    // At 60° to the normal, half of it arrives.
     let light = format!(
         "{FLOOR}[[lights]]\ntype = \"distant\"\nemission = {{ illuminant = \"D65\", irradiance_w_m2 = 100 }}\n\
          direction = [0, 0.5, {}]\n",
@@ -141,7 +141,7 @@ fn a_distant_light_gives_its_illuminance_whatever_its_diameter() {
 }
 
 #[test]
-fn constant_environment_give_their_illuminance() {
+fn a_constant_environment_gives_its_illuminance() {
     let light = format!(
         "{FLOOR}[environment]\ntype = \"constant\"\nemission = {{ illuminant = \"D65\", illuminance_lux = 500 }}\n"
     );
@@ -162,9 +162,9 @@ fn a_point_of_100_candelas_gives_25_lux_at_two_meters() {
     assert_near("60 W", radiance(&image), 60.0 / (4.0 * PI) / 4.0 / PI);
 }
 
-/// A spot's power is its intensity over all directions, by the midpoint rule.
+/// The power of a spot is the integral of its intensity over all directions, computed by the midpoint rule.
 #[test]
-fn a_spot_sends_out_its_power() {
+fn a_spot_emits_its_power() {
     let text = format!(
         "{FLOOR}[[lights]]\ntype = \"spot\"\nemission = {{ constant = 1, power_w = 20 }}\nposition = [0, 2, 0]\n\
          direction = [0, -1, 0]\nangle_deg = 70\nfull_angle_deg = 20\n"
@@ -177,7 +177,7 @@ fn a_spot_sends_out_its_power() {
         .map(|i| {
             let cosine = (f64::from(i) + 0.5) / f64::from(steps);
             let direction = glam::DVec3::new((1.0 - cosine * cosine).sqrt(), cosine, 0.0);
-            // At a distance of 1 the irradiance is the intensity.
+            // At a distance of 1 the irradiance equals the intensity.
             let LightShape::Spot { position, .. } = light.shape else {
                 return f64::NAN;
             };
@@ -196,7 +196,7 @@ fn a_spot_sends_out_its_power() {
 
 /// A sphere of power Φ gives E = Φ / (4π d²) at any distance, as a point does.
 #[test]
-fn a_sphere_and_a_disk_send_out_their_power() {
+fn a_sphere_and_a_disk_emit_their_power() {
     let lamp =
         "[materials.lamp]\ntype = \"emitter\"\nemission = { illuminant = \"A\", power_w = 60 }\n";
     let sphere = format!(
@@ -207,7 +207,7 @@ fn a_sphere_and_a_disk_send_out_their_power() {
         radiance(&rendered(&scene(&sphere))),
         60.0 / (4.0 * PI) / 4.0 / PI,
     );
-    // A disk faces its axis: E = π L r² / (d² + r²), with Φ = 2 π² r² L for both sides.
+    // A point on the axis of a disk: E = π L r² / (d² + r²), with Φ = 2 π² r² L for both sides.
     let disk = format!(
         "{FLOOR}{lamp}[[objects]]\ntype = \"disk\"\nmaterial = \"lamp\"\ncenter = [0, 2, 0]\nnormal = [0, 1, 0]\nradius = 0.3\n"
     );

@@ -19,7 +19,7 @@ fn close(a: f64, b: f64, tolerance: f64) -> bool {
     (a - b).abs() <= tolerance
 }
 
-/// What `stack` makes of unpolarized light.
+/// The reflectance of a stack for unpolarized light.
 fn unpolarized(found: &StackAmplitudes) -> f64 {
     found.reflectance.unpolarized()
 }
@@ -38,7 +38,7 @@ fn media() -> BTreeMap<(&'static str, &'static str), Vec<Layer>> {
     media
 }
 
-/// Every case of `films.csv`: Rs, Rp, Ts and Tp as found and as expected, with the index of all but the
+/// Rs, Rp, Ts and Tp of every case of `films.csv`, computed and expected, with the index of all but the
 /// incident half space times `index_factor`.
 fn films(index_factor: f64) -> BTreeMap<&'static str, (Vec<f64>, Vec<f64>)> {
     let media = media();
@@ -81,14 +81,14 @@ fn stacks_agree_with_independent_computations() {
 }
 
 #[test]
-fn an_index_one_per_cent_too_high_is_noticed_in_every_case() {
+fn an_index_one_percent_too_high_is_noticed_in_every_case() {
     for (case, (actual, expected)) in films(1.01) {
         assert!(compare(&actual, &expected, ORACLE).is_err(), "{case}");
     }
 }
 
-/// The rows of `film_colors.csv`: a name, XYZ as found with the soap's index times `index_factor` or the metal's own
-/// constants times it, and as expected.
+/// The rows of `film_colors.csv`: a name, XYZ computed with the index of the soap or the metal's constants times `index_factor`,
+/// and the expected XYZ.
 fn colors(index_factor: f64) -> Vec<(String, [f64; 3], Vec<f64>)> {
     let of_row = |row: Vec<&str>| {
         let (thickness_nm, degrees) = (number(row[1]), number(row[2]));
@@ -132,7 +132,7 @@ fn films_and_metals_have_the_colors_of_independent_computations() {
 }
 
 #[test]
-fn a_color_of_a_wrong_index_is_noticed() {
+fn a_color_from_a_wrong_index_is_noticed() {
     for (name, found, expected) in colors(1.01) {
         assert!(compare(&found, &expected, ORACLE_XYZ).is_err(), "{name}");
     }
@@ -145,15 +145,15 @@ fn p_vanishes_at_brewsters_angle() {
         let cosine = (n2 / n1).atan().cos();
         let r = stack(n1, &[], n2.into(), 550.0, cosine).reflectance;
         assert!(r.p < 1e-30 && r.s > 1e-3, "{n1} {n2}: {r:?}");
-        // Also for a film: both of its sides meet the light at their own Brewster angle.
+        // Also for a film: light meets both of its sides at their own Brewster angle.
         let r = film(n2.into(), 431.0, 550.0, n2.atan().cos()).reflectance;
         assert!(r.p < 1e-30, "{n2}: {r:?}");
     }
 }
 
-/// sin θ_c = n₂ / n₁: beyond it nothing passes, before it something does.
+/// sin θ_c = n₂ / n₁: nothing is transmitted beyond it, something below it.
 #[test]
-fn beyond_the_critical_angle_everything_returns() {
+fn beyond_the_critical_angle_everything_is_reflected() {
     let n1: f64 = 1.52;
     let critical = (1.0 / n1).asin();
     for degrees in [1e-6, 0.1, 5.0, 40.0] {
@@ -182,7 +182,7 @@ fn total_reflection_shifts_phases_as_in_fresnels_rhomb() {
         let beyond = cos_refracted(Complex64::ONE, glass * sine);
         let a = fresnel(glass, cosine.into(), Complex64::ONE, beyond);
         let shift = (a.r_s / a.r_p).arg().to_degrees();
-        // One minute of arc moves the shift by less than 0.03°.
+        // One minute of arc changes the shift by less than 0.03°.
         assert!(close(shift, 45.0, 0.03), "{minutes}: {shift}");
         let root = (1.51 * 1.51 * sine * sine - 1.0).sqrt();
         let delta_s = -2.0 * (root / (1.51 * cosine)).atan();
@@ -232,7 +232,7 @@ fn a_bragg_mirror_follows_the_closed_form() {
     assert!(before > 0.9999);
 }
 
-/// The cosine of the ray in a medium without losses.
+/// The cosine of the ray in a lossless medium.
 fn cosine_within(n: f64, incident: f64, cos_incident: f64) -> f64 {
     let sine = incident * (1.0 - cos_incident * cos_incident).sqrt() / n;
     (1.0 - sine * sine).sqrt()
@@ -262,9 +262,9 @@ fn assert_same(a: &StackAmplitudes, b: &StackAmplitudes) -> Result<(), TestCaseE
 proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Nothing is lost in a stack without absorption, also where the substrate reflects totally.
+    /// A stack without absorption loses nothing, even where the substrate reflects totally.
     #[test]
-    fn lossless_stacks_keep_the_energy(
+    fn lossless_stacks_conserve_energy(
         layers in layers(0.0), incident in 1.0..1.2_f64, substrate in 1.0..3.0_f64,
         nm in 380.0..780.0_f64, cosine in 0.02..=1.0_f64,
     ) {
@@ -274,7 +274,7 @@ proptest! {
         prop_assert!(close(r.p + t.p, 1.0, IDENTITY), "p {:e}", r.p + t.p - 1.0);
     }
 
-    /// Absorption takes, and never gives.
+    /// Absorption only takes energy away.
     #[test]
     fn absorbing_stacks_never_gain(
         layers in layers(4.0), substrate_n in 0.1..4.0_f64, substrate_k in 0.0..6.0_f64,
@@ -287,9 +287,9 @@ proptest! {
         }
     }
 
-    /// T is the same from both sides, also of absorbing layers (Born and Wolf, 7th ed., section 1.6.2, reciprocity).
+    /// T is the same from both sides, also for absorbing layers (Born and Wolf, 7th ed., section 1.6.2, reciprocity).
     #[test]
-    fn as_much_passes_from_either_side(
+    fn transmittance_is_the_same_from_either_side(
         mut layers in layers(0.3), substrate in 1.2..3.0_f64, nm in 380.0..780.0_f64, cosine in 0.02..=1.0_f64,
     ) {
         let there = stack(1.0, &layers, substrate.into(), nm, cosine);

@@ -1,4 +1,4 @@
-//! Developed pictures against goldens, by FLIP. A missing golden fails; bless anew, after looking at the pictures, with
+//! Developed pictures against goldens, by FLIP. A missing golden fails. After looking at the pictures, bless them again with
 //! `PELLICLE_BLESS=1 cargo test -p pellicle-tests --test pictures`.
 
 use color::compare::{Picture, flip};
@@ -53,7 +53,7 @@ fn developed(image: &SpectralImage, scene: &scene::Scene) -> RgbImage8 {
     color::develop(image, &settings).unwrap()
 }
 
-/// The same by the reference, with the same random numbers.
+/// The same scene rendered by the reference, with the same random numbers.
 fn rendered_by_reference(mut file: SceneFile, size: [u32; 2]) -> RgbImage8 {
     let render = &mut file.description.render;
     (render.size, render.samples, render.seed) = (size, 64, 1);
@@ -108,9 +108,9 @@ fn pictures_look_like_their_goldens() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Another implementation differs from the goldens as another driver does: in rounding.
+/// The reference differs from the goldens as another driver does: in rounding.
 #[test]
-fn the_reference_paints_the_same_pictures() {
+fn the_reference_renders_the_same_pictures() {
     for (name, size) in SCENES {
         let picture = rendered_by_reference(file(name), size);
         let found = compare(&Picture::of_codes(&picture), &golden_path(name));
@@ -119,7 +119,7 @@ fn the_reference_paints_the_same_pictures() {
     }
 }
 
-/// The index of water as the project carries it, times a factor.
+/// The index of water in the project's data, times a factor.
 fn water(factor: f64) -> Index {
     let constants = spectra::optical_constants("water").unwrap().data;
     let nm: Vec<f64> = (360..=830).step_by(5).map(f64::from).collect();
@@ -136,7 +136,7 @@ fn water(factor: f64) -> Index {
 }
 
 #[test]
-fn a_film_of_a_wrong_index_is_noticed() {
+fn a_film_with_a_wrong_index_is_noticed() {
     let gpu = device::open();
     for (name, size) in &SCENES[..2] {
         let with = |factor: f64| {
@@ -151,7 +151,7 @@ fn a_film_of_a_wrong_index_is_noticed() {
             assert_eq!(films, 1, "{name}");
             Picture::of_codes(&rendered(&gpu, file, *size))
         };
-        // The table replaces the name faithfully, so what differs below is the index.
+        // The table reproduces the named index faithfully, so the difference below comes from the factor.
         let right = compare(&with(1.0), &golden_path(name));
         assert!(right.is_ok(), "{name}: {right:?}");
         let wrong = compare(&with(1.01), &golden_path(name));
@@ -161,14 +161,14 @@ fn a_film_of_a_wrong_index_is_noticed() {
 }
 
 #[test]
-fn a_missing_golden_fails_and_says_how_to_bless() {
+fn a_missing_golden_fails_and_says_how_to_bless_it() {
     let folder = tempfile::tempdir().unwrap();
     let picture = Picture::of_codes(&RgbImage8::new(1, 1, vec![0; 3]).unwrap());
     let report = compare(&picture, &folder.path().join("none.png")).unwrap_err();
     assert!(report.contains(BLESS), "{report}");
 }
 
-/// Goldens and scenes belong together: none is left over.
+/// Every golden belongs to a scene; none is left over.
 #[test]
 fn every_golden_has_its_scene() {
     let mut found: Vec<String> = std::fs::read_dir(root().join("tests/goldens"))

@@ -1,5 +1,5 @@
-//! The driver's cache on disk: a second start gives the same picture, and what cannot be used does no harm. A compile is told before the
-//! first samples.
+//! Tests of the driver's cache on disk: a second start gives the same picture, and an unusable cache does no harm. A compile is reported
+//! before the first samples.
 
 use pellicle_tests::command::Place;
 use pellicle_tests::device::open;
@@ -8,7 +8,7 @@ use pellicle_tests::wgsl::root;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-/// Renders with the cache in a folder, on the adapter of the suites; the spectral image's bytes.
+/// Renders with the cache in a folder, on the adapter of the suites, and returns the bytes of the spectral image.
 fn picture(place: &Place, folder: &Path, adapter: &str) -> Vec<u8> {
     let scene = root().join("scenes/film_wedge.toml");
     let arguments = "--size 16x8 --samples 1 --bands 4 -o picture.exr --adapter";
@@ -44,7 +44,7 @@ fn a_start_with_a_cache_gives_the_same_picture() {
     assert!(picture(&place, &folder, adapter) == first, "with the cache");
     assert_eq!(files(&folder), kept);
 
-    // A file of ours that ends early is written anew.
+    // A file of ours that ends early is written again.
     for file in &kept {
         let whole = std::fs::read(file).unwrap();
         let damaged = &whole[..whole.len() - 1];
@@ -69,7 +69,7 @@ fn a_folder_that_cannot_be_written_is_no_error() {
 }
 
 #[test]
-fn a_compile_is_reported_as_no_samples() {
+fn a_compile_is_reported_as_zero_samples() {
     let gpu = open();
     let scene = small("film_wedge", [16, 8], 2, 4, 0);
     let stopped = gpu::render(&gpu, &scene, &mut |_| ControlFlow::Break(()));

@@ -1,4 +1,4 @@
-//! The colors that processes are known to give: heat tints of steel and anodized titanium, from the process's own figures in a
+//! Colors that processes are known to give: heat tints of steel and anodized titanium, from the parameters of the process in a
 //! scene to a hue.
 
 use color::BandWeights;
@@ -7,7 +7,7 @@ use optics::{Complex64, Layer, stack};
 use scene::{Material, Scene, SceneFile, SpectrumId, Thickness};
 use std::path::Path;
 
-/// A scene with an oxide that a process leaves on a metal.
+/// A scene with an oxide that a process grows on a metal.
 fn scene(oxide: &str, metal: &str, process: &str) -> Scene {
     let text = format!(
         "camera = {{ type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }}\n\
@@ -20,7 +20,7 @@ fn scene(oxide: &str, metal: &str, process: &str) -> Scene {
         .unwrap_or_else(|problems| panic!("{problems:#}"))
 }
 
-/// Lightness, chroma and hue angle in degrees (CIELAB, white equal energy) of the oxide on its metal, seen straight on.
+/// Lightness, chroma and hue angle in degrees (CIELAB, white equal energy) of the oxide on its metal at normal incidence.
 fn color(scene: &Scene) -> [f64; 3] {
     let Material::Interface {
         n, k, ref layers, ..
@@ -53,7 +53,7 @@ fn color(scene: &Scene) -> [f64; 3] {
     [lab.l, lab.chroma(), lab.hue_deg()]
 }
 
-/// A name, with the ranges of lightness, least chroma and hue that deserve it.
+/// A color name, with its range of lightness, least chroma and range of hue.
 type Named = (&'static str, [f64; 2], f64, [f64; 2]);
 
 const STRAW: Named = ("straw", [55.0, 75.0], 10.0, [75.0, 105.0]);
@@ -74,7 +74,7 @@ fn assert_colors(found: &[([f64; 3], Named, String)]) {
         println!("{process}: L {l:.0}, C {c:.0}, h {h:.0}, {}", named.0);
         if !is_named(*color, *named) {
             wrong += &format!(
-                "{process}: L {l:.0}, C {c:.0}, h {h:.0} is no {}\n",
+                "{process}: L {l:.0}, C {c:.0}, h {h:.0} is not {}\n",
                 named.0
             );
         }
@@ -107,8 +107,8 @@ fn anodized(volts: f64) -> [f64; 3] {
     color(&scene("2.3", "'titanium'", &process))
 }
 
-/// The sequence of colors of titanium anodized up to some 120 V, as Diamanti, Del Curto and Pedeferri (Color Res. Appl. 33, 221,
-/// 2008) and suppliers' charts have it. Each color's voltage depends on the electrolyte; the order does not.
+/// The sequence of colors of titanium anodized up to some 120 V, after Diamanti, Del Curto and Pedeferri (Color Res. Appl. 33, 221,
+/// 2008) and suppliers' charts. The voltage of each color depends on the electrolyte; the order does not.
 #[test]
 fn anodized_titanium_has_its_sequence_of_colors() {
     let anywhere = [30.0, 90.0];
@@ -130,7 +130,7 @@ fn anodized_titanium_has_its_sequence_of_colors() {
     assert!(chroma < 10.0, "silver has chroma {chroma}");
 }
 
-/// The names can be refused: no temper color has another's.
+/// The test can fail: no temper color passes as another.
 #[test]
 fn a_color_has_only_its_own_name() {
     let names = [STRAW, BROWN, PURPLE, BLUE, LIGHT_BLUE];

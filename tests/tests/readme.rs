@@ -1,4 +1,4 @@
-//! What the README shows is so.
+//! Checks that the README and the other pages show what exists.
 
 use pellicle_tests::wgsl::root;
 use scene::SceneFile;
@@ -7,10 +7,10 @@ fn readme() -> String {
     std::fs::read_to_string(root().join("README.md")).expect("the README exists")
 }
 
-/// The text of the first block of code in a language.
+/// The text of the first code block in a language.
 fn block<'a>(text: &'a str, language: &str) -> &'a str {
     let fence = format!("```{language}\n");
-    let start = text.find(&fence).expect("there is such a block") + fence.len();
+    let start = text.find(&fence).expect("the page has such a block") + fence.len();
     let end = text[start..].find("```").expect("the block ends");
     &text[start..start + end]
 }
@@ -25,10 +25,10 @@ fn the_scene_is_valid() {
     assert_eq!(scene.objects().len(), 2);
 }
 
-/// The example of every kind of light, with a camera to look at it.
+/// The example of every kind of light, with a camera added.
 #[test]
 fn the_lights_of_the_documentation_are_valid() {
-    let page = std::fs::read_to_string(root().join("docs/lights.md")).expect("there is a page");
+    let page = std::fs::read_to_string(root().join("docs/lights.md")).expect("the page exists");
     let camera = "camera = { type = \"perspective\", position = [0, 1, 5], look_at = [0, 0, 0], fov_deg = 30 }\n";
     let text = format!("{camera}{}", block(&page, "toml"));
     let scene = SceneFile::parse("lights.md", &text, &root())
@@ -42,7 +42,7 @@ fn the_commands_of_the_documentation_exist() {
     let help = std::process::Command::new(pellicle_tests::command::program("pellicle"))
         .arg("--help")
         .output()
-        .expect("it runs");
+        .expect("the command runs");
     let help = String::from_utf8(help.stdout).expect("UTF-8");
     let known: Vec<&str> = help
         .lines()
@@ -50,7 +50,7 @@ fn the_commands_of_the_documentation_exist() {
         .filter_map(|line| line.split_whitespace().next())
         .collect();
     assert!(known.contains(&"render") && known.len() >= 10, "{known:?}");
-    let pages = std::fs::read_dir(root().join("docs")).expect("there are pages");
+    let pages = std::fs::read_dir(root().join("docs")).expect("the folder has pages");
     let pages = pages.map(|page| page.expect("readable").path());
     let mut named = 0;
     for page in pages.chain([root().join("README.md")]) {
@@ -91,11 +91,11 @@ fn the_files_that_it_names_exist() {
     }
 }
 
-/// Every picture of the gallery is there, none is left over, and every scene that its commands name is one that the suites render.
+/// Every picture of the gallery exists, none is left over, and the suites render every scene that its commands name.
 #[test]
-fn the_gallery_shows_what_there_is() {
+fn the_gallery_shows_what_exists() {
     let gallery =
-        std::fs::read_to_string(root().join("docs/gallery.md")).expect("there is a gallery");
+        std::fs::read_to_string(root().join("docs/gallery.md")).expect("the gallery exists");
     let mut shown: Vec<&str> = gallery
         .split("](gallery/")
         .skip(1)
@@ -126,9 +126,9 @@ fn the_gallery_shows_what_there_is() {
     }
 }
 
-/// Every picture and page that a page of the documentation shows or leads to is there.
+/// Every picture and page that a page of the documentation shows or links to exists.
 #[test]
-fn the_pages_lead_to_what_there_is() {
+fn the_links_of_the_pages_exist() {
     let docs = root().join("docs");
     let mut links = 0;
     for page in ["color.md", "gallery.md", "looking.md", "relighting.md"] {
@@ -145,11 +145,11 @@ fn the_pages_lead_to_what_there_is() {
     assert!(links > 12, "{links}");
 }
 
-/// The display that `docs/color.md` shows as an example is one.
+/// The display file that `docs/color.md` shows as an example is valid.
 #[test]
 fn the_display_is_valid() {
-    let page = std::fs::read_to_string(root().join("docs/color.md")).expect("there is a page");
-    let directory = tempfile::tempdir().expect("a folder");
+    let page = std::fs::read_to_string(root().join("docs/color.md")).expect("the page exists");
+    let directory = tempfile::tempdir().expect("a folder can be created");
     let path = directory.path().join("monitor.toml");
     std::fs::write(&path, block(&page, "toml")).expect("writable");
     let display = colorimetry::Display::read(&path).unwrap_or_else(|error| panic!("{error}"));

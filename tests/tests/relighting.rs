@@ -1,4 +1,4 @@
-//! Pictures under other lamps: relit from bands against rendered afresh, and color against the number of bands.
+//! Pictures under other lamps: relit from bands against newly rendered, and color against the number of bands.
 
 use color::xyz::exposure_scale;
 use color::{Relight, relight};
@@ -48,7 +48,7 @@ fn lit_by(name: &str, lamp: &str) -> SceneFile {
             }
         }
         Some(Environment::Image { .. } | Environment::Sky { .. }) => {
-            panic!("{name} has environment without a lamp by name")
+            panic!("{name} has an environment without a named lamp")
         }
         None => {}
     }
@@ -73,7 +73,7 @@ fn white(lamp: &str) -> [f64; 3] {
     sums.map(|sum| sum * spectra::KM_LUMENS_PER_WATT * exposure_scale(0.0))
 }
 
-/// Color differences of two lists of colors, as developed at an exposure, each beside its lamp's white: the smallest first.
+/// Color differences of two lists of colors, developed at an exposure, each relative to the white of its lamp, in ascending order.
 fn differences(a: &[[f64; 3]], b: &[[f64; 3]], (lamp, exposure_ev): (&str, f64)) -> Vec<f64> {
     let (white, scale) = (white(lamp), exposure_scale(exposure_ev));
     let lab = |xyz: &[f64; 3]| Lab::from_xyz(xyz.map(|v| v * scale), white);
@@ -94,7 +94,7 @@ fn colors(image: &SpectralImage) -> Vec<[f64; 3]> {
 const SIZE: [u32; 2] = [32, 24];
 const SAMPLES: u32 = 256;
 
-/// The bubble under a lamp, at 400 fixed wavelengths: the same paths, and no noise from drawn wavelengths, which the narrow lines
+/// The bubble under a lamp, at 400 fixed wavelengths: the same paths, and no noise from sampled wavelengths, which the narrow lines
 /// of a lamp would make large.
 fn fresh(gpu: &Gpu, lamp: &str) -> SpectralImage {
     let mut file = sized(lit_by("soap_bubble", lamp), SIZE, SAMPLES, 400);
@@ -140,14 +140,14 @@ fn a_relit_bubble_is_the_bubble_rendered_under_that_lamp() {
         if mean(&off) >= RELIT_DELTA_E || off.iter().any(|e| e.is_nan()) {
             wrong.push(report);
         }
-        // The comparison can fail: the picture as it was is another one.
+        // The comparison can fail: the picture before relighting is another one.
         let unlit = differences(&colors(from), &truth, (lamp, exposure_ev));
         assert!(mean(&unlit) > 2.0, "{lamp}: {}", mean(&unlit));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// XYZ is summed at the drawn wavelengths, so that it does not know of bands, not even under a lamp with lines.
+/// XYZ is summed at the sampled wavelengths, so it does not depend on the bands, not even under a lamp with lines.
 #[test]
 fn the_color_of_a_film_does_not_depend_on_the_number_of_bands() {
     const COLUMNS: [u32; 2] = [8, 8];
@@ -178,7 +178,7 @@ fn the_color_of_a_film_does_not_depend_on_the_number_of_bands() {
     assert!(mean(&shifted) > 3.0 * BANDS_DELTA_E, "{shifted:?}");
 }
 
-/// The plates of `scenes/metamers.toml` are one color under D65 alone. CIELAB under FL11 was computed apart from this code (numpy,
+/// The plates of `scenes/metamers.toml` have one color under D65 alone. CIELAB under FL11 was computed independently (numpy,
 /// sums at 1 nm).
 #[test]
 fn metamers_part_under_another_lamp() {
@@ -189,7 +189,7 @@ fn metamers_part_under_another_lamp() {
     let lamp = Some(spectra::illuminant("FL11").expect("carried").data);
     let change = [("lamp".to_owned(), Relight { lamp, factor: 1.0 })];
     relight(&mut under_fl11, &change, Observer::Cie1931Deg2).unwrap();
-    // Of a pixel on either plate.
+    // Color of one pixel on either plate.
     let plates = |image: &SpectralImage, lamp| {
         let (white, scale) = (white(lamp), exposure_scale(0.0));
         [8 + 2, 8 + 5].map(|pixel| {

@@ -1,5 +1,5 @@
-//! The renderer on the CPU held against what it does not use: films and coatings as paths evaluate them against independent computations
-//! and `optics::stack`, and one level of the machine's instructions against another.
+//! Compares the CPU renderer with code that it does not use: films and coatings as paths evaluate them against independent computations
+//! and `optics::stack`, and one level of machine instructions against another.
 
 use glam::DVec3;
 use num_complex::Complex64;
@@ -16,10 +16,10 @@ use std::path::Path;
 
 const FILMS: &str = include_str!("../data/films.csv");
 const FILMS_MEDIA: &str = include_str!("../data/films_media.csv");
-/// The wavelengths of the tables are the centers of so many bands of 10 nm.
+/// Number of wavelengths in the tables, which are the centers of bands of 10 nm.
 const BANDS: usize = 41;
 
-/// A medium of a case over the wavelengths of the tables.
+/// A medium of a case, at the wavelengths of the tables.
 #[derive(Clone, Default)]
 struct Medium {
     thickness_nm: f64,
@@ -27,7 +27,7 @@ struct Medium {
 }
 
 impl Medium {
-    /// As a scene's file has it.
+    /// The medium in the syntax of a scene file.
     fn toml(&self) -> String {
         let column = |f: &dyn Fn(usize) -> f64| {
             let values: Vec<_> = (0..BANDS).map(|band| format!("{:e}", f(band))).collect();
@@ -61,7 +61,7 @@ fn cases() -> BTreeMap<&'static str, Vec<Medium>> {
     cases
 }
 
-/// A scene of one sphere with the layers of a case: a film where the substrate is air, else a coating.
+/// A scene of one sphere with the layers of a case: a film where the substrate is air, otherwise a coating.
 fn scene_of(media: &[Medium]) -> Scene {
     let (substrate, layers) = media[1..].split_last().unwrap();
     let layer = |of: &Medium| {
@@ -92,7 +92,7 @@ fn scene_of(media: &[Medium]) -> Scene {
         .unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// R and T, if light is let through, in each band at the cosine of the angle of incidence, for unpolarized light.
+/// R, and T if the material transmits light, in each band at the cosine of the angle of incidence, for unpolarized light.
 fn by_renderer(prepared: &PreparedScene, cosine: f64) -> (Vec<f64>, Option<Vec<f64>>) {
     let point = SurfacePoint {
         position: DVec3::Z,
@@ -107,7 +107,7 @@ fn by_renderer(prepared: &PreparedScene, cosine: f64) -> (Vec<f64>, Option<Vec<f
     (r.expect("a film or a mirror"), None)
 }
 
-/// Every case of `films.csv` as paths have it: found and expected, with what was independently computed changed by a factor.
+/// Every case of `films.csv` as paths evaluate it: computed and expected, with the independent figures multiplied by a factor.
 fn films(factor: f64) -> (Vec<f64>, Vec<f64>) {
     let cases = cases();
     let scenes: BTreeMap<_, _> = cases
@@ -146,13 +146,13 @@ fn films_on_paths_agree_with_independent_computations() {
     let (actual, expected) = films(1.0 + 1e-8);
     assert!(
         compare(&actual, &expected, ORACLE).is_err(),
-        "a change of 1e-8 is seen"
+        "a change of 1e-8 was not noticed"
     );
 }
 
-/// Films and coatings of each kind of formula, lossy ones from behind too, against `optics::stack`.
+/// Films and coatings with each kind of formula, lossy ones also from behind, against `optics::stack`.
 #[test]
-fn films_on_paths_are_those_of_the_stack() {
+fn films_on_paths_agree_with_the_stack() {
     let even = |n: f64, k: f64, thickness_nm| Medium {
         thickness_nm,
         index: vec![Complex64::new(n, k); BANDS],
@@ -236,7 +236,7 @@ fn films_on_paths_are_those_of_the_stack() {
     assert_eq!(expected.len(), 5 * 4 * 2 * BANDS + 12 * 4 * BANDS);
 }
 
-/// The wedge of the benchmark: each pixel is the mean of R(λ; d) times the light over its width and each band's, within 1e-4 of the mean.
+/// The benchmark's wedge: each pixel is the mean of R(λ; d) times the light over its width and each band's, within 1e-4 of the mean.
 #[test]
 fn the_wedge_is_exact() {
     const STEPS: u32 = 64;
@@ -273,11 +273,11 @@ fn the_wedge_is_exact() {
     assert!(found < WEDGE, "{found}");
     assert!(
         off(pairs(1.001)) > 3.0 * WEDGE,
-        "a thousandth more of the index is seen"
+        "an index that is a thousandth higher was not noticed"
     );
 }
 
-/// A rough metal below a film, whose thickness is a number or a field that has this number everywhere.
+/// A rough metal below a film, whose thickness is a number or a field with this number everywhere.
 fn rough_coat(index: f64, thickness: &str) -> Scene {
     let text = format!(
         "camera = {{ type = 'orthographic', position = [0, 0, 9], look_at = [0, 0, 0], height = 9 }}\n\
@@ -290,7 +290,7 @@ fn rough_coat(index: f64, thickness: &str) -> Scene {
         .unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// By how much the BSDF of an even coat, whose color of multiple scattering may be a table, differs from that of the same coat by its
+/// Difference between the BSDF of an even coat, whose color of multiple scattering may be a table, and that of the same coat by its
 /// formula, relative to the largest value.
 fn table_error(index: f64, nm: f64, other_nm: f64) -> f64 {
     let field = format!("{{ pole = {other_nm}, equator = {other_nm} }}");
@@ -321,8 +321,8 @@ fn table_error(index: f64, nm: f64, other_nm: f64) -> f64 {
     worst
 }
 
-/// Tables of the color of multiple scattering are used where they are good: a film so thick that its fringes are no lines between the
-/// knots has none.
+/// Tables of the color of multiple scattering are used where they are accurate: a film so thick that its fringes are not straight between
+/// the knots has none.
 #[test]
 fn colors_of_multiple_scattering_are_right() {
     for (index, nm) in [
@@ -339,7 +339,7 @@ fn colors_of_multiple_scattering_are_right() {
     assert!(table_error(1.4, 140.0, 141.0) > 10.0 * COLOR_TABLE);
 }
 
-/// The largest difference between two levels of instructions, relative to the largest value of the picture.
+/// The largest difference between two instruction levels, relative to the largest value of the picture.
 fn difference_of_levels(scene: &Scene, other: &Scene) -> f64 {
     let go_on = &mut |_| ControlFlow::Continue(());
     let best = reference::render_at(SimdLevel::best(), scene, go_on).unwrap();
@@ -351,7 +351,7 @@ fn difference_of_levels(scene: &Scene, other: &Scene) -> f64 {
     f64::from(off / largest)
 }
 
-/// A machine without AVX gives the same picture but for rounding.
+/// A machine without AVX gives the same picture except for rounding.
 #[test]
 fn the_baseline_differs_by_rounding_alone() {
     println!("{}", SimdLevel::best().name());

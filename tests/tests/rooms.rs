@@ -1,9 +1,9 @@
-//! The arrows between the workspace's crates, as `Cargo.toml` files declare them.
+//! Checks the dependencies between the workspace's crates, as their `Cargo.toml` files declare them.
 
 use cargo_metadata::{DependencyKind, MetadataCommand, Package};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Who may depend on whom. A test crate may depend on everything.
+/// The crates that each crate may depend on. A test crate may depend on everything.
 const ARROWS: &[(&str, &[&str])] = &[
     ("pellicle-spectra", &[]),
     ("pellicle-optics", &[]),
@@ -57,7 +57,7 @@ const TESTS: &str = "pellicle-tests";
 
 type Arrows = BTreeMap<String, BTreeSet<String>>;
 
-/// The members' dependencies on one another, those of tests left out.
+/// The members' dependencies on one another, without those for tests.
 fn declared() -> Arrows {
     let manifest = pellicle_tests::wgsl::root().join("Cargo.toml");
     let metadata = MetadataCommand::new()
@@ -80,7 +80,7 @@ fn declared() -> Arrows {
     members.iter().map(of_member).collect()
 }
 
-/// What is wrong with the arrows: one that is not allowed, a member without a rule, a rule without a member.
+/// Errors in the dependencies: one that is not allowed, a member without a rule, a rule without a member.
 fn wrong(arrows: &Arrows) -> Vec<String> {
     let mut wrong = Vec::new();
     for (from, targets) in arrows.iter().filter(|(from, _)| *from != TESTS) {
@@ -103,18 +103,18 @@ fn wrong(arrows: &Arrows) -> Vec<String> {
 }
 
 #[test]
-fn the_arrows_are_those_of_the_design() {
+fn the_dependencies_follow_the_design() {
     let arrows = declared();
     let found = wrong(&arrows);
     assert!(found.is_empty(), "{}", found.join("\n"));
-    // The list is read at all: these arrows exist.
+    // The list is really read: these dependencies exist.
     assert!(arrows["pellicle-reference"].contains("pellicle-optics"));
     assert!(arrows["pellicle-gpu"].contains("pellicle-scene"));
     assert!(arrows["pellicle-cli"].contains("pellicle"));
 }
 
-/// What one side uses, the other does not but for the scene and the numbers. The scene itself uses optics for tables that both look
-/// up; what those claim is tested absolutely.
+/// The two renderers share only the scene and the random numbers. The scene itself uses optics for tables that both look
+/// up; the content of these tables is tested absolutely.
 #[test]
 fn both_renderers_share_no_physics() {
     let arrows = declared();
@@ -129,7 +129,7 @@ fn both_renderers_share_no_physics() {
     assert!(!reached(&arrows, "pellicle-optics").contains("pellicle-gpu"));
 }
 
-/// Every member that a member depends on, directly or through others.
+/// All members that a member depends on, directly or through others.
 fn reached(arrows: &Arrows, from: &str) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     let mut open = vec![from.to_owned()];
@@ -144,7 +144,7 @@ fn reached(arrows: &Arrows, from: &str) -> BTreeSet<String> {
 }
 
 #[test]
-fn a_wrong_arrow_is_noticed() {
+fn a_wrong_dependency_is_noticed() {
     let truth = declared();
     for (from, to) in [
         ("pellicle-gpu", "pellicle-reference"),

@@ -1,4 +1,4 @@
-//! The ways to draw paths: each gives the same picture on average, and those that are said to leave less noise do.
+//! Options of path sampling: each gives the same picture on average, and those that should reduce noise do.
 
 use gpu::Gpu;
 use pellicle::pick::{Picked, pick};
@@ -14,7 +14,7 @@ use std::ops::ControlFlow;
 const SIZE: [u32; 2] = [32, 24];
 const BANDS: u32 = 6;
 
-/// A small picture with settings of its own.
+/// A small picture with custom settings.
 fn small(name: &str, samples: u32, seed: u32, set: impl Fn(&mut Render)) -> SceneFile {
     let mut file = file(name);
     let render = &mut file.description.render;
@@ -41,7 +41,7 @@ fn rendered(
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// No splits, no roulette.
+/// Turns splits and roulette off.
 fn plain(render: &mut Render) {
     render.film_splits = 0;
     render.roulette_after = render.max_path_segments;
@@ -49,10 +49,10 @@ fn plain(render: &mut Render) {
 
 type Way = (&'static str, fn(&mut Render));
 
-/// Every option against the plain one, on a bubble and on everything; their variances are those of independent samples, or (of
-/// Sobol's) larger than they are.
+/// Every option against the plain one, on a bubble and on everything; the reported variances are those of independent samples, or (for
+/// Sobol) larger than the true ones.
 #[test]
-fn every_way_to_draw_paths_has_the_same_expectation() {
+fn all_sampling_options_have_the_same_expectation() {
     let options: [Way; 4] = [
         ("one split", |render| render.film_splits = 1),
         ("three splits", |render| render.film_splits = 3),
@@ -76,14 +76,14 @@ fn every_way_to_draw_paths_has_the_same_expectation() {
                 Err(report) => wrong.push(format!("{name}, {what}: {report}")),
             }
         }
-        // The comparison can fail: the clamp takes light away.
+        // The comparison can fail: the clamp removes light.
         let dimmed = rendered(&gpu, name, 192, 6, |render| render.clamp = Some(0.2));
         assert!(same_expectation(&dimmed, &expected).is_err(), "{name}");
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Renders of each kind.
+/// Number of renders of each kind.
 const SEEDS: u32 = 5;
 
 /// Mean variance of the pixels of renders with different seeds.
@@ -121,10 +121,11 @@ fn shows_film(file: &SceneFile) -> Vec<bool> {
         .collect()
 }
 
-/// About half of what was found (53 and 3.0), of the pixels that show a film, at equal samples; with Sobol's points and without roulette both times. By the reference,
-/// which has nothing to compile: that the shader splits paths as it does is proved by whole pictures.
+/// Requires about half of the gains that were observed (53 and 3.0) for the pixels that show a film, at equal samples, with Sobol points
+/// and without roulette in both cases. Uses the reference, which compiles nothing: whole pictures prove that the shader splits paths
+/// in the same way.
 #[test]
-fn a_split_leaves_less_variance_where_a_film_is_seen() {
+fn a_split_reduces_variance_where_a_film_is_visible() {
     for (name, factor) in [("soap_bubble", 20.0), ("floating_bubble", 1.5)] {
         let variance = |splits: u32, first_seed: u32| {
             let way = |render: &mut Render| {
@@ -137,7 +138,7 @@ fn a_split_leaves_less_variance_where_a_film_is_seen() {
                 .map(|seed| {
                     let scene = validated(&small(name, 64, seed, way));
                     reference::render(&scene, &mut |_| ControlFlow::Continue(()))
-                        .expect("nobody stops it")
+                        .expect("nothing stops the render")
                 })
                 .collect();
             variance_between(&images, |pixel| shown[pixel])
@@ -153,9 +154,9 @@ fn a_split_leaves_less_variance_where_a_film_is_seen() {
     }
 }
 
-/// Half of what `pellicle bench --variance` finds, so that chance cannot undo it.
+/// Requires half of what `pellicle bench --variance` reports, so that chance cannot fail the test.
 #[test]
-fn sobol_points_leave_less_than_half_the_variance() {
+fn sobol_points_halve_the_variance() {
     let gpu = open();
     for name in ["soap_bubble", "metal_spheres"] {
         let independent = variance(&gpu, name, plain);
@@ -168,7 +169,7 @@ fn sobol_points_leave_less_than_half_the_variance() {
     }
 }
 
-/// No sample is brighter than the clamp, and darker ones are as they were.
+/// No sample is brighter than the clamp, and darker ones are unchanged.
 #[test]
 fn the_clamp_bounds_every_sample() {
     let gpu = open();
@@ -199,8 +200,8 @@ fn the_clamp_bounds_every_sample() {
     assert!(dimmed > 20, "{dimmed} pixels were dimmed");
 }
 
-/// A lens and a filter spread light and neither add nor take any: in a white furnace nothing changes, and before an edge the
-/// mean of the picture stays.
+/// A lens and a filter spread light without adding or removing any: a white furnace does not change, and at an edge the
+/// mean of the picture stays the same.
 #[test]
 fn lens_and_filter_keep_the_light() {
     let gpu = open();
@@ -225,7 +226,7 @@ fn lens_and_filter_keep_the_light() {
     let sharp = mean(None, Filter::Box);
     for filter in [Filter::Gaussian, Filter::BlackmanHarris] {
         let found = mean(None, filter);
-        // What a filter brings in over the picture's edges is not what it lets out there.
+        // The light that a filter brings in across the picture's edges differs from what it spreads out there.
         assert!(
             (found / sharp - 1.0).abs() < 0.02,
             "{filter:?}: {found} {sharp}"
@@ -244,6 +245,6 @@ fn lens_and_filter_keep_the_light() {
     let other = mean(Some(wide), Filter::Box);
     assert!(
         (other / sharp - 1.0).abs() > 1e-4,
-        "a wide lens sees the same: {other} {sharp}"
+        "a wide lens changes nothing: {other} {sharp}"
     );
 }

@@ -1,4 +1,4 @@
-//! The shader of a scene holds what the scene needs and no more, in both forms of its tables. No device is needed.
+//! The shader of a scene contains what the scene needs and no more, in both forms of its tables. No device is needed.
 
 use gpu::PackedScene;
 use gpu::modules::{MODULES, Shader, Specialization};
@@ -20,7 +20,7 @@ fn functions(module: &Module) -> BTreeSet<String> {
 }
 
 #[test]
-fn what_is_left_is_valid_and_binds_few_buffers() {
+fn specialized_shaders_are_valid_and_bind_few_buffers() {
     for name in all() {
         for is_software in [false, true] {
             let module = shader(&made_for(name, is_software)).specialized("render");
@@ -46,8 +46,8 @@ fn what_is_left_is_valid_and_binds_few_buffers() {
     }
 }
 
-/// Which functions can run, found in another way than by folding branches: by walking from the entry point through everything but
-/// what stands behind a condition that is false whatever the rest is.
+/// Finds the functions that can run without folding branches: it walks from the entry point through everything except
+/// code behind a condition that is false whatever the rest is.
 struct Walk<'a> {
     module: &'a Module,
     reached: BTreeSet<Handle<Function>>,
@@ -60,7 +60,7 @@ impl<'a> Walk<'a> {
             reached: BTreeSet::new(),
         };
         let entry = module.entry_points.iter().find(|e| e.name == "render");
-        let function = &entry.expect("it is there").function;
+        let function = &entry.expect("the entry point exists").function;
         walk.function(function);
         let reached = walk.reached.iter();
         let names = reached.filter_map(|&handle| module.functions[handle].name.clone());
@@ -72,8 +72,8 @@ impl<'a> Walk<'a> {
         self.block(function, &function.body, &mut written);
     }
 
-    /// Walks a block, and says whether what follows it may run. `written` has what is known of variables: what was last written to them,
-    /// as far as it is known.
+    /// Walks a block and returns whether the code after it may run. `written` maps variables to the values that were last written to
+    /// them, as far as these are known.
     fn block(
         &mut self,
         function: &'a Function,
@@ -122,14 +122,14 @@ impl<'a> Walk<'a> {
             Statement::Loop {
                 body, continuing, ..
             } => {
-                // What a loop writes is not known in its first pass either.
+                // The writes of a loop are not known in its first pass either.
                 let mut within = BTreeMap::new();
                 self.block(function, body, &mut within);
                 self.block(function, continuing, &mut within);
                 written.clear();
                 true
             }
-            Statement::Switch { .. } => panic!("the shaders have none"),
+            Statement::Switch { .. } => panic!("the shaders contain no switch"),
             Statement::Return { .. } | Statement::Break | Statement::Continue => false,
             _ => true,
         })
@@ -166,7 +166,7 @@ impl<'a> Walk<'a> {
 }
 
 #[test]
-fn what_was_removed_cannot_run() {
+fn removed_functions_cannot_run() {
     let mut removed = 0;
     for name in all() {
         let shader = shader(&made_for(name, false));
@@ -178,9 +178,9 @@ fn what_was_removed_cannot_run() {
     assert!(removed > 1000, "only {removed} functions were removed");
 }
 
-/// The proof above can fail: what one scene has not, another one reaches.
+/// The proof above can fail: functions that one scene lacks are reached in another.
 #[test]
-fn what_another_scene_needs_can_run() {
+fn functions_that_another_scene_needs_can_run() {
     let wedge = made_for("film_wedge", false);
     let left = functions(&shader(&wedge).specialized("render").expect("valid"));
     assert!(!left.contains("stack_layer") && left.contains("clear_film_reflectance"));
@@ -191,7 +191,7 @@ fn what_another_scene_needs_can_run() {
     assert_ne!(left, reached);
 }
 
-/// Every constant that a scene gives a value is declared.
+/// Every constant that a scene sets is declared.
 #[test]
 fn every_feature_of_a_scene_is_declared() {
     let declared: String = MODULES.iter().map(|module| module.source).collect();
@@ -202,7 +202,7 @@ fn every_feature_of_a_scene_is_declared() {
     }
 }
 
-/// Bytes of an invocation's own memory: the path's record, the paths that wait, and what lies between the two halves of a sample.
+/// Bytes of private memory of an invocation: the path's record, the paths that wait, and the data between the two halves of a sample.
 fn private_bytes(name: &str) -> u32 {
     let module = shader(&made_for(name, false)).specialized("render");
     let module = module.unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -213,7 +213,7 @@ fn private_bytes(name: &str) -> u32 {
     private.map(|(_, v)| layouter[v.ty].size).sum()
 }
 
-/// The numbers are told in docs/performance.md: what a GPU must keep of a path decides how many it follows at a time.
+/// docs/performance.md reports these numbers: the memory of a path decides how many paths a GPU follows at a time.
 #[test]
 fn a_path_takes_little_memory() {
     for (name, most) in [
@@ -225,6 +225,9 @@ fn a_path_takes_little_memory() {
         let bytes = private_bytes(name);
         println!("{name}: {bytes} bytes");
         assert!(bytes <= most, "{name}: {bytes} bytes");
-        assert!(bytes > most / 8, "{name}: {bytes} bytes: not what it was");
+        assert!(
+            bytes > most / 8,
+            "{name}: {bytes} bytes: much less than before"
+        );
     }
 }

@@ -17,7 +17,7 @@ fn rows(table: &'static str) -> impl Iterator<Item = Vec<&'static str>> {
 
 fn number(cell: &str) -> f64 {
     cell.parse()
-        .unwrap_or_else(|_| panic!("{cell} is no number"))
+        .unwrap_or_else(|_| panic!("{cell} is not a number"))
 }
 
 /// A case of the tables: its media over wavelength, its layers, and R and T as published.
@@ -106,7 +106,7 @@ impl Case {
 
 /// Films, coatings and metals against tmm 0.2.0 (S. J. Byrnes, arXiv:1603.02720), 0 to 80°.
 #[test]
-fn published_stacks_come_out_on_the_device() {
+fn published_stacks_are_reproduced_on_the_device() {
     let gpu = pellicle_tests::device::open();
     let cases = cases();
     assert_eq!(cases.len(), 14);
@@ -120,7 +120,7 @@ fn published_stacks_come_out_on_the_device() {
         let wrong = compare(&case.on_device(&gpu, 1.01), &case.expected, FILM);
         assert!(
             wrong.is_err(),
-            "{name}: an index one per cent off is not noticed"
+            "{name}: an index one percent off is not noticed"
         );
     }
 }
@@ -131,7 +131,7 @@ fn uniform(row: usize, column: u32) -> f64 {
     reference::random4([row & 0xffff, row >> 16], column, 7, 1)[0]
 }
 
-/// Random stacks, each at one angle and wavelength of its own choice out of a few.
+/// Random stacks, each at one angle and one wavelength out of a few.
 struct RandomStacks {
     incident: f64,
     wavelengths_nm: Vec<f64>,
@@ -277,7 +277,7 @@ fn random_stacks_agree_with_f64() {
     }
 }
 
-/// A layer between two prisms at and about its own critical angle: R and T are as smooth there as elsewhere.
+/// A layer between two prisms at and near its critical angle: R and T are as smooth there as elsewhere.
 #[test]
 fn a_layer_at_its_critical_angle_is_like_any_other() {
     let gpu = pellicle_tests::device::open();
@@ -315,7 +315,7 @@ fn layers_in_the_wrong_order_are_noticed() {
     assert!(compare(&flat(wrong), &flat(right), FILM).is_err());
 }
 
-/// A million stacks in one call: all come back, in their order.
+/// A million stacks in one call: all results come back, in their order.
 #[test]
 fn a_million_stacks_are_one_call() {
     const COUNT: usize = 1_000_000;
@@ -334,7 +334,7 @@ fn a_million_stacks_are_one_call() {
 }
 
 #[test]
-fn what_a_batch_cannot_be_is_reported() {
+fn invalid_batches_are_reported() {
     let gpu = pellicle_tests::device::open();
     let with = |change: fn(&mut RandomStacks)| {
         let mut stacks = RandomStacks::new(3, 2, (100.0, 3.0), &[0.0]);
@@ -361,7 +361,7 @@ fn what_a_batch_cannot_be_is_reported() {
     ));
 }
 
-/// A path cannot remember any number of thicknesses: a scene that would need it is told before anything is compiled.
+/// A path cannot store arbitrarily many thicknesses: a scene that would need it is reported before anything is compiled.
 #[test]
 fn a_record_that_is_too_long_is_reported() {
     let gpu = pellicle_tests::device::open();

@@ -1,4 +1,4 @@
-//! What holds of every stack: absorptance, incidence from a denser medium, derivatives, batches; no device is needed.
+//! Properties of all stacks: absorptance, incidence from a denser medium, derivatives, batches; no device is needed.
 
 use num_complex::Complex64;
 use optics::batch::{LayerOf, Media, StackBatch, StackOf, evaluate};
@@ -43,7 +43,7 @@ fn cases() -> Vec<Case> {
 }
 
 impl Case {
-    /// What this crate makes of it, by single calls.
+    /// The results of this crate, by single calls.
     fn found(&self) -> Vec<f64> {
         let (incident, layers, substrate) = (self.incident, &self.layers, self.substrate);
         let powers = stack(incident, layers, substrate, self.nm, self.cosine);
@@ -59,7 +59,7 @@ impl Case {
         all.iter().flat_map(|power| [power.s, power.p]).collect()
     }
 
-    /// R_s, R_p, T_s and T_p by a batch of so many equal wavelengths.
+    /// R_s, R_p, T_s and T_p by a batch with this many equal wavelengths.
     fn by_batch(&self, wavelengths: usize) -> Vec<f64> {
         let layers = (0..).zip(&self.layers).map(|(medium, layer)| LayerOf {
             medium,
@@ -104,12 +104,12 @@ fn stacks_agree_with_fifty_digits() {
     }
 }
 
-/// A layer a picometer thicker is noticed, by single calls and by batches.
+/// A layer that is a picometer thicker is noticed, by single calls and by batches.
 #[test]
 fn a_picometer_is_noticed() {
     let mut noticed = 0;
     for mut case in cases() {
-        // Not where nothing changes: grazing, opaque or too thin a layer.
+        // Not where nothing changes: at grazing incidence, or for an opaque or very thin layer.
         if case.name == "ordinary" && case.expected[6].abs() > 1e-6 {
             case.layers[0].thickness_nm += 1e-3;
             assert!(compare(&case.found(), &case.expected, ORACLE_STACKS).is_err());
@@ -133,7 +133,7 @@ fn layers(k: f64) -> impl Strategy<Value = Vec<Layer>> {
     prop::collection::vec(layer, 1..=6)
 }
 
-/// A substrate without losses or with.
+/// A substrate with or without losses.
 fn substrates() -> impl Strategy<Value = Complex64> {
     (0.1..4.0_f64, prop_oneof![Just(0.0), 0.0..6.0_f64]).prop_map(|(n, k)| Complex64::new(n, k))
 }
@@ -152,9 +152,9 @@ fn sum(incident: f64, layers: &[Layer], substrate: Complex64, nm: f64, cosine: f
 proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Light is reflected, transmitted or absorbed, whatever it comes from and meets.
+    /// Light is reflected, transmitted or absorbed, whatever medium it comes from and whatever it meets.
     #[test]
-    fn all_of_the_light_is_accounted_for(
+    fn reflected_transmitted_and_absorbed_light_add_up_to_one(
         layers in layers(4.0), incident in 1.0..2.6_f64, substrate in substrates(),
         nm in 380.0..780.0_f64, cosine in 0.01..=1.0_f64,
     ) {
@@ -166,7 +166,7 @@ proptest! {
         }
     }
 
-    /// The absorptance of a layer is that of its parts together.
+    /// The absorptance of a layer is the sum of the absorptances of its parts.
     #[test]
     fn a_split_layer_absorbs_as_the_whole(
         layers in layers(2.0), place in 0..60_usize, share in 0.0..=1.0_f64,
@@ -183,7 +183,7 @@ proptest! {
         prop_assert!(close(whole[place].p, parts[place].p + parts[place + 1].p, IDENTITY));
     }
 
-    /// Stokes 1849, of any stack without losses between media in which light runs: |r| is the same from both sides, and
+    /// Stokes (1849), for any lossless stack between media in which light propagates: |r| is the same from both sides, and
     /// t t′ − r r′ = −r / r*′, that is r′ = −r* t / t*.
     #[test]
     fn stacks_without_losses_can_be_reversed(
@@ -201,7 +201,7 @@ proptest! {
         }
     }
 
-    /// Beyond the critical angle of the substrate all returns, however the layers are, and nothing is lost on the way.
+    /// Beyond the critical angle of the substrate everything is reflected, whatever the layers are, and nothing is lost.
     #[test]
     fn total_reflection_is_total_through_any_layers(
         layers in layers(0.0), incident in 1.5..2.6_f64, beyond in 0.01..0.99_f64, nm in 380.0..780.0_f64,
@@ -212,9 +212,9 @@ proptest! {
         prop_assert!(close(found.transmittance.s, 0.0, IDENTITY) && close(found.transmittance.p, 0.0, IDENTITY));
     }
 
-    /// Every number is finite on the whole domain, exactly at critical angles too.
+    /// Every number is finite on the whole domain, even exactly at critical angles.
     #[test]
-    fn nothing_is_ever_not_a_number(
+    fn all_results_are_finite(
         mut layers in layers(4.0), incident in 1.0..4.0_f64, substrate in substrates(), thickness_nm in 0.0..30_000.0_f64,
         nm in 200.0..2000.0_f64, cosine in 1.7e-4..=1.0_f64, critical in any::<bool>(),
     ) {
@@ -274,9 +274,9 @@ proptest! {
     }
 }
 
-/// The comparisons above see a layer that takes a millionth too little, and a derivative taken at another place.
+/// The comparisons above detect a layer that absorbs a millionth too little, and a derivative taken at another position.
 #[test]
-fn what_the_properties_compare_can_differ() {
+fn the_comparisons_of_the_properties_can_fail() {
     let layer = |n: f64, k: f64, thickness_nm: f64| Layer {
         index: Complex64::new(n, k),
         thickness_nm,
@@ -291,7 +291,7 @@ fn what_the_properties_compare_can_differ() {
     assert!(!close(here.reflectance.s, there[0], DERIVATIVE));
 }
 
-/// A million random stacks of five layers, each of a medium of its own, in one call; every thousandth is checked.
+/// A million random stacks of five layers, each with a medium of its own, in one call; every thousandth is checked.
 #[test]
 fn a_million_stacks_are_evaluated_in_one_call() {
     let count = 1_000_000_u32;

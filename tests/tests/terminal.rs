@@ -1,8 +1,8 @@
-//! What reaches a terminal: no control characters, short messages; and what comes from standard input.
+//! Tests of what reaches a terminal (no control characters, short messages) and of input from standard input.
 
 use pellicle_tests::command::{Place, Ran};
 
-/// Runs the command with these very arguments.
+/// Runs the command with exactly these arguments.
 fn run(place: &Place, arguments: &[&str]) -> Ran {
     Ran::of(&place.command("").args(arguments).output().unwrap())
 }
@@ -17,7 +17,7 @@ fn is_safe(ran: &Ran, case: &str) {
 const BAD: &str = "a\x1b[2J\x07\r\u{202e}";
 
 #[test]
-fn control_characters_of_names_are_escaped() {
+fn control_characters_in_names_are_escaped() {
     let place = Place::default();
     let scene = format!("{BAD}.toml");
     std::fs::write(
@@ -64,7 +64,7 @@ fn control_characters_of_names_are_escaped() {
     }
 }
 
-/// A line of a megabyte is shown around its fault.
+/// Only the part around the fault of a line of a megabyte is shown.
 #[test]
 fn messages_about_long_lines_are_short() {
     let place = Place::default();
@@ -85,7 +85,7 @@ fn messages_about_long_lines_are_short() {
     )
     .unwrap();
     for (file, said) in [
-        // 35 signs and twice 1 000 000 before the fault.
+        // 35 characters and twice 1 000 000 before the fault.
         ("s.toml", "s.toml:1:2000036"),
         ("key.toml", "unknown field"),
         ("name.toml", "there is no material"),
@@ -178,7 +178,7 @@ fn a_file_may_come_from_standard_input() {
 }
 
 #[test]
-fn what_is_wrong_with_standard_input_is_reported() {
+fn errors_in_standard_input_are_reported() {
     let place = Place::default();
     for (arguments, input, said) in [
         ("check -", "x = 1\n", "<standard input>:1:1"),

@@ -14,7 +14,7 @@ fn path(name: &str) -> PathDifference {
     match name {
         "optical" => PathDifference::Optical,
         "as_printed" => PathDifference::AsPrinted,
-        other => panic!("{other} is no path difference"),
+        other => panic!("{other} is not a path difference"),
     }
 }
 
