@@ -1,4 +1,4 @@
-//! Surfaces that lie in one another: they are met in the order of their names, on both renderers.
+//! Surfaces that coincide: rays hit them in the order of their names, on both renderers.
 
 use crate::comparison::{BANDS, film, pictures, scene};
 use optics::{Complex64, Layer};
@@ -7,7 +7,7 @@ use pellicle_tests::frames::{Values, same_numbers};
 use pellicle_tests::tolerances::{CLOSED_FORM_EXACT, FRAMES};
 use spectra::SpectralImage;
 
-/// White from everywhere, seen from +Z: a square of 1 about the origin.
+/// A white environment in all directions, seen from +Z: a square of side 1 about the origin.
 const FURNACE: &str = r#"
 [camera]
 type = "orthographic"
@@ -33,7 +33,7 @@ reflectance = 0
 "#;
 
 const RENDER: &str = "[render]\nsize = [16, 16]\nsamples = 64\nbands = 4\nsampling = \"center\"\nlight_groups = \"single\"\n";
-/// No coordinate of these has few digits.
+/// None of the resulting coordinates has few digits.
 const TILTED: &str = "normal = [0.31, 0.52, 1.07]\nup = [0.1, 1, 0.2]";
 
 fn rectangle(material: &str, center: [f64; 3], size: f64, way: &str) -> String {
@@ -68,11 +68,11 @@ fn assert_everywhere(what: &str, parts: &[&str], expected: f64, allowance: f64) 
     }
 }
 
-/// In a white furnace a diffuse body sends back its reflectance, whatever direction is drawn: a shadow ray that the other surface of
-/// the same plane blocks would show, and so would a point where the order changes.
+/// In a white furnace a diffuse body shows its reflectance, whatever direction is sampled. A shadow ray blocked by the other surface of
+/// the same plane would be noticed, and so would a point where the order changes.
 #[test]
-fn of_two_rectangles_in_a_plane_the_first_is_seen_from_its_front() {
-    // Along the plane from one center to the other.
+fn the_first_of_two_coplanar_rectangles_is_visible_from_its_front() {
+    // Along the plane, from one center to the other.
     let wide = [0.123, 0.4, 0.037];
     let n = glam::DVec3::new(0.31, 0.52, 1.07);
     let along = n.cross(glam::DVec3::new(0.1, 1.0, 0.2)).normalize();
@@ -86,16 +86,16 @@ fn of_two_rectangles_in_a_plane_the_first_is_seen_from_its_front() {
         let parts = [FURNACE, RENDER, first, second];
         assert_everywhere(what, &parts, expected, CLOSED_FORM_EXACT);
     }
-    // From behind the last one is seen.
+    // From behind, the last one is visible.
     let turned = "normal = [-0.31, -0.52, -1.07]\nup = [0.1, 1, 0.2]";
     let gray = rectangle("gray", wide, 9.0, turned);
     let parts = [FURNACE, RENDER, &gray, &white];
     assert_everywhere("from behind", &parts, 1.0, CLOSED_FORM_EXACT);
 }
 
-/// The decal is where it is, and the wall everywhere else.
+/// The decal is visible within its edges, and the wall everywhere else.
 #[test]
-fn a_decal_covers_what_it_covers() {
+fn a_decal_covers_its_own_area_only() {
     let gpu = open();
     let wall = rectangle("gray", [0.0; 3], 9.0, "normal = [0, 0, 1]");
     let decal = "[[objects]]\ntype = \"disk\"\nmaterial = \"white\"\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 0.25\n";
@@ -119,9 +119,9 @@ fn a_decal_covers_what_it_covers() {
     }
 }
 
-/// Film and ball without a gap, and with one that an `f32` does not tell, the film within the ball by name alone and by its radius.
+/// Film and ball without a gap, and with a gap that an `f32` cannot resolve; the film lies within the ball by name alone or by its radius.
 #[test]
-fn a_film_on_a_ball_of_its_radius_is_a_film_on_a_ball() {
+fn a_film_of_the_radius_of_its_ball_lies_on_the_ball() {
     const FRONT: &str = r#"
 [camera]
 type = "orthographic"
@@ -159,7 +159,7 @@ height = 1e-3
                 let bands = BANDS as usize;
                 let values = image.radiance().iter().skip(band as usize).step_by(bands);
                 let mean = values.map(|&v| f64::from(v)).sum::<f64>() / 256.0;
-                // What a film splits into reflection and transmittance_scale is drawn, or followed: the mean has that noise.
+                // The path chooses between reflection and transmission of the film, or follows both: the mean has the noise of that.
                 assert!(
                     (mean - expected).abs() < 2e-3,
                     "{what}, {who}, band {band}: {mean} {expected}"
@@ -169,7 +169,7 @@ height = 1e-3
     }
 }
 
-/// Of the film at normal incidence, at the middle of a band, where a render takes it.
+/// Reflectance of the film at normal incidence, at the wavelength in the middle of a band, which the render uses.
 fn mean_reflectance(image: &SpectralImage, band: u32) -> f64 {
     let layer = Layer {
         index: 1.33.into(),
@@ -180,7 +180,7 @@ fn mean_reflectance(image: &SpectralImage, band: u32) -> f64 {
     film.reflectance.unpolarized()
 }
 
-/// A plane below a film in the same plane: from the front light comes through the film, is sent back and comes through again, and none
+/// A plane below a film in the same plane: light from the front is transmitted by the film, reflected and transmitted again, and none
 /// is lost.
 #[test]
 fn a_film_in_the_plane_of_a_white_wall_loses_nothing() {
@@ -196,7 +196,7 @@ fn a_film_in_the_plane_of_a_white_wall_loses_nothing() {
     }
 }
 
-/// A ball of 1e5 as ground under a ball of 0.5: distances of hundred thousands do not take the digits of halves.
+/// A ball of 1e5 as the ground under a ball of 0.5: distances of hundreds of thousands must not cost the digits of halves.
 #[test]
 fn a_huge_ball_is_a_ground_on_both_renderers() {
     const VIEW: &str = r#"

@@ -1,4 +1,4 @@
-//! Scenes in a few lines, and their pictures against what they should be.
+//! Scenes of a few lines, and the comparison of their pictures with expected values.
 
 use gpu::Gpu;
 use pellicle_tests::tolerances::{PROVING_ERROR, Z_MEAN};
@@ -10,7 +10,7 @@ use std::path::Path;
 pub(crate) const BANDS: u32 = 4;
 pub(crate) const ALBEDO: f64 = 0.7;
 
-/// Looks straight down at a square of 0.01 around the foot point.
+/// A camera that looks straight down at a square of 0.01 around the foot point.
 pub(crate) const DOWN: &str = r#"
 [camera]
 type = "orthographic"
@@ -75,7 +75,7 @@ pub(crate) fn scene(parts: &[&str]) -> Scene {
 pub(crate) fn pictures(gpu: &Gpu, scene: &Scene) -> [(&'static str, SpectralImage); 2] {
     let on = &mut |_| ControlFlow::Continue(());
     let on_gpu = gpu::render(gpu, scene, on).unwrap_or_else(|error| panic!("{error}"));
-    let on_cpu = reference::render(scene, on).expect("nobody stops it");
+    let on_cpu = reference::render(scene, on).expect("nothing stops the render");
     [("gpu", on_gpu), ("cpu", on_cpu)]
 }
 
@@ -87,7 +87,7 @@ pub(crate) struct Estimate {
 }
 
 impl Estimate {
-    /// Of a band of a picture, from the picture's own variance.
+    /// The estimate for one band of a picture, with the picture's own variance.
     pub(crate) fn of(image: &SpectralImage, band: u32) -> Self {
         let bands = image.bands().count() as usize;
         let sum = |values: &[f32]| -> f64 {
@@ -101,11 +101,11 @@ impl Estimate {
         }
     }
 
-    /// Whether it is `expected` to within its noise and a relative allowance, and its noise small enough to say so.
+    /// Whether the mean is `expected` to within its noise and a relative allowance, and the noise is small enough to prove it.
     pub(crate) fn agrees(self, expected: f64, allowance: f64) -> Result<String, String> {
         let off = (self.mean - expected).abs();
         let report = format!(
-            "{:.7} ± {:.1e}, expected {expected:.7}: {:+.1e} of it",
+            "{:.7} ± {:.1e}, expected {expected:.7}, relative difference {:+.1e}",
             self.mean,
             self.error,
             self.mean / expected - 1.0
@@ -139,7 +139,7 @@ pub(crate) fn check(
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Mean over a band of a function of the wavelength.
+/// Mean of a function of the wavelength over a band.
 pub(crate) fn band_mean(scene: &Scene, band: u32, f: impl Fn(f64) -> f64) -> f64 {
     let grid = scene.settings().bands;
     let steps = 400;

@@ -1,4 +1,4 @@
-//! Lights without extent: what they bring to a surface in the open and through a film, and Cook's model as it is printed.
+//! Lights without extent: the radiance of a surface that they light directly or through a film, and Cook's model as printed.
 
 use crate::comparison::{ALBEDO, DOWN, LAMBERT, band_mean, check, film, render, scene};
 use optics::Complex64;
@@ -6,7 +6,7 @@ use pellicle_tests::device::open;
 use pellicle_tests::tolerances::{CLOSED_FORM, CLOSED_FORM_EXACT};
 use std::f64::consts::PI;
 
-/// A distant light at an angle from the vertical, of spectral irradiance 1.
+/// A distant light at an angle from the vertical, with spectral irradiance 1.
 fn distant(degrees: f64) -> String {
     let (sine, cosine) = degrees.to_radians().sin_cos();
     format!(
@@ -14,14 +14,14 @@ fn distant(degrees: f64) -> String {
     )
 }
 
-/// So small that what a film sends back hardly meets it.
+/// A floor so small that light reflected back by a film hardly hits it.
 fn small_floor(material: &str) -> String {
     format!(
         "[[objects]]\ntype = \"rectangle\"\nmaterial = \"{material}\"\ncenter = [0, 0, 0]\nnormal = [0, 1, 0]\nsize = [0.02, 0.02]\n"
     )
 }
 
-/// E cos θ T(θ) ρ / π, by a sheet that lets light pass and bends none.
+/// E cos θ T(θ) ρ / π, for a sheet that transmits light without bending it.
 #[test]
 fn a_film_dims_a_light_without_extent() {
     const SHEET: &str =
@@ -52,7 +52,7 @@ fn a_film_dims_a_light_without_extent() {
     }
 }
 
-/// F of a dielectric, G and D₂ as Suzuki, Yokoi and Toriwaki print them (3-1), for an eye on the normal.
+/// F of a dielectric, G and D₂ as Suzuki, Yokoi and Toriwaki print them (3-1), for `wo` along the normal.
 struct Printed {
     n: f64,
     slope: f64,
@@ -61,7 +61,7 @@ struct Printed {
 impl Printed {
     /// F D₂ G / (π (N·E)) for light at an angle from the normal.
     fn specular(&self, angle: f64) -> f64 {
-        // The facet stands half way between the normal, where the eye is, and the light.
+        // The facet normal is half way between the normal, which is `wo`, and the light.
         let facet = angle / 2.0;
         let c = facet.cos();
         let g = (self.n * self.n + c * c - 1.0).sqrt();
@@ -74,7 +74,7 @@ impl Printed {
     }
 }
 
-/// I = E (s F D₂ G / (π (N·E)) + (N·L) d ρ / π), and with the light from everywhere Iₐ (s F₀ + d ρ); normalized, a quarter of the
+/// I = E (s F D₂ G / (π (N·E)) + (N·L) d ρ / π), plus, for light from everywhere, Iₐ (s F₀ + d ρ); normalized, a quarter of the
 /// specular part.
 #[test]
 fn cooks_model_is_lit_as_printed() {

@@ -1,4 +1,4 @@
-//! White furnace of rough surfaces, bare and under films: what absorbs nothing is not to be seen before white, from any angle.
+//! White furnace for rough surfaces, bare and under films: a surface that absorbs nothing is invisible against white, from any angle.
 
 use crate::comparison::{WHITE, pictures, scene};
 use pellicle_tests::device::open;
@@ -13,7 +13,7 @@ const LAYERS: [&str; 3] = [
     "{ index = 2.2, thickness_nm = 300 }",
     "{ index = 1.46, thickness_nm = 120 }, { index = 2.2, thickness_nm = 250 }",
 ];
-/// Facets, and how many layers there are on them.
+/// Parameters of the facets, and the number of layers on them.
 const ROWS: [(&str, usize); 6] = [
     ("roughness = 0.05, distribution = 'beckmann'", 1),
     ("roughness = 0.3, distribution = 'ggx'", 2),
@@ -25,7 +25,7 @@ const ROWS: [(&str, usize); 6] = [
         1,
     ),
 ];
-/// Side of a panel in the picture.
+/// Side of a panel in pixels.
 const PIXELS: usize = 8;
 
 fn material(metal: &str, (facets, layers): (&str, usize)) -> String {
@@ -38,8 +38,8 @@ fn material(metal: &str, (facets, layers): (&str, usize)) -> String {
     )
 }
 
-/// A row of panels for each of [`ROWS`] from below, a column for each angle. They are the faces of a convex body, so that none
-/// sees another.
+/// A scene with a row of panels for each of [`ROWS`], from bottom to top, and a column for each angle. They are the faces of a convex
+/// body, so that none sees another.
 fn panels(metal: &str, samples: u32) -> Scene {
     let (mut materials, mut objects) = (String::from("[materials]\n"), String::new());
     for (row, surface) in ROWS.into_iter().enumerate() {
@@ -94,8 +94,8 @@ fn means(image: &SpectralImage) -> Vec<(String, f64, f64)> {
     (0..columns * rows).map(of_panel).collect()
 }
 
-/// A metal of n = 0.001, k = 1000 absorbs 4e-9: everything returns within 0.5 %, for α from 0.05 to 1 and to 85°. The standard error is that of
-/// independent samples; those of Sobol's points lie far closer.
+/// A metal of n = 0.001, k = 1000 absorbs 4e-9: everything returns within 0.5 %, for α from 0.05 to 1 and up to 85°. The standard error is
+/// that of independent samples; the means of Sobol points lie far closer.
 #[test]
 fn lossless_rough_surfaces_are_white() {
     for (who, image) in pictures(&open(), &panels("[0.001, 1000]", 1024)) {
@@ -109,7 +109,7 @@ fn lossless_rough_surfaces_are_white() {
     }
 }
 
-/// Every panel is there: a metal that absorbs is seen, film or not.
+/// Every panel is visible: a metal that absorbs is noticed, with or without a film.
 #[test]
 fn absorbing_rough_surfaces_are_noticed() {
     let image = &pictures(&open(), &panels("[0.3, 1.5]", 32))[0].1;
@@ -119,9 +119,9 @@ fn absorbing_rough_surfaces_are_noticed() {
     }
 }
 
-/// Of a film without thickness nothing is reflected, and nothing is drawn for it: every pixel is white, whatever the numbers.
+/// A film without thickness reflects nothing, and no random number is used for it: every pixel is white, whatever the numbers.
 #[test]
-fn a_film_of_no_thickness_is_not_there() {
+fn a_film_without_thickness_has_no_effect() {
     let film =
         |object: &str| format!("[[objects]]\nmaterial = 'film'\ntype = 'sphere'\n{object}\n");
     let camera =

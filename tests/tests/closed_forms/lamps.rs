@@ -1,4 +1,4 @@
-//! Lamps over a floor, in the open and through films.
+//! Area emitters above a floor, directly and through films.
 
 use crate::comparison::{
     ALBEDO, DOWN, FLOOR, LAMBERT, band_mean, check, film, lamp, render, scene,
@@ -8,7 +8,7 @@ use pellicle_tests::device::open;
 use pellicle_tests::tolerances::{CLOSED_FORM, NEARLY_NORMAL};
 use std::f64::consts::TAU;
 
-/// A sphere of radiance 1 seen whole: ρ r² / h² (Lambert).
+/// A sphere of radiance 1, fully visible: ρ r² / h² (Lambert).
 #[test]
 fn a_sphere_light_over_a_floor() {
     let gpu = open();
@@ -26,7 +26,7 @@ fn a_sphere_light_over_a_floor() {
     }
 }
 
-/// Form factor of a differential element to a parallel rectangle whose near corner lies straight over it, sides `x` and `z`
+/// Form factor of a differential element to a parallel rectangle whose near corner is straight above it, with sides `x` and `z`
 /// at height 1; odd in both (Siegel and Howell; Howell's catalog, B-3).
 fn corner_factor(x: f64, z: f64) -> f64 {
     let part = |a: f64, b: f64| {
@@ -45,7 +45,7 @@ material = "lamp"
 normal = [0, -1, 0]
 "#;
     let gpu = open();
-    // Width is along x and height along z; the light straight above or aside.
+    // Width is along x and height along z; the emitter is straight above or to the side.
     for ([width, depth], height, [x, z]) in [
         ([2.0, 0.6], 1.5, [0.0, 0.0]),
         ([2.0, 0.6], 1.5, [0.8, 0.5]),
@@ -75,7 +75,7 @@ normal = [0, -1, 0]
     }
 }
 
-/// Films that are no films: index 1, and thickness 0. What lies behind keeps its light.
+/// Films without effect: index 1, or thickness 0. Light behind them keeps its strength.
 #[test]
 fn light_through_an_absent_film_keeps_its_strength() {
     const BETWEEN: &str = "type = \"sphere\"\ncenter = [0, 2, 0]\nradius = 0.5";
@@ -111,13 +111,13 @@ fn light_through_an_absent_film_keeps_its_strength() {
     }
 }
 
-/// A small lamp through real films: T at normal incidence, once or twice.
+/// A small emitter seen through real films: T at normal incidence, once or twice.
 #[test]
 fn light_through_a_film_loses_what_it_reflects_and_absorbs() {
     const BETWEEN: &str = "type = \"sphere\"\ncenter = [0, 2, 0]\nradius = 0.5";
     const SHEET: &str =
         "type = \"rectangle\"\ncenter = [0, 2, 0]\nnormal = [0, 1, 0]\nsize = [5, 5]";
-    // So small that what the films send back hardly meets it.
+    // A floor so small that light reflected back by the films hardly hits it.
     const SMALL_FLOOR: &str = r#"
 [[objects]]
 type = "rectangle"

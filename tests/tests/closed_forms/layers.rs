@@ -1,4 +1,4 @@
-//! Films and coatings of several layers, and films by two beams.
+//! Films and coatings of several layers, and films with the two-beam model.
 
 use crate::comparison::{DOWN, WHITE, band_mean, check, render, scene};
 use optics::{Complex64, Layer, PathDifference};
@@ -14,7 +14,7 @@ const METAL: Layer = Layer {
     thickness_nm: 15.0,
 };
 
-/// Layers as a scene writes them.
+/// Layers in the syntax of a scene file.
 fn written(layers: &[Layer]) -> String {
     let one = |layer: &Layer| {
         let (index, nm) = (layer.index, layer.thickness_nm);
@@ -34,7 +34,7 @@ fn sheet(up: i32) -> String {
     )
 }
 
-/// In light from everywhere a film shows R + T. The two sides of one that absorbs differ in R, not in T.
+/// Under uniform illumination a film shows R + T. The two sides of an absorbing film differ in R, not in T.
 #[test]
 fn a_film_of_two_layers_has_two_faces() {
     let gpu = open();
@@ -81,9 +81,9 @@ fn a_coating_reflects_as_its_stack() {
     }
 }
 
-/// By two beams R + T is not 1: the picture shows the sum that the formula gives.
+/// With two beams R + T is not 1: the picture shows the sum that the formula gives.
 #[test]
-fn two_beams_show_what_the_formula_says() {
+fn two_beams_show_the_sum_of_their_formulas() {
     let gpu = open();
     let (index, thickness_nm) = (1.9, 300.0);
     for (name, path) in [

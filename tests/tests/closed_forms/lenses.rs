@@ -1,4 +1,4 @@
-//! What a small lamp becomes in the picture: by the lens, and by the filter of the pixels.
+//! The image of a small emitter, as spread by the lens and by the pixel filter.
 
 use crate::comparison::{LAMBERT, pictures, scene};
 use pellicle_tests::device::open;
@@ -6,13 +6,13 @@ use pellicle_tests::tolerances::{OUT_OF_FOCUS, PIXEL_FILTER};
 use spectra::SpectralImage;
 use std::f64::consts::{PI, TAU};
 
-/// Of the picture, in pixels; odd, so that one pixel is in the middle.
+/// Side of the picture in pixels; odd, so that one pixel is in the middle.
 const SIDE: u32 = 15;
-/// Distance of the plane of focus, and a pixel's side there.
+/// Distance of the plane of focus, and the side of a pixel there.
 const FOCUS: f64 = 4.0;
 const PIXEL: f64 = 0.02;
 
-/// A perspective camera with more of its settings, and a lamp on its axis.
+/// A perspective camera with further settings, and an emitter on its axis.
 fn lamp_on_the_axis(camera: &str, samples: u32, distance: f64, radius: f64) -> scene::Scene {
     let fov = 2.0 * (f64::from(SIDE) * PIXEL / 2.0 / FOCUS).atan().to_degrees();
     let text = format!(
@@ -24,7 +24,7 @@ fn lamp_on_the_axis(camera: &str, samples: u32, distance: f64, radius: f64) -> s
     scene(&[&text, LAMBERT])
 }
 
-/// Pixels from the middle, and their light.
+/// Positions of pixels, relative to the middle, and their light.
 fn lit(image: &SpectralImage) -> impl Iterator<Item = ([f64; 2], f64)> {
     let pixels = (0..SIDE * SIDE).map(|i| [i % SIDE, i / SIDE]);
     let middle = f64::from(SIDE / 2);
@@ -35,13 +35,13 @@ fn lit(image: &SpectralImage) -> impl Iterator<Item = ([f64; 2], f64)> {
 }
 
 /// Similar triangles: at the plane of focus a point at distance z becomes the lens's disk times |1 − f/z|. Its mean r² is half of the
-/// radius squared; the lamp's own disk adds as much of its own, and sorting into pixels a twelfth of a pixel squared for each axis
-/// (Sheppard).
+/// radius squared; the emitter's own disk adds half of its radius squared, and sorting into pixels a twelfth of a pixel squared for each
+/// axis (Sheppard).
 #[test]
-fn out_of_focus_a_lamp_becomes_the_disk_of_the_lens() {
+fn a_lamp_out_of_focus_becomes_the_disk_of_the_lens() {
     const LENS: f64 = 0.1;
     let gpu = open();
-    // The lamp's own disk there, in pixels.
+    // Radius of the emitter's own disk there, in pixels.
     let own = 1.0_f64;
     for distance in [2.0, 2.5, 20.0] {
         let lens = format!("lens = {{ radius = {LENS}, focus_distance = {FOCUS} }}");
@@ -61,7 +61,7 @@ fn out_of_focus_a_lamp_becomes_the_disk_of_the_lens() {
                 (found / expected - 1.0).abs() < OUT_OF_FOCUS,
                 "lamp at {distance}, {who}: {found} instead of {expected}"
             );
-            // The lens takes no light and adds none: the lamp's own disk, spread.
+            // The lens neither removes nor adds light: the total is that of the emitter's own disk.
             let whole = PI * own * own;
             assert!(
                 (light / whole - 1.0).abs() < OUT_OF_FOCUS,
@@ -76,10 +76,10 @@ fn out_of_focus_a_lamp_becomes_the_disk_of_the_lens() {
 }
 
 #[test]
-fn in_focus_a_lamp_is_a_point() {
+fn a_lamp_in_focus_is_a_point() {
     let gpu = open();
     let lens = format!("lens = {{ radius = 0.5, focus_distance = {FOCUS} }}");
-    // A lens so wide sees the lamp's front from aside, where it reaches beyond the plane by a little.
+    // Such a wide lens sees the emitter's front from the side, where it extends slightly beyond the plane.
     let sharp = lamp_on_the_axis(&lens, 256, FOCUS, 0.2 * PIXEL);
     for (who, image) in pictures(&gpu, &sharp) {
         let lit: Vec<_> = lit(&image).filter(|(_, value)| *value > 0.0).collect();
@@ -88,10 +88,10 @@ fn in_focus_a_lamp_is_a_point() {
     }
 }
 
-/// Each pixel has of a small lamp what its filter weighs there, mean over the lamp's disk. Gaussian: exp(−x²/2σ²), σ half a pixel;
-/// Harris's window over 3 pixels (1978, equation 33).
+/// The light of a small emitter in a pixel is the mean of the pixel's filter over the emitter's disk. Gaussian: exp(−x²/2σ²), σ half a
+/// pixel; Harris's window over 3 pixels (1978, equation 33).
 #[test]
-fn a_lamp_is_weighed_by_the_filter_of_the_pixels() {
+fn a_lamp_is_weighted_by_the_pixel_filter() {
     const LAMP: f64 = 0.45;
     let gaussian = |x: f64| (-2.0 * x * x).exp();
     let window = |x: f64| {

@@ -1,4 +1,4 @@
-//! Pictures whose truth has a closed form: both renderers against formulas and optics, scene by scene.
+//! Pictures with a known closed form: compares both renderers with formulas and optics, scene by scene.
 
 mod coincidence;
 mod comparison;
@@ -17,7 +17,7 @@ use pellicle_tests::device::open;
 use pellicle_tests::tolerances::CLOSED_FORM;
 use std::f64::consts::PI;
 
-/// Two per cent off, the cosine forgotten, or too much noise: refused.
+/// A value two percent off, a missing cosine and too much noise are all refused.
 #[test]
 fn a_wrong_formula_is_noticed() {
     let gpu = open();

@@ -1,4 +1,4 @@
-//! Metals, smooth and rough.
+//! Smooth and rough metals.
 
 use crate::comparison::{DOWN, WHITE, check, render, scene};
 use optics::Complex64;
@@ -22,13 +22,13 @@ normal = [0, 1, 0]
 size = [2, 2]
 "#;
 
-/// Index of the one conductor at a wavelength, as the scene has it.
+/// Index of the only conductor at a wavelength, as the scene has it.
 fn metal(scene: &Scene, band: u32, offset: f64) -> Complex64 {
     let found = scene.materials().iter().find_map(|m| match *m {
         scene::Material::Interface { n, k, .. } => Some((n, k)),
         _ => None,
     });
-    let (n, k) = found.expect("there is a conductor");
+    let (n, k) = found.expect("the scene has a conductor");
     Complex64::new(
         scene.spectrum(n).at(band, offset),
         scene.spectrum(k).at(band, offset),
@@ -43,7 +43,7 @@ fn metal_mean(scene: &Scene, band: u32, f: impl Fn(Complex64) -> f64) -> f64 {
 
 #[test]
 fn a_mirror_reflects_its_reflectance() {
-    // Looks down at 60° from the normal.
+    // A camera that looks down at 60° from the normal.
     const ASLANT: &str = r#"
 [camera]
 type = "orthographic"
@@ -65,9 +65,9 @@ height = 0.01
     }
 }
 
-/// Directional albedo of a rough conductor seen along its normal: ∫ f R cos θ dω by quadrature, and of what is left the color of
-/// light that met several facets. Under the environment the light comes by scattering alone, in a luminous sphere by
-/// connections too.
+/// Directional albedo of a rough conductor seen along its normal: ∫ f R cos θ dω by quadrature, plus the rest times the color of
+/// light that was reflected by several facets. In the environment, light is found by BSDF sampling alone; in a luminous sphere, by emitter
+/// sampling too.
 #[test]
 fn a_rough_metal_reflects_its_albedo() {
     const SHELL: &str = r#"

@@ -1,4 +1,4 @@
-//! The clear sky and its sun: what they bring to flat ground, and what the sun shows, against spectral sums of the model itself.
+//! The clear sky and its sun: the radiance of flat ground and of the sun, against spectral sums of the model itself.
 
 use crate::comparison::{ALBEDO, BANDS, DOWN, FLOOR, LAMBERT, band_mean, check, render, scene};
 use pellicle_tests::device::open;
@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 const TURBIDITY: f64 = 2.5;
 const AZIMUTH_DEG: f64 = 70.0;
-/// Of the ground below the horizon.
+/// Reflectance of the ground below the horizon.
 const GROUND: f64 = 0.3;
 
 fn sky(elevation_deg: f64, sun: bool) -> String {
@@ -49,8 +49,8 @@ fn by_sky(amounts: [f64; 3], components: &[Spectrum; 3], nm: f64) -> f64 {
     terms.map(|(amount, of)| amount * of.at(nm).unwrap()).sum()
 }
 
-/// Irradiance of flat ground by the sun: its radiance times ∫ cos dω over its disk, π sin² of half of its diameter times the sine of
-/// its elevation.
+/// Irradiance of flat ground by the sun: its radiance times ∫ cos dω over its disk, π sin² of half its angular diameter times the sine
+/// of its elevation.
 fn by_sun(elevation_deg: f64, nm: f64) -> f64 {
     let solid = PI * (0.5 * SUN_DIAMETER_DEG).to_radians().sin().powi(2);
     model(elevation_deg).sun_radiance(nm) * solid * elevation_deg.to_radians().sin()
@@ -75,9 +75,9 @@ fn ground_under_the_sky_and_its_sun() {
     }
 }
 
-/// A view into the middle of the disk: its radiance, of which the sky before it is some 1e-5.
+/// A view into the middle of the disk shows its radiance; the sky in front of it adds some 1e-5.
 #[test]
-fn the_sun_has_its_radiance_where_it_stands() {
+fn the_sun_has_its_radiance_at_its_position() {
     let gpu = open();
     let elevation_deg: f64 = 35.0;
     let (sin_h, cos_h) = elevation_deg.to_radians().sin_cos();
@@ -93,9 +93,9 @@ fn the_sun_has_its_radiance_where_it_stands() {
     });
 }
 
-/// The ground of the picture, below the horizon, and a plane of its reflectance under the same sky have one radiance.
+/// The ground of the sky model, below the horizon, and a plane of the same reflectance under the same sky have equal radiance.
 #[test]
-fn a_plane_looks_like_the_ground_that_goes_on_from_it() {
+fn a_plane_looks_like_the_ground_beyond_it() {
     let gpu = open();
     let lit = |floor: &str| {
         let material =
@@ -109,7 +109,7 @@ fn a_plane_looks_like_the_ground_that_goes_on_from_it() {
         ])
     };
     let bare = reference::render(&lit(""), &mut |_| std::ops::ControlFlow::Continue(()));
-    let bare = bare.expect("nobody stops it");
+    let bare = bare.expect("nothing stops the render");
     let of_ground = |band| crate::Estimate::of(&bare, band).mean;
     assert!((0..BANDS).all(|band| of_ground(band) > 0.0));
     check(&gpu, "a plane", &lit(FLOOR), SKY_PICTURE, of_ground);

@@ -1,13 +1,13 @@
-//! What lies where: directions and pixels.
+//! Directions and pixels: checks where things appear in a picture.
 
 use crate::comparison::{LAMBERT, check, pictures, render, scene};
 use pellicle_tests::device::open;
 use pellicle_tests::tolerances::CLOSED_FORM_EXACT;
 use std::f64::consts::PI;
 
-/// A lamp as large as half a pixel lights the pixel that it should, and no other.
+/// An emitter as large as half a pixel lights the right pixel and no other.
 #[test]
-fn the_picture_is_neither_mirrored_nor_turned() {
+fn the_picture_is_neither_mirrored_nor_rotated() {
     const PIXEL: f64 = 0.05;
     const RADIUS: f64 = 0.02;
     let gpu = open();
@@ -36,7 +36,7 @@ fn the_picture_is_neither_mirrored_nor_turned() {
                 let lit = (0..60 * 40).filter(|i| image.pixel(i % 60, i / 60)[0] != 0.0);
                 let lit: Vec<_> = lit.map(|i| (i % 60, i / 60)).collect();
                 assert_eq!(lit, [(45, 8)], "{what}, {who}: {lens}");
-                // Covers half of it; the perspective widens it by some ten-thousandths, off the axis by 2 %.
+                // The emitter covers half of the pixel; the perspective widens it by some ten-thousandths, off the axis by 2 %.
                 let covered = f64::from(image.pixel(45, 8)[0]);
                 let expected = PI * RADIUS * RADIUS / (PIXEL * PIXEL);
                 assert!(
@@ -49,7 +49,7 @@ fn the_picture_is_neither_mirrored_nor_turned() {
 }
 
 #[test]
-fn a_gradient_is_what_it_says_in_each_direction() {
+fn a_gradient_has_its_stated_value_in_each_direction() {
     const SKY: &str = r#"
 [environment]
 type = "gradient"

@@ -1,4 +1,4 @@
-//! Wavelengths drawn in their bands, or fixed at the centers.
+//! Wavelengths sampled at random within their bands, or fixed at the centers.
 
 use crate::comparison::{
     BANDS, DOWN, Estimate, WHITE, band_mean, check, film, pictures, render, scene,
@@ -10,7 +10,7 @@ use spectra::SpectralImage;
 
 const FRINGES: (f64, f64) = (1.4, 3000.0);
 
-/// A film of many fringes a band before black, under constant light.
+/// A film with many fringes per band in front of black, under constant light.
 fn fringes(sampling: &str) -> Scene {
     const BLACK: &str = r#"
 [materials.black]
@@ -35,7 +35,7 @@ fn fringe(wavelength_nm: f64) -> f64 {
     film.reflectance.unpolarized()
 }
 
-/// The choice between reflection and transmission is the same in all bands, so the bands' ratios have no noise at all.
+/// The choice between reflection and transmission is the same in all bands, so the ratios of bands have no noise at all.
 fn has_ratios_of_centers(image: &SpectralImage) -> bool {
     let found: Vec<f64> = (0..BANDS).map(|b| Estimate::of(image, b).mean).collect();
     let sought: Vec<f64> = (0..BANDS)
@@ -64,7 +64,7 @@ fn fixed_wavelengths_are_the_centers_of_the_bands() {
     for (who, image) in pictures(&gpu, &drawn) {
         assert!(
             !has_ratios_of_centers(&image),
-            "{who}: means pass for centers"
+            "{who}: the ratios of band means equal those of the centers"
         );
     }
 }

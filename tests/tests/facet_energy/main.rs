@@ -1,4 +1,4 @@
-//! The light that several facets pass on: how far the term that puts it back is from a walk from facet to facet.
+//! Light reflected between facets: how far the term that adds it is from a random walk from facet to facet.
 
 mod walk;
 
@@ -35,10 +35,10 @@ fn eye(degrees: f64) -> [f64; 3] {
     direction(degrees.to_radians().cos(), 0.13)
 }
 
-/// Every walk ends above the surface, so that facets that reflect everything return everything; and as many leave from the first
-/// facet as the surface's albedo says, with their mean direction, within 4.5 standard errors.
+/// Every walk ends above the surface, so facets that reflect everything return everything; and the fraction that leaves from the first
+/// facet is the surface's albedo, with the right mean cosine, within 4.5 standard errors.
 #[test]
-fn the_walk_loses_nothing_and_begins_as_the_model_does() {
+fn the_walk_loses_nothing_and_its_first_facet_follows_the_model() {
     const WALKS: u32 = 20_000;
     views().for_each(|(seed, surface, degrees)| {
         let wo = eye(degrees);
@@ -71,8 +71,8 @@ fn the_walk_loses_nothing_and_begins_as_the_model_does() {
     });
 }
 
-/// As much light goes from any ring of directions to another by way of several facets as comes back; lit unevenly it is not
-/// so (the test can fail).
+/// Light that is reflected by several facets is exchanged equally between any two rings of directions; with uneven illumination it is
+/// not (the test can fail).
 #[test]
 fn the_walk_is_reciprocal() {
     const RINGS: usize = 6;
@@ -82,7 +82,7 @@ fn the_walk_is_reciprocal() {
         let passed = |unevenly: bool| {
             let mut counts = [[0.0_f64; RINGS]; RINGS];
             for index in 0..WALKS {
-                // Evenly in cos²: each direction counts with its cosine.
+                // Uniform in cos²: each direction is weighted by its cosine.
                 let cos2 = (f64::from(index) + 0.5) / f64::from(WALKS);
                 let cosine = if unevenly { cos2 } else { cos2.sqrt() };
                 let walk = Walk::new(&surface, direction(cosine, 0.0), index, 5);
@@ -105,12 +105,12 @@ fn the_walk_is_reciprocal() {
     }
 }
 
-/// What a facet is made of.
+/// The material of a facet.
 #[derive(Clone, Copy, Debug)]
 struct Facet {
     name: &'static str,
     metal: &'static str,
-    /// Titania, nm.
+    /// Thickness of a layer of titania, nm.
     film: Option<f64>,
 }
 
@@ -140,9 +140,9 @@ const FACETS: [Facet; 4] = [
 impl Facet {
     fn index(name: &str, nm: f64) -> Complex64 {
         let set = spectra::optical_constants(name)
-            .expect("it is shipped")
+            .expect("the material is shipped")
             .data;
-        set.at(nm).expect("it covers what is seen")
+        set.at(nm).expect("the data cover visible light")
     }
 
     fn bare(&self, nm: f64) -> impl Fn(f64) -> f64 {
@@ -177,7 +177,7 @@ fn spectrum(f: impl Fn(f64) -> f64) -> Spectrum {
     std::array::from_fn(|i| f(nanometers(i)))
 }
 
-/// XYZ under D65, Y = 1 for what reflects everything.
+/// XYZ under D65, with Y = 1 for a perfect reflector.
 fn xyz(reflectance: &Spectrum) -> [f64; 3] {
     let at = |nm: f64| {
         let place = (nm - f64::from(FIRST_NM)) / f64::from(STEP_NM);
@@ -187,13 +187,13 @@ fn xyz(reflectance: &Spectrum) -> [f64; 3] {
     pellicle_tests::colorimetry::xyz("D65", at).map(|x| 0.01 * x)
 }
 
-/// Y, and the color beside what reflects everything.
+/// Y, and the color relative to a perfect reflector.
 fn seen(reflectance: &Spectrum) -> (f64, Lab) {
     let found = xyz(reflectance);
     (found[1], Lab::from_xyz(found, xyz(&[1.0; COUNT])))
 }
 
-/// How the facets reflect over wavelength and cosine, by a table linear in the cosine.
+/// Reflectance of the facets over wavelength and cosine, as a table that is linear in the cosine.
 struct Table(Vec<Spectrum>);
 
 impl Table {
@@ -218,19 +218,19 @@ impl Table {
     }
 }
 
-/// What a surface returns of light from `eye`: as a walk has it, as the renderers have it, and as it would be otherwise.
+/// Light that a surface returns toward `wo`: by a walk, by the term of the renderers, and by alternatives to it.
 struct Returned {
     walk: Spectrum,
     term: Spectrum,
     /// Without the light between facets.
     none: Spectrum,
-    /// Its color taken from the mean of all wavelengths' reflectances (those of Y).
+    /// With its color from the mean reflectance over all wavelengths (weighted for Y).
     gray: Spectrum,
-    /// Its color taken from the metal without its film.
+    /// With its color from the metal without its film.
     bare: Spectrum,
 }
 
-/// The energy table that a scene has.
+/// The energy table of a scene.
 fn energy(surface: &Microsurface) -> scene::Microsurface {
     let distribution = match surface.distribution {
         Distribution::Beckmann => "beckmann",
@@ -248,7 +248,7 @@ fn energy(surface: &Microsurface) -> scene::Microsurface {
     found.expect("the material is rough").clone()
 }
 
-/// What is left of light that meets several facets, by walks; these are the same for all materials.
+/// The remaining fraction of light that is reflected by several facets, from walks; the walks are the same for all materials.
 fn several(tables: &[Table], walks: &[Walk]) -> Vec<Spectrum> {
     let longer: Vec<_> = walks.iter().filter(|w| w.cosines.len() > 1).collect();
     let of_table = |table: &Table| {
@@ -296,7 +296,7 @@ fn returned(surface: &Microsurface, degrees: f64, tables: &[Table], seed: u32) -
     FACETS.iter().enumerate().map(of_facet).collect()
 }
 
-/// By how much Y is off at most, and ΔE2000.
+/// The largest errors: of Y, and as ΔE2000.
 #[derive(Clone, Copy, Debug, Default)]
 struct Worst(f64, f64);
 
@@ -308,8 +308,8 @@ impl Worst {
     }
 }
 
-/// The figures of docs/surfaces.md: the worst over angles and both distributions. Without the light between facets, with gray in its
-/// place, or with the color of the metal without its film, they are far larger.
+/// The figures of docs/surfaces.md: the worst over angles and both distributions. Without the light between facets, with gray light
+/// instead, or with the color of the metal without its film, they are far larger.
 #[test]
 fn the_term_between_facets_has_a_stated_error() {
     let tables = FACETS.each_ref().map(Table::new);

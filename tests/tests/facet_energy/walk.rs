@@ -1,8 +1,8 @@
 //! A random walk on a surface of facets: Heitz, Hanika, d'Eon and Dachsbacher, Multiple-Scattering Microfacet BSDFs with the Smith
-//! Model, ACM TOG 35(4), 2016. Between two facets it moves in a medium of facets at all heights, that it meets by chance as Smith's
-//! masking has it; the heights of the facets that it meets one after another are independent but for that.
+//! Model, ACM TOG 35(4), 2016. Between two facets the walk moves in a medium of facets at all heights, which it meets with the
+//! probabilities of Smith's masking; the heights of successive facets are otherwise independent.
 //!
-//! A height stands here as the part of the surface that lies below it, so that no distribution of heights is needed.
+//! A height is expressed as the fraction of the surface that lies below it, so that no distribution of heights is needed.
 
 use optics::{Distribution, Microsurface};
 use reference::random4;
@@ -11,16 +11,16 @@ use std::f64::consts::{PI, TAU};
 /// More facets than any walk meets.
 const MOST: u32 = 10_000;
 
-/// Where a walk leaves, and what it met.
+/// Where a walk leaves, and the facets that it met.
 pub(crate) struct Walk {
-    /// The direction in which light leaves; none if it never did.
+    /// The direction in which light leaves; `None` if it never did.
     pub(crate) left: Option<[f64; 3]>,
     /// Cosines at the facets.
     pub(crate) cosines: Vec<f64>,
 }
 
 impl Walk {
-    /// Light from `eye`, its numbers named by `index` and `seed`.
+    /// A walk of light along `wo`, with random numbers identified by `index` and `seed`.
     pub(crate) fn new(surface: &Microsurface, wo: [f64; 3], index: u32, seed: u32) -> Self {
         let mut walk = Self {
             left: None,
@@ -45,8 +45,8 @@ impl Walk {
     }
 }
 
-/// The height at which a ray meets a facet next, or none where it leaves: upwards it does so with the chance C^Λ(ω), and
-/// C' = C (1 − u)^(−1/Λ(ω)) (equations 15 to 19 and algorithm 3); downwards, Λ(−ω) = −1 − Λ(ω).
+/// The height at which a ray meets the next facet, or `None` if it leaves: upward it leaves with probability C^Λ(ω), and otherwise
+/// C' = C (1 − u)^(−1/Λ(ω)) (equations 15 to 19 and algorithm 3); downward, Λ(−ω) = −1 − Λ(ω).
 fn next_height(surface: &Microsurface, direction: [f64; 3], below: f64, u: f64) -> Option<f64> {
     let upwards = surface.lambda(direction);
     let lambda = if direction[2] > 0.0 {
@@ -58,7 +58,7 @@ fn next_height(surface: &Microsurface, direction: [f64; 3], below: f64, u: f64) 
     (!leaves).then(|| below * (1.0 - u).powf(-1.0 / lambda))
 }
 
-/// A facet as often as a direction sees it, from below the horizon too.
+/// Samples a facet in proportion to its visibility from a direction, which may be below the horizon.
 fn visible_facet(surface: &Microsurface, wo: [f64; 3], u: f64, v: f64) -> [f64; 3] {
     match surface.distribution {
         // Spherical caps hold for all directions (Dupuy and Benyoub 2023).
@@ -67,12 +67,12 @@ fn visible_facet(surface: &Microsurface, wo: [f64; 3], u: f64, v: f64) -> [f64; 
     }
 }
 
-/// By the slope's cumulated distribution, F(x) = cos θ erfc(−x) + sin θ exp(−x²) / √π up to x = cot θ (Heitz and d'Eon 2014), halved
-/// down to rounding.
+/// Samples by the cumulative distribution of the slope, F(x) = cos θ erfc(−x) + sin θ exp(−x²) / √π up to x = cot θ (Heitz and d'Eon 2014),
+/// with bisection down to rounding.
 fn visible_beckmann_facet([along, across]: [f64; 2], wo: [f64; 3], u: f64, v: f64) -> [f64; 3] {
     let stretched = normalized([along * wo[0], across * wo[1], wo[2]]);
     let sine = stretched[0].hypot(stretched[1]);
-    // Straight from above any azimuth will do.
+    // Straight from above, any azimuth will do.
     let (x, y) = if sine > 0.0 {
         (stretched[0] / sine, stretched[1] / sine)
     } else {
@@ -102,7 +102,7 @@ fn visible_beckmann_facet([along, across]: [f64; 2], wo: [f64; 3], u: f64, v: f6
     ])
 }
 
-/// A unit vector of this cosine, in the azimuth of so many turns.
+/// A unit vector with this cosine and azimuth; the azimuth is in turns.
 pub(crate) fn direction(cosine: f64, turns: f64) -> [f64; 3] {
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
     let (y, x) = (TAU * turns).sin_cos();

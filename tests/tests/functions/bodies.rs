@@ -1,4 +1,4 @@
-//! gaussian.wgsl, and Cook's model and coats of bsdf/.
+//! Functions of gaussian.wgsl, and of Cook's model and coats in bsdf/.
 
 use crate::world::{World, direction, pick, rows};
 use crate::{Check, pure, table};
@@ -87,7 +87,7 @@ fn indices_of(wanted: fn(&Material) -> bool) -> Vec<usize> {
         .collect()
 }
 
-/// Materials by Cook's model.
+/// Materials with Cook's model.
 fn materials() -> Vec<usize> {
     indices_of(|material| matches!(material, Material::Cook(_)))
 }
@@ -135,7 +135,7 @@ fn facets() -> Check {
         proves: &["sample_cook_facet"],
         inputs: rows(4, |u| {
             let material = pick(&materials, u[0]);
-            // Clear of where the choice turns over.
+            // Away from the values at which the choice changes.
             let mut below = 0.0;
             let is_clear = cook(material as f64).facets.iter().all(|facets| {
                 below += facets.part;
@@ -152,13 +152,13 @@ fn facets() -> Check {
     }
 }
 
-/// A rough coat of a table's spectra, and what it lets in in the bands of a group.
+/// Transmittance of a rough coat from the spectra of a table, in the bands of a group.
 fn rough_coat(a: &[f64]) -> Vec<f64> {
     let scene = &world().scene;
     let Material::CoatedBody(body) = &scene.materials()[a[0] as usize] else {
         panic!("{a:?}");
     };
-    let first = body.reflectances.expect("it is rough");
+    let first = body.reflectances.expect("the coat is rough");
     let place = a[1].sqrt() * (CoatedBody::COSINES - 1) as f64;
     let knot = (place as usize).min(CoatedBody::COSINES - 2);
     let at = |knot: usize| scene.spectrum(first.after(knot)).at(4 + a[2] as u32, a[3]);
@@ -183,7 +183,7 @@ fn rough_coats() -> Check {
     }
 }
 
-/// By how much more rough coats let through in a direction; one of them is brushed.
+/// Factors by which rough coats transmit more in a direction; one of the coats is brushed.
 fn transmittance_scales() -> Check {
     let bodies: Vec<usize> = indices_of(
         |material| matches!(material, Material::CoatedBody(body) if body.microsurface.is_some()),
@@ -242,7 +242,7 @@ fn coats() -> [Check; 3] {
                 &[&[1.0, 3.0, 0.6], &[0.0, 1.0, 0.0]],
             ),
             twin: |a| vec![optics::coated_albedo_factor(a[0], a[1], a[2])],
-            // n² − ρ (n² − 1) cancels up to 9 against 8.6.
+            // n² − ρ (n² − 1) cancels, up to 9 against 8.6.
             tolerance: BECKMANN,
         },
     ]

@@ -1,11 +1,11 @@
-//! camera.wgsl: rays of the cameras, and the filters of pixels.
+//! Functions of camera.wgsl: rays of the cameras, and pixel filters.
 
 use crate::world::{World, everything, pictured};
 use crate::{Check, table};
 use pellicle_tests::tolerances::{DIRECTION, FILTER};
 use std::sync::OnceLock;
 
-/// Its camera is orthographic.
+/// A world whose camera is orthographic.
 fn wedge() -> &'static World {
     static WORLD: OnceLock<World> = OnceLock::new();
     WORLD.get_or_init(|| World::new("film_wedge"))

@@ -1,4 +1,4 @@
-//! emitter_choice.wgsl, and what emitter.wgsl says of lights that are no objects.
+//! Functions of emitter_choice.wgsl, and those of emitter.wgsl for emitters that are not objects.
 
 use crate::world::{everything, pictured, rounded, rows, unit, vector};
 use crate::{Check, pure, table};
@@ -16,7 +16,7 @@ fn emitter_of(number: f64) -> Emitter<'static> {
     Emitter::of(&everything().scene, sources()[number as usize].kind)
 }
 
-/// Number of a source, which is that of its emitter in a shader, a point and a unit vector.
+/// Rows of an emitter's number, which is the same in the shader, a point and a unit vector.
 fn places() -> Vec<f32> {
     let count = sources().len() as f64;
     rows(6, |u| {
@@ -78,7 +78,7 @@ pub(crate) fn checks() -> Vec<Check> {
             proves: &["choose_emitter"],
             inputs: choices(),
             twin: |a| {
-                let chosen = choose_emitter(chances(a).into_iter(), a[0]).expect("one of them shines");
+                let chosen = choose_emitter(chances(a).into_iter(), a[0]).expect("one of them emits");
                 vec![chosen.emitter as f64, chosen.pmf]
             },
             tolerance: EMITTER_WEIGHT,
@@ -120,7 +120,7 @@ fn chances(a: &[f64]) -> Vec<f64> {
     prepared.emitter_pmfs(vector(&a[1..]), vector(&a[4..]))
 }
 
-/// Numbers with points and normals, without those that lie within a rounding of the border between two lights.
+/// Rows of a number, a point and a normal, without those within a rounding of the border between two emitters.
 fn choices() -> Vec<f32> {
     let is_clear = |row: &&[f32]| {
         let row: Vec<f64> = row.iter().map(|&x| f64::from(x)).collect();
@@ -129,7 +129,7 @@ fn choices() -> Vec<f32> {
             sum += chance;
             (sum - row[0]).abs() > 1e-4
         });
-        // Where nothing can arrive, nothing is chosen.
+        // Nothing is chosen where no light can arrive.
         is_off && sum > 0.0
     };
     let numbers = table(&[(0.0, 0.999)], &[]);

@@ -1,4 +1,4 @@
-//! emitter.wgsl: directions toward the lights that are objects, and their densities.
+//! Functions of emitter.wgsl: directions toward emitters that are objects, and their densities.
 
 use crate::Check;
 use crate::world::{center_of, everything, pick, rounded, rows, unit, vector};
@@ -6,8 +6,8 @@ use glam::DVec3;
 use pellicle_tests::tolerances::{DIRECTION, EMITTER_PDF, EXACT, NEAR_LIGHT};
 use scene::{EmitterKind, Shape};
 
-/// A point from which a light is seen, or that lies in it. Of a sphere: within half a radius and more of its surface
-/// when `far`, from just outside it otherwise, or anywhere inside. Of a rectangle: within some five units of it, but
+/// A point from which an emitter is seen, or that lies inside it. For a sphere: half a radius or more from its surface
+/// when `far`, otherwise from just outside it, or anywhere inside. For a rectangle: within some five units of it, but
 /// not in its plane.
 fn point_about(light: &Shape, u: &[f64], far: bool) -> Option<DVec3> {
     match *light {
@@ -29,7 +29,7 @@ fn point_about(light: &Shape, u: &[f64], far: bool) -> Option<DVec3> {
     }
 }
 
-/// Points just outside a sphere light, within a hundredth of its radius.
+/// Points just outside a sphere emitter, within a hundredth of its radius.
 fn close_points() -> Vec<f32> {
     let world = everything();
     let spheres: Vec<usize> = lights_of(|shape| matches!(shape, Shape::Sphere { .. }));
@@ -38,7 +38,7 @@ fn close_points() -> Vec<f32> {
         let Shape::Sphere { center, radius } = *world.shape(light) else {
             return None;
         };
-        // At 1.000 005 radii the point counts as inside; half of that on either side is left out.
+        // Up to 1.000 005 radii the point counts as inside; points within half of that on either side are left out.
         let distance = radius * (1.0 + 0.01 * u[1].powi(4) + 8e-6);
         let point = rounded(center + distance * unit(u[2], u[3]));
         let row = [light as f64, point.x, point.y, point.z, u[4], u[5]];
@@ -56,7 +56,7 @@ fn lights_of(keep: impl Fn(&Shape) -> bool) -> Vec<usize> {
     objects.filter(|&light| keep(world.shape(light))).collect()
 }
 
-/// Rows of a light, a point and two numbers.
+/// Rows of an emitter, a point and two numbers.
 fn emitter_rows(far: bool) -> Vec<f32> {
     let world = everything();
     let lights = lights_of(|_| true);
@@ -82,7 +82,7 @@ fn emitter_rows(far: bool) -> Vec<f32> {
     all
 }
 
-/// The same with the direction that the numbers choose.
+/// The same rows with the direction that the numbers choose.
 fn pdf_rows(points: &[f32]) -> Vec<f32> {
     let world = everything();
     let made = points.chunks(6).filter_map(|row| {
@@ -162,7 +162,7 @@ pub(crate) fn checks() -> Vec<Check> {
     ]
 }
 
-/// Spheres with squared distances from their centers: anywhere, and close to the one that decides, but not within the
+/// Spheres with squared distances from their centers: anywhere, and close to the deciding distance, but not within the
 /// rounding of a product.
 fn squared_distances() -> Vec<f32> {
     let world = everything();
@@ -189,7 +189,7 @@ fn squared_distances() -> Vec<f32> {
     all
 }
 
-/// The comparison can fail: an area one part in a thousand off.
+/// The comparison can fail: an area that is one part in a thousand off.
 #[test]
 fn a_wrong_density_of_a_light_is_noticed() {
     let mut check = checks()

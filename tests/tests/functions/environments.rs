@@ -1,4 +1,4 @@
-//! environment.wgsl: what surrounds a scene.
+//! Functions of environment.wgsl.
 
 use crate::Check;
 use crate::world::{World, everything, pick, pictured, rounded, rows, unit, vector};
@@ -7,7 +7,7 @@ use pellicle_tests::tolerances::{ARITHMETIC, DIRECTION, EMITTER_PDF, NEAR_POLE};
 use scene::EnvironmentShape;
 use std::sync::OnceLock;
 
-/// Its environment are the same everywhere.
+/// A world whose environment is the same in all directions.
 fn furnace() -> &'static World {
     static WORLD: OnceLock<World> = OnceLock::new();
     WORLD.get_or_init(|| World::new("furnace"))
@@ -89,7 +89,7 @@ fn of_world(world: &'static World, sampled: Twin, density: Twin) -> Vec<Check> {
     ]
 }
 
-/// What environment by a picture are made of.
+/// Functions of environments from pictures.
 const OF_PICTURES: &[&str] = &[
     "direction_table",
     "load_panorama",

@@ -1,12 +1,12 @@
-//! microsurface.wgsl where it is hardest for f32: the smoothest facets, grazing directions and the last of the numbers that are drawn.
+//! Functions of microsurface.wgsl where f32 is weakest: the smoothest facets, grazing directions and the largest random numbers.
 
 use crate::Check;
 use crate::facets::{densities, facet_draws, lambdas, reflections, slopes};
 use pellicle_tests::tolerances::{FACET_TAIL, FACETS, LAMBDA, NARROW_FACETS, SLOPE_TAIL};
 
-/// The largest number that is drawn.
+/// The largest random number.
 const LAST: f32 = 1.0 - f32::EPSILON / 2.0;
-/// The smoothest facets, those of the strongest grain, and the roughest: a tag and two widths.
+/// The smoothest facets, those with the strongest grain, and the roughest: a tag and two widths.
 const SURFACES: [[f32; 3]; 8] = [
     [0.0, 0.02, 0.02],
     [1.0, 0.02, 0.02],
@@ -17,7 +17,7 @@ const SURFACES: [[f32; 3]; 8] = [
     [0.0, 1.0, 1.0],
     [1.0, 1.0, 1.0],
 ];
-/// Cosines and turns: in the middle of the highlight, at its edge, aside, and near the horizon.
+/// Cosines and turns: in the middle of the highlight, at its edge, beside it, and near the horizon.
 const DIRECTIONS: [[f32; 2]; 6] = [
     [1.0, 0.0],
     [LAST, 0.3],
@@ -26,7 +26,7 @@ const DIRECTIONS: [[f32; 2]; 6] = [
     [1e-3, 0.1],
     [1e-3, 0.25],
 ];
-/// The eye's cosine and the light's cosine and turn: near the mirror's direction and far from it.
+/// Cosine of `wo`, and cosine and turn of `wi`: near the mirror direction and far from it.
 const BETWEEN: [[f32; 3]; 8] = [
     [1e-3, 1e-3, 0.5],
     [1e-3, 1e-3, 0.0],
@@ -37,7 +37,7 @@ const BETWEEN: [[f32; 3]; 8] = [
     [0.7, 0.71, 0.5],
     [1.0, 1.0, 0.0],
 ];
-/// The eye's cosine and turn, and two numbers.
+/// Cosine and turn of `wo`, and two numbers.
 const DRAWS: [[f32; 4]; 9] = [
     [1e-3, 0.1, 0.5, 0.5],
     [1e-3, 0.1, 0.0, 0.0],
@@ -50,7 +50,7 @@ const DRAWS: [[f32; 4]; 9] = [
     [LAST, 0.3, LAST, LAST],
 ];
 
-/// Every surface with every row.
+/// Every surface combined with every row.
 fn on_all<const N: usize>(rows: &[[f32; N]]) -> Vec<f32> {
     let of_surface = |surface: &[f32; 3]| -> Vec<f32> {
         let with_rows = rows.iter().map(|row| [&surface[..], row].concat());

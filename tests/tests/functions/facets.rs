@@ -1,4 +1,4 @@
-//! microsurface.wgsl, and the facets of bsdf/.
+//! Functions of microsurface.wgsl, and of the facets in bsdf/.
 
 use crate::world::{
     center_of, direction, everything, objects_where, pick, point_on, rounded, rows, vector,
@@ -20,7 +20,7 @@ pub(crate) fn checks() -> Vec<Check> {
         .collect()
 }
 
-/// Of three numbers: a tag and two widths.
+/// A surface from three numbers: a tag and two widths.
 fn surface_of(a: &[f64]) -> Microsurface {
     let distribution = if a[0] < 1.0 {
         Distribution::Beckmann
@@ -35,7 +35,7 @@ fn surface_of(a: &[f64]) -> Microsurface {
 
 const SURFACE: [(f32, f32); 3] = [(0.0, 1.999_999), (0.1, 1.0), (0.1, 1.0)];
 
-/// The columns of a surface and others.
+/// Rows with the columns of a surface and others.
 fn with_surface(others: &[(f32, f32)], edges: &[&[f32]]) -> Vec<f32> {
     table(&[&SURFACE, others].concat(), edges)
 }
@@ -63,7 +63,7 @@ fn special_functions() -> Vec<Check> {
             tolerance: SCALED_ERFC,
         },
         Check {
-            // Winitzki's formula is off by 2e-3 itself.
+            // Winitzki's formula itself is off by 2e-3.
             probe: pure((1, 1), "put(0u, rough_inverse_erf(a(0u)));"),
             proves: &["rough_inverse_erf"],
             inputs: table(&[(0.001, 1.999)], &[&[1.0], &[0.5], &[1e-4]]),
@@ -73,7 +73,7 @@ fn special_functions() -> Vec<Check> {
     ]
 }
 
-/// The x of which erfc(−x) is `share`, by halving.
+/// The x for which erfc(−x) is `share`, by bisection.
 fn inverse_erf(share: f64) -> f64 {
     let (mut low, mut high) = (-6.0, 6.0);
     for _ in 0..60 {
@@ -87,7 +87,7 @@ fn inverse_erf(share: f64) -> f64 {
     low
 }
 
-/// Densities of a facet, from a surface and the facet's cosine and turn.
+/// Checks densities of a facet, from a surface and the facet's cosine and turn.
 pub(crate) fn densities(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
     Check {
         probe: pure(
@@ -102,7 +102,7 @@ pub(crate) fn densities(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
     }
 }
 
-/// Smith's Λ, from a surface and a direction's cosine and turn.
+/// Checks Smith's Λ, from a surface and a direction's cosine and turn.
 pub(crate) fn lambdas(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
     Check {
         probe: pure(
@@ -117,7 +117,7 @@ pub(crate) fn lambdas(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
     }
 }
 
-/// What facets mirror, from a surface, the eye's cosine and the light's cosine and turn.
+/// Checks the reflection of facets, from a surface, the cosine of `wo`, and the cosine and turn of `wi`.
 pub(crate) fn reflections(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
     Check {
         probe: pure(
@@ -184,7 +184,7 @@ fn sampled(a: &[f64]) -> Vec<f64> {
 
 const SAMPLED: [(f32, f32); 4] = [(0.001, 1.0), (0.0, 1.0), (1e-6, 0.999), (1e-6, 0.999)];
 
-/// Facets drawn, from a surface, the eye's cosine and turn and two numbers.
+/// Checks sampled facets, from a surface, the cosine and turn of `wo`, and two numbers.
 pub(crate) fn facet_draws(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
     Check {
         probe: pure((7, 3),
@@ -198,10 +198,10 @@ pub(crate) fn facet_draws(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
     }
 }
 
-/// Slopes drawn, from a cosine and a number.
+/// Checks sampled slopes, from a cosine and a number.
 pub(crate) fn slopes(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
     Check {
-        // The slope aside is 0 where its number is a half.
+        // The slope across is 0 where its number is a half.
         probe: pure(
             (2, 1),
             "put(0u, visible_slope(a(0u), sqrt(1.0 - a(0u) * a(0u)), a(1u)));",
@@ -282,7 +282,7 @@ fn rough_rows() -> Vec<f32> {
     assert!(rough.iter().filter(|object| brushed(object)).count() >= 2);
     rows(8, move |u| {
         let object = pick(&rough, u[0]) as f64;
-        // Not where the choice between the two samplers hangs on the last digit.
+        // Leaves out rows where the choice between the two samplers depends on the last digit.
         let wo = direction(0.02 + 0.98 * u[1], u[2]);
         let lost = facets_of(object).sample(wo, [0.5, 0.5, u[7] + 1e-5])
             == facets_of(object).sample(wo, [0.5, 0.5, u[7] - 1e-5]);
@@ -351,7 +351,7 @@ fn of_materials() -> Vec<Check> {
     ]
 }
 
-/// Frames of rough objects, brushed or not, and of a diffuse one.
+/// Checks frames of rough objects, brushed or not, and of a diffuse one.
 fn surface_frames() -> Check {
     let world = everything();
     let mut objects = objects_where(|_, material| material.microsurface().is_some());

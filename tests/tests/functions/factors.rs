@@ -1,4 +1,4 @@
-//! What surfaces and films make of light: bsdf/diffuse.wgsl, bsdf/interface.wgsl and layers.wgsl.
+//! Factors by which surfaces and films change light: bsdf/diffuse.wgsl, bsdf/interface.wgsl and layers.wgsl.
 
 use crate::Check;
 use crate::world::{
@@ -18,7 +18,7 @@ pub(crate) fn checks() -> Vec<Check> {
     all
 }
 
-/// Whether a point lies a ten-thousandth of a square off the edges of its squares.
+/// Whether a point is a ten-thousandth of a square away from the edges of its squares.
 fn is_off_the_edges(shape: &Shape, size: f64, point: DVec3) -> bool {
     let local = (point - center_of(shape)) / size;
     let axes = match *shape {
@@ -48,7 +48,7 @@ fn diffuse_factor() -> Check {
             Material::Diffuse {
                 reflectance: scene::Pattern::Checker { size, .. },
             } => is_off_the_edges(shape, size, point),
-            // The odds of a texel are off by some 1e-5.
+            // The probabilities of a texel are off by some 1e-5.
             _ => [-1e-4, 1e-4].iter().all(|off| {
                 let mut beside = row.clone();
                 beside[4] += off;
@@ -81,7 +81,7 @@ fn diffuse_factor() -> Check {
     }
 }
 
-/// The number of the spectrum or texel, and a thousand times the kind of factor.
+/// The number of the spectrum or texel, plus a thousand times the kind of factor.
 fn factor_of_pattern(a: &[f64]) -> Vec<f64> {
     let (world, object) = (everything(), a[0] as usize);
     let Material::Diffuse { reflectance } = world.material(object) else {
@@ -97,13 +97,13 @@ fn factor_of_pattern(a: &[f64]) -> Vec<f64> {
             let first = diffuse.picture as usize + 1;
             let is_it = |texel: &[f32; 4]| (0..3).all(|i| f64::from(texel[i]) == coefficients[i]);
             let texels = &world.packed.texels[first..];
-            let place = texels.iter().position(is_it).expect("one of its own");
+            let place = texels.iter().position(is_it).expect("the texel exists");
             vec![(2_000 + first + place) as f64]
         }
     }
 }
 
-/// Of a vertex of weight 1, at its two cosines.
+/// A surface vertex of weight 1, with its two cosines.
 const OF_SURFACE: &str = "
     let f = factor_of(u32(a(0u)), u32(a(1u)));
     let at = At(0u, u32(a(4u)), wavelengths_at(a(5u)));
@@ -140,7 +140,7 @@ fn factor_twin(a: &[f64]) -> Vec<f64> {
     [of(0), of(1)].concat()
 }
 
-/// Rows of a factor, a group and an offset: each of the kinds with each of its spectra.
+/// Rows of a factor, a group and an offset: each kind with each of its spectra.
 fn factor_rows(choices: &[(u32, usize)]) -> Vec<f32> {
     rows(5, |u| {
         let (kind, spectrum) = pick(choices, u[0]);
@@ -211,26 +211,26 @@ fn factors() -> Vec<Check> {
     ]
 }
 
-/// The tables hold what they are for: each color of a pattern, each kind of factor.
+/// The tables serve their purpose: they contain each color of a pattern and each kind of factor.
 #[test]
 fn every_factor_occurs() {
     assert_eq!(
         // A spectrum and a texel may have the same number.
         first_numbers(&diffuse_factor(), factor_of_pattern).len(),
-        // Seven spectra, and the 35 texels of either picture.
+        // Seven spectra, and the 35 texels of each picture.
         7 + 35 + 35
     );
     let kinds: BTreeSet<i64> = factors()
         .iter()
         .flat_map(|check| first_numbers(check, <[f64]>::to_vec))
         .collect();
-    // Factors of several layers read what a path has put on record, and are proved there.
+    // Factors of several layers read the record of a path, and are proved by the suite `paths`.
     assert_eq!(kinds, [1, 3, 7, 8].into());
 }
 
-/// The comparison can fail: a checker with its colors changed over.
+/// The comparison can fail: a checker with its colors exchanged.
 #[test]
-fn a_pattern_out_of_place_is_noticed() {
+fn a_pattern_with_exchanged_colors_is_noticed() {
     let mut check = diffuse_factor();
     check.twin = |a| factor_of_pattern(&[a[0], a[1] + 0.01, a[2], a[3], a[4]]);
     assert!(check.run().is_err());

@@ -1,4 +1,4 @@
-//! Every WGSL function against its twin in Rust, on many inputs with the edges among them.
+//! Compares every WGSL function with its Rust twin, on many inputs that include the edge cases.
 
 mod bodies;
 mod cameras;
@@ -29,7 +29,7 @@ use pellicle_tests::workers::is_asked_for;
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
-/// Rows of a table of inputs.
+/// Number of rows in a table of inputs.
 const ROWS: usize = 100_000;
 
 fn device() -> &'static Gpu {
@@ -37,10 +37,10 @@ fn device() -> &'static Gpu {
     GPU.get_or_init(pellicle_tests::device::open)
 }
 
-/// A check of one function, or of a few that belong together.
+/// A check of one function, or of a few related ones.
 struct Check {
     probe: Probe<'static>,
-    /// Functions that it proves; they must really be called.
+    /// Functions that the check proves; the probe must really call them.
     proves: &'static [&'static str],
     inputs: Vec<f32>,
     twin: fn(&[f64]) -> Vec<f64>,
@@ -70,12 +70,12 @@ impl Check {
     }
 }
 
-/// Rows of numbers, each column uniform in its range, after the edges given.
+/// Rows of numbers, after the given edge cases; each column is uniform in its range.
 fn table(ranges: &[(f32, f32)], edges: &[&[f32]]) -> Vec<f32> {
     let mut numbers: Vec<f32> = edges.iter().flat_map(|row| row.to_vec()).collect();
     assert!(
         edges.iter().all(|row| row.len() == ranges.len()),
-        "an edge has another number of columns"
+        "an edge case has another number of columns"
     );
     for row in 0..ROWS as u32 {
         for (column, &(low, high)) in ranges.iter().enumerate() {
@@ -119,7 +119,7 @@ fn every_function_agrees_with_its_twin() {
     let results: Vec<_> = checks.iter().filter(is_asked_for).map(Check::run).collect();
     assert!(
         !results.is_empty(),
-        "PELLICLE_ONLY names no function that a probe proves"
+        "PELLICLE_ONLY does not name a function that a probe proves"
     );
     for report in results.iter().flatten() {
         println!("{report}");
@@ -154,7 +154,7 @@ fn every_function_of_the_shaders_is_proved() {
     assert_eq!(declared, proved);
 }
 
-/// The comparison above can fail: an index one per cent off, a sine in place of a cosine.
+/// The comparison above can fail: an index one percent off, a sine instead of a cosine.
 #[test]
 fn a_wrong_twin_is_noticed() {
     let mut checks = optics_functions::checks();

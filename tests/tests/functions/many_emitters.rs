@@ -1,4 +1,4 @@
-//! The tree of emitters of emitter_choice.wgsl: the choice among many.
+//! Functions of the emitter tree in emitter_choice.wgsl: the choice among many emitters.
 
 use crate::Check;
 use crate::world::{World, rounded, rows, unit, vector};
@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::OnceLock;
 
-/// Lamps of four kinds in the cells of a cube, with axes to all sides, and the sun.
+/// A world with lamps of four kinds in the cells of a cube, with axes in all directions, and the sun.
 fn world() -> &'static World {
     static WORLD: OnceLock<World> = OnceLock::new();
     WORLD.get_or_init(|| {
@@ -36,7 +36,7 @@ fn world() -> &'static World {
                 2 => writeln!(text, "{light}\ntype = 'point'"),
                 _ => writeln!(text, "{light}\ntype = 'spot'\ndirection = {axis:?}\nangle_deg = 40"),
             }
-            .expect("a string takes it");
+            .expect("writing to a string succeeds");
         }
         let scene = SceneFile::parse("lamps", &text, Path::new(""))
             .and_then(|file| file.validate())
@@ -47,7 +47,7 @@ fn world() -> &'static World {
     })
 }
 
-/// The emitter that a number chooses at a point with a normal, and its probability; none where nothing can arrive.
+/// The emitter that a number chooses at a point with a normal, and its probability; `None` where no light can arrive.
 fn choice(a: &[f64]) -> Option<(usize, f64)> {
     static PREPARED: OnceLock<PreparedScene> = OnceLock::new();
     let prepared = PREPARED.get_or_init(|| PreparedScene::new(&world().scene));
@@ -55,7 +55,7 @@ fn choice(a: &[f64]) -> Option<(usize, f64)> {
     Some((choice.emitter, choice.pmf))
 }
 
-/// Whether a row is clear of where the choice turns over, by its number or by which groups the point is near to.
+/// Whether a row is away from values at which the choice changes, by its number or by the groups that the point is near.
 fn is_clear(row: &[f64]) -> bool {
     let Some((emitter, pmf)) = choice(row) else {
         return false;
@@ -104,7 +104,7 @@ pub(crate) fn checks() -> Vec<Check> {
 
 /// The tree is deep, most rows are clear, and many emitters are chosen.
 #[test]
-fn the_choice_among_many_is_looked_at() {
+fn the_choice_among_many_is_covered() {
     let nodes = world().scene.emitter_tree().nodes.len();
     assert!(nodes > 200, "{nodes}");
     let check = &checks()[0];

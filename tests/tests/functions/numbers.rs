@@ -1,4 +1,4 @@
-//! trig.wgsl, random.wgsl, complex.wgsl.
+//! Functions of trig.wgsl, random.wgsl and complex.wgsl.
 
 use crate::{Check, pure, table};
 use num_complex::Complex64;
@@ -242,7 +242,7 @@ fn complex() -> Vec<Check> {
     ]
 }
 
-/// Products of numbers up to 4: sums of terms up to 16 and their roundings.
+/// Products of numbers up to 4: sums of terms up to 16, and their rounding.
 const ARITHMETIC_OF_TENS: pellicle_tests::agreement::Tolerance =
     pellicle_tests::agreement::Tolerance {
         absolute: 8e-6,

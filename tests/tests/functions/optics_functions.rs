@@ -1,4 +1,4 @@
-//! fresnel.wgsl, film.wgsl, microfacet.wgsl.
+//! Functions of fresnel.wgsl, film.wgsl and microfacet.wgsl.
 
 use crate::{Check, pure, table};
 use num_complex::Complex64;
@@ -68,7 +68,7 @@ const LOSSY: &str =
     "let f = film_powers(vec4f(a(0u)), vec4f(a(1u)), a(2u), vec4f(1.0 / a(3u)), a(4u));
     put(0u, f.reflectance.x); put(1u, f.transmittance.x);";
 
-/// Ordinary films to 88° and beyond, and thick ones: a check for each tolerance.
+/// Ordinary films up to 88° and beyond, and thick ones: one check per tolerance.
 fn films() -> Vec<Check> {
     [transparent_films(), lossy_films()]
         .into_iter()

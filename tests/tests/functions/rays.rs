@@ -1,4 +1,4 @@
-//! hit.wgsl and surface.wgsl: what a ray meets, and where.
+//! Functions of hit.wgsl and surface.wgsl: the object that a ray hits, and the point.
 
 use crate::Check;
 use crate::world::{
@@ -39,7 +39,7 @@ fn distance(shape: &Shape, ray: &Ray, starts_here: bool) -> f64 {
     found.unwrap_or(MISS)
 }
 
-/// How far a point in the plane of a rectangle or disk lies outside it, below 0 inside.
+/// How far a point in the plane of a rectangle or disk lies outside it; negative inside.
 fn beyond_the_edge(shape: &Shape, place: DVec3) -> f64 {
     if let Shape::Disk { center, radius, .. } = *shape {
         return (place - center).length() - radius;
@@ -60,7 +60,7 @@ fn beyond_the_edge(shape: &Shape, place: DVec3) -> f64 {
     aside.max(place.dot(bitangent).abs() - half_height)
 }
 
-/// Whether the ray passes a shape's edge and starts off its surface by a thousandth, and does not run along it.
+/// Whether the ray misses the shape's edge and starts off its surface by a thousandth, and does not run along it.
 fn is_clear(shape: &Shape, ray: &Ray, starts_here: bool) -> bool {
     const LEAST: f64 = 1e-3;
     let origin = ray.origin - center_of(shape);
@@ -86,7 +86,7 @@ fn is_clear(shape: &Shape, ray: &Ray, starts_here: bool) -> bool {
     }
 }
 
-/// A ray made of nine numbers: from anywhere or from the surface of an object, mostly toward one.
+/// A ray made from nine numbers: from anywhere or from the surface of an object, mostly toward an object.
 fn ray_of(u: &[f64]) -> (Option<usize>, Ray) {
     let world = everything();
     let all = objects_where(|_, _| true);
@@ -113,7 +113,7 @@ fn ray_row(first: &[f64], ray: &Ray) -> Vec<f64> {
     [first, &ray.origin.to_array(), &ray.direction.to_array()].concat()
 }
 
-/// No object is −1 in a table.
+/// The number of an object in a table; −1 for none.
 fn number_of(object: Option<usize>) -> f64 {
     object.map_or(-1.0, |index| index as f64)
 }
@@ -133,7 +133,7 @@ fn distance_to() -> Check {
         proves: &["covers", "distance_to", "distance_to_shape"],
         inputs: rows(9, |u| {
             let (from, ray) = ray_of(u);
-            // The object aimed at, or the one that the ray starts on.
+            // The object that the ray is aimed at, or the one that it starts on.
             let starts_here = u[5] < 0.2 && from.is_some();
             let object = from.filter(|_| starts_here).unwrap_or(pick(&all, u[4]));
             let is_clear = is_clear(world.shape(object), &ray, from == Some(object));
@@ -165,7 +165,7 @@ fn nearest_hit() -> Check {
                 .filter(|&t| t > 0.0)
                 .collect();
             distances.sort_by(f64::total_cmp);
-            // Where two objects touch either may be the nearer one.
+            // Where two objects touch, either may be the nearer one.
             let is_decided = distances.len() < 2 || distances[1] - distances[0] > 1e-3 * distances[1];
             let is_kept = is_decided
                 && shapes().all(|(index, shape)| is_clear(shape, &ray, from == Some(index)));
@@ -214,9 +214,9 @@ fn surface_point() -> Check {
     }
 }
 
-/// The tables hold what they are for: hits of each object and of none.
+/// The tables serve their purpose: they contain hits of each object and misses.
 #[test]
-fn every_object_is_met() {
+fn every_object_is_hit() {
     let objects = everything().scene.objects().len() as i64;
     assert_eq!(
         first_numbers(&nearest_hit(), nearest),

@@ -1,4 +1,4 @@
-//! sampling.wgsl, intersect.wgsl, and mirrored of path_state.wgsl.
+//! Functions of sampling.wgsl and intersect.wgsl, and `mirrored_at` of path_state.wgsl.
 
 use crate::{Check, pure, table};
 use glam::DVec3;
@@ -19,7 +19,7 @@ fn unit(a: &[f64]) -> DVec3 {
 fn directions() -> Vec<Check> {
     vec![
         Check {
-            // Given whole, so that both sides see the same sign of z.
+            // The whole vector is an input, so that both sides see the same sign of z.
             probe: pure(
                 (3, 9),
                 "let f = frame_of(a3(0u)); put3(0u, f[0]); put3(3u, f[1]); put3(6u, f[2]);",
@@ -77,7 +77,7 @@ fn directions() -> Vec<Check> {
     ]
 }
 
-/// Unit vectors rounded to f32, the axes among them.
+/// Unit vectors rounded to f32, including the axes.
 fn unit_vectors() -> Vec<f32> {
     let rows = table(
         &[(-1.0, 1.0), (0.0, 1.0)],
@@ -115,7 +115,7 @@ fn ray(a: &[f64]) -> reference::Ray {
     }
 }
 
-/// Rays that start within ±5 of the origin; `keep` leaves out those whose answer hangs on the last digit.
+/// Rays that start within ±5 of the origin; `keep` leaves out those whose result depends on the last digit.
 fn rays(keep: impl Fn(&[f64]) -> bool) -> Vec<f32> {
     let origins = table(
         &[(-5.0, 5.0); 3],
@@ -134,21 +134,21 @@ fn rays(keep: impl Fn(&[f64]) -> bool) -> Vec<f32> {
 const MISS: f64 = -1.0;
 const RADIUS: f64 = 1.5;
 
-/// The ray passes the sphere's edge, or starts at its surface, within a thousandth.
+/// Whether the ray misses the sphere's edge and does not start at its surface, by a thousandth.
 fn sphere_is_clear(a: &[f64]) -> bool {
     let ray = ray(a);
     let nearest = ray.origin - ray.origin.dot(ray.direction) * ray.direction;
     (nearest.length() - RADIUS).abs() > 1e-3 && (ray.origin.length() - RADIUS).abs() > 1e-3
 }
 
-/// A sphere through the origin with the curvature 0.001, its normal there as an `f32` has it.
+/// A sphere through the origin with curvature 0.001, with its normal there rounded to `f32`.
 fn large_sphere() -> (DVec3, f64) {
     let normal = DVec3::new(0.0, f64::from(0.6_f32), f64::from(0.8_f32));
     let radius = 1.0 / f64::from(0.001_f32);
     (-radius * normal, radius * normal.length())
 }
 
-/// The ray starts off the sphere by a thousandth, and does not run along it.
+/// Whether the ray starts off the sphere by a thousandth, and does not run along it.
 fn large_sphere_is_clear(ray: &reference::Ray) -> bool {
     let (center, radius) = large_sphere();
     let outwards = (ray.origin - center).normalize();
@@ -183,7 +183,7 @@ fn distances() -> Vec<Check> {
             twin: |a| {
                 let mut ray = ray(a);
                 ray.origin *= RADIUS;
-                // Tangents within rounding may go either way; both answers are then 0 or a miss.
+                // Tangents within rounding may go either way; both results are then 0 or a miss.
                 let along = ray.origin.dot(ray.direction);
                 if along.abs() < 1e-6 {
                     return vec![if along < 0.0 { -2.0 * along } else { MISS }];

@@ -1,4 +1,4 @@
-//! spectrum.wgsl and lifting.wgsl: spectra at the wavelengths of a sample.
+//! Functions of spectrum.wgsl and lifting.wgsl: spectra at the wavelengths of a sample.
 
 use crate::Check;
 use crate::world::{BANDS, GROUPS, bands_of, everything, rows, value_of};
@@ -8,7 +8,7 @@ fn steps() -> u32 {
     everything().packed.frame.steps
 }
 
-/// A spectrum, or one of the observer's after them, which are 0 behind the last band.
+/// A spectrum, or one of the observer's, which come after them and are 0 beyond the last band.
 fn spectrum_twin(a: &[f64]) -> Vec<f64> {
     let (scene, spectrum) = (&everything().scene, a[0] as usize);
     let value = |band| match spectrum.checked_sub(scene.spectra().len()) {

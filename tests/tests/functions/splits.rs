@@ -1,4 +1,4 @@
-//! split.wgsl: where paths divide or end.
+//! Functions of split.wgsl: where paths split or end.
 
 use crate::world::{everything, rows};
 use crate::{Check, table};

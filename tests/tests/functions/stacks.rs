@@ -1,4 +1,4 @@
-//! stack.wgsl, two_beam.wgsl.
+//! Functions of stack.wgsl and two_beam.wgsl.
 
 use crate::{Check, pure, table};
 use num_complex::Complex64;
@@ -21,8 +21,8 @@ const STEEP: f32 = 0.0349;
 /// cos 89.99°.
 const SHALLOW: f32 = 1.745e-4;
 
-/// Two layers on a substrate: incident index, its cosine, wavelength, the substrate's n and k, and of each layer, the upper
-/// one first, n, k and thickness.
+/// Two layers on a substrate: incident index, its cosine, wavelength, the substrate's n and k, and n, k and thickness of each layer,
+/// the upper one first.
 const STACK: &str = "
     let n0 = a(0u);
     let incident = Incident(n0 * n0, n0 * n0 * a(1u) * a(1u));
@@ -65,7 +65,7 @@ fn stack(cosines: (f32, f32), thickest: f32, tolerance: Tolerance) -> Check {
                 thickness,
             ],
             &[
-                // Nothing but air; a bare mirror; glass seen from within, before, at about and beyond the critical angle.
+                // Nothing but air; a bare mirror; glass seen from within, below, near and beyond the critical angle.
                 &[1.0, 0.5, 500.0, 1.0, 0.0, 1.0, 0.0, 100.0, 1.0, 0.0, 100.0],
                 &[1.0, 1.0, 500.0, 0.05, 3.4, 1.5, 0.0, 0.0, 1.5, 0.0, 0.0],
                 &[1.5, 0.8, 500.0, 1.0, 0.0, 1.5, 0.0, 80.0, 1.0, 0.0, 0.0],
@@ -155,7 +155,7 @@ fn two_beams() -> Vec<Check> {
     }]
 }
 
-/// The comparison can fail: the layers in the wrong order, and one beam's path without its index.
+/// The comparison can fail: the layers in the wrong order, and the path of one beam without its index.
 #[test]
 fn a_wrong_twin_of_a_stack_is_noticed() {
     let mut check = stack((STEEP, 1.0), 1000.0, FILM);

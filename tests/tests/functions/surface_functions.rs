@@ -1,5 +1,5 @@
-//! The whole reflection function of every surface that scatters, with its spectrum: against the reference, and with `wo` and `wi`
-//! changed over (Helmholtz's reciprocity). Smooth surfaces and films only mirror and let through, by a factor of the one cosine.
+//! The whole BSDF of every surface that scatters, with its spectrum: against the reference, and with `wo` and `wi` exchanged (Helmholtz
+//! reciprocity). Smooth surfaces and films only reflect specularly and transmit, by a factor of a single cosine.
 
 use crate::Check;
 use crate::world::{BANDS, World, direction, pick, rows};
@@ -33,7 +33,7 @@ const MATERIALS: &[&str] = &[
 
 const RADIUS: f64 = 0.25;
 
-/// A sphere of each material.
+/// A world with a sphere of each material.
 fn world() -> &'static World {
     static WORLD: OnceLock<World> = OnceLock::new();
     WORLD.get_or_init(|| {
@@ -61,7 +61,7 @@ fn world() -> &'static World {
     })
 }
 
-/// The normal where a sphere is met.
+/// The normal where a sphere is hit.
 const NORMAL: DVec3 = DVec3::new(0.6, 0.8, 0.0);
 
 const BODY: &str = "
@@ -93,7 +93,7 @@ fn both_ways(a: &[f64]) -> Vec<f64> {
     let (world, object) = (world(), a[0] as usize);
     let prepared = PREPARED.get_or_init(|| PreparedScene::new(&world.scene));
     let Shape::Sphere { center, radius } = *world.shape(object) else {
-        panic!("only spheres are here");
+        panic!("the world has only spheres");
     };
     let (first, second) = (DVec3::from_slice(&a[3..]), DVec3::from_slice(&a[6..]));
     let one_way = |wo: DVec3, wi: DVec3| {
@@ -104,7 +104,7 @@ fn both_ways(a: &[f64]) -> Vec<f64> {
             is_front: true,
         };
         let surface = SurfaceFunction::new(prepared, object, &point, a[2], 0.5);
-        let values = surface.expect("all scatter").values(wo, wi);
+        let values = surface.expect("all materials scatter").values(wo, wi);
         let bands = (0..4).map(|band| 4 * a[1] as usize + band);
         bands.map(|band| values[band] / wi.z).collect::<Vec<_>>()
     };
@@ -118,7 +118,7 @@ pub(crate) fn checks() -> Vec<Check> {
         // Grazing light beyond 87° is left out: a film's phase is steep there.
         let first = direction(0.05 + 0.95 * u[2], u[3]);
         let second = direction(0.05 + 0.95 * u[4], u[5]);
-        // The offset is that of the azimuth, which tells as much.
+        // The offset equals the azimuth, which tests as much as a separate number.
         Some(
             [
                 &[object, group, u[3]][..],
@@ -160,7 +160,7 @@ pub(crate) fn checks() -> Vec<Check> {
     }]
 }
 
-/// By how much what goes one way differs from what goes the other, relative to it; of the worst row. NaN where either is.
+/// Largest relative difference between the two directions, over all rows; NaN where either is NaN.
 fn lopsidedness(values: &[f64], by_row: impl Fn(usize) -> f64) -> f64 {
     let of_row = |(row, both): (usize, &[f64])| {
         let (there, back) = both.split_at(4);
@@ -176,7 +176,7 @@ fn larger(a: f64, b: f64) -> f64 {
     if a > b || a.is_nan() { a } else { b }
 }
 
-/// Both renderers' functions, with their spectra, within 1e-5; times the cosine they are not.
+/// The BSDFs of both renderers, with their spectra, are reciprocal within 1e-5; multiplied by the cosine they are not.
 #[test]
 fn surfaces_are_reciprocal() {
     let check = &checks()[0];

@@ -1,4 +1,4 @@
-//! thickness.wgsl and noise.wgsl: how thick layers are over their surfaces.
+//! Functions of thickness.wgsl and noise.wgsl: the thickness of layers over their surfaces.
 
 use crate::world::{center_of, everything, objects_where, pick, point_on, rounded, rows, vector};
 use crate::{Check, pure, table};
@@ -63,7 +63,7 @@ fn is_combined(thickness: &Thickness) -> bool {
     matches!(thickness, Thickness::Sum(_) | Thickness::Product(_))
 }
 
-/// Layers on which `wanted` holds, on points of their surfaces and off them.
+/// Checks the layers for which `wanted` holds, at points on their surfaces and off them.
 fn thickness(
     wanted: fn(&Thickness) -> bool,
     tolerance: Tolerance,
@@ -75,7 +75,7 @@ fn thickness(
         let object = pick(&films, u[0]);
         let shape = world.shape(object);
         let on = point_on(shape, u[1], u[2]);
-        // Half of the points lie off the object: a line ends there.
+        // Half of the points are off the object, beyond the ends of a linear thickness.
         let scale = if u[3] < 0.5 { 1.0 } else { 4.0 * u[3] };
         let point = rounded(center_of(shape) + scale * (on - center_of(shape)));
         is_clear(object, point).then(|| vec![object as f64, point.x, point.y, point.z])
@@ -111,7 +111,7 @@ fn films(wanted: fn(&Thickness) -> bool) -> Vec<usize> {
     objects_where(|_, material| material.thicknesses().any(wanted))
 }
 
-/// Where a thickness begins and ends.
+/// Points where a thickness begins and ends.
 fn ends_of(object: usize) -> Vec<DVec3> {
     let center = center_of(everything().shape(object));
     match thickness_of(object) {
@@ -121,7 +121,7 @@ fn ends_of(object: usize) -> Vec<DVec3> {
     }
 }
 
-/// Whether a point lies off the places where a thickness jumps, or is steeper than any tolerance could say.
+/// Whether a point is away from positions where a thickness jumps, or is too steep for any tolerance.
 fn is_clear(object: usize, point: DVec3) -> bool {
     let shape = everything().shape(object);
     let clear_part = |part: &Thickness| match part {
@@ -132,7 +132,7 @@ fn is_clear(object: usize, point: DVec3) -> bool {
         }
         Thickness::Profile(profile) => is_clear_of_edges(profile, shape, point),
         Thickness::Picture(_) => {
-            // The seam behind and the poles, where places are magnified.
+            // The seam behind and the poles, where positions are magnified.
             let local = (point - center_of(shape)).normalize();
             !matches!(shape, Shape::Sphere { .. }) || local.y.abs() < 0.999
         }
@@ -141,7 +141,7 @@ fn is_clear(object: usize, point: DVec3) -> bool {
     thickness_of(object).is_some_and(|thickness| thickness.parts().all(clear_part))
 }
 
-/// Off the edge of the black film, the last thickness and a bubble's lowest point.
+/// Whether a point is away from the edge of the black film, the last thickness and a bubble's lowest point.
 fn is_clear_of_edges(profile: &Profile, shape: &Shape, point: DVec3) -> bool {
     if let Coordinate::Polar { axis } = profile.coordinate
         && (point - center_of(shape)).angle_between(axis) > 2.9
@@ -188,7 +188,7 @@ fn noise() -> Check {
     }
 }
 
-/// On the lattice the value is 0 and the gradient is drawn: the same bits.
+/// At lattice points the value is 0 and the gradient is random: the same bits on both sides.
 fn lattice_noise() -> Check {
     let mut inputs = table(
         &[
@@ -222,7 +222,7 @@ fn whole(table: &mut [f32], columns: &[usize]) {
     }
 }
 
-/// Nothing is proved of a kind of thickness that the scene has not got.
+/// A kind of thickness that the scene lacks would not be proved.
 #[test]
 fn the_scene_has_every_kind_of_thickness_on_spheres_and_elsewhere() {
     let world = everything();

@@ -1,4 +1,4 @@
-//! Scenes as both sides read them, and rows of numbers that fit them.
+//! Scenes for both sides, and rows of numbers that fit them.
 
 use crate::{Check, table};
 use glam::DVec3;
@@ -10,9 +10,9 @@ use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 
-/// Bands, of which the last group of four has two.
+/// Number of bands; the last group of four has two.
 pub(crate) const BANDS: u32 = 22;
-/// A scene as both sides read it.
+/// A scene in the forms that both sides read.
 pub(crate) struct World {
     pub(crate) scene: Scene,
     pub(crate) packed: PackedScene,
@@ -51,13 +51,13 @@ pub(crate) fn everything() -> &'static World {
     WORLD.get_or_init(|| World::new("everything"))
 }
 
-/// Its environment are a picture, and its camera sees all directions.
+/// A world whose environment is a picture, and whose camera sees all directions.
 pub(crate) fn pictured() -> &'static World {
     static WORLD: OnceLock<World> = OnceLock::new();
     WORLD.get_or_init(|| World::new("everything_pictured"))
 }
 
-/// Rows made of `columns` uniform numbers in [0, 1) each; those for which there is none are left out.
+/// Rows made from `columns` uniform numbers in [0, 1) each; numbers for which `row` returns `None` are left out.
 pub(crate) fn rows(columns: usize, row: impl Fn(&[f64]) -> Option<Vec<f64>>) -> Vec<f32> {
     let uniform = table(&vec![(0.0, 1.0); columns], &[]);
     let made = uniform.chunks(columns).filter_map(|u| {
@@ -79,13 +79,13 @@ pub(crate) fn unit(u: f64, v: f64) -> DVec3 {
     DVec3::new(sine * phi.cos(), sine * phi.sin(), z)
 }
 
-/// A unit vector of this cosine with the third axis, in the azimuth of so many turns.
+/// A unit vector whose cosine with the third axis is `cosine`; its azimuth is in turns.
 pub(crate) fn direction(cosine: f64, turns: f64) -> DVec3 {
     let (sine, phi) = ((1.0 - cosine * cosine).sqrt(), TAU * turns);
     DVec3::new(sine * phi.cos(), sine * phi.sin(), cosine)
 }
 
-/// Rounded, so that both sides see the same numbers.
+/// A vector rounded to f32, so that both sides see the same numbers.
 pub(crate) fn rounded(v: DVec3) -> DVec3 {
     v.as_vec3().as_dvec3()
 }
@@ -103,7 +103,7 @@ pub(crate) fn center_of(shape: &Shape) -> DVec3 {
     }
 }
 
-/// A point of a shape, of a plane near its middle.
+/// A point on a shape; for a plane, near its middle.
 pub(crate) fn point_on(shape: &Shape, u: f64, v: f64) -> DVec3 {
     let (across, along) = (2.0 * u - 1.0, 2.0 * v - 1.0);
     match *shape {
@@ -135,7 +135,7 @@ pub(crate) fn point_on(shape: &Shape, u: f64, v: f64) -> DVec3 {
     }
 }
 
-/// The objects for which something holds.
+/// The objects for which a condition holds.
 pub(crate) fn objects_where(keep: impl Fn(&Shape, &Material) -> bool) -> Vec<usize> {
     let world = everything();
     (0..world.scene.objects().len())
@@ -143,10 +143,10 @@ pub(crate) fn objects_where(keep: impl Fn(&Shape, &Material) -> bool) -> Vec<usi
         .collect()
 }
 
-/// Groups of four bands.
+/// Number of groups of four bands.
 pub(crate) const GROUPS: u32 = BANDS.div_ceil(4);
 
-/// A spectrum in a band; behind the last band it keeps its value.
+/// Value of a spectrum in a band; beyond the last band it keeps its value.
 pub(crate) fn value_of(spectrum: usize, band: u32, offset: f64) -> f64 {
     everything().scene.spectra()[spectrum].at(band.min(BANDS - 1), offset)
 }
@@ -156,7 +156,7 @@ pub(crate) fn bands_of(group: f64) -> [u32; 4] {
     [0, 1, 2, 3].map(|lane| 4 * group as u32 + lane)
 }
 
-/// The whole numbers that occur first in what is made of a check's rows.
+/// The integers that come first in the results of a check's rows.
 pub(crate) fn first_numbers(check: &Check, of: fn(&[f64]) -> Vec<f64>) -> BTreeSet<i64> {
     let chunks = check.inputs.chunks(check.probe.shape.0);
     let rows = chunks.map(|row| row.iter().map(|&x| f64::from(x)).collect::<Vec<_>>());

@@ -1,4 +1,4 @@
-//! Names and spelling: one English, and the same names in both languages.
+//! Names and spelling: American English everywhere, and the same names in both languages.
 
 mod spelling;
 mod twins;

@@ -1,8 +1,8 @@
-//! American English everywhere.
+//! Checks that all texts are in American English.
 
 use pellicle_tests::sources::{Source, sources};
 
-/// British spellings, each as letters that an American word does not have.
+/// British spellings, each as letters that no American word contains.
 const BRITISH: &[&str] = &[
     "aluminium",
     "anodis",
@@ -70,7 +70,7 @@ const BRITISH: &[&str] = &[
     "analysing",
 ];
 
-/// Where the other spelling is right: titles and names of others, and what people may write in their files.
+/// Where the other spelling is right: titles and names of others, and words that users may write in their files.
 const RIGHT: &[(&str, &str)] = &[
     ("colour-science", "the name of a library"),
     ("Unicolour", "the name of a library"),
@@ -86,23 +86,23 @@ const RIGHT: &[(&str, &str)] = &[
     ("colour appearance model", "a title"),
     ("colour management systems", "a title"),
     ("Zemax catalogue", "the name of a source"),
-    ("licence", "terms that a notice carries as they are"),
+    ("licence", "terms that a notice quotes verbatim"),
     ("\"aluminium\"", "a name that people write"),
     ("\"nanometre\"", "a name that people write"),
     ("\"nanometres\"", "a name that people write"),
     ("\"micrometre\"", "a name that people write"),
     ("\"micrometres\"", "a name that people write"),
-    ("'centre'", "a word that is refused"),
-    ("\\\"centre\\\"", "a word that is refused"),
+    ("'centre'", "a value that is refused"),
+    ("\\\"centre\\\"", "a value that is refused"),
 ];
 
-/// British words are the subject of these files.
+/// Whether a file is exempt because British words are its subject.
 fn is_exempt(path: &str) -> bool {
     let lists_old_names = "crates/scene/src/document/advice.rs";
     path == "tests/tests/names/spelling.rs" || path == lists_old_names
 }
 
-/// A place, and the line.
+/// Positions of British words, with their lines.
 fn british(source: &Source) -> Vec<String> {
     let mut found = Vec::new();
     for (number, line) in source.text.lines().enumerate() {
@@ -111,7 +111,7 @@ fn british(source: &Source) -> Vec<String> {
         }
         let mut text = line.to_owned();
         for (right, _) in RIGHT {
-            // A license is exempt where another's terms are told alone.
+            // Only the notice, which quotes the terms of others, is exempt for this word.
             if *right != "licence" || source.path == "NOTICE" {
                 text = text.replace(right, "");
             }

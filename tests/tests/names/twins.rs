@@ -1,8 +1,8 @@
-//! A shader module and its twin in Rust have the same stem, and their functions the same names.
+//! Checks that a shader module and its Rust twin have the same stem, and their functions the same names.
 //!
-//! The twin of `shaders/…/stem.wgsl` is what `crates/reference` and `crates/optics` have in files `stem.rs` or in a folder `stem`. The twin of
-//! a function `name` is a function `name` there, or a method `name` of a type that the shader's function has in front: `emitter_pdf` is
-//! `Emitter::pdf`, and `coated_eval` is `eval` in `coated.rs`.
+//! The twin of `shaders/…/stem.wgsl` is the code of `crates/reference` and `crates/optics` in files `stem.rs` or in a folder `stem`. The
+//! twin of a function `name` is a function `name` there, or a method `name` of a type that the name of the shader function begins with:
+//! `emitter_pdf` is `Emitter::pdf`, and `coated_eval` is `eval` in `coated.rs`.
 
 use pellicle_tests::sources::sources;
 use pellicle_tests::wgsl::functions;
@@ -10,23 +10,23 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Modules that have no twin, with the reason.
 const ALONE: &[(&str, &str)] = &[
-    ("bindings", "what the host uploads"),
-    ("features", "what a scene has"),
+    ("bindings", "data that the host uploads"),
+    ("features", "features of a scene"),
     ("layout", "generated from the structs of the host"),
     ("records", "generated from the structs of the host"),
     ("table_data", "textures of the host"),
     (
         "record",
-        "the reference evaluates spectra as it goes, without a record",
+        "the reference evaluates spectra along the path, without a record",
     ),
     (
         "stack_batch",
         "the entry point of batches; the reference's is `optics::batch`",
     ),
-    ("phase", "digits of an f32; the reference has `exp`"),
+    ("phase", "precision of f32; the reference uses `exp`"),
     (
         "trig",
-        "digits of an f32; the reference has the standard library's functions",
+        "precision of f32; the reference uses the standard library's functions",
     ),
 ];
 
@@ -67,13 +67,13 @@ const WITHOUT_TWIN: &[(&str, &[&str], &str)] = &[
     (
         "facets",
         &["multiple_color"],
-        "`optics::multiple_color`, of the tables of `bsdf/rough.rs`",
+        "`optics::multiple_color`, for the tables of `bsdf/rough.rs`",
     ),
     ("interface", &["interface_factor"], "the record"),
     (
         "interface",
         &["bare_value", "coating_value", "with_multiple"],
-        "the forms that `InterfaceAt::value` tells apart",
+        "the cases of `InterfaceAt::value`",
     ),
     ("camera", &["filter_offset"], "`scene::Filter`"),
     (
@@ -94,7 +94,7 @@ const WITHOUT_TWIN: &[(&str, &[&str], &str)] = &[
     (
         "emitter_choice",
         &["weigh_tree", "choose_in_tree", "tree_pmf"],
-        "the reference has one form for few and many emitters",
+        "the reference has one function for few and many emitters",
     ),
     ("emitter_choice", &["rest_of"], "inline in `pick`"),
     ("emitter_sampling", &["record_lit"], "the record"),
@@ -114,7 +114,7 @@ const WITHOUT_TWIN: &[(&str, &[&str], &str)] = &[
         &["is_met", "meets_box"],
         "distances below 0 are misses in the shader; a closure in Rust",
     ),
-    ("intersect", &["intersect_large_sphere"], "digits of an f32"),
+    ("intersect", &["intersect_large_sphere"], "precision of f32"),
     (
         "layers",
         &[
@@ -129,12 +129,12 @@ const WITHOUT_TWIN: &[(&str, &[&str], &str)] = &[
     (
         "microfacet",
         &["log_one_minus"],
-        "digits of an f32; `ln_1p`",
+        "precision of f32; `ln_1p`",
     ),
     (
         "microsurface",
         &["scaled_erfc", "seen_below"],
-        "digits of an f32; `erfc_and_gauss`",
+        "precision of f32; `erfc_and_gauss`",
     ),
     (
         "path",
@@ -159,7 +159,7 @@ const WITHOUT_TWIN: &[(&str, &[&str], &str)] = &[
     (
         "sobol",
         &["scrambled", "bit_of"],
-        "the reference keeps digits in reverse",
+        "the reference stores the digits in reverse",
     ),
     (
         "spectral_path",
@@ -169,7 +169,7 @@ const WITHOUT_TWIN: &[(&str, &[&str], &str)] = &[
             "crossings_transmittance",
             "film_factor",
         ],
-        "of a record, one vertex after the other; `SpectralPath` is told of each as it is met",
+        "reads a record vertex by vertex; `SpectralPath` receives each vertex when it is met",
     ),
     (
         "spectral_path",
@@ -195,7 +195,7 @@ const WITHOUT_TWIN: &[(&str, &[&str], &str)] = &[
             "fields_above",
             "powers_of",
         ],
-        "the shader keeps a film's fields in another form, for the digits of an f32",
+        "the shader keeps a film's fields in another form, for the precision of f32",
     ),
     (
         "thickness",
@@ -214,7 +214,7 @@ const WITHOUT_TWIN: &[(&str, &[&str], &str)] = &[
     ),
 ];
 
-/// A type's name as the shader has it.
+/// A type's name in the shader's style.
 fn snake(name: &str) -> String {
     let mut snake = String::new();
     for c in name.chars() {
@@ -242,7 +242,7 @@ fn implemented(line: &str) -> Option<String> {
     (!name.is_empty()).then_some(name)
 }
 
-/// Names of the functions of a Rust file, methods also with their type in front.
+/// Names of the functions of a Rust file; methods also with their type in front.
 fn rust_functions(source: &str) -> BTreeSet<String> {
     let code = source.split("#[cfg(test)]").next().unwrap_or(source);
     let mut names = BTreeSet::new();
@@ -291,7 +291,7 @@ fn twins() -> BTreeMap<String, BTreeSet<String>> {
     twins
 }
 
-/// What is wrong with a module.
+/// Errors in the twins of a module.
 fn wrong(
     stem: &str,
     names: &BTreeSet<String>,
@@ -307,7 +307,7 @@ fn wrong(
     };
     if is_alone {
         return vec![format!(
-            "{stem}.wgsl has a twin, and is listed as one that has none"
+            "{stem}.wgsl has a twin, and is listed as having none"
         )];
     }
     let listed: BTreeSet<&str> = WITHOUT_TWIN
@@ -329,7 +329,7 @@ fn wrong(
                 "{name} of {stem}.wgsl has no twin of that name in Rust"
             )),
             (true, true) => wrong.push(format!(
-                "{name} of {stem}.wgsl has a twin, and is listed as one that has none"
+                "{name} of {stem}.wgsl has a twin, and is listed as having none"
             )),
             _ => {}
         }
@@ -344,7 +344,7 @@ fn wrong(
 }
 
 #[test]
-fn modules_and_functions_have_twins_of_their_names() {
+fn modules_and_functions_have_twins_with_their_names() {
     let twins = twins();
     let mut stems = BTreeSet::new();
     let mut found = Vec::new();
@@ -354,7 +354,7 @@ fn modules_and_functions_have_twins_of_their_names() {
             .rsplit('/')
             .next()
             .and_then(|file| file.strip_suffix(".wgsl"))
-            .expect("it ends so");
+            .expect("the path ends in .wgsl");
         found.extend(wrong(stem, &functions(&source.text), &twins));
         stems.insert(stem.to_owned());
     }
@@ -372,7 +372,7 @@ fn modules_and_functions_have_twins_of_their_names() {
 }
 
 #[test]
-fn another_name_is_noticed() {
+fn a_different_name_is_noticed() {
     let twins = twins();
     let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
     assert_eq!(

@@ -1,4 +1,4 @@
-//! Samplers against their densities: counts in cells, and how likely they are.
+//! Tests samplers against their densities: counts in cells, and the probability of such counts.
 
 use crate::{FALSE_ALARM, TESTS};
 use glam::DVec3;
@@ -36,7 +36,7 @@ pub(crate) const GAUSS: [(f64, f64); 8] = {
     points
 };
 
-/// ∫ f over [a, b] × [c, d], each side cut into `parts`.
+/// ∫ f over [a, b] × [c, d], with each side divided into `parts`.
 pub(crate) fn integral(
     f: impl Fn(f64, f64) -> f64,
     (a, b): (f64, f64),
@@ -72,13 +72,13 @@ fn normal_tail(z: f64) -> f64 {
     (-0.5 * z * z).exp() / TAU.sqrt() * poly
 }
 
-/// Chance of a chi-square as large, by Wilson and Hilferty's cube root (1931).
+/// Probability of a chi-square at least this large, by Wilson and Hilferty's cube root (1931).
 pub(crate) fn chance(chi2: f64, freedom: f64) -> f64 {
     let spread = 2.0 / (9.0 * freedom);
     normal_tail(((chi2 / freedom).cbrt() - (1.0 - spread)) / spread.sqrt())
 }
 
-/// What each cell holds and should hold, cells of fewer than five expected put together. Chi-square and its degrees of freedom.
+/// Chi-square of the counts in cells, and its degrees of freedom; cells with an expected count below five are pooled.
 fn chi_square(counts: &[f64], expected: &[f64]) -> (f64, f64) {
     let mut pooled = (0.0, 0.0);
     let (mut chi2, mut cells) = (0.0, 0);
@@ -94,30 +94,30 @@ fn chi_square(counts: &[f64], expected: &[f64]) -> (f64, f64) {
         chi2 += (pooled.0 - pooled.1).powi(2) / pooled.1;
         cells += 1;
     } else if pooled.0 > pooled.1 + 12.0 {
-        // Where next to nothing is expected, so much does not happen.
+        // Where almost nothing is expected, so large a count does not occur by chance.
         chi2 = f64::INFINITY;
     }
-    assert!(cells > 20, "only {cells} cells hold anything");
+    assert!(cells > 20, "only {cells} cells expect five or more samples");
     (chi2, f64::from(cells - 1))
 }
 
 /// A sampler and its density over two coordinates, `across` in the first range, `around` in the second. A direction without
-/// coordinates lies in the remaining cell.
+/// coordinates is counted in the remaining cell.
 pub(crate) struct Experiment<'a> {
     pub(crate) name: String,
     pub(crate) ranges: [(f64, f64); 2],
-    /// Coordinates of what two uniform numbers are turned into.
+    /// Coordinates of the sample that two uniform numbers give.
     pub(crate) draw: &'a dyn Fn(f64, f64) -> Option<[f64; 2]>,
     /// Density over the coordinates.
     pub(crate) density: &'a dyn Fn(f64, f64) -> f64,
-    /// Into how many parts each side of a cell is cut to integrate the density.
+    /// Number of parts into which each side of a cell is divided to integrate the density.
     pub(crate) parts: usize,
-    /// Share that falls outside of the ranges, where it is known; otherwise it is what the density leaves.
+    /// Fraction outside the ranges, where it is known; otherwise it is what the density leaves.
     pub(crate) outside: Option<f64>,
 }
 
 impl Experiment<'_> {
-    /// The chance of so large a chi-square, and the integral of the density.
+    /// The probability of so large a chi-square, and the integral of the density.
     fn chance_and_total(&self, seed: u32) -> (f64, f64) {
         let [across, around] = self.ranges;
         let mut counts = vec![0.0; ROWS * COLUMNS + 1];
@@ -143,7 +143,7 @@ impl Experiment<'_> {
         (chance(chi2, freedom), total)
     }
 
-    /// The sampler draws its density.
+    /// Checks that the sampler follows its density.
     pub(crate) fn holds(&self, seed: u32) {
         let (chance, total) = self.chance_and_total(seed);
         println!("{}: chance {chance:.3}, integral {total:.9}", self.name);
@@ -158,7 +158,7 @@ impl Experiment<'_> {
         assert!(total < 1.0 + 1e-5, "{}: {total}", self.name);
     }
 
-    /// The sampler is seen to draw something else.
+    /// Checks that a sampler with another density is noticed.
     pub(crate) fn is_refused(&self, seed: u32) {
         let (chance, _) = self.chance_and_total(seed);
         assert!(chance < 1e-6, "{} passes: {chance}", self.name);
@@ -187,7 +187,7 @@ pub(crate) fn direction(cosine: f64, turns: f64) -> DVec3 {
 }
 
 #[test]
-fn the_chance_of_a_chi_square_is_that_of_the_tables() {
+fn probabilities_of_chi_square_agree_with_tables() {
     // Upper 5 %, 1 % and 0.1 % points (Abramowitz and Stegun, table 26.8).
     for (chi2, freedom, expected) in [
         (43.773, 30.0, 0.05),

@@ -1,4 +1,4 @@
-//! Lights and environment.
+//! Samplers of emitters and environments.
 
 use crate::chi_square::{Experiment, direction, turns};
 use glam::DVec3;
@@ -8,12 +8,12 @@ use reference::{
 use scene::{EnvironmentShape, Shape};
 use std::f64::consts::{PI, TAU};
 
-/// How many of the tests are here.
+/// Number of tests in this file.
 pub(crate) const TESTS: usize = 4 + 3 + 3 + 6;
 
-/// Spheres: the angle to the center over the cone that holds them; from inside the whole sphere of directions.
+/// Spheres: by the angle to the center over the cone around it; from inside, over the whole sphere of directions.
 #[test]
-fn spheres_are_drawn_by_shape_pdf() {
+fn spheres_are_sampled_by_shape_pdf() {
     let center = DVec3::new(0.3, -0.2, 1.5);
     let distance2 = center.length_squared();
     for (seed, radius) in [(11, 0.01), (12, 0.5), (13, 1.4), (14, 3.0)] {
@@ -46,9 +46,9 @@ fn spheres_are_drawn_by_shape_pdf() {
     }
 }
 
-/// Rectangles: where the direction meets their plane, with dω = |cos θ| dA / d².
+/// Rectangles: by the point where the direction hits their plane, with dω = |cos θ| dA / d².
 #[test]
-fn rectangles_are_drawn_by_shape_pdf() {
+fn rectangles_are_sampled_by_shape_pdf() {
     let normal = DVec3::new(0.2, -0.5, 1.0).normalize();
     let frame = frame_of(normal);
     let (tangent, bitangent) = (frame.x_axis, frame.y_axis);
@@ -101,9 +101,9 @@ fn rectangles_are_drawn_by_shape_pdf() {
     }
 }
 
-/// Disks: by the square of the distance from the center and the azimuth, in which they are even.
+/// Disks: by the squared distance from the center and the azimuth, in which the density is uniform.
 #[test]
-fn disks_are_drawn_by_shape_pdf() {
+fn disks_are_sampled_by_shape_pdf() {
     let normal = DVec3::new(0.2, -0.5, 1.0).normalize();
     let frame = frame_of(normal);
     for (seed, center, radius) in [
@@ -151,9 +151,9 @@ fn disks_are_drawn_by_shape_pdf() {
     }
 }
 
-/// Parts of the environment and disks in the sky: by the height about an axis and the azimuth.
+/// Parts of the environment and disks in the sky: by the height along an axis and the azimuth.
 #[test]
-fn environment_are_drawn_by_environment_pdf() {
+fn environments_are_sampled_by_environment_pdf() {
     let toward = DVec3::new(0.3, 0.8, -0.4).normalize();
     let disk = |height| EnvironmentShape::DistantDisk { toward, height };
     for (seed, part, axis, least) in [

@@ -1,4 +1,4 @@
-//! Rough surfaces: the directions drawn at them against their density, over roughness, angle, grain and distribution; the energy
+//! Rough surfaces: sampled directions against their density, over roughness, angle, grain and distribution; the energy
 //! that they return; reciprocity.
 
 use crate::chi_square::{Experiment, direction, numbers, turns};
@@ -9,7 +9,7 @@ use scene::{Microsurface, SceneFile};
 use std::f64::consts::TAU;
 use std::path::Path;
 
-/// Along and across the grain.
+/// Roughness along and across the grain.
 const ROUGHNESS: [[f64; 2]; 10] = [
     [0.05, 0.05],
     [0.1, 0.1],
@@ -25,10 +25,10 @@ const ROUGHNESS: [[f64; 2]; 10] = [
 const DEGREES: [f64; 5] = [0.0, 30.0, 60.0, 75.0, 85.0];
 const DISTRIBUTIONS: [&str; 2] = ["beckmann", "ggx"];
 
-/// How many chi-square tests there are.
+/// Number of chi-square tests in this file.
 pub(super) const TESTS: usize = ROUGHNESS.len() * DEGREES.len() * DISTRIBUTIONS.len();
 
-/// Facets as scenes have them.
+/// Facets as a scene makes them.
 fn microsurface(distribution: &str, [along, across]: [f64; 2]) -> Microsurface {
     let roughness = if along == across {
         format!("roughness = {along:?}")
@@ -57,7 +57,7 @@ fn each(check: impl Fn(u32, &Microsurface, DVec3) + Sync) {
     });
 }
 
-/// The slope r of a facet on the surface of α = 1 as r / (1 + r), and its azimuth.
+/// Coordinates of a facet: its slope r on the surface of α = 1, as r / (1 + r), and its azimuth.
 fn coordinates(surface: &Microsurface, facet: DVec3) -> [f64; 2] {
     let [along, across] = surface.roughness;
     let slope = DVec3::new(facet.x / along, facet.y / across, 0.0) / facet.z;
@@ -65,7 +65,7 @@ fn coordinates(surface: &Microsurface, facet: DVec3) -> [f64; 2] {
     [r / (1.0 + r), turns(slope)]
 }
 
-/// The facet at such coordinates, and the solid angle of facets per unit of them.
+/// The facet with these coordinates, and the solid angle of facets per unit of them.
 fn facet_at(surface: &Microsurface, place: f64, turn: f64) -> (DVec3, f64) {
     let [along, across] = surface.roughness;
     let r = place / (1.0 - place);
@@ -75,8 +75,8 @@ fn facet_at(surface: &Microsurface, place: f64, turn: f64) -> (DVec3, f64) {
     (facet, area * facet.z.powi(3))
 }
 
-/// Directions of light, by the facets that mirror them to the eye. What is drawn below the horizon lies in the remaining cell.
-/// The density is that of the surface `claimed`.
+/// Directions `wi`, by the coordinates of the facets that reflect them into `wo`. Samples below the horizon are counted in the remaining
+/// cell. The density is that of the surface `claimed`.
 fn scattered(
     surface: &Microsurface,
     claimed: &Microsurface,
@@ -109,14 +109,14 @@ fn scattered(
         ranges: [(0.0, 1.0), (0.0, 1.0)],
         draw: &draw,
         density: &density,
-        // The horizon of the light runs through cells.
+        // The horizon of `wi` runs through cells.
         parts: 4,
         outside: None,
     });
 }
 
 #[test]
-fn directions_are_drawn_by_their_density() {
+fn directions_are_sampled_by_their_density() {
     each(|seed, surface, wo| scattered(surface, surface, wo, |right| right.holds(seed)));
 }
 
@@ -132,8 +132,8 @@ fn directions_of_another_roughness_are_noticed() {
     }
 }
 
-/// White furnace by drawing: light that met one facet and light that met several come to everything within 0.5 %, for
-/// roughness from 0.05 to 1 and angles to 85°; where much is lost the first alone does not.
+/// White furnace by sampling: light reflected by one facet and light reflected by several add up to everything within 0.5 %, for
+/// roughness from 0.05 to 1 and angles up to 85°; where much is lost, the first alone does not.
 #[test]
 fn a_lossless_surface_returns_everything() {
     each(|seed, surface, wo| {
@@ -165,7 +165,7 @@ fn a_lossless_surface_returns_everything() {
     });
 }
 
-/// f(E, L) = f(L, E) within 1e-5, of both parts; times a cosine it is not so, which shows that the test can fail.
+/// f(wo, wi) = f(wi, wo) within 1e-5, for both parts; multiplied by a cosine this fails, which shows that the test can fail.
 #[test]
 fn rough_surfaces_are_reciprocal() {
     let mut lopsided = 0;

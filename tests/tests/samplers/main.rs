@@ -1,8 +1,8 @@
-//! Every sampler against the density that it claims, by chi-square; the energy of rough surfaces; reciprocity.
+//! Tests every sampler against its claimed density, by chi-square; the energy of rough surfaces; reciprocity.
 //!
-//! Directions are counted in cells of equal steps of z (or of a facet's own quantile) and azimuth; what a cell should hold is the density
-//! integrated over it by Gauss's rule, and a last cell takes what the density leaves (directions below the horizon). All tests
-//! together raise a false alarm with a chance of [`FALSE_ALARM`] (Šidák); the numbers are fixed, so a pass stays a pass.
+//! Directions are counted in cells of equal steps of z (or of a facet's own quantile) and azimuth. The expected count of a cell is the
+//! density integrated over it by Gauss's rule; a last cell takes what the density leaves (directions below the horizon). All tests
+//! together raise a false alarm with probability [`FALSE_ALARM`] (Šidák); the numbers are fixed, so a test that passes keeps passing.
 
 mod chi_square;
 mod emitters;
@@ -15,15 +15,15 @@ use chi_square::{Experiment, turns};
 use reference::{sample_cone, sample_cosine_hemisphere};
 use std::f64::consts::{PI, TAU};
 
-/// Chance that any of the [`TESTS`] fails although every sampler is right.
+/// Probability that any of the [`TESTS`] fails although every sampler is right.
 const FALSE_ALARM: f64 = 1e-3;
-/// How many chi-square tests there are, those that must fail left out: the hemisphere, four cones, and those of each file.
+/// Number of chi-square tests, without those that must fail: the hemisphere, four cones, and those of each file.
 const TESTS: f64 =
     (1 + 4 + emitters::TESTS + slopes::TESTS + facets::TESTS + mixtures::TESTS + pictures::TESTS)
         as f64;
 
 #[test]
-fn the_cosine_hemisphere_is_drawn_by_its_cosine() {
+fn the_cosine_hemisphere_is_sampled_by_its_cosine() {
     let of = |density: &dyn Fn(f64, f64) -> f64, refused: bool| {
         let experiment = Experiment {
             name: "cosine hemisphere".to_owned(),
@@ -48,7 +48,7 @@ fn the_cosine_hemisphere_is_drawn_by_its_cosine() {
 }
 
 #[test]
-fn cones_are_drawn_uniformly() {
+fn cones_are_sampled_uniformly() {
     for (seed, height) in [(2, 2.0), (3, 1.0), (4, 0.2), (5, 1e-4)] {
         let draw = |u: f64, v: f64| {
             let w = sample_cone(u, v, height);

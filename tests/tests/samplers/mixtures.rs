@@ -1,5 +1,5 @@
-//! Surfaces that scatter in several ways, by the very function that paths draw from: Cook's model with facets of two slopes and a
-//! diffuse share, and a body below a rough coat, with facets, light between them, and the body.
+//! Surfaces that scatter in several ways, sampled with the function that paths use: Cook's model with facets of two slopes and a
+//! diffuse fraction, and a base below a rough coat, with facets, light between them, and the base.
 
 use super::chi_square::{Experiment, direction, turns};
 use glam::DVec3;
@@ -17,19 +17,19 @@ const KINDS: [Kind; 3] = [
     Kind::Coat("ggx"),
 ];
 
-/// How many chi-square tests there are.
+/// Number of chi-square tests in this file.
 pub(super) const TESTS: usize = KINDS.len() * ROUGHNESS.len() * DEGREES.len();
 
 #[derive(Clone, Copy, Debug)]
 enum Kind {
-    /// By the form of D.
+    /// Cook's model, with the form of D.
     Cook(&'static str),
-    /// By the distribution of facets.
+    /// A coat, with the distribution of facets.
     Coat(&'static str),
 }
 
 impl Kind {
-    /// A scene of a sphere of it.
+    /// A scene with a sphere of this material.
     fn scene(self, roughness: f64) -> Scene {
         let wide = (0.5 * (1.0 + roughness)).min(1.0);
         let material = match self {
@@ -60,11 +60,11 @@ fn of<'a>(prepared: &'a PreparedScene<'a>) -> SurfaceFunction<'a> {
         cosine: 1.0,
         is_front: true,
     };
-    SurfaceFunction::new(prepared, 0, &point, 0.5, 0.5).expect("it scatters")
+    SurfaceFunction::new(prepared, 0, &point, 0.5, 0.5).expect("the surface scatters")
 }
 
-/// Directions of light, by the facets that would mirror them to the eye: the slope r of these, of facets of α = √`roughness`,
-/// between the narrow and the wide, as r / (1 + r), and their azimuth. What is drawn below the horizon lies in the remaining cell.
+/// Directions `wi`, by the facets that would reflect them into `wo`: their slope r on facets of α = √`roughness`, between the narrow and
+/// the wide, as r / (1 + r), and their azimuth. Samples below the horizon are counted in the remaining cell.
 fn scattered(
     (surface, claimed): (&SurfaceFunction<'_>, &SurfaceFunction<'_>),
     roughness: f64,
@@ -99,14 +99,14 @@ fn scattered(
         ranges: [(0.0, 1.0), (0.0, 1.0)],
         draw: &draw,
         density: &density,
-        // The horizon of the light runs through cells.
+        // The horizon of `wi` runs through cells.
         parts: 4,
         outside: None,
     });
 }
 
 #[test]
-fn mixtures_are_drawn_by_their_density() {
+fn mixtures_are_sampled_by_their_density() {
     let kinds = (0..KINDS.len() * ROUGHNESS.len()).into_par_iter();
     kinds.for_each(|i| {
         let (kind, roughness) = (KINDS[i / ROUGHNESS.len()], ROUGHNESS[i % ROUGHNESS.len()]);
@@ -123,7 +123,7 @@ fn mixtures_are_drawn_by_their_density() {
     });
 }
 
-/// A mixture of narrower facets is another.
+/// A mixture of narrower facets is another mixture.
 #[test]
 fn mixtures_of_another_roughness_are_noticed() {
     for (seed, kind) in (950..).zip(KINDS) {

@@ -1,5 +1,5 @@
-//! Surroundings by a picture: by the angle from the top in half turns and the longitude in turns, in both of which the cells of the
-//! table are even.
+//! Environments from pictures: by the angle from the top in half turns and the longitude in turns, in which the cells of the
+//! table are uniform.
 
 use crate::chi_square::Experiment;
 use glam::DVec3;
@@ -11,9 +11,9 @@ use std::f64::consts::{PI, TAU};
 
 pub(crate) const TESTS: usize = 3;
 
-/// Surroundings of 48 × 24 pixels, for all of which rays are sent: what is brighter than the mean are too few cells to judge.
+/// An environment of 48 × 24 pixels, all of it importance-sampled: the part brighter than the mean would be too few cells to judge.
 fn painted(color: impl Fn(u32, u32) -> f32) -> Scene {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = tempfile::tempdir().expect("a folder can be created");
     let picture = ImageBuffer::from_fn(48, 24, |x, y| Rgb([color(x, y); 3]));
     picture
         .save(folder.path().join("sky.exr"))
@@ -29,12 +29,12 @@ fn painted(color: impl Fn(u32, u32) -> f32) -> Scene {
 fn picture_of(scene: &Scene) -> &EnvironmentPicture {
     match scene.environment() {
         Environment::Picture { picture, .. } => picture,
-        _ => panic!("the environment are no picture"),
+        _ => panic!("the environment is not a picture"),
     }
 }
 
 #[test]
-fn pictures_are_drawn_by_environment_pdf() {
+fn pictures_are_sampled_by_environment_pdf() {
     let bright = |x, y| if (x, y) == (31, 7) { 1e6 } else { 0.0 };
     let made = file("everything_pictured")
         .validate()
@@ -63,12 +63,12 @@ fn pictures_are_drawn_by_environment_pdf() {
             ranges: [(0.0, 1.0), (0.0, 1.0)],
             draw: &draw,
             density: &pdf,
-            // Cells of 48 columns or fewer and 24 rows or fewer end where these do.
+            // Cells of up to 48 columns and up to 24 rows end where these do.
             parts: 2,
             outside: Some(0.0),
         };
         right.holds(seed);
-        // Looked at from 5° aside.
+        // Rotated by 5°.
         let turned = |down: f64, across: f64| pdf(down, (across + 1.0 / 72.0).fract());
         let wrong = Experiment {
             density: &turned,

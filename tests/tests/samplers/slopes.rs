@@ -1,4 +1,4 @@
-//! Normals of facets as Cook's model of 1981 draws them.
+//! Facet normals as Cook's model of 1981 samples them.
 
 use crate::chi_square::{Experiment, turns};
 use glam::DVec3;
@@ -6,10 +6,10 @@ use optics::{gaussian_fraction, gaussian_pdf, half_vector_pdf, sample_beckmann, 
 use std::f64::consts::TAU;
 
 const SLOPES: [f64; 6] = [0.05, 0.1, 0.2, 0.4, 0.7, 1.0];
-/// How many of the tests are here.
+/// Number of tests in this file.
 pub(crate) const TESTS: usize = 2 * SLOPES.len();
 
-/// Facets, by q = 1 − exp(−tan²α / m²) and the azimuth; the density is taken for the slope `claimed`.
+/// Facets, by q = 1 − exp(−tan²α / m²) and the azimuth; the density is that of the slope `claimed`.
 fn facets(slope: f64, claimed: f64, check: impl Fn(&Experiment)) {
     let draw = |u: f64, v: f64| {
         let h = DVec3::from_array(sample_beckmann(u, v, slope));
@@ -33,7 +33,7 @@ fn facets(slope: f64, claimed: f64, check: impl Fn(&Experiment)) {
 }
 
 #[test]
-fn facets_are_drawn_by_half_vector_pdf() {
+fn facets_are_sampled_by_half_vector_pdf() {
     for (seed, slope) in (31..).zip(SLOPES) {
         facets(slope, slope, |experiment| experiment.holds(seed));
     }
@@ -46,7 +46,7 @@ fn facets_of_another_slope_are_noticed() {
     }
 }
 
-/// Facets of a Gaussian distribution of angles a, by q = (1 − exp(−a² / m²)) / Z and the azimuth; the density is taken for the slope
+/// Facets of a Gaussian distribution of angles a, by q = (1 − exp(−a² / m²)) / Z and the azimuth; the density is that of the slope
 /// `claimed`.
 fn gaussian_facets(slope: f64, claimed: f64, check: impl Fn(&Experiment)) {
     let (share, m2) = (gaussian_fraction(slope), slope * slope);
@@ -71,7 +71,7 @@ fn gaussian_facets(slope: f64, claimed: f64, check: impl Fn(&Experiment)) {
 }
 
 #[test]
-fn gaussian_facets_are_drawn_by_gaussian_pdf() {
+fn gaussian_facets_are_sampled_by_gaussian_pdf() {
     for (seed, slope) in (41..).zip(SLOPES) {
         gaussian_facets(slope, slope, |experiment| experiment.holds(seed));
     }
