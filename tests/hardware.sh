@@ -1,19 +1,19 @@
 #!/bin/sh
-# What Pellicle does on your GPU, in one file to send with a report.
+# Reports how Pellicle runs on your GPU, in one file that you can send.
 #
 #   tests/hardware.sh [--short] [ADAPTER [REPORT]]
 #
-# ADAPTER is a part of an adapter's name as `pellicle devices` prints it; without one, PELLICLE_ADAPTER or the best is taken.
-# REPORT is hardware-report.txt unless given. --short runs one small suite and small pictures, to try the script itself.
+# ADAPTER is a part of an adapter's name as `pellicle devices` prints it; by default, PELLICLE_ADAPTER or the best adapter is used.
+# REPORT is hardware-report.txt by default. --short runs one small suite and small pictures, to try the script itself.
 #
-# It needs cargo, the GPU's driver and a POSIX shell with GNU coreutils (timeout), sed, grep and awk. It builds first, which takes
-# as long as it takes. What runs after that ends within ten minutes; the report says what was cut off. Nothing that fails stops it.
-# It ends with 0 where every test passed and nothing failed or was cut off, with 1 otherwise, and with 2 where it could not begin.
+# The script needs cargo, the GPU's driver and a POSIX shell with GNU coreutils (timeout), sed, grep and awk. It builds first, however
+# long that takes. The rest ends within ten minutes; the report says what was cut off. A failure does not stop the script.
+# The exit code is 0 if every test passed and nothing failed or was cut off, 1 otherwise, and 2 if the script could not start.
 
 set -u
 export LC_ALL=C
 
-# Seconds.
+# Time limits in seconds.
 all_limit=590
 bench_limit=120
 render_limit=25
@@ -64,11 +64,11 @@ trap 'rm -rf "$folder"' EXIT
 trap 'exit 2' INT TERM
 : >"$report" || exit 2
 
-# The caches are this run's own, so that the first start is one.
+# Private caches, so that the first start really is one.
 export PELLICLE_CACHE_DIR="$folder/cache/pellicle"
 export MESA_SHADER_CACHE_DIR="$folder/cache/mesa"
 export __GL_SHADER_DISK_CACHE_PATH="$folder/cache/nvidia"
-# Drivers without a desktop complain of none.
+# Without a desktop, drivers complain if this is not set.
 export XDG_RUNTIME_DIR="${XDG_RUNTIME_DIR:-$folder}"
 
 all_well=true
@@ -91,10 +91,10 @@ empty_caches() {
 
 now() { date +%s.%N; }
 
-# Seconds from one time to another.
+# Seconds between two times.
 between() { awk -v from="$1" -v to="$2" 'BEGIN { printf "%.2f", to - from }'; }
 
-# Runs a command for no more than so many seconds, and within those of the whole; what it prints goes to $folder/output.
+# Runs a command for at most the given number of seconds, within the limit of the whole script; its output goes to $folder/output.
 limited() {
     limit=$1
     shift
@@ -122,14 +122,14 @@ limited() {
     return 1
 }
 
-# The same; the report has what it printed.
+# The same, with the output added to the report.
 reported() {
     limited "$@"
     cat "$folder/output" >>"$report"
 }
 
 # Renders a scene on `gpu` or `cpu` with one sample per pixel and further arguments.
-# A failure's last lines go to the report.
+# The last lines of a failure go to the report.
 render() {
     scene=$1
     backend=$2
@@ -144,14 +144,14 @@ render() {
     return 1
 }
 
-# Seconds from the start to a picture: sets `took`.
+# Sets `took` to the seconds from the start to a picture.
 start() {
     begun=$(now)
     render "$1" "$2" --size "$size" || return 1
     took=$(between "$begun" "$(now)")
 }
 
-# How much longer the first of two like frames takes than the second, as the command tells it.
+# How much longer the first of two equal frames takes than the second, from the speeds that the command reports.
 compile_seconds() {
     awk -v size="$size" '
         BEGIN { split(size, sides, "x"); samples = sides[1] * sides[2] * 1e-6 }
@@ -160,7 +160,7 @@ compile_seconds() {
     ' "$folder/output"
 }
 
-# A line of the table of starts.
+# Adds a line to the table of starts.
 starts() {
     empty_caches
     start "$1" "$2" || return
@@ -190,7 +190,7 @@ commit() {
     printf '%s\n' "$(known git rev-parse HEAD)${changed:+, with changes}"
 }
 
-# Of what the suites printed: a line of each, and the sum. It fails where there is none.
+# Summarizes the output of the suites: a line for each, and the sum. Fails if no suite ended.
 count_tests() {
     awk '
         /^ +Running / { suite = $2 == "unittests" ? $3 : $2; running = 1 }
@@ -220,13 +220,13 @@ failed_tests() {
     ' "$folder/output"
 }
 
-# What they said, up to so many lines.
+# The messages of the failed tests, up to 400 lines.
 said_by_failed_tests() {
     awk '/^failures:$/ { said = 1 } /^test result: / { said = 0 } said' "$folder/output" | head -n 400
 }
 
 echo "building; this does not count" >&2
-# The first as the suites ask for it, which then find it built.
+# The first build uses the options of the suites, which then find it built.
 cargo build --workspace --release --bin pellicle --examples >&2 || exit 2
 # shellcheck disable=SC2086 # Words, on purpose.
 cargo test --release -p pellicle-tests ${suites:---lib --tests} --no-run >&2 || exit 2

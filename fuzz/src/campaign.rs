@@ -1,4 +1,4 @@
-//! A reader, its corpus, and changed copies of it.
+//! Campaigns: a reader, its corpus, and mutated copies of it.
 
 use crate::mutation::Mutation;
 use crate::watch::{Cost, measured};
@@ -10,49 +10,49 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use std::{env, fs};
 
-/// One campaign at a time: memory is counted of the whole process.
+/// One campaign runs at a time, because memory is counted for the whole process.
 static ALONE: Mutex<()> = Mutex::new(());
 
-/// The most inputs that are kept for their new outcomes.
+/// The largest number of inputs that are kept for their new outcomes.
 const MAX_KEPT: usize = 4000;
-/// The most different failures that are looked for.
+/// The largest number of different failures to look for.
 const MAX_FAILURES: usize = 20;
 
-/// What a reader made of an input.
+/// Result of reading an input.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
-    /// It was accepted and is sound.
+    /// The input was accepted, and the result is sound.
     Accepted {
-        /// How many bytes what was read takes, where it may be much more than the input: a picture's pixels.
+        /// Size of the result in bytes, where it may be much larger than the input, as the pixels of a picture are.
         kept: usize,
     },
-    /// It was refused with this error.
+    /// The input was refused with this error.
     Refused(String),
-    /// It was accepted and should not have been.
+    /// The input was accepted but should not have been.
     Unsound(String),
 }
 
 impl Outcome {
-    /// Accepted, with nothing kept that is larger than the input.
+    /// Accepted, with a result that is not larger than the input.
     pub const ACCEPTED: Self = Self::Accepted { kept: 0 };
 }
 
-/// A reader, its corpus, and how many changed copies of it are tried.
+/// A reader, its corpus, and the number of mutated copies to try.
 #[derive(Debug)]
 pub struct Campaign<'a> {
     /// Name of the campaign and of its folder of the corpus.
     pub name: &'a str,
-    /// Inputs beside those of the folder.
+    /// Inputs in addition to those of the folder.
     pub seeds: Vec<Vec<u8>>,
-    /// Words that mean something to a reader of text; none for other files.
+    /// Words that mean something to a reader of text; empty for other files.
     pub words: &'a [&'a str],
-    /// Makes sums of a changed file right, so that what lies behind them is reached as well.
+    /// Corrects the checksums of a mutated file, so that the code behind their checks is reached too.
     pub repair: fn(&[u8]) -> Vec<u8>,
-    /// How many changed copies are tried when no time is set.
+    /// Number of mutated copies to try when no time is set.
     pub executions: u64,
 }
 
-/// What has happened so far.
+/// Counts of a campaign so far.
 #[derive(Debug, Default)]
 struct Tally {
     executions: u64,
@@ -60,12 +60,12 @@ struct Tally {
     outcomes: HashSet<String>,
     slowest: Cost,
     largest: Cost,
-    /// By what is wrong: the file that shows it.
+    /// The file that shows each failure, by the description of the failure.
     failures: BTreeMap<String, PathBuf>,
 }
 
 impl<'a> Campaign<'a> {
-    /// A campaign without seeds beside the folder's.
+    /// A campaign without seeds beyond those of the folder.
     pub fn new(name: &'a str, executions: u64) -> Self {
         Self {
             name,
@@ -76,10 +76,10 @@ impl<'a> Campaign<'a> {
         }
     }
 
-    /// Runs the corpus and changed copies of it.
+    /// Runs the corpus and mutated copies of it.
     ///
     /// # Panics
-    /// When an input fails; all that do are named. And when no input was accepted, or none refused: the campaign then says nothing.
+    /// When an input fails; all failures are listed. Also when no input was accepted or none was refused: the campaign then proves nothing.
     pub fn run(&self, read: impl Fn(&[u8]) -> Outcome) {
         let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
         let folder = env::temp_dir().join("pellicle-fuzz");
@@ -90,7 +90,7 @@ impl<'a> Campaign<'a> {
         for input in &inputs {
             self.execute(&folder, &mut tally, &read, input);
         }
-        // What follows from a broken corpus says nothing new.
+        // Mutating a broken corpus would say nothing new.
         if tally.failures.is_empty() {
             self.change(&folder, &mut tally, &read, inputs);
         }
@@ -139,7 +139,7 @@ impl<'a> Campaign<'a> {
         }
     }
 
-    /// Whether the input has an outcome that is new.
+    /// Reads an input and returns whether its outcome is new.
     fn execute(
         &self,
         folder: &Path,
@@ -150,7 +150,7 @@ impl<'a> Campaign<'a> {
         fs::write(folder.join(format!("{}.running", self.name)), input)
             .expect("the temporary folder can be written");
         let (mut result, mut cost) = measured(|| read(input));
-        // A machine that was busy with something else is no fault of the reader.
+        // A machine that was busy with something else is not a fault of the reader.
         for _ in 0..2 {
             if cost.check(input.len(), kept(&result)).is_err() {
                 let (again, other) = measured(|| read(input));
@@ -203,7 +203,7 @@ impl<'a> Campaign<'a> {
         let is_refused = tally.accepted < tally.executions;
         assert!(
             tally.accepted > 0 && is_refused,
-            "{}: inputs of both kinds are needed",
+            "{}: some inputs must be accepted and some refused",
             self.name
         );
     }
@@ -254,7 +254,7 @@ fn corpus(name: &str) -> PathBuf {
         .join(name)
 }
 
-/// The files of a folder in the order of their names; none where there is no folder.
+/// The files of a folder, sorted by name; empty if there is no folder.
 fn of_folder(folder: &Path) -> Vec<Vec<u8>> {
     let Ok(entries) = fs::read_dir(folder) else {
         return Vec::new();

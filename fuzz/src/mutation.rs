@@ -1,9 +1,9 @@
-//! Changed copies of inputs.
+//! Mutated copies of inputs.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 
-/// The longest input that changes make.
+/// The longest input that mutations produce.
 const MAX_BYTES: usize = 200_000;
 
 /// Numbers at which arithmetic, ranges and parsers break.
@@ -60,23 +60,23 @@ const INTEGERS: [i64; 16] = [
     i64::MAX,
 ];
 
-/// Changes one input: what is changed and how comes from `random`.
+/// Mutates one input; `random` decides what is changed and how.
 pub(crate) struct Mutation<'a> {
     pub(crate) random: &'a mut ChaCha8Rng,
     /// Words that mean something to the reader.
     pub(crate) words: &'a [&'a str],
-    /// Another input, pieces of which may be put in.
+    /// Another input, pieces of which may be inserted.
     pub(crate) other: &'a [u8],
 }
 
 impl Mutation<'_> {
-    /// Below `count`; 0 when it is 0.
+    /// A random number below `count`; 0 when `count` is 0.
     fn below(&mut self, count: usize) -> usize {
         let number = self.random.next_u64() as usize;
         number.checked_rem(count).unwrap_or(0)
     }
 
-    /// Where a piece of `bytes` starts and ends; short ones are likelier.
+    /// A random range of `bytes`; short ones are more likely.
     fn piece(&mut self, bytes: &[u8]) -> (usize, usize) {
         let longest = [1, 4, 16, 256, bytes.len()][self.below(5)];
         let start = self.below(bytes.len() + 1);
@@ -84,7 +84,7 @@ impl Mutation<'_> {
         (start, end)
     }
 
-    /// A changed copy: mostly of one change, at times of several.
+    /// A mutated copy of `input`: mostly with one change, sometimes with several.
     pub(crate) fn of(&mut self, input: &[u8]) -> Vec<u8> {
         let mut bytes = input.to_vec();
         for _ in 0..[1, 1, 1, 2, 3, 8][self.below(6)] {
@@ -153,7 +153,7 @@ impl Mutation<'_> {
         }
     }
 
-    /// A piece once more, or many times.
+    /// Repeats a piece once or many times.
     fn repeat(&mut self, bytes: &mut Vec<u8>) {
         let (start, end) = self.piece(bytes);
         let most = MAX_BYTES / (end - start).max(1);
@@ -188,14 +188,14 @@ impl Mutation<'_> {
         *bytes = lines.join(&b'\n');
     }
 
-    /// Another number in the place of one.
+    /// Replaces a number by another one.
     fn set_a_number(&mut self, bytes: &mut Vec<u8>) {
         let number = NUMBERS[self.below(NUMBERS.len())];
         let is_part = |b: u8| b.is_ascii_digit() || b == b'.';
         self.set_a_run(bytes, is_part, number);
     }
 
-    /// A word of the reader in the place of another one.
+    /// Replaces a word by one of the reader's words.
     fn set_a_token(&mut self, bytes: &mut Vec<u8>) {
         let word = self.word();
         let is_part = |b: u8| b.is_ascii_alphanumeric() || b == b'_' || b == b'.';

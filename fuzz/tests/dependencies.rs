@@ -1,6 +1,6 @@
-//! What the workspace depends on is what `deny.toml` allows: licenses, versions that stand twice, and where crates come from.
+//! Checks that the workspace's dependencies follow `deny.toml`: licenses, duplicate versions, and the sources of crates.
 //!
-//! `cargo deny check` looks at the same and at known faults; this needs nothing beside Cargo.
+//! `cargo deny check` checks the same and looks for known faults; this test needs only Cargo.
 
 use cargo_metadata::{Metadata, MetadataCommand, Package};
 use serde::Deserialize;
@@ -26,7 +26,7 @@ struct Bans {
 
 #[derive(Deserialize)]
 struct Skip {
-    /// `name@version`, the version as far as it matters.
+    /// `name@version`, with as much of the version as matters.
     #[serde(rename = "crate")]
     package: String,
     reason: String,
@@ -48,7 +48,7 @@ fn metadata() -> Metadata {
         .unwrap()
 }
 
-/// Whether these licenses are enough for the expression.
+/// Whether these licenses satisfy the expression.
 fn is_allowed(expression: &str, allowed: &[String]) -> bool {
     let Ok(expression) = Expression::parse_mode(expression, ParseMode::LAX) else {
         return false;
@@ -103,9 +103,9 @@ fn crates_come_from_crates_io_or_the_workspace() {
     }
 }
 
-/// Of each crate one version, but for those that are skipped with a reason; none is skipped in vain.
+/// Every crate has one version, except those that are skipped with a reason; no skip is unnecessary.
 #[test]
-fn versions_stand_once() {
+fn every_crate_has_one_version() {
     let metadata = metadata();
     let mut versions: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
     for package in &metadata.packages {
@@ -122,7 +122,7 @@ fn versions_stand_once() {
         found.retain(|version| !version.starts_with(&format!("{skipped}.")));
         assert!(
             before > 1 && found.len() < before,
-            "{package} stands once: it needs no skip"
+            "{package} has one version: it needs no skip"
         );
     }
     versions.retain(|_, found| found.len() > 1);

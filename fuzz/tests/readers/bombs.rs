@@ -2,7 +2,7 @@
 
 const DEPTH: usize = 20_000;
 
-/// Nested TOML: arrays, tables in a line, dotted names, heads.
+/// Nested TOML: arrays, inline tables, dotted keys, headers.
 pub(crate) fn toml() -> Vec<Vec<u8>> {
     let many = |piece: &str| piece.repeat(DEPTH);
     [
@@ -31,7 +31,7 @@ pub(crate) fn toml() -> Vec<Vec<u8>> {
     .to_vec()
 }
 
-/// Nested YAML, and names that stand for more and more of it.
+/// Nested YAML, and aliases that expand to more and more of it.
 pub(crate) fn yaml() -> Vec<Vec<u8>> {
     let many = |piece: &str| piece.repeat(DEPTH);
     let lists = (0..40).map(|i| format!("a{}: &a{} [*a{i}, *a{i}, *a{i}]\n", i + 1, i + 1));
@@ -54,7 +54,7 @@ pub(crate) fn yaml() -> Vec<Vec<u8>> {
     .to_vec()
 }
 
-/// Nested XML, and entities that stand for more and more of it.
+/// Nested XML, and entities that expand to more and more of it.
 pub(crate) fn xml() -> Vec<Vec<u8>> {
     let many = |piece: &str| piece.repeat(DEPTH);
     let head = "<?xml version=\"1.0\"?>";
@@ -109,7 +109,7 @@ pub(crate) fn lines() -> Vec<Vec<u8>> {
     .to_vec()
 }
 
-/// Tables: long lines, many columns, many heads, many samples.
+/// Tables: long lines, many columns, many headers, many samples.
 pub(crate) fn tables() -> Vec<Vec<u8>> {
     let many = |piece: &str| piece.repeat(DEPTH);
     let rows = |row: fn(usize) -> String| (0..DEPTH).map(row).collect::<String>();
@@ -132,7 +132,7 @@ pub(crate) fn tables() -> Vec<Vec<u8>> {
     .to_vec()
 }
 
-/// So many lines.
+/// A text with `count` lines.
 fn numbered(count: usize, line: impl Fn(usize) -> String) -> String {
     (0..count).map(line).collect::<Vec<_>>().concat()
 }

@@ -1,4 +1,4 @@
-//! Display files and the tables that they name.
+//! Campaign for display files and the tables that they name.
 
 use crate::bombs;
 use crate::support::refused;
@@ -39,10 +39,10 @@ const WORDS: [&str; 30] = [
     "code,red,green,blue\n",
 ];
 
-/// What a file has below this line is the table beside it.
+/// The text of a file below this line is its table.
 const TABLE: &str = "--- table.csv\n";
 
-/// Its matrices are finite, its luminances positive, its curves rise within 0 to 1 or the display's peak.
+/// Finds a fault in a display: matrices must be finite, luminances positive, and curves must rise within 0 to 1 or the display's peak.
 fn fault(display: &Display) -> Option<String> {
     let matrices = [display.xyz_from_rgb(), display.rgb_from_xyz()];
     let is_finite = |numbers: &[f64; 3]| numbers.iter().all(|number| number.is_finite());

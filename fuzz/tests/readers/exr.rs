@@ -1,4 +1,4 @@
-//! OpenEXR files of spectra and of colors.
+//! Campaigns for OpenEXR files of spectra and of colors.
 
 use crate::radiance::surrounded;
 use crate::scenes;
@@ -41,7 +41,7 @@ fn rgb(folder: &Path) -> Vec<u8> {
     fs::read(path).unwrap()
 }
 
-/// The file with four bytes after a key set, `skip` bytes further on.
+/// The file with the four bytes `skip` bytes after a key replaced by `value`.
 fn patched(bytes: &[u8], key: &[u8], skip: usize, value: i32) -> Vec<u8> {
     let at = bytes
         .windows(key.len())
@@ -54,7 +54,7 @@ fn patched(bytes: &[u8], key: &[u8], skip: usize, value: i32) -> Vec<u8> {
     copy
 }
 
-/// Headers that promise much.
+/// Files whose headers promise large data.
 fn bombs(bytes: &[u8]) -> Vec<Vec<u8>> {
     let window = b"dataWindow\0box2i\0\x10\0\0\0";
     let shown = b"displayWindow\0box2i\0\x10\0\0\0";
@@ -101,7 +101,7 @@ fn read_rgb(path: &Path) -> Outcome {
         Err(error) => return refused(&error),
     };
     let [width, height] = file.size();
-    // What the callers see to.
+    // The callers check the size.
     if u64::from(width) * u64::from(height) > 1 << 26 {
         return Outcome::Refused("it is too large".to_owned());
     }

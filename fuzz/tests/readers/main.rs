@@ -1,4 +1,4 @@
-//! Every reader of what users and other programs write: no panic, no hang, memory in proportion, and what is accepted is sound.
+//! Tests every reader of files from users and other programs: no panic, no hang, proportional memory, and accepted inputs are sound.
 
 mod bombs;
 mod displays;

@@ -1,4 +1,4 @@
-//! PNG pictures: their codes, what they say of their colors, and ICC profiles in them.
+//! Campaigns for PNG pictures: their codes, their color information, and ICC profiles in them.
 
 use crate::scenes;
 use crate::support::{expect, files, refused};
@@ -28,7 +28,7 @@ fn png(color: ColorType, depth: BitDepth, profile: Option<&[u8]>) -> Vec<u8> {
     file
 }
 
-/// The sum at the end of each chunk made right, as far as chunks follow each other.
+/// The file with the checksum at the end of each chunk corrected, as far as the chunks can be followed.
 fn repaired(file: &[u8]) -> Vec<u8> {
     let mut bytes = file.to_vec();
     let mut at = 8;
@@ -87,7 +87,7 @@ fn seeds() -> Vec<Vec<u8>> {
     seeds
 }
 
-/// Headers that promise much, and little that becomes much.
+/// Files whose headers promise large data, and small data that expand to large.
 fn bombs() -> Vec<Vec<u8>> {
     let file = png(ColorType::Rgb, BitDepth::Eight, None);
     let sized = |width: u32, height: u32| {
@@ -104,13 +104,13 @@ fn bombs() -> Vec<Vec<u8>> {
         (16_384, 16_384),
     ];
     let mut files: Vec<_> = sizes.map(|(width, height)| sized(width, height)).to_vec();
-    // 4 MB of zeros, which take 4 kB.
+    // 4 MB of zeros, which compress to 4 kB.
     let zeros = vec![0; 4 << 20];
     files.push(png(ColorType::Rgb, BitDepth::Eight, Some(&zeros)));
     files
 }
 
-/// The picture as a texture, and as a thickness.
+/// A scene that uses the picture as a texture and as a thickness.
 const SCENE: &str = "camera = { type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }\n\
     render = { bands = 2 }\n\
     materials.a = { type = 'diffuse', reflectance = { texture = 'a.png' } }\n\
@@ -141,7 +141,7 @@ fn png_pictures() {
     });
 }
 
-/// The profile alone is changed: the file around it is sound.
+/// Mutates the profile alone; the file around it stays sound.
 #[test]
 fn icc_profiles() {
     let displays = ["srgb", "display_p3", "crt_1997"].map(|name| Display::named(name).unwrap());
@@ -170,7 +170,7 @@ fn icc_profiles() {
                     .all(|light| light.is_finite())
             })
         });
-        // A profile that cannot be used is passed over with a note, which tells outcomes apart.
+        // A profile that cannot be used is ignored with a note, which distinguishes outcomes.
         match colors.notes() {
             notes if is_finite && !notes.is_empty() => Outcome::Refused(notes.concat()),
             _ => expect(is_finite, || "a color is not finite".to_owned()),

@@ -1,4 +1,4 @@
-//! Radiance pictures, alone and as the environment of a scene.
+//! Campaigns for Radiance pictures, alone and as the environment of a scene.
 
 use crate::scenes;
 use crate::support::{expect, root};
@@ -6,7 +6,7 @@ use color::radiance::RadiancePicture;
 use pellicle_fuzz::{Campaign, Outcome};
 use std::fs;
 
-/// A scene with the picture around it.
+/// A scene with the picture as its environment.
 pub(crate) fn surrounded(file: &str) -> String {
     format!(
         "camera = {{ type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }}\n\
@@ -42,7 +42,7 @@ fn read(bytes: &[u8]) -> Outcome {
         Ok(picture) => picture,
         Err(error) => return Outcome::Refused(error.to_string()),
     };
-    // What the callers see to.
+    // The callers check the size.
     if u64::from(picture.width()) * u64::from(picture.height()) > 1 << 26 {
         return Outcome::Refused("it is too large".to_owned());
     }
@@ -57,7 +57,7 @@ fn read(bytes: &[u8]) -> Outcome {
     }
 }
 
-/// Pictures that promise much.
+/// Files that promise large data.
 fn bombs() -> Vec<Vec<u8>> {
     let sizes = [
         "-Y 100000 +X 200000",
@@ -71,7 +71,7 @@ fn bombs() -> Vec<Vec<u8>> {
         .map(|size| format!("{header}{size}\n").into_bytes())
         .to_vec();
     let mut runs = format!("{header}-Y 4096 +X 8192\n").into_bytes();
-    // Pixels that repeat the one before, each as often as 255 stands for.
+    // Runs that repeat the previous pixel, each as often as a count of 255 allows.
     runs.extend([128, 128, 128, 129]);
     runs.extend([1, 1, 1, 255].repeat(2000));
     files.push(runs);

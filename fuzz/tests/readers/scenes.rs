@@ -1,4 +1,4 @@
-//! Scene files.
+//! Campaign for scene files.
 
 use crate::bombs;
 use crate::support::{files, root, text};
@@ -7,7 +7,7 @@ use scene::{Scene, SceneFile, Shape};
 use std::fs;
 use std::path::Path;
 
-/// Words that mean something in a scene or to TOML.
+/// Words that mean something in a scene or in TOML.
 const WORDS: [&str; 44] = [
     "true",
     "1979-05-27",
@@ -55,7 +55,7 @@ const WORDS: [&str; 44] = [
     "bands",
 ];
 
-/// The bands of a render, few: a case then takes no longer than it must.
+/// The scene with few bands per render, so that a case takes no longer than necessary.
 fn quickened(scene: &[u8]) -> Vec<u8> {
     text(scene)
         .replace("[render]\n", "[render]\nbands = 2\n")
@@ -63,11 +63,11 @@ fn quickened(scene: &[u8]) -> Vec<u8> {
         .into_bytes()
 }
 
-/// What is not sound in a scene: every number is finite, before and after rounding, and no length is 0.
+/// Finds a fault in a scene: every number must be finite, before and after rounding, and no length may be 0.
 fn fault(scene: &Scene) -> Option<String> {
     for scene in [scene, &scene.rounded_to_f32()] {
         let text = format!("{scene:?}");
-        // What was assumed of files follows, in words.
+        // The assumptions made about files follow, in words.
         let text = text.split("assumptions: [").next().unwrap_or_default();
         for word in ["NaN", "inf"] {
             if let Some(at) = text.find(word) {

@@ -1,4 +1,4 @@
-//! Stacks in files and in a line.
+//! Campaigns for stacks in files and in a line.
 
 use crate::bombs;
 use crate::support::text;
@@ -56,7 +56,7 @@ const LINE_WORDS: [&str; 24] = [
     "a.csv",
 ];
 
-/// Thicknesses are finite and not negative; where the media have data, n is above 0 and k is not below.
+/// Thicknesses must be finite and not negative; where the media have data, n must be above 0 and k not below 0.
 fn sound(stack: &Stack) -> Outcome {
     let is_thickness = |nm: &f64| nm.is_finite() && *nm >= 0.0;
     if stack.layers().len() > Stack::MAX_LAYERS || !stack.thicknesses_nm().iter().all(is_thickness)
@@ -109,7 +109,7 @@ fn stack_lines() {
     .run(read);
 }
 
-/// What is written of a stack is read as the same stack.
+/// A stack that is written out is read back as the same stack.
 #[test]
 fn a_line_and_its_file_are_the_same_stack() {
     let stack = Stack::parse("air | (TiO2 60nm | SiO2 90nm)^2 | BK7").unwrap();

@@ -1,4 +1,4 @@
-//! What several campaigns need.
+//! Helpers of several campaigns.
 
 use pellicle_fuzz::Outcome;
 use std::fs;
@@ -9,7 +9,7 @@ pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// The files of a folder of the workspace whose names end so.
+/// The files in a folder of the workspace with this extension.
 pub(crate) fn files(folder: &str, extension: &str) -> Vec<Vec<u8>> {
     let entries = fs::read_dir(root().join(folder)).unwrap();
     let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
@@ -32,7 +32,7 @@ pub(crate) fn expect(is_sound: bool, what: impl FnOnce() -> String) -> Outcome {
     }
 }
 
-/// A refusal with all that lies behind the error.
+/// A refusal with the whole chain of causes of the error.
 pub(crate) fn refused(error: &dyn std::error::Error) -> Outcome {
     let mut text = error.to_string();
     let mut inner = error.source();

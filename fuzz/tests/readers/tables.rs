@@ -1,4 +1,4 @@
-//! Tables over wavelength, and files of the refractiveindex.info database.
+//! Campaigns for tables over wavelength, and for files of the refractiveindex.info database.
 
 use crate::bombs;
 use crate::support::text;
@@ -50,7 +50,7 @@ const WORDS: [&str; 40] = [
     "1e",
 ];
 
-/// Points at rising wavelengths, finite and in the range of their quantity.
+/// Finds a fault in a table: wavelengths must rise, and values must be finite and in the range of their quantity.
 fn fault<const N: usize>(table: &Table<N>, quantities: [Quantity; N]) -> Option<String> {
     for (column, quantity) in table.columns.iter().zip(quantities) {
         let mut before = 0.0;
@@ -75,7 +75,7 @@ fn read<const N: usize>(text: &str, quantities: [Quantity; N], options: &Options
     }
 }
 
-/// The text as each of the tables that it may be; the outcome is the worst, or else that of all together.
+/// Reads the text as each kind of table that it may be; the outcome is the worst, or else all outcomes together.
 fn read_all(bytes: &[u8]) -> Outcome {
     let text = text(bytes);
     let plain = Options::default();
@@ -169,7 +169,7 @@ const YAML_WORDS: [&str; 34] = [
     "REFERENCES: |",
 ];
 
-/// What a file of the database gives is an index wherever it is stated, or a fault that is told.
+/// A file of the database gives a valid index at every wavelength of its range, or reports a fault.
 #[test]
 fn database_files() {
     let folder = tempfile::tempdir().unwrap();
