@@ -226,7 +226,7 @@ said_by_failed_tests() {
 }
 
 echo "building; this does not count" >&2
-# The first build uses the options of the suites, which then find it built.
+# Built first with the options that the suites use, so that they find it built.
 cargo build --workspace --release --bin pellicle --examples >&2 || exit 2
 # shellcheck disable=SC2086 # Words, on purpose.
 cargo test --release -p pellicle-tests ${suites:---lib --tests} --no-run >&2 || exit 2
@@ -254,8 +254,8 @@ heading "adapters"
 reported "$render_limit" "$pellicle" devices
 
 heading "starts: seconds to a picture of $size, one sample per pixel"
-say "The first start finds no shaders in any cache, the second those of the first. A compile is what the first of two like"
-say "frames takes longer than the second. A driver's cache that cannot be moved (Metal, DX12) is not emptied."
+say "The first start finds no shaders in any cache, the second those of the first. The compile time is how much longer the first"
+say "of two equal frames takes than the second. A driver's cache that cannot be moved (Metal, DX12) is not emptied."
 say "$(printf '%-12s%-10s%16s%16s%12s' scene renderer 'first start' 'second start' compile)"
 for scene_file in $compared; do
     for with in gpu cpu; do
@@ -280,7 +280,7 @@ if grep -q '^test result: FAILED' "$folder/output"; then
     all_well=false
     heading "tests that failed"
     failed_tests >>"$report"
-    heading "what they said"
+    heading "messages of the tests that failed"
     said_by_failed_tests >>"$report"
 fi
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Spectral OpenEXR files between Pellicle and others: colour-science (which reads with OpenImageIO) and the OpenEXR library.
+"""Exchanges spectral OpenEXR files between Pellicle, colour-science (which reads with OpenImageIO) and the OpenEXR library.
 
     python3 -m venv venv && venv/bin/pip install colour-science scipy OpenImageIO OpenEXR
     cargo build --release && venv/bin/python tests/interchange.py target/release/pellicle
 
-Written here: colour-science finds the bands, the OpenEXR library R, G, B and the same numbers. Written by colour-science: Pellicle
-finds the same numbers. Ends with an error where that is not so.
+Checks that colour-science reads the bands of Pellicle's files, that the OpenEXR library reads R, G, B and the same numbers, and that
+Pellicle reads the same numbers from files of colour-science. Fails if any of these does not hold.
 """
 
 import json
@@ -61,13 +61,13 @@ def written_here(folder):
     check("colour-science and the OpenEXR library read the same radiances", all(same))
     at = inspect(path, (24, 14))["places"][0]
     check("and Pellicle too", np.allclose(at["radiance"], radiance[14, 24][np.argsort(wavelengths)], rtol=1e-6))
-    # Y from the bands by colour-science's observer, sums at the bands' centers, against Y summed at the drawn wavelengths.
+    # Y from the bands by colour-science's observer, summed at the centers of the bands, against Y summed at the sampled wavelengths.
     observer = colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"]
     y_bar = np.array([observer[nm][1] for nm in wavelengths])
     luminance = 683 * 10 * (radiance * y_bar).sum(-1).mean()
-    check("Y of the bands is that of the file within 1 %", abs(luminance / pixels["pellicle.cieY"].mean() - 1) < 0.01)
+    check("Y of the bands equals Y of the file within 1 %", abs(luminance / pixels["pellicle.cieY"].mean() - 1) < 0.01)
     rgb = np.stack([pixels[name] for name in "RGB"], -1)
-    check("an ordinary reader finds R, G, B with light in them", np.isfinite(rgb).all() and rgb.max() > 0.5)
+    check("an ordinary reader finds R, G, B that are not black", np.isfinite(rgb).all() and rgb.max() > 0.5)
 
 
 def written_there(folder):
@@ -76,7 +76,7 @@ def written_there(folder):
     write_spectral_image_Fichet2021(d65, path, "float32", Specification_Fichet2021(is_emissive=True))
     found = inspect(path, (0, 0))
     radiance = found["places"][0]["radiance"]
-    check("D65 of colour-science: the same numbers, but beyond 360 nm",
+    check("D65 of colour-science: the same numbers, but only beyond 360 nm",
           np.allclose(radiance, [d65[nm] for nm in found["centers_nm"]], rtol=1e-6) and len(radiance) == 84)
     check("its chromaticity is 0.3127, 0.3290", np.allclose(found["places"][0]["xy"], [0.31272, 0.32903], atol=5e-5))
     path = folder / "chart.exr"

@@ -144,7 +144,7 @@ pub const WEDGE: f64 = 1e-4;
 /// rough metal carry the last digits of an `f64` through a few ill-conditioned steps, far below that.
 pub const BASELINE: f64 = 1e-6;
 /// Identities of stacks in f64 (energy, both directions, layers split or absent): rounding of some ten layers, times the
-/// number of round trips of light in a layer near grazing.
+/// number of times that light crosses a layer near grazing.
 pub const IDENTITY: f64 = 1e-12;
 /// Stacks against 50-digit figures: rounding of up to 21 layers, and of a phase of up to 1200 rad (1e-13) in films of 30 µm; observed:
 /// 4e-15 for ordinary stacks, 2e-14 for thick ones and mirrors.
@@ -187,7 +187,7 @@ pub const VARIANCES: VarianceTolerance = VarianceTolerance {
     rounding: 1e-10,
 };
 
-/// Closed forms: relative error besides the noise. The field of view is some thousandths of the distances wide (squared: below
+/// Closed forms: relative error besides the noise. The view is some thousandths of the distances wide (squared: below
 /// 1e-5), and f32 geometry, optics and sums of a million samples add as much again.
 pub const CLOSED_FORM: f64 = 2e-5;
 /// Ground under a clear sky against integrals of its formulas: the sky is rendered as a picture with pixels of 1.4°, bilinear between
@@ -209,7 +209,8 @@ pub const NEARLY_NORMAL: f64 = 5e-4;
 /// A small emitter out of focus: mean r² and light of its disk, which 50 000 samples hit (independent ones would leave 0.5 %); its outline,
 /// seen from the rim of the lens, is 0.25 % longer.
 pub const OUT_OF_FOCUS: f64 = 0.015;
-/// Each pixel's fraction of the light of a small emitter: 6000 samples hit it in the middle. There the two filters differ by 0.15.
+/// Each pixel's fraction of the light of a small emitter, 1 in total: 6000 samples hit it in the middle. There the two filters
+/// differ by 0.15.
 pub const PIXEL_FILTER: f64 = 0.02;
 /// Largest relative standard error of a mean that is used to prove a closed form: 4.5 of them detect a factor of 1.02.
 pub const PROVING_ERROR: f64 = 4e-3;

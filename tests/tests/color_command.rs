@@ -249,7 +249,7 @@ fn refused(text: &str, options: &str, said: &[&str]) {
 }
 
 #[test]
-fn tables_that_cannot_be_used_say_why() {
+fn unusable_tables_are_refused_with_a_reason() {
     let whole = "380,0.5\n780,0.5\n";
     refused(
         "wavelength_nm,value\n380,1.01\n780,0\n",

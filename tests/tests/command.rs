@@ -83,7 +83,7 @@ fn the_output_option_chooses_what_is_written() {
 }
 
 #[test]
-fn paths_may_have_blanks_and_any_letters() {
+fn paths_may_contain_spaces_and_any_letters() {
     let place = Place::default();
     std::fs::create_dir(place.path("a folder")).unwrap();
     std::fs::copy(scene("film_wedge.toml"), place.path("öl film.toml")).unwrap();
@@ -274,7 +274,7 @@ fn the_printed_schema_is_the_shipped_one() {
 }
 
 #[test]
-fn off_a_terminal_there_is_no_progress_bar() {
+fn without_a_terminal_there_is_no_progress_bar() {
     let place = Place::default();
     let ran = place.run(&render(&format!("{SMALL} --backend cpu")));
     let said = ran.succeeded().stderr;

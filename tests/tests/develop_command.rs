@@ -50,7 +50,7 @@ fn developed(place: &Place, options: &str) -> RgbImage {
 }
 
 #[test]
-fn each_step_is_switched_by_its_option() {
+fn each_step_is_controlled_by_its_option() {
     let place = place();
     let plain = developed(&place, "");
     // The exposure that the image was rendered with is the default.

@@ -156,7 +156,7 @@ fn z((a, variance_a): (f64, f64), (b, variance_b): (f64, f64)) -> f64 {
 }
 
 #[test]
-fn three_ways_agree_and_both_together_are_never_much_noisier() {
+fn three_techniques_agree_and_both_together_are_never_much_noisier() {
     let mut wrong = String::new();
     for (light_name, light) in LIGHTS {
         for (surface_name, surface) in SURFACES {

@@ -325,7 +325,7 @@ fn long_runs_of_samples_are_complete_or_refused() {
     match divided(Some(20_000)) {
         Ok(image) => assert_eq!(image, whole),
         Err(gpu::RenderError::CutShort { counted, samples }) => {
-            println!("in one run the driver completed {counted} of {samples} samples");
+            println!("the driver completed {counted} of {samples} samples in one run");
             assert!(counted < samples, "{counted} of {samples}");
         }
         Err(other) => panic!("{other}"),

@@ -95,7 +95,7 @@ fn every_material_can_be_shown() {
 }
 
 #[test]
-fn json_says_the_same() {
+fn json_has_the_same_content() {
     let all: Value = serde_json::from_str(&printed("--format json")).unwrap();
     let listed: Vec<_> = all
         .as_array()

@@ -74,7 +74,7 @@ fn the_commands_of_the_documentation_exist() {
 }
 
 #[test]
-fn the_files_that_it_names_exist() {
+fn the_files_of_the_readme_exist() {
     let readme = readme();
     let named: Vec<&str> = readme
         .split(['`', '(', ')'])

@@ -181,7 +181,7 @@ fn the_color_of_a_film_does_not_depend_on_the_number_of_bands() {
 /// The plates of `scenes/metamers.toml` have one color under D65 alone. CIELAB under FL11 was computed independently (numpy,
 /// sums at 1 nm).
 #[test]
-fn metamers_part_under_another_lamp() {
+fn metamers_differ_under_another_lamp() {
     const UNDER_FL11: [[f64; 3]; 2] = [[60.404, 45.959, -20.816], [62.834, 48.951, -2.624]];
     let gpu = open();
     let daylight = on_gpu(&gpu, &sized(file("metamers"), [8, 4], 4096, 80));

@@ -317,7 +317,7 @@ fn layers_in_the_wrong_order_are_noticed() {
 
 /// A million stacks in one call: all results come back, in their order.
 #[test]
-fn a_million_stacks_are_one_call() {
+fn one_call_evaluates_a_million_stacks() {
     const COUNT: usize = 1_000_000;
     let gpu = pellicle_tests::device::open();
     let mut stacks = RandomStacks::new(COUNT, 5, (300.0, 3.0), &[30.0]);

@@ -168,7 +168,7 @@ proptest! {
 
     /// The absorptance of a layer is the sum of the absorptances of its parts.
     #[test]
-    fn a_split_layer_absorbs_as_the_whole(
+    fn a_split_layer_absorbs_as_much_as_the_whole(
         layers in layers(2.0), place in 0..60_usize, share in 0.0..=1.0_f64,
         nm in 380.0..780.0_f64, cosine in 0.02..=1.0_f64,
     ) {

@@ -94,7 +94,7 @@ fn newtons_series_has_the_colors_of_independent_computations() {
 }
 
 #[test]
-fn a_series_of_a_wrong_index_is_noticed() {
+fn a_series_with_a_wrong_index_is_noticed() {
     for (name, found, expected) in newton(1.01 * WATER) {
         if !(name.starts_with("airy") && name.ends_with(" 0")) {
             assert!(

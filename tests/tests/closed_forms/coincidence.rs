@@ -198,7 +198,7 @@ fn a_film_in_the_plane_of_a_white_wall_loses_nothing() {
 
 /// A ball of 1e5 as the ground under a ball of 0.5: distances of hundreds of thousands must not cost the digits of halves.
 #[test]
-fn a_huge_ball_is_a_ground_on_both_renderers() {
+fn a_huge_ball_serves_as_ground_on_both_renderers() {
     const VIEW: &str = r#"
 [camera]
 type = "perspective"

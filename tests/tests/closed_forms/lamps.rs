@@ -111,7 +111,7 @@ fn light_through_an_absent_film_keeps_its_strength() {
     }
 }
 
-/// A small emitter seen through real films: T at normal incidence, once or twice.
+/// Light of a small emitter through real films: T at normal incidence, once or twice.
 #[test]
 fn light_through_a_film_loses_what_it_reflects_and_absorbs() {
     const BETWEEN: &str = "type = \"sphere\"\ncenter = [0, 2, 0]\nradius = 0.5";

@@ -147,7 +147,7 @@ fn every_text_is_in_american_english() {
 }
 
 #[test]
-fn names_of_files_too() {
+fn file_names_are_in_american_english() {
     let of = |source: Source| {
         british(&Source {
             path: "a path".to_owned(),
