@@ -56,7 +56,7 @@ pub const NARROW_FACETS: Tolerance = of(2e-6, 1e-3);
 pub const FACET_TAIL: Tolerance = of(2e-3, 0.0);
 /// Slopes sampled with that number.
 pub const SLOPE_TAIL: Tolerance = of(1e-2, 0.0);
-/// A position in a table of 31 steps, off by 1e-6, and the same along the azimuth.
+/// A position in a table of 31 steps, off by 1e-6, at the width of the slopes in the direction's azimuth.
 pub const FACET_ENERGY: Tolerance = of(2e-6, 0.0);
 /// A frame along a grain whose sine to the normal is at least 0.1.
 pub const FRAME: Tolerance = of(5e-6, 0.0);

@@ -20,7 +20,7 @@ pub(crate) struct Walk {
 }
 
 impl Walk {
-    /// A walk of light along `wo`, with random numbers identified by `index` and `seed`.
+    /// A walk of light that arrives from `wo`, with random numbers identified by `index` and `seed`.
     pub(crate) fn new(surface: &Microsurface, wo: [f64; 3], index: u32, seed: u32) -> Self {
         let mut walk = Self {
             left: None,

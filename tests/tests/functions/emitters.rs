@@ -6,8 +6,8 @@ use glam::DVec3;
 use pellicle_tests::tolerances::{DIRECTION, EMITTER_PDF, EXACT, NEAR_LIGHT};
 use scene::{EmitterKind, Shape};
 
-/// A point from which an emitter is seen, or that lies inside it. For a sphere: half a radius or more from its surface
-/// when `far`, otherwise from just outside it, or anywhere inside. For a rectangle: within some five units of it, but
+/// A point from which an emitter is seen, or that lies inside it. For a sphere: outside by half a radius or more
+/// when `far`, otherwise from just outside, or anywhere inside. For a rectangle: within some five units of it, but
 /// not in its plane.
 fn point_about(light: &Shape, u: &[f64], far: bool) -> Option<DVec3> {
     match *light {
