@@ -1,13 +1,13 @@
-//! A diffuse body below a coat without absorption.
+//! A diffuse body below a clear coat.
 
 use crate::reflectance_unpolarized;
 use crate::wide::Real;
 use num_complex::Complex64;
 
 /// Reflectance of a smooth surface of `index` for diffuse unpolarized light from vacuum: ∫ F(θ) 2 cos θ sin θ dθ, by Gauss's rule of
-/// order 16 on eight equal parts of √cos θ, which resolves the steep rise at grazing.
+/// order 16 on eight equal intervals of √cos θ, which resolves the steep rise at grazing incidence.
 ///
-/// Of glass (1.5) it is 0.0918 (Judd 1942, J. Res. NBS 29, 329, table 1). The reflectance from within follows from it:
+/// For glass (1.5) it is 0.0918 (Judd 1942, J. Res. NBS 29, 329, table 1). The internal reflectance follows from it:
 /// 1 − (1 − Ē) / n².
 pub fn hemispherical_reflectance(index: Complex64) -> f64 {
     const PARTS: u32 = 8;
@@ -34,13 +34,13 @@ const GAUSS_16: [(f64, f64); 8] = [
     (0.989_400_934_991_649_9, 0.027_152_459_411_754_095),
 ];
 
-/// P/ρ of a body of diffuse reflectance `base` ρ below a coat of real index n that does not absorb: the light that left the coat
-/// again is f = (1 − E(θᵢ)) (1 − E(θₒ)) P / π with P = ρ / (n² − ρ (n² − 1 + Ē)).
+/// P/ρ of a body of diffuse reflectance `base` ρ below a clear coat of real index n: the BRDF of the light that has entered the
+/// coat and left it again is f = (1 − E(θᵢ)) (1 − E(θₒ)) P / π with P = ρ / (n² − ρ (n² − 1 + Ē)).
 ///
-/// E(θ) is the reflectance of the coat's surface from outside, smooth or rough, and `outer` its mean Ē over diffuse light. Light that
-/// has entered is reflected evenly by the base, and a part Rᵢ of it again by the surface from within: ρ / (n² (1 − ρ Rᵢ)), with
-/// 1 − Rᵢ = (1 − Ē) / n², since as much diffuse light passes the surface either way (Saunderson 1942; Duntley 1942;
-/// Elias, Simonot and Menu 2001 for the angles). A body that loses nothing has (1 − Ē) P = 1 whatever its index.
+/// E(θ) is the external reflectance of the coat's surface, smooth or rough, and `outer` its mean Ē over diffuse light. The base
+/// reflects the light that has entered diffusely, and the surface reflects a fraction Rᵢ of it back internally:
+/// ρ / (n² (1 − ρ Rᵢ)), with 1 − Rᵢ = (1 − Ē) / n², since the surface transmits as much diffuse light in either direction
+/// (Saunderson 1942; Duntley 1942; Elias, Simonot and Menu 2001 for the angles). A body without loss has (1 − Ē) P = 1 at any index.
 ///
 /// Domain: n > 0, 0 ≤ ρ ≤ 1, 0 ≤ Ē < 1.
 #[inline]
@@ -53,7 +53,7 @@ pub fn coated_albedo_factor<T: Real>(base: T, n: T, outer: T) -> T {
 mod tests {
     use super::*;
 
-    /// Diffuse reflectance from outside and, by 1 − Rᵢ = (1 − Ē) / n², from inside (Judd 1942, J. Res. NBS 29, 329: 0.0918 and
+    /// External diffuse reflectance and, by 1 − Rᵢ = (1 − Ē) / n², the internal one (Judd 1942, J. Res. NBS 29, 329: 0.0918 and
     /// 0.596 for 1.5; Duntley's closed form gives the other digits).
     #[test]
     fn diffuse_reflectance_is_as_published() {
@@ -68,7 +68,7 @@ mod tests {
         assert!((inside - 0.596).abs() < 5e-4, "{inside}");
     }
 
-    /// The closed form of the diffuse reflectance from outside (Walsh 1926; Duntley 1942, J. Opt. Soc. Am. 32, 61).
+    /// Closed form of the external diffuse reflectance (Walsh 1926; Duntley 1942, J. Opt. Soc. Am. 32, 61).
     fn duntley(n: f64) -> f64 {
         let n2 = n * n;
         0.5 + (n - 1.0) * (3.0 * n + 1.0) / (6.0 * (n + 1.0).powi(2))
@@ -77,13 +77,13 @@ mod tests {
             + 8.0 * n2 * n2 * (n2 * n2 + 1.0) / ((n2 + 1.0) * (n2 * n2 - 1.0).powi(2)) * n.ln()
     }
 
-    /// Light followed to and fro between base and surface, pass by pass.
+    /// Follows light back and forth between base and surface, pass by pass.
     #[test]
     fn the_factor_is_the_sum_of_all_passes() {
         let (n, base, outer): (f64, f64, f64) = (1.5, 0.7, 0.0918);
         let inner = 1.0 - (1.0 - outer) / (n * n);
         let passes = (0..200).map(|i| base * (base * inner).powi(i)).sum::<f64>();
-        // What leaves in all directions together: (1 − Rᵢ) of what the base sends up, once it entered.
+        // What leaves in all directions together: (1 − Rᵢ) of what the base reflects upward, per unit of light that entered.
         let leaves = (1.0 - inner) * passes;
         let by_factor = base * coated_albedo_factor(base, n, outer) * (1.0 - outer);
         assert!((leaves - by_factor).abs() < 1e-12, "{leaves} {by_factor}");

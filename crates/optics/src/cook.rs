@@ -1,9 +1,9 @@
-//! The reflection model of Cook and Torrance as Suzuki, Yokoi and Toriwaki print it (section 3-1), piece by piece.
+//! The terms of the reflection model of Cook and Torrance as Suzuki, Yokoi and Toriwaki print it (section 3-1).
 //!
-//! I_r = I_a R_a + Σ I_l dω_l R_s with R_s = F D G / (π (N·E)); the cosine N·L of the irradiance is canceled against that of
-//! the denominator already. G is [`v_groove_g`](crate::v_groove_g). Two forms of D are printed: [`gaussian_d1`](crate::gaussian_d1) with an arbitrary
-//! constant, and [`beckmann_d2`], whose projected area is π and not 1: with the printed π in place of the 4 of facets that mirror
-//! (Torrance and Sparrow 1967) and D₂ in place of D₂/π, R_s is four times as large.
+//! I_r = I_a R_a + Σ I_l dω_l R_s with R_s = F D G / (π (N·E)), in which the cosine N·L of the irradiance has already canceled the
+//! one in the denominator. G is [`v_groove_g`](crate::v_groove_g). Two forms of D are printed: [`gaussian_d1`](crate::gaussian_d1)
+//! with an arbitrary constant, and [`beckmann_d2`], whose projected area is π instead of 1. With the printed π in place of the 4 for
+//! mirroring facets (Torrance and Sparrow 1967) and D₂ in place of D₂/π, R_s is four times as large.
 
 use crate::beckmann_d;
 use std::f64::consts::PI;
@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 /// The index n = (1 + √F₀) / (1 − √F₀) of a dielectric whose reflectance at normal incidence is `normal_reflectance`
 /// (Cook and Torrance 1982, section "Spectral composition", from F₀ = ((n − 1) / (n + 1))²).
 ///
-/// Domain: 0 ≤ F₀ < 1; n runs from 1 to ∞.
+/// Domain: 0 ≤ F₀ < 1; n ranges from 1 to ∞.
 pub fn index_from_normal_reflectance(normal_reflectance: f64) -> f64 {
     let root = normal_reflectance.sqrt();
     (1.0 + root) / (1.0 - root)
@@ -20,8 +20,8 @@ pub fn index_from_normal_reflectance(normal_reflectance: f64) -> f64 {
 /// Fresnel's reflectance of unpolarized light from a real index `n` ≥ 1, with c the cosine at the facet and g² = n² + c² − 1:
 /// F = ½ (g − c)² / (g + c)² {1 + (c (g + c) − 1)² / (c (g − c) + 1)²} (Cook and Torrance 1982, with c = E·H).
 ///
-/// The print has c = N·E and a garbled g. It is the same function as [`reflectance_unpolarized`](crate::reflectance_unpolarized)
-/// of an index without absorption.
+/// The paper prints c = N·E and a garbled g. For an index without absorption, this is the same function as
+/// [`reflectance_unpolarized`](crate::reflectance_unpolarized).
 ///
 /// Domain: 0 ≤ c ≤ 1, and not both n = 1 and c = 0, where g + c is 0 and the result is NaN.
 pub fn fresnel_by_g_and_c(n: f64, c: f64) -> f64 {
@@ -33,7 +33,7 @@ pub fn fresnel_by_g_and_c(n: f64, c: f64) -> f64 {
 
 /// D₂ = exp(−tan²a / m²) / (m² cos⁴a), as printed: π times [`beckmann_d`].
 ///
-/// Domain: `slope` m > 0; cosines of 0 and less give 0.
+/// Domain: `slope` m > 0. Cosines of 0 and less give 0.
 pub fn beckmann_d2(cos_facet: f64, slope: f64) -> f64 {
     PI * beckmann_d(cos_facet, slope)
 }
@@ -67,7 +67,7 @@ mod tests {
         close(fresnel_by_g_and_c(1.5, 0.5), 0.089_187, 5e-7);
     }
 
-    /// The formula of g and c is Fresnel's.
+    /// The formula in g and c equals Fresnel's.
     #[test]
     fn fresnel_is_that_of_an_index_without_absorption() {
         for n in [1.0, 1.333, 1.5, 3.0, 19.0, 300.0] {
@@ -76,11 +76,11 @@ mod tests {
                 close(fresnel_by_g_and_c(n, c), exact, 1e-12);
             }
         }
-        // At the cosine of the normal instead of the facet's it is another.
+        // The cosine with the normal instead of the facet gives another value.
         assert!((fresnel_by_g_and_c(1.5, 0.3) - fresnel_by_g_and_c(1.5, 0.5)).abs() > 0.1);
     }
 
-    /// m = 0.2: D₂ = 25 at the normal; where tan a = m, cos²a = 1/1.04 and D₂ = 25 e⁻¹ 1.04² = 25 × 0.3678794 × 1.0816 = 9.947460.
+    /// m = 0.2: D₂ = 25 at the normal. Where tan a = m, cos²a = 1/1.04 and D₂ = 25 e⁻¹ 1.04² = 25 × 0.3678794 × 1.0816 = 9.947460.
     /// m = 0.5, a = 45°: e⁻⁴ / (0.25 × 0.25) = 0.0183156 × 16 = 0.293050.
     #[test]
     fn d2_by_hand() {
@@ -99,7 +99,7 @@ mod tests {
         assert_eq!(gaussian_d1(0.0, 0.2), 0.0);
     }
 
-    /// For small m the surface is covered once by c = 1 / (π m²), as in a plane. As far as the horizon does not cut in,
+    /// For small m, c = 1 / (π m²) covers the surface once, as in a plane. As long as the horizon cuts nothing off,
     /// ∫ exp(−a²/m²) sin 2a da = m F(m) with Dawson's integral: F(0.3) = 0.28263 (Abramowitz and Stegun, table 7.5).
     #[test]
     fn the_constant_of_d1_covers_the_surface_once() {
@@ -116,9 +116,9 @@ mod tests {
         }
     }
 
-    /// Both directions at 60° on opposite sides: the facet lies level and nothing is hidden, 2 · 1 · ½ / ½ = 2 > 1. Both at 75° in the
-    /// same place: E·H = 1, G = 2 cos²75° = 0.133975. E at 60° and L at the normal: H at 30°, E·H = cos 30°, G = 2 (cos 30°)(½) /
-    /// cos 30° = 1; E at 80°, L at the normal: 2 cos 40° cos 80° / cos 40° = 0.347296.
+    /// Both directions at 60° on opposite sides: the facet is level and nothing is masked, 2 · 1 · ½ / ½ = 2 > 1. Both at 75° and
+    /// identical: E·H = 1, G = 2 cos²75° = 0.133975. E at 60° and L at the normal: H at 30°, E·H = cos 30°, G = 2 (cos 30°)(½) /
+    /// cos 30° = 1. E at 80°, L at the normal: 2 cos 40° cos 80° / cos 40° = 0.347296.
     #[test]
     fn g_by_hand() {
         let cosine = |degrees: f64| degrees.to_radians().cos();
@@ -130,7 +130,7 @@ mod tests {
         close(hidden, 0.347_296, 1e-6);
     }
 
-    /// The sampler's density covers the hemisphere of facets once.
+    /// The density of the sampler integrates to 1 over the hemisphere of facets.
     #[test]
     fn the_density_of_gaussian_facets_is_one() {
         for slope in [0.05, 0.3, 1.0] {

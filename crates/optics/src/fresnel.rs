@@ -1,8 +1,8 @@
-//! One boundary between two media.
+//! Fresnel's equations for the boundary between two media.
 
 use num_complex::Complex64;
 
-/// Amplitude reflection and transmission of a boundary, for s and p.
+/// Amplitude coefficients of reflection and transmission of a boundary, for s and p polarization.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Amplitudes {
     /// Reflection, s.
@@ -16,9 +16,9 @@ pub struct Amplitudes {
 }
 
 /// Cosine of the angle of refraction in a medium of index `n`, for a wave whose transverse wave number
-/// over the vacuum's is `n_sin` = n₁ sin θ₁ (Snell: it is the same in every layer).
+/// relative to vacuum is `n_sin` = n₁ sin θ₁ (by Snell's law it is the same in every layer).
 ///
-/// cos θ = √(1 − (n_sin / n)²), on the branch where the wave decays or runs forward: Im(n cos θ) ≥ 0,
+/// cos θ = √(1 − (n_sin / n)²), on the branch where the wave decays or propagates forward: Im(n cos θ) ≥ 0,
 /// and Re(n cos θ) ≥ 0 where the imaginary part vanishes (Born and Wolf, Principles of Optics, 7th ed., section 14.2).
 pub fn cos_refracted(n: Complex64, n_sin: Complex64) -> Complex64 {
     let sine = n_sin / n;
@@ -33,11 +33,11 @@ pub fn cos_refracted(n: Complex64, n_sin: Complex64) -> Complex64 {
     }
 }
 
-/// Fresnel's amplitudes for light in a medium of index `n1` that meets a medium of index `n2`.
+/// Fresnel's amplitude coefficients for light in a medium of index `n1` that meets a medium of index `n2`.
 ///
 /// r_s = (n₁ c₁ − n₂ c₂) / (n₁ c₁ + n₂ c₂), r_p = (n₂ c₁ − n₁ c₂) / (n₂ c₁ + n₁ c₂),
 /// t_s = 2 n₁ c₁ / (n₁ c₁ + n₂ c₂), t_p = 2 n₁ c₁ / (n₂ c₁ + n₁ c₂)
-/// (Born and Wolf, 7th ed., section 1.5, equations 20 and 21, with the field's direction of r_p as there).
+/// (Born and Wolf, 7th ed., section 1.5, equations 20 and 21, with the same field direction for r_p).
 ///
 /// `cos1` and `cos2` are the cosines in the two media, from [`cos_refracted`].
 pub fn fresnel(n1: Complex64, cos1: Complex64, n2: Complex64, cos2: Complex64) -> Amplitudes {
@@ -50,9 +50,9 @@ pub fn fresnel(n1: Complex64, cos1: Complex64, n2: Complex64, cos2: Complex64) -
     }
 }
 
-/// Reflectance of a half space of complex index `index` seen from vacuum, for unpolarized light.
+/// Reflectance for unpolarized light of a half space of complex index `index` seen from vacuum.
 ///
-/// `cos_incident` in (0, 1].
+/// Domain: `cos_incident` in (0, 1].
 pub fn reflectance_unpolarized(index: Complex64, cos_incident: f64) -> f64 {
     let cos1 = Complex64::from(cos_incident);
     let sine = ((1.0 - cos_incident) * (1.0 + cos_incident)).sqrt();
@@ -86,7 +86,7 @@ mod tests {
         assert!(a.r_s.norm() > 0.3);
     }
 
-    /// A published value: aluminum, n = 0.82 + 5.99i at 546 nm, has R = 0.9163 at normal incidence
+    /// A published value: aluminum with n = 0.82 + 5.99i at 546 nm has R = 0.9163 at normal incidence
     /// by ((n − 1)² + k²) / ((n + 1)² + k²).
     #[test]
     fn a_metal_at_normal_incidence_follows_the_closed_form() {

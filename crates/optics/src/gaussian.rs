@@ -1,10 +1,10 @@
-//! Facets whose angle with the normal has a Gaussian distribution (Blinn 1977), as in the model of Cook and Torrance.
+//! Facets whose angle with the normal has a Gaussian distribution (Blinn 1977), for the model of Cook and Torrance.
 
 use std::f64::consts::PI;
 
-/// D₁ = exp(−a² / m²), a the angle between facet and normal in radians, without its constant c: Gaussian in the angle (Blinn 1977).
+/// D₁ = exp(−a² / m²), Gaussian in the angle a between facet and normal in radians, without its constant c (Blinn 1977).
 ///
-/// Domain: `slope` m > 0, a root mean square slope without a unit; cosines of 0 and less give 0.
+/// Domain: `slope` m > 0, a root mean square slope without a unit. Cosines of 0 and less give 0.
 pub fn gaussian_d1(cos_facet: f64, slope: f64) -> f64 {
     if cos_facet <= 0.0 {
         return 0.0;
@@ -30,10 +30,10 @@ pub fn gaussian_constant(slope: f64) -> f64 {
     1.0 / (PI * sum * step / 3.0)
 }
 
-/// A facet normal drawn from two uniform numbers in [0, 1) so that the angle's square is as D₁ has it:
+/// Samples a facet normal from two uniform numbers in [0, 1), with the squared angle distributed according to D₁:
 /// a² = −m² ln(1 − u Z) with Z = 1 − exp(−π² / 4m²), which cuts it off at the horizon.
 ///
-/// Domain: `slope` m > 0. The normal is a unit vector whose third component is the cosine with the surface's own.
+/// Domain: `slope` m > 0. The normal is a unit vector whose third component is the cosine with the surface normal.
 pub fn sample_gaussian(u: f64, v: f64, slope: f64) -> [f64; 3] {
     let angle = slope * (-(-u * gaussian_fraction(slope)).ln_1p()).sqrt();
     let (sine, cosine) = angle.min(0.5 * PI).sin_cos();
@@ -41,9 +41,9 @@ pub fn sample_gaussian(u: f64, v: f64, slope: f64) -> [f64; 3] {
     [sine * cos_phi, sine * sin_phi, cosine]
 }
 
-/// Density of a facet normal drawn by [`sample_gaussian`], sr⁻¹: exp(−a²/m²) a / (π m² Z sin a).
+/// Density of a facet normal sampled by [`sample_gaussian`], sr⁻¹: exp(−a²/m²) a / (π m² Z sin a).
 ///
-/// Domain: `slope` m > 0; cosines of 0 and less give 0.
+/// Domain: `slope` m > 0. Cosines of 0 and less give 0.
 pub fn gaussian_pdf(cos_facet: f64, slope: f64) -> f64 {
     if cos_facet <= 0.0 {
         return 0.0;
@@ -54,12 +54,12 @@ pub fn gaussian_pdf(cos_facet: f64, slope: f64) -> f64 {
     gaussian_d1(cos_facet, slope) * widening / (PI * slope * slope * gaussian_fraction(slope))
 }
 
-/// Z = 1 − exp(−π² / 4m²): the share of a Gaussian in the plane that lies above the horizon.
+/// Z = 1 − exp(−π² / 4m²): the fraction of a Gaussian in the plane that is above the horizon.
 pub fn gaussian_fraction(slope: f64) -> f64 {
     -(-0.25 * PI * PI / (slope * slope)).exp_m1()
 }
 
-/// The angle of a cosine; near 0 it keeps the digits that are there.
+/// Returns the angle of a cosine; small angles lose no digits.
 fn facet_angle(cosine: f64) -> f64 {
     let sine = ((1.0 - cosine) * (1.0 + cosine)).max(0.0).sqrt();
     sine.atan2(cosine)

@@ -1,26 +1,26 @@
-//! What a surface does to light: functions of numbers, in `f64`.
+//! The optics of surfaces: pure functions of numbers, in `f64`.
 //!
-//! No scene, no file and no device is known here; someone who designs coatings can use this crate alone.
+//! This crate knows nothing of scenes, files and devices. A designer of coatings can use it alone.
 //!
-//! | to know | call |
+//! | to compute | call |
 //! | --- | --- |
 //! | r, t, R and T of a stack of layers | [`stack`], [`film`] |
 //! | how much each layer absorbs | [`absorptance`] |
 //! | how R and T change with each thickness | [`thickness_derivatives`] |
 //! | R and T of many stacks at many angles and wavelengths, fast | [`batch::evaluate`] |
-//! | the formulas of your own loop over wavelengths, in registers | [`wide`] |
+//! | formulas for your own loop over wavelengths, in SIMD registers | [`wide`] |
 //! | a film by the two beams of Suzuki, Yokoi and Toriwaki | [`two_beam`] |
 //! | one boundary | [`fresnel`], [`reflectance_unpolarized`] |
-//! | Cook's model as printed in 1981 and after | [`gaussian_d1`], [`beckmann_d2`], [`index_from_normal_reflectance`] |
+//! | the model of Cook and Torrance as printed in 1981 and later | [`gaussian_d1`], [`beckmann_d2`], [`index_from_normal_reflectance`] |
 //! | a diffuse body below a coat | [`hemispherical_reflectance`], [`coated_albedo_factor`] |
 //! | rough surfaces | [`Microsurface`], [`multiple_color`] |
 //!
-//! Where the light of a coating goes, at one angle and wavelength:
+//! What a coating reflects, transmits and absorbs at one angle and wavelength:
 //!
 //! ```
 //! use pellicle_optics::{Complex64, Layer, absorptance, stack, thickness_derivatives};
 //!
-//! // An antireflection coating with a thin metal in it: silica on chromium on glass, 550 nm, seen at 30°.
+//! // An antireflection coating with a thin metal layer: silica on chromium on glass, at 550 nm and 30°.
 //! let layers = [
 //!     Layer { index: 1.46.into(), thickness_nm: 80.0 },
 //!     Layer { index: Complex64::new(3.18, 3.33), thickness_nm: 10.0 },
@@ -30,9 +30,9 @@
 //! let absorbed = absorptance(1.0, &layers, glass, 550.0, cosine);
 //! let (r, t) = (found.reflectance.s, found.transmittance.s);
 //! assert!((r + t + absorbed[0].s + absorbed[1].s - 1.0).abs() < 1e-14);
-//! assert_eq!(absorbed[0].s, 0.0); // silica takes nothing
+//! assert_eq!(absorbed[0].s, 0.0); // silica absorbs nothing
 //!
-//! // A nanometer more of silica changes R by the derivative, to first order.
+//! // One nanometer more of silica changes R by the derivative, to first order.
 //! let slope = thickness_derivatives(1.0, &layers, glass, 550.0, cosine)[0];
 //! let thicker = [Layer { thickness_nm: 81.0, ..layers[0] }, layers[1]];
 //! let change = stack(1.0, &thicker, glass, 550.0, cosine).reflectance.s - r;
@@ -40,11 +40,11 @@
 //! ```
 //!
 //! **Sign convention.** A complex index is n + ik and waves vary as exp(i(k·x − ωt)), so k ≥ 0
-//! absorbs. Wavelengths are vacuum wavelengths. Lengths of a film and wavelengths are both in nanometers. A cosine is
-//! that of the angle between a ray and the normal, measured in the medium that the ray is in.
+//! absorbs. Wavelengths are vacuum wavelengths. Thicknesses and wavelengths are in nanometers. A cosine belongs to
+//! the angle between a ray and the normal, measured in the medium that contains the ray.
 //!
-//! s is the polarization whose electric field is perpendicular to the plane of incidence, p the one
-//! whose field lies in it. r_p is the ratio that equals −r_s at normal incidence.
+//! s is the polarization whose electric field is perpendicular to the plane of incidence; the field of p
+//! is in that plane. The sign of r_p is such that it equals −r_s at normal incidence.
 
 pub mod batch;
 mod coat;
@@ -74,18 +74,18 @@ pub use stack::{
 };
 pub use two_beam::{PathDifference, TwoBeam, two_beam};
 
-/// A power for s and for p polarized light.
+/// A power for s- and for p-polarized light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Polarized {
-    /// For s polarized light.
+    /// For s-polarized light.
     pub s: f64,
-    /// For p polarized light.
+    /// For p-polarized light.
     pub p: f64,
 }
 
 impl Polarized {
-    /// For unpolarized light: the mean of both.
+    /// Returns the power for unpolarized light, the mean of both.
     pub fn unpolarized(self) -> f64 {
         0.5 * (self.s + self.p)
     }

@@ -1,11 +1,11 @@
-//! What Cook and Torrance take a rough surface for: facets of Beckmann's distribution in grooves.
+//! Rough surfaces as Cook and Torrance model them: facets with Beckmann's distribution, in V-shaped grooves.
 //!
 //! Directions are unit vectors in a local frame whose third component is the cosine with the macroscopic normal.
 
 use std::f64::consts::{PI, TAU};
 
 /// Beckmann's distribution of facet normals, sr⁻¹:
-/// D = exp(−tan²α / m²) / (π m² cos⁴α), α the angle between facet and surface normal, m the root mean square slope
+/// D = exp(−tan²α / m²) / (π m² cos⁴α), where α is the angle between facet and surface normal, m the root mean square slope
 /// (Beckmann and Spizzichino 1963; Cook and Torrance 1982, equation 5, with the 1/π that makes ∫ D cos α dω = 1).
 pub fn beckmann_d(cos_facet: f64, slope: f64) -> f64 {
     if cos_facet <= 0.0 {
@@ -27,7 +27,7 @@ pub fn v_groove_g(cos_facet: f64, cos_wo: f64, cos_wi: f64, wo_dot_facet: f64) -
     (groove * cos_wo).min(groove * cos_wi).min(1.0)
 }
 
-/// A facet normal drawn with density D cos α from two uniform numbers in [0, 1):
+/// Samples a facet normal with density D cos α from two uniform numbers in [0, 1):
 /// tan²α = −m² ln(1 − u) (Walter et al. 2007, equation 28).
 pub fn sample_beckmann(u: f64, v: f64, slope: f64) -> [f64; 3] {
     let tan2 = -slope * slope * (-u).ln_1p();
@@ -37,7 +37,7 @@ pub fn sample_beckmann(u: f64, v: f64, slope: f64) -> [f64; 3] {
     [sine * cos_phi, sine * sin_phi, cosine]
 }
 
-/// Density of a facet normal drawn by [`sample_beckmann`], sr⁻¹.
+/// Density of a facet normal sampled by [`sample_beckmann`], sr⁻¹.
 pub fn half_vector_pdf(cos_facet: f64, slope: f64) -> f64 {
     beckmann_d(cos_facet, slope) * cos_facet.max(0.0)
 }

@@ -1,14 +1,14 @@
-//! A film by two beams: what its two surfaces reflect once each.
+//! A film by two beams: those reflected once at each of its two surfaces.
 
 use crate::{Amplitudes, Polarized, fresnel};
 use std::f64::consts::TAU;
 
-/// The difference l between the ways of the two beams.
+/// Path difference l between the two beams.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PathDifference {
-    /// l = 2 n d cos θ₂, as physics has it.
+    /// l = 2 n d cos θ₂, the physically correct one.
     Optical,
-    /// l = 2 d cos θ₂, as Suzuki, Yokoi and Toriwaki print it: the index is missing, so that the fringes are n times as wide.
+    /// l = 2 d cos θ₂, as Suzuki, Yokoi and Toriwaki print it. The index is missing, so the fringes are n times as wide.
     AsPrinted,
 }
 
@@ -21,19 +21,19 @@ pub struct TwoBeam {
     pub transmittance: Polarized,
 }
 
-/// A film of real `index` in air by the two-beam formula of Suzuki, Yokoi and Toriwaki ("Study on Color Computation in Computer
-/// Graphics and Its Application to Rendering Color Caused by Light Interference", section 4-2):
+/// Powers of a film of real `index` in air by the two-beam formula of Suzuki, Yokoi and Toriwaki ("Study on Color Computation in
+/// Computer Graphics and Its Application to Rendering Color Caused by Light Interference", section 4-2):
 ///
-/// r² = r_c² + (t_a r_b t_c)² + 2 r_c t_a r_b t_c cos(2πl/λ − π), with the magnitudes of Fresnel's amplitudes in (a) and out (c)
-/// through the upper surface and at the lower one (b). Here r_b = r_c = r and t_a t_c = 1 − r², hence R = r² + ((1 − r²) r)² −
-/// 2 r² (1 − r²) cos(2πl/λ) and T = (1 − r²)². The printed text calls the amplitude of s polarized light ∥ and the other ⊥; here s and
-/// p are what they are everywhere.
+/// r² = r_c² + (t_a r_b t_c)² + 2 r_c t_a r_b t_c cos(2πl/λ − π), with the magnitudes of Fresnel's amplitudes into (a) and out of (c)
+/// the upper surface and at the lower one (b). Here r_b = r_c = r and t_a t_c = 1 − r², hence R = r² + ((1 − r²) r)² −
+/// 2 r² (1 − r²) cos(2πl/λ) and T = (1 − r²)². The printed text calls the amplitude of s-polarized light ∥ and the other ⊥; here s and
+/// p have their usual meaning.
 ///
-/// **Where it fails.** The light that is reflected more often is left out, and T does not interfere, so that energy is not
-/// conserved: R + T ≠ 1. For a film of index 4/3 with the optical path difference (figures from this crate's tests):
-/// at normal incidence R is off by at most 0.0016 (0.0800 instead of 0.0784 at the crest of a fringe), and R + T runs from 0.96 to 1.04.
-/// At steep angles the crests exceed 1, as soon as r > (√5 − 1)/2: beyond 77.6° for s, beyond 81.5° for unpolarized light, up to 32/27 =
-/// 1.185. Use [`film`](crate::film), except to reproduce pictures made with the formula.
+/// **Where it fails.** The formula omits light that is reflected more than once inside, and T does not interfere, so energy is not
+/// conserved: R + T ≠ 1. For a film of index 4/3 with the optical path difference (values from this crate's tests),
+/// R at normal incidence is off by at most 0.0016 (0.0800 instead of 0.0784 at the crest of a fringe), and R + T ranges from 0.96 to
+/// 1.04. At steep angles the crests exceed 1 as soon as r > (√5 − 1)/2: beyond 77.6° for s, beyond 81.5° for unpolarized light, up to
+/// 32/27 = 1.185. Use [`film`](crate::film), except to reproduce pictures made with the formula.
 ///
 /// Domain: `index` real, ≥ 1; `thickness_nm` ≥ 0; `wavelength_nm` > 0; `cos_incident` in (0, 1].
 pub fn two_beam(
@@ -81,7 +81,7 @@ mod tests {
         two_beam(WATER, thickness_nm, 500.0, cos1, PathDifference::Optical)
     }
 
-    /// Where a growing function of the angle reaches 1.
+    /// Returns the angle where an increasing function of the angle reaches 1.
     fn reaches_one(f: impl Fn(TwoBeam) -> f64) -> f64 {
         let (mut low, mut high) = (60.0, 89.0);
         while high - low > 1e-6 {
@@ -125,7 +125,7 @@ mod tests {
         assert!((crest(0.0).reflectance.s - 0.0800).abs() < 5e-5);
     }
 
-    /// The printed path difference is that of a film n times as thin.
+    /// The printed path difference belongs to a film n times as thin.
     #[test]
     fn the_printed_path_widens_the_fringes_by_the_index() {
         let at = |d, path| two_beam(WATER, d, 500.0, 0.7, path).reflectance;

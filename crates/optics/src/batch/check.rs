@@ -1,4 +1,4 @@
-//! What a batch must be before it is evaluated.
+//! Checks of a batch before it is evaluated.
 
 use super::{Media, StackBatch};
 use rayon::prelude::*;
@@ -13,7 +13,7 @@ pub enum BatchError {
     /// A wavelength is not positive.
     #[error("wavelength {place} is {found} nm; it must be positive and finite")]
     Wavelength {
-        /// Which, from 0.
+        /// Its index, from 0.
         place: usize,
         /// Its value.
         found: f64,
@@ -21,81 +21,85 @@ pub enum BatchError {
     /// A cosine is outside (0, 1].
     #[error("cosine {place} is {found}; it must be above 0 and at most 1")]
     Cosine {
-        /// Which, from 0.
+        /// Its index, from 0.
         place: usize,
         /// Its value.
         found: f64,
     },
-    /// The table of dispersive media is no whole number of spectra.
-    #[error("{found} indices of dispersive media are no multiple of the {wavelengths} wavelengths")]
+    /// The table of dispersive media does not hold a whole number of spectra.
+    #[error(
+        "{found} indices of dispersive media are not a multiple of the {wavelengths} wavelengths"
+    )]
     Media {
-        /// How many indices there are.
+        /// Number of indices.
         found: usize,
-        /// How many wavelengths there are.
+        /// Number of wavelengths.
         wavelengths: usize,
     },
-    /// An index is not n + ik with n ≥ 0 and k ≥ 0, not 0.
+    /// An index is not n + ik with n ≥ 0, k ≥ 0 and not both 0.
     #[error(
-        "index {place} of the media is {found}; n and k must be finite, not negative, and not both 0"
+        "index {place} of the media is {found}; n and k must be finite and not negative, and not both 0"
     )]
     Index {
-        /// Which, from 0.
+        /// Its index, from 0.
         place: usize,
         /// Its value.
         found: num_complex::Complex64,
     },
-    /// A thickness is negative.
+    /// A thickness is negative or not finite.
     #[error("layer {layer} has a thickness of {found} nm; it must be finite and not negative")]
     Thickness {
-        /// Which, from 0.
+        /// Its index, from 0.
         layer: usize,
         /// Its value.
         found: f64,
     },
-    /// A layer is of a medium that is not there.
-    #[error("layer {layer} is of medium {medium}, but there are only {media} media")]
+    /// A layer names a medium that does not exist.
+    #[error("layer {layer} has medium {medium}, but there are only {media} media")]
     LayerMedium {
-        /// Which layer, from 0.
+        /// Index of the layer, from 0.
         layer: usize,
         /// Its medium.
         medium: u32,
-        /// How many media there are.
+        /// Number of media.
         media: usize,
     },
-    /// A substrate is a medium that is not there.
-    #[error("stack {stack} lies on medium {medium}, but there are only {media} media")]
+    /// A stack names a substrate that does not exist.
+    #[error("stack {stack} has substrate {medium}, but there are only {media} media")]
     Substrate {
-        /// Which stack, from 0.
+        /// Index of the stack, from 0.
         stack: usize,
         /// Its substrate.
         medium: u32,
-        /// How many media there are.
+        /// Number of media.
         media: usize,
     },
-    /// A stack has layers that are not there.
-    #[error("stack {stack} has {count} layers from {first} on, but there are only {layers} layers")]
+    /// A stack names layers that do not exist.
+    #[error(
+        "stack {stack} has {count} layers starting at {first}, but there are only {layers} layers"
+    )]
     Layers {
-        /// Which stack, from 0.
+        /// Index of the stack, from 0.
         stack: usize,
         /// Its first layer.
         first: u32,
-        /// How many layers it has.
+        /// Number of its layers.
         count: u32,
-        /// How many layers there are.
+        /// Number of layers of the batch.
         layers: usize,
     },
-    /// The slice for the results has another length.
-    #[error("the slice for the results has room for {found}, but the batch has {expected}")]
+    /// The slice for the results has the wrong length.
+    #[error("the slice for the results has length {found}; the batch needs {expected}")]
     Output {
         /// Its length.
         found: usize,
-        /// The length needed.
+        /// The length that is needed.
         expected: usize,
     },
 }
 
-/// The first of many things that is not right; looked for on all cores and without error values while all are right, since a
-/// batch may have millions.
+/// Finds the first wrong item of a slice. As long as all are right, it searches on all cores and makes no error values, since a
+/// batch may have millions of items.
 fn first_wrong<T: Sync>(
     things: &[T],
     right: impl Fn(&T) -> bool + Sync,
@@ -103,7 +107,7 @@ fn first_wrong<T: Sync>(
 ) -> Result<(), BatchError> {
     const TOGETHER: usize = 4096;
     let all_right = |group: &[T]| group.iter().fold(true, |all, thing| all & right(thing));
-    // A few are not worth waking another core.
+    // A few items are not worth waking another core.
     let well = if things.len() <= TOGETHER {
         all_right(things)
     } else {
@@ -120,8 +124,10 @@ fn first_wrong<T: Sync>(
         .map_or(Ok(()), Err)
 }
 
+/// Checks every number of a batch.
+///
 /// # Errors
-/// The first number outside its domain.
+/// Reports the first number outside its domain.
 pub(super) fn check(batch: &StackBatch) -> Result<(), BatchError> {
     if !(batch.incident > 0.0 && batch.incident.is_finite()) {
         return Err(BatchError::Incident(batch.incident));
@@ -157,7 +163,7 @@ pub(super) fn check(batch: &StackBatch) -> Result<(), BatchError> {
     check_stacks(batch, media)
 }
 
-/// How many media there are.
+/// Checks the media and returns how many there are.
 fn check_media(batch: &StackBatch) -> Result<usize, BatchError> {
     let wavelengths = batch.wavelengths_nm.len();
     let (indices, media) = match batch.media {

@@ -1,14 +1,14 @@
-//! Lanes filled with whatever results come next: for batches of few wavelengths.
+//! Lanes filled with consecutive results, for batches of few wavelengths.
 
 use super::{LayerOf, Powers, StackBatch, write};
 use crate::wide::{Index, Lanes, MOST, Real, SCALED_AFTER, Sweep, Wave};
 use num_complex::Complex64;
 use pulp::{Simd, WithSimd};
 
-/// Some results one after the other.
+/// Some consecutive results.
 pub(super) struct Part<'a> {
     pub(super) batch: &'a StackBatch<'a>,
-    /// Which of the batch's results is the first.
+    /// Index of the first among the batch's results.
     pub(super) first: usize,
     pub(super) powers: &'a mut [Powers],
 }
@@ -37,7 +37,7 @@ impl<'a> Item<'a> {
     }
 }
 
-/// What the lanes have in common while a group of items is evaluated.
+/// Light in every lane while a group of items is evaluated.
 struct Light<S: Simd> {
     simd: S,
     incident: Lanes<S>,
@@ -117,8 +117,8 @@ fn evaluate<S: Simd>(simd: S, batch: &StackBatch, items: &[Item; MOST], powers: 
     write(sweep.powers(q0, cosines * incident.recip()), powers);
 }
 
-/// Thickness and index of each lane's layer so many steps above its substrate; a stack that has ended repeats the index
-/// with no thickness, which changes nothing.
+/// Thickness and index of each lane's layer `step` steps above its substrate. A stack that has ended repeats the index with
+/// zero thickness, which changes nothing.
 #[inline(always)]
 fn gather(
     batch: &StackBatch,

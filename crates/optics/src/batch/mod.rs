@@ -1,12 +1,12 @@
-//! Many stacks at many angles and wavelengths in one call, on all cores and in all lanes of their registers.
+//! Many stacks at many angles and wavelengths in one call, on all cores and in all lanes of their SIMD registers.
 //!
-//! The data are plain arrays: tables of media, of layers and of stacks, which name one another by number.
+//! The data are plain arrays: tables of media, layers and stacks that refer to one another by index.
 //!
 //! ```
 //! use pellicle_optics::batch::{LayerOf, Media, StackBatch, StackOf, evaluate};
 //! use pellicle_optics::Complex64;
 //!
-//! // Silica of 100, 200 and 300 nm on silicon, at three wavelengths, straight down and at 60°.
+//! // Silica of 100, 200 and 300 nm on silicon, at three wavelengths, at normal incidence and at 60°.
 //! let index = |n, k| Complex64::new(n, k);
 //! let media = [
 //!     index(1.4701, 0.0), index(1.4599, 0.0), index(1.4553, 0.0), // silica at 400, 550 and 700 nm
@@ -25,7 +25,7 @@
 //! let powers = evaluate(&batch)?;
 //! assert_eq!(powers.len(), 3 * 2 * 3);
 //! let at = |stack: usize, angle: usize, wavelength: usize| powers[(stack * 2 + angle) * 3 + wavelength];
-//! // At 550 nm, 94 nm of silica are a quarter wave, which quenches the 0.37 of silicon, and 188 nm change nothing.
+//! // At 550 nm, 94 nm of silica are a quarter wave, which suppresses silicon's 0.37, and 188 nm change nothing.
 //! assert!(at(0, 0, 1).reflectance.unpolarized() < 0.11);
 //! assert!(at(1, 0, 1).reflectance.unpolarized() > 0.35);
 //! # Ok::<(), pellicle_optics::batch::BatchError>(())
@@ -33,7 +33,7 @@
 
 #![expect(
     clippy::inline_always,
-    reason = "what works on lanes must be inlined into the caller that was compiled for them"
+    reason = "code that works on lanes must be inlined into the caller that was compiled for them"
 )]
 
 mod check;
@@ -51,7 +51,7 @@ use num_complex::Complex64;
 use pulp::Arch;
 use rayon::prelude::*;
 
-/// Stacks to be evaluated at every one of `cosines` and every one of `wavelengths_nm`.
+/// Stacks to evaluate at each of `cosines` and each of `wavelengths_nm`.
 #[derive(Clone, Copy, Debug)]
 pub struct StackBatch<'a> {
     /// Wavelengths in vacuum, nm, > 0.
@@ -60,7 +60,7 @@ pub struct StackBatch<'a> {
     pub cosines: &'a [f64],
     /// Index of the incident medium, real, > 0.
     pub incident: f64,
-    /// Index of the other media.
+    /// Indices of the other media.
     pub media: Media<'a>,
     /// The layers of all stacks.
     pub layers: &'a [LayerOf],
@@ -68,32 +68,32 @@ pub struct StackBatch<'a> {
     pub stacks: &'a [StackOf],
 }
 
-/// Indices n + ik (n ≥ 0, k ≥ 0, not 0) of media that are counted from 0.
+/// Indices n + ik (n ≥ 0, k ≥ 0, not both 0) of media, which are numbered from 0.
 #[derive(Clone, Copy, Debug)]
 pub enum Media<'a> {
     /// One index per medium, the same at every wavelength.
     Constant(&'a [Complex64]),
-    /// `[medium][wavelength]`, as many of each medium as there are wavelengths.
+    /// `[medium][wavelength]`: one index per medium and wavelength.
     Dispersive(&'a [Complex64]),
 }
 
-/// A layer of a medium.
+/// A layer of one medium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LayerOf {
-    /// Which of the batch's media.
+    /// Number of its medium among the batch's media.
     pub medium: u32,
     /// Thickness, nm, ≥ 0.
     pub thickness_nm: f64,
 }
 
-/// A stack: some of the batch's layers, the first beside the incident medium, on a substrate. Stacks may share layers.
+/// A stack: some of the batch's layers on a substrate. The first layer touches the incident medium. Stacks may share layers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StackOf {
-    /// Which of the batch's media the substrate is.
+    /// Number of the substrate among the batch's media.
     pub substrate: u32,
-    /// The first of its layers among the batch's.
+    /// Number of its first layer among the batch's layers.
     pub first_layer: u32,
-    /// How many layers it has, perhaps none.
+    /// Number of its layers; may be 0.
     pub layer_count: u32,
 }
 
@@ -101,32 +101,32 @@ pub struct StackOf {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Powers {
-    /// Share of the power that returns.
+    /// Fraction of the power that is reflected.
     pub reflectance: Polarized,
-    /// Share of the power that enters the substrate.
+    /// Fraction of the power that enters the substrate.
     pub transmittance: Polarized,
 }
 
 impl StackBatch<'_> {
-    /// How many results the batch has: stacks × angles × wavelengths.
+    /// Number of results: stacks × angles × wavelengths.
     pub fn len(&self) -> usize {
         self.stacks.len() * self.rows_per_stack()
     }
 
-    /// Whether the batch has no results.
+    /// Returns whether the batch has no results.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Whether every number of the batch is within its domain, as [`evaluate`] asks.
+    /// Checks that every number of the batch is within its domain, as [`evaluate`] requires.
     ///
     /// # Errors
-    /// [`BatchError`] says which is not.
+    /// [`BatchError`] says which number is not.
     pub fn check(&self) -> Result<(), BatchError> {
         check::check(self)
     }
 
-    /// Results of one stack.
+    /// Number of rows of results per stack.
     fn rows_per_stack(&self) -> usize {
         self.cosines.len() * self.wavelengths_nm.len()
     }
@@ -148,9 +148,9 @@ impl StackBatch<'_> {
 
 /// R and T of every stack at every angle and wavelength, as `[stack][angle][wavelength]`.
 ///
-/// The same numbers as [`stack`](crate::stack), of the same domain, to 1e-12 for ordinary stacks (some µm of layers, and
-/// mirrors of some 20; thicker ones amplify the rounding of the phase in either). Where nothing passes, T is below 1e-300
-/// rather than 0.
+/// The results equal those of [`stack`](crate::stack), with the same domain, to 1e-12 for ordinary stacks (layers of a few µm
+/// in total, mirrors of some 20 layers; thicker ones amplify the rounding of the phase in both functions). Where nothing is
+/// transmitted, T is below 1e-300 rather than 0.
 ///
 /// # Errors
 /// [`BatchError`] says which number of the batch is outside its domain.
@@ -161,11 +161,11 @@ pub fn evaluate(batch: &StackBatch) -> Result<Vec<Powers>, BatchError> {
     Ok(powers)
 }
 
-/// [`evaluate`] into a slice that is there already, which saves the time of fetching memory when many batches follow.
+/// [`evaluate`] into an existing slice, which saves allocations when many batches follow one another.
 ///
 /// # Errors
-/// [`BatchError`] says which number of the batch is outside its domain, or that the slice has not the length
-/// [`StackBatch::len`]; nothing is written then.
+/// [`BatchError`] says which number of the batch is outside its domain, or that the length of the slice is not
+/// [`StackBatch::len`]. Nothing is written then.
 pub fn evaluate_into(batch: &StackBatch, powers: &mut [Powers]) -> Result<(), BatchError> {
     check::check(batch)?;
     if powers.len() != batch.len() {
@@ -178,8 +178,8 @@ pub fn evaluate_into(batch: &StackBatch, powers: &mut [Powers]) -> Result<(), Ba
     Ok(())
 }
 
-/// From so many wavelengths on, lanes lie along the spectrum and what a medium needs at an angle is computed once for
-/// all layers; with fewer they are filled with whatever comes next.
+/// From this number of wavelengths on, lanes run along the spectrum, and what depends on a medium and an angle is computed
+/// once for all layers. With fewer wavelengths, lanes are filled with consecutive results.
 const SPECTRUM: usize = 4;
 
 fn run(arch: Arch, batch: &StackBatch, powers: &mut [Powers]) {
@@ -203,7 +203,7 @@ fn run(arch: Arch, batch: &StackBatch, powers: &mut [Powers]) {
     }
 }
 
-/// The powers of lanes, one after the other, to as many results.
+/// Writes the powers of consecutive lanes to as many results.
 #[inline(always)]
 fn write<S: pulp::Simd>(lanes: [Lanes<S>; 4], powers: &mut [Powers]) {
     let mut rows = [[0.0; MOST]; 4];

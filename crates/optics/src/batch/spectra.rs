@@ -1,26 +1,26 @@
-//! Lanes along the spectrum: what a medium needs is computed once for all layers of all stacks of a part.
+//! Lanes along the spectrum: what depends on a medium is computed once for all layers of all stacks of a part.
 
 use super::{Powers, StackBatch, write};
 use crate::wide::{Index, Lanes, MOST, SCALED_AFTER, Sweep, Wave};
 use pulp::{Simd, WithSimd};
 use std::ops::Range;
 
-/// Some stacks at some angles, and the place of their results.
+/// Some stacks at some angles, and the slice for their results.
 pub(super) struct Part<'a> {
     batch: &'a StackBatch<'a>,
     stacks: Range<usize>,
     angles: Range<usize>,
-    /// `[stack][angle][wavelength]` of those.
+    /// `[stack][angle][wavelength]` of these stacks and angles.
     powers: &'a mut [Powers],
 }
 
-/// Stacks that are evaluated together share their media while these fit into the nearest cache.
+/// Stacks that are evaluated together share their media, as long as the media fit into the L1 cache.
 const SHARED_MEDIA: usize = 16;
 const SHARED_STACKS: usize = 16;
-/// Results that are worth the handing over to another core.
+/// Number of results that are worth another core.
 const WORTHWHILE: usize = 1024;
 
-/// The batch cut into parts whose results lie together.
+/// Cuts the batch into parts whose results are contiguous.
 pub(super) fn parts<'a>(
     batch: &'a StackBatch<'a>,
     powers: &'a mut [Powers],
@@ -70,12 +70,12 @@ fn media_count(batch: &StackBatch) -> usize {
     }
 }
 
-/// What is done to a stack: its substrate, then its layers from the bottom up, each with the slot of its medium.
+/// The steps of each stack: its substrate, then its layers from the bottom up, each with the slot of its medium.
 struct Plan {
-    /// Which media the part needs, in the order of their slots.
+    /// The media that the part needs, in the order of their slots.
     media: Vec<u32>,
     substrates: Vec<usize>,
-    /// The last step of each stack.
+    /// End of each stack's steps.
     ends: Vec<usize>,
     steps: Vec<(usize, f64)>,
 }
@@ -107,7 +107,7 @@ impl Plan {
     }
 }
 
-/// Up to the widest registers' lanes of wavelengths.
+/// One register of wavelengths.
 struct Band<S: Simd> {
     wavelengths: Range<usize>,
     half_waves_per_nm: Lanes<S>,
@@ -116,7 +116,7 @@ struct Band<S: Simd> {
 }
 
 impl<S: Simd> Band<S> {
-    /// Lanes beyond the last wavelength repeat it.
+    /// Fills lanes beyond the last wavelength with the last one.
     #[inline(always)]
     fn new(simd: S, batch: &StackBatch, media: &[u32], first: usize) -> Self {
         let count = batch.wavelengths_nm.len();
@@ -191,7 +191,7 @@ impl WithSimd for Part<'_> {
     }
 }
 
-/// From the substrate up through all layers.
+/// Follows the fields from the substrate up through all layers.
 #[inline(always)]
 fn climb<S: Simd>(
     simd: S,

@@ -2,7 +2,7 @@ use super::*;
 use crate::{Layer, stack};
 use proptest::prelude::*;
 
-/// The bound that the docs of [`evaluate`] give.
+/// The bound stated in the docs of [`evaluate`].
 const ORDINARY: f64 = 1e-12;
 
 /// A batch that owns its tables.
@@ -33,7 +33,7 @@ impl Tables {
         }
     }
 
-    /// The same by one call of `stack` each.
+    /// The same results by one call of `stack` each.
     fn one_by_one(&self) -> Vec<[f64; 4]> {
         let batch = self.batch();
         let mut powers = Vec::new();
@@ -55,7 +55,7 @@ impl Tables {
         powers
     }
 
-    /// The largest difference between the batch, on each instruction set that this machine has, and the calls one by one.
+    /// The largest difference between the batch, on each instruction set of this machine, and the single calls.
     fn worst(&self) -> f64 {
         let expected = self.one_by_one();
         let mut worst = 0.0_f64;
@@ -68,7 +68,7 @@ impl Tables {
     }
 }
 
-/// The largest difference of any number; infinite where one is not a number or the lengths differ.
+/// The largest difference of any value; infinite where one is NaN or the lengths differ.
 fn difference(found: &[Powers], expected: &[[f64; 4]]) -> f64 {
     if found.len() != expected.len() || found.is_empty() {
         return f64::INFINITY;
@@ -84,7 +84,7 @@ fn difference(found: &[Powers], expected: &[[f64; 4]]) -> f64 {
     worst
 }
 
-/// Every instruction set that the machine has, the plain one too.
+/// Every instruction set of the machine, including the scalar one.
 #[cfg(target_arch = "x86_64")]
 fn arches() -> Vec<Arch> {
     let mut arches = vec![Arch::Scalar];
@@ -98,8 +98,8 @@ fn arches() -> Vec<Arch> {
     vec![Arch::new()]
 }
 
-/// Random tables: `wavelengths` many, up to four angles, six media (the last two absorb up to `k`), up to 24 layers of
-/// up to 300 nm each in up to seven stacks of up to eight of them.
+/// Random tables: `wavelengths` wavelengths, up to four angles, six media (the last two absorb up to `k`), and up to 24 layers
+/// of up to 300 nm each, in up to seven stacks of up to eight layers.
 fn tables(
     wavelengths: std::ops::RangeInclusive<usize>,
     incident: std::ops::Range<f64>,
@@ -163,7 +163,8 @@ proptest! {
         prop_assert!(worst < ORDINARY, "{worst:e}");
     }
 
-    /// From a dense medium: waves tunnel or return. Resonances of layers between two gaps amplify rounding a hundredfold.
+    /// From a dense medium, waves tunnel or are totally reflected. Resonances of layers between two gaps amplify rounding a
+    /// hundredfold.
     #[test]
     fn total_reflection_agrees_with_single_calls(tables in tables(1..=9, 1.3..2.6, 0.0)) {
         let worst = tables.worst();
@@ -207,7 +208,7 @@ fn layer(n: f64, k: f64, thickness_nm: f64) -> Layer {
 /// 89.99°.
 const GRAZING: f64 = 1.745_329_243_133_368e-4;
 
-/// Both ways agree, and are finite, at the edges of the domain.
+/// The batch and the single calls agree, and are finite, at the edges of the domain.
 #[test]
 fn the_edges_of_the_domain_agree() {
     let critical = (1.0 - (1.0 / 1.5_f64).powi(2)).sqrt();
@@ -241,7 +242,7 @@ fn the_edges_of_the_domain_agree() {
     }
 }
 
-/// 30 µm of film, to 89.99°: 700 half turns of phase, each rounding of which is 1e-13, in fringes a hundred times as steep.
+/// A film of 30 µm, up to 89.99°: the phase is 700 half turns, rounded by 1e-13, in fringes a hundred times as steep.
 #[test]
 fn thick_films_agree() {
     for cosine in [1.0, 0.5, 0.05, GRAZING] {
@@ -251,7 +252,7 @@ fn thick_films_agree() {
     }
 }
 
-/// A mirror whose field grows beyond 1e400, were it not scaled.
+/// A mirror whose field would grow beyond 1e400 if it were not rescaled.
 #[test]
 fn mirrors_of_thousands_of_layers_stay_finite() {
     let pair = [layer(2.4, 0.0, 57.3), layer(1.38, 0.0, 99.6)];
@@ -262,7 +263,7 @@ fn mirrors_of_thousands_of_layers_stay_finite() {
     assert!(at_550.reflectance.s > 1.0 - 1e-12 && at_550.transmittance.s < 1e-200);
 }
 
-/// The comparison can fail: an index one per cent higher, stacks that change places, and what is not a number.
+/// The comparison can fail: for an index one percent higher, for exchanged stacks, and for NaN.
 #[test]
 fn the_comparison_notices_differences() {
     let tables = one(1.0, &[0.8], &[layer(1.46, 0.0, 200.0)], 3.5.into());
@@ -279,7 +280,7 @@ fn the_comparison_notices_differences() {
     assert_eq!(difference(&found, &expected), f64::INFINITY);
 }
 
-/// More stacks than are handled together, with results in the right places.
+/// More stacks than are evaluated together, with results in the right order.
 #[test]
 fn many_stacks_come_out_in_their_order() {
     let count = 999;
@@ -311,7 +312,7 @@ fn an_empty_batch_has_no_results() {
     assert!(evaluate(&tables.batch()).is_err());
 }
 
-/// Each kind of wrong number gives its own error, which says where.
+/// Each kind of wrong number has its own error, which says where the number is.
 #[test]
 fn numbers_outside_their_domain_are_errors() {
     let right = one(1.0, &[1.0, 0.5], &[layer(1.46, 0.0, 200.0)], 3.5.into());
@@ -331,7 +332,7 @@ fn numbers_outside_their_domain_are_errors() {
         ("cosine 1 is 0;", &|t| t.cosines[1] = 0.0),
         ("cosine 0 is 1.5;", &|t| t.cosines[0] = 1.5),
         (
-            "2 indices of dispersive media are no multiple of the 5",
+            "2 indices of dispersive media are not a multiple of the 5",
             &|t| t.constant = false,
         ),
         ("index 0 of the media is 1.5-0.1i", &|t| {
@@ -343,11 +344,11 @@ fn numbers_outside_their_domain_are_errors() {
         ("layer 0 has a thickness of -1 nm", &|t| {
             t.layers[0].thickness_nm = -1.0;
         }),
-        ("layer 0 is of medium 2, but there are only 2", &|t| {
+        ("layer 0 has medium 2, but there are only 2", &|t| {
             t.layers[0].medium = 2;
         }),
-        ("stack 0 lies on medium 7", &|t| t.stacks[0].substrate = 7),
-        ("stack 0 has 4294967295 layers from 1 on", &|t| {
+        ("stack 0 has substrate 7", &|t| t.stacks[0].substrate = 7),
+        ("stack 0 has 4294967295 layers starting at 1", &|t| {
             t.stacks[0].first_layer = 1;
             t.stacks[0].layer_count = u32::MAX;
         }),

@@ -1,9 +1,9 @@
-//! The error function, together with the Gaussian that it is the integral of.
+//! The error function, together with its integrand, the Gaussian.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// (erfc x, exp(−x²)), both to some 1e-16 of themselves where they are normal numbers (Cody, Rational Chebyshev Approximations for the
-/// Error Function, Math. Comp. 23, 1969, with the coefficients of his CALERF).
+/// Returns (erfc x, exp(−x²)), both with a relative error of some 1e-16 where they are normal numbers (Cody, Rational Chebyshev
+/// Approximations for the Error Function, Math. Comp. 23, 1969, with the coefficients of his CALERF).
 pub(super) fn erfc_and_gauss(x: f64) -> (f64, f64) {
     let y = x.abs();
     let square = x * x;
@@ -22,8 +22,8 @@ pub(super) fn erfc_and_gauss(x: f64) -> (f64, f64) {
     (if x < 0.0 { 2.0 - of_y } else { of_y }, gauss)
 }
 
-/// The x of which (1 + erf x) / 2 is `p`, in (0, 1): the quantile of the normal distribution (Wichura, Algorithm AS 241, Appl. Statist. 37,
-/// 1988) over √2, to some 1e-16 of itself.
+/// Returns the x for which (1 + erf x) / 2 is `p`, in (0, 1): the quantile of the normal distribution (Wichura, Algorithm AS 241,
+/// Appl. Statist. 37, 1988) over √2, with a relative error of some 1e-16.
 pub(super) fn inverse_erf_of_share(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {
@@ -39,7 +39,7 @@ pub(super) fn inverse_erf_of_share(p: f64) -> f64 {
     (FRAC_1_SQRT_2 * size).copysign(q)
 }
 
-/// Horner's rule, the highest power first.
+/// Horner's rule, highest power first.
 fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     coefficients.iter().fold(0.0, |sum, c| sum * x + c)
 }
@@ -189,7 +189,7 @@ mod tests {
             let x = f64::from(i) * 0.01 + 1e-4;
             let (erfc, gauss) = erfc_and_gauss(x);
             let (of_libm, of_std) = (libm::erfc(x), (-x * x).exp());
-            // The square is rounded once before it is taken to a power, which costs up to x² digits' last places.
+            // The square is rounded once before the exponential, which costs up to x² units in the last place.
             let allowed = (4e-16 + 2.5e-16 * x * x) * of_libm;
             assert!(
                 (erfc - of_libm).abs() <= allowed,

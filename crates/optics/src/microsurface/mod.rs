@@ -1,11 +1,12 @@
-//! Rough surfaces as facets of which each mirrors: distributions of slopes with Smith's masking.
+//! Rough surfaces made of facets that each mirror: distributions of slopes with Smith's masking.
 //!
 //! Directions are unit vectors in a local frame: the third component is the cosine with the macroscopic normal, the first runs
 //! along the grain of a brushed surface, the second across it.
 //!
-//! A distribution of width α along and across the grain is one of width 1 stretched. The amount of facets that a direction w sees
-//! is (1 + Λ(w)) cos θ, with Λ of Smith (1967); heights of neighboring facets are taken for independent, those of the facet
-//! seen and lit for the same (Heitz, Understanding the Masking-Shadowing Function, JCGT 3(2), 2014, equations 83, 86 and 99).
+//! A distribution of width α along and across the grain is a stretched distribution of width 1. The area of facets that face
+//! a direction w is (1 + Λ(w)) cos θ, with Smith's Λ (1967). Heights of neighboring facets are assumed independent; masking and
+//! shadowing of a facet are correlated by its height (Heitz, Understanding the Masking-Shadowing Function, JCGT 3(2), 2014,
+//! equations 83, 86 and 99).
 
 mod erf;
 mod multiple;
@@ -16,19 +17,19 @@ pub use multiple::{MEAN_COSINES, mean_reflectance, multiple_color};
 use erf::erfc_and_gauss;
 use std::f64::consts::PI;
 
-/// How the slopes of facets are distributed.
+/// Distribution of the slopes of facets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Distribution {
     /// Normal: the density of slopes s is exp(−s²/α²) / (π α²) (Beckmann and Spizzichino 1963).
     Beckmann,
-    /// With long tails: 1 / (π α² (1 + s²/α²)²) (Trowbridge and Reitz 1975; GGX of Walter et al. 2007).
+    /// Long-tailed: 1 / (π α² (1 + s²/α²)²) (Trowbridge and Reitz 1975; GGX of Walter et al. 2007).
     Ggx,
 }
 
 /// The facets of a rough surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Microsurface {
-    /// How their slopes are distributed.
+    /// Distribution of their slopes.
     pub distribution: Distribution,
     /// Width α of the distribution along and across the grain, > 0.
     pub alpha: [f64; 2],
@@ -52,7 +53,7 @@ impl Microsurface {
         }
     }
 
-    /// Smith's Λ: 1 / (1 + Λ) of the facets that turn toward a direction are seen from there. With a = cot θ over the width
+    /// Smith's Λ: a fraction 1 / (1 + Λ) of the facets that face a direction is visible from it. With a = cot θ over the width
     /// in the direction's azimuth, Λ is (exp(−a²) / (a √π) − erfc a) / 2 for Beckmann and (√(1 + 1/a²) − 1) / 2 for GGX
     /// (Heitz 2014, equations 68 and 72).
     pub fn lambda(&self, direction: [f64; 3]) -> f64 {
@@ -72,8 +73,8 @@ impl Microsurface {
         }
     }
 
-    /// The reflection function of facets that reflect everything, sr⁻¹: D G / (4 (N·E)(N·L)) with
-    /// G = 1 / (1 + Λ(E) + Λ(L)). What was shadowed is missing.
+    /// BRDF of facets that reflect everything, sr⁻¹: D G / (4 (N·E)(N·L)) with
+    /// G = 1 / (1 + Λ(E) + Λ(L)). The light that other facets shadow is missing.
     pub fn reflection(&self, wo: [f64; 3], wi: [f64; 3]) -> f64 {
         let Some(facet) = facet_between(wo, wi) else {
             return 0.0;
@@ -82,7 +83,7 @@ impl Microsurface {
         self.density(facet) * seen / (4.0 * wo[2] * wi[2])
     }
 
-    /// Density with which a facet drawn by [`Self::sample`] mirrors `eye` to `light`, sr⁻¹: D / (4 (N·E) (1 + Λ(E)))
+    /// Density with which a facet sampled by [`Self::sample`] mirrors `wo` to `wi`, sr⁻¹: D / (4 (N·E) (1 + Λ(E)))
     /// (Heitz 2014, equations 16 and 17 with the Jacobian 1 / (4 E·H)).
     pub fn pdf(&self, wo: [f64; 3], wi: [f64; 3]) -> f64 {
         if wo[2] <= 0.0 {
@@ -106,7 +107,7 @@ impl Microsurface {
         (seen / (both * wi[2]), seen / (1.0 + hidden))
     }
 
-    /// A facet normal as often as `eye` sees it, from two uniform numbers in [0, 1).
+    /// Samples a facet normal from those visible from `wo`, with two uniform numbers in [0, 1).
     ///
     /// GGX: Dupuy and Benyoub, Sampling Visible GGX Normals with Spherical Caps (2023). Beckmann: in the space of slopes
     /// (Heitz and d'Eon 2014).
@@ -121,8 +122,8 @@ impl Microsurface {
         normalized([along * facet[0], across * facet[1], facet[2].max(0.0)])
     }
 
-    /// The part of the light that leaves at once of what comes from `eye` onto facets that reflect everything. 1 minus this
-    /// meets another facet.
+    /// Albedo of single scattering: the fraction of the light from `wo` that leaves facets that reflect everything after one
+    /// reflection. The remaining light meets another facet.
     ///
     /// By the rule of [`Self::each_reflection`].
     pub fn albedo(&self, wo: [f64; 3], steps: u32) -> f64 {
@@ -131,10 +132,11 @@ impl Microsurface {
         sum
     }
 
-    /// Hands `f` the cosine at each of the facets from which light leaves at once, and its part of the light.
+    /// Calls `f` for each facet from which light leaves after one reflection, with the cosine at the facet and its fraction of the
+    /// light.
     ///
-    /// By the midpoint rule with `steps`² facets, spread as often as they are seen on a GGX surface of the same α, more densely
-    /// where they are steep.
+    /// Uses the midpoint rule with `steps`² facets, distributed like the visible facets of a GGX surface of the same α, but more
+    /// densely where they are steep.
     pub fn each_reflection(&self, wo: [f64; 3], steps: u32, mut f: impl FnMut(f64, f64)) {
         let spread = Self {
             distribution: Distribution::Ggx,
@@ -145,7 +147,7 @@ impl Microsurface {
         let all = (1.0 + spread.lambda(wo)) / f64::from(steps * steps);
         for i in 0..steps {
             for j in 0..steps {
-                // The last of the numbers gives the steep facets, in the long tail of the slopes.
+                // Values of the second number near 1 give steep facets, in the long tail of the slopes.
                 let rest = place(j);
                 let facet = spread.sample(wo, place(i), 1.0 - rest * rest);
                 let wi = mirrored(wo, facet);
@@ -159,13 +161,13 @@ impl Microsurface {
     }
 }
 
-/// The facet that mirrors one direction into the other; none where either is below the surface.
+/// Returns the facet that mirrors one direction into the other; `None` where either is below the surface.
 fn facet_between(wo: [f64; 3], wi: [f64; 3]) -> Option<[f64; 3]> {
     let is_above = wo[2] > 0.0 && wi[2] > 0.0;
     is_above.then(|| half_vector(wo, wi))
 }
 
-/// The direction opposite `eye` at a facet.
+/// Returns `wo` mirrored at a facet.
 fn mirrored(wo: [f64; 3], facet: [f64; 3]) -> [f64; 3] {
     let twice = 2.0 * dot(wo, facet);
     std::array::from_fn(|i| twice * facet[i] - wo[i])

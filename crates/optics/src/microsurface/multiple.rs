@@ -1,8 +1,8 @@
-//! The color of light that meets several facets.
+//! The color of light that several facets reflect.
 
 use crate::wide::Real;
 
-/// Cosines and weights of the mean over a hemisphere, Σ w F(cos θ) ≈ ∫ F 2 cos θ d(cos θ): Gauss's rule of three points for the
+/// Cosines and weights for the mean over a hemisphere, Σ w F(cos θ) ≈ ∫ F 2 cos θ d(cos θ): the three-point Gauss rule for the
 /// weight x on [0, 1] (Abramowitz and Stegun, table 25.8, k = 1, doubled).
 pub const MEAN_COSINES: [(f64, f64); 3] = [
     (0.212_340_538_239_152_96, 0.139_653_959_802_908_25),
@@ -10,16 +10,16 @@ pub const MEAN_COSINES: [(f64, f64); 3] = [
     (0.911_412_040_487_296, 0.401_863_827_477_919_26),
 ];
 
-/// The reflectance of facets, averaged over a hemisphere by [`MEAN_COSINES`].
+/// Returns the reflectance of facets, averaged over a hemisphere by [`MEAN_COSINES`].
 pub fn mean_reflectance(reflectance: impl Fn(f64) -> f64) -> f64 {
     let parts = MEAN_COSINES.map(|(cosine, weight)| weight * reflectance(cosine));
     parts.iter().sum()
 }
 
-/// What is left of light that has met two facets or more, of mean reflectance F, on a surface that sends the share E away at
-/// each: F E F + F (1 − E) F E F + … without the first, which leaves at once, over the 1 − E that meets a second facet:
-/// F² E / (1 − F (1 − E)) (Kulla and Conty, Revisiting Physically Based Shading at Imageworks, 2017, with the F of the facet that
-/// the light meets first).
+/// Fraction of light that leaves after meeting two or more facets of mean reflectance F, where a fraction E leaves the surface
+/// after each: F E F + F (1 − E) F E F + …, without the light that leaves after the first facet and relative to the 1 − E that
+/// meets a second one. The sum is F² E / (1 − F (1 − E)) (Kulla and Conty, Revisiting Physically Based Shading at Imageworks, 2017,
+/// with the F of the facet that the light meets first).
 #[inline]
 pub fn multiple_color<T: Real>(mean_reflectance: T, mean_energy: f64) -> T {
     let kept = mean_reflectance.times(1.0 - mean_energy);
@@ -47,8 +47,8 @@ mod tests {
         assert!((mean_reflectance(|x| x.powi(6)) - 0.25).abs() > 1e-5);
     }
 
-    /// Metals, bare and under a film of index 2.4: three points are off by 0.2 % where the film is thin, and by 5 % of all where it
-    /// has several fringes between them.
+    /// Metals, bare and under a layer of index 2.4: three points are off by 0.2 % where the layer is thin, and by 5 % of all light
+    /// where several fringes fall between the points.
     #[test]
     fn three_points_are_enough() {
         let metals = [(0.25, 3.1), (0.05, 3.9), (2.7, 3.8), (0.9, 6.5), (1.5, 0.0)];
@@ -71,7 +71,7 @@ mod tests {
         }
     }
 
-    /// Each facet takes its share: the sum of F (F (1 − E))ⁿ F E over n = 0, 1, …, and nothing is lost where F = 1.
+    /// The color is the sum of F (F (1 − E))ⁿ F E over n = 0, 1, …, and nothing is lost where F = 1.
     #[test]
     fn the_color_is_that_of_a_series() {
         for (f, e) in [(0.9_f64, 0.7_f64), (0.5, 0.4), (0.04, 0.9)] {

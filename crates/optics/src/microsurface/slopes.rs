@@ -1,17 +1,18 @@
-//! Facets drawn as often as they are seen, on surfaces of α = 1.
+//! Sampling of visible facets, on surfaces of α = 1.
 
 use super::erf::{erfc_and_gauss, inverse_erf_of_share};
 use crate::wide::sin_cos_turns;
 use std::f64::consts::PI;
 
-/// The most steps of Halley's rule by which a slope is found.
+/// Maximum number of steps of Halley's rule for a slope.
 const STEPS: u32 = 4;
-/// A step so small is the last: the next would be smaller than a rounding, as its third power is.
+/// A step this small is the last: the next would be of the order of its third power, which is below rounding.
 const LAST_STEP: f64 = 1e-6;
-/// The least share of the slopes that is drawn.
+/// The smallest quantile of the slopes that is sampled.
 const LEAST_PROBABILITY: f64 = 1e-7;
 
-/// A visible facet of a GGX surface: the half of a point of the sphere's lit cap and the eye (Dupuy and Benyoub 2023, listing 3).
+/// Samples a visible facet of a GGX surface: the half vector of `wo` and a point of the spherical cap (Dupuy and Benyoub 2023,
+/// listing 3).
 pub(super) fn sample_visible_ggx(wo: [f64; 3], u: f64, v: f64) -> [f64; 3] {
     let (sin_phi, cos_phi) = sin_cos_turns(u);
     let z = (1.0 - v) * (1.0 + wo[2]) - wo[2];
@@ -19,9 +20,9 @@ pub(super) fn sample_visible_ggx(wo: [f64; 3], u: f64, v: f64) -> [f64; 3] {
     super::normalized([sine * cos_phi + wo[0], sine * sin_phi + wo[1], z + wo[2]])
 }
 
-/// A visible facet of a Beckmann surface: its slope toward the eye by [`visible_slope`], that aside by the normal
-/// distribution alone (Heitz and d'Eon, Importance Sampling Microfacet-Based BSDFs Using the Distribution of Visible Normals,
-/// 2014, appendix).
+/// Samples a visible facet of a Beckmann surface: its slope toward `wo` by [`visible_slope`], the perpendicular slope by the
+/// normal distribution alone (Heitz and d'Eon, Importance Sampling Microfacet-Based BSDFs Using the Distribution of Visible
+/// Normals, 2014, appendix).
 pub(super) fn sample_visible_beckmann(wo: [f64; 3], u: f64, v: f64) -> [f64; 3] {
     let sine = wo[0].hypot(wo[1]);
     let (cos_phi, sin_phi) = if sine > 0.0 {
@@ -36,11 +37,12 @@ pub(super) fn sample_visible_beckmann(wo: [f64; 3], u: f64, v: f64) -> [f64; 3] 
     super::normalized([-x, -y, 1.0])
 }
 
-/// The slope x below which the share u of what is seen from θ lies: the density of x is that of exp(−x²) (cos θ − x sin θ) up to
-/// x = cot θ, so the share is F(x) / F(cot θ) with F(x) = cos θ erfc(−x) + sin θ exp(−x²) / √π.
+/// Returns the slope x below which a fraction u of the facets visible from θ lies. The density of x is proportional to
+/// exp(−x²) (cos θ − x sin θ) up to x = cot θ, so the fraction is F(x) / F(cot θ) with
+/// F(x) = cos θ erfc(−x) + sin θ exp(−x²) / √π.
 ///
-/// A guess (Jakob, An Improved Visible Normal Sampling Routine for the Beckmann Distribution, 2014) is improved by Halley's rule until
-/// nothing changes.
+/// Halley's rule improves an initial guess (Jakob, An Improved Visible Normal Sampling Routine for the Beckmann Distribution, 2014)
+/// until nothing changes.
 pub(super) fn visible_slope(cosine: f64, sine: f64, u: f64) -> f64 {
     let u = u.max(LEAST_PROBABILITY);
     let steepest = if cosine < 6.0 * sine {
@@ -69,7 +71,7 @@ pub(super) fn visible_slope(cosine: f64, sine: f64, u: f64) -> f64 {
     x
 }
 
-/// The x of which 1 + erf x is `share`, within 2e-3 (Winitzki 2008), from −4 to 4.
+/// Returns the x for which 1 + erf x is `share`, within 2e-3 (Winitzki 2008), from −4 to 4.
 fn rough_inverse_erf(share: f64) -> f64 {
     const A: f64 = 0.147;
     let log = (share * (2.0 - share)).max(1e-8).ln();

@@ -28,8 +28,8 @@ fn direction(degrees: f64, turns: f64) -> [f64; 3] {
     [sine * cos_phi, sine * sin_phi, cosine]
 }
 
-/// ∫ f(m) D(m) dm by the midpoint rule over slopes s = α r (cos φ, sin φ), with r² the quantile of either distribution; the
-/// density comes from [`Microsurface::density`], the measure of slopes is dm = cos³ ds.
+/// ∫ f(m) D(m) dm by the midpoint rule over slopes s = α r (cos φ, sin φ), with r² the quantile of the distribution. The
+/// density comes from [`Microsurface::density`]; the measure of slopes is dm = cos³ ds.
 fn over_facets(surface: &Microsurface, f: impl Fn([f64; 3]) -> f64) -> f64 {
     let (rows, columns) = (2000, 240);
     let mut sum = 0.0;
@@ -65,8 +65,8 @@ fn projected_facets_cover_the_surface_once() {
     }
 }
 
-/// The facets that a direction sees, masked by 1 / (1 + Λ), fill what it sees of the macroscopic surface (Heitz 2014,
-/// equation 14). Without the masking they do not, so the test can fail.
+/// The projected area of the facets visible from a direction, masked by 1 / (1 + Λ), equals that of the macroscopic surface
+/// (Heitz 2014, equation 14). Without masking it does not, so the test can fail.
 #[test]
 fn visible_facets_fill_the_view() {
     for surface in surfaces() {
@@ -91,7 +91,7 @@ fn visible_facets_fill_the_view() {
     }
 }
 
-/// F(x) / F(cot θ) is the number that chose x, at every angle and far into the tail.
+/// F(x) / F(cot θ) returns the number that chose x, at every angle and far into the tail.
 #[test]
 fn slopes_are_found_to_rounding() {
     for degrees in [
@@ -126,7 +126,7 @@ fn reflection_is_reciprocal() {
     }
 }
 
-/// What leaves at once: by facets spread as a GGX surface shows them, and by all facets.
+/// The albedo from facets distributed like the visible facets of a GGX surface equals the albedo from all facets.
 #[test]
 fn the_albedo_is_the_integral_of_the_reflection() {
     for surface in surfaces() {
@@ -149,7 +149,8 @@ fn the_albedo_is_the_integral_of_the_reflection() {
     }
 }
 
-/// 1 − ln 2: a closed form of GGX with α = 1 seen from above. There G = 2z / (1 + z) and the light is uniform, D / 4 = 1 / 4π.
+/// 1 − ln 2 is the closed form for GGX with α = 1 at normal incidence, where G = 2z / (1 + z) and the reflected light is uniform,
+/// D / 4 = 1 / 4π.
 #[test]
 fn the_albedo_has_its_closed_form() {
     let surface = Microsurface {

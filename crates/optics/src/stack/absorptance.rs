@@ -1,16 +1,16 @@
-//! How much of the light each layer takes.
+//! How much of the light each layer absorbs.
 
 use super::fields::{Field, Medium, Polarization, Slab};
 use super::incident_admittance;
 use crate::{Layer, Polarized};
 use num_complex::Complex64;
 
-/// Absorptance of each layer: the share of the incident power that turns to heat in it, in the order of `layers`.
+/// Absorptance of each layer: the fraction of the incident power that turns to heat in it, in the order of `layers`.
 /// R + T + ΣA = 1.
 ///
-/// It is what enters a layer less what leaves it, by the flux Re(U* V) at both of its boundaries (Macleod, Thin-Film Optical
-/// Filters, section 2.8). The flux is taken relative to what reaches the layer, so that a layer beneath an opaque one has
-/// its share to full relative precision. A layer with k = 0 has 0 exactly, also where light tunnels through it.
+/// It is the power that enters a layer minus the power that leaves it, from the flux Re(U* V) at its two boundaries (Macleod,
+/// Thin-Film Optical Filters, section 2.8). The flux is relative to what reaches the layer, so the absorptance of a layer
+/// beneath an opaque one has full relative precision. A layer with k = 0 has exactly 0, even where light tunnels through it.
 ///
 /// Arguments and domain as for [`stack`](crate::stack).
 pub fn absorptance(
@@ -40,9 +40,9 @@ pub fn absorptance(
 
 /// The field of one polarization at every boundary of a stack.
 pub(super) struct Boundaries {
-    /// From the top to the substrate, one more than layers, each in units of its own.
+    /// From the top to the substrate, one more than there are layers, each in its own units.
     pub(super) fields: Vec<Field>,
-    /// For each layer the field beneath it in units of the field on top of it.
+    /// For each layer, the field beneath it in units of the field on top of it.
     pub(super) factors: Vec<f64>,
 }
 
@@ -65,7 +65,7 @@ impl Boundaries {
         eta * self.fields[0].u + self.fields[0].v
     }
 
-    /// What enters each layer less what leaves it, of an incident power of 1.
+    /// The power that enters each layer minus the power that leaves it, for an incident power of 1.
     fn absorbed(&self, eta: f64) -> Vec<f64> {
         let mut arriving = 4.0 * eta / self.incident(eta).norm_sqr();
         let layer = |(pair, factor): (&[Field], &f64)| {
@@ -95,7 +95,7 @@ mod tests {
         }
     }
 
-    /// An absorbing slab between equal media without reflection (n = 1, k small): A = 1 − exp(−4πkd/λ) (Beer and Lambert).
+    /// An absorbing slab between equal media with negligible reflection (n = 1, k small): A = 1 − exp(−4πkd/λ) (Beer and Lambert).
     /// Its boundaries reflect (k/2)² = 1e-12.
     #[test]
     fn a_faint_slab_absorbs_by_beers_law() {
@@ -106,7 +106,7 @@ mod tests {
         assert!((found.s - expected).abs() < 1e-11 && (found.p - expected).abs() < 1e-11);
     }
 
-    /// The same metal above another: what passes the first is all that the second can take, down to 1e-60.
+    /// One metal layer above another: the second absorbs all that the first transmits, down to 1e-60.
     #[test]
     fn a_layer_beneath_an_opaque_one_keeps_its_digits() {
         let silver = Complex64::new(0.05, 3.5);
@@ -114,7 +114,7 @@ mod tests {
         let found = absorptance(1.0, &layers, silver, 500.0, 0.6);
         let through = stack(1.0, &layers[..1], silver, 500.0, 0.6).transmittance;
         assert!(through.s < 1e-50, "{through:?}");
-        // The deeper layer is opaque too, so that it takes all: what enters the silver below the first.
+        // The lower layer is opaque too, so it absorbs all that enters the silver below the first.
         assert!(
             (found[1].s / through.s - 1.0).abs() < 1e-12,
             "{found:?} {through:?}"
@@ -125,7 +125,7 @@ mod tests {
         );
     }
 
-    /// Glass takes nothing, also in a gap through which light tunnels.
+    /// Glass absorbs nothing, and neither does a gap through which light tunnels.
     #[test]
     fn a_clear_layer_takes_nothing() {
         let layers = [layer(1.0, 0.0, 90.0), layer(0.06, 3.6, 20.0)];

@@ -16,16 +16,16 @@ pub struct ThicknessDerivative {
     pub transmittance: Polarized,
 }
 
-/// ∂R/∂d and ∂T/∂d for the thickness d of every layer, in the order of `layers`, by one sweep up and one down.
+/// ∂R/∂d and ∂T/∂d for the thickness d of every layer, in the order of `layers`, from one sweep up and one down.
 ///
 /// A layer's matrix M obeys ∂M/∂d = −ik ((0, q/η), (qη, 0)) M with k = 2π/λ. Hence, with (U, V) the field on top of the
 /// layer, D = η₀U + V at the top of the stack, and determinants of 1 above the layer,
 /// ∂r/∂d = −2ik η₀ ((q/η) V² − qη U²) / D², and ∂ ln t/∂d = ik ((q/η) L₁V + qη L₂U) / (L₁U + L₂V), where
-/// L = (η₀, 1) M₁ … M_{j−1} is carried down. (Derived from Abelès' matrices; Macleod, Thin-Film Optical Filters, chapter 2, has
-/// those. Furman and Tikhonravov, Basics of Optics of Multilayer Systems, 1992, give equivalent forms.)
-/// The first form has no difference of near equals beneath an opaque layer.
+/// L = (η₀, 1) M₁ … M_{j−1} is carried down. (Derived from Abelès' matrices, for which see Macleod, Thin-Film Optical Filters,
+/// chapter 2. Furman and Tikhonravov, Basics of Optics of Multilayer Systems, 1992, give equivalent forms.)
+/// The first form has no cancellation beneath an opaque layer.
 ///
-/// The derivative of a color is the sum of ∂R/∂d at its wavelengths with the weights that make the color of R.
+/// The derivative of a color is the sum of ∂R/∂d over the wavelengths, with the weights that give the color from R.
 ///
 /// Arguments and domain as for [`stack`](crate::stack).
 pub fn thickness_derivatives(
@@ -151,7 +151,7 @@ mod tests {
         (0..layers.len()).map(extrapolated).collect()
     }
 
-    /// The largest difference between derivatives and differences, over the largest derivative.
+    /// The largest deviation of the derivatives from the differences, relative to the largest derivative.
     fn worst(incident: f64, layers: &[Layer], substrate: Complex64, cosine: f64) -> f64 {
         let found = thickness_derivatives(incident, layers, substrate, 550.0, cosine);
         let expected = differences(incident, layers, substrate, cosine);
@@ -200,7 +200,7 @@ mod tests {
         }
     }
 
-    /// The comparison above notices derivatives of a stack that differs by a nanometer in one layer.
+    /// The comparison above detects derivatives of a stack with one layer that differs by a nanometer.
     #[test]
     fn the_comparison_can_fail() {
         let mut layers = [layer(1.46, 0.0, 120.0), layer(2.4, 0.0, 57.0)];
@@ -226,7 +226,7 @@ mod tests {
         assert!((found.transmittance.p + expected).abs() < 1e-15);
     }
 
-    /// What lies beneath an opaque layer changes R by exp(−4 Im δ) of what it would, not by rounding.
+    /// A layer beneath an opaque one changes R by exp(−4 Im δ) of what it would without it, not by rounding errors.
     #[test]
     fn beneath_an_opaque_layer_the_derivative_is_small_and_right() {
         let (cover, beneath) = (layer(0.06, 3.6, 700.0), layer(1.5, 0.0, 100.0));
@@ -236,7 +236,7 @@ mod tests {
             ..cover
         };
         let deeper = thickness_derivatives(1.0, &[thicker, beneath], SILICON, 550.0, 1.0)[1];
-        // The amplitude passes the cover twice: 100 nm more take exp(−2 · 2π k 100 / λ), and turn the phase by n.
+        // The amplitude crosses the cover twice: 100 nm more attenuate by exp(−2 · 2π k 100 / λ), and n shifts the phase.
         let least = (-2.0 * TAU * 3.6 * 100.0 / 550.0_f64).exp();
         let ratio = deeper.reflectance.s.abs() / found.reflectance.s.abs();
         assert!(found.reflectance.s.abs() < 1e-20 && found.reflectance.s != 0.0);

@@ -4,7 +4,7 @@ use crate::Layer;
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 
-/// The polarization of light that meets a stack.
+/// Polarization of the light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Polarization {
     S,
@@ -12,7 +12,7 @@ pub(crate) enum Polarization {
 }
 
 impl Polarization {
-    /// V/U of a wave that runs downwards (η): q for s, q/n² for p.
+    /// Admittance η = V/U of a wave that travels downward: q for s, q/n² for p.
     pub(crate) fn admittance(self, medium: &Medium) -> Complex64 {
         match self {
             Self::S => medium.q,
@@ -20,7 +20,7 @@ impl Polarization {
         }
     }
 
-    /// q/η and qη, which are regular where q is 0: 1 and q² for s, n² and q²/n² for p.
+    /// Returns q/η and qη, which are regular where q is 0: 1 and q² for s, n² and q²/n² for p.
     pub(crate) fn regular(self, medium: &Medium) -> (Complex64, Complex64) {
         let q2 = medium.q * medium.q;
         match self {
@@ -30,19 +30,19 @@ impl Polarization {
     }
 }
 
-/// A medium as light of one direction meets it.
+/// A medium for light of one direction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Medium {
-    /// q = n cos θ, the normal component of the wave vector over the vacuum's wave number, in the first quadrant: the
-    /// wave runs or decays downwards.
+    /// q = n cos θ, the normal component of the wave vector over the vacuum wave number, in the first quadrant: the
+    /// wave propagates or decays downward.
     pub(crate) q: Complex64,
     /// n².
     pub(crate) squared: Complex64,
 }
 
 impl Medium {
-    /// q² = n² − n₀² sin²θ₀ = (n − n₀)(n + n₀) + n₀² cos²θ₀: the cosine itself is used, since the sine has lost it
-    /// near grazing, and a medium equal to the incident one gets its cosine back exactly.
+    /// q² = n² − n₀² sin²θ₀ = (n − n₀)(n + n₀) + n₀² cos²θ₀. The cosine itself is used, since the sine loses its digits
+    /// near grazing incidence, and a medium equal to the incident one recovers the cosine exactly.
     pub(crate) fn new(index: Complex64, incident: f64, cos_incident: f64) -> Self {
         let q0 = incident * cos_incident;
         Self {
@@ -52,11 +52,11 @@ impl Medium {
     }
 }
 
-/// At the critical angle q² is exactly 0 and all of U, V stays finite, but η is divided by. A q of this size in its place
-/// changes nothing: what counts are sin δ / q and q sin δ, which have reached their limits long before.
+/// Least |q²|. At the critical angle q² is exactly 0 and U and V stay finite, but there is a division by η. Replacing q by one of
+/// this size changes nothing: only sin δ / q and q sin δ matter, which have reached their limits long before.
 const LEAST_Q2: f64 = 1e-100;
 
-/// The root in the first quadrant of a number of the upper half plane, to full relative precision in both parts.
+/// Returns the root in the first quadrant of a number in the upper half plane, to full relative precision in both parts.
 fn root(q2: Complex64) -> Complex64 {
     let (re, im) = (q2.re, q2.im.abs());
     let size = re.hypot(im);
@@ -73,7 +73,7 @@ fn root(q2: Complex64) -> Complex64 {
 }
 
 /// The tangential field at a boundary, in units in which U is 1 at the substrate: U = E and V = H for s, U = H and V = E
-/// for p (up to constants), so that both follow the same equations with their own η.
+/// for p (up to constants). Both follow the same equations, each with its own η.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Field {
     pub(crate) u: Complex64,
@@ -81,7 +81,7 @@ pub(crate) struct Field {
 }
 
 impl Field {
-    /// The field of a wave that leaves downwards in the substrate.
+    /// The field of a wave that leaves downward in the substrate.
     pub(crate) fn leaving(admittance: Complex64) -> Self {
         Self {
             u: Complex64::ONE,
@@ -89,12 +89,12 @@ impl Field {
         }
     }
 
-    /// Re(U* V), the power that passes the boundary downwards, up to a constant.
+    /// Re(U* V), the power that crosses the boundary downward, up to a constant.
     pub(crate) fn flux(self) -> f64 {
         (self.u.conj() * self.v).re
     }
 
-    /// By this much a field that has grown is scaled down, so that mirrors of thousands of layers stay finite.
+    /// Factor that scales a large field down, so that mirrors of thousands of layers stay finite.
     fn rescale(self) -> f64 {
         const LARGE: f64 = 1e100;
         let size = self.u.l1_norm() + self.v.l1_norm();
@@ -102,8 +102,8 @@ impl Field {
     }
 }
 
-/// A layer as light of one wavelength and direction meets it: Abelès' characteristic matrix
-/// ((cos δ, −i sin δ / η), (−i η sin δ, cos δ)), δ = 2π q d / λ, times exp(−Im δ), so that no element exceeds 1 by much
+/// A layer for light of one wavelength and direction: Abelès' characteristic matrix
+/// ((cos δ, −i sin δ / η), (−i η sin δ, cos δ)), δ = 2π q d / λ, times exp(−Im δ), so that no element exceeds 1 by much,
 /// however opaque the layer is (Abelès 1950; Born and Wolf, 7th ed., section 1.6.2, equation 39).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slab {
@@ -119,7 +119,7 @@ impl Slab {
         let medium = Medium::new(layer.index, incident, cos_incident);
         let delta = medium.q * (TAU * layer.thickness_nm / wavelength_nm);
         let (sin, cos) = delta.re.sin_cos();
-        // e^−b cosh b and e^−b sinh b, with b = Im δ, without the difference of near equals in the latter.
+        // e^−b cosh b and e^−b sinh b, with b = Im δ, without cancellation in the latter.
         let less = -0.5 * (-2.0 * delta.im).exp_m1();
         let (cosh, sinh) = (1.0 - less, less);
         Self {
@@ -130,8 +130,8 @@ impl Slab {
         }
     }
 
-    /// The field on top of the layer from the field beneath it, and the factor by which it is smaller than in the units
-    /// of the field beneath.
+    /// Returns the field on top of the layer from the field beneath it, and the factor by which it is smaller than in the
+    /// units of the field beneath.
     pub(crate) fn lift(&self, polarization: Polarization, below: Field) -> (Field, f64) {
         let eta = polarization.admittance(&self.medium);
         let field = Field {
@@ -146,7 +146,7 @@ impl Slab {
         (lifted, self.decay * rescale)
     }
 
-    /// The row vector (a, b) times the matrix. Only its direction is meant: it is scaled down where it has grown.
+    /// Returns the row vector (a, b) times the matrix. Only its direction matters: it is scaled down where it has grown.
     pub(crate) fn lower(&self, polarization: Polarization, row: Field) -> Field {
         let eta = polarization.admittance(&self.medium);
         let lowered = Field {
@@ -165,7 +165,7 @@ impl Slab {
 mod tests {
     use super::*;
 
-    /// The roots of squares with parts of very different size, which a root by modulus and argument loses.
+    /// Roots whose parts differ greatly in size, which a root by modulus and argument loses.
     #[test]
     fn both_parts_of_the_root_keep_their_digits() {
         for (re, im) in [

@@ -3,7 +3,7 @@
 use super::Real;
 use std::ops::Mul;
 
-/// A complex number, or several side by side.
+/// A complex number, or several in lanes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WideComplex<T> {
     pub(crate) re: T,

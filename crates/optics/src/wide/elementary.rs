@@ -1,4 +1,4 @@
-//! sin, cos and exp as polynomials (interpolated at Chebyshev's nodes with 60 digits), without branches.
+//! sin, cos and exp as polynomials (interpolated at Chebyshev nodes with 60 digits), without branches.
 
 use super::Real;
 use std::f64::consts::{LN_2, PI, TAU};
@@ -45,7 +45,7 @@ const POWER: [f64; 12] = [
     2.572_932_417_736_230_5e-11,
 ];
 
-/// Horner's rule for the even and the odd coefficients, so that half of the operations need not wait for the other half.
+/// Horner's rule for even and odd coefficients separately, so that half of the operations need not wait for the other half.
 #[inline(always)]
 fn polynomial<T: Real, const N: usize>(coefficients: &[f64; N], x: T) -> T {
     let square = x * x;
@@ -61,8 +61,8 @@ fn polynomial<T: Real, const N: usize>(coefficients: &[f64; N], x: T) -> T {
     odd.mul_add(x, even)
 }
 
-/// (sin πx, cos πx), both or neither with their signs changed: for a matrix of which only powers are asked, that is the same.
-/// To 4e-16, beside the rounding of x itself; sin keeps its relative precision at 0.
+/// Returns (sin πx, cos πx), both perhaps with the opposite sign, which does not matter for a matrix of which only powers are used.
+/// Accurate to 4e-16, apart from the rounding of x itself; sin keeps its relative precision at 0.
 #[inline(always)]
 pub fn sin_cos_half_turns<T: Real>(x: T) -> (T, T) {
     let x = x - x.round();
@@ -70,14 +70,14 @@ pub fn sin_cos_half_turns<T: Real>(x: T) -> (T, T) {
     (x * polynomial(&SINE, square), polynomial(&COSINE, square))
 }
 
-/// sin πx, perhaps with its sign changed; see [`sin_cos_half_turns`].
+/// Returns sin πx, perhaps with the opposite sign; see [`sin_cos_half_turns`].
 #[inline(always)]
 pub fn sin_half_turns<T: Real>(x: T) -> T {
     let x = x - x.round();
     x * polynomial(&SINE, x * x)
 }
 
-/// (sin 2πx, cos 2πx) for moderate x, as [`sin_cos_half_turns`] but with their signs.
+/// Returns (sin 2πx, cos 2πx) for moderate x, like [`sin_cos_half_turns`] but with the right signs.
 #[inline(always)]
 pub fn sin_cos_turns(x: f64) -> (f64, f64) {
     let half_turns = 2.0 * x;
@@ -93,10 +93,10 @@ pub fn sin_cos_turns(x: f64) -> (f64, f64) {
 /// 2π / ln 2.
 const TURN: f64 = TAU / LN_2;
 
-/// Beyond 2⁻¹⁰²⁰ nothing is told apart from it.
+/// Smaller values than 2⁻¹⁰²⁰ are not distinguished from it.
 const DARKEST: f64 = 1020.0;
 
-/// (exp(−2πx), 1 − exp(−2πx)) for x ≥ 0, both to a few 1e-16 of themselves times 1 + x.
+/// Returns (exp(−2πx), 1 − exp(−2πx)) for x ≥ 0, both with a relative error of a few 1e-16 times 1 + x.
 #[inline(always)]
 pub fn decay<T: Real>(x: T) -> (T, T) {
     let halvings = (x * x.constant(TURN)).at_most(DARKEST);
@@ -156,7 +156,7 @@ mod tests {
     fn sine_and_cosine_hold_4e_16() {
         let numbers = numbers();
         for (x, [sin, cos, ..]) in numbers.iter().zip(of(&numbers)) {
-            // Reduced exactly, so that the truth does not lose what is tested.
+            // The argument is reduced exactly, so that the expected values are accurate enough.
             let rest = x - x.round_ties_even();
             let (true_sin, true_cos) = (PI * rest).sin_cos();
             assert!((sin - true_sin).abs() < 4e-16, "{x}: {sin} {true_sin}");
@@ -196,7 +196,7 @@ mod tests {
         }
     }
 
-    /// Nothing is 0 or negative in the dark, however deep.
+    /// The decay is never 0 or negative, however large x is.
     #[test]
     fn the_deepest_decay_is_tiny_and_positive() {
         for [.., found, less] in of(&[112.0, 200.0, 1e3, 1e6, 1e9, 1e12, 1e15, 1e300]) {
@@ -207,7 +207,7 @@ mod tests {
         }
     }
 
-    /// The bounds above are tight enough to see a coefficient changed in its twelfth digit.
+    /// The bounds above are tight enough to detect a coefficient changed in its twelfth digit.
     #[test]
     fn a_wrong_coefficient_would_be_seen() {
         let mut wrong = SINE;

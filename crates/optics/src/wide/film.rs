@@ -1,17 +1,17 @@
-//! A free film of one layer, by its closed form.
+//! A free film of one layer, in closed form.
 
 use super::Real;
 use super::elementary::sin_half_turns;
 use crate::PathDifference;
 
-/// Reflectance, for unpolarized light, of a clear film with vacuum on both sides; what is not reflected is transmitted.
+/// Reflectance for unpolarized light of a clear film with vacuum on both sides; the rest is transmitted.
 ///
 /// R = F sin²φ / (1 + F sin²φ) with φ = 2π n d cos θ₂ / λ and F = 4ρ / (1 − ρ)² (Airy 1833; Born and Wolf, Principles of Optics, 7th ed.,
-/// section 7.6, equations 15 and 16). With c the cosine outside and q = n cos θ₂, q² = n² − 1 + c², F is written without cancellation:
-/// (n² − 1)² / 4c²q² for s, and for p, where n⁴c² − q² = (n² − 1)((n² + 1)c² − 1), that times ((n² + 1)c² − 1)² / n⁴.
+/// section 7.6, equations 15 and 16). With c the cosine outside, q = n cos θ₂ and q² = n² − 1 + c², F is written without cancellation:
+/// it is (n² − 1)² / 4c²q² for s, and ((n² + 1)c² − 1)² / n⁴ times that for p, since n⁴c² − q² = (n² − 1)((n² + 1)c² − 1).
 ///
 /// Domain: `n` ≥ 1, without absorption; `twice_nm` twice the thickness, nm; `inverse_wavelength` 1/λ, nm⁻¹; `cos2` the squared cosine
-/// outside, in (0, 1]. Within 5e-12 of [`film`](crate::film), and 5e-14 for cosines over 0.1, for films of some µm.
+/// outside, in (0, 1]. For films of some µm it agrees with [`film`](crate::film) within 5e-12, and within 5e-14 for cosines above 0.1.
 #[inline(always)]
 pub fn clear_film_reflectance<T: Real>(n: T, twice_nm: f64, inverse_wavelength: T, cos2: f64) -> T {
     let one = n.constant(1.0);
@@ -29,7 +29,7 @@ pub fn clear_film_reflectance<T: Real>(n: T, twice_nm: f64, inverse_wavelength: 
     s2.mul_add(b, p2 * a).times(0.5) / (a * b)
 }
 
-/// R and T of [`two_beam`](crate::two_beam) for unpolarized light, of its domain.
+/// R and T of [`two_beam`](crate::two_beam) for unpolarized light, with the same domain.
 #[inline(always)]
 pub fn two_beam_powers<T: Real>(
     n: T,
@@ -64,7 +64,7 @@ mod tests {
     use super::*;
     use crate::{film, two_beam};
 
-    /// Cases over indices, thicknesses, wavelengths and cosines, with what a formula is off by.
+    /// The largest error of a formula over indices, thicknesses, wavelengths and cosines.
     fn worst(off: impl Fn(f64, f64, f64, f64) -> f64, cosines: &[f64]) -> f64 {
         let mut worst = 0.0_f64;
         for n in [1.0, 1.01, 1.333, 1.5, 2.4] {
@@ -98,7 +98,7 @@ mod tests {
             let other = film((n * (1.0 + 1e-9)).into(), nm, wavelength, cosine);
             (closed - other.reflectance.unpolarized()).abs()
         };
-        assert!(worst(shifted, &steep) > 1e-10, "another index is seen");
+        assert!(worst(shifted, &steep) > 1e-10, "another index is detected");
     }
 
     #[test]

@@ -2,14 +2,13 @@
 
 use super::Real;
 
-/// Reflectance, for unpolarized light, of a half space of index n + ik seen from vacuum: Fresnel's equations in real arithmetic.
+/// Reflectance for unpolarized light of a half space of index n + ik seen from vacuum: Fresnel's equations in real arithmetic.
 ///
 /// With c the cosine, s² = 1 − c² and q = a + ib, q² = (n + ik)² − s²: R_s = ((c − a)² + b²) / ((c + a)² + b²) and
 /// R_p = R_s ((a − s²/c)² + b²) / ((a + s²/c)² + b²) (König 1928, in Born and Wolf, Principles of Optics, 7th ed.,
-/// section 14.2), of which the mean is R_s t / (t + u) with t = c²|q|² + s⁴ and u = 2ac s².
+/// section 14.2). Their mean is R_s t / (t + u) with t = c²|q|² + s⁴ and u = 2ac s².
 ///
-/// Domain: n ≥ 0, k ≥ 0, not both 0; `cosine` in (0, 1]. Within 1e-14 of
-/// [`stack`](crate::stack) without layers.
+/// Domain: n ≥ 0, k ≥ 0, not both 0; `cosine` in (0, 1]. It agrees with [`stack`](crate::stack) without layers within 1e-14.
 #[inline(always)]
 pub fn interface_reflectance<T: Real>(n: T, k: T, cosine: f64) -> T {
     let cos2 = cosine * cosine;

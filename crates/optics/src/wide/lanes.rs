@@ -1,14 +1,14 @@
-//! Numbers side by side in the registers of whichever instruction set is found at run time. Every function is inlined into the
+//! Numbers in the lanes of SIMD registers, of the instruction set found at run time. Every function is inlined into the
 //! caller that was compiled for that set.
 
 use super::Real;
 use pulp::Simd;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// The most lanes that any instruction set has.
+/// The most lanes of any instruction set.
 pub const MOST: usize = 8;
 
-/// As many f64 as the registers of `S` hold.
+/// As many `f64` as a register of `S` holds.
 #[derive(Clone, Copy, Debug)]
 pub struct Lanes<S: Simd> {
     simd: S,
@@ -16,7 +16,7 @@ pub struct Lanes<S: Simd> {
 }
 
 impl<S: Simd> Lanes<S> {
-    /// How many.
+    /// Number of lanes.
     pub const COUNT: usize = {
         assert!(S::F64_LANES <= MOST);
         S::F64_LANES

@@ -1,9 +1,9 @@
-//! The numbers that formulas are written on.
+//! The trait of the numbers that formulas are written on.
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A real number, or several side by side.
+/// A real number, or several in lanes.
 pub trait Real:
     Copy
     + Debug
@@ -44,7 +44,7 @@ pub trait Real:
     #[must_use]
     fn at_most(self, most: f64) -> Self;
 
-    /// The least number of all lanes.
+    /// The smallest number of all lanes.
     fn least(self) -> f64;
 
     /// `a` where self ≥ 0, elsewhere `b`.

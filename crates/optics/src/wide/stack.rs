@@ -1,21 +1,21 @@
-//! Stacks of layers, one layer at a time.
+//! Stacks of layers, evaluated one layer at a time.
 //!
 //! The equations are those of [`stack`](crate::stack): the tangential field (U, V) is carried from the substrate up by Abelès'
-//! characteristic matrix times exp(−Im δ). For a clear layer the matrix has four real or imaginary elements and determinant 1,
-//! so that a layer costs ten operations per polarization beside one sine and cosine for both, nothing is divided, and the
-//! transmittance needs no product over the layers. Carrying A/B of the waves that run up and down instead costs fourteen and a
-//! product, and loses its digits where q → 0, at a layer's critical angle.
+//! characteristic matrix times exp(−Im δ). For a clear layer the matrix has four real or imaginary elements and determinant 1.
+//! A layer therefore costs ten operations per polarization plus one sine and cosine for both, without a division, and the
+//! transmittance needs no product over the layers. Carrying the ratio A/B of the waves that travel up and down would cost fourteen
+//! operations and a product, and would lose its digits where q → 0, at a layer's critical angle.
 
 use super::elementary::{decay, sin_cos_half_turns};
 use super::{Real, WideComplex};
 
-/// Below this q² stands for 0 (as in [`stack`](crate::stack)).
+/// Least q²; smaller values are replaced by it (as in [`stack`](crate::stack)).
 const LEAST_Q2: f64 = 1e-100;
 
-/// After so many layers [`Sweep::rescale`] is due, before a field can have overflown: a layer multiplies it by less than some 10⁴.
+/// Number of layers after which [`Sweep::rescale`] is due, before a field can overflow: a layer multiplies it by less than some 10⁴.
 pub const SCALED_AFTER: usize = 32;
 
-/// What is known of a medium before the direction is.
+/// A medium before its direction is known.
 #[derive(Clone, Copy, Debug)]
 pub struct Index<T: Real> {
     /// n².
@@ -24,12 +24,12 @@ pub struct Index<T: Real> {
     inverse: WideComplex<T>,
     /// (n − n₀)(n + n₀).
     above: WideComplex<T>,
-    /// k = 0 in every lane, and then the least of (n − n₀)(n + n₀).
+    /// The smallest (n − n₀)(n + n₀) of the lanes, if k = 0 in every lane.
     clear: Option<f64>,
 }
 
 impl<T: Real> Index<T> {
-    /// Of index n + ik (n ≥ 0, k ≥ 0, not 0) below a medium of index `incident`; `clear` says that k is 0 in every lane.
+    /// A medium of index n + ik (n ≥ 0, k ≥ 0, not both 0) below a medium of index `incident`. `clear` says that k is 0 in every lane.
     #[inline(always)]
     pub fn new(n: T, k: T, clear: bool, incident: T) -> Self {
         if clear {
@@ -53,7 +53,7 @@ impl<T: Real> Index<T> {
         }
     }
 
-    /// The medium in light of a direction, given by q₀² = n₀² cos²θ₀ in lanes and as a number, the least of them, and 2/λ.
+    /// The medium for light of one direction, given by q₀² = n₀² cos²θ₀ in lanes, the smallest of these, and 2/λ.
     #[inline(always)]
     pub fn wave(&self, q0_squared: T, least_q0_squared: f64, half_waves_per_nm: T) -> Wave<T> {
         let q2 = self.above.re + q0_squared;
@@ -82,7 +82,7 @@ impl<T: Real> Index<T> {
     }
 }
 
-/// The root q in the first quadrant of a q² in the upper half plane, and 1/q.
+/// Returns the root q in the first quadrant of a q² in the upper half plane, and 1/q.
 #[inline(always)]
 fn root<T: Real>(q2: WideComplex<T>) -> (WideComplex<T>, WideComplex<T>) {
     let (re, im) = (q2.re, q2.im.abs());
@@ -95,19 +95,19 @@ fn root<T: Real>(q2: WideComplex<T>) -> (WideComplex<T>, WideComplex<T>) {
     (q, WideComplex::new(q.re * over_size, -(q.im * over_size)))
 }
 
-/// A medium in light of one direction.
+/// A medium for light of one direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Wave<T: Real>(Path<T>);
 
 #[derive(Clone, Copy, Debug)]
 enum Path<T: Real> {
-    /// Light runs without loss in every lane.
+    /// Light propagates without loss in every lane.
     Clear(Normal<T>),
-    /// Anything: losses, and light that only tunnels.
+    /// Any lane may have losses or light that only tunnels.
     Lossy(Normal<WideComplex<T>>),
 }
 
-/// What the normal component of the wave vector makes.
+/// Quantities derived from the normal component of the wave vector.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Normal<N> {
     /// η for s: q = n cos θ.
@@ -116,7 +116,7 @@ pub(super) struct Normal<N> {
     /// η for p: q/n².
     p: N,
     over_p: N,
-    /// 2q/λ: the phase δ of a nanometer over π.
+    /// 2q/λ: the phase δ of one nanometer, over π.
     half_turns_per_nm: N,
 }
 
@@ -158,7 +158,7 @@ impl<T: Real> Field<T> {
         }
     }
 
-    /// R, and 4η₀ / |η₀U + V|² of which T is made.
+    /// Returns R, and the 4η₀ / |η₀U + V|² from which T follows.
     #[inline(always)]
     fn end(self, eta: T) -> (T, T) {
         let Self { u, v } = self;
@@ -182,12 +182,12 @@ impl<T: Real> Field<T> {
     }
 }
 
-/// Both polarizations on their way from the substrate up.
+/// The fields of both polarizations, carried from the substrate up.
 #[derive(Clone, Copy, Debug)]
 pub struct Sweep<T: Real> {
     s: Field<T>,
     p: Field<T>,
-    /// |exp(−Σ Im δ)|² and the squares of what the fields were scaled by, for s and p.
+    /// |exp(−Σ Im δ)|² times the squares of the factors by which the fields were scaled, for s and p.
     passing_s: T,
     passing_p: T,
     /// Re η of the substrate.
@@ -196,7 +196,7 @@ pub struct Sweep<T: Real> {
 }
 
 impl<T: Real> Sweep<T> {
-    /// At the substrate.
+    /// Starts at the substrate.
     #[inline(always)]
     pub fn new(substrate: &Wave<T>) -> Self {
         let (s, p) = match &substrate.0 {
@@ -214,7 +214,7 @@ impl<T: Real> Sweep<T> {
         }
     }
 
-    /// Up through a layer.
+    /// Carries the fields up through a layer.
     #[inline(always)]
     pub fn pass(&mut self, wave: &Wave<T>, thickness_nm: T) {
         match &wave.0 {
@@ -246,7 +246,7 @@ impl<T: Real> Sweep<T> {
         self.passing_p = self.passing_p * passing;
     }
 
-    /// Scales both fields to a size of 1, so that they stay finite in mirrors of thousands of layers.
+    /// Scales both fields to size 1, so that they stay finite in mirrors of thousands of layers.
     #[inline(always)]
     pub fn rescale(&mut self) {
         let over_s = self.s.size().recip();
@@ -257,7 +257,7 @@ impl<T: Real> Sweep<T> {
         self.passing_p = self.passing_p * over_p;
     }
 
-    /// R_s, R_p, T_s, T_p, from η of the incident medium.
+    /// Returns R_s, R_p, T_s and T_p, from η of the incident medium.
     #[inline(always)]
     pub fn powers(&self, eta_s: T, eta_p: T) -> [T; 4] {
         let (r_s, over_s) = self.s.end(eta_s);
