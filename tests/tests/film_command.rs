@@ -365,7 +365,7 @@ fn bad_stacks_are_reported_with_their_position() {
             vec!["has no thickness", "stack:1:5"],
         ),
         ("gold | silica 3nm | 1", vec!["gold absorbs", "stack:1:1"]),
-        ("1 | silica 3nm", vec!["go on without end", "stack:1:5"]),
+        ("1 | silica 3nm", vec!["are half spaces", "stack:1:5"]),
         (".", vec!["is a directory"]),
     ] {
         let place = Place::default();

@@ -155,7 +155,7 @@ fn clamp_extends_data_with_their_end_values() {
         .collect();
     assert_eq!(
         notes,
-        ["note: end values are used where data end: of rutile beyond 430 to 1530 nm"]
+        ["note: end values are used where data end: rutile beyond 430 to 1530 nm"]
     );
     let clamped = film(stack, "--clamp --wavelengths 400,430 --format json").succeeded();
     let json: Value = serde_json::from_str(&clamped.stdout).unwrap();

@@ -1,4 +1,4 @@
-//! The color of a stack over the thickness of one layer and the angle: Newton's chart of any stack.
+//! Charts of the color of a stack over the thickness of one layer and the angle, like Newton's chart, for any stack.
 
 use crate::picture::{self, Drawing, Drawn, INK, Scale, decimals, draw_title, exposure};
 use crate::plot::polarization;
@@ -10,7 +10,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// The color of a stack over the thickness of one layer and the angle of incidence.
+/// A chart of the color of a stack over the thickness of one layer and the angle of incidence.
 #[derive(Clone, Debug)]
 pub struct Chart {
     title: String,
@@ -19,36 +19,36 @@ pub struct Chart {
     nominal_nm: f64,
     range_nm: (f64, f64),
     range_deg: (f64, f64),
-    /// Linear sRGB, column by column of one thickness.
+    /// Linear sRGB, column by column, one thickness per column.
     cells: Vec<[f64; 3]>,
 }
 
-/// What is drawn.
+/// The description of a chart.
 #[derive(Clone, Debug)]
 pub struct ChartOf {
-    /// What stands above it: the stack.
+    /// Title above the chart: the stack.
     pub title: String,
-    /// The layer that varies, counted from 0.
+    /// Index of the layer that varies, from 0.
     pub layer: usize,
-    /// What the layer is made of.
+    /// Name of the layer's material.
     pub layer_label: String,
-    /// Its thicknesses, from and to, nm.
+    /// Range of its thickness, nm.
     pub range_nm: (f64, f64),
-    /// The angles, from and to.
+    /// Range of the angle.
     pub angles: (Angle, Angle),
     /// The colors are shown 2^EV times as bright.
     pub exposure_ev: f64,
 }
 
-/// Thicknesses and angles at which the color is computed; between them linear RGB is linear.
+/// Number of thicknesses and angles at which the color is computed. Linear RGB is interpolated linearly between them.
 const COLUMNS: usize = 601;
 const ROWS: usize = 86;
 
 impl Chart {
-    /// Computes the colors.
+    /// Computes the colors of a chart.
     ///
     /// # Panics
-    /// When there is no such layer, or not one thickness per layer.
+    /// If the layer does not exist, or `thicknesses_nm` does not have one thickness per layer.
     pub fn new(stack: &StackColor, thicknesses_nm: &[f64], of: &ChartOf) -> Self {
         let range_deg = (of.angles.0.degrees(), of.angles.1.degrees());
         let set = |column: usize| {
@@ -56,7 +56,7 @@ impl Chart {
             thicknesses[of.layer] = along(of.range_nm, share(column, COLUMNS));
             thicknesses
         };
-        // Between two angles that there are, there is an angle.
+        // A value between two valid angles is a valid angle.
         let angle = |row: usize| {
             Angle::from_degrees(along(range_deg, share(row, ROWS))).unwrap_or(of.angles.1)
         };
@@ -76,7 +76,7 @@ impl Chart {
                 of.layer_label
             ),
             footer: format!(
-                "{}, {side}, under {}; sRGB at exposure {}, clipped where a display ends",
+                "{}, {side}, under {}; sRGB at exposure {}, clipped to its gamut",
                 polarization(stack.view().polarization),
                 stack.light().name(),
                 exposure(of.exposure_ev)
@@ -88,12 +88,12 @@ impl Chart {
         }
     }
 
-    /// As pixels.
+    /// Draws the chart as pixels.
     pub fn pixels(&self) -> RgbImage8 {
         picture::pixels(self)
     }
 
-    /// Codes at a place between 0 and 1 from the left and from the bottom.
+    /// Codes at a position between 0 and 1 from the left and from the bottom.
     fn codes(&self, x: f64, y: f64) -> RGBColor {
         let (column, u) = place(x, COLUMNS);
         let (row, v) = place(y, ROWS);
@@ -108,7 +108,7 @@ impl Chart {
     }
 }
 
-/// How far along a line of points the one of this number lies, from 0 to 1.
+/// Returns the position from 0 to 1 of one of several equidistant points.
 fn share(index: usize, points: usize) -> f64 {
     index as f64 / (points - 1) as f64
 }
@@ -117,14 +117,14 @@ fn along((from, to): (f64, f64), t: f64) -> f64 {
     from + (to - from) * t
 }
 
-/// The cell that a place from 0 to 1 lies in, and how far within it.
+/// Returns the cell that contains a position from 0 to 1, and the position within it.
 fn place(t: f64, points: usize) -> (usize, f64) {
     let at = t.clamp(0.0, 1.0) * (points - 1) as f64;
     let cell = (at as usize).min(points - 2);
     (cell, at - cell as f64)
 }
 
-/// The most labels of the axes.
+/// Maximum number of labels on the axes.
 const X_LABELS: usize = 11;
 const Y_LABELS: usize = 10;
 
@@ -177,7 +177,7 @@ impl Drawing for Chart {
 }
 
 impl Chart {
-    /// In squares of half a unit, which are the pixels of a PNG.
+    /// Paints the colors in squares of half a unit, which are the pixels of a PNG.
     fn paint<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: Scale) -> Drawn<B> {
         let (width, height) = area.dim_in_pixel();
         let side = scale.px(0.5).max(1);
@@ -194,7 +194,7 @@ impl Chart {
     }
 }
 
-/// A small triangle above the chart: the thickness that the stack has.
+/// Draws a small triangle above the chart at the thickness in the stack.
 fn mark<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     scale: Scale,
@@ -225,7 +225,7 @@ mod tests {
         (color, of)
     }
 
-    /// Also between the points at which it was computed.
+    /// The color is right even between the points at which it was computed.
     #[test]
     fn every_place_has_the_color_of_its_thickness_and_angle() {
         let (color, of) = soap();

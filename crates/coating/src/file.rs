@@ -1,4 +1,4 @@
-//! Stack files.
+//! Reading of stack files.
 
 use crate::stack::{Layer, Medium, Stack};
 use crate::thickness::optical_nm;
@@ -9,10 +9,10 @@ use serde::{Deserialize, Serialize};
 use spectra::{OpticalConstants, Spectrum};
 use std::path::Path;
 
-/// The least that a stack file holds.
+/// Minimum content of a stack file.
 const NEEDS: &str = "a stack needs at least `substrate = …`";
 
-/// A stack as it is written in a file (TOML):
+/// A stack as written in a file (TOML):
 ///
 /// ```toml
 /// incident = "air"
@@ -23,33 +23,33 @@ const NEEDS: &str = "a stack needs at least `substrate = …`";
 /// thickness_nm = 300
 /// ```
 ///
-/// In place of `thickness_nm` a layer may have `optical_thickness = { waves = 0.25, at_nm = 550 }`, a quarter wave at normal incidence.
+/// Instead of `thickness_nm` a layer may have `optical_thickness = { waves = 0.25, at_nm = 550 }`, a quarter wave at normal incidence.
 ///
-/// An index is what a scene's materials accept: a number, `[n, k]`, a name, `{ name = "gold", extrapolate = "clamp" }`, a table in
-/// place `{ nm = […], n = […], k = […] }`, linear between its points, or a file, relative to this one.
+/// An index is written as in the materials of a scene: a number, `[n, k]`, a name, `{ name = "gold", extrapolate = "clamp" }`, an
+/// inline table `{ nm = […], n = […], k = […] }`, which is interpolated linearly, or a file, relative to this one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StackDescription {
-    /// The medium that the light comes from; it must be transparent. Air when absent.
+    /// The incident medium, which must be transparent. Air when absent.
     #[serde(default = "air")]
     pub incident: Index,
     /// The medium behind the last layer.
     pub substrate: Index,
-    /// The layers, the first beside the incident medium.
+    /// The layers; the first touches the incident medium.
     #[serde(default)]
     pub layer: Vec<LayerDescription>,
 }
 
-/// A layer as it is written in a file.
+/// A layer as written in a file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LayerDescription {
-    /// What it is made of.
+    /// Its material.
     pub index: Index,
-    /// How thick it is, nm.
+    /// Thickness, nm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness_nm: Option<f64>,
-    /// How thick it is for light along its normal, in its place.
+    /// Thickness in waves at normal incidence, instead of `thickness_nm`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub optical_thickness: Option<OpticalThickness>,
 }
@@ -58,9 +58,9 @@ pub struct LayerDescription {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OpticalThickness {
-    /// How many waves; 0.25 is a quarter-wave layer.
+    /// Number of waves; 0.25 is a quarter-wave layer.
     pub waves: f64,
-    /// The wavelength in vacuum, nm.
+    /// Vacuum wavelength, nm.
     pub at_nm: f64,
 }
 
@@ -68,7 +68,7 @@ fn air() -> Index {
     Index::Name("air".to_owned())
 }
 
-/// A medium, whose files are looked for from `folder`; `vacuum` is n = 1.
+/// Reads a medium, whose files are relative to `folder`; `vacuum` is n = 1.
 pub(crate) fn medium(index: &Index, folder: &Folder) -> Result<Medium, Vec<Problem>> {
     if matches!(index, Index::Name(name) if name == "vacuum") {
         let constants = OpticalConstants {
@@ -111,10 +111,10 @@ impl StackDescription {
         }
     }
 
-    /// The stack that this describes; files are looked for from `folder` and must lie in it.
+    /// Checks the description and returns its stack. Files are relative to `folder` and must be inside it.
     ///
     /// # Errors
-    /// Everything that is wrong with it; the problems' fields say where.
+    /// Reports everything that is wrong; the fields of the problems say where.
     pub fn check(&self, folder: impl Into<Folder>) -> Result<Stack, Vec<Problem>> {
         let mut checks = Checks {
             folder: folder.into(),
@@ -162,7 +162,7 @@ impl Checks {
     fn layers(&mut self, field: &FieldPath, written: &[LayerDescription]) -> Option<Vec<Layer>> {
         if written.len() > Stack::MAX_LAYERS {
             let (found, most) = (written.len(), Stack::MAX_LAYERS);
-            let message = format!("found {found} layers; at most {most} are possible");
+            let message = format!("found {found} layers; at most {most} are allowed");
             self.report(ProblemKind::TooLarge, field, message);
             return None;
         }
@@ -258,7 +258,7 @@ mod tests {
         assert_eq!(stack.incident().label(), "air");
         assert_eq!(stack.thicknesses_nm(), [120.0, 0.0]);
         let sampled = stack.sampled(&[400.0, 550.0]).unwrap();
-        // Linear between the points.
+        // The table is interpolated linearly.
         assert!((sampled.layers()[0][1] - optics::Complex64::new(1.45, 0.1)).norm() < 1e-14);
         let again = stack.description().check(Path::new("")).unwrap();
         assert_eq!(again, stack);
@@ -318,7 +318,7 @@ mod tests {
         }
     }
 
-    /// Everything at once, each with line and column.
+    /// All mistakes are reported at once, each with line and column.
     #[test]
     fn mistakes_are_reported_together() {
         let text = "incident = \"gold\"\nsubstrat = 1.5\n[[layer]]\nindex = \"silca\"\nthickness_nm = -3\n\

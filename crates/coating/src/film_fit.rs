@@ -1,4 +1,4 @@
-//! Which thickness of a layer makes a spectrum that was measured or rendered: reflectometry on a pixel.
+//! Fits the thickness of a layer to a measured or rendered spectrum: reflectometry on a pixel.
 
 use crate::matching::{MatchPlace, STEP_NM, STEPS, lowest_between, minima};
 use crate::{Angle, SampleError, Sampled, Stack, View};
@@ -6,89 +6,89 @@ use colorimetry::lab::delta_e_2000;
 use colorimetry::{Lab, srgb};
 use spectra::{BandGrid, observer_1931};
 
-/// Light that came from a film: its mean over each band of a grid.
+/// Light from a film: its mean over each band of a grid.
 #[derive(Clone, Copy, Debug)]
 pub struct Measured<'a> {
     /// The bands.
     pub bands: &'a BandGrid,
     /// Mean radiance over each band, in any unit.
     pub radiance: &'a [f64],
-    /// Standard deviation of each of them, where it is known.
+    /// Standard deviation of each mean, if known.
     pub deviation: Option<&'a [f64]>,
-    /// XYZ as it is shown, Y = 1 for the display's white.
+    /// XYZ as displayed, Y = 1 for the display's white.
     pub xyz: [f64; 3],
 }
 
-/// What is looked for, and where.
+/// What is fitted, and in which range.
 #[derive(Clone, Copy, Debug)]
 pub struct FilmFitting<'a> {
     /// The stack.
     pub stack: &'a Stack,
-    /// The layer that may vary, counted from 0; the others are as thick as the stack says.
+    /// Index of the layer that varies, from 0. The other layers keep their thickness.
     pub layer: usize,
-    /// The thinnest that it may be, nm.
+    /// Its smallest thickness, nm.
     pub from_nm: f64,
-    /// The thickest, nm; more than `from_nm`.
+    /// Its largest thickness, nm; more than `from_nm`.
     pub to_nm: f64,
     /// The angle of incidence.
     pub angle: Angle,
-    /// What is seen of it.
+    /// Side and polarization.
     pub view: View,
     /// Relative power of the lamp at each of [`FilmFitting::wavelengths_nm`].
     pub lamp: &'a [f64],
 }
 
-/// A thickness whose spectrum is nearer in shape, or in color, than those of its neighbors.
+/// A thickness that is a local optimum: its spectrum is nearer in shape, or in color, than those of its neighbors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmFit {
-    /// The thickness of the layer that varies, nm.
+    /// Thickness of the layer that varies, nm.
     pub thickness_nm: f64,
-    /// How far the noise of the measurement lets it be off (one standard deviation), nm; where that noise is known. The bands'
-    /// noise is taken as independent; that of a renderer, which draws all bands together, mostly changes the scale, and this is
+    /// Standard deviation of the thickness due to the noise of the measurement, nm, if that noise is known. The noise is assumed
+    /// independent per band. A renderer, which samples all bands together, has noise that mostly changes the scale; this value is
     /// then too large.
     pub deviation_nm: Option<f64>,
-    /// The measured light over that of the film in the lamp, by least squares: 1 where the film mirrors the lamp itself.
+    /// Ratio of the measured light to that of the film under the lamp, by least squares: 1 where the film mirrors the lamp itself.
     pub scale: f64,
-    /// What is left after scaling, √(Σ(L − a M)² / ΣL²) over the bands: 0 for the same shape.
+    /// Residual after scaling, √(Σ(L − a M)² / ΣL²) over the bands: 0 for the same shape.
     pub residual: f64,
-    /// Color difference ΔE₀₀, the film made as bright as the measured light.
+    /// Color difference ΔE₀₀, with the film scaled to the brightness of the measured light.
     pub delta_e: f64,
-    /// Where in the range it lies.
+    /// Where it is in the range.
     pub place: MatchPlace,
 }
 
-/// What was found.
+/// The result of a fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmFits {
-    /// By the shape of the spectrum, the best first.
+    /// Fits by the shape of the spectrum, best first.
     pub by_shape: Vec<FilmFit>,
-    /// By color but for brightness, the best first.
+    /// Fits by color regardless of brightness, best first.
     pub by_color: Vec<FilmFit>,
-    /// The residual of the lamp's own spectrum, as a surface without color reflects it.
+    /// Residual of the lamp's own spectrum, as a neutral surface reflects it.
     pub of_lamp: f64,
-    /// The residual that noise alone leaves of the right film, where it is known, if the bands' noise is independent.
+    /// Residual of the right film due to noise alone, if the noise is known, for noise that is independent per band.
     pub of_noise: Option<f64>,
 }
 
-/// Whether a film is seen.
+/// Whether the spectrum is that of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// The best thickness has the shape of the spectrum.
+    /// The best thickness matches the shape of the spectrum.
     Film,
-    /// A surface without color explains the spectrum as well as any thickness does.
+    /// A neutral surface explains the spectrum as well as any thickness does.
     Lamp,
-    /// No thickness in the range has the shape of the spectrum.
+    /// No thickness in the range matches the shape of the spectrum.
     Nothing,
 }
 
-/// A residual up to this is the same shape: light that the film does not mirror, a film that is not even within a pixel, and
-/// noise leave some percent of the right film. The colored patches of the ColorChecker leave 12 % and more of the nearest film
-/// of water, its grays 5 to 8 %.
+/// Largest residual that counts as the same shape. Light that the film does not mirror, a film that varies within a pixel, and
+/// noise give the right film a residual of some percent. The colored patches of the ColorChecker have 12 % and more for the
+/// nearest film of water, its grays 5 to 8 %.
 const SAME_SHAPE: f64 = 0.08;
 
 impl FilmFits {
-    /// Whether the best thickness is an answer: at most 8 % is left, and at most half of what the lamp's own spectrum leaves.
-    /// That is no proof: some pigment may have the shape of some film.
+    /// Returns whether the best thickness is an answer: its residual is at most 8 %, and less than half of that of the lamp's own
+    /// spectrum. That is not a proof: some pigment may have the shape of some film.
     pub fn verdict(&self) -> Verdict {
         let best = self
             .by_shape
@@ -104,14 +104,14 @@ impl FilmFits {
     }
 }
 
-/// The spectrum of a film in the lamp: its mean over each band, and its XYZ in any unit.
+/// The spectrum of a film under the lamp: its mean over each band, and its XYZ in any unit.
 struct Model {
     bands: Vec<f64>,
     xyz: [f64; 3],
 }
 
 impl FilmFitting<'_> {
-    /// Where the lamp and the film are computed: even places in each band, at most 1 nm apart.
+    /// Wavelengths at which the lamp and the film are computed: equidistant in each band, at most 1 nm apart.
     pub fn wavelengths_nm(bands: &BandGrid) -> Vec<f64> {
         let per_band = per_band(bands);
         let place = |step: u32| (f64::from(step) + 0.5) / f64::from(per_band);
@@ -120,13 +120,13 @@ impl FilmFitting<'_> {
             .collect()
     }
 
-    /// The thicknesses whose spectra are nearest in shape and in color; `None` where the measured light is black or not a number.
+    /// Returns the thicknesses whose spectra are nearest in shape and in color; `None` where the measured light is black or not finite.
     ///
     /// # Errors
-    /// When the stack has no data at some wavelength.
+    /// If the stack has no data at some wavelength.
     ///
     /// # Panics
-    /// When there is no such layer, or not one value per band or wavelength.
+    /// If the layer does not exist, or there is not one value per band or wavelength.
     pub fn fit(&self, measured: &Measured<'_>) -> Result<Option<FilmFits>, SampleError> {
         let power: f64 = measured.radiance.iter().map(|l| l * l).sum();
         if !(power > 0.0 && power.is_finite()) {
@@ -161,10 +161,10 @@ impl FilmFitting<'_> {
         }))
     }
 
-    /// Mean light of the film over each band, in units of the lamp.
+    /// Returns the mean light of the film over each band, in units of the lamp.
     ///
     /// # Errors
-    /// When the stack has no data at some wavelength.
+    /// If the stack has no data at some wavelength.
     pub fn spectrum(&self, bands: &BandGrid, thickness_nm: f64) -> Result<Vec<f64>, SampleError> {
         let sampled = self.stack.sampled(&Self::wavelengths_nm(bands))?;
         let seen = self.seen(&sampled, thickness_nm);
@@ -207,7 +207,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Of the reflectance at each wavelength.
+    /// Makes a model from the reflectance at each wavelength.
     fn model(&self, seen: impl Iterator<Item = f64>) -> Model {
         let lit: Vec<f64> = seen.zip(self.fitting.lamp).map(|(r, s)| r * s).collect();
         let mut xyz = [0.0; 3];
@@ -227,7 +227,7 @@ impl Search<'_> {
         let pairs = self.measured.radiance.iter().zip(&model.bands);
         let left: f64 = pairs.map(|(l, m)| (l - scale * m).powi(2)).sum();
         let wanted = self.measured.xyz;
-        // As bright as the measured light; black stays black.
+        // Scaled to the brightness of the measured light; black stays black.
         let brightness = if model.xyz[1] > 0.0 {
             wanted[1] / model.xyz[1]
         } else {
@@ -244,7 +244,7 @@ impl Search<'_> {
         }
     }
 
-    /// a with least Σ(L − a M)²; light is not negative.
+    /// Returns the a ≥ 0 with the smallest Σ(L − a M)².
     fn scale(&self, model: &Model) -> f64 {
         let pairs = self.measured.radiance.iter().zip(&model.bands);
         let common: f64 = pairs.map(|(l, m)| l * m).sum();
@@ -261,7 +261,7 @@ impl Search<'_> {
     }
 
     fn on_grid(&self) -> Vec<FilmFit> {
-        /// Spectra that are in memory at a time.
+        /// Number of spectra in memory at a time.
         const AT_ONCE: usize = 256;
         let (from_nm, to_nm) = (self.fitting.from_nm, self.fitting.to_nm);
         let steps = ((to_nm - from_nm) / STEP_NM).ceil().clamp(STEPS.0, STEPS.1) as usize;
@@ -283,7 +283,7 @@ impl Search<'_> {
         found
     }
 
-    /// The local minima of a figure, the best first.
+    /// Returns the local minima of a figure of merit, best first.
     fn nearest(&self, grid: &[FilmFit], figure: impl Fn(&FilmFit) -> f64) -> Vec<FilmFit> {
         let values: Vec<f64> = grid.iter().map(&figure).collect();
         let refined = |(step, place): (usize, MatchPlace)| {
@@ -309,7 +309,7 @@ impl Search<'_> {
         found
     }
 
-    /// Linear propagation of each band's noise to the thickness, the scale being fitted too.
+    /// Propagates the noise of each band linearly to the thickness, with the scale fitted too.
     fn deviation_nm(&self, fit: &FilmFit) -> Option<f64> {
         const H_NM: f64 = 0.01;
         let deviation = self.measured.deviation?;
@@ -320,7 +320,7 @@ impl Search<'_> {
         let slope: Vec<f64> = (low.iter().zip(&high))
             .map(|(low, high)| fit.scale * (high - low) / (thick - thin))
             .collect();
-        // What of the slope a change of the scale cannot stand for.
+        // The component of the slope that a change of scale cannot explain.
         let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
         let along = dot(&slope, &here) / dot(&here, &here);
         let across: Vec<f64> = slope
@@ -360,7 +360,7 @@ mod tests {
         }
     }
 
-    /// XYZ of band values, good enough to tell colors by.
+    /// XYZ of band values, accurate enough to compare colors.
     fn xyz(bands: &BandGrid, radiance: &[f64]) -> [f64; 3] {
         let mut xyz = [0.0; 3];
         for (band, value) in (0..).zip(radiance) {
@@ -400,7 +400,7 @@ mod tests {
             assert!((best.thickness_nm - nm).abs() < 1e-2, "{nm}: {best:?}");
             assert!((best.scale - 3.5).abs() < 1e-4 && best.residual < 1e-4);
             assert_eq!(fits.verdict(), Verdict::Film);
-            // By color alone other orders come near; the right one is among the nearest.
+            // By color alone, other orders are near too; the right one is among the nearest.
             let by_color = fits.by_color.iter().take(3);
             assert!(
                 by_color
@@ -418,13 +418,13 @@ mod tests {
         let bands = BandGrid::visible(40).unwrap();
         let lamp = lamp(&bands);
         let fitting = fitting(&stack, &lamp, 0.0);
-        // A gray surface in the lamp.
+        // A gray surface under the lamp.
         let gray: Vec<f64> = means(&lamp, &bands).iter().map(|v| 0.2 * v).collect();
         assert_eq!(
             found(&fitting, &bands, &gray, None).verdict(),
             Verdict::Lamp
         );
-        // A saturated red, as of a pigment.
+        // A saturated red, like a pigment.
         let red: Vec<f64> = (0..40)
             .map(|band| if band < 22 { 0.02 } else { 0.9 })
             .collect();
@@ -440,7 +440,7 @@ mod tests {
         assert_eq!(fitting.fit(&measured).unwrap(), None);
     }
 
-    /// The 24 patches of the ColorChecker in D65: paints, and no films.
+    /// The 24 patches of the ColorChecker in D65 are paints, not films.
     #[test]
     fn pigments_are_not_taken_for_films() {
         let stack = Stack::parse("1 | water 0nm | 1").unwrap();
@@ -463,7 +463,7 @@ mod tests {
         assert!(names.len() >= 24 && films.is_empty(), "{films:?}");
     }
 
-    /// Noise of 1 % moves the thickness by as much as is foretold.
+    /// Noise of 1 % moves the thickness by as much as predicted.
     #[test]
     fn noise_moves_the_thickness_by_its_deviation() {
         let stack = Stack::parse("1 | water 0nm | 1").unwrap();
@@ -478,7 +478,7 @@ mod tests {
         let deviation: Vec<f64> = clean.iter().map(|v| 0.01 * v + 1e-4).collect();
         let mut state = 1_u32;
         let mut normal = || {
-            // The sum of twelve even numbers has nearly the normal distribution.
+            // The sum of twelve uniform numbers is nearly normal.
             let even = |_| {
                 state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
                 f64::from(state >> 8) / 16_777_216.0

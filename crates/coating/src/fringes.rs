@@ -1,42 +1,42 @@
 //! Colors of films whose fringes are finer than the steps of the CIE's sums.
 //!
-//! A film of 95 µm has a fringe every half nanometer, and a filter of many layers a line narrower than that: sums at 1 nm meet them
-//! by chance. Here the weights of a sum are taken as linear between its wavelengths, and each step in which R or T is not smooth is
-//! divided in four, again and again, until it is. Where all of them are smooth at 1 nm, the sum stays the CIE's own, digit by digit.
-//! At 5 nm the weights have the lines of a lamp in them, and the integral is always taken.
+//! A film of 95 µm has a fringe every half nanometer, and a filter of many layers has a line narrower than that: sums at 1 nm undersample
+//! them. Here the weights of a sum are linear between its wavelengths, and each step in which R or T is not smooth is divided in
+//! four repeatedly until it is. Where all steps are smooth at 1 nm, the result is the CIE's own sum, digit by digit. At 5 nm
+//! the weights contain the lines of a lamp, and the integral is always used.
 
 use crate::response::{Angle, Sampled};
 use crate::{Light, View};
 
-/// How often a step is divided in four at most: into 4096 parts. Below that R and T are met by chance, in so many places that their
-/// mean is right to 1e-3: in stacks thicker than some 10 mm.
+/// Maximum number of times that a step is divided in four: into 4096 parts. Finer fringes, in stacks thicker than some 10 mm, are
+/// sampled at random phases, but at so many positions that the mean of R and T is right to 1e-3.
 const MOST_DIVISIONS: u32 = 6;
 
-/// How far a place in the grid of a rule is from the start, in parts of a step: there are [`PARTS`] of them in each.
+/// Position on the grid of a rule, in parts of a step from the start; a step has [`PARTS`] of them.
 type Place = u32;
 
-/// Parts of a step.
+/// Number of parts of a step.
 const PARTS: u32 = 4_u32.pow(MOST_DIVISIONS);
 
-/// The most that the phase of light once to and fro through all layers may go on by between neighbors, in radians: a fringe then has
-/// seven points and more.
+/// Largest change between neighbors of the round-trip phase of light through all layers, in radians: a fringe then has at least
+/// seven points.
 const MOST_PHASE: f64 = 0.9;
-/// The same on the grid of the CIE's sums at 1 nm. They stay within ΔE₀₀ 0.005 of the integral to far beyond it.
+/// The same on the grid of the CIE's sums at 1 nm. The sums stay within ΔE₀₀ 0.005 of the integral far beyond this.
 const MOST_PHASE_AT_1_NM: f64 = 0.55;
-/// How small two of three second differences are beside the third where it is that of a corner.
+/// One of three second differences belongs to a corner where the other two are below this fraction of it.
 const CORNER: f64 = 0.125;
-/// What a step may add to X, Y or Z by the fourth difference of its sum, however that compares with the second one.
+/// Contribution to X, Y or Z by the fourth difference of a step that is negligible, however it compares with the second differences.
 const NEGLIGIBLE: f64 = 1e-6;
-/// What the error of a span may add to X, Y or Z.
+/// Largest error that a span may add to X, Y or Z.
 const ERROR: f64 = 5e-9;
-/// Indices that are in memory at a time.
+/// Number of indices in memory at a time.
 const MOST_INDICES: usize = 1 << 21;
 
-/// A film at an angle, as what integrates its color sees it.
+/// A film at an angle, for the integration of its color.
 pub(crate) struct Fringes<'a> {
     pub(crate) light: &'a Light,
     pub(crate) view: View,
-    /// At every nm from the first wavelength of the light's sums to the last.
+    /// The film at every nm from the first wavelength of the light's sums to the last.
     pub(crate) fine: &'a Sampled,
     /// The largest index of each layer there.
     pub(crate) largest: &'a [f64],
@@ -51,28 +51,28 @@ struct Span {
     ends: [f64; 2],
 }
 
-/// R or T in a place, and what the sum has of it.
+/// R or T at a position, and its weight in the sum.
 struct Node {
     place: Place,
     weight: [f64; 3],
     share: f64,
 }
 
-/// Where a color is summed up: in these places of the stack, with these weights.
+/// The positions and weights of the sum for a color.
 pub(crate) struct Places {
     pub(crate) sampled: Sampled,
     pub(crate) weights: Vec<[f64; 3]>,
 }
 
 impl Fringes<'_> {
-    /// XYZ, given R or T at the wavelengths of the light's sums.
+    /// Returns XYZ, given R or T at the wavelengths of the light's sums.
     pub(crate) fn xyz(&self, shares: &[f64]) -> [f64; 3] {
         let mut xyz = self.light.xyz(shares.iter().copied());
         self.integrate(shares, |node| add(&mut xyz, node.weight, node.share));
         xyz
     }
 
-    /// The places that [`Self::xyz`] sums over, for sums of something else of the same stack.
+    /// Returns the positions that [`Self::xyz`] sums over, for sums of other quantities of the same stack.
     pub(crate) fn places(&self, shares: &[f64]) -> Places {
         let own = (0..).step_by(PARTS as usize);
         let mut places: Vec<_> = own
@@ -94,7 +94,7 @@ impl Fringes<'_> {
         }
     }
 
-    /// What is to be added to the CIE's sum to make it the integral: nothing at 1 nm where all steps are smooth.
+    /// Calls `node` with what turns the CIE's sum into the integral: nothing at 1 nm where all steps are smooth.
     fn integrate(&self, shares: &[f64], mut node: impl FnMut(Node)) {
         let is_rough = self.rough_steps(shares);
         if self.light.step_nm() == 1.0 && !is_rough.contains(&true) {
@@ -123,7 +123,7 @@ impl Fringes<'_> {
         }
     }
 
-    /// The steps of the rule in which R or T is not smooth.
+    /// Returns for each step of the rule whether R or T is not smooth in it.
     fn rough_steps(&self, shares: &[f64]) -> Vec<bool> {
         let Some(last) = shares.len().checked_sub(5) else {
             return Vec::new();
@@ -139,9 +139,9 @@ impl Fringes<'_> {
         rough.windows(2).map(|ends| ends[0] || ends[1]).collect()
     }
 
-    /// What the CIE's sum, half of the products at both ends of a step, lacks of the integral over it. Of a rough step that is all, to
-    /// be taken off here. Of a smooth one, with weights w linear and R of third order, it is −(w₁ − w₀)(R₁ − R₀)/6 − (w₀ + w₁)(R₋₁ − R₀ −
-    /// R₁ + R₂)/48.
+    /// Corrections of the CIE's sum over a step, half of the products at both ends, toward the integral over it. For a rough step they
+    /// remove the sum. For a smooth one, with linear weights w and R of third order, they add −(w₁ − w₀)(R₁ − R₀)/6 −
+    /// (w₀ + w₁)(R₋₁ − R₀ − R₁ + R₂)/48.
     fn corrections(
         &self,
         step: usize,
@@ -181,7 +181,7 @@ impl Fringes<'_> {
             })
     }
 
-    /// The five places of a span by Boole's rule.
+    /// The five nodes of a span by Boole's rule.
     fn nodes(&self, span: &Span, values: &[f64; 5]) -> [Node; 5] {
         const BOOLE: [f64; 5] = [
             7.0 / 90.0,
@@ -201,7 +201,7 @@ impl Fringes<'_> {
         })
     }
 
-    /// Whether Boole's rule is right over a span: it differs from Simpson's by 1/180 of the fourth difference.
+    /// Returns whether Boole's rule is accurate over a span: it differs from Simpson's by 1/180 of the fourth difference.
     fn is_smooth(&self, span: &Span, values: &[f64; 5]) -> bool {
         let width = f64::from(span.length) / f64::from(PARTS);
         let (_, fourth) = differences(values);
@@ -209,8 +209,9 @@ impl Fringes<'_> {
             && self.largest_weight(span.start) * width * fourth / 180.0 <= ERROR
     }
 
-    /// Whether five neighbors on the grid of the sums have a fourth difference that counts: of a fringe that goes on by φ between them it is
-    /// 4 sin²(φ/2) of the second ones. A corner in the table of an index is in one of those alone, and costs a sum nothing.
+    /// Returns whether the fourth difference of five neighbors on the grid of the sums matters. For a fringe whose phase changes by φ
+    /// between neighbors, it is 4 sin²(φ/2) times the second differences. A corner in the table of an index shows in only one of
+    /// those, and costs the sum no accuracy.
     fn is_bent(&self, step: usize, values: &[f64; 5]) -> bool {
         let (second, fourth) = differences(values);
         let [x, y, z] = self.light.per_wavelength()[step];
@@ -228,7 +229,7 @@ impl Fringes<'_> {
         self.weight(place).into_iter().fold(0.0, f64::max)
     }
 
-    /// By how much the phase of light once to and fro through all layers goes on over so many parts of a step.
+    /// Change of the round-trip phase of light through all layers over a number of parts of a step.
     fn phase(&self, place: Place, parts: u32) -> f64 {
         let (step, _) = self.fine_step(place);
         let optical: f64 = self
@@ -243,7 +244,7 @@ impl Fringes<'_> {
         4.0 * std::f64::consts::PI * optical / (nm * nm) * width
     }
 
-    /// The most that [`Self::phase`] can be over a step.
+    /// Upper bound of [`Self::phase`] over a step.
     fn most_phase(&self) -> f64 {
         let optical: f64 = self
             .largest
@@ -255,7 +256,7 @@ impl Fringes<'_> {
         4.0 * std::f64::consts::PI * optical / (shortest * shortest) * self.light.step_nm()
     }
 
-    /// R or T in places between the wavelengths of the sums.
+    /// R or T at positions between the wavelengths of the sums.
     fn shares(&self, places: &[Place]) -> Vec<f64> {
         let at_once = (MOST_INDICES / (self.thicknesses_nm.len() + 1)).max(256);
         let mut shares = Vec::with_capacity(places.len());
@@ -275,20 +276,20 @@ impl Fringes<'_> {
         self.fine.between(places.iter().map(fine))
     }
 
-    /// The wavelength of a place.
+    /// The wavelength of a position.
     fn nm(&self, place: Place) -> f64 {
         let first = self.fine.wavelengths_nm().first().copied();
         first.unwrap_or_default() + f64::from(place) / f64::from(PARTS) * self.light.step_nm()
     }
 
-    /// The whole nm before a place, counted from the first, and how far it is from there to the next.
+    /// Returns the whole nm before a position, counted from the first, and the fraction of the way to the next.
     fn fine_step(&self, place: Place) -> (usize, f64) {
         let along = f64::from(place) / f64::from(PARTS) * self.light.step_nm();
         let step = (along as usize).min(self.fine.wavelengths_nm().len().saturating_sub(2));
         (step, along - step as f64)
     }
 
-    /// The weights of the light's sums, linear between their wavelengths.
+    /// The weights of the light's sums, interpolated linearly between their wavelengths.
     fn weight(&self, place: Place) -> [f64; 3] {
         let weights = self.light.per_wavelength();
         let step = ((place / PARTS) as usize).min(weights.len().saturating_sub(2));
@@ -306,7 +307,7 @@ impl Span {
         }
     }
 
-    /// Its places at a quarter, half and three quarters.
+    /// The positions at one, two and three quarters of the span.
     fn inner(&self) -> [Place; 3] {
         [1, 2, 3].map(|quarter| self.start + quarter * (self.length / 4))
     }
@@ -321,7 +322,7 @@ impl Span {
     }
 }
 
-/// The second differences of five values, and the size of the fourth.
+/// Returns the second differences of five values, and the magnitude of the fourth.
 fn differences([a, b, c, d, e]: &[f64; 5]) -> ([f64; 3], f64) {
     let second = [a - 2.0 * b + c, b - 2.0 * c + d, c - 2.0 * d + e];
     let fourth = second[0] - 2.0 * second[1] + second[2];

@@ -1,6 +1,6 @@
-//! Stacks in a line, for people.
+//! Readable one-line labels of stacks.
 
-/// A number for people: as it is where it is short, else to two decimals, or to four digits where it is small.
+/// Formats a number for people: unchanged if it is short, else with two decimals, or with four digits if it is small.
 pub(crate) fn rounded(value: f64) -> String {
     let whole = value.to_string();
     let decimals = whole
@@ -9,7 +9,7 @@ pub(crate) fn rounded(value: f64) -> String {
     if decimals <= 3 || !value.is_finite() {
         return whole;
     }
-    // Four digits behind the zeros that the number starts with.
+    // Four digits after the leading zeros.
     let zeros = (-value.abs().log10()).floor().clamp(0.0, 12.0) as usize;
     let decimals = if zeros == 0 { 2 } else { zeros + 4 };
     let text = format!("{value:.decimals$}");
@@ -17,10 +17,11 @@ pub(crate) fn rounded(value: f64) -> String {
     text.to_owned()
 }
 
-/// The most parts of a label.
+/// Maximum number of parts of a label.
 const MOST: usize = 24;
 
-/// Layers in a line: those that repeat as a group with a power, `(TiO2 60 nm | SiO2 90 nm)^8`, and of what is long still, the ends.
+/// Returns the layers in one line. Repeated layers become a group with a power, `(TiO2 60 nm | SiO2 90 nm)^8`, and a line that is
+/// still long keeps only its ends.
 pub(crate) fn of_layers(layers: &[String]) -> Vec<String> {
     let mut parts = Vec::new();
     let mut rest = layers;
@@ -64,7 +65,8 @@ fn shortened(group: &[String]) -> Vec<String> {
     short
 }
 
-/// The number of layers that repeat at the start of a list, and how often: what covers most, the shortest of equals.
+/// Returns the number of layers that repeat at the start of a list, and how often: the period that covers most, or the shortest of
+/// those that cover the same.
 fn repetition(layers: &[String]) -> (usize, usize) {
     let mut best = (1, 1);
     for period in 1..=layers.len() / 2 {

@@ -1,4 +1,4 @@
-//! Stacks of thin films for those who design them.
+//! Stacks of thin films, for those who design them.
 //!
 //! ```text
 //! "air | silica 300nm | silicon"  or a stack file     errors: where, what was found, what would be right
@@ -7,8 +7,8 @@
 //!   -> powers               R, T and A for s and p over wavelength at an angle
 //!   -> Light::xyz           color under an illuminant for an observer, sums at 1 nm
 //!   -> sensitivity, tolerance, matching: how the color depends on the thicknesses
-//!   -> film_fit             which thickness makes a spectrum that was measured or rendered
-//!   -> plot, chart          pictures of all that
+//!   -> film_fit             which thickness gives a measured or rendered spectrum
+//!   -> plot, chart          pictures of these results
 //! ```
 //!
 //! ```
@@ -23,8 +23,8 @@
 //! # }
 //! ```
 //!
-//! Wavelengths are vacuum wavelengths, they and thicknesses in nanometers. Angles are degrees in the incident medium. Light is
-//! unpolarized where nothing else is said. Sign convention n + ik, k ≥ 0 absorbs.
+//! Wavelengths are vacuum wavelengths. Wavelengths and thicknesses are in nanometers. Angles are in degrees, in the incident
+//! medium. Light is unpolarized unless stated otherwise. The sign convention is n + ik, where k ≥ 0 absorbs.
 
 mod chart;
 mod file;

@@ -1,9 +1,9 @@
-//! The light that a stack is looked at in, and the observer who looks.
+//! The illuminant under which a stack is seen, and the observer.
 
 use colorimetry::tristimulus::{Rule, Weights, WeightsError};
 use spectra::{IlluminantError, Observer, Spectrum};
 
-/// An illuminant with an observer, as weights for sums over wavelength.
+/// An illuminant and an observer, as weights for sums over wavelength.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
     name: String,
@@ -11,14 +11,14 @@ pub struct Light {
 }
 
 impl Light {
-    /// An illuminant by its name (`D65`, `A`, `FL11`, `D5700K`) with the CIE 1931 2° observer; sums are taken at 1 nm, but at 5 nm for
-    /// the CIE's lamps with lines, which that defines.
+    /// Returns the illuminant with a name (`D65`, `A`, `FL11`, `D5700K`), with the CIE 1931 2° observer. Sums are at 1 nm, except at
+    /// 5 nm for the CIE's illuminants with lines, which are defined at that step.
     ///
     /// # Errors
-    /// When there is none of that name.
+    /// If there is no illuminant of that name.
     ///
     /// # Panics
-    /// Never: every illuminant by name covers 380 to 780 nm and shines, which a test proves.
+    /// Never: every named illuminant covers 380 to 780 nm and has luminance, which a test proves.
     pub fn named(name: &str) -> Result<Self, IlluminantError> {
         let set = spectra::find_illuminant(name)?;
         let rule = Rule::for_illuminant(&set.name);
@@ -26,10 +26,10 @@ impl Light {
         Ok(light.unwrap_or_else(|error| panic!("illuminant {name}: {error}")))
     }
 
-    /// Any light.
+    /// Makes a light from any illuminant and observer.
     ///
     /// # Errors
-    /// When it has no value somewhere from 380 to 780 nm, or no luminance.
+    /// If the illuminant lacks a value somewhere from 380 to 780 nm, or has no luminance.
     pub fn new(
         name: &str,
         spectrum: &Spectrum,
@@ -47,17 +47,17 @@ impl Light {
         &self.name
     }
 
-    /// Where the sums are taken, nm.
+    /// Wavelengths of the sums, nm.
     pub fn wavelengths_nm(&self) -> Vec<f64> {
         self.weights.rule().wavelengths_nm().collect()
     }
 
-    /// How far apart they are, nm.
+    /// Step between these wavelengths, nm.
     pub fn step_nm(&self) -> f64 {
         self.weights.rule().step_nm()
     }
 
-    /// What a share of the light at each of them adds to XYZ.
+    /// Weight in XYZ of the reflectance or transmittance at each of these wavelengths.
     pub fn per_wavelength(&self) -> &[[f64; 3]] {
         self.weights.per_wavelength()
     }
@@ -67,7 +67,7 @@ impl Light {
         self.weights.white()
     }
 
-    /// XYZ of a share of the light at each of [`Self::wavelengths_nm`]: Y = 1 for a perfect mirror.
+    /// Returns XYZ from the reflectance or transmittance at each of [`Self::wavelengths_nm`]: Y = 1 for a perfect mirror.
     pub fn xyz(&self, shares: impl IntoIterator<Item = f64>) -> [f64; 3] {
         self.weights.xyz(shares)
     }

@@ -4,7 +4,7 @@
 //! line        = (name "=" medium [thickness] ";")* medium "|" (part "|")* medium
 //! part        = medium thickness | (group | names)+
 //! group       = "(" part ("|" part)* ")" ["^" times]
-//! names       = a name that is defined, or names of one letter side by side, each with a factor or without: HL, 2H
+//! names       = a defined name, or a row of one-letter names, each with or without a factor: HL, 2H
 //! thickness   = 300nm, 0.3um, 0.3µm, 0.001mm, 3000Å, 3000angstrom, 0.25@550
 //! ```
 
@@ -28,7 +28,7 @@ use std::sync::Arc;
 use syntax::{Definition, Node, Piece};
 use thiserror::Error;
 
-/// What is wrong with a one-line stack, and where.
+/// An error in a one-line stack, and where it is.
 #[derive(Debug, Error, Diagnostic)]
 #[error("{message}")]
 pub struct LineError {
@@ -41,17 +41,17 @@ pub struct LineError {
     at: SourceSpan,
 }
 
-/// The most characters of a message: what stands between two bars may be of any length.
+/// Maximum number of characters of a message, since the text between two bars may have any length.
 const MOST_OF_MESSAGE: usize = 400;
 
-/// A stack in one line.
+/// An example of a one-line stack.
 pub(crate) const EXAMPLE: &str = "air | silica 300nm | silicon";
 
 fn example() -> String {
     format!("a stack is written like {EXAMPLE:?}")
 }
 
-/// A fault before it is placed in the line.
+/// A fault without its position in the line.
 struct Fault {
     message: String,
     help: Option<String>,
@@ -66,7 +66,7 @@ impl Fault {
     }
 }
 
-/// A fault and the bytes of the line that it is about.
+/// A fault and its bytes in the line.
 struct Misplaced(Fault, Range<usize>);
 
 pub(crate) fn parse(line: &str) -> Result<Stack, LineError> {
@@ -89,7 +89,7 @@ fn read(text: &str) -> Result<Stack, Misplaced> {
     }
     let incident = media.half_space(&line.incident)?;
     if let Some(fault) = Stack::fault_of_incident(&incident) {
-        let help = "write the stack from the side of the light, transparent medium first";
+        let help = "write the stack from the side of the light, with the transparent medium first";
         return Err(line.incident.misplaced(fault, help));
     }
     let mut layers = Vec::new();
@@ -100,7 +100,7 @@ fn read(text: &str) -> Result<Stack, Misplaced> {
     Ok(Stack::new(incident, layers, substrate).written_in_a_line())
 }
 
-/// The media of a line, each read once.
+/// The media of a line, each of which is read once.
 #[derive(Default)]
 struct Media<'a> {
     read: HashMap<&'a str, Medium>,
@@ -127,13 +127,13 @@ impl<'a> Media<'a> {
         Ok(())
     }
 
-    /// The medium of a text that stands in `piece`: that of a definition without thickness, or else one that is read.
+    /// Returns the medium of a text in `piece`: the medium of a definition without thickness, or else one that is read.
     fn named_or_read(&mut self, text: &'a str, piece: &Piece<'_>) -> Result<Medium, Misplaced> {
         if let Some(defined) = self.defined.iter().find(|defined| defined.name == text) {
             if let Some(nm) = defined.thickness_nm {
                 let nm = label::rounded(nm);
                 let message = format!("{text} is defined as a layer of {nm} nm");
-                let help = "here a medium alone is needed: define it without a thickness";
+                let help = "a medium without thickness is needed here: leave the thickness out of the definition";
                 return Err(piece.misplaced(message, help));
             }
             return Ok(defined.medium.clone());
@@ -150,17 +150,17 @@ impl<'a> Media<'a> {
         let text = piece.text;
         if text.starts_with('(') {
             let message = format!(
-                "{text:?} is a group of layers, but the first and the last medium go on without end"
+                "{text:?} is a group of layers, but the first and the last medium are half spaces"
             );
             let help = format!(
-                "put the group between bars and the medium behind it; {}",
+                "put the group between bars and add the medium behind it; {}",
                 example()
             );
             return Err(piece.misplaced(message, help));
         }
         if thickness::split(text).1.is_some() {
             let message = format!(
-                "{text:?} has a thickness, but the first and the last medium go on without end"
+                "{text:?} has a thickness, but the first and the last medium are half spaces"
             );
             let help = format!(
                 "leave the thickness out, or add the medium behind it; {}",
@@ -171,7 +171,7 @@ impl<'a> Media<'a> {
         self.named_or_read(text, piece)
     }
 
-    /// Adds the layers of a node: there are at most [`Stack::MAX_LAYERS`] of them, as its form has been counted.
+    /// Adds the layers of a node. They were counted before and are at most [`Stack::MAX_LAYERS`].
     fn extend(&mut self, layers: &mut Vec<Layer>, node: &Node<'a>) -> Result<(), Misplaced> {
         match node {
             Node::Layer(piece) => layers.push(self.layer(piece)?),
@@ -207,7 +207,7 @@ impl<'a> Media<'a> {
                 _ => "",
             };
             let forms = thickness::FORMS;
-            let help = format!("{unit}a layer is a medium, a blank and a thickness: {forms}");
+            let help = format!("{unit}a layer is a medium, a space and a thickness: {forms}");
             return Err(piece.misplaced(what, help));
         };
         let medium = self.named_or_read(written, piece)?;
@@ -218,7 +218,7 @@ impl<'a> Media<'a> {
         })
     }
 
-    /// A layer of so many times the thickness of a definition.
+    /// Returns a layer with `factor` times the thickness of a definition.
     fn scaled(&self, factor: f64, place: usize, piece: &Piece<'_>) -> Result<Layer, Misplaced> {
         let Some(defined) = self.defined.get(place) else {
             return Err(piece.misplaced("is not defined", example()));
@@ -226,7 +226,8 @@ impl<'a> Media<'a> {
         let Some(nm) = defined.thickness_nm else {
             let name = defined.name;
             let message = format!("{name} is defined without a thickness");
-            let help = format!("write it behind, like \"{name} 300nm\", or in the definition");
+            let help =
+                format!("write it after the name, like \"{name} 300nm\", or in the definition");
             return Err(piece.misplaced(message, help));
         };
         let thickness_nm = thickness::within(factor * nm, |nm| format!("{nm} nm"));
@@ -248,12 +249,12 @@ fn placed_nm(
 
 fn medium(text: &str) -> Result<Medium, Fault> {
     let index = index(text)?;
-    // Who writes a line names its files.
+    // The user who writes a line chooses its files.
     let folder = Folder::from("").allow_outside(true);
     file::medium(&index, &folder).map_err(|problems| {
         let first = problems.into_iter().next();
         let (message, help) = first.map_or_else(Default::default, |p| (p.message, p.help));
-        // A table's fields can be written in a file alone.
+        // The fields of a table can be written only in a file.
         let help = help.map(|help| {
             if help.contains(" = ") {
                 format!("in a stack file: {help}")
@@ -265,7 +266,7 @@ fn medium(text: &str) -> Result<Medium, Fault> {
     })
 }
 
-/// A number, a complex number, a file of one of the two kinds that there are, or else a name.
+/// Reads an index: a number, a complex number, a file of one of the two kinds, or else a name.
 fn index(text: &str) -> Result<Index, Fault> {
     if text.is_empty() {
         return Err(Fault::new("there is no medium here", example()));
@@ -278,12 +279,12 @@ fn index(text: &str) -> Result<Index, Fault> {
             return Err(Fault::new(
                 format!("{text:?} has k = {k}"),
                 format!(
-                    "an index is n + ik here, and k > 0 absorbs: n - ik of other programs is written {n}+{}i",
+                    "an index is n + ik here, and k > 0 absorbs: write n - ik from other programs as {n}+{}i",
                     -k
                 ),
             ));
         }
-        // 1.5-0i is transparent, and +0 makes its k a 0 without a sign.
+        // 1.5-0i is transparent, and adding 0 removes the sign of its k.
         return Ok(Index::Complex([n, k + 0.0]));
     }
     if let Some(file) = file_index(text) {
@@ -293,13 +294,13 @@ fn index(text: &str) -> Result<Index, Fault> {
         return Err(Fault::new(
             format!("{text:?} is not an index"),
             "an index is a number like 1.5, or n + ik like 1.5+0.1i with k ≥ 0 for absorption, or a material's name; a thickness \
-             has its unit behind it",
+             is followed by its unit",
         ));
     }
     Ok(Index::Name(text.to_owned()))
 }
 
-/// A file of the database by its ending, a table by its ending or because it is there.
+/// Recognizes a file of the database by its extension, and a table by its extension or because the file exists.
 fn file_index(text: &str) -> Option<Index> {
     let (path, extrapolate) = (Path::new(text), Extrapolate::Error);
     let ending = path.extension().map(OsStr::to_ascii_lowercase);
@@ -318,7 +319,7 @@ fn file_index(text: &str) -> Option<Index> {
     }
 }
 
-/// `1.5+0.1i`, with or without blanks; the last sign that is not an exponent's parts n from k.
+/// Reads `1.5+0.1i`, with or without spaces. The last sign that does not belong to an exponent separates n and k.
 fn complex(text: &str) -> Option<[f64; 2]> {
     let text: String = text.chars().filter(|c| !c.is_whitespace()).collect();
     let body = text.strip_suffix(['i', 'j'])?;

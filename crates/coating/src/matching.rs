@@ -1,83 +1,83 @@
-//! Which thickness of a layer gives a wanted color.
+//! Finds the thickness of a layer that gives a wanted color.
 
 use crate::response::Angle;
 use crate::stack_color::StackColor;
 use colorimetry::lab::delta_e_2000;
 use colorimetry::{Lab, srgb};
 
-/// What is looked for, and where.
+/// What is wanted, and in which range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Matching {
     /// The wanted color, XYZ with Y = 1 for the display's white; see [`parse_srgb`](crate::parse_srgb).
     pub wanted: [f64; 3],
-    /// The layer that may vary, counted from 0.
+    /// Index of the layer that varies, from 0.
     pub layer: usize,
-    /// The thinnest that it may be, nm.
+    /// Its smallest thickness, nm.
     pub from_nm: f64,
-    /// The thickest, nm; more than `from_nm`.
+    /// Its largest thickness, nm; more than `from_nm`.
     pub to_nm: f64,
     /// The films are shown 2^EV times as bright.
     pub exposure_ev: f64,
-    /// What has to be alike.
+    /// What has to match.
     pub by: MatchBy,
 }
 
-/// What has to be alike.
+/// What has to match.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MatchBy {
-    /// The whole color, lightness included, at the exposure.
+    /// The whole color, including lightness, at the exposure.
     #[default]
     Color,
-    /// The color but for its brightness: every film is first made as bright as the wanted color. A film reflects little, so
-    /// that of a light color only this much may be within reach.
+    /// The color regardless of brightness: every film is first scaled to the brightness of the wanted color. A film reflects little,
+    /// so this may be all that can be matched of a light color.
     Chromaticity,
 }
 
-/// A thickness whose color is nearer to the wanted one than those of its neighbors.
+/// A thickness that is a local optimum: its color is nearer to the wanted one than those of its neighbors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Match {
-    /// The thickness of the layer that varies, nm.
+    /// Thickness of the layer that varies, nm.
     pub thickness_nm: f64,
     /// Color difference ΔE₀₀ from the wanted color.
     pub delta_e: f64,
-    /// The film's XYZ as it was compared, brightened.
+    /// XYZ of the film as compared, brightened.
     pub xyz: [f64; 3],
-    /// By how many stops it was brightened.
+    /// Number of stops by which it was brightened.
     pub exposure_ev: f64,
-    /// Where in the range it lies.
+    /// Where it is in the range.
     pub place: MatchPlace,
 }
 
-/// Where in the range of thicknesses a match lies.
+/// Where a match is in the range of thicknesses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MatchPlace {
-    /// Within it: thinner and thicker films are further off.
+    /// Within the range: thinner and thicker films are further off.
     Within,
-    /// At its thin end: thinner films than the range has may be nearer.
+    /// At the thin end: films thinner than the range may be nearer.
     ThinEnd,
-    /// At its thick end: thicker films may be nearer, or make no difference.
+    /// At the thick end: thicker films may be nearer, or make no difference.
     ThickEnd,
     /// Anywhere: the color difference does not depend on the thickness.
     Anywhere,
 }
 
-/// Color differences that are told apart. What is less deep than this is no minimum: a rounding makes many in the color of a film
-/// below which light does not come.
+/// Smallest depth of a minimum of the color difference. Rounding errors make many shallower ones in the color of a film that
+/// no light gets through.
 const DEPTH: f64 = 1e-3;
 
-/// The step of the search before it is refined, nm. Colors turn over in half a wavelength of path, 20 nm and more of thickness in
-/// any medium of index below 10.
+/// Step of the search before it is refined, nm. Colors repeat after half a wavelength of path, which is 20 nm and more of thickness
+/// in any medium of index below 10.
 pub(crate) const STEP_NM: f64 = 1.0;
-/// The fewest and the most steps.
+/// Minimum and maximum number of steps.
 pub(crate) const STEPS: (f64, f64) = (100.0, 100_000.0);
 
-/// The local minima of the color difference over the thickness, the best first: the nearest thickness and its runners-up, one in
-/// each order of interference. Where the color does not depend on the thickness there is one, [`MatchPlace::Anywhere`].
+/// Returns the local minima of the color difference over the thickness, best first: the nearest thickness and its runners-up, one
+/// per order of interference. Where the color does not depend on the thickness there is one, [`MatchPlace::Anywhere`].
 ///
-/// Both colors are taken as a display of sRGB shows them, without adaptation, so that CIELAB is under the display's white.
+/// Both colors are compared as an sRGB display shows them, without adaptation, so CIELAB is relative to the display's white.
 ///
 /// # Panics
-/// When there is no such layer, or not one thickness per layer.
+/// If the layer does not exist, or `thicknesses_nm` does not have one thickness per layer.
 pub fn matches(
     stack: &StackColor,
     thicknesses_nm: &[f64],
@@ -110,7 +110,7 @@ pub fn matches(
             };
             let between = (nm(step.saturating_sub(1)), nm((step + 1).min(steps)));
             let refined = at(lowest_between(between, |nm| at(nm).delta_e));
-            // An end is its own minimum, unless there is a deeper one beside it.
+            // An end is its own minimum, unless there is a deeper one next to it.
             let deeper = match place {
                 MatchPlace::Within => 0.0,
                 MatchPlace::ThinEnd | MatchPlace::ThickEnd => DEPTH,
@@ -127,7 +127,8 @@ pub fn matches(
     found
 }
 
-/// The minima from which values rise by more than [`DEPTH`] on both sides, or on one of them as far as an end: that end then.
+/// Returns the minima from which values rise by more than [`DEPTH`] on both sides. Where they do not rise before an end of the
+/// range, that end is the minimum.
 pub(crate) fn minima(values: &[f64]) -> Vec<(usize, MatchPlace)> {
     let last = values.len() - 1;
     let mut found = Vec::new();
@@ -154,7 +155,7 @@ pub(crate) fn minima(values: &[f64]) -> Vec<(usize, MatchPlace)> {
         Some(low) if found.is_empty() && values[0] <= values[low] + DEPTH => {
             found.push((0, MatchPlace::Anywhere));
         }
-        // The last value is not above the lowest by more than the depth.
+        // The last value exceeds the lowest by no more than the depth.
         Some(_) => found.push((last, MatchPlace::ThickEnd)),
         None => {}
     }
@@ -162,7 +163,7 @@ pub(crate) fn minima(values: &[f64]) -> Vec<(usize, MatchPlace)> {
 }
 
 impl Matching {
-    /// How near the film of this thickness and color is.
+    /// Compares the film of this thickness and color with the wanted color.
     fn judge(&self, nm: f64, xyz: [f64; 3]) -> Match {
         let exposure_ev = match self.by {
             MatchBy::Color => self.exposure_ev,
@@ -184,8 +185,8 @@ impl Matching {
     }
 }
 
-/// Where a function of one minimum is lowest, by golden sections (Kiefer, Proc. Amer. Math. Soc. 4, 502 (1953)), to 1e-6 of the range:
-/// nearer than about the root of the rounding no minimum can be told.
+/// Returns the minimum of a function with a single one, by golden sections (Kiefer, Proc. Amer. Math. Soc. 4, 502 (1953)), to 1e-6
+/// of the range: a minimum cannot be located much better than the square root of the rounding error.
 pub(crate) fn lowest_between((mut low, mut high): (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
     let section = 0.5 * (5.0_f64.sqrt() - 1.0);
     let enough = 1e-7 * (high - low);
@@ -251,7 +252,7 @@ mod tests {
         }
     }
 
-    /// By chromaticity the same film is found for a color eight times as bright, and the exposure says how much brighter.
+    /// By chromaticity, the same film is found for a color eight times as bright, and the exposure says how much brighter.
     #[test]
     fn brightness_can_be_left_out() {
         let stack = silica_on_silicon();
@@ -277,7 +278,7 @@ mod tests {
         assert!(by_color[0].delta_e > 10.0);
     }
 
-    /// Under opaque gold a layer makes no difference but roundings.
+    /// Under opaque gold, a layer makes no difference beyond rounding.
     #[test]
     fn roundings_are_no_orders() {
         let stack = Stack::parse("1 | gold 500nm | silica 100nm | 1.5").unwrap();
@@ -293,7 +294,7 @@ mod tests {
         assert_eq!(below.len(), 1, "{below:?}");
         assert_eq!(below[0].place, MatchPlace::Anywhere);
         let gold = matches(&color, thicknesses, Angle::NORMAL, &of_layer(0));
-        assert!(gold.len() <= 3, "a thick film is all one: {gold:?}");
+        assert!(gold.len() <= 3, "a thick film does not matter: {gold:?}");
     }
 
     #[test]

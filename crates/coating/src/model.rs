@@ -1,26 +1,26 @@
-//! By which formula R and T of a stack are computed.
+//! The formula for R and T of a stack.
 
 use crate::response::Angle;
 use optics::batch::Powers;
 use optics::{Complex64, PathDifference, Polarized, ThicknessDerivative, two_beam};
 use std::f64::consts::TAU;
 
-/// By which formula R and T of a stack are computed.
+/// The formula for R and T of a stack.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Model {
-    /// All beams, however often they are reflected: any stack.
+    /// All beams, however often they are reflected, for any stack.
     #[default]
     Exact,
-    /// The two beams that the surfaces of one free film reflect once each, as scenes have it with `model = "two_beam"`: see
+    /// The two beams that the surfaces of one free film reflect once each, like `model = "two_beam"` in scenes. See
     /// [`optics::two_beam`] for the formula and where it fails. R + T is not 1, R may exceed 1, and there is no absorptance.
     ///
     /// The film is a single layer that does not absorb, between equal media, with an index not below theirs. In a medium of
-    /// index n₀ the film has the relative index n/n₀; the path difference is compared with the wavelength in vacuum.
+    /// index n₀ the film has the relative index n/n₀; the path difference is relative to the vacuum wavelength.
     TwoBeam(PathDifference),
 }
 
 impl Model {
-    /// `exact` or `two_beam`, as scenes write it.
+    /// Returns `exact` or `two_beam`, as in scenes.
     pub fn name(self) -> &'static str {
         match self {
             Self::Exact => "exact",
@@ -28,7 +28,7 @@ impl Model {
         }
     }
 
-    /// `optical` or `as_printed` of two beams.
+    /// Returns `optical` or `as_printed` for two beams.
     pub fn path_difference(self) -> Option<&'static str> {
         match self {
             Self::Exact => None,
@@ -38,7 +38,7 @@ impl Model {
     }
 }
 
-/// A film that two beams are computed of, at a wavelength in vacuum, nm.
+/// A film for the two-beam model, at a vacuum wavelength, nm.
 pub(crate) struct TwoBeamFilm {
     pub(crate) path: PathDifference,
     pub(crate) around: f64,
@@ -50,7 +50,7 @@ pub(crate) struct TwoBeamFilm {
 impl TwoBeamFilm {
     pub(crate) fn powers(&self, angle: Angle) -> Powers {
         let relative = self.index / self.around;
-        // l/λ = 2 (n/n₀) d cos θ₂ / (λ/n₀), and without the index 2 d cos θ₂ / λ.
+        // l/λ = 2 (n/n₀) d cos θ₂ / (λ/n₀), or without the index 2 d cos θ₂ / λ.
         let wavelength_nm = match self.path {
             PathDifference::Optical => self.wavelength_nm / self.around,
             PathDifference::AsPrinted => self.wavelength_nm,
@@ -93,7 +93,7 @@ impl TwoBeamFilm {
     }
 }
 
-/// Why two beams are not defined for a stack at a wavelength; `None` where they are.
+/// Returns why the two-beam model is not defined for a stack at a wavelength; `None` if it is.
 pub(crate) fn fault_of_two_beams(
     around: f64,
     layers: &[Complex64],
@@ -105,7 +105,7 @@ pub(crate) fn fault_of_two_beams(
     let is_same = (substrate.re - around).abs() <= 1e-12 * around && substrate.im.abs() <= 1e-12;
     if !is_same {
         return Some(format!(
-            "in front of this one the index is {around}, behind it {}",
+            "the index is {around} in front of this one, and behind it {}",
             index(substrate)
         ));
     }
@@ -144,7 +144,7 @@ mod tests {
     }
 
     /// By hand at normal incidence: r = 1/5 for n = 3/2, r² = 0.04. A quarter wave (500/6 nm) has cos = −1: R = 0.04 · (1 + 0.96 ·
-    /// (0.96 + 2)) = 0.153_664; as printed l is 1/n of that, cos(2π/3) = −1/2 for l = 2 d = λ/3: R = 0.04 · (1 + 0.96 · 1.96).
+    /// (0.96 + 2)) = 0.153_664. As printed, l is 1/n of that, cos(2π/3) = −1/2 for l = 2 d = λ/3: R = 0.04 · (1 + 0.96 · 1.96).
     #[test]
     fn two_beams_by_hand() {
         let line = "1 | 1.5 83.33333333333333nm | 1";
@@ -158,8 +158,8 @@ mod tests {
         }
     }
 
-    /// In water a film is what one of the relative index is in vacuum, in light of the wavelength there. As printed the thickness
-    /// alone counts.
+    /// A film in a medium equals one of the relative index in vacuum, at the wavelength in the medium. As printed, only the thickness
+    /// matters.
     #[test]
     fn a_film_in_a_medium_is_one_of_the_relative_index() {
         let optical = model(PathDifference::Optical);

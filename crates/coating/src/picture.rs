@@ -1,4 +1,4 @@
-//! Drawing: pictures made of the same strokes as SVG and as pixels, with a font of their own.
+//! Drawing of pictures, identically as SVG and as pixels, with a bundled font.
 
 use color::RgbImage8;
 use plotters::coord::Shift;
@@ -9,21 +9,21 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, register_font};
 use std::sync::Once;
 
-/// The family that labels are set in: DejaVu Sans, which comes with the program. Those who view an SVG have it or something alike.
+/// Font family of labels: DejaVu Sans, which comes with the program. Viewers of an SVG have it or something similar.
 const FONT: &str = "DejaVu Sans, Verdana, sans-serif";
-/// A pixel of a PNG is the mean of so many by so many, which smooths every edge.
+/// A pixel of a PNG is the mean of this many by this many, which smooths every edge.
 const SUPERSAMPLING: u32 = 3;
-/// Steps of an SVG's coordinates, which are whole numbers, per unit of the drawing.
+/// Steps of the coordinates of an SVG, which are whole numbers, per unit of the drawing.
 const SVG_STEPS: u32 = 10;
 /// Pixels of a PNG per unit of the drawing.
 const PIXELS_PER_UNIT: u32 = 2;
 
-/// A drawing: given in units, drawn in pixels.
+/// A drawing, described in units and drawn in pixels.
 pub(crate) trait Drawing {
     /// Width and height in units.
     fn size(&self) -> (u32, u32);
 
-    /// Draws on an area of `scale` pixels per unit.
+    /// Draws on an area with `scale` pixels per unit.
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: Scale) -> Drawn<B>;
 }
 
@@ -34,28 +34,28 @@ pub(crate) type Drawn<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>
 pub(crate) struct Scale(pub(crate) u32);
 
 impl Scale {
-    /// A length in pixels.
+    /// Returns a length in pixels.
     pub(crate) fn px(self, units: f64) -> i32 {
         (units * f64::from(self.0)).round() as i32
     }
 
-    /// A style of text of this height.
+    /// Returns the style of text of this height.
     pub(crate) fn text(self, units: f64) -> TextStyle<'static> {
         TextStyle::from((FONT, units * f64::from(self.0)).into_font()).color(&INK)
     }
 
-    /// A line of this width.
+    /// Returns the style of a line of this width.
     pub(crate) fn line(self, color: RGBColor, units: f64) -> ShapeStyle {
         color.stroke_width(self.px(units).max(1) as u32)
     }
 }
 
-/// What lines and labels are drawn with.
+/// Color of lines and labels.
 pub(crate) const INK: RGBColor = RGBColor(34, 34, 34);
-/// Lines that stand back.
+/// Color of lines in the background.
 pub(crate) const FAINT: RGBColor = RGBColor(222, 222, 222);
 
-/// As text of an SVG file.
+/// Draws as the text of an SVG file.
 pub(crate) fn svg(drawing: &impl Drawing) -> String {
     know_font();
     let (width, height) = drawing.size();
@@ -66,12 +66,12 @@ pub(crate) fn svg(drawing: &impl Drawing) -> String {
         drawn(drawing.draw(&root, Scale(SVG_STEPS)));
         drawn(root.present());
     }
-    // The view box stays that of the fine steps.
+    // The view box keeps the fine steps.
     let size = |(width, height)| format!("width=\"{width}\" height=\"{height}\"");
     text.replacen(&size(fine), &size((width, height)), 1)
 }
 
-/// As pixels.
+/// Draws as pixels.
 pub(crate) fn pixels(drawing: &impl Drawing) -> RgbImage8 {
     know_font();
     let (width, height) = drawing.size();
@@ -86,14 +86,14 @@ pub(crate) fn pixels(drawing: &impl Drawing) -> RgbImage8 {
     smoothed(&codes, (width * PIXELS_PER_UNIT, height * PIXELS_PER_UNIT))
 }
 
-/// Neither a string nor a buffer in memory can fail to be drawn on, and the font is there.
+/// Unwraps the result of drawing. Drawing on a string or a buffer in memory cannot fail, and the font is registered.
 fn drawn<E: std::error::Error + Send + Sync>(result: Result<(), DrawingAreaErrorKind<E>>) {
     if let Err(error) = result {
         unreachable!("a drawing in memory failed: {error}");
     }
 }
 
-/// Each pixel the mean of its square of finer ones.
+/// Averages a square of fine pixels for each pixel.
 fn smoothed(fine: &[u8], (width, height): (u32, u32)) -> RgbImage8 {
     let n = SUPERSAMPLING as usize;
     let stride = 3 * n * width as usize;
@@ -123,7 +123,7 @@ fn know_font() {
     });
 }
 
-/// The stack above a picture.
+/// Draws the stack above a picture.
 pub(crate) fn draw_title<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     scale: Scale,
@@ -134,7 +134,7 @@ pub(crate) fn draw_title<B: DrawingBackend>(
     area.draw(&Text::new(shortened(title), place, style))
 }
 
-/// A stack that fits into a line: of a long one the first layers, their number, and the substrate.
+/// Shortens a stack to fit into a line: a long one keeps its first layers, their number, and the substrate.
 fn shortened(title: &str) -> String {
     const MOST: usize = 90;
     let parts: Vec<&str> = title.split(" | ").collect();
@@ -154,7 +154,7 @@ fn shortened(title: &str) -> String {
     format!("{shown} | {end}")
 }
 
-/// An exposure in words.
+/// Returns an exposure in words.
 pub(crate) fn exposure(ev: f64) -> String {
     if ev == 0.0 {
         "0 EV".to_owned()
@@ -163,7 +163,7 @@ pub(crate) fn exposure(ev: f64) -> String {
     }
 }
 
-/// A range of round numbers around `low` to `high`, from 0 where the values come near it.
+/// Returns a range of round numbers around `low` to `high`, from 0 if the values come near it.
 pub(crate) fn round_range(low: f64, high: f64) -> (f64, f64) {
     let low = if low < 0.4 * high { 0.0 } else { low };
     let span = (high - low).max(1e-3);
@@ -178,7 +178,8 @@ pub(crate) fn round_range(low: f64, high: f64) -> (f64, f64) {
     (first, last.max(first + step))
 }
 
-/// How many decimals, `least` or more, tell an axis's labels: as many as their steps have. `most` is the number of labels.
+/// Returns the number of decimals for the labels of an axis, at least `least`: as many as their steps have. `most` is the maximum
+/// number of labels.
 pub(crate) fn decimals(from: f64, to: f64, most: usize, least: usize) -> usize {
     let ticks = RangedCoordf64::from(from..to).key_points(BoldPoints(most));
     let step = ticks

@@ -1,4 +1,4 @@
-//! R, T and A of a stack over wavelength, with the color of each angle.
+//! Plots of R, T and A of a stack over wavelength, with the color at each angle.
 
 use crate::picture::{
     self, Drawing, Drawn, FAINT, INK, Scale, decimals, draw_title, exposure, round_range,
@@ -13,55 +13,55 @@ use plotters::prelude::*;
 use plotters::style::Color as _;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// The most labels of the axes.
+/// Maximum number of labels on the axes.
 const X_LABELS: usize = 9;
 const Y_LABELS: usize = 6;
 
-/// A plot of R, T and A over wavelength, a curve per angle, with a swatch of each angle's color.
+/// A plot of R, T and A over wavelength, with a curve and a color swatch per angle.
 #[derive(Clone, Debug)]
 pub struct Plot {
-    /// What stands above it: the stack.
+    /// Title above the plot: the stack.
     pub title: String,
-    /// The wavelengths, nm, rising, at least two.
+    /// The wavelengths, nm, ascending, at least two.
     pub wavelengths_nm: Vec<f64>,
-    /// For each angle.
+    /// One curve per angle.
     pub curves: Vec<Curve>,
-    /// What is seen; the polarization is that of the curves too.
+    /// Side and polarization of the swatches; the polarization also applies to the curves.
     pub view: View,
     /// The illuminant of the swatches.
     pub illuminant: String,
     /// The swatches are 2^EV times as bright.
     pub exposure_ev: f64,
-    /// An absorptance that stays below is a rounding of R + T, and not shown.
+    /// An absorptance that stays below this is a rounding error of R + T and is not shown.
     pub rounding: f64,
 }
 
-/// What is shown of an angle.
+/// The data of one angle.
 #[derive(Clone, Debug)]
 pub struct Curve {
     /// The angle of incidence.
     pub angle: Angle,
     /// R and T at each wavelength.
     pub powers: Vec<Powers>,
-    /// The color; `None` where the stack's data do not cover visible light.
+    /// The color; `None` if the stack's data do not cover visible light.
     pub color: Option<Color>,
 }
 
 impl Plot {
-    /// The most angles that can be told apart.
+    /// The most angles that can be distinguished.
     pub const MAX_CURVES: usize = 16;
 
-    /// As text of an SVG file.
+    /// Draws the plot as the text of an SVG file.
     pub fn svg(&self) -> String {
         picture::svg(self)
     }
 
-    /// As pixels.
+    /// Draws the plot as pixels.
     pub fn pixels(&self) -> RgbImage8 {
         picture::pixels(self)
     }
 
-    /// The panels that have something to show: an A that is a rounding is none.
+    /// The panels with something to show; an A that is a rounding error is not shown.
     fn panels(&self) -> Vec<Panel> {
         let all = [
             Panel {
@@ -223,7 +223,7 @@ impl Plot {
     }
 }
 
-/// The color of a curve among `count`: those of Okabe and Ito (2008), which the color-blind tell apart, or from violet to yellow.
+/// Color of one of `count` curves: those of Okabe and Ito (2008), which color-blind people can distinguish, or from violet to yellow.
 pub(crate) fn ink(index: usize, count: usize) -> RGBColor {
     const FEW: [RGBColor; 7] = [
         RGBColor(0, 114, 178),
@@ -243,12 +243,12 @@ pub(crate) fn ink(index: usize, count: usize) -> RGBColor {
     RGBColor(r, g, b)
 }
 
-/// The polarization in words.
+/// Returns a polarization in words.
 pub(crate) fn polarization(polarization: Polarization) -> &'static str {
     match polarization {
         Polarization::Unpolarized => "unpolarized light",
-        Polarization::S => "s polarized light",
-        Polarization::P => "p polarized light",
+        Polarization::S => "s-polarized light",
+        Polarization::P => "p-polarized light",
     }
 }
 
@@ -256,7 +256,7 @@ pub(crate) fn polarization(polarization: Polarization) -> &'static str {
 struct Panel {
     name: &'static str,
     of: fn(Powers) -> optics::Polarized,
-    /// It is shown where it is more than this somewhere.
+    /// It is shown if it exceeds this somewhere.
     least: f64,
 }
 
@@ -272,7 +272,7 @@ impl Drawing for Plot {
         draw_title(&head, scale, &self.title)?;
         let (panels, legend) = body.split_horizontally(scale.px(700.0));
         let shown = self.panels();
-        // The last panel has the axis below it, and is as much higher.
+        // The last panel has the axis below it, and is higher by that much.
         let axis = scale.px(28.0);
         let height = (panels.dim_in_pixel().1 as i32 - axis) / shown.len().max(1) as i32;
         let cuts: Vec<i32> = (1..shown.len() as i32).map(|i| i * height).collect();
@@ -284,7 +284,7 @@ impl Drawing for Plot {
     }
 }
 
-/// The colors of the wavelengths, as far as a display has them, in a strip along the lower edge.
+/// Draws the colors of the wavelengths, as far as a display can show them, in a strip along the lower edge.
 pub(crate) fn draw_spectrum<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     scale: Scale,
@@ -298,14 +298,14 @@ pub(crate) fn draw_spectrum<B: DrawingBackend>(
         if !(380.0..=780.0).contains(&nm) {
             continue;
         }
-        // One step further than its own: no gap can show between neighbors.
+        // One step wider than its own, so that no gap shows between neighbors.
         let strip = [(x, top), ((x + 2 * step).min(width as i32), height as i32)];
         area.draw(&Rectangle::new(strip, color_of(nm).filled()))?;
     }
     Ok(())
 }
 
-/// A wavelength's color, made pale enough for a display.
+/// The color of a wavelength, made pale enough for a display.
 fn color_of(nm: f64) -> RGBColor {
     let xyz = spectra::observer_1931()
         .each_ref()
@@ -381,7 +381,7 @@ mod tests {
         assert!(of_swatch.count() > 2000);
     }
 
-    /// In `f32` R + T of what absorbs nothing is 1 but for a rounding.
+    /// In `f32`, R + T of a stack that absorbs nothing is 1 up to rounding.
     #[test]
     fn a_rounding_is_no_absorptance() {
         let mut plot = plot("1 | silica 300nm | 1.5", &[0.0]);

@@ -1,4 +1,4 @@
-//! What a stack does to light: R, T and A over wavelength at an angle.
+//! Response of a stack: R, T and A over wavelength at an angle.
 
 use crate::model::{Model, TwoBeamFilm};
 use optics::batch::{LayerOf, Media, Powers, StackBatch, StackOf, evaluate};
@@ -7,18 +7,18 @@ use rayon::prelude::*;
 use spectra::wording::number;
 use thiserror::Error;
 
-/// A stack at chosen wavelengths: numbers alone, without names or tables. Thicknesses and angles are given when it is evaluated.
+/// A stack at chosen wavelengths: only numbers, no names or tables. Thicknesses and angles are given when it is evaluated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sampled {
     wavelengths_nm: Vec<f64>,
     incident: Vec<f64>,
-    /// For each layer an index per wavelength.
+    /// One index per wavelength for each layer.
     layers: Vec<Vec<Complex64>>,
     substrate: Vec<Complex64>,
     model: Model,
 }
 
-/// Absorptance A = 1 − R − T of a whole stack.
+/// Returns the absorptance A = 1 − R − T of a whole stack.
 pub fn absorptance(powers: Powers) -> Polarized {
     let (r, t) = (powers.reflectance, powers.transmittance);
     Polarized {
@@ -34,7 +34,7 @@ pub struct Angle {
     cosine: f64,
 }
 
-/// An angle of incidence that there is not.
+/// An invalid angle of incidence.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[error("an angle of {}°; it must be at least 0° and less than 90°", number(*.0))]
 pub struct AngleError(
@@ -43,18 +43,18 @@ pub struct AngleError(
 );
 
 impl Angle {
-    /// Along the normal.
+    /// Normal incidence.
     pub const NORMAL: Self = Self {
         deg: 0.0,
         cosine: 1.0,
     };
 
-    /// An angle in degrees.
+    /// Makes an angle from degrees.
     ///
     /// # Errors
-    /// Unless it is at least 0 and less than 90.
+    /// If it is not at least 0 and less than 90.
     pub fn from_degrees(deg: f64) -> Result<Self, AngleError> {
-        // sin(90° − θ) keeps the digits near grazing that cos θ loses where θ in radians is rounded.
+        // sin(90° − θ) keeps the digits near grazing incidence that cos θ loses when θ in radians is rounded.
         let cosine = (90.0 - deg).to_radians().sin();
         let is_possible = (0.0..90.0).contains(&deg) && cosine > 0.0;
         is_possible
@@ -62,18 +62,18 @@ impl Angle {
             .ok_or(AngleError(deg))
     }
 
-    /// In degrees.
+    /// Returns the angle in degrees.
     pub fn degrees(self) -> f64 {
         self.deg
     }
 
-    /// Its cosine, in (0, 1].
+    /// Returns its cosine, in (0, 1].
     pub fn cosine(self) -> f64 {
         self.cosine
     }
 }
 
-/// The arrays of a [`StackBatch`]: stacks that differ in their thicknesses alone.
+/// The arrays of a [`StackBatch`] of stacks that differ only in their thicknesses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Batch {
     wavelengths_nm: Vec<f64>,
@@ -84,7 +84,7 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// As what evaluates batches takes it. Indices and wavelengths are in units of the incident index.
+    /// Returns the batch for evaluation. Indices and wavelengths are in units of the incident index.
     pub fn as_batch(&self) -> StackBatch<'_> {
         StackBatch {
             wavelengths_nm: &self.wavelengths_nm,
@@ -113,18 +113,18 @@ impl Sampled {
         }
     }
 
-    /// Two beams must be defined for it, which `Stack` has seen to.
+    /// Sets the model. `Stack` has checked that two beams are defined for the stack.
     pub(crate) fn with_model(self, model: Model) -> Self {
         Self { model, ..self }
     }
 
-    /// By which formula R and T are computed.
+    /// The formula for R and T.
     pub fn model(&self) -> Model {
         self.model
     }
 
-    /// The stack at wavelengths between its own: for each, nm, the number of the own one before it and how far it is from there to
-    /// the next, from 0 to 1. Indices are linear in between.
+    /// Returns the stack at wavelengths between its own. Each is given in nm, with the number of its own wavelength before it and the
+    /// fraction of the way to the next, from 0 to 1. Indices are interpolated linearly.
     pub(crate) fn between(&self, places: impl Iterator<Item = (f64, (usize, f64))>) -> Self {
         let (wavelengths_nm, places): (Vec<f64>, Vec<(usize, f64)>) = places.unzip();
         let indices = |own: &Vec<Complex64>| {
@@ -155,7 +155,7 @@ impl Sampled {
         &self.incident
     }
 
-    /// For each layer its index n + ik at each wavelength.
+    /// The index n + ik of each layer at each wavelength.
     pub fn layers(&self) -> &[Vec<Complex64>] {
         &self.layers
     }
@@ -165,10 +165,10 @@ impl Sampled {
         &self.substrate
     }
 
-    /// R and T at each wavelength, with these thicknesses (nm, one per layer).
+    /// Returns R and T at each wavelength, with these thicknesses (nm, one per layer).
     ///
     /// # Panics
-    /// When there is not one thickness per layer.
+    /// If there is not one thickness per layer.
     pub fn powers(&self, thicknesses_nm: &[f64], angle: Angle) -> Vec<Powers> {
         self.each(thicknesses_nm, |n0, layers, substrate, nm| {
             if let Some(film) = self.two_beams(n0, layers, nm) {
@@ -182,11 +182,11 @@ impl Sampled {
         })
     }
 
-    /// The stack with many sets of thicknesses at many angles, as a batch for whatever evaluates batches: by the exact sum, whatever
-    /// its model is.
+    /// Returns the stack with many sets of thicknesses at many angles, as a batch for any evaluator. The evaluation is exact, whatever
+    /// the model is.
     ///
     /// # Panics
-    /// When there is not one thickness per layer.
+    /// If there is not one thickness per layer.
     pub fn batch(&self, sets: &[Vec<f64>], angles: &[Angle]) -> Batch {
         let count = self.layers.len();
         let layers = sets.iter().flat_map(|thicknesses_nm| {
@@ -202,8 +202,8 @@ impl Sampled {
             first_layer: (set * count) as u32,
             layer_count: count as u32,
         };
-        // Only ratios of indices and the phase n d / λ count, so that all can be told in units of the incident index, which a
-        // batch has once for all wavelengths.
+        // Only ratios of indices and the phase n d / λ matter, so everything can be in units of the incident index, which a batch
+        // has once for all wavelengths.
         let relative = |indices: &[Complex64]| -> Vec<Complex64> {
             let pairs = indices.iter().zip(&self.incident);
             pairs.map(|(n, n0)| n / n0).collect()
@@ -219,11 +219,11 @@ impl Sampled {
         }
     }
 
-    /// R and T with many sets of thicknesses at many angles, on all cores, as `[set][angle][wavelength]`: the same numbers
-    /// as [`Self::powers`], but for the last digits.
+    /// Returns R and T with many sets of thicknesses at many angles, on all cores, as `[set][angle][wavelength]`: the same
+    /// numbers as [`Self::powers`], except for the last digits.
     ///
     /// # Panics
-    /// When there is not one thickness per layer, finite and not negative.
+    /// If there is not one thickness per layer, finite and not negative.
     pub fn powers_of_all(&self, sets: &[Vec<f64>], angles: &[Angle]) -> Vec<Powers> {
         if self.model != Model::Exact {
             let films = sets
@@ -237,25 +237,25 @@ impl Sampled {
         }
         match evaluate(&self.batch(sets, angles).as_batch()) {
             Ok(powers) => powers,
-            // A stack's indices and an angle's cosine are in the batch's domain.
+            // The indices of a stack and the cosine of an angle are in the batch's domain.
             Err(error) => panic!("{error}"),
         }
     }
 
-    /// At each wavelength the absorptance of each layer: R + T + ΣA = 1. By the exact sum, whatever the model is: two beams have none.
+    /// Returns the absorptance of each layer at each wavelength: R + T + ΣA = 1. It is exact, whatever the model is: two beams have none.
     ///
     /// # Panics
-    /// When there is not one thickness per layer.
+    /// If there is not one thickness per layer.
     pub fn absorptances(&self, thicknesses_nm: &[f64], angle: Angle) -> Vec<Vec<Polarized>> {
         self.each(thicknesses_nm, |n0, layers, substrate, nm| {
             optics::absorptance(n0, layers, substrate, nm, angle.cosine())
         })
     }
 
-    /// At each wavelength ∂R/∂d and ∂T/∂d of each layer, per nm.
+    /// Returns ∂R/∂d and ∂T/∂d of each layer at each wavelength, per nm.
     ///
     /// # Panics
-    /// When there is not one thickness per layer.
+    /// If there is not one thickness per layer.
     pub fn derivatives(
         &self,
         thicknesses_nm: &[f64],
@@ -269,7 +269,7 @@ impl Sampled {
         })
     }
 
-    /// The film that two beams are computed of, where the model says so.
+    /// The film for the two-beam model, if that is the model.
     fn two_beams(&self, around: f64, layers: &[Layer], wavelength_nm: f64) -> Option<TwoBeamFilm> {
         let (Model::TwoBeam(path), [film]) = (self.model, layers) else {
             return None;
@@ -283,7 +283,7 @@ impl Sampled {
         })
     }
 
-    /// Something of the stack at each wavelength: of the incident index, layers, substrate and wavelength.
+    /// Evaluates a function of the incident index, layers, substrate and wavelength at each wavelength.
     fn each<T>(
         &self,
         thicknesses_nm: &[f64],

@@ -1,4 +1,4 @@
-//! How fast the color changes with each layer's thickness.
+//! How the color changes with the thickness of each layer.
 
 use crate::response::Angle;
 use crate::stack_color::{Color, StackColor};
@@ -6,16 +6,16 @@ use colorimetry::Lab;
 use colorimetry::lab::delta_e_2000_rate;
 use optics::ThicknessDerivative;
 
-/// How the color of a stack hangs on its thicknesses, to first order.
+/// Dependence of the color of a stack on its thicknesses, to first order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
     /// The color itself.
     pub color: Color,
-    /// For each layer.
+    /// One entry per layer.
     pub layers: Vec<LayerSensitivity>,
 }
 
-/// What one more nanometer of a layer does to the color, to first order.
+/// Change of the color per nanometer of a layer, to first order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LayerSensitivity {
     /// Change of XYZ per nm.
@@ -26,15 +26,15 @@ pub struct LayerSensitivity {
     pub delta_e_per_nm: f64,
 }
 
-/// The derivative of the color with respect to each thickness: through XYZ, a sum over wavelength, CIELAB, and the
-/// form that ΔE₀₀ becomes between neighbors.
+/// Returns the derivative of the color with respect to each thickness: via XYZ, a sum over wavelength, CIELAB, and the
+/// form of ΔE₀₀ for small differences.
 ///
 /// # Panics
-/// When there is not one thickness per layer.
+/// If there is not one thickness per layer.
 pub fn sensitivity(stack: &StackColor, thicknesses_nm: &[f64], angle: Angle) -> Sensitivity {
     let color = stack.at(thicknesses_nm, angle);
     let share = |d: &ThicknessDerivative| stack.view().of(d.reflectance, d.transmittance);
-    // At each wavelength, of each layer.
+    // For each wavelength and layer.
     let places = stack.places(thicknesses_nm, angle);
     let derivatives = places.sampled.derivatives(thicknesses_nm, angle);
     let of_layer = |layer: usize| {
@@ -62,7 +62,7 @@ mod tests {
     use crate::{Light, Side, Stack, View};
     use colorimetry::lab::delta_e_2000;
 
-    /// The derivative stands against plain differences of colors.
+    /// The derivative agrees with differences of colors.
     #[test]
     fn a_nanometer_more_moves_the_color_as_predicted() {
         let line = "1 | 2.4 60nm | silica 90nm | 2.1+0.01i 40nm | bk7";
@@ -96,7 +96,7 @@ mod tests {
                     found.delta_e_per_nm
                 );
                 assert!((found.lab_per_nm.l - (up.l - down.l) / (2.0 * h)).abs() < 1e-6);
-                assert!(rate > 1e-3, "a layer that does something");
+                assert!(rate > 1e-3, "the layer has an effect");
             }
         }
     }

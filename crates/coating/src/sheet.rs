@@ -1,4 +1,4 @@
-//! Pictures side by side, each with a label above it.
+//! Contact sheets: pictures side by side, each with a label above it.
 
 use crate::picture::{self, Drawing, Drawn, Scale};
 use color::RgbImage8;
@@ -8,15 +8,15 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// Pixels around and between pictures.
 const GAP: u32 = 12;
-/// Units of a label's height; a unit is two pixels.
+/// Height of a label in units; a unit is two pixels.
 const LABEL_UNITS: u32 = 20;
 
-/// Codes of what stands around the pictures, for the display that they are for.
+/// Codes of the colors around the pictures, for the same display as the pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SheetColors {
-    /// Behind pictures and labels.
+    /// Background of pictures and labels.
     pub ground: [u8; 3],
-    /// Of the labels.
+    /// Text of the labels.
     pub text: [u8; 3],
 }
 
@@ -42,10 +42,10 @@ impl Drawing for Label<'_> {
     }
 }
 
-/// A contact sheet of pictures of the same size with their labels, in rows from the left; as nearly square as their number
-/// allows. The pictures' codes stay as they are.
+/// Makes a contact sheet of pictures of the same size with their labels, in rows from the left, as nearly square as their
+/// number allows. The codes of the pictures do not change.
 ///
-/// `None` where there is no picture, or they differ in size.
+/// Returns `None` if there are no pictures, or they differ in size.
 pub fn contact_sheet(pictures: &[(String, RgbImage8)], colors: SheetColors) -> Option<RgbImage8> {
     let (_, first) = pictures.first()?;
     let (width, height) = (first.width(), first.height());
@@ -97,7 +97,7 @@ impl Sheet {
         }
     }
 
-    /// Copies a picture, as much of it as is `width` wide.
+    /// Copies the left `width` pixels of a picture.
     fn put(&mut self, picture: &RgbImage8, (x, y): (u32, u32), width: u32) {
         let rows = picture.data().chunks(3 * picture.width() as usize);
         for (row, codes) in (y as usize..).zip(rows) {
@@ -135,14 +135,14 @@ mod tests {
                 assert_eq!(sheet.pixel(x + dx, y + dy), Some([code; 3]));
             }
             assert_eq!(sheet.pixel(x + 61, y), Some([GROUND; 3]));
-            // The label is written above it.
+            // The label is above the picture.
             let bright = |x, y| sheet.pixel(x, y).is_some_and(|p| p[0] > 200);
             assert!((x..x + 61).any(|x| (y - 40..y).any(|y| bright(x, y))));
         }
         assert_eq!(
             sheet.pixel(85 + 5, 134 + 5),
             Some([GROUND; 3]),
-            "an empty place"
+            "an empty position"
         );
     }
 

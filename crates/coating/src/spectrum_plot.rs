@@ -1,4 +1,4 @@
-//! Spectra of pixels over wavelength.
+//! Plots of the spectra of pixels.
 
 use crate::picture::{self, Drawing, Drawn, FAINT, INK, Scale, decimals, draw_title, round_range};
 use crate::plot::{draw_spectrum, ink};
@@ -11,9 +11,9 @@ use spectra::BandGrid;
 /// A plot of radiance over wavelength: each band's mean as a step, with its noise around it.
 #[derive(Clone, Debug)]
 pub struct SpectrumPlot {
-    /// What stands above it.
+    /// Title above the plot.
     pub title: String,
-    /// What the vertical axis is.
+    /// Quantity on the vertical axis.
     pub quantity: String,
     /// The bands.
     pub bands: BandGrid,
@@ -28,27 +28,27 @@ pub struct Series {
     pub label: String,
     /// The mean over each band.
     pub values: Vec<f64>,
-    /// The standard deviation of each of them, where it is known.
+    /// The standard deviation of each mean, if known.
     pub deviation: Option<Vec<f64>>,
-    /// Its color on a display, as a swatch beside its name.
+    /// Its color on a display, for the swatch next to its name.
     pub codes: Option<[u8; 3]>,
 }
 
 impl SpectrumPlot {
-    /// The most spectra that can be told apart.
+    /// The most spectra that can be distinguished.
     pub const MAX_SERIES: usize = 16;
 
-    /// As text of an SVG file.
+    /// Draws the plot as the text of an SVG file.
     pub fn svg(&self) -> String {
         picture::svg(self)
     }
 
-    /// As pixels.
+    /// Draws the plot as pixels.
     pub fn pixels(&self) -> RgbImage8 {
         picture::pixels(self)
     }
 
-    /// From the least to the largest of values and noise, 0 included.
+    /// Range of values and noise, including 0.
     fn extent(&self) -> (f64, f64) {
         let ends = |series: &Series| -> Vec<f64> {
             let half = |band: usize| series.deviation.as_ref().map_or(0.0, |d| d[band]);
@@ -61,7 +61,7 @@ impl SpectrumPlot {
         all.fold((0.0, 0.0), |(low, high), v: f64| (v.min(low), v.max(high)))
     }
 
-    /// The corners of a band's steps, from the left.
+    /// The corners of the steps of all bands, from the left.
     fn steps(&self, values: &[f64]) -> Vec<(f64, f64)> {
         let corners = |(band, &value): (u32, &f64)| {
             [0.0, 1.0].map(|end| (self.bands.wavelength_nm(band, end), value))
@@ -94,7 +94,7 @@ impl SpectrumPlot {
     }
 }
 
-/// The most labels of the axes.
+/// Maximum number of labels on the axes.
 const X_LABELS: usize = 9;
 const Y_LABELS: usize = 7;
 
@@ -109,7 +109,7 @@ impl Drawing for SpectrumPlot {
         draw_title(&head, scale, &self.title)?;
         let (panel, legend) = body.split_horizontally(scale.px(740.0));
         let (low, high) = self.extent();
-        // A power of ten before the axis keeps its labels short.
+        // A power of ten in the axis title keeps the labels short.
         let exponent = match high.max(-low) {
             size if size > 0.0 => (3.0 * (size.log10() / 3.0).floor()) as i32,
             _ => 0,
@@ -217,7 +217,7 @@ mod tests {
         assert!(of_swatch.count() > 2000);
     }
 
-    /// Black pixels and pixels that are not a number are plots too.
+    /// Black pixels and NaN pixels can be drawn too.
     #[test]
     fn anything_can_be_drawn() {
         for scale in [0.0, f64::NAN, 1e30, 1e-30, -1.0] {

@@ -1,4 +1,4 @@
-//! A stack: two half spaces and the layers between them.
+//! Stacks: two half spaces and the layers between them.
 
 use crate::file::{self, StackDescription};
 use crate::label;
@@ -16,11 +16,11 @@ use std::path::Path;
 use std::sync::Arc;
 use thiserror::Error;
 
-/// A material as the stack's author wrote it, with its optical constants.
+/// A material as the user wrote it, with its optical constants.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Medium {
     written: Index,
-    /// Shared: a medium may be that of hundreds of layers.
+    /// Shared, since hundreds of layers may have the same medium.
     constants: Arc<OpticalConstants>,
     notes: Vec<String>,
 }
@@ -34,17 +34,17 @@ impl Medium {
         }
     }
 
-    /// As it was written.
+    /// The index as it was written.
     pub fn written(&self) -> &Index {
         &self.written
     }
 
-    /// n and k over wavelength.
+    /// Returns n and k over wavelength.
     pub fn constants(&self) -> &OpticalConstants {
         &self.constants
     }
 
-    /// A short name for people: `silica`, `1.5+0.1i`, `mine.csv`, `table`.
+    /// Returns a short readable name: `silica`, `1.5+0.1i`, `mine.csv`, `table`.
     pub fn label(&self) -> String {
         let label = match &self.written {
             Index::Real(n) => n.to_string(),
@@ -62,15 +62,15 @@ impl Medium {
         visible(&label).into_owned()
     }
 
-    /// Its data as `rutile beyond 430 to 1530 nm`, where they do not cover these wavelengths.
+    /// Describes the data as `rutile beyond 430 to 1530 nm`, if they do not cover these wavelengths.
     fn shortfall(&self, (from_nm, to_nm): (f64, f64)) -> Option<String> {
         let (low, high) = self.constants.range_nm()?;
         let is_short = from_nm < low || high < to_nm;
         is_short.then(|| format!("{} beyond {low} to {high} nm", self.label()))
     }
 
-    /// The same medium with its end values outside its data. What was written says so too, where it can: not for mixtures and
-    /// reflectances, whose parts have ends of their own.
+    /// Returns the same medium with end values outside its data. The written index changes too where it can: not for mixtures and
+    /// reflectances, whose parts have their own data ranges.
     fn clamped(mut self) -> Self {
         if self.constants.range_nm().is_none() {
             return self;
@@ -101,7 +101,7 @@ impl Medium {
         self
     }
 
-    /// Whether visible light is weakened on its way through it, as far as its data say.
+    /// Returns whether it absorbs visible light, as far as its data say.
     fn absorbs(&self) -> bool {
         let k = |nm| self.constants.k.at(f64::from(nm)).unwrap_or(0.0);
         (380..=780).any(|nm| k(nm) > Stack::INCIDENT_K)
@@ -111,14 +111,14 @@ impl Medium {
 /// A layer of a stack.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
-    /// What it is made of.
+    /// Its material.
     pub medium: Medium,
-    /// How thick it is, nm, ≥ 0.
+    /// Thickness, nm, ≥ 0.
     pub thickness_nm: f64,
 }
 
 impl Layer {
-    /// A short name for people, with the thickness rounded to what can be told apart: `TiO2 56.45 nm`.
+    /// Returns a short readable name with a rounded thickness: `TiO2 56.45 nm`.
     pub fn label(&self) -> String {
         format!(
             "{} {} nm",
@@ -128,38 +128,38 @@ impl Layer {
     }
 }
 
-/// A stack: the incident medium, layers from there on, the substrate.
+/// A stack: the incident medium, the layers in order from there, and the substrate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stack {
     incident: Medium,
     layers: Vec<Layer>,
     substrate: Medium,
     thicknesses_nm: Vec<f64>,
-    /// Whether it is written in one line, for what errors advise.
+    /// Whether it was written in one line, for the help in errors.
     is_line: bool,
     model: Model,
     notes: Vec<String>,
 }
 
-/// Why there is no stack.
+/// Why a stack cannot be read.
 #[derive(Debug, Error, Diagnostic)]
 #[non_exhaustive]
 pub enum StackError {
-    /// What is wrong with a stack file.
+    /// A stack file is invalid.
     #[error(transparent)]
     #[diagnostic(transparent)]
     File(#[from] Problems),
-    /// Neither the name of a file nor a stack in one line.
+    /// The text is neither the name of a file nor a one-line stack.
     #[error("there is no stack file {0:?}")]
     #[diagnostic(help("a stack in one line has | between its media, like {EXAMPLE:?}"))]
     Nothing(String),
-    /// What is wrong with a one-line stack.
+    /// A one-line stack is invalid.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Line(#[from] LineError),
 }
 
-/// Why a stack has no numbers at a wavelength.
+/// Why a stack cannot be evaluated at a wavelength.
 #[derive(Clone, Debug, Error, Diagnostic, PartialEq)]
 #[non_exhaustive]
 pub enum SampleError {
@@ -170,46 +170,44 @@ pub enum SampleError {
     OutOfRange {
         /// Which medium: `the incident medium`, `layer 2`, `the substrate`.
         place: String,
-        /// What it is called.
+        /// Name of the medium.
         label: String,
-        /// The wavelength asked for, nm.
+        /// The requested wavelength, nm.
         asked_nm: f64,
         /// The shortest wavelength of the data, nm.
         min_nm: f64,
         /// The longest wavelength of the data, nm.
         max_nm: f64,
-        /// What can be done, in the form that the stack is written in.
+        /// What the user can do, for the form in which the stack is written.
         #[help]
         help: String,
     },
     /// The data of a medium cannot be used there.
     #[error("at {asked_nm} nm the data of {place}, {label}, cannot be used: {fault}")]
-    #[diagnostic(help("mend the data, or ask for other wavelengths"))]
+    #[diagnostic(help("correct the data, or ask for other wavelengths"))]
     Faulty {
         /// Which medium: `the incident medium`, `layer 2`, `the substrate`.
         place: String,
-        /// What it is called.
+        /// Name of the medium.
         label: String,
-        /// The wavelength asked for, nm.
+        /// The requested wavelength, nm.
         asked_nm: f64,
-        /// What is wrong with the data, with its line.
+        /// What is wrong with the data, and in which line.
         fault: String,
     },
-    /// Two beams are not defined for the stack.
+    /// The two-beam model is not defined for the stack.
     #[error(
-        "two beams are for one film that does not absorb (k = 0) between two equal media of no larger index, but {fault}"
+        "two beams need one film that does not absorb (k = 0) between two equal media of no larger index, but {fault}"
     )]
-    #[diagnostic(help("the exact model is for any stack"))]
+    #[diagnostic(help("use the exact model, which is for any stack"))]
     NoTwoBeams {
-        /// What is not so.
+        /// Which condition is not met.
         fault: String,
     },
     /// The incident medium absorbs there.
-    #[error(
-        "at {nm} nm the incident medium, {label}, has k = {k}; the medium that light comes from must be transparent (k = 0)"
-    )]
+    #[error("at {nm} nm the incident medium, {label}, has k = {k}; it must be transparent (k = 0)")]
     IncidentAbsorbs {
-        /// What it is called.
+        /// Name of the medium.
         label: String,
         /// The wavelength, nm.
         nm: f64,
@@ -219,16 +217,16 @@ pub enum SampleError {
 }
 
 impl Stack {
-    /// The largest extinction coefficient of an incident medium, which must let light pass: at 1e-6 a wave of 500 nm goes on for
-    /// 40 mm. It is then taken as 0.
+    /// Largest extinction coefficient of an incident medium, which must be transparent: at 1e-6, light of 500 nm travels 40 mm. Up to
+    /// this, k is taken as 0.
     pub const INCIDENT_K: f64 = 1e-6;
-    /// The most layers.
+    /// Maximum number of layers.
     pub const MAX_LAYERS: usize = 1000;
 
-    /// A stack file where `text` is a path, one from standard input where it is `-`, a one-line stack where it has a `|` in it.
+    /// Opens a stack file if `text` is a path, reads one from standard input if it is `-`, or parses a one-line stack if it contains `|`.
     ///
     /// # Errors
-    /// Everything that is wrong with it, with its place.
+    /// Reports everything that is wrong, and where.
     pub fn open(text: &str) -> Result<Self, StackError> {
         if text.contains('|') {
             Ok(Self::parse(text)?)
@@ -239,10 +237,10 @@ impl Stack {
         }
     }
 
-    /// As [`Self::open`], of a stack file that can be trusted: the files that it names may lie outside of its folder.
+    /// Like [`Self::open`], for a trusted stack file: the files that it names may be outside of its folder.
     ///
     /// # Errors
-    /// Everything that is wrong with it, with its place.
+    /// Reports everything that is wrong, and where.
     pub fn open_trusted(text: &str) -> Result<Self, StackError> {
         if text.contains('|') || !Path::new(text).exists() {
             return Self::open(text);
@@ -250,40 +248,39 @@ impl Stack {
         Ok(file::read(text.as_ref(), true)?)
     }
 
-    /// A stack written in one line: `air | silica 300nm | silicon`.
+    /// Parses a one-line stack: `air | silica 300nm | silicon`.
     ///
-    /// The first medium is the one that the light comes from, the last the substrate, and what is between are layers with their
-    /// thickness in nm, µm (um), mm or Å (angstrom), or in waves at a wavelength in nm: `TiO2 0.25@550` is a quarter-wave layer at
-    /// normal incidence. Layers in brackets come as often as the power says: `air | (TiO2 60nm | SiO2 90nm)^8 | BK7`. Definitions
-    /// before the stack name media and layers: `H=TiO2 0.25@550; L=SiO2 0.25@550; air | (HL)^8 2H | BK7`, where `2H` is twice as
-    /// thick as `H`.
+    /// The first medium is the incident medium and the last is the substrate. Between them are layers with their thickness in nm,
+    /// µm (um), mm or Å (angstrom), or in waves at a wavelength in nm: `TiO2 0.25@550` is a quarter-wave layer at normal incidence.
+    /// A power repeats layers in brackets: `air | (TiO2 60nm | SiO2 90nm)^8 | BK7`. Definitions before the stack name media and
+    /// layers: `H=TiO2 0.25@550; L=SiO2 0.25@550; air | (HL)^8 2H | BK7`, where `2H` is twice as thick as `H`.
     ///
-    /// A medium is a material's name, a number `1.5`, `1.5+0.1i`, or a file `.csv` or `.yml`. `air` is that of the library, n = 1.0003;
-    /// `vacuum` is n = 1.
+    /// A medium is a material's name, a number `1.5` or `1.5+0.1i`, or a file `.csv` or `.yml`. `air` is the material of the library,
+    /// n = 1.0003; `vacuum` is n = 1.
     ///
     /// # Errors
-    /// What is wrong with the first part that is wrong.
+    /// Reports the first part that is wrong.
     pub fn parse(line: &str) -> Result<Self, LineError> {
         line::parse(line)
     }
 
-    /// A stack file: see [`StackDescription`]. The files that it names must lie in its folder.
+    /// Reads a stack file: see [`StackDescription`]. The files that it names must be in its folder.
     ///
     /// # Errors
-    /// Everything that is wrong with it.
+    /// Reports everything that is wrong.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Problems> {
         file::read(path.as_ref(), false)
     }
 
-    /// The text of a stack file; `name` is what errors call it, and files are looked for from `folder` and must lie in it.
+    /// Reads the text of a stack file. Errors call it `name`; files are relative to `folder` and must be inside it.
     ///
     /// # Errors
-    /// Everything that is wrong with it.
+    /// Reports everything that is wrong.
     pub fn from_toml(name: &str, text: &str, folder: impl Into<Folder>) -> Result<Self, Problems> {
         file::parse(name, text, &folder.into())
     }
 
-    /// The incident medium must be transparent, the thicknesses finite and not negative; `line` and `file` have seen to it.
+    /// Makes a stack. `line` and `file` have checked that the incident medium is transparent and thicknesses are finite and not negative.
     pub(crate) fn new(incident: Medium, layers: Vec<Layer>, substrate: Medium) -> Self {
         let thicknesses_nm = layers.iter().map(|layer| layer.thickness_nm).collect();
         Self {
@@ -302,8 +299,8 @@ impl Stack {
         self
     }
 
-    /// The same stack where every medium goes on with its end values outside its data; a note names those whose data do not cover
-    /// `used_nm`, from the shortest to the longest wavelength that it is used at. Faults within the data stay faults.
+    /// Returns the same stack, where every medium has its end values outside its data. A note names the media whose data do not cover
+    /// `used_nm`, the shortest and the longest wavelength in use. Faults within the data remain faults.
     #[must_use]
     pub fn clamped(mut self, used_nm: (f64, f64)) -> Self {
         let mut extended: Vec<String> = Vec::new();
@@ -313,7 +310,7 @@ impl Stack {
         }
         if !extended.is_empty() {
             let media = extended.join(", ");
-            let note = format!("end values are used where data end: of {media}");
+            let note = format!("end values are used where data end: {media}");
             self.notes.push(note);
         }
         let layer = |layer: Layer| Layer {
@@ -328,26 +325,25 @@ impl Stack {
         }
     }
 
-    /// The same stack, whose R and T are computed by this formula. Whether it is defined for the stack is looked at where it is
-    /// sampled.
+    /// Returns the same stack with another formula for R and T. [`Self::sampled`] checks whether the formula is defined for the stack.
     #[must_use]
     pub fn with_model(self, model: Model) -> Self {
         Self { model, ..self }
     }
 
-    /// By which formula R and T are computed.
+    /// The formula for R and T.
     pub fn model(&self) -> Model {
         self.model
     }
 
-    /// In the order of the stack.
+    /// The media in the order of the stack.
     fn media(&self) -> impl Iterator<Item = &Medium> {
         let layers = self.layers.iter().map(|layer| &layer.medium);
         let incident = std::iter::once(&self.incident);
         incident.chain(layers).chain([&self.substrate])
     }
 
-    /// What was assumed of the files that its media are read from, and where data end, a line each, none twice.
+    /// Assumptions about the files of its media, and where data end, one line each, without duplicates.
     pub fn notes(&self) -> Vec<&str> {
         let mut notes: Vec<&str> = Vec::new();
         let of_media = self.media().flat_map(|medium| &medium.notes);
@@ -359,20 +355,20 @@ impl Stack {
         notes
     }
 
-    /// Why `medium` cannot be the one that the light comes from; `None` when it can.
+    /// Returns why `medium` cannot be the incident medium; `None` if it can.
     pub(crate) fn fault_of_incident(medium: &Medium) -> Option<String> {
         let label = medium.label();
-        medium.absorbs().then(|| {
-            format!("{label} absorbs; the medium that light comes from must be transparent (k = 0)")
-        })
+        medium
+            .absorbs()
+            .then(|| format!("{label} absorbs; the incident medium must be transparent (k = 0)"))
     }
 
-    /// The medium that the light comes from.
+    /// The incident medium.
     pub fn incident(&self) -> &Medium {
         &self.incident
     }
 
-    /// The layers, the first beside the incident medium.
+    /// The layers; the first touches the incident medium.
     pub fn layers(&self) -> &[Layer] {
         &self.layers
     }
@@ -382,22 +378,22 @@ impl Stack {
         &self.substrate
     }
 
-    /// The layers' thicknesses in their order, nm.
+    /// Thicknesses of the layers in order, nm.
     pub fn thicknesses_nm(&self) -> &[f64] {
         &self.thicknesses_nm
     }
 
-    /// As a stack file would say it.
+    /// Returns the stack as a stack file describes it.
     pub fn description(&self) -> StackDescription {
         StackDescription::of(self)
     }
 
-    /// The stack in one line, for people.
+    /// Returns a readable label of the stack in one line.
     pub fn label(&self) -> String {
         self.labeled(None)
     }
 
-    /// The stack in one line, for people, where one layer (counted from 0) has the thickness d.
+    /// Returns a readable label of the stack in one line, where one layer (counted from 0) has the thickness d.
     pub fn label_with_varied(&self, varied: usize) -> String {
         self.labeled(Some(varied))
     }
@@ -414,10 +410,10 @@ impl Stack {
         parts.join(" | ")
     }
 
-    /// The stack at these wavelengths, nm.
+    /// Returns the stack at these wavelengths, nm.
     ///
     /// # Errors
-    /// When a medium has no data at one of them, or the incident one absorbs.
+    /// If a medium has no data at one of them, the incident medium absorbs, or the model is not defined for the stack.
     pub fn sampled(&self, wavelengths_nm: &[f64]) -> Result<Sampled, SampleError> {
         let incident = self.indices("the incident medium", &self.incident, wavelengths_nm)?;
         if let Some((&nm, index)) = wavelengths_nm
@@ -451,7 +447,7 @@ impl Stack {
         Ok(sampled.with_model(self.model))
     }
 
-    /// A medium's index at each wavelength.
+    /// Returns the index of a medium at each wavelength.
     fn indices(
         &self,
         place: &str,
@@ -483,15 +479,15 @@ impl Stack {
 
     fn help_beyond_data(&self) -> &'static str {
         if self.is_line {
-            "ask for wavelengths within that range, or go on with the end values by --clamp"
+            "ask for wavelengths within that range, or use the end values with --clamp"
         } else {
-            "ask for wavelengths within that range; or go on with the end values by --clamp, or in the stack file by \
+            "ask for wavelengths within that range; or use the end values with --clamp, or in the stack file with \
              index = { name = …, extrapolate = \"clamp\" }"
         }
     }
 }
 
-/// Whether two beams are defined for a stack at all its wavelengths.
+/// Checks that the two-beam model is defined for a stack at all its wavelengths.
 fn has_two_beams(sampled: &Sampled) -> Result<(), SampleError> {
     let media = sampled.incident().iter().zip(sampled.substrate());
     for (w, (&around, &substrate)) in media.enumerate() {
@@ -530,9 +526,9 @@ mod tests {
         assert_eq!(index(400.0), index(430.0));
         assert_eq!(
             said(&clamped),
-            ["end values are used where data end: of rutile beyond 430 to 1530 nm"]
+            ["end values are used where data end: rutile beyond 430 to 1530 nm"]
         );
-        // A file that is written of it says the same.
+        // A file written from it has the same values.
         let again = clamped.description().check(Path::new("")).unwrap();
         assert_eq!(
             again.sampled(&[400.0]).unwrap().substrate()[0],

@@ -10,30 +10,30 @@ use optics::{Complex64, Polarized};
 use rayon::prelude::*;
 use thiserror::Error;
 
-/// The side that a stack is looked at from.
+/// The side from which a stack is seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Side {
-    /// The light that it reflects.
+    /// The reflected light.
     #[default]
     Reflected,
-    /// The light that it lets pass.
+    /// The transmitted light.
     Transmitted,
 }
 
-/// How the light is polarized.
+/// Polarization of the light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Polarization {
-    /// Not at all: the mean of both.
+    /// Unpolarized: the mean of both.
     #[default]
     Unpolarized,
     /// s: the electric field is perpendicular to the plane of incidence.
     S,
-    /// p: it lies in that plane.
+    /// p: the electric field is in that plane.
     P,
 }
 
 impl Polarization {
-    /// The power in light of this polarization.
+    /// Returns the power in light of this polarization.
     pub fn of(self, power: Polarized) -> f64 {
         match self {
             Self::Unpolarized => power.unpolarized(),
@@ -43,17 +43,17 @@ impl Polarization {
     }
 }
 
-/// How a stack is looked at.
+/// How a stack is seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct View {
-    /// From which side.
+    /// The side.
     pub side: Side,
-    /// In which light.
+    /// The polarization of the light.
     pub polarization: Polarization,
 }
 
 impl View {
-    /// What is seen of a reflected and a transmitted power, or of their derivatives.
+    /// Selects from a reflected and a transmitted power, or from their derivatives, what is seen.
     pub fn of(self, reflected: Polarized, transmitted: Polarized) -> f64 {
         self.polarization.of(match self.side {
             Side::Reflected => reflected,
@@ -62,49 +62,49 @@ impl View {
     }
 }
 
-/// A color seen in a light: XYZ, relative to the light's Y = 1.
+/// A color under an illuminant: XYZ, relative to the illuminant's Y = 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Color {
     /// X, Y, Z; Y = 1 for a perfect mirror.
     pub xyz: [f64; 3],
-    /// XYZ of the light itself.
+    /// XYZ of the illuminant itself.
     pub white: [f64; 3],
 }
 
 impl Color {
-    /// CIELAB under the light's own white.
+    /// Returns CIELAB under the illuminant's own white.
     pub fn lab(&self) -> Lab {
         Lab::from_xyz(self.xyz, self.white)
     }
 
-    /// Chromaticity x, y; `None` for black.
+    /// Returns the chromaticity x, y; `None` for black.
     pub fn chromaticity(&self) -> Option<[f64; 2]> {
         let [x, y, z] = self.xyz;
         let sum = x + y + z;
         (sum > 0.0).then(|| [x / sum, y / sum])
     }
 
-    /// Linear sRGB, 2^EV times as bright, neither adapted to the display's white nor clipped.
+    /// Returns linear sRGB, 2^EV times as bright, neither adapted to the display's white nor clipped.
     pub fn linear_srgb(&self, exposure_ev: f64) -> [f64; 3] {
         srgb::linear_from_xyz(self.xyz.map(|v| v * exposure_ev.exp2()))
     }
 
-    /// Codes of sRGB, 2^EV times as bright; what the display cannot show is clipped.
+    /// Returns codes of sRGB, 2^EV times as bright, clipped to what the display can show.
     pub fn srgb8(&self, exposure_ev: f64) -> [u8; 3] {
         self.linear_srgb(exposure_ev).map(srgb::to_u8)
     }
 
-    /// The codes as `#2e6fd0`.
+    /// Returns the codes as `#2e6fd0`.
     pub fn hex(&self, exposure_ev: f64) -> String {
         let [r, g, b] = self.srgb8(exposure_ev);
         format!("#{r:02x}{g:02x}{b:02x}")
     }
 
-    /// Whether a display of sRGB can show it, 2^EV times as bright, to half a code of 8 bits: what is closer than that to its gamut
-    /// is not clipped, but rounded.
+    /// Returns whether an sRGB display can show it, 2^EV times as bright, to half an 8-bit code: a color closer than that to the gamut
+    /// is only rounded, not clipped.
     pub fn is_in_srgb(&self, exposure_ev: f64) -> bool {
         const HALF: f64 = 0.5 / 255.0;
-        // The curve of sRGB (IEC 61966-2-1) half a code below 0 and above 1.
+        // The sRGB curve (IEC 61966-2-1) half a code below 0 and above 1.
         let (low, high) = (-HALF / 12.92, ((1.0 + HALF + 0.055) / 1.055).powf(2.4));
         let fits = |v: f64| (low..=high).contains(&v);
         self.linear_srgb(exposure_ev).into_iter().all(fits)
@@ -113,13 +113,13 @@ impl Color {
 
 /// Why a text is not a color.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("{0:?} is not a color; one of sRGB is written like #2e6fd0")]
+#[error("{0:?} is not a color; write an sRGB color like #2e6fd0")]
 pub struct ParseColorError(String);
 
-/// XYZ, Y = 1 for the display's white, of a color of sRGB such as `#2e6fd0` or `#28c`.
+/// Returns XYZ, Y = 1 for the display's white, of an sRGB color such as `#2e6fd0` or `#28c`.
 ///
 /// # Errors
-/// When it is not written so.
+/// If the text does not have this form.
 pub fn parse_srgb(text: &str) -> Result<[f64; 3], ParseColorError> {
     let refuse = || ParseColorError(text.chars().take(40).collect());
     let digits = text.strip_prefix('#').unwrap_or(text);
@@ -135,23 +135,23 @@ pub fn parse_srgb(text: &str) -> Result<[f64; 3], ParseColorError> {
     Ok(srgb::xyz_from_linear(codes.map(srgb::from_u8)))
 }
 
-/// A stack that is looked at in a light: what gives its color for any thicknesses and angle.
+/// A stack under an illuminant, which gives its color for any thicknesses and angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StackColor {
     sampled: Sampled,
-    /// At every nm.
+    /// The stack at every nm.
     fine: Sampled,
-    /// The largest index of each layer there.
+    /// The largest index of each layer at these wavelengths.
     largest: Vec<f64>,
     light: Light,
     view: View,
 }
 
 impl StackColor {
-    /// Reads the stack's media where the light's sums are taken.
+    /// Reads the stack's media at the wavelengths of the light's sums.
     ///
     /// # Errors
-    /// When one of them has no data somewhere from 380 to 780 nm.
+    /// If one of them has no data somewhere from 380 to 780 nm.
     pub fn new(stack: &Stack, light: Light, view: View) -> Result<Self, SampleError> {
         let wavelengths_nm = light.wavelengths_nm();
         let every_nm: Vec<f64> = match wavelengths_nm[..] {
@@ -170,17 +170,17 @@ impl StackColor {
         })
     }
 
-    /// The color with these thicknesses, nm, one per layer, at an angle: of any thickness, with fringes as fine as they may be. The
-    /// weights of the light's sums are taken as linear between their wavelengths.
+    /// Returns the color with these thicknesses, nm, one per layer, at an angle, for any thickness, however fine its fringes are. The
+    /// weights of the light's sums are assumed linear between their wavelengths.
     ///
     /// # Panics
-    /// When there is not one thickness per layer.
+    /// If there is not one thickness per layer.
     pub fn at(&self, thicknesses_nm: &[f64], angle: Angle) -> Color {
         let shares = self.shares(thicknesses_nm, angle);
         self.color(self.fringes(thicknesses_nm, angle).xyz(&shares))
     }
 
-    /// What is seen at each wavelength of the sums.
+    /// The reflectance or transmittance at each wavelength of the sums.
     fn shares(&self, thicknesses_nm: &[f64], angle: Angle) -> Vec<f64> {
         let powers = self.sampled.powers(thicknesses_nm, angle);
         powers.iter().map(|powers| self.seen(powers)).collect()
@@ -201,8 +201,8 @@ impl StackColor {
         }
     }
 
-    /// How much of the color hangs on what the light's table does not say: ΔE₀₀ between the color, for which its power is linear between
-    /// the points of its table, and the sum over those points alone. 0 where the film's spectrum is smooth.
+    /// Uncertainty of the color due to the limited resolution of the light's table: ΔE₀₀ between the color, for which the power is
+    /// linear between the points of the table, and the sum over those points alone. 0 where the film's spectrum is smooth.
     pub fn doubt(&self, thicknesses_nm: &[f64], angle: Angle) -> f64 {
         let shares = self.shares(thicknesses_nm, angle);
         let of_points = self.light.xyz(shares.iter().copied());
@@ -211,18 +211,18 @@ impl StackColor {
         delta_e_2000(a, b)
     }
 
-    /// Where its color with these thicknesses is summed up.
+    /// Positions and weights of the sum for its color with these thicknesses.
     pub(crate) fn places(&self, thicknesses_nm: &[f64], angle: Angle) -> Places {
         let shares = self.shares(thicknesses_nm, angle);
         self.fringes(thicknesses_nm, angle).places(&shares)
     }
 
-    /// XYZ with many sets of thicknesses at many angles, as `[set][angle]`, on all cores.
+    /// Returns XYZ with many sets of thicknesses at many angles, as `[set][angle]`, on all cores.
     ///
     /// # Panics
-    /// When there is not one thickness per layer.
+    /// If there is not one thickness per layer.
     pub fn xyz_of_all(&self, sets: &[Vec<f64>], angles: &[Angle]) -> Vec<[f64; 3]> {
-        /// Spectra that are in memory at a time, some 13 kB each.
+        /// Number of spectra in memory at a time, some 13 kB each.
         const AT_ONCE: usize = 1024;
         let wavelengths = self.sampled.wavelengths_nm().len();
         sets.chunks(AT_ONCE.div_ceil(angles.len().max(1)))
@@ -260,7 +260,7 @@ impl StackColor {
         &self.light
     }
 
-    /// How it is looked at.
+    /// Side and polarization.
     pub fn view(&self) -> View {
         self.view
     }
@@ -290,7 +290,7 @@ mod tests {
         assert!(color.is_in_srgb(0.0) && !color.is_in_srgb(1.0));
     }
 
-    /// A mirror is white: the sums at 1 nm leave it a rounding beside the display's white.
+    /// A mirror is white: the sums at 1 nm differ from the display's white by rounding.
     #[test]
     fn a_perfect_mirror_is_not_clipped() {
         let white = Light::named("D65").unwrap().white();

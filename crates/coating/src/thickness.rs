@@ -1,10 +1,11 @@
-//! Thicknesses as they are written in a line: a length with its unit, or waves at a wavelength.
+//! Thicknesses in one-line stacks: a length with its unit, or waves at a wavelength.
 
 use scene::limits::{TABLE_NM, THICKNESS_NM};
 use spectra::OpticalConstants;
 use spectra::wording::number;
 
-/// The units of a thickness, in nm. µ is a sign of its own beside the Greek letter, and so is Å beside the letter with a ring.
+/// Units of a thickness, in nm. The micro sign µ and the Greek letter are different characters, as are the angstrom sign and the
+/// letter Å.
 const UNITS: [(&str, f64); 8] = [
     ("nm", 1.0),
     ("um", 1e3),
@@ -16,19 +17,19 @@ const UNITS: [(&str, f64); 8] = [
     ("angstrom", 0.1),
 ];
 
-/// How thicknesses are written.
+/// Help on how to write a thickness.
 pub(crate) const FORMS: &str = "300nm, 0.3um, 3000Å or, in waves at a wavelength in nm, 0.25@550";
 
-/// A thickness as written.
+/// A thickness as it was written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Written<'a> {
-    /// A number and its unit with what it is in nm.
+    /// A number, and its unit with the value in nm.
     Length(&'a str, (&'static str, f64)),
-    /// An optical thickness in waves, and the wavelength in vacuum.
+    /// An optical thickness in waves, and the vacuum wavelength.
     Waves(&'a str, &'a str),
 }
 
-/// Splits `silica 300 nm` into medium and thickness; without a thickness at its end it is all medium.
+/// Splits `silica 300 nm` into medium and thickness; without a thickness at its end, the whole text is the medium.
 pub(crate) fn split(text: &str) -> (&str, Option<Written<'_>>) {
     let last_word = |text: &'_ str| text.rfind(char::is_whitespace).map_or(0, |at| at + 1);
     if let Some((before, after)) = text.rsplit_once('@') {
@@ -46,7 +47,7 @@ pub(crate) fn split(text: &str) -> (&str, Option<Written<'_>>) {
         };
         let rest = rest.trim_end();
         let (medium, digits) = split_at_char(rest, last_word(rest));
-        // A name that happens to end like a unit has no digit before it.
+        // A name that happens to end in a unit has no digit before it.
         if is_a_number_at_its_end(digits) {
             return (medium.trim_end(), Some(Written::Length(digits, unit)));
         }
@@ -54,7 +55,7 @@ pub(crate) fn split(text: &str) -> (&str, Option<Written<'_>>) {
     (text, None)
 }
 
-/// `text` in two, the second with the character that begins there or before.
+/// Splits `text` in two; the second part starts with the character that begins at or before the position.
 fn split_at_char(text: &str, at: usize) -> (&str, &str) {
     let at = (0..=at).rev().find(|&at| text.is_char_boundary(at));
     text.split_at(at.unwrap_or(0))
@@ -65,7 +66,7 @@ fn is_a_number_at_its_end(text: &str) -> bool {
 }
 
 impl Written<'_> {
-    /// The thickness in nm of a layer of this medium, or what is wrong and what would be right.
+    /// Returns the thickness in nm of a layer of this medium, or what is wrong and what would be right.
     pub(crate) fn nm(self, constants: &OpticalConstants) -> Result<f64, (String, String)> {
         let parsed = |digits: &str| {
             digits.parse::<f64>().map_err(|_| {
@@ -86,19 +87,19 @@ impl Written<'_> {
     }
 }
 
-/// A thickness that a layer may have; `written` tells how it was written, given the number in nm.
+/// Checks that a layer may have this thickness; `written` returns how it was written, given the number in nm.
 pub(crate) fn within(nm: f64, written: impl Fn(&str) -> String) -> Result<f64, (String, String)> {
     if THICKNESS_NM.contains(nm) {
-        // −0 is 0.
+        // Adding 0 turns −0 into 0.
         return Ok(nm + 0.0);
     }
     let help = format!("it must be from {THICKNESS_NM}");
     Err((format!("a thickness of {}", written(&number(nm))), help))
 }
 
-/// The thickness d in nm at which a layer is `waves` wavelengths thick for light along its normal: n d = waves · λ with the real
-/// part n of its index at the vacuum wavelength λ = `at_nm`; a quarter-wave layer has 0.25. What is wrong and what would be right
-/// where there is none.
+/// Returns the thickness d in nm of a layer that is `waves` wavelengths thick at normal incidence: n d = waves · λ with the real
+/// part n of its index at the vacuum wavelength λ = `at_nm`; a quarter-wave layer has 0.25. The error has what is wrong and what
+/// would be right.
 pub(crate) fn optical_nm(
     waves: f64,
     at_nm: f64,
@@ -109,7 +110,7 @@ pub(crate) fn optical_nm(
         return Err((format!("a wavelength of {} nm", number(at_nm)), help));
     }
     let n = constants.n.at(at_nm).map_err(|gap| {
-        let help = "a thickness in waves needs the layer's index at the wavelength behind the @";
+        let help = "a thickness in waves needs the layer's index at the wavelength after the @";
         (gap.to_string(), help.to_owned())
     })?;
     within(waves * at_nm / n, |nm| {

@@ -1,4 +1,4 @@
-//! How the color scatters when thicknesses come out wrong.
+//! Scatter of the color due to errors of thickness.
 
 use crate::response::Angle;
 use crate::stack_color::{Color, StackColor};
@@ -9,64 +9,64 @@ use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use thiserror::Error;
 
-/// Errors of thickness: each layer's own, independent, normal.
+/// Errors of thickness: independent for each layer and normally distributed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// Standard deviation of a thickness relative to the thickness.
     pub relative_sigma: f64,
-    /// How many stacks are drawn.
+    /// Number of stacks that are drawn.
     pub trials: u32,
-    /// Which ones: the same seed draws the same, on any machine and number of threads.
+    /// Seed; the same seed draws the same stacks on any machine and number of threads.
     pub seed: u64,
 }
 
-/// Why there is no scatter to tell of.
+/// Why the scatter cannot be computed.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum ToleranceError {
-    /// Not a deviation.
+    /// The deviation is invalid.
     #[error("a tolerance of {} %; it must be more than 0 and at most 100 %", 100.0 * .0)]
     Sigma(f64),
-    /// Too few or too many.
+    /// There are too few or too many trials.
     #[error("{0} trials; there must be from 1 to {max}", max = Tolerance::MAX_TRIALS)]
     Trials(u32),
-    /// Nothing to vary.
-    #[error("the stack has no layer whose thickness could vary")]
+    /// There is nothing to vary.
+    #[error("the stack has no layer whose thickness can vary")]
     NoLayers,
 }
 
-/// Color differences ΔE₀₀ from the nominal color, by the share of the trials that stay below.
+/// Color differences ΔE₀₀ from the nominal color, by the fraction of trials that stay below.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantiles {
-    /// Of half of the trials.
+    /// Median of the trials.
     pub p50: f64,
-    /// Of 90 %.
+    /// 90 % of the trials.
     pub p90: f64,
-    /// Of 95 %.
+    /// 95 % of the trials.
     pub p95: f64,
-    /// Of 99 %.
+    /// 99 % of the trials.
     pub p99: f64,
-    /// The largest.
+    /// The largest difference.
     pub max: f64,
 }
 
-/// How the color scatters.
+/// Scatter of the color.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spread {
-    /// The color with the thicknesses as they should be.
+    /// The color with the nominal thicknesses.
     pub nominal: Color,
     /// The mean of the trials' XYZ.
     pub mean: Color,
     /// Color difference of the mean from the nominal color.
     pub mean_delta_e: f64,
-    /// When all layers vary.
+    /// Differences when all layers vary.
     pub all: Quantiles,
-    /// For each layer, when it alone varies, from the first [`Tolerance::ALONE`] trials.
+    /// Differences for each layer when it alone varies, from the first [`Tolerance::ALONE`] trials.
     pub alone: Vec<Quantiles>,
 }
 
 impl Spread {
-    /// The layer that matters most, counted from 0: with the largest 95th percentile when it varies alone.
+    /// Index from 0 of the layer that matters most: the one with the largest 95th percentile when it varies alone.
     pub fn worst_layer(&self) -> Option<usize> {
         let largest =
             |a: &(usize, &Quantiles), b: &(usize, &Quantiles)| a.1.p95.total_cmp(&b.1.p95);
@@ -79,9 +79,9 @@ impl Spread {
 }
 
 impl Tolerance {
-    /// The most trials of which each layer's own share is told: they are drawn for every layer.
+    /// Maximum number of trials for the effect of each layer alone, since they are drawn for every layer.
     pub const ALONE: u32 = 2000;
-    /// The most trials.
+    /// Maximum number of trials.
     pub const MAX_TRIALS: u32 = 10_000_000;
 
     fn check(&self, layers: usize) -> Result<(), ToleranceError> {
@@ -97,7 +97,7 @@ impl Tolerance {
         Ok(())
     }
 
-    /// The thicknesses of a trial: each d (1 + σ z) with a normal z of its own, and never below 0.
+    /// Draws the thicknesses of a trial: each is d (1 + σ z) with its own normal z, and at least 0.
     fn drawn(&self, trial: u32, thicknesses_nm: &[f64]) -> Vec<f64> {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         random.set_stream(u64::from(trial));
@@ -109,16 +109,16 @@ impl Tolerance {
     }
 }
 
-/// The most thicknesses that are in memory at a time.
+/// Maximum number of thicknesses in memory at a time.
 const MOST_THICKNESSES: usize = 1 << 16;
 
-/// Draws stacks with wrong thicknesses and looks at their colors.
+/// Draws stacks with wrong thicknesses and evaluates their colors.
 ///
 /// # Errors
-/// When the tolerance makes no sense.
+/// If the tolerance makes no sense.
 ///
 /// # Panics
-/// When there is not one thickness per layer.
+/// If there is not one thickness per layer.
 pub fn tolerance(
     stack: &StackColor,
     thicknesses_nm: &[f64],
@@ -148,14 +148,14 @@ pub fn tolerance(
     })
 }
 
-/// What trials come to.
+/// Results of the trials.
 struct Scatter {
     /// The mean of their XYZ.
     mean: [f64; 3],
     quantiles: Quantiles,
 }
 
-/// Looks at trials part by part: of most only the color difference is kept.
+/// Evaluates trials part by part and keeps only their color differences.
 fn scatter(
     stack: &StackColor,
     nominal: &Color,
@@ -179,7 +179,7 @@ fn scatter(
     }
 }
 
-/// The trials in parts whose thicknesses are in memory at a time.
+/// Divides the trials into parts whose thicknesses fit in memory together.
 fn parts(trials: u32, layers: usize) -> impl Iterator<Item = std::ops::Range<u32>> {
     let step = (MOST_THICKNESSES / layers.max(1)).clamp(1, 1024);
     (0..trials)
@@ -187,7 +187,7 @@ fn parts(trials: u32, layers: usize) -> impl Iterator<Item = std::ops::Range<u32
         .map(move |first| first..trials.min(first.saturating_add(step as u32)))
 }
 
-/// Quantiles by the nearest rank: the smallest difference that at least the share of the trials does not exceed.
+/// Quantiles by the nearest rank: the smallest difference that at least this fraction of the trials does not exceed.
 fn quantiles(mut differences: Vec<f64>) -> Quantiles {
     differences.sort_by(f64::total_cmp);
     let at = |percent: usize| {
@@ -221,8 +221,8 @@ mod tests {
         seed: 1,
     };
 
-    /// With a small error of one thickness ΔE is |z| σ d dE/dd, whose quantiles are those of a folded normal:
-    /// 0.674, 1.645, 1.960, 2.576 of the deviation.
+    /// With a small error of one thickness, ΔE is |z| σ d dE/dd, which has the quantiles of a folded normal distribution:
+    /// 0.674, 1.645, 1.960 and 2.576 standard deviations.
     #[test]
     fn small_errors_scatter_as_the_derivative_says() {
         let (color, thicknesses) = color("1 | silica 300nm | silicon");
@@ -267,7 +267,7 @@ mod tests {
         );
     }
 
-    /// Every trial is looked at once, however many there are, and never more of them at a time than there is room for.
+    /// Every trial is evaluated once, however many there are, and never more at a time than fit in memory.
     #[test]
     fn memory_does_not_grow_with_trials_and_layers() {
         for (trials, layers) in [(1, 1), (1024, 1), (1025, 3), (100_001, 65), (9, 1 << 20)] {
@@ -281,7 +281,7 @@ mod tests {
         }
     }
 
-    /// A mean over several parts is that over all trials.
+    /// The mean over several parts equals the mean over all trials.
     #[test]
     fn parts_make_up_the_whole() {
         let (color, thicknesses) = color("1 | 1.9 120nm | silicon");

@@ -1,5 +1,5 @@
-//! What colors lose in tables at coarse steps: reflectances every 10 and 20 nm, as instruments measure them, by Sprague's interpolation and by
-//! straight lines, against the reflectances themselves at every nm.
+//! Color errors of tables at coarse steps: reflectances every 10 and 20 nm, as instruments measure them, by Sprague's interpolation and by
+//! straight lines, compared with the reflectances themselves at every nm.
 
 use colorimetry::Lab;
 use colorimetry::lab::delta_e_2000;
@@ -16,7 +16,7 @@ const SMOOTH: [&str; 6] = [
     "1 | silica 300nm | silicon",
 ];
 
-/// ΔE₀₀ under an illuminant by straight lines and by Sprague.
+/// ΔE₀₀ under an illuminant by straight lines and by Sprague's interpolation.
 fn losses(line: &str, illuminant: &str, step_nm: usize) -> [f64; 2] {
     let stack = Stack::parse(line).unwrap();
     let every = |step: usize| {
@@ -56,7 +56,7 @@ fn sprague_is_nearer_than_straight_lines() {
                 worst = [0, 1].map(|i| worst[i].max(found[i]));
             }
         }
-        // Straight lines lose about what the docs say, and Sprague less than half of it.
+        // Straight lines lose roughly what the docs say, and Sprague's interpolation less than half of it.
         assert!(
             worst[0] < most[0] && worst[1] < most[1],
             "{step_nm} nm: {worst:.3?}"

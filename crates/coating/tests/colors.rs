@@ -1,4 +1,4 @@
-//! Colors of stacks against a computation apart from this code, from the one-line stack to linear sRGB.
+//! Colors of stacks compared with an independent computation, from the one-line stack to linear sRGB.
 
 use colorimetry::lab::delta_e_2000;
 use colorimetry::tristimulus::Rule;
@@ -8,7 +8,7 @@ use spectra::Observer;
 
 const TABLE: &str = include_str!("data/stack_colors.csv");
 
-/// The stack, angle, illuminant and rule of a row, and its twelve figures.
+/// The stack, angle, illuminant and rule of each row, and its twelve values.
 fn rows() -> impl Iterator<Item = (&'static str, f64, &'static str, Rule, [f64; 12])> {
     let lines = TABLE.lines().filter(|line| !line.starts_with('#')).skip(1);
     lines.map(|line| {
@@ -33,7 +33,7 @@ fn figures(stack: &str, angle_deg: f64, illuminant: &str, rule: Rule) -> [f64; 1
     let shares = powers.iter().map(|p| p.reflectance.unpolarized());
     let xyz = color.light().xyz(shares);
     let color = Color { xyz, ..integral };
-    // Sums at 1 nm are the integral, but for less than can be seen; at 5 nm they are not.
+    // Sums at 1 nm differ from the integral by less than can be seen; at 5 nm they do not.
     let aside = delta_e_2000(color.lab(), integral.lab());
     let most = if rule == Rule::OneNm { 0.005 } else { 0.3 };
     assert!(aside < most, "{aside}");
@@ -51,7 +51,7 @@ fn figures(stack: &str, angle_deg: f64, illuminant: &str, rule: Rule) -> [f64; 1
     figures
 }
 
-/// The largest difference: relative of XYZ, absolute of L*, a*, b* over 100, and of sRGB.
+/// The largest difference: relative for XYZ, absolute for L*, a*, b* over 100 and for sRGB.
 fn difference(found: [f64; 12], expected: [f64; 12]) -> f64 {
     let unit = |i: usize| match i {
         0..3 => expected[i],
@@ -77,7 +77,7 @@ fn stacks_have_the_colors_of_an_independent_computation() {
     assert_eq!(count, 14 * 4 * 3 * 2);
 }
 
-/// The comparison notices a hundredth of a nanometer, a hundredth of a degree and another light.
+/// The comparison detects a hundredth of a nanometer, a hundredth of a degree and another illuminant.
 #[test]
 fn a_slightly_different_stack_is_noticed() {
     let worst = |stack, angle_deg, illuminant| {

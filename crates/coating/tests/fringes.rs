@@ -1,11 +1,11 @@
-//! Colors of films whose fringes are finer than the steps of the sums, against sums over a grid that is fine enough for them.
+//! Colors of films whose fringes are finer than the steps of the sums, compared with sums over a sufficiently fine grid.
 
 use colorimetry::Lab;
 use colorimetry::lab::delta_e_2000;
 use pellicle_coating::{Angle, Light, Side, Stack, StackColor, View, sensitivity};
 use proptest::prelude::*;
 
-/// What the properties allow.
+/// Largest ΔE₀₀ that the properties allow.
 const WITHIN: f64 = 0.05;
 
 fn angle(deg: f64) -> Angle {
@@ -19,8 +19,8 @@ fn view(side: Side) -> View {
     }
 }
 
-/// XYZ by the trapezoidal rule on a grid of so many parts a nm, the products of light and observer linear between the wavelengths of
-/// the light's sums. Indices are read anew at each point.
+/// XYZ by the trapezoidal rule on a grid of `per_nm` parts per nm. The products of light and observer are linear between the wavelengths
+/// of the light's sums. Indices are read again at each point.
 fn on_fine_grid(stack: &Stack, light: &Light, side: Side, at: Angle, per_nm: u32) -> [f64; 3] {
     let weights = light.per_wavelength();
     let last = weights.len() - 1;
@@ -80,7 +80,7 @@ fn a_thick_film_has_no_color_that_its_grid_gave_it() {
         ("1 | 1.52 12um | 1", "FL2", 0.0),
         ("1 | 1.52 95um | 1", "D65", 0.0),
         ("1 | 1.52 95um | 1", "D65", 70.0),
-        // Two fringes a nm at 550 nm: 2 n d = λ²/0.5 nm.
+        // Two fringes per nm at 550 nm: 2 n d = λ²/0.5 nm.
         ("1 | 3.025 100um | silicon", "D65", 0.0),
         ("1 | silica 50um | silver", "A", 30.0),
         (
@@ -101,7 +101,7 @@ fn a_thick_film_has_no_color_that_its_grid_gave_it() {
     }
 }
 
-/// By a sum of its own over 380 to 780 nm in steps of 0.01 nm, worked out from Airy's formula alone.
+/// Compared with a separate sum over 380 to 780 nm in steps of 0.01 nm, computed from Airy's formula alone.
 #[test]
 fn a_film_of_19_micrometers_is_neutral_under_three_bands() {
     let stack = Stack::parse("1 | 1.52 19000nm | 1").unwrap();
@@ -112,8 +112,8 @@ fn a_film_of_19_micrometers_is_neutral_under_three_bands() {
     }
 }
 
-/// A line of 0.2 nm in the violet, with eleven layers a side of its cavity: a sum over 380 to 780 nm in steps of 0.002 nm, in a program
-/// apart from this one.
+/// A line of 0.2 nm in the violet, with eleven layers on each side of its cavity, compared with a sum over 380 to 780 nm in steps of
+/// 0.002 nm by an independent program.
 #[test]
 fn a_line_filter_lets_through_what_its_line_does() {
     let pair = "2.35 58.542553191nm | 1.46 94.229452055nm";
@@ -134,7 +134,7 @@ fn a_line_filter_lets_through_what_its_line_does() {
     assert!((y - 0.01799).abs() < 1e-5, "{y}");
 }
 
-/// A filter of six pairs a side around a cavity has a line narrower than a nm, and one of nine pairs hundreds of times narrower.
+/// A filter of six pairs on each side of a cavity has a line narrower than 1 nm, and one of nine pairs hundreds of times narrower.
 #[test]
 fn a_narrow_line_is_not_missed_between_two_wavelengths() {
     for pairs in [4, 6, 9] {
@@ -192,7 +192,7 @@ fn many_at_once_are_the_same_as_each_alone() {
     }
 }
 
-/// The derivative of the integral stands against plain differences of it.
+/// The derivative of the integral agrees with its differences.
 #[test]
 fn thick_films_change_color_as_their_derivative_says() {
     let stack = Stack::parse("1 | 1.52 8um | 2.0 90nm | silicon").unwrap();

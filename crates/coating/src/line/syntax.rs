@@ -1,4 +1,4 @@
-//! The form of a one-line stack: definitions, media, layers and groups, before anything is looked up.
+//! Syntax of a one-line stack: definitions, media, layers and groups, before anything is looked up.
 
 use super::{Fault, Misplaced, example};
 use crate::stack::Stack;
@@ -6,14 +6,14 @@ use crate::thickness;
 use spectra::suggestion::nearest;
 use std::ops::Range;
 
-/// A part of the line, and the byte that it begins at.
+/// A part of the line, and the byte at which it begins.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece<'a> {
     pub(super) text: &'a str,
     at: usize,
 }
 
-/// A line.
+/// The parts of a line.
 pub(super) struct Line<'a> {
     pub(super) definitions: Vec<Definition<'a>>,
     pub(super) incident: Piece<'a>,
@@ -21,7 +21,7 @@ pub(super) struct Line<'a> {
     pub(super) substrate: Piece<'a>,
 }
 
-/// `H = TiO2 0.25@550`.
+/// A definition, `H = TiO2 0.25@550`.
 pub(super) struct Definition<'a> {
     pub(super) name: &'a str,
     pub(super) value: Piece<'a>,
@@ -31,17 +31,17 @@ pub(super) struct Definition<'a> {
 pub(super) enum Node<'a> {
     /// A medium and a thickness.
     Layer(Piece<'a>),
-    /// So many times the thickness of a definition, by its place in the list.
+    /// A factor times the thickness of a definition, given by its index in the list.
     Defined(f64, usize, Piece<'a>),
-    /// A group, so many times.
+    /// A group and how often it repeats.
     Group(Vec<Node<'a>>, usize),
 }
 
-/// How deep groups may stand in groups.
+/// Maximum nesting depth of groups.
 const MAX_DEPTH: usize = 16;
 
 impl Piece<'_> {
-    /// Where it stands in the line; an empty one is shown by the sign behind it.
+    /// Its bytes in the line; an empty piece is shown by the character behind it.
     pub(super) fn bytes(&self) -> Range<usize> {
         self.at..self.at + self.text.len().max(1)
     }
@@ -69,7 +69,7 @@ impl Piece<'_> {
         }
     }
 
-    /// The parts between the bars that stand in no brackets, without the blanks around them.
+    /// The parts between bars outside of brackets, without surrounding whitespace.
     fn parts(&self) -> Result<Vec<Self>, Misplaced> {
         let mut opened: Vec<usize> = Vec::new();
         let (mut parts, mut start) = (Vec::new(), 0);
@@ -96,11 +96,11 @@ impl Piece<'_> {
     }
 }
 
-/// What a group looks like.
+/// Help on how to write a group.
 const GROUP: &str = "a group is written like (TiO2 60nm | SiO2 90nm)^8, or of definitions like \
                      \"H=TiO2 0.25@550; L=SiO2 0.25@550; air | (HL)^8 H | BK7\"";
 
-/// The form of a line.
+/// Parses a line.
 pub(super) fn line(text: &str) -> Result<Line<'_>, Misplaced> {
     let whole = Piece { text, at: 0 };
     let last = text.rfind(';').map_or(0, |at| at + 1);
@@ -136,10 +136,10 @@ fn definition<'a>(
     piece: Piece<'a>,
     before: &[Definition<'_>],
 ) -> Result<Definition<'a>, Misplaced> {
-    let help = "before a ; stands a definition, like \"H=TiO2 0.25@550\": a name of letters, digits and _, and a medium with or \
+    let help = "a definition comes before a ;, like \"H=TiO2 0.25@550\": a name of letters, digits and _, and a medium with or \
                 without a thickness";
     let Some(equals) = piece.text.find('=') else {
-        return Err(piece.misplaced(format!("{:?} is no definition", piece.text), help));
+        return Err(piece.misplaced(format!("{:?} is not a definition", piece.text), help));
     };
     let name = piece.sub(0..equals).trimmed();
     let is_name = name.text.starts_with(|c: char| c.is_ascii_alphabetic())
@@ -148,7 +148,7 @@ fn definition<'a>(
             .chars()
             .all(|c| c.is_ascii_alphanumeric() || c == '_');
     if !is_name {
-        return Err(name.misplaced(format!("{:?} is no name", name.text), help));
+        return Err(name.misplaced(format!("{:?} is not a name", name.text), help));
     }
     if before.iter().any(|other| other.name == name.text) {
         let message = format!("{} is defined twice", name.text);
@@ -163,7 +163,7 @@ fn definition<'a>(
     Ok(Definition { name, value })
 }
 
-/// What stands between two bars: a layer, or a row of groups and definitions.
+/// Parses the part between two bars: a layer, or a row of groups and definitions.
 fn part_nodes<'a>(
     part: Piece<'a>,
     definitions: &[Definition<'a>],
@@ -180,7 +180,7 @@ fn part_nodes<'a>(
     }
 }
 
-/// `(HL)^8 H`: groups and definitions one after another.
+/// Parses a row of groups and definitions, `(HL)^8 H`.
 fn row<'a>(
     part: Piece<'a>,
     definitions: &[Definition<'a>],
@@ -208,14 +208,14 @@ fn row<'a>(
     Ok(nodes)
 }
 
-/// The group that a text begins with, and how many bytes of it it takes.
+/// Parses the group at the start of a text, and returns it with its length in bytes.
 fn group<'a>(
     text: Piece<'a>,
     definitions: &[Definition<'a>],
     depth: usize,
 ) -> Result<(Node<'a>, usize), Misplaced> {
     if depth >= MAX_DEPTH {
-        let message = format!("groups stand more than {MAX_DEPTH} deep in groups");
+        let message = format!("groups are nested more than {MAX_DEPTH} deep");
         return Err(text.sub(0..1).misplaced(message, GROUP));
     }
     let close = closing(text.text);
@@ -239,7 +239,7 @@ fn group<'a>(
             let times = power[..digits].parse().ok();
             let times = times.filter(|times| (1..=Stack::MAX_LAYERS).contains(times));
             let Some(times) = times else {
-                let message = format!("a group comes from 1 to {} times", Stack::MAX_LAYERS);
+                let message = format!("a group repeats from 1 to {} times", Stack::MAX_LAYERS);
                 return Err(text.sub(0..length).misplaced(message, GROUP));
             };
             (times, length)
@@ -250,7 +250,7 @@ fn group<'a>(
     Ok((group, length))
 }
 
-/// Where the bracket closes that a text opens with; all brackets are known to close.
+/// Returns where the opening bracket of a text closes; all brackets are known to close.
 fn closing(text: &str) -> usize {
     let mut open = 0_usize;
     for (at, sign) in text.char_indices() {
@@ -264,7 +264,7 @@ fn closing(text: &str) -> usize {
     text.len()
 }
 
-/// A definition's name, or definitions of one letter side by side, each with or without a factor: `HL`, `2H`, `0.5HLH`.
+/// Parses the name of a definition, or a row of one-letter definitions, each with or without a factor: `HL`, `2H`, `0.5HLH`.
 fn word<'a>(word: Piece<'a>, definitions: &[Definition<'a>]) -> Result<Vec<Node<'a>>, Misplaced> {
     let by_name = |name: &str| definitions.iter().position(|defined| defined.name == name);
     let letters = letters(word, by_name)?;
@@ -272,12 +272,12 @@ fn word<'a>(word: Piece<'a>, definitions: &[Definition<'a>]) -> Result<Vec<Node<
     match (by_name(name.text), letters) {
         (Some(_), Some(letters)) if letters.len() > 1 => {
             let message = format!(
-                "{:?} is a name that is defined, and also a row of letters that are",
+                "{:?} is a defined name, and also a row of letters that are defined",
                 name.text
             );
             Err(word.misplaced(
                 message,
-                "give the definition a name that cannot be read as others",
+                "give the definition a name that cannot be read as a row of others",
             ))
         }
         (Some(place), _) => Ok(vec![Node::Defined(factor, place, word)]),
@@ -302,8 +302,8 @@ fn undefined(word: Piece<'_>, name: &str, definitions: &[Definition<'_>]) -> Mis
             .iter()
             .map(|letter| format!("{letter}=TiO2 0.25@550; "));
         let help = format!(
-            "say before the stack what a letter stands for, like \"{}air | …\": a medium and its thickness, {}; or write each \
-             layer so, with | between them",
+            "define each letter before the stack, like \"{}air | …\": a medium and its thickness, {}; or write each layer \
+             like that, with | between them",
             definitions.collect::<String>(),
             thickness::FORMS
         );
@@ -315,7 +315,7 @@ fn undefined(word: Piece<'_>, name: &str, definitions: &[Definition<'_>]) -> Mis
         format!("nothing is defined; {GROUP}")
     } else {
         format!(
-            "defined are {}; a layer that is not defined has its thickness behind it, like \"silica 300nm\"",
+            "defined are {}; a layer that is not defined is written with its thickness, like \"silica 300nm\"",
             known.join(", ")
         )
     };
@@ -327,15 +327,15 @@ fn listed(letters: &[char]) -> String {
     letters.join(", ")
 }
 
-/// Whether a text is a row of some letters, each with or without a factor, and no medium: `HL`, `2HLH`.
+/// Returns whether a text is a row of letters, each with or without a factor, rather than a medium: `HL`, `2HLH`.
 fn is_row_of_letters(text: &str) -> bool {
     undefined_letters(text, &[]).is_some()
 }
 
-/// The letters of a row such as `2HLH` that are not defined; `None` where it reads as a name rather: of a material, or of more letters
-/// than a design has, none of which is defined.
+/// Returns the undefined letters of a row such as `2HLH`; `None` if the text looks more like the name of a material, or has more
+/// undefined letters than a design has.
 fn undefined_letters(text: &str, known: &[&str]) -> Option<Vec<char>> {
-    /// More than the designs of filters have.
+    /// More letters than designs of filters use.
     const MOST: usize = 4;
     let is_of_factor = |c: &char| c.is_ascii_digit() || *c == '.';
     let mut letters: Vec<char> = Vec::new();
@@ -354,7 +354,7 @@ fn undefined_letters(text: &str, known: &[&str]) -> Option<Vec<char>> {
     (is_row && (1..=MOST).contains(&letters.len())).then_some(letters)
 }
 
-/// The number before a name, 1 where there is none, and the name.
+/// Splits a word into its leading number, 1 if absent, and its name.
 fn factor(word: Piece<'_>) -> Result<(f64, Piece<'_>), Misplaced> {
     let is_of_number = |c: char| c.is_ascii_digit() || c == '.';
     let digits = word.text.len() - word.text.trim_start_matches(is_of_number).len();
@@ -371,7 +371,7 @@ fn factor(word: Piece<'_>) -> Result<(f64, Piece<'_>), Misplaced> {
     }
 }
 
-/// Definitions of one letter side by side; `None` where one of them is not defined.
+/// Parses a row of one-letter definitions; `None` if one of them is not defined.
 fn letters(
     word: Piece<'_>,
     by_name: impl Fn(&str) -> Option<usize>,
@@ -399,12 +399,12 @@ fn count(nodes: &[Node<'_>]) -> usize {
     nodes.iter().map(of_node).fold(0, usize::saturating_add)
 }
 
-/// Whether there are not too many layers, before any of them is made.
+/// Checks that there are not too many layers, before any is made.
 fn is_countable(nodes: &[Node<'_>], piece: &Piece<'_>) -> Result<(), Misplaced> {
     let found = count(nodes);
     if found <= Stack::MAX_LAYERS {
         return Ok(());
     }
-    let help = format!("at most {} are possible", Stack::MAX_LAYERS);
+    let help = format!("at most {} are allowed", Stack::MAX_LAYERS);
     Err(piece.misplaced(format!("found {found} layers"), help))
 }

@@ -72,15 +72,15 @@ fn mistakes_are_reported_with_their_place_and_what_would_be_right() {
             "silica 3.4.5nm",
         ),
         ("1 | 300nm | 2", "no medium", "300nm"),
-        ("1 | silica 3nm", "go on without end", "silica 3nm"),
-        ("3nm | silica", "go on without end", "3nm"),
+        ("1 | silica 3nm", "are half spaces", "silica 3nm"),
+        ("3nm | silica", "are half spaces", "3nm"),
         ("1 || 2", "nothing between two bars", "|"),
         ("| 2", "no medium", "|"),
         ("gold | 1", "gold absorbs", "gold"),
         ("1+0.1i | 2", "must be transparent", "1+0.1i"),
         (
             "1 | 1.5-0.1i 3nm | 2",
-            "k > 0 absorbs: n - ik of other programs is written 1.5+0.1i",
+            "k > 0 absorbs: write n - ik from other programs as 1.5+0.1i",
             "1.5-0.1i 3nm",
         ),
         ("1 | 1.5x 3nm | 2", "is not an index", "1.5x 3nm"),
@@ -127,7 +127,7 @@ fn thicknesses_have_the_units_that_people_use() {
 
 #[test]
 fn quarter_waves_are_an_optical_thickness_at_normal_incidence() {
-    // 0.25 · 550 / 1.25 and 0.5 · 600 / 1.5; of k nothing is asked.
+    // 0.25 · 550 / 1.25 and 0.5 · 600 / 1.5; k does not matter.
     let line = "1 | 1.25 0.25@550 | 1.5+3i 0.5 @ 600 nm | 1.5 1@300nm | 2";
     assert_eq!(thicknesses(line), [110.0, 200.0, 200.0]);
     // Malitson's silica has 1.459 911 at 550 nm.
@@ -225,7 +225,7 @@ fn mistakes_in_groups_are_reported_where_they_are() {
         ("1 | 99999H | 1", "a thickness of 5999940 nm", "99999H"),
         ("1 | 1.2.3H | 1", "\"1.2.3\" is not a number", "1.2.3"),
         ("1 | 0.5(H L)^2 | 1", "\"\" is not defined", "0.5"),
-        ("1 | H | (HL)^2", "go on without end", "(HL)^2"),
+        ("1 | H | (HL)^2", "are half spaces", "(HL)^2"),
     ] {
         let line = format!("{defined}{stack}");
         let (message, at) = said(&line);
@@ -241,11 +241,11 @@ fn mistakes_in_groups_are_reported_where_they_are() {
         ("1 | (Si | 1.5 3nm)^8 | 1", "\"Si\" has no thickness"),
         ("H=1.5 3nm; 1 | (HLLK)^2 | 1", "L and K are not defined"),
         ("H=2.3 60nm; H=2.3 6nm; 1 | H | 1", "H is defined twice"),
-        ("H 2.3; 1 | H | 1", "is no definition"),
-        ("2=2.3 60nm; 1 | H | 1", "\"2\" is no name"),
-        ("=2.3; 1 | 1", "\"\" is no name"),
+        ("H 2.3; 1 | H | 1", "is not a definition"),
+        ("2=2.3 60nm; 1 | H | 1", "\"2\" is not a name"),
+        ("=2.3; 1 | 1", "\"\" is not a name"),
         ("H=; 1 | H | 1", "there is no medium here"),
-        (";1 | 1", "is no definition"),
+        (";1 | 1", "is not a definition"),
         ("H=silca 60nm; 1 | H | 1", "did you mean \"silica\""),
     ] {
         let found = parse(line).err().map(|_| said(line).0);
