@@ -1,7 +1,7 @@
 //! Stack evaluations per second: one evaluation is R and T of one stack at one wavelength, angle and polarization.
 //!
-//! `cargo bench -p pellicle-optics` measures this crate; `python crates/optics/benches/stacks_numpy.py` the same stacks in
-//! numpy. Machines drift: compare only what ran in turn.
+//! `cargo bench -p pellicle-optics` measures this crate; `python crates/optics/benches/stacks_numpy.py` measures the same stacks in
+//! numpy. Machines drift: compare only runs that alternated.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use pellicle_optics::batch::{LayerOf, Media, Powers, StackBatch, StackOf, evaluate_into};
@@ -10,7 +10,7 @@ use std::hint::black_box;
 
 const POLARIZATIONS: u64 = 2;
 
-/// Media 0 and 1 of the layers and 2 of the substrate, with the dispersion of Cauchy's n = a + b/λ² (λ in µm), `k` in
+/// Media 0 and 1 for the layers and 2 for the substrate, with Cauchy's dispersion n = a + b/λ² (λ in µm) and `k` in
 /// medium 1.
 struct Tables {
     wavelengths_nm: Vec<f64>,
@@ -21,7 +21,7 @@ struct Tables {
 }
 
 impl Tables {
-    /// `stacks` stacks of so many layers, all of other thickness, at 81 wavelengths (380(5)780 nm) and 90 angles (0(1)89°).
+    /// Makes `stacks` stacks of `layers` layers, all of different thickness, at 81 wavelengths (380(5)780 nm) and 90 angles (0(1)89°).
     fn new(stacks: u32, layers: u32, k: f64) -> Self {
         let wavelengths_nm: Vec<f64> = (0..81).map(|i| 380.0 + 5.0 * f64::from(i)).collect();
         let degrees = (0..90).map(f64::from);
@@ -84,7 +84,7 @@ fn batches(criterion: &mut Criterion) {
     }
 }
 
-/// The same one clear stack, one call of [`stack`] per angle and wavelength, on one core.
+/// The same single clear stack, with one call of [`stack`] per angle and wavelength, on one core.
 fn single(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("one call each");
     for layers in [1, 5, 21] {
@@ -107,7 +107,7 @@ fn single(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// A million stacks of five layers, every layer of a medium of its own, at one wavelength and angle.
+/// A million stacks of five layers, each layer of a different medium, at one wavelength and angle.
 fn million(criterion: &mut Criterion) {
     let count = 1_000_000_u32;
     let random = |i: u32| f64::from(i.wrapping_mul(2_654_435_761) >> 8) / f64::from(1 << 24);

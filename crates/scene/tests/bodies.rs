@@ -1,4 +1,4 @@
-//! Conductors by Cook's model, and dielectrics: what becomes of what is written, and what is refused.
+//! Conductors with the model of Cook and Torrance, and dielectrics: how they are read, and what is refused.
 
 use pellicle_scene::{Material, Problems, Scene, SceneFile};
 use std::f64::consts::PI;
@@ -66,7 +66,7 @@ fn a_dielectric_without_a_base_is_opaque() {
     assert!((enamel.spectrum(body.mean_reflectance).extent().0 - 0.0918).abs() < 5e-5);
 }
 
-/// Tables of clear media have a k that a coat shows nothing of.
+/// Tables of clear media have a k that is too small to show in a coat.
 #[test]
 fn real_glasses_are_clear_coats() {
     for name in ["bk7", "sf11", "soda_lime", "water_hale", "silica"] {
@@ -86,7 +86,7 @@ fn real_glasses_are_clear_coats() {
     assert!((lost(20e3) - 0.01).abs() < 2e-4 && (lost(100e3) - 0.049).abs() < 1e-3);
 }
 
-/// The part of light from `degrees` that facets reflecting everything send back with the normalized constant: ∫ D̂ G (E·H) / (N·E)
+/// Fraction of the light from `degrees` that perfectly reflecting facets reflect with the normalized constant: ∫ D̂ G (E·H) / (N·E)
 /// dω over the facets whose mirror image of E is above the surface.
 fn albedo(distribution: &str, slope: f64, degrees: f64) -> f64 {
     let is_gaussian = distribution == "gaussian";
@@ -116,7 +116,7 @@ fn albedo(distribution: &str, slope: f64, degrees: f64) -> f64 {
     sum * 0.5 * PI * PI / f64::from(steps * steps)
 }
 
-/// The figures of docs/metals.md.
+/// The values in docs/metals.md.
 #[test]
 fn what_the_normalized_model_loses() {
     for (distribution, slope, returned) in [
@@ -135,7 +135,7 @@ fn what_the_normalized_model_loses() {
     }
 }
 
-/// Of the printed constants; ∫ exp(−a²/m²) sin 2a da = m F(m) with Dawson's F(0.3) = 0.28263, so that D₁ with c = 1 has
+/// Gain with the printed constants. ∫ exp(−a²/m²) sin 2a da = m F(m) with Dawson's F(0.3) = 0.28263, so D₁ with c = 1 has
 /// 4 m F(m) = 0.339 (Abramowitz and Stegun, table 7.5).
 #[test]
 fn the_gain_of_the_printed_constants() {
@@ -149,12 +149,12 @@ fn the_gain_of_the_printed_constants() {
     assert!((printed - 4.0 * 0.3 * 0.28263).abs() < 1e-4, "{printed}");
 }
 
-/// A conductor of gold, and more of it.
+/// A conductor of gold with more fields.
 fn gold(rest: &str) -> String {
     format!("{{ type = 'conductor', index = 'gold', {rest} }}")
 }
 
-/// Each material has one problem, at the field, of which the words tell.
+/// Each material has one problem, at the given field and with the given words.
 fn one_problem_each(cases: &[(String, &str, &str)]) {
     for (material, field, words) in cases {
         let problems = scene(material).expect_err(material);

@@ -1,4 +1,5 @@
-//! Pictures as environment and as textures, and the sky: what cannot be used is told once, with the file and what would be right.
+//! Pictures as environment and as textures, and the sky: a file that cannot be used is reported once, with its name and what
+//! would be right.
 
 use color::spectral_exr::{Metadata, WriteOptions};
 use exr::math::Vec2;
@@ -30,7 +31,7 @@ fn surrounded_by(folder: &Path, image: &str) -> Result<Scene, Problems> {
     )
 }
 
-/// There is one problem, at this field, that says all of it.
+/// There is one problem, at this field, that contains all phrases.
 fn assert_reported(result: Result<Scene, Problems>, field: &str, phrases: &[&str]) {
     let Err(problems) = result else {
         panic!("it is accepted");
@@ -138,7 +139,7 @@ fn files_that_are_no_pictures_of_light_are_reported() {
     }
 }
 
-/// Luminance is gray, and a layer is chosen by its name: each texel's last number is twice its largest part.
+/// Luminance is gray, and a layer is chosen by name. The last number of each texel is twice its largest component.
 #[test]
 fn luminance_and_layers_of_openexr_are_environment() {
     let directory = TempDir::new().unwrap();
@@ -211,7 +212,7 @@ fn pictures_of_a_wrong_size_are_reported() {
         "wide_spectra.exr",
         &["16400 × 1", "at most 16384 on a side"],
     );
-    // A picture with few bands takes all the bands of the scene.
+    // A picture with few bands is stored with all bands of the scene.
     let text = format!(
         "{CAMERA}render = {{ bands = 1024, size = [8, 8] }}\nenvironment = {{ type = 'image', image = 'fine.exr' }}\n"
     );
@@ -254,7 +255,7 @@ fn pixels_that_are_no_light_are_reported_by_their_place() {
     }
 }
 
-/// Colors outside of sRGB have parts below 0, and so has the ringing of filters: they are cut off.
+/// Colors outside of sRGB have components below 0, and so does the ringing of filters: they are clipped.
 #[test]
 fn what_is_below_0_counts_as_0() {
     let directory = TempDir::new().unwrap();
@@ -267,7 +268,7 @@ fn what_is_below_0_counts_as_0() {
     );
     let scene = surrounded_by(directory.path(), "a.exr").unwrap_or_else(|p| panic!("{p:#}"));
     let Environment::Picture { picture, .. } = scene.environment() else {
-        panic!("it is no picture");
+        panic!("it is not a picture");
     };
     assert_eq!(picture.texels.at([0, 0])[0][3], 0.0);
     assert_eq!(picture.texels.at([1, 0])[0][3], 4.0);
@@ -279,7 +280,7 @@ fn what_is_below_0_counts_as_0() {
     );
     let scene = surrounded_by(directory.path(), "b.exr").unwrap_or_else(|p| panic!("{p:#}"));
     let Environment::Picture { picture, .. } = scene.environment() else {
-        panic!("it is no picture");
+        panic!("it is not a picture");
     };
     assert_eq!(picture.texels.at([1, 0]), [[0.0; 4]; 2]);
 }
@@ -307,7 +308,7 @@ fn chromaticities(points: [[f32; 2]; 4]) -> Chromaticities {
     }
 }
 
-/// ACES primaries AP1 (S-2014-004): the white stays the white of D60, and red is redder than that of sRGB.
+/// ACES primaries AP1 (S-2014-004): the white remains that of D60, and red is redder than in sRGB.
 #[test]
 fn the_primaries_of_a_file_are_honored() {
     let directory = TempDir::new().unwrap();
@@ -326,7 +327,7 @@ fn the_primaries_of_a_file_are_honored() {
     );
     let scene = surrounded_by(directory.path(), "ap1.exr").unwrap_or_else(|p| panic!("{p:#}"));
     let Environment::Picture { picture, .. } = scene.environment() else {
-        panic!("it is no picture");
+        panic!("it is not a picture");
     };
     assert_eq!(picture.spectra, PictureSpectra::Smooth);
     // XYZ of the white, Y = 1, by the matrix of IEC 61966-2-1 (its inverse to 4 decimals): R = 1.0415, G = 0.9963, B = 0.8987.
@@ -413,7 +414,7 @@ fn the_sun_is_there_unless_it_is_left_out() {
     assert!((toward - glam::DVec3::new(0.75_f64.sqrt(), 0.5, 0.0)).length() < 1e-12);
     let without = sky(", sun = false").unwrap();
     assert!(without.lights().is_empty());
-    // The ground is lit by the sun all the same.
+    // The sun still lights the ground.
     assert!(picture_of(&with) == picture_of(&without));
     let twice = sky(", scale = 2").unwrap();
     assert_eq!(twice.lights()[0].emission.scale, 2.0 * sun.emission.scale);

@@ -1,4 +1,4 @@
-//! Files that are not what they should be, the scene's own and those it names.
+//! Invalid files: the scene file itself and the files that it names.
 #![expect(
     clippy::float_cmp,
     reason = "the figures are exact in binary, or rounding is what is tested"
@@ -14,7 +14,7 @@ fn told(problems: &Problems) -> String {
     format!("{problems:#}")
 }
 
-/// What is said about a scene whose metal has the index of the file `name`.
+/// Reads a scene whose metal has the index of the file `name`.
 fn with_csv(directory: &Path, name: &str) -> Result<pellicle_scene::Scene, Problems> {
     let scene = format!(
         "[camera]\ntype = 'perspective'\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nfov_deg = 40\n\
@@ -201,7 +201,7 @@ fn an_index_alone_is_read_and_its_mistakes_are_reported() {
     assert!(said(&Index::Complex([1.0, -1.0])).contains("[1]: found -1"));
 }
 
-/// A picture of one pixel beside a scene that names it as `picture`.
+/// Reads a scene next to a picture of one pixel, which it names `picture`.
 fn with_picture(
     file: &str,
     pixel: &image::DynamicImage,
@@ -233,7 +233,7 @@ fn the_brightest_pixel_of_environment_is_bounded_with_its_scale() {
     assert!(said.contains("at most 1e9"), "{said}");
 }
 
-/// A picture covers a sphere whole, so that its size says something only where a flat object has the material too.
+/// A picture covers a whole sphere, so its size has a meaning only if a flat object has the material too.
 #[test]
 fn the_size_of_a_picture_on_spheres_alone_is_refused() {
     let pixel = || {
@@ -274,7 +274,7 @@ fn the_size_of_a_picture_on_spheres_alone_is_refused() {
     }
 }
 
-/// What a scene of a diffuse surface with such a reflectance says, and the reflectance at 580 nm.
+/// Returns the reflectance at 580 nm of a diffuse surface with a reflectance from this table, and the notes of the scene.
 fn with_reflectance(csv: &str, more: &str) -> Result<(f64, Vec<String>), Problems> {
     let directory = TempDir::new().unwrap();
     fs::write(directory.path().join("tile.txt"), csv).unwrap();
@@ -290,7 +290,7 @@ fn with_reflectance(csv: &str, more: &str) -> Result<(f64, Vec<String>), Problem
 
 #[test]
 fn tables_say_what_was_assumed_and_take_columns_and_units() {
-    // 580 nm lies halfway between 380 and 780.
+    // 580 nm is halfway between 380 and 780.
     for (csv, more, said) in [
         ("380,0.25\n780,0.75\n", "", ""),
         (

@@ -1,4 +1,4 @@
-//! Files that a scene names lie in its folder, unless the caller says otherwise.
+//! Files that a scene names must be in its folder, unless the caller allows others.
 
 use pellicle_scene::description::{Extrapolate, Index};
 use pellicle_scene::{Folder, Problems, Scene, SceneFile, optical_constants};
@@ -9,7 +9,7 @@ use tempfile::TempDir;
 const CAMERA: &str = "camera = { type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }\n\
      render = { bands = 2 }\n";
 
-/// Each way to name a file: its field, and the scene with FILE in the place of the file's path.
+/// Each way to name a file: its field, the name of the file, and the scene with FILE in place of the path.
 const WAYS: [(&str, &str, &str); 7] = [
     (
         "materials.x.index.csv",

@@ -1,4 +1,4 @@
-//! Whatever is written in a scene file: no panic, and what is accepted has only sound numbers.
+//! No scene file causes a panic, and accepted scenes have only valid numbers.
 
 use pellicle_scene::description::{Extrapolate, Index};
 use pellicle_scene::{Scene, SceneFile, Shape, optical_constants};
@@ -13,7 +13,7 @@ const SCENES: [&str; 5] = [
     include_str!("../../../scenes/draining_bubble.toml"),
 ];
 
-/// Words that mean something in a scene or to TOML, or that have broken parsers.
+/// Words that have a meaning in a scene or in TOML, or that have broken parsers.
 const WORDS: [&str; 37] = [
     "0",
     "-1",
@@ -54,12 +54,12 @@ const WORDS: [&str; 37] = [
     "{ mixture = 'bruggeman', of = [1, 'gold'], fraction = 0.5 }",
 ];
 
-/// A file of the refractiveindex.info database with all that is read of one.
+/// A file of the refractiveindex.info database with everything that is read from one.
 const DATABASE_FILE: &str = "REFERENCES: |\n    A. Author\nDATA:\n  - type: formula 4\n    wavelength_range: 0.3 0.9\n    \
     coefficients: 5.9 0.24 0 0.08 1 0.1 0 0.01 1 0.001 -2\n  - type: tabulated k\n    data: |\n        0.3 2e-3\n        0.9 0\n\
     CONDITIONS: {temperature: [293, \"K\"]}\n";
 
-/// Pieces that mean something in YAML or in a number.
+/// Pieces that have a meaning in YAML or in a number.
 const PIECES: [&str; 24] = [
     "",
     " ",
@@ -129,8 +129,8 @@ fn try_text(text: &str) -> bool {
     }
 }
 
-/// Whether `text` is accepted as a file of the database; what it gives is then an index wherever it is stated, or a
-/// fault that is told.
+/// Returns whether `text` is accepted as a file of the database. If so, it gives a valid index or a reported fault throughout
+/// its range.
 fn try_database_file(text: &str) -> bool {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("a.yml"), text).unwrap();
@@ -159,7 +159,7 @@ fn try_database_file(text: &str) -> bool {
     }
 }
 
-/// `text` with one of its values, or a piece of `length` bytes, replaced by `word`.
+/// Returns `text` with one of its values, or a piece of it, replaced by `word`.
 fn mutated(text: &str, position: usize, kind: usize, word: &str) -> String {
     let values: Vec<_> = text.match_indices("= ").map(|(at, _)| at + 2).collect();
     let numbers: Vec<_> = text
@@ -191,7 +191,7 @@ fn mutated(text: &str, position: usize, kind: usize, word: &str) -> String {
     format!("{}{word}{}", &text[..start], &text[end.max(start)..])
 }
 
-/// A smaller grid, so that a case takes no longer than it must.
+/// Reduces the number of bands, so that each case is fast.
 fn quickened(text: &str) -> String {
     text.replace("[render]\n", "[render]\nbands = 2\n")
 }

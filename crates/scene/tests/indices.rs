@@ -1,4 +1,4 @@
-//! A user's own index: files of the refractiveindex.info database, coefficients, mixtures.
+//! User-defined indices: files of the refractiveindex.info database, coefficients, mixtures.
 
 use pellicle_scene::description::{Extrapolate, Index};
 use pellicle_scene::{Problems, SceneFile, optical_constants};
@@ -7,12 +7,12 @@ use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// What a file of the database with this text gives.
+/// Reads a file of the database with this text.
 fn database(text: &str) -> Result<OpticalConstants, Problems> {
     noted(text).map(|(constants, _)| constants)
 }
 
-/// The same with what was assumed.
+/// The same, with the notes on what was assumed.
 fn noted(text: &str) -> Result<(OpticalConstants, Vec<String>), Problems> {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("medium.yml"), text).unwrap();
@@ -58,7 +58,7 @@ fn tables_of_a_database_file_are_read_in_any_of_their_forms() {
 
 #[test]
 fn formulas_of_a_database_file_are_those_of_the_database() {
-    // n at 500 nm, worked by hand: the same figures as in the tests of the formulas.
+    // n at 500 nm, computed by hand: the same values as in the tests of the formulas.
     let cases = [
         ("formula 1", "2 3 0.3", (3.0_f64 + 0.75 / 0.16).sqrt()),
         ("formula 2", "2 3 0.1", 8.0_f64.sqrt()),
@@ -82,7 +82,7 @@ fn formulas_of_a_database_file_are_those_of_the_database() {
     }
 }
 
-/// What is said about each of the texts is one line that names the file and has the phrase.
+/// The error for each text is one line that names the file and contains the phrase.
 fn assert_reported(cases: &[(String, &str)]) {
     for (text, expected) in cases {
         let said = format!("{:#}", database(text).expect_err(text));
@@ -219,10 +219,10 @@ fn formulas_of_a_database_file_are_checked() {
     assert_reported(&cases.map(|(rest, expected)| (formula(rest), expected)));
 }
 
-/// What is said of a table of n and k where it is asked for, and where it is sound.
+/// A fault is reported at wavelengths that it affects, and the rest of the table can be used.
 #[test]
 fn a_fault_of_a_table_is_reported_only_where_it_is_asked_for() {
-    // Rows; a wavelength in the fault and what is said there; sound wavelengths around it.
+    // Rows; a wavelength within the fault and the error there; valid wavelengths around it.
     let cases: [(&str, f64, &str, &[f64]); 7] = [
         (
             "0.3 1.5 0|0.9 1.45 0|12 1.9 -0.3|13 1.9 0",
@@ -242,7 +242,7 @@ fn a_fault_of_a_table_is_reported_only_where_it_is_asked_for() {
             "line 4: found n -1 at 100 nm; it must be from 0.001 to 1000",
             &[300.0, 900.0],
         ),
-        // Noise of an n below 0 is none.
+        // A slightly negative n does not count as noise.
         (
             "0.3 1.5 0|0.5 -1e-9 0|0.9 1.45 0",
             400.0,
@@ -298,7 +298,7 @@ fn a_pole_of_a_formula_is_reported_only_where_it_is_asked_for() {
         error.contains("line 2: the formula gives no index from 0.001 to 1000 at 6480 nm"),
         "{error}"
     );
-    // A pole too weak for any sample to meet is still no place to go through.
+    // A pole too weak for any sample to detect is still a fault.
     let weak = "DATA:\n  - type: formula 2\n    wavelength_range: 0.3 12\n    coefficients: 1 1e-20 0.25\n";
     let constants = database(weak).unwrap();
     assert!(constants.n.is_sound_within(380.0, 780.0).is_err());
@@ -415,7 +415,7 @@ fn names_of_chemistry_are_materials() {
     let note =
         "Au is taken as gold (Johnson and Christy 1972); there are also gold_mcpeak, gold_olmon";
     assert!(notes.len() == 1 && notes[0].contains(note), "{notes:?}");
-    // One set of figures, or a set's own name: nothing is assumed.
+    // Only one data set, or its own name: nothing is assumed.
     assert!(named("Ge").unwrap().1.is_empty() && named("gold").unwrap().1.is_empty());
     for (written, meant) in [
         ("sio2", "SiO2"),
@@ -590,7 +590,7 @@ fn mistakes_in_an_index_are_reported_where_they_are() {
             "{ sellmeier = { b = [1] } }".to_owned(),
             "index.sellmeier.c_um2: is missing",
         ),
-        // n² = 1 + λ²/(λ² − 0.36): a resonance at 600 nm, so an index from there up, and none between 425 and 600 nm.
+        // n² = 1 + λ²/(λ² − 0.36) has a resonance at 600 nm, so there is an index above it, and none between 425 and 600 nm.
         (
             "{ sellmeier = { b = [1], c_um2 = [0.36] } }".to_owned(),
             "index: the data cover 601 to 30000 nm, but the bands",

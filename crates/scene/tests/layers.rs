@@ -1,4 +1,4 @@
-//! Films and coatings of several layers in scene files: what is accepted, and what is told of the rest.
+//! Films and coatings of several layers in scene files: what is accepted, and how the rest is reported.
 
 use pellicle_scene::{
     Interference, Material, PathDifference, Problem, Scene, SceneFile, Thickness, limits,
@@ -20,7 +20,7 @@ fn material(body: &str) -> Material {
     scene.materials()[0].clone()
 }
 
-/// The only problem of a material: its field and all that is said.
+/// Returns the only problem of a material: its field, and its message with its help.
 fn problem(body: &str) -> (String, String) {
     let problems = validated(body).expect_err("must not be accepted");
     let [only] = problems.as_slice() else {

@@ -1,4 +1,4 @@
-//! Light groups: which lights are kept apart, and under which names.
+//! Light groups: which emitters are kept apart, and under which names.
 
 use pellicle_scene::{Environment, Material, Problems, Scene, SceneFile};
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 const CAMERA: &str =
     "camera = { type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }";
 
-/// A scene with an emitter for each of `emitters`: name of the material, and what it says.
+/// A scene with an emitter for each of `emitters`: the name of the material and its fields.
 fn checked(render: &str, emitters: &[(&str, &str)], environment: &str) -> Result<Scene, Problems> {
     let mut text = format!("{CAMERA}\nrender = {{ {render} }}\n");
     if !environment.is_empty() {
@@ -66,7 +66,7 @@ fn lights_without_a_name_are_grouped_by_their_spectrum() {
         ["A", "D65", "constant", "constant", "table"]
     );
     assert_eq!(has_lamps(&scene), [true; 4]);
-    // A constant is a lamp of 1 with its value for a factor.
+    // A constant is a lamp of 1 with its value as a factor.
     let lamp = scene.light_groups()[2].lamp.clone().unwrap();
     assert_eq!(lamp.at(555.0), Ok(1.0));
     let Environment::Gradient {
@@ -123,7 +123,7 @@ fn what_gives_no_light_makes_no_group() {
         (names(&scene), has_lamps(&scene)),
         (vec!["all"], vec![false])
     );
-    // A material that nothing is made of.
+    // A material that no object has.
     let text = format!(
         "{CAMERA}\n[materials.spare]\ntype = 'emitter'\nemission = {{ constant = 1 }}\n\
          [environment]\ntype = 'constant'\nemission = {{ illuminant = 'C' }}\n"
@@ -191,7 +191,7 @@ fn bad_names_are_reported() {
     }
 }
 
-/// A scene without a word of light groups is sound with any number of spectra.
+/// A scene that does not mention light groups is valid with any number of spectra.
 #[test]
 fn many_spectra_without_names_are_a_single_group() {
     let lit = |count| {
@@ -225,7 +225,7 @@ fn too_many_groups_and_too_much_memory_are_reported() {
         "{told:#?}"
     );
 
-    // With names for all but one the one is too many as well.
+    // With names for all but one emitter, that one is also too many.
     let mut emitters = emitters;
     emitters[32].1 = "emission = { constant = 1 }";
     assert_eq!(complaints("", &emitters, "").len(), 1);
@@ -238,7 +238,7 @@ fn too_many_groups_and_too_much_memory_are_reported() {
         told.len() == 1 && told[0].contains("and 4 light groups") && told[0].contains("single"),
         "{told:#?}"
     );
-    // Seen beforehand, and exact.
+    // The size is known in advance, and exact.
     let scene = checked("size = [100, 10], bands = 8", &emitters[..2], "").unwrap();
     assert_eq!(scene.image_bytes(), 1000 * (3 * (8 * 4 + 12) + 8 * 4 + 4));
 }

@@ -1,4 +1,4 @@
-//! Lights: units of emission, and lights that are no objects.
+//! Units of emission, and lights, which are emitters that are not objects.
 
 use pellicle_scene::{EmitterKind, LightShape, Problems, Scene, SceneFile};
 use std::f64::consts::PI;
@@ -16,7 +16,7 @@ fn scene(rest: &str) -> Scene {
     read(rest).unwrap_or_else(|problems| panic!("{problems:#}"))
 }
 
-/// The only problem: its field and what it says.
+/// There is one problem, with this field and these phrases.
 fn refused(rest: &str, field: &str, phrases: &[&str]) {
     let Err(problems) = read(rest) else {
         panic!("accepted: {rest}");
@@ -174,7 +174,7 @@ fn lumens_are_watts_by_the_eye() {
     );
 }
 
-/// What the documents say: at 0 stops 72 983 cd/m² are white, the luminance of radiance 1 at every wavelength; and 1000 cd/m² of D65
+/// As documented: at 0 stops 72 983 cd/m² are white, the luminance of radiance 1 at every wavelength; and 1000 cd/m² of D65
 /// have a radiance of up to 0.0163, at 460 nm.
 #[test]
 fn white_at_no_exposure_and_what_d65_is_in_radiance() {
@@ -222,7 +222,7 @@ fn lights_that_no_ray_meets_are_refused_where_rays_alone_look_for_them() {
     scene(&with("bsdf", "type = 'distant'\ndirection = [0, 1, 0]"));
 }
 
-/// A point is never seen in a smooth mirror.
+/// A point light is never seen in a smooth mirror.
 #[test]
 fn light_that_no_surface_can_show_is_noted() {
     const POINT: &str =

@@ -1,7 +1,7 @@
-//! Pictures as inputs: what their files say of themselves is honored and noted, and what is taken of them is what is asked for.
+//! Pictures as inputs: metadata in their files is respected and noted, and the requested layer or channel is used.
 #![expect(
     clippy::float_cmp,
-    reason = "the figures are exact in binary, or the same arithmetic"
+    reason = "the values are exact in binary, or the same arithmetic"
 )]
 
 use colorimetry::lifting::SigmoidReflectance;
@@ -21,7 +21,7 @@ fn read(folder: &Path, rest: &str) -> Result<Scene, Problems> {
     SceneFile::parse("scene.toml", &text, folder)?.validate()
 }
 
-/// What is noted of this file.
+/// The notes about this file.
 fn notes_of(scene: &Scene, file: &str) -> Vec<String> {
     let notes = scene.notes().into_iter();
     notes.filter(|note| note.contains(file)).collect()
@@ -48,12 +48,12 @@ fn surrounded(lines: &str, size: &str) -> Result<(Texels, Vec<String>), String> 
         error => return Err(refusal(error)),
     };
     let Environment::Picture { picture, .. } = scene.environment() else {
-        panic!("it is no picture");
+        panic!("it is not a picture");
     };
     Ok((picture.texels.clone(), notes_of(&scene, "sky.hdr")))
 }
 
-/// The texel's factor is twice the largest of the three numbers.
+/// The factor of a texel is twice the largest of the three numbers.
 #[test]
 fn radiance_files_are_read_with_their_headers() {
     let format = "FORMAT=32-bit_rle_rgbe";
@@ -96,7 +96,7 @@ fn checksum(bytes: &[u8]) -> u32 {
     })
 }
 
-/// A PNG file with one chunk more, after the first.
+/// Adds a chunk to a PNG file, after the first.
 fn with_chunk(png: &[u8], name: [u8; 4], data: &[u8]) -> Vec<u8> {
     let (first, rest) = png.split_at(8 + 4 + 4 + 13 + 4);
     let named = [&name[..], data].concat();
@@ -114,7 +114,7 @@ fn png(picture: impl Into<DynamicImage>) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// The first texel of a texture, and what is noted of it.
+/// Returns the first texel of a texture, and the notes about it.
 fn texture(file: &[u8]) -> Result<([f32; 4], Vec<String>), String> {
     let directory = TempDir::new().unwrap();
     fs::write(directory.path().join("map.png"), file).unwrap();
@@ -153,7 +153,7 @@ fn textures_are_read_by_their_tags() {
     for file in [
         with_chunk(&plain, *b"cICP", &[1, 8, 0, 1]),
         with_chunk(&plain, *b"gAMA", &100_000_u32.to_be_bytes()),
-        // What comes first in the order of PNG counts, wherever it stands.
+        // The chunk with the highest precedence in PNG counts, wherever it is.
         with_chunk(
             &with_chunk(&plain, *b"cICP", &[1, 8, 0, 1]),
             *b"gAMA",
@@ -178,7 +178,7 @@ fn textures_are_read_by_their_tags() {
     );
 }
 
-/// Alpha is no part of a reflectance.
+/// Alpha is not part of a reflectance.
 #[test]
 fn transparent_pixels_are_noted() {
     let of_srgb = texel([0.25, 0.5, 0.75].map(|v: f64| srgb::decode((v * 255.0).round() / 255.0)));
@@ -197,7 +197,7 @@ fn transparent_pixels_are_noted() {
     assert!(texture(&gray).unwrap().1[0].contains("transparent"));
 }
 
-/// The values of a thickness's picture, and what is noted of it.
+/// Returns the values of a picture of thicknesses, and the notes about it.
 fn values(file: &[u8], channel: &str) -> Result<(Vec<f32>, Vec<String>), String> {
     let directory = TempDir::new().unwrap();
     fs::write(directory.path().join("map.png"), file).unwrap();
@@ -212,7 +212,7 @@ fn values(file: &[u8], channel: &str) -> Result<(Vec<f32>, Vec<String>), String>
         error => return Err(refusal(error)),
     };
     let Some(Thickness::Picture(picture)) = scene.materials()[0].thicknesses().next() else {
-        panic!("it is no picture");
+        panic!("it is not a picture");
     };
     Ok((picture.file.values.clone(), notes_of(&scene, "map.png")))
 }
@@ -248,7 +248,7 @@ fn a_channel_of_a_picture_is_chosen() {
     assert!(values(&deep, ", channel = 'green'").is_err());
 }
 
-/// No word about pictures without colors, of whatever form; and their tags are nothing to them.
+/// Pictures without colors get no note, whatever their form, and their tags have no effect.
 #[test]
 fn gray_pictures_are_numbers_as_they_stand() {
     let gray = png(ImageBuffer::from_pixel(1, 1, Luma([51_u8])));

@@ -1,4 +1,4 @@
-//! The committed JSON Schema is the one that the types give, and says the same as the reader.
+//! The committed JSON Schema is the one generated from the types, and agrees with the reader.
 
 use pellicle_scene::SceneFile;
 use serde_json::Value;
@@ -23,7 +23,7 @@ fn the_committed_schema_is_fresh() {
     );
 }
 
-/// Every table of the schema, with the way to it.
+/// Finds every table of the schema, with its path.
 fn tables<'a>(schema: &'a Value, way: &str, found: &mut Vec<(String, &'a Value)>) {
     match schema {
         Value::Object(object) => {

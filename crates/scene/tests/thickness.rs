@@ -1,7 +1,7 @@
-//! Thicknesses that vary: what sound ones become, and what is said of others.
+//! Thicknesses that vary: how valid ones are read, and how others are reported.
 #![expect(
     clippy::float_cmp,
-    reason = "the figures are exact in binary, or rounding is what is tested"
+    reason = "the values are exact in binary, or rounding is what is tested"
 )]
 
 use glam::DVec3;
@@ -40,7 +40,7 @@ fn profile(written: &str) -> Profile {
     }
 }
 
-/// The only problem: its column on the line of the thickness, its field and some of its words.
+/// There is one problem, with this column on the line of the thickness, this field and these words.
 fn assert_refused(written: &str, column: usize, field: &str, said: &[&str]) {
     assert_refused_in(written, Path::new(""), column, field, said);
 }
@@ -216,7 +216,7 @@ fn every_number_of_a_thickness_is_rounded() {
     let rounded = scene.rounded_to_f32();
     assert_ne!(scene, rounded);
     assert_eq!(rounded, rounded.rounded_to_f32());
-    // What is shown of a number tells whether it is one of f32: those of f64 have more digits as text than f32 needs.
+    // The text of a number shows whether it is an f32: an f64 has more digits than an f32 needs.
     let text = format!("{:?}", rounded.materials());
     let numbers = text.split(|c: char| !(c.is_ascii_digit() || ".e-".contains(c)));
     let is_f32 = |number: f64| f64::from(number as f32) == number;
@@ -284,7 +284,7 @@ fn values_out_of_range_are_reported_where_they_stand() {
     }
 }
 
-/// Infinity times 0 is no number, and a product that leaves `f32` on its way is another one on the GPU.
+/// Infinity times 0 is NaN, and a product that overflows `f32` on the way differs on the GPU.
 #[test]
 fn a_factor_of_nought_hides_no_overflow() {
     let product = |count: usize| format!("{{ product = [{}0] }}", "1e5, ".repeat(count));
@@ -416,7 +416,7 @@ fn pictures_that_cannot_be_used_are_reported() {
     }
 }
 
-/// The file with the checksum of its first chunk made right (PNG specification, annex D).
+/// Returns the file with the checksum of its first chunk corrected (PNG specification, annex D).
 fn with_checksum(mut file: Vec<u8>) -> Vec<u8> {
     let crc = file[12..29].iter().fold(u32::MAX, |crc, &byte| {
         (0..8).fold(crc ^ u32::from(byte), |c, _| {

@@ -1,7 +1,7 @@
-//! What a sound scene file becomes.
+//! How a valid scene file is read.
 #![expect(
     clippy::float_cmp,
-    reason = "the figures are exact in binary, or rounding is what is tested"
+    reason = "the values are exact in binary, or rounding is what is tested"
 )]
 
 use glam::DVec3;
@@ -275,7 +275,7 @@ fn every_material_becomes_what_it_says() {
     assert_eq!(reflectance, quarter);
 }
 
-/// The thickness of a film's only layer, and whether the film is transparent.
+/// Returns the thickness of a film's only layer, and whether the film is transparent.
 fn only_layer(material: &Material) -> (&Thickness, bool) {
     match material {
         Material::Film {
@@ -398,7 +398,7 @@ horizon = {{ constant = 0.1 }}
     let rounded = scene.rounded_to_f32();
     assert_ne!(rounded, scene);
     assert_eq!(rounded.rounded_to_f32(), rounded);
-    // Every number of the rounded scene, as it is printed, is an f32; but for the lamps, which are told and not rendered.
+    // Every printed number of the rounded scene is an f32, except for the lamps, which are reported and not rendered.
     let lamps = format!("{:?}", rounded.light_groups());
     let text = format!("{rounded:?}");
     assert!(text.contains(&lamps));
@@ -492,7 +492,7 @@ fn a_scene_can_be_built_in_code() {
     };
     let scene = Scene::new(&described, Path::new("")).unwrap();
     assert_eq!(scene.objects().len(), 1);
-    // What a program has built, it can write down, and read again.
+    // A program can write the scene that it has built, and read it again.
     let text = toml::to_string(&described).unwrap();
     assert_eq!(
         SceneFile::parse("built.toml", &text, Path::new(""))

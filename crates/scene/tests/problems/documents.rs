@@ -1,4 +1,4 @@
-//! Whole files: their fields, their form, their length.
+//! Problems of whole files: their fields, form and length.
 
 use crate::{assert_problems, problems_of, with_camera, with_material};
 use pellicle_scene::Problems;

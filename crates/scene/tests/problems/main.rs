@@ -1,4 +1,4 @@
-//! Bad scene files: every mistake is told, with its place, its field, what was found and what would be right.
+//! Bad scene files: every mistake is reported, with its position, its field, what was found and what would be right.
 
 mod documents;
 mod materials;
@@ -7,7 +7,7 @@ mod values;
 use pellicle_scene::{Problems, SceneFile};
 use std::path::Path;
 
-/// What a problem must say: line:column, field, and phrases of the message or the advice.
+/// Expected content of a problem: line:column, field, and phrases of the message or the help.
 type Expected<'a> = (&'a str, &'a str, &'a [&'a str]);
 
 fn problems_of(text: &str) -> Problems {
@@ -45,7 +45,7 @@ fn assert_problems(text: &str, expected: &[Expected<'_>]) {
     }
 }
 
-/// A sound camera on four lines, then `rest` from line 5.
+/// A valid camera on five lines, then `rest` from line 6.
 fn with_camera(rest: &str) -> String {
     let camera =
         "[camera]\ntype = 'perspective'\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nfov_deg = 40";

@@ -1,4 +1,4 @@
-//! Materials.
+//! Problems of materials.
 
 use crate::{assert_problems, with_camera, with_material};
 use pellicle_scene::SceneFile;
@@ -208,7 +208,7 @@ fn a_grain_along_the_normal_is_reported_of_the_object() {
     }
 }
 
-/// A material may be on several objects: the one that does not suit it is told.
+/// Several objects may have one material: the object that does not suit it is reported.
 #[test]
 fn thicknesses_for_spheres_are_refused_on_planes() {
     let scene = |thickness: &str, shape: &str| {

@@ -1,4 +1,4 @@
-//! Numbers, tables and directions.
+//! Problems of numbers, tables and directions.
 
 use crate::{Expected, assert_problems, problems_of, with_camera, with_material};
 use pellicle_scene::SceneFile;
@@ -167,7 +167,7 @@ fn tables_are_checked_point_by_point() {
 fn a_named_spectrum_outside_its_table_says_how_to_go_on() {
     let narrow = "{ nm = [400, 700], n = [1.3, 1.3] }";
     let text = with_material(&format!("type = 'conductor'\nindex = {narrow}"));
-    // n and k come from one table, so its range is told once.
+    // n and k come from one table, so its range is reported once.
     let problems = problems_of(&text);
     assert_eq!(problems.iter().len(), 1, "{problems:#}");
     let wide = with_camera(
