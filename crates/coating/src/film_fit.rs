@@ -66,7 +66,7 @@ pub struct FilmFits {
     pub by_color: Vec<FilmFit>,
     /// Residual of the lamp's own spectrum, as a neutral surface reflects it.
     pub of_lamp: f64,
-    /// Residual of the right film due to noise alone, if the noise is known, for noise that is independent per band.
+    /// Residual of the right film due to noise alone, if the noise is known; it assumes that the noise is independent per band.
     pub of_noise: Option<f64>,
 }
 

@@ -25,7 +25,7 @@ const MOST_PHASE: f64 = 0.9;
 const MOST_PHASE_AT_1_NM: f64 = 0.55;
 /// One of three second differences belongs to a corner where the other two are below this fraction of it.
 const CORNER: f64 = 0.125;
-/// Contribution to X, Y or Z by the fourth difference of a step that is negligible, however it compares with the second differences.
+/// Contribution of the fourth difference of a step to X, Y or Z that is negligible, however it compares with the second differences.
 const NEGLIGIBLE: f64 = 1e-6;
 /// Largest error that a span may add to X, Y or Z.
 const ERROR: f64 = 5e-9;

@@ -242,7 +242,8 @@ impl Sampled {
         }
     }
 
-    /// Returns the absorptance of each layer at each wavelength: R + T + ΣA = 1. It is exact, whatever the model is: two beams have none.
+    /// Returns the absorptance of each layer at each wavelength: R + T + ΣA = 1. It is exact, whatever the model is, since two beams
+    /// have no absorptance.
     ///
     /// # Panics
     /// If there is not one thickness per layer.

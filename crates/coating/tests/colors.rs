@@ -33,7 +33,7 @@ fn figures(stack: &str, angle_deg: f64, illuminant: &str, rule: Rule) -> [f64; 1
     let shares = powers.iter().map(|p| p.reflectance.unpolarized());
     let xyz = color.light().xyz(shares);
     let color = Color { xyz, ..integral };
-    // Sums at 1 nm differ from the integral by less than can be seen; at 5 nm they do not.
+    // Sums at 1 nm differ from the integral by less than is visible, sums at 5 nm by more.
     let aside = delta_e_2000(color.lab(), integral.lab());
     let most = if rule == Rule::OneNm { 0.005 } else { 0.3 };
     assert!(aside < most, "{aside}");

@@ -159,7 +159,7 @@ fn try_database_file(text: &str) -> bool {
     }
 }
 
-/// Returns `text` with one of its values, or a piece of it, replaced by `word`.
+/// Returns `text` with one of its values, one of its numbers, or a piece of `kind` characters replaced by `word`.
 fn mutated(text: &str, position: usize, kind: usize, word: &str) -> String {
     let values: Vec<_> = text.match_indices("= ").map(|(at, _)| at + 2).collect();
     let numbers: Vec<_> = text

@@ -239,7 +239,7 @@ fn group<'a>(
             let times = power[..digits].parse().ok();
             let times = times.filter(|times| (1..=Stack::MAX_LAYERS).contains(times));
             let Some(times) = times else {
-                let message = format!("a group repeats from 1 to {} times", Stack::MAX_LAYERS);
+                let message = format!("a group can repeat from 1 to {} times", Stack::MAX_LAYERS);
                 return Err(text.sub(0..length).misplaced(message, GROUP));
             };
             (times, length)

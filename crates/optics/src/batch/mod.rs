@@ -126,7 +126,7 @@ impl StackBatch<'_> {
         check::check(self)
     }
 
-    /// Number of rows of results per stack.
+    /// Number of results per stack.
     fn rows_per_stack(&self) -> usize {
         self.cosines.len() * self.wavelengths_nm.len()
     }

@@ -125,7 +125,7 @@ mod tests {
         );
     }
 
-    /// Glass absorbs nothing, and neither does a gap through which light tunnels.
+    /// A clear layer absorbs nothing, even as a gap through which light tunnels.
     #[test]
     fn a_clear_layer_takes_nothing() {
         let layers = [layer(1.0, 0.0, 90.0), layer(0.06, 3.6, 20.0)];

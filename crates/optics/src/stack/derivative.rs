@@ -226,7 +226,7 @@ mod tests {
         assert!((found.transmittance.p + expected).abs() < 1e-15);
     }
 
-    /// A layer beneath an opaque one changes R by exp(−4 Im δ) of what it would without it, not by rounding errors.
+    /// A layer beneath an opaque one changes R by exp(−4 Im δ) of its change without the opaque one, not by rounding errors.
     #[test]
     fn beneath_an_opaque_layer_the_derivative_is_small_and_right() {
         let (cover, beneath) = (layer(0.06, 3.6, 700.0), layer(1.5, 0.0, 100.0));
