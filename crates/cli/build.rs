@@ -1,11 +1,11 @@
-//! Notes which commit the command is built from.
+//! Records which commit the command is built from.
 
 use std::path::Path;
 use std::process::Command;
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
-    // Changes with each commit; not there outside a checkout.
+    // This file changes with each commit. It does not exist outside a checkout.
     let log = "../../.git/logs/HEAD";
     if Path::new(log).exists() {
         println!("cargo:rerun-if-changed={log}");

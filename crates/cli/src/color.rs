@@ -15,45 +15,45 @@ use pellicle::spectra::{Observer, OutOfRange, Spectrum};
 use serde_json::json;
 use std::path::PathBuf;
 
-/// The color of a spectrum: XYZ, CIELAB, and RGB of a display.
+/// Compute the color of a spectrum: XYZ, CIELAB, and RGB of a display.
 ///
 /// FILE is a table with the columns wavelength_nm and value, linear between its points: a reflectance (or transmittance) from 0 to 1, or
-/// with --emission the power of a light in any unit. Sums run from 380 to 780 nm. XYZ have Y = 100 for the perfect reflector, and for an
-/// emission as a whole; CIELAB is beside the illuminant's white. Linear RGB is XYZ/100 through the display's M⁻¹, beyond 0 and 1 where
-/// the display cannot show the color; RGB are its codes of 8 bits, clipped. The display's black and the ambient light, which `develop`
-/// takes off, are left out here.
+/// with --emission the power of a light source in any unit. Colors are sums from 380 to 780 nm. XYZ has Y = 100 for the perfect reflector,
+/// and for every emission; CIELAB is relative to the white of the illuminant. Linear RGB is the display's M⁻¹ times XYZ/100, and is below 0
+/// or above 1 where the display cannot show the color; RGB is its 8-bit code, clipped. The display's black level and the ambient light,
+/// which `develop` subtracts, are ignored here.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// A table: columns of numbers (.csv, .txt, .tsv, .spd ...), CGATS or IES TM-27 (.spdx); - is standard input
+    /// The table: columns of numbers (.csv, .txt, .tsv, .spd ...), CGATS or IES TM-27 (.spdx), or - for standard input
     file: PathBuf,
-    /// Which column, by its name in the head or its number from 1, or which sample of CGATS
+    /// Column to read, by its name in the header or its number, counted from 1, or the sample of a CGATS file
     #[arg(long, value_name = "NAME|NUMBER")]
     column: Option<String>,
-    /// Units that the file does not name: nm, um, angstrom or eV of its wavelengths, percent of its values, or both
+    /// Units that the file does not name: nm, um, angstrom or eV for its wavelengths, percent for its values, or both
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
-    /// The values are the power of a light, not a reflectance; --illuminant then says what white it is compared with
+    /// Treat the values as the power of a light source, not as a reflectance; --illuminant is then the white that it is compared with
     #[arg(long)]
     emission: bool,
-    /// The light: D65, A, FL11, LED-B3, D5700K, blackbody_3000K ..., or a file of wavelength_nm,power (.csv, .spd, .spdx ...)
+    /// Illuminant: D65, A, FL11, LED-B3, D5700K, blackbody_3000K ..., or a file with columns wavelength_nm,power (.csv, .spd, .spdx ...)
     #[arg(long, value_name = "NAME|FILE", default_value = "D65", value_parser = Lamp::unscaled)]
     illuminant: Lamp,
-    /// The observer: 1931_2, 1964_10, 2015_2 or 2015_10
+    /// Observer: 1931_2, 1964_10, 2015_2 or 2015_10
     #[arg(long, value_name = "NAME", default_value_t = Observer::Cie1931Deg2)]
     observer: Observer,
-    /// Where sums are taken: 5nm or 1nm [default: 5nm under FL and HP lamps, whose tables are defined so, else 1nm]
+    /// Step of sums over wavelength: 5nm or 1nm [default: 5nm under FL and HP lamps, whose tables are defined that way, else 1nm]
     #[arg(long, value_name = "RULE")]
     rule: Option<Rule>,
-    /// How RGB is adapted from the illuminant's white to the display's: none, bradford or cat16
+    /// Chromatic adaptation of RGB from the illuminant's white to the display's: none, bradford or cat16
     #[arg(long, value_name = "NAME", default_value_t = Adaptation::None)]
     adapt: Adaptation,
-    /// The display of RGB: a name that `pellicle display` lists, or a file .toml
+    /// Display for RGB: a name that `pellicle display` lists, or a .toml file
     #[arg(long, value_name = "NAME|FILE", default_value = "srgb")]
     display: String,
-    /// Go on with the first and last value where the table does not cover 380 to 780 nm
+    /// Extend the first and last values where the table does not cover 380 to 780 nm
     #[arg(long)]
     clamp: bool,
-    /// How to write it
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
@@ -64,7 +64,7 @@ enum Format {
     Json,
 }
 
-/// A color and all that is told of it.
+/// A color and everything that is printed about it.
 struct Found<'a> {
     arguments: &'a Arguments,
     display: Display,
@@ -73,7 +73,7 @@ struct Found<'a> {
     xyz: [f64; 3],
     /// XYZ of the illuminant, Y = 1.
     white: [f64; 3],
-    /// Of an emission, cd/m² if its unit is W m⁻² sr⁻¹ nm⁻¹.
+    /// The luminance of an emission, in cd/m² if its unit is W m⁻² sr⁻¹ nm⁻¹.
     luminance: Option<f64>,
 }
 
@@ -106,7 +106,7 @@ impl<'a> Found<'a> {
             .map_err(|error| miette!("--illuminant {}: {error}", illuminant.name))?;
         let too_short = |gap: OutOfRange| {
             miette!(
-                help = "--clamp goes on with its first and last value",
+                help = "--clamp extends its first and last values",
                 "{}: {gap}; colors are sums from 380 to 780 nm",
                 print::name(&arguments.file)
             )
@@ -115,7 +115,7 @@ impl<'a> Found<'a> {
             let xyz = xyz_of_emission(&spectrum, *observer, rule).map_err(too_short)?;
             if xyz[1] <= 0.0 {
                 return Err(miette!(
-                    "{}: an emission must shine between 380 and 780 nm, but nothing is seen of it",
+                    "{}: an emission must have power between 380 and 780 nm, but its luminance is 0",
                     print::name(&arguments.file)
                 ));
             }
@@ -137,7 +137,7 @@ impl<'a> Found<'a> {
         Lab::from_xyz(self.xyz, self.white)
     }
 
-    /// XYZ as the display is to show them.
+    /// XYZ after adaptation to the white of the display.
     fn adapted(&self) -> [f64; 3] {
         let adaptation = self.arguments.adapt;
         times(
@@ -146,7 +146,7 @@ impl<'a> Found<'a> {
         )
     }
 
-    /// Of an emission; for the one observer that it is defined for.
+    /// The correlated color temperature of an emission; `None` for observers for which it is not defined.
     fn temperature(&self) -> Option<Temperature> {
         let is_defined = self.arguments.observer == Observer::Cie1931Deg2;
         let xy = xy_of_xyz(self.xyz);
@@ -157,7 +157,7 @@ impl<'a> Found<'a> {
         times(self.display.rgb_from_xyz(), self.adapted())
     }
 
-    /// Codes from 0 to 1 of what the display can show.
+    /// Codes from 0 to 1, clipped to what the display can show.
     fn encoded(&self) -> [f64; 3] {
         let (linear, responses) = (self.linear_rgb(), self.display.responses());
         std::array::from_fn(|i| {
@@ -170,7 +170,7 @@ impl<'a> Found<'a> {
         self.encoded().map(|code| (255.0 * code).round() as u8)
     }
 
-    /// Whether the display shows the color, to the rounding of sums over wavelength beside its white.
+    /// Whether the display can show the color, up to the rounding of sums over wavelength relative to its white.
     fn is_in_gamut(&self) -> bool {
         const ROUNDING: f64 = 1e-3;
         let fits = |v: &f64| (-ROUNDING..=self.display.peak() + ROUNDING).contains(v);
@@ -266,14 +266,14 @@ impl<'a> Found<'a> {
     }
 }
 
-/// The display as the observer sees it, where that is known.
+/// The display as the observer sees it, if that is known.
 fn display_seen_by(name_or_file: &str, observer: Observer) -> miette::Result<Display> {
     let display = display::open(name_or_file)?;
     if let Some(seen) = display.seen_by(observer) {
         return Ok(seen);
     }
     print::note(format_args!(
-        "{}: its primaries are known for CIE 1931 alone, RGB take XYZ of {observer} as if they were that observer's",
+        "{}: its primaries are known for CIE 1931 alone; RGB treats XYZ of {observer} as XYZ of CIE 1931",
         display.name()
     ));
     Ok(display)
@@ -286,7 +286,7 @@ fn spaced(values: [f64; 3]) -> String {
 
 fn read(arguments: &Arguments) -> miette::Result<Spectrum> {
     let quantity = if arguments.emission {
-        // In whatever unit.
+        // In any unit.
         Quantity::amount("power", (0.0, 1e30))
     } else {
         Quantity::REFLECTANCE
@@ -304,20 +304,20 @@ fn read(arguments: &Arguments) -> miette::Result<Spectrum> {
         let (from_nm, to_nm) = table.range_nm();
         if from_nm >= 780.0 || to_nm <= 380.0 {
             return Err(miette!(
-                help = "are its wavelengths in another unit? --unit names it",
-                "{file}: its data, {from_nm} to {to_nm} nm, have nothing in common with 380 to 780 nm"
+                help = "if its wavelengths have another unit, name it with --unit",
+                "{file}: its data, {from_nm} to {to_nm} nm, do not overlap 380 to 780 nm"
             ));
         }
         if from_nm > 380.0 || to_nm < 780.0 {
             print::notes([format!(
-                "{file}: its data cover {from_nm} to {to_nm} nm; beyond, they go on with their end values"
+                "{file}: its data cover {from_nm} to {to_nm} nm; beyond that, the end values are used"
             )]);
         }
     }
     Ok(spectrum.clamped())
 }
 
-/// What is said of the file.
+/// The options for reading the file.
 fn options(arguments: &Arguments) -> miette::Result<Options> {
     let mut options = Options::default();
     if let Some(column) = &arguments.column {

@@ -1,4 +1,4 @@
-//! The `pellicle` command: arguments, progress and errors; the work is done by the library.
+//! The `pellicle` command: arguments, progress and errors. The library does the work.
 
 mod bench;
 mod booth;
@@ -41,9 +41,9 @@ enum Command {
     Develop(develop::Arguments),
     /// Validate a scene without rendering it
     Check {
-        /// The scene file; - is standard input
+        /// The scene file, or - for standard input
         scene: PathBuf,
-        /// Let the scene name files outside of its folder: only for scenes that can be trusted
+        /// Allow the scene to refer to files outside its folder; use this only for scenes that you trust
         #[arg(long)]
         allow_outside: bool,
     },
@@ -54,7 +54,7 @@ enum Command {
     Inspect(inspect::Arguments),
     /// List the adapters that can render
     Devices,
-    /// List the materials whose optical constants Pellicle carries, or show one
+    /// List the materials with built-in optical constants, or show one
     Materials(materials::Arguments),
     /// Print the JSON schema of scene files
     Schema,

@@ -1,4 +1,4 @@
-//! Where a render is written.
+//! The output files of a render.
 
 use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
@@ -18,8 +18,8 @@ pub(crate) struct Outputs {
 }
 
 impl Outputs {
-    /// From what `-o` says: `.png` is a picture, `.exr` a spectral image, a name without extension both, a folder
-    /// both, named after the scene. Without any, the folder is the current one.
+    /// Interprets the values of `-o`: `.png` is a picture, `.exr` a spectral image, a name without extension both, and a
+    /// folder both, named after the scene. If `-o` is not given, both are written to the current folder.
     pub(crate) fn new(scene: &Path, asked: &[PathBuf]) -> miette::Result<Self> {
         let mut outputs = Self::default();
         let stem = scene.file_stem().unwrap_or("render".as_ref());
@@ -32,7 +32,7 @@ impl Outputs {
                 _ if path == Path::new("-") => {
                     return Err(miette!(
                         help = "-o /dev/stdout writes a PNG file there",
-                        "-o -: the kind of file is not told by this name"
+                        "-o -: this name does not say which kind of file to write"
                     ));
                 }
                 _ if path.is_dir() => outputs.add_both(&path.join(stem)),
@@ -43,7 +43,7 @@ impl Outputs {
                 None => outputs.add_both(path),
                 Some(_) => {
                     return Err(miette!(
-                        help = "end it in .png (picture) or .exr (spectral image), or leave the ending out for both",
+                        help = "end it in .png (picture) or .exr (spectral image), or leave out the ending for both",
                         "-o {}: a file with this ending cannot be written",
                         path.display()
                     ));
@@ -57,7 +57,7 @@ impl Outputs {
         Ok(outputs)
     }
 
-    /// No file is written twice, by one name or by two.
+    /// Checks that no file is written twice, under one name or under two.
     fn check_names(&self) -> miette::Result<()> {
         let mut known: Vec<(&PathBuf, PathBuf)> = Vec::new();
         for path in self.pictures.iter().chain(&self.spectral) {
@@ -69,7 +69,7 @@ impl Outputs {
             if let Some((first, _)) = known.iter().find(|(_, other)| *other == file) {
                 return Err(miette!(
                     help = "name each file once",
-                    "-o {} and -o {}: this is the same file",
+                    "-o {} and -o {}: these are the same file",
                     first.display(),
                     path.display()
                 ));
@@ -90,8 +90,8 @@ impl Outputs {
         self.spectral.push(named(".exr"));
     }
 
-    /// The same with the number of a frame in each name, `name_0000.png`: with four digits, or as many as the last frame
-    /// has, so that names sort by frame.
+    /// Returns the same outputs with the number of a frame in each name, as in `name_0000.png`. The number has four digits,
+    /// or as many as that of the last frame, so that names sort by frame.
     pub(crate) fn of_frame(&self, frame: u32, last: u32) -> Self {
         let digits = last.to_string().len().max(4);
         let number = format!("_{frame:0digits$}.");
@@ -103,7 +103,7 @@ impl Outputs {
         }
     }
 
-    /// The pictures among them.
+    /// The pictures among the outputs.
     pub(crate) fn pictures(&self) -> &[PathBuf] {
         &self.pictures
     }
@@ -124,7 +124,7 @@ impl Outputs {
     }
 }
 
-/// The number goes before the ending, which every output has.
+/// Inserts a number before the ending, which every output has.
 fn numbered(path: &Path, number: &str) -> PathBuf {
     let mut name = path.file_stem().unwrap_or_default().to_owned();
     name.push(number);
@@ -132,7 +132,7 @@ fn numbered(path: &Path, number: &str) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// Whether a path that is no folder is written like one.
+/// Whether a path that is not a folder is written like one.
 fn names_a_folder(path: &Path) -> bool {
     let ends_in_separator = path.to_string_lossy().ends_with(std::path::is_separator);
     ends_in_separator || path.file_name().is_none()
@@ -147,7 +147,7 @@ fn no_folder(option: &str, path: &Path, folder: &Path) -> miette::Report {
     )
 }
 
-/// The folder that a file lies in.
+/// The folder that contains a file.
 fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
@@ -155,18 +155,18 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// Whether a name is that of a pipe or a device.
+/// Whether a path names a pipe or a device.
 pub(crate) fn is_stream(path: &Path) -> bool {
     matches!(Destination::of(path), Ok(Destination::Stream(_)))
 }
 
-/// A place that cannot be written to is told before the work, not after it. `option` is what asked for it, `read` the file that
-/// must not be written over.
+/// Checks that a path can be written to, so that errors are reported before the work and not after it. `option` is the
+/// option that names the path, `read` the input file, which must not be overwritten.
 pub(crate) fn check_place(option: &str, path: &Path, read: &Path) -> miette::Result<()> {
     if path == Path::new("-") {
         return Err(miette!(
-            help = "./- is a file of this name",
-            "{option} -: the kind of file is not told by this name"
+            help = "write ./- for a file of this name",
+            "{option} -: this name does not say which kind of file to write"
         ));
     }
     if path.is_dir() {
@@ -176,7 +176,7 @@ pub(crate) fn check_place(option: &str, path: &Path, read: &Path) -> miette::Res
         return Err(no_folder(option, path, path));
     }
     let file = match Destination::of(path) {
-        // It is there, and is not replaced.
+        // It exists and is not replaced.
         Ok(Destination::Stream(_)) => return Ok(()),
         Ok(Destination::File(file)) => file,
         Err(error) => return Err(miette!("{option} {}: {error}", path.display())),
@@ -199,7 +199,7 @@ pub(crate) fn check_place(option: &str, path: &Path, read: &Path) -> miette::Res
         .wrap_err_with(|| format!("{}: its folder cannot be written to", path.display()))
 }
 
-/// Makes an empty file and removes it: permissions alone do not tell of read-only and virtual file systems.
+/// Creates an empty file and removes it: permissions alone do not reveal read-only and virtual file systems.
 fn can_create_in(folder: &Path) -> std::io::Result<()> {
     static COUNTER: AtomicU32 = AtomicU32::new(0);
     let turn = COUNTER.fetch_add(1, Ordering::Relaxed);

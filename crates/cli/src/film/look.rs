@@ -1,4 +1,4 @@
-//! How colors of stacks are looked at.
+//! The viewing conditions for colors of stacks.
 
 use super::numbers;
 use crate::lamp::Lamp;
@@ -7,23 +7,23 @@ use miette::miette;
 use pellicle::coating::{Light, Polarization, Side, View};
 use pellicle::spectra::Observer;
 
-/// How colors are looked at.
+/// The viewing conditions for colors.
 #[derive(clap::Args)]
 pub(super) struct Look {
-    /// The light that colors are seen in: D65, A, FL11, LED-B3, D5700K, blackbody_3000K ..., or a file of wavelength_nm,power (.csv, .spd, .spdx ...);
-    /// swatches and codes of sRGB are not adapted to it: under A white looks orange
+    /// Illuminant of colors: D65, A, FL11, LED-B3, D5700K, blackbody_3000K ..., or a file with columns wavelength_nm,power (.csv, .spd,
+    /// .spdx ...). Swatches and sRGB codes are not adapted to it: under A, white looks orange
     #[arg(long, value_name = "NAME|FILE", default_value = "D65", value_parser = Lamp::unscaled)]
     pub(super) illuminant: Lamp,
-    /// The observer of colors: 1931_2, 1964_10, 2015_2 or 2015_10
+    /// Observer of colors: 1931_2, 1964_10, 2015_2 or 2015_10
     #[arg(long, value_name = "NAME", default_value_t = Observer::Cie1931Deg2)]
     pub(super) observer: Observer,
-    /// Stops by which colors are shown brighter: a soap film reflects 8 % at most
+    /// Stops by which colors are shown brighter; a soap film reflects 8 % at most
     #[arg(long, value_name = "EV", default_value = "0", value_parser = numbers::number, allow_hyphen_values = true)]
     pub(super) exposure: f64,
-    /// Look at the light that passes, not at the reflected
+    /// Show transmitted light instead of reflected light
     #[arg(long)]
     transmitted: bool,
-    /// Polarization of the light of colors and plots
+    /// Polarization of the light in colors and plots
     #[arg(long, value_enum, default_value_t = PolarizationName::Unpolarized)]
     polarization: PolarizationName,
 }

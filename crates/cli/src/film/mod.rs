@@ -22,17 +22,17 @@ use pellicle::spectra::wording::number;
 use pellicle::{Backend, Renderer, coating, stacks};
 use std::path::PathBuf;
 
-/// What a stack of thin films does to light: spectra, colors, plots, tolerances.
+/// Compute spectra, colors, plots and tolerances of a stack of thin films.
 ///
-/// STACK is a stack file (TOML), - for one from standard input, or a stack in one line such as "air | silica 300nm | silicon": the medium that light comes from,
-/// layers with thicknesses in nm or um, the substrate. A medium is a material's name, a number 1.5, 1.5+0.1i (n + ik, k > 0
-/// absorbs), or a file .csv or .yml. "air" has n = 1.0003 as measured; "vacuum" and 1 are 1 exactly.
+/// STACK is a stack file (TOML), - to read one from standard input, or a stack in one line such as "air | silica 300nm | silicon": the
+/// incident medium, the layers with thicknesses in nm or um, and the substrate. A medium is the name of a material, a number such as 1.5
+/// or 1.5+0.1i (n + ik; k > 0 absorbs), or a .csv or .yml file. "air" has the measured n = 1.0003; "vacuum" and 1 are exactly 1.
 ///
-/// Groups repeat, (TiO2 60nm | SiO2 90nm)^8, and letters may be defined before the stack, with thicknesses in waves at a wavelength in
-/// nm: "H=TiO2 0.25@550; L=SiO2 0.25@550; air | (HL)^8 2H | BK7".
+/// Groups can be repeated, as in (TiO2 60nm | SiO2 90nm)^8. Letters can be defined before the stack, with optical thicknesses in waves at
+/// a wavelength in nm: "H=TiO2 0.25@550; L=SiO2 0.25@550; air | (HL)^8 2H | BK7".
 ///
-/// A stack file has `incident` ("air" when absent), `substrate`, and per layer `[[layer]]` with `index` and `thickness_nm`. An index
-/// is whatever a scene's materials accept, a table in place { nm = [...], n = [...], k = [...] } included.
+/// A stack file has `incident` ("air" if it is left out), `substrate`, and for each layer a `[[layer]]` with `index` and `thickness_nm`.
+/// An index is anything that a material of a scene accepts, including an inline table { nm = [...], n = [...], k = [...] }.
 #[derive(clap::Args)]
 #[expect(
     clippy::struct_excessive_bools,
@@ -41,33 +41,33 @@ use std::path::PathBuf;
 pub(crate) struct Arguments {
     /// A stack file, or a stack in one line (with | between its media)
     stack: String,
-    /// Let a stack file name files outside of its folder: only for those that can be trusted
+    /// Allow a stack file to refer to files outside its folder; use this only for files that you trust
     #[arg(long)]
     allow_outside: bool,
-    /// Angles of incidence in degrees, 0 to less than 90: a list, or FROM:TO:STEP
+    /// Angles of incidence in degrees, from 0 to less than 90: a list, or FROM:TO:STEP
     #[arg(long, default_value = "0", value_parser = List::parse, allow_hyphen_values = true)]
     angles: List,
-    /// Wavelengths in vacuum, nm: FROM:TO:STEP, or a list [default: 380:780:10; of a plot 380:780:1]
+    /// Vacuum wavelengths in nm: FROM:TO:STEP, or a list [default: 380:780:10; for a plot 380:780:1]
     #[arg(long, value_parser = List::parse, allow_hyphen_values = true)]
     wavelengths: Option<List>,
-    /// How R and T are printed: rows go by angle, then by wavelength [default: table, unless something else is asked for]
+    /// Output format of R and T; rows are sorted by angle, then by wavelength [default: table, unless another output is requested]
     #[arg(long, value_enum, conflicts_with_all = ["wanted", "tolerance", "sensitivity"])]
     format: Option<Format>,
-    /// Go on with a medium's first and last values beyond its data
+    /// Extend the first and last values of a medium beyond its data
     #[arg(long)]
     clamp: bool,
-    /// By which formula R and T are computed: exact, for any stack; two_beam, which scenes have too, for one film that does not absorb
-    /// between equal media. By two beams R + T is not 1, and there is no A
+    /// Formula for R and T: exact, for any stack; or two_beam, which scenes offer too, for one film that does not absorb, between equal
+    /// media. With two_beam, R + T is not 1, and there is no A
     #[arg(long, value_enum, default_value_t = ModelName::Exact)]
     model: ModelName,
-    /// What --model two_beam takes for the path difference between the two beams [default: optical]
+    /// Path difference between the two beams of --model two_beam [default: optical]
     #[arg(long, value_enum)]
     path_difference: Option<PathName>,
-    /// Print the absorptance of each layer too (always from the CPU)
+    /// Also print the absorptance of each layer (always computed on the CPU)
     #[arg(long)]
     absorptance: bool,
-    /// What computes R and T: the CPU in f64, or a GPU in f32. To 5e-5 up to 88° for ordinary stacks seen from air; incidence from a
-    /// denser medium near a critical angle, films beyond 10 µm and hundreds of layers lose more
+    /// Device that computes R and T: the CPU in f64, or a GPU in f32. On a GPU, ordinary stacks seen from air are accurate to 5e-5 up to
+    /// 88°; errors are larger for incidence from a denser medium near a critical angle, films beyond 10 µm, and hundreds of layers
     #[arg(long, value_enum, default_value_t = BackendName::Cpu)]
     backend: BackendName,
     #[command(flatten)]
@@ -75,44 +75,44 @@ pub(crate) struct Arguments {
     /// Write a plot of R, T and A over wavelength with the color of each angle (.svg or .png)
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// Write a chart of the color over thickness and angle of one layer (.png): of --vary [default: layer 1 from 0 to 1000 nm, or to
-    /// twice its thickness]; with several --angles, between the smallest and the largest
+    /// Write a chart of the color over angle and the thickness of one layer (.png). --vary chooses the layer and its range [default:
+    /// layer 1 from 0 to 1000 nm, or to twice its thickness]; the smallest and the largest of several --angles limit the angle
     #[arg(long, value_name = "FILE")]
     chart: Option<PathBuf>,
-    /// A layer's number from 1 and its thicknesses in nm, for --chart and --match
+    /// Number of a layer, counted from 1, and its range of thickness in nm, for --chart and --match
     #[arg(long, value_name = "LAYER:FROM:TO", value_parser = Vary::parse, allow_hyphen_values = true)]
     vary: Option<Vary>,
-    /// Find the thickness of --vary whose color is nearest to this one of sRGB, like "#2e6fd0"
+    /// Find the thickness in the range of --vary whose color is closest to this sRGB color, such as "#2e6fd0"
     #[arg(id = "wanted", long = "match", value_name = "COLOR", value_parser = wanted, requires = "vary")]
     wanted: Option<Wanted>,
-    /// What has to match: the whole color, lightness included, at --exposure; or its chromaticity, each film first made as bright as
-    /// the wanted color
+    /// What must match: the whole color, including lightness, at --exposure; or the chromaticity alone, after scaling each film to the
+    /// brightness of the wanted color
     #[arg(long, value_enum, default_value_t = MatchByName::Color, requires = "wanted")]
     match_by: MatchByName,
-    /// Scatter of the color when each layer's thickness is off by a random error of this standard deviation, like 2%
+    /// Print the spread of the color if the thickness of each layer has a random error with this standard deviation, such as 2%
     #[arg(long, value_name = "PERCENT", value_parser = numbers::percent, allow_hyphen_values = true)]
     tolerance: Option<f64>,
-    /// How many stacks --tolerance draws
+    /// Number of random stacks for --tolerance
     #[arg(long, default_value_t = 10_000, requires = "tolerance")]
     trials: u32,
-    /// Which stacks --tolerance draws
+    /// Seed of the random stacks for --tolerance
     #[arg(long, default_value_t = 0, requires = "tolerance")]
     seed: u64,
-    /// Color difference per nm of each layer, and dR/dd at --design
+    /// Print the color difference per nm of each layer, and dR/dd at --design
     #[arg(long)]
     sensitivity: bool,
-    /// The wavelength at which --sensitivity tells dR/dd, nm
+    /// Wavelength in nm at which --sensitivity prints dR/dd
     #[arg(long, value_name = "NM", default_value = "550", value_parser = numbers::number, requires = "sensitivity")]
     design: f64,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Format {
-    /// For people, with the color of each angle
+    /// A text table, with the color at each angle
     Table,
     /// wavelength_nm,angle_deg,Rs,Rp,Ts,Tp with 17 digits
     Csv,
-    /// Everything, with the stack and its indices
+    /// All results, with the stack and its refractive indices
     Json,
 }
 
@@ -128,7 +128,7 @@ enum MatchByName {
     Chromaticity,
 }
 
-/// A wanted color as it was written and as XYZ.
+/// A wanted color as XYZ.
 #[derive(Clone, Debug)]
 struct Wanted {
     xyz: [f64; 3],
@@ -139,10 +139,10 @@ fn wanted(text: &str) -> Result<Wanted, String> {
     Ok(Wanted { xyz })
 }
 
-/// The most wavelengths times angles.
+/// The largest product of wavelengths and angles.
 const MOST_ROWS: usize = 4_000_000;
 
-/// What every part of the command needs.
+/// The input that every part of the command needs.
 struct Film<'a> {
     arguments: &'a Arguments,
     stack: Stack,
@@ -151,12 +151,12 @@ struct Film<'a> {
     exposure_ev: f64,
 }
 
-/// Computes, prints and writes what is asked for.
+/// Computes, prints and writes what was requested.
 pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     arguments.check_uses()?;
     let film = Film::new(arguments)?;
     print::notes(film.stack.notes());
-    // What cannot be written is told before anything is computed.
+    // Report what cannot be written before computing anything.
     film.check_model()?;
     pictures::check(&film)?;
     if arguments.prints_spectra() {
@@ -205,7 +205,7 @@ impl<'a> Film<'a> {
         })
     }
 
-    /// The wavelengths asked for, or 380 to 780 nm in these steps.
+    /// The requested wavelengths, or 380 to 780 nm in steps of `step_nm`.
     fn wavelengths_nm(&self, step_nm: usize) -> miette::Result<Vec<f64>> {
         let nm = match &self.arguments.wavelengths {
             Some(List(nm)) => nm.clone(),
@@ -222,7 +222,7 @@ impl<'a> Film<'a> {
         }
     }
 
-    /// What a model is not defined for is told before anything is computed.
+    /// Checks that the model is defined for the stack, before anything is computed.
     fn check_model(&self) -> miette::Result<()> {
         if self.stack.model() != Model::Exact {
             self.stack.sampled(&self.wavelengths_nm(10)?)?;
@@ -230,12 +230,12 @@ impl<'a> Film<'a> {
         Ok(())
     }
 
-    /// The stack in a line, with what is computed of it.
+    /// The stack in one line, with the model if it is not the exact one.
     fn title(&self) -> String {
         self.stack.label() + &model::remark(self.stack.model())
     }
 
-    /// With the absorptance of layers a row has a figure for each of them.
+    /// Checks the number of rows. With --absorptance, a row has a value for each layer.
     fn check_rows(&self, wavelengths: usize) -> miette::Result<()> {
         let angles = self.angles.len();
         let rows = wavelengths * angles;
@@ -247,14 +247,14 @@ impl<'a> Film<'a> {
         }
         if self.arguments.absorptance && rows.saturating_mul(layers) > MOST_ROWS {
             return Err(miette!(
-                help = "take fewer wavelengths or angles",
+                help = "use fewer wavelengths or angles",
                 "--absorptance: {rows} rows of {layers} layers; rows times layers may be at most {MOST_ROWS}"
             ));
         }
         Ok(())
     }
 
-    /// What computes R and T.
+    /// The renderer that computes R and T.
     fn renderer(&self) -> miette::Result<Renderer> {
         let backend = match self.arguments.backend {
             BackendName::Cpu => Backend::Cpu,
@@ -263,7 +263,7 @@ impl<'a> Film<'a> {
         Renderer::open(&backend).into_diagnostic()
     }
 
-    /// Below this an absorptance is the rounding of R + T. Two beams have none.
+    /// An absorptance below this value is a rounding error of R + T. Two beams have no absorptance.
     fn rounding(&self) -> f64 {
         if self.stack.model() != Model::Exact {
             return f64::INFINITY;
@@ -274,9 +274,9 @@ impl<'a> Film<'a> {
         }
     }
 
-    /// Says what was assumed of a light whose table is too coarse for the film's fringes.
+    /// Prints what was assumed about an illuminant whose table is too coarse for the fringes of the film.
     fn note_light(&self) -> miette::Result<()> {
-        /// Color differences that can be seen.
+        /// The smallest color difference that can be seen.
         const SEEN: f64 = 0.5;
         if self.light.step_nm() == 1.0 || self.arguments.shows_no_color() {
             return Ok(());
@@ -287,25 +287,25 @@ impl<'a> Film<'a> {
         if most > SEEN {
             let (name, step) = (self.light.name(), self.light.step_nm());
             print::note(format_args!(
-                "note: {name} is known at steps of {step} nm, which are too coarse for the fringes of this film: its power is taken as \
-                 linear in between (its lines alone, at those wavelengths, would make a color that differs by ΔE00 {most:.1})"
+                "note: the table of {name} has steps of {step} nm, which are too coarse for the fringes of this film: its power is taken as \
+                 linear in between (lines at those wavelengths alone would give a color that differs by ΔE00 {most:.1})"
             ));
         }
         Ok(())
     }
 
-    /// Says that colors are shown as the light makes them. D65 is the display's own white.
+    /// Prints that colors are not adapted to the illuminant. D65 needs no note, as it is the white of the display.
     fn note_adaptation(&self) {
         let only_csv = self.arguments.shows_no_color();
         let observer = self.arguments.look.observer;
         if observer != Observer::Cie1931Deg2 && !only_csv {
             print::note(format_args!(
-                "swatches and codes of sRGB take XYZ of {observer} as if they were those of CIE 1931, for which sRGB is defined"
+                "swatches and sRGB codes treat XYZ of {observer} as XYZ of CIE 1931, for which sRGB is defined"
             ));
         }
         if self.light.name() != "D65" && !only_csv {
             print::note(format_args!(
-                "swatches and codes of sRGB are not adapted to {}: white under it does not look white",
+                "swatches and sRGB codes are not adapted to {}: a white surface under it does not look white",
                 self.light.name()
             ));
         }

@@ -1,4 +1,4 @@
-//! By which formula R and T are computed, as options say it.
+//! The options that choose the formula for R and T.
 
 use clap::ValueEnum;
 use miette::miette;
@@ -6,23 +6,23 @@ use pellicle::coating::{Model, PathDifference};
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 pub(super) enum ModelName {
-    /// All beams, however often they are reflected
+    /// All beams, however often they are reflected, for any stack
     Exact,
-    /// The two beams that are reflected once by one film that does not absorb, between equal media
+    /// Only the two beams that are reflected once, for one film that does not absorb, between equal media
     #[value(name = "two_beam")]
     TwoBeam,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 pub(super) enum PathName {
-    /// 2 n d cos θ, as physics has it
+    /// 2 n d cos θ, the physical path difference
     Optical,
     /// 2 d cos θ, without the index
     #[value(name = "as_printed")]
     AsPrinted,
 }
 
-/// The model that both options name.
+/// The model that the two options choose.
 pub(super) fn model(model: ModelName, path: Option<PathName>) -> miette::Result<Model> {
     match (model, path) {
         (ModelName::Exact, None) => Ok(Model::Exact),
@@ -39,7 +39,7 @@ pub(super) fn model(model: ModelName, path: Option<PathName>) -> miette::Result<
     }
 }
 
-/// What is said of a model behind the label of a stack: nothing of the exact one.
+/// The remark on a model after the label of a stack; empty for the exact one.
 pub(super) fn remark(model: Model) -> String {
     match model.path_difference() {
         None => String::new(),

@@ -1,14 +1,14 @@
-//! Numbers on the command line: lists, ranges, shares.
+//! Numbers on the command line: lists, ranges, percentages.
 
-/// The most numbers of a list.
+/// The largest length of a list.
 const MOST: usize = 100_000;
 
-/// Numbers in the order they were written.
+/// Numbers in the order in which they were written.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct List(pub(crate) Vec<f64>);
 
 impl List {
-    /// `0,30,60`, `380:780:10` (from, to, step), or several of either.
+    /// Parses `0,30,60`, `380:780:10` (from, to, step), or several of either.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         let mut numbers = Vec::new();
         for item in text.split(',') {
@@ -35,7 +35,7 @@ fn item_of_list(item: &str) -> Result<Vec<f64>, String> {
     }
 }
 
-/// From, from + step … as far as to, which is reached where a step falls on it but for a rounding.
+/// The numbers `from`, `from` + `step` … up to `to`, which is included if a step falls on it except for rounding.
 fn range(from: f64, to: f64, step: f64, decimals: Option<usize>) -> Result<Vec<f64>, String> {
     if to < from {
         return Err(format!(
@@ -44,31 +44,31 @@ fn range(from: f64, to: f64, step: f64, decimals: Option<usize>) -> Result<Vec<f
         ));
     }
     if step <= 0.0 {
-        return Err(format!("a step of {step}; it must be more than 0"));
+        return Err(format!("the step is {step}; it must be more than 0"));
     }
     let steps = ((to - from) / step + 1e-9).floor();
     if steps >= MOST as f64 {
-        return Err(format!("more than {MOST} numbers; take a larger step"));
+        return Err(format!("more than {MOST} numbers; use a larger step"));
     }
     Ok((0..=steps as usize)
         .map(|i| rounded(from + i as f64 * step, decimals))
         .collect())
 }
 
-/// The number that is written with so many decimals: 508.2, not 508.20000000000005.
+/// Rounds a number to this many decimals: 508.2, not 508.20000000000005.
 fn rounded(value: f64, decimals: Option<usize>) -> f64 {
     let written = decimals.and_then(|decimals| format!("{value:.decimals$}").parse().ok());
     written.unwrap_or(value)
 }
 
-/// How many decimals a number was written with; `None` where it has an exponent, or too many to round to.
+/// The number of decimals of a written number; `None` if it has an exponent, or too many decimals to round to.
 fn decimals(text: &str) -> Option<usize> {
     let text = text.trim();
     let count = text.split_once('.').map_or(0, |(_, digits)| digits.len());
     (!text.contains(['e', 'E']) && count <= 12).then_some(count)
 }
 
-/// A finite number.
+/// Parses a finite number.
 pub(crate) fn number(text: &str) -> Result<f64, String> {
     let value: Option<f64> = text.trim().parse().ok();
     value
@@ -76,12 +76,12 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
         .ok_or_else(|| format!("{text:?} is not a number"))
 }
 
-/// `2%` as 0.02.
+/// Parses `2%` as 0.02.
 pub(crate) fn percent(text: &str) -> Result<f64, String> {
     let digits = text
         .trim()
         .strip_suffix('%')
-        .ok_or("a tolerance is written in per cent, like 2%")?;
+        .ok_or("write the tolerance in percent, such as 2%")?;
     Ok(number(digits)? / 100.0)
 }
 
@@ -101,7 +101,7 @@ impl Vary {
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         let parts: Vec<&str> = text.split(':').collect();
         let [layer, from, to] = parts.as_slice() else {
-            return Err("a layer's number and its thicknesses, LAYER:FROM:TO like 1:20:400".into());
+            return Err("write a layer and its range, LAYER:FROM:TO, as in 1:20:400".into());
         };
         let layer = layer
             .trim()
@@ -110,7 +110,7 @@ impl Vary {
         let (from_nm, to_nm) = (number(from)?, number(to)?);
         if !(0.0 <= from_nm && from_nm < to_nm && to_nm <= Self::MAX_NM) {
             return Err(format!(
-                "thicknesses from {from} to {to} nm; they must rise, and lie from 0 to {} nm",
+                "thicknesses from {from} to {to} nm; they must increase and be between 0 and {} nm",
                 Self::MAX_NM
             ));
         }

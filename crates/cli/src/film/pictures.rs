@@ -9,14 +9,14 @@ use std::ffi::OsStr;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// What a picture is written as.
+/// The file format of a picture.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Png,
     Svg,
 }
 
-/// Tells what could not be drawn or written before anything is computed.
+/// Reports what cannot be drawn or written, before anything is computed.
 pub(crate) fn check(film: &Film) -> miette::Result<()> {
     let arguments = film.arguments;
     if let Some(path) = &arguments.plot {
@@ -24,7 +24,7 @@ pub(crate) fn check(film: &Film) -> miette::Result<()> {
         let nm = film.wavelengths_nm(1)?;
         if nm.len() < 2 || !nm.windows(2).all(|pair| pair[0] < pair[1]) {
             return Err(miette!(
-                "--plot: there must be two or more wavelengths, and they must rise"
+                "--plot: there must be two or more wavelengths, in increasing order"
             ));
         }
         if film.angles.len() > Plot::MAX_CURVES {
@@ -48,7 +48,7 @@ pub(crate) fn check(film: &Film) -> miette::Result<()> {
     Ok(())
 }
 
-/// Draws and writes what is asked for.
+/// Draws and writes the requested pictures.
 pub(crate) fn write(film: &Film) -> miette::Result<()> {
     if let Some(path) = &film.arguments.plot {
         let plot = plot(film)?;
@@ -69,7 +69,7 @@ pub(crate) fn write(film: &Film) -> miette::Result<()> {
 fn plot(film: &Film) -> miette::Result<Plot> {
     let wavelengths_nm = film.wavelengths_nm(1)?;
     let powers = film.powers(&film.renderer()?, &film.stack.sampled(&wavelengths_nm)?)?;
-    // A stack that is known outside visible light alone has curves, but no colors.
+    // A stack whose data do not cover visible light has curves, but no colors.
     let color = film.color().ok();
     let thicknesses = film.stack.thicknesses_nm();
     let curve = |(&angle, powers): (&Angle, Vec<_>)| Curve {
@@ -131,7 +131,7 @@ fn range_of_angles(angles: &[Angle]) -> miette::Result<(Angle, Angle)> {
     ))
 }
 
-/// The file's own name in the folder that it really is in.
+/// The path of a file with its folder resolved.
 fn resolved(path: &Path) -> PathBuf {
     let name = path.file_name().unwrap_or_default();
     let folder = path.parent().filter(|folder| *folder != Path::new(""));
@@ -149,7 +149,7 @@ fn kind(path: &Path) -> Option<Kind> {
     }
 }
 
-/// A picture's file must have an ending that says what it is, and a folder that it can be written to.
+/// Checks that the file of a picture has an ending that names its format, and that its folder can be written to.
 fn place(option: &str, path: &Path, kinds: &[Kind], film: &Film) -> miette::Result<()> {
     if !kind(path).is_some_and(|kind| kinds.contains(&kind)) {
         let endings = if kinds.contains(&Kind::Svg) {

@@ -1,4 +1,4 @@
-//! What the color hangs on: matches, tolerances, sensitivities.
+//! How the color depends on thicknesses: matches, tolerances, sensitivities.
 
 use super::spectra::{described, side};
 use super::swatch::swatch;
@@ -11,10 +11,10 @@ use pellicle::coating::{
 use pellicle::colorimetry::srgb;
 use std::fmt::Write;
 
-/// The most matches that are told.
+/// The largest number of matches that are printed.
 const MOST_MATCHES: usize = 6;
 
-/// Prints the reports that are asked for.
+/// Prints the requested reports.
 pub(crate) fn print(film: &Film) -> miette::Result<()> {
     let arguments = film.arguments;
     let mut reports = Vec::new();
@@ -51,13 +51,13 @@ fn matches(film: &Film, wanted: &Wanted, vary: &Vary) -> miette::Result<String> 
     let layer = film.layer_of(vary)?;
     let [angle] = film.angles.as_slice() else {
         return Err(miette!(
-            "--match looks at one angle; {} are given",
+            "--match needs exactly one angle; {} are given",
             film.angles.len()
         ));
     };
     if film.match_by() == MatchBy::Chromaticity && wanted.xyz[1] <= 0.0 {
         return Err(miette!(
-            help = "leave --match-by out, or ask for a color",
+            help = "leave out --match-by, or choose another color",
             "--match-by chromaticity: black has no chromaticity"
         ));
     }
@@ -131,7 +131,7 @@ fn line_of_match(number: usize, found: &Match) -> String {
     )
 }
 
-/// The color of a match: swatch and code.
+/// The color of a match as a swatch and a code.
 fn code(found: &Match) -> String {
     let codes = srgb::linear_from_xyz(found.xyz).map(srgb::to_u8);
     format!("{}{}", swatch(codes), hex(codes))

@@ -8,10 +8,10 @@ use pellicle::optics::{Complex64, Polarized};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// What is known at each angle.
+/// The results at all angles.
 struct Spectra<'a> {
     film: &'a Film<'a>,
-    /// What computed R and T.
+    /// The device that computed R and T.
     backend: String,
     sampled: Sampled,
     angles: Vec<AtAngle>,
@@ -20,9 +20,9 @@ struct Spectra<'a> {
 struct AtAngle {
     angle: Angle,
     powers: Vec<Powers>,
-    /// At each wavelength of each layer; empty where it was not asked for.
+    /// The absorptances of the layers at each wavelength; empty if they were not requested.
     absorptances: Vec<Vec<Polarized>>,
-    /// `None` where the stack's data do not cover visible light.
+    /// `None` if the data of the stack do not cover visible light.
     color: Option<Color>,
 }
 
@@ -62,7 +62,7 @@ impl<'a> Spectra<'a> {
         })
     }
 
-    /// Each wavelength with what is known there.
+    /// Each wavelength with the results there.
     fn rows<'b>(
         &'b self,
         at: &'b AtAngle,
@@ -74,7 +74,7 @@ impl<'a> Spectra<'a> {
         })
     }
 
-    /// The layers whose absorptance is told, counted from 1.
+    /// The layers whose absorptance is printed, counted from 1.
     fn layers(&self) -> std::ops::RangeInclusive<usize> {
         let told = if self.film.arguments.absorptance {
             self.film.stack.layers().len()
@@ -105,7 +105,7 @@ impl<'a> Spectra<'a> {
                 let layers = absorptances.iter().map(|a| a.unpolarized());
                 let figures = [r.s, r.p, r.unpolarized(), t.s, t.p, t.unpolarized()];
                 for figure in figures.into_iter().chain(a).chain(layers) {
-                    // A rounding of 0 is shown without a sign.
+                    // A value that rounds to 0 is shown without a sign.
                     let _ = write!(text, " {:>9.6}", (figure * 1e6).round() / 1e6 + 0.0);
                 }
                 text.push('\n');
@@ -136,7 +136,7 @@ impl<'a> Spectra<'a> {
                     .into_iter()
                     .chain(layers)
                 {
-                    // + 0 makes a 0 of −0.
+                    // + 0 turns −0 into 0.
                     let _ = write!(text, ",{:.16e},{:.16e}", power.s + 0.0, power.p + 0.0);
                 }
                 text.push('\n');
@@ -213,7 +213,7 @@ impl<'a> Spectra<'a> {
     }
 }
 
-/// Which light is seen.
+/// The side of the stack that is shown, as a word.
 pub(crate) fn side(film: &Film) -> &'static str {
     match film.arguments.look.view().side {
         Side::Reflected => "reflected",
@@ -221,7 +221,7 @@ pub(crate) fn side(film: &Film) -> &'static str {
     }
 }
 
-/// A color in a line: swatch, code, CIELAB, how it is looked at.
+/// A color in one line: swatch, code, CIELAB and viewing conditions.
 pub(crate) fn described(film: &Film, color: &Color) -> String {
     let lab = color.lab();
     format!(
@@ -242,7 +242,7 @@ pub(crate) fn described(film: &Film, color: &Color) -> String {
     )
 }
 
-/// What is to be said of an exposure: nothing of 0.
+/// The remark on an exposure; empty for 0.
 fn exposure(ev: f64) -> String {
     if ev == 0.0 {
         String::new()

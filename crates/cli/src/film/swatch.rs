@@ -2,7 +2,7 @@
 
 use std::io::IsTerminal;
 
-/// A swatch in the color itself on a terminal that shows colors, else nothing. <https://no-color.org> is heeded.
+/// A swatch in the color itself if the terminal shows colors, else nothing. Follows <https://no-color.org>.
 pub(crate) fn swatch([r, g, b]: [u8; 3]) -> String {
     if shows_colors() {
         format!("\x1b[48;2;{r};{g};{b}m      \x1b[0m ")
@@ -17,14 +17,14 @@ fn shows_colors() -> bool {
     std::io::stdout().is_terminal() && !asks_for_none && !cannot
 }
 
-/// A part of a line: text, or what [`swatch`] makes.
+/// A part of a line: text, or a swatch as [`swatch`] writes it.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Part<'a> {
     Text(&'a str),
     Swatch(&'a str),
 }
 
-/// What a line is made of.
+/// Splits a line into text and swatches.
 pub(crate) fn parts(line: &str) -> impl Iterator<Item = Part<'_>> {
     line.split_inclusive(END).flat_map(|part| {
         let start = part.rfind(START).filter(|&start| is_swatch(&part[start..]));
@@ -36,7 +36,7 @@ pub(crate) fn parts(line: &str) -> impl Iterator<Item = Part<'_>> {
 const START: &str = "\x1b[48;2;";
 const END: &str = "\x1b[0m";
 
-/// Whether a text is three numbers and blanks between the signs that color and end them.
+/// Whether a text is a swatch: three numbers and blanks between the escape codes that start and end the color.
 fn is_swatch(text: &str) -> bool {
     let inner = text
         .strip_prefix(START)

@@ -1,18 +1,18 @@
-//! What the options of `pellicle film` are for.
+//! What the options of `pellicle film` affect.
 
 use super::model::ModelName;
 use super::{Arguments, BackendName, Format};
 use miette::miette;
 
 impl Arguments {
-    /// Whether R and T are printed: where they are asked for, or nothing is.
+    /// Whether R and T are printed: if they are requested, or nothing else is.
     pub(super) fn prints_spectra(&self) -> bool {
         let reports = self.wanted.is_some() || self.tolerance.is_some() || self.sensitivity;
         let pictures = self.plot.is_some() || self.chart.is_some();
         self.format.is_some() || !(reports || pictures)
     }
 
-    /// From the shortest to the longest wavelength that the stack's data are read at, nm.
+    /// The shortest and the longest wavelength at which the data of the stack are read, nm.
     pub(super) fn used_nm(&self) -> (f64, f64) {
         let asked = self.wavelengths.iter().flat_map(|list| list.0.iter());
         let design = self.sensitivity.then_some(&self.design);
@@ -26,12 +26,12 @@ impl Arguments {
         })
     }
 
-    /// CSV has no colors.
+    /// Whether no output has a color: CSV has none.
     pub(super) fn shows_no_color(&self) -> bool {
         self.format == Some(Format::Csv) && self.plot.is_none() && self.chart.is_none()
     }
 
-    /// An option that nothing would heed is a mistake.
+    /// Returns an error if an option has no effect.
     pub(super) fn check_uses(&self) -> miette::Result<()> {
         let spectra = self.prints_spectra();
         let spectra_or_plot = spectra || self.plot.is_some();
