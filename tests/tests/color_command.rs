@@ -259,7 +259,7 @@ fn unusable_tables_are_refused_with_a_reason() {
     refused("380,-0.1\n780,0\n", "", &["line 1", "reflectance -0.1"]);
     refused("380,nan\n780,0\n", "", &["line 1", "nan"]);
     refused("380,-1\n780,0\n", "--emission", &["line 1", "power -1"]);
-    refused("380,0\n780,0\n", "--emission", &["must shine"]);
+    refused("380,0\n780,0\n", "--emission", &["must have power"]);
     refused(
         "780,0\n380,0\n500,1\n",
         "",

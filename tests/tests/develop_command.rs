@@ -196,19 +196,19 @@ fn impossible_options_are_reported_and_nothing_is_written() {
         ("image.exr -o none/out.png", "no folder"),
         (
             "image.exr -o out.png --exposure bright",
-            "an exposure is stops",
+            "write stops from -40",
         ),
         (
             "image.exr -o out.png --exposure auto:101",
-            "an exposure is stops",
+            "write stops from -40",
         ),
         (
             "image.exr -o out.png --exposure NaN",
-            "an exposure is stops",
+            "write stops from -40",
         ),
         (
             "image.exr -o out.png --adapt bradford",
-            "say with --adapt-from",
+            "with --adapt-from",
         ),
         ("image.exr -o out.png --adapt-from 0.9,0.9", "a sum up to 1"),
         ("image.exr -o out.png --adapt-from X99", "X99"),
@@ -221,7 +221,7 @@ fn impossible_options_are_reported_and_nothing_is_written() {
         ),
         (
             "image.exr -o out.png --glare star --star-length 0",
-            "share of the height",
+            "fraction of the height",
         ),
         ("image.exr", "--output"),
         ("missing.exr -o out.png", "missing.exr"),

@@ -188,7 +188,7 @@ fn errors_in_standard_input_are_reported() {
         (
             "film 1|1.5 --illuminant -",
             "380,0\n780,0\n",
-            "<standard input>: a lamp must shine",
+            "<standard input>: a lamp must have power",
         ),
         (
             "film - --illuminant -",

@@ -11,17 +11,17 @@ use pellicle::colorimetry::Display;
 use pellicle::spectra::SpectralImage;
 use std::path::{Path, PathBuf};
 
-/// A lamp of the booth and how it was written.
+/// A lamp of the booth and its label.
 #[derive(Clone, Debug)]
 pub(crate) struct BoothLamp {
     label: String,
     lamp: Lamp,
 }
 
-/// The most pictures of a sheet.
+/// The largest number of pictures on a sheet.
 const MOST: usize = 36;
 
-/// `A,D65,F11,LED-B3`, each with a factor or not.
+/// Parses one lamp of `A,D65,F11,LED-B3`, with or without a factor.
 pub(crate) fn lamp(text: &str) -> Result<BoothLamp, String> {
     let lamp = Lamp::parse(text.trim())?;
     let label = if text.trim() == lamp.name {
@@ -32,7 +32,7 @@ pub(crate) fn lamp(text: &str) -> Result<BoothLamp, String> {
     Ok(BoothLamp { label, lamp })
 }
 
-/// Tells what cannot be before the image is read.
+/// Reports options that cannot work before the image is read.
 pub(crate) fn check(lamps: &[BoothLamp], outputs: &[PathBuf]) -> miette::Result<()> {
     let is_png = |path: &Path| {
         path.extension()
@@ -41,7 +41,7 @@ pub(crate) fn check(lamps: &[BoothLamp], outputs: &[PathBuf]) -> miette::Result<
     if let Some(path) = outputs.iter().find(|path| !is_png(path)) {
         return Err(miette!(
             help = "end it in .png",
-            "-o {}: a contact sheet cannot be written so",
+            "-o {}: a contact sheet with this ending cannot be written",
             path.display()
         ));
     }
@@ -54,7 +54,7 @@ pub(crate) fn check(lamps: &[BoothLamp], outputs: &[PathBuf]) -> miette::Result<
     Ok(())
 }
 
-/// Lets all lights burn with each lamp in turn, develops, and writes the sheet.
+/// Sets all lights to each lamp in turn, develops, and writes the sheet.
 pub(crate) fn write(
     image: &SpectralImage,
     of_image: OfImage,
@@ -98,7 +98,7 @@ pub(crate) fn write(
     Ok(())
 }
 
-/// The codes of a share of a display's white.
+/// The codes of a fraction of a display's white.
 fn shade(display: &Display, share: f64) -> [u8; 3] {
     let responses = display.responses().each_ref();
     responses.map(|response| (255.0 * response.code(share).clamp(0.0, 1.0)).round() as u8)

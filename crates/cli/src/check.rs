@@ -4,7 +4,7 @@ use crate::{memory, print};
 use pellicle::scene::SceneFile;
 use std::path::Path;
 
-/// Validates a scene and says in a line what it is.
+/// Validates a scene and prints a summary in one line.
 pub(crate) fn run(path: &Path, allow_outside: bool) -> miette::Result<()> {
     let file = SceneFile::read(path)?.allow_outside(allow_outside);
     let scene = file.validate()?;
@@ -30,7 +30,7 @@ fn counted(count: impl TryInto<u64>, what: &str) -> String {
     format!("{count} {what}{plural}")
 }
 
-/// Where light comes from.
+/// What lights the scene, in words.
 fn light(lamps: usize, is_lit_by_environment: bool) -> String {
     match (lamps, is_lit_by_environment) {
         (0, false) => "no light".to_owned(),

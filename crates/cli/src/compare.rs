@@ -10,27 +10,27 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// How far an image is from another: per band, in color, and to the eye.
+/// Measure how far an image is from another: per band, in color, and to the eye.
 ///
-/// The first image is the reference: a bias above 0 means that the second has more light. Both are spectral images (.exr), or
-/// pictures (.png), which have no bands. Colors are compared as a display of sRGB shows them, both at the exposure of the first;
-/// differences of color (CIEDE2000) count what the display would clip, FLIP and PSNR do not.
+/// The first image is the reference: a bias above 0 means that the second is brighter. Both are spectral images (.exr) or
+/// pictures (.png), which have no bands. Colors are compared as an sRGB display shows them, both at the exposure of the first.
+/// Color differences (CIEDE2000) include what the display would clip; FLIP and PSNR do not.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The reference, .exr or .png
+    /// The reference image, .exr or .png
     first: PathBuf,
-    /// The image that is compared with it, .exr or .png
+    /// The image to compare with the reference, .exr or .png
     second: PathBuf,
-    /// Write a picture of the differences: 0 is black, pale yellow is FLIP 1 or ΔE2000 10 and more (.png)
+    /// Write a picture of the differences (.png): black is 0, pale yellow is FLIP 1 or ΔE2000 10 and more
     #[arg(long, value_name = "FILE")]
     map: Option<PathBuf>,
-    /// What --map shows
+    /// The difference that --map shows
     #[arg(long, value_enum, default_value_t = MapOf::Flip, requires = "map")]
     map_of: MapOf,
-    /// Stops by which spectral images are shown brighter [default: those of the first]
+    /// Stops by which spectral images are shown brighter [default: those of the first image]
     #[arg(long, value_name = "EV", allow_hyphen_values = true)]
     exposure: Option<f64>,
-    /// How the figures are printed
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
@@ -42,7 +42,7 @@ enum MapOf {
 }
 
 impl MapOf {
-    /// What is pale yellow.
+    /// The value that is pale yellow.
     fn full(self) -> f64 {
         match self {
             Self::Flip => 1.0,
@@ -53,21 +53,21 @@ impl MapOf {
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Format {
-    /// For people
+    /// A text table
     Table,
-    /// Everything, for programs
+    /// All results, for programs
     Json,
 }
 
-/// What was found.
+/// The results of a comparison.
 struct Comparison {
     size: [usize; 2],
-    /// None of pictures, which have no exposure of their own.
+    /// `None` for pictures, whose exposure is fixed.
     exposure_ev: Option<f64>,
     delta_e: Vec<f64>,
     flip: Vec<f64>,
     psnr_db: f64,
-    /// Empty where one of the images has none.
+    /// Empty if one of the images has none.
     bands: Vec<BandDifference>,
 }
 
@@ -110,7 +110,7 @@ impl Comparison {
         let exposure_ev = match arguments.exposure {
             Some(_) if own.is_none() => {
                 return Err(miette!(
-                    "--exposure has no effect here: pictures have their own"
+                    "--exposure has no effect here: the exposure of pictures is fixed"
                 ));
             }
             Some(ev) => Some(image_file::checked_exposure(ev)?),
@@ -118,7 +118,7 @@ impl Comparison {
         };
         let ev = exposure_ev.unwrap_or_default();
         check_tags(first, second)?;
-        // Bands that do not compare are told before pictures are made.
+        // Report bands that cannot be compared before making pictures.
         let bands = match (first, second) {
             (Opened::Spectral(a, _), Opened::Spectral(b, _)) => {
                 compare::bands(a, b).map_err(|error| unlike(&error, arguments))?
@@ -165,14 +165,14 @@ impl Comparison {
         );
         for (name, summary) in self.summaries() {
             let Some(s) = summary else {
-                let _ = writeln!(text, "{name:<8} no pixel is a number");
+                let _ = writeln!(text, "{name:<8} no pixel is finite");
                 continue;
             };
             let figures = [s.mean, s.p50, s.p95, s.p99, s.max].map(|v| format!("{v:>9.4}"));
             let [x, y] = self.place(s.max_at);
             let _ = write!(text, "{name:<8} {}  {x},{y}", figures.join(" "));
             if s.left_out > 0 {
-                let _ = write!(text, "  ({} pixels are no number)", s.left_out);
+                let _ = write!(text, "  ({} pixels are not finite)", s.left_out);
             }
             text.push('\n');
         }
@@ -205,20 +205,20 @@ impl Comparison {
                 let _ = write!(text, " {:>12.5e} {:>8.2}", noise.rmse, noise.bias_sigmas);
             }
             if band.left_out > 0 {
-                let _ = write!(text, "  ({} values are no number)", band.left_out);
+                let _ = write!(text, "  ({} values are not finite)", band.left_out);
             }
             text.push('\n');
         }
         if let Some(ratio) = self.over_noise() {
             let _ = writeln!(
                 text,
-                "\nover all bands the RMSE is {ratio:.3} times what the noise of both makes; \
-                 with other seeds 1 means that they differ by noise alone"
+                "\nover all bands the RMSE is {ratio:.3} times that of the noise of both; \
+                 with different seeds, 1 means that they differ by noise alone"
             );
         }
     }
 
-    /// The root mean square difference over that of noise alone, in all bands where it is known.
+    /// The root mean square difference divided by that of noise alone, over all bands where noise is known.
     fn over_noise(&self) -> Option<f64> {
         let known = || {
             let with_noise =
@@ -248,7 +248,7 @@ impl Comparison {
         };
         let [(_, delta_e), (_, flip)] = self.summaries();
         json!({
-            "about": "differences are the second image less the first; FLIP and PSNR of sRGB codes",
+            "about": "differences are the second image minus the first; FLIP and PSNR are of sRGB codes",
             "program": concat!("pellicle ", env!("CARGO_PKG_VERSION")),
             "first": arguments.first.display().to_string(),
             "second": arguments.second.display().to_string(),
@@ -289,11 +289,11 @@ fn unlike(error: &compare::CompareError, arguments: &Arguments) -> miette::Repor
     let (first, second) = (arguments.first.display(), arguments.second.display());
     miette!(
         help = "render both with the same --size and --bands",
-        "{first} and {second} do not compare: {error}"
+        "{first} and {second} cannot be compared: {error}"
     )
 }
 
-/// Codes that do not mean the same colors cannot be compared.
+/// Checks that equal codes of both images mean equal colors.
 fn check_tags(first: &Opened, second: &Opened) -> miette::Result<()> {
     let tag = |opened: &Opened| match opened {
         Opened::Picture(picture) => picture.tag().map(str::to_owned),
@@ -311,7 +311,7 @@ fn check_tags(first: &Opened, second: &Opened) -> miette::Result<()> {
     }
     if let Some(tag) = a {
         print::note(format_args!(
-            "both pictures are tagged with {tag}; their codes are taken as those of sRGB"
+            "both pictures are tagged with {tag}; their codes are treated as sRGB codes"
         ));
     }
     Ok(())

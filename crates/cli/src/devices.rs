@@ -3,7 +3,7 @@
 use crate::print;
 use pellicle::gpu::{INSTALL_HINT, adapters};
 
-/// Lists the adapters, the one that `--backend auto` takes first.
+/// Lists the adapters, starting with the one that `--backend auto` uses.
 pub(crate) fn print() -> miette::Result<()> {
     let found = adapters();
     if found.is_empty() {

@@ -9,18 +9,18 @@ use pellicle::colorimetry::{Display, Matrix3};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// What a display makes of codes: primaries, white, matrices, curves and gamut.
+/// Show the primaries, white, matrices, curves and gamut of a display, or list the displays.
 ///
-/// NAME is a display that Pellicle carries, FILE one of your own (.toml): `white`, `white_luminance`, `black_luminance`, [primaries] as
-/// chromaticities `red`, `green`, `blue` or as `spectra`, a table with the columns nm, red, green, blue; [response] with a `curve` of
-/// linear, srgb, gamma (with `gamma` and `alpha`), bt1886, pq or table (with `csv`: code, red, green, blue); and [ambient] with
-/// `illuminance_lux`, `reflectance` and `illuminant`. Without either, all names are listed.
+/// NAME is a built-in display, FILE one of your own (.toml): `white`, `white_luminance`, `black_luminance`; [primaries] as
+/// chromaticities `red`, `green`, `blue` or as `spectra`, a table with the columns nm, red, green, blue; [response] with a `curve`,
+/// which is linear, srgb, gamma (with `gamma` and `alpha`), bt1886, pq or table (with `csv`: code, red, green, blue); and [ambient]
+/// with `illuminance_lux`, `reflectance` and `illuminant`. If both are left out, the built-in displays are listed.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// A display's name, or a file .toml
+    /// The name of a display, or a .toml file
     #[arg(value_name = "NAME|FILE")]
     display: Option<String>,
-    /// How to write it
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
@@ -31,7 +31,7 @@ enum Format {
     Json,
 }
 
-/// Shows a display or lists them.
+/// Shows a display or lists all of them.
 pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     if let Some(name) = &arguments.display {
         let display = open(name)?;
@@ -53,13 +53,13 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     }
 }
 
-/// A display by name or from a file.
+/// Opens a display by name or from a file.
 pub(crate) fn open(name_or_file: &str) -> miette::Result<Display> {
     Display::open(name_or_file)
         .map_err(|error| miette!(help = "`pellicle display` lists all", "{error}"))
 }
 
-/// The gamut's areas beside those of sRGB, in x, y and in u′, v′.
+/// The areas of the gamut relative to those of sRGB, in x, y and in u′, v′.
 fn shares_of_srgb(display: &Display) -> Option<[f64; 2]> {
     let srgb = Display::named("srgb")?;
     Some([
@@ -70,7 +70,7 @@ fn shares_of_srgb(display: &Display) -> Option<[f64; 2]> {
 
 fn listed(displays: &[Display]) -> String {
     let mut text = format!(
-        "{:<14}{:<34}{:<18}{:<10}gamut beside sRGB's\n",
+        "{:<14}{:<34}{:<18}{:<10}gamut relative to sRGB's\n",
         "name", "title", "white x, y", "curve"
     );
     for display in displays {
@@ -126,11 +126,11 @@ fn described(display: &Display) -> String {
     text
 }
 
-/// Chromaticities, and each primary's share of the white's luminance.
+/// Chromaticities, and each primary's fraction of the white's luminance.
 fn colors(display: &Display) -> String {
     let kind = match display.primaries() {
         Primaries::Chromaticities(_) => "as given",
-        Primaries::Spectra(_) => "by sums over the spectra at 5 nm",
+        Primaries::Spectra(_) => "from sums over the spectra at 5 nm",
     };
     let mut text = format!(
         "\n{:<10}{:>10}{:>10}{:>10}{:>10}{:>10}   ({kind}; CIE 1931)\n",
@@ -164,7 +164,7 @@ fn light(display: &Display) -> String {
     if black > 0.0 {
         let _ = writeln!(
             text,
-            "black     {} cd/m², ambient light with it; contrast {:.0}",
+            "black     {} cd/m², including ambient light; contrast {:.0}",
             black * white,
             (1.0 + black) / black
         );
@@ -175,7 +175,7 @@ fn light(display: &Display) -> String {
 fn matrix(title: &str, matrix: &Matrix3) -> String {
     let mut text = format!("\n{title}\n");
     for row in matrix {
-        // What is 0 but for a rounding is shown so.
+        // Values that are 0 except for rounding are shown as 0.
         let [a, b, c] = row.map(|value| if value.abs() < 1e-12 { 0.0 } else { value });
         let _ = writeln!(text, "{a:>16.10}{b:>16.10}{c:>16.10}");
     }

@@ -1,4 +1,4 @@
-//! Images that commands read.
+//! Reads the images of commands.
 
 use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
@@ -40,7 +40,7 @@ impl Opened {
     }
 }
 
-/// Standard input as a file, where it is asked for: an OpenEXR file is not read from its start to its end.
+/// Copies standard input to a temporary file if it is requested: an OpenEXR file is not read sequentially.
 fn spooled(path: &Path) -> miette::Result<Option<NamedTempFile>> {
     if path != Path::new(STANDARD_INPUT) {
         return Ok(None);
@@ -52,7 +52,7 @@ fn spooled(path: &Path) -> miette::Result<Option<NamedTempFile>> {
     Ok(Some(file))
 }
 
-/// Reads a spectral image, and says what that had to assume or change.
+/// Reads a spectral image, and prints what the reader assumed or changed.
 pub(crate) fn spectral(path: &Path) -> miette::Result<(SpectralImage, Metadata)> {
     let spooled = spooled(path)?;
     let file = spooled.as_ref().map_or(path, |spooled| spooled.path());
@@ -63,14 +63,14 @@ pub(crate) fn spectral(path: &Path) -> miette::Result<(SpectralImage, Metadata)>
     Ok((image, metadata))
 }
 
-/// Says what reading a file had to assume or change.
+/// Prints what the reader of a file assumed or changed.
 pub(crate) fn tell(path: &Path, metadata: &Metadata) {
     for note in &metadata.notes {
         print::note(format_args!("{}: {note}", path.display()));
     }
 }
 
-/// An exposure that a picture may have.
+/// Returns an exposure if it is within its limits.
 pub(crate) fn checked_exposure(ev: f64) -> miette::Result<f64> {
     let possible = limits::EXPOSURE_EV;
     if possible.contains(ev) {

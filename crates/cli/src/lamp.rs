@@ -8,28 +8,28 @@ use pellicle::spectra::wording::visible;
 use pellicle::spectra::{Spectrum, find_illuminant};
 use std::path::Path;
 
-/// The files that tables over wavelength are read from.
+/// The file formats of tables over wavelength.
 pub(crate) const FORMATS: &str =
     "columns of numbers in .csv, .txt, .tsv, .dat or .spd, CGATS, or IES TM-27 (.spdx)";
 
-/// A spectrum that a light burns with, and how strongly.
+/// The spectrum of a light source and its strength.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Lamp {
-    /// The illuminant's name, or the file's without its folder and ending.
+    /// The name of the illuminant, or that of the file without its folder and ending.
     pub(crate) name: String,
-    /// Relative power. An illuminant by name is as bright as the constant 1; the values of a file are as they stand there.
+    /// Relative power. A named illuminant is as bright as the constant 1; the values of a file are used unchanged.
     pub(crate) spectrum: Spectrum,
-    /// How sums over it are taken: at 5 nm for the CIE's lamps with lines, which that defines, else at 1 nm.
+    /// Step of sums over it: 5 nm for the CIE's lamps with lines, which are defined that way, else 1 nm.
     pub(crate) rule: Rule,
-    /// What the power is multiplied by.
+    /// The factor by which the power is multiplied.
     pub(crate) factor: f64,
 }
 
-/// Factors that a lamp may have.
+/// The allowed factors of a lamp.
 const FACTORS: std::ops::RangeInclusive<f64> = 0.0..=1e9;
 
 impl Lamp {
-    /// Reads `NAME` or `FILE`, either with `*FACTOR` behind it.
+    /// Reads `NAME` or `FILE`, with or without `*FACTOR` after it.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         match text.rsplit_once('*') {
             Some((lamp, factor)) if !Path::new(text).exists() => Ok(Self {
@@ -40,7 +40,7 @@ impl Lamp {
         }
     }
 
-    /// Reads `NAME` or `FILE`: a light whose strength does not matter.
+    /// Reads `NAME` or `FILE`, for a lamp whose strength does not matter.
     pub(crate) fn unscaled(text: &str) -> Result<Self, String> {
         let (name, spectrum) = spectrum(text)?;
         let is_known = find_illuminant(text).is_ok();
@@ -58,7 +58,7 @@ impl Lamp {
     }
 }
 
-/// A light's spectrum with its name: `NAME` or `FILE`. What was assumed of a file is printed.
+/// Reads `NAME` or `FILE` and returns the lamp's name and spectrum. Prints what was assumed about a file.
 pub(crate) fn spectrum(text: &str) -> Result<(String, Spectrum), String> {
     match find_illuminant(text) {
         Ok(set) => return Ok((set.name.into_owned(), set.data)),
@@ -80,7 +80,7 @@ pub(crate) fn spectrum(text: &str) -> Result<(String, Spectrum), String> {
     let [power] = table.columns;
     if power.points().all(|(_, value)| value == 0.0) {
         return Err(format!(
-            "{shown}: a lamp must shine somewhere, but all values are 0"
+            "{shown}: a lamp must have power at some wavelength, but all values are 0"
         ));
     }
     print::notes(table.note.map(|note| format!("{shown}: {note}")));
@@ -91,7 +91,7 @@ pub(crate) fn spectrum(text: &str) -> Result<(String, Spectrum), String> {
     Ok((visible(&name).into_owned(), Spectrum::Table(power)))
 }
 
-/// Whether what is no name of an illuminant is a file: there is one, or it is written as files are.
+/// Whether a text that does not name an illuminant names a file: the file exists, or the text looks like a path.
 fn is_file(text: &str) -> bool {
     let path = Path::new(text);
     let is_ending = |ending: &str| {
@@ -104,16 +104,14 @@ fn is_file(text: &str) -> bool {
         || path.exists() && !text.is_empty()
 }
 
-/// What stands behind `*`.
+/// Parses the factor after `*`.
 pub(crate) fn parse_factor(text: &str) -> Result<f64, String> {
     let factor: Result<f64, _> = text.trim().parse();
     factor
         .ok()
         .filter(|factor| FACTORS.contains(factor))
         .ok_or_else(|| {
-            format!(
-                "{text:?} is not a factor; behind * stands a number from 0 to 1e9, as in D65*0.3"
-            )
+            format!("{text:?} is not a factor; write a number from 0 to 1e9 after *, as in D65*0.3")
         })
 }
 

@@ -1,8 +1,8 @@
-//! What a picture takes, said before it is rendered.
+//! The memory that a picture takes, printed before it is rendered.
 
 use pellicle::scene::Scene;
 
-/// Light groups and bytes of a scene's picture: `light groups: key, sky; the picture takes 113 MB`.
+/// The light groups and bytes of a scene's picture: `light groups: key, sky; the picture takes 113 MB`.
 pub(crate) fn of_picture(scene: &Scene) -> String {
     let groups = scene.light_groups().iter();
     let names: Vec<&str> = groups.map(|group| group.name.as_str()).collect();

@@ -1,6 +1,6 @@
 //! Curves drawn with braille: each character is two dots wide and four high.
 
-/// Dots side by side; a curve has one value for each.
+/// Width of a curve in dots; it has one value for each.
 pub(crate) const DOTS_WIDE: usize = 2 * CELLS_WIDE;
 const CELLS_WIDE: usize = 64;
 const CELLS_HIGH: usize = 10;
@@ -9,8 +9,8 @@ const DOTS_HIGH: usize = 4 * CELLS_HIGH;
 /// The bits of a braille character's dots by column and row.
 const BITS: [[u32; 4]; 2] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
 
-/// The lines of a picture of a curve, from the top, each with its place on the vertical axis before it; none where the
-/// curve has no value.
+/// The lines of text that draw a curve, from the top, each with the vertical axis before it; none if the curve has no
+/// values.
 pub(crate) fn curve(values: &[Option<f64>; DOTS_WIDE]) -> Vec<String> {
     let known = || values.iter().flatten().copied();
     let (Some(low), Some(high)) = (known().reduce(f64::min), known().reduce(f64::max)) else {
@@ -71,7 +71,7 @@ pub(crate) fn axis(from_nm: f64, to_nm: f64) -> String {
     line + " nm"
 }
 
-/// A number in a few digits.
+/// A number with a few digits.
 pub(crate) fn number(value: f64) -> String {
     if value == 0.0 {
         "0".to_owned()

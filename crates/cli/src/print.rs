@@ -1,6 +1,6 @@
-//! What the command says. A reader that has gone away (`pellicle schema | head`) is no reason to crash.
+//! Output of the command. A reader that closes the pipe (`pellicle schema | head`) does not cause a crash.
 //!
-//! Names of files, keys and arguments may hold anything; what a terminal would obey is escaped on its way out.
+//! Names of files, keys and arguments may contain anything, so control characters are escaped before they reach a terminal.
 
 use crate::film::swatch;
 use miette::{
@@ -14,7 +14,7 @@ use std::fmt::{self, Display};
 use std::io::{ErrorKind, Write};
 use std::path::Path;
 
-/// A result, as a line on standard output. Swatches keep their color.
+/// Prints a result as a line on standard output. Swatches keep their color.
 pub(crate) fn result(line: impl Display) -> miette::Result<()> {
     let line = line.to_string();
     let safe: String = swatch::parts(&line)
@@ -32,13 +32,13 @@ pub(crate) fn result(line: impl Display) -> miette::Result<()> {
     }
 }
 
-/// A note, as a line on standard error. There is nowhere to tell that it could not be written.
+/// Prints a note as a line on standard error. There is nowhere to report that it could not be written.
 pub(crate) fn note(line: impl Display) {
     let line = line.to_string();
     let _ = writeln!(std::io::stderr().lock(), "{}", visible(&line));
 }
 
-/// How a file is called: standard input has a name of its own.
+/// The name of a file in messages; standard input has its own.
 pub(crate) fn name(path: &Path) -> String {
     if path.as_os_str() == STANDARD_INPUT {
         "<standard input>".to_owned()
@@ -47,19 +47,19 @@ pub(crate) fn name(path: &Path) -> String {
     }
 }
 
-/// What was assumed of what was read, a line each on standard error.
+/// Prints what was assumed about the input, one line each, on standard error.
 pub(crate) fn notes<N: Display>(notes: impl IntoIterator<Item = N>) {
     for said in notes {
         note(format_args!("note: {said}"));
     }
 }
 
-/// What failed, with all its causes.
+/// Prints what failed, with all its causes.
 pub(crate) fn error(report: &miette::Report) {
     let _ = writeln!(std::io::stderr().lock(), "{report:?}");
 }
 
-/// Help, or what is wrong with arguments, as the parser tells it of `P`; what a terminal would obey in them is escaped first.
+/// Prints the help of `P`, or what is wrong with its arguments, and exits. Control characters in the arguments are escaped first.
 pub(crate) fn of_arguments<P: clap::Parser>(error: &clap::Error) -> ! {
     let arguments = std::env::args_os().map(|argument| argument.to_string_lossy().into_owned());
     let arguments: Vec<String> = arguments.collect();
@@ -77,17 +77,17 @@ pub(crate) fn of_arguments<P: clap::Parser>(error: &clap::Error) -> ! {
     std::process::exit(error.exit_code())
 }
 
-/// Errors as they come from the library, with lines as long as they are: what is to be typed or searched for stays in one
-/// piece, and a terminal wraps by itself.
+/// Prints errors of the library without wrapping their lines: text to type or to search for stays in one piece, and a
+/// terminal wraps lines itself.
 pub(crate) fn keep_lines_whole() {
-    // It fails where it was done before, which changes nothing.
+    // This fails if it was done before, which does not matter.
     let _ = miette::set_hook(Box::new(|_| {
         let options = miette::MietteHandlerOpts::new();
         Box::new(Safely(options.wrap_lines(false).break_words(false).build()))
     }));
 }
 
-/// Shows diagnostics without what a terminal would obey.
+/// Shows diagnostics with control characters escaped.
 struct Safely(MietteHandler);
 
 impl ReportHandler for Safely {
@@ -96,7 +96,7 @@ impl ReportHandler for Safely {
     }
 }
 
-/// The most characters of a message.
+/// The largest number of characters of a message.
 const MOST: usize = 4000;
 
 fn safe(text: impl Display) -> String {
@@ -127,7 +127,7 @@ impl Error for Message {
     }
 }
 
-/// A diagnostic whose texts a terminal can show. Source code is left as it is: `Snippet` has seen to it.
+/// A diagnostic whose texts are safe for a terminal. Source code is left unchanged: `Snippet` has already escaped it.
 struct Safe<'a> {
     of: &'a dyn Diagnostic,
     message: Message,
@@ -207,7 +207,7 @@ mod tests {
     use super::*;
     use miette::miette;
 
-    /// Messages, help, causes and related problems, each with what a terminal obeys.
+    /// Messages, help, causes and related problems, each with control characters.
     #[test]
     fn nothing_that_a_terminal_obeys_is_shown() {
         let cause = miette!(help = "h\x07", "inner\x1b[2J");

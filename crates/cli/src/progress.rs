@@ -1,4 +1,4 @@
-//! How far a render is: on a terminal a line that is redrawn, elsewhere nothing.
+//! The progress of a render: a line that is redrawn on a terminal, and nothing elsewhere.
 
 use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 use std::fmt::Write;
@@ -6,14 +6,14 @@ use std::fmt::Write;
 const COMPILING: &str = "{prefix}compiling shaders …";
 const RENDERING: &str = "{prefix}{bar:32} {percent:>3} %{pace}";
 
-/// The line, on standard error where that is a terminal.
+/// The progress line, on standard error if that is a terminal.
 pub(crate) struct Progress {
     bar: ProgressBar,
     is_compiling: bool,
 }
 
 impl Progress {
-    /// Of `total` samples, after `heading`.
+    /// A line for `total` samples, preceded by `heading`.
     pub(crate) fn new(total: u64, heading: &str) -> Self {
         Self::on(ProgressBar::new(total), heading)
     }
@@ -26,7 +26,7 @@ impl Progress {
         }
     }
 
-    /// Shows how many samples are done; none while shaders are compiled.
+    /// Shows how many samples are done; 0 means that shaders are being compiled.
     pub(crate) fn tell(&mut self, done: u64) {
         if done == 0 {
             self.is_compiling = true;
@@ -41,9 +41,9 @@ impl Progress {
         }
     }
 
-    /// The first batch may have waited for the driver: the pace is that of the others.
+    /// Starts the bar. The first batch may have waited for the driver, so the pace is that of the others.
     fn start_bar(&self) {
-        // The estimate notes where it is when it is told, and starts anew from there.
+        // The tick records the current position, and the estimate restarts from there.
         self.bar.tick();
         self.bar.reset_eta();
         self.bar.set_style(style(RENDERING));
@@ -61,7 +61,7 @@ fn style(template: &str) -> ProgressStyle {
     style.with_key("pace", write_pace)
 }
 
-/// Samples per second and time left, once they are known.
+/// Writes samples per second and time left, once they are known.
 fn write_pace(state: &ProgressState, out: &mut dyn Write) {
     let per_second = state.per_sec() as u64;
     if per_second > 0 {
@@ -83,7 +83,7 @@ mod tests {
     use std::sync::{Arc, Mutex};
     use std::time::{Duration, Instant};
 
-    /// A terminal that keeps all that its one line was.
+    /// A terminal that keeps all states of its one line.
     #[derive(Clone, Debug, Default)]
     struct Screen(Arc<Mutex<Vec<String>>>);
 

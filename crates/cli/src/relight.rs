@@ -1,14 +1,14 @@
-//! Options that show an image under other lamps and to other observers.
+//! Options that show an image under other lamps and for other observers.
 
 use crate::lamp::{self, Lamp};
 use miette::IntoDiagnostic;
 use pellicle::color::{Relight, relight};
 use pellicle::spectra::{Observer, SpectralImage};
 
-/// The lamps that light groups burn with, and who looks.
+/// The lamps of light groups, and the observer.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct RelightArguments {
-    /// Let a light group burn with another lamp: an illuminant or a file .csv, times a factor or not (`key=F11`,
+    /// Give a light group another lamp, an illuminant or a file such as a .csv, with or without a factor (`key=F11`,
     /// `sky=D65*0.3`), or keep its lamp and change its brightness (`sky=*0.3`); can be repeated
     #[arg(long = "light", value_name = "GROUP=LAMP*FACTOR", value_parser = light)]
     lights: Vec<(String, Relight)>,
@@ -18,17 +18,17 @@ pub(crate) struct RelightArguments {
 }
 
 impl RelightArguments {
-    /// Whether an image stays as it is, so that its XYZ alone are enough.
+    /// Whether an image stays unchanged, so that its XYZ is enough.
     pub(crate) fn is_nothing(&self) -> bool {
         self.lights.is_empty() && self.observer == Observer::Cie1931Deg2
     }
 
-    /// Who looks.
+    /// The observer.
     pub(crate) fn observer(&self) -> Observer {
         self.observer
     }
 
-    /// Changes an image that was rendered or read.
+    /// Applies the lamps and the observer to an image that was rendered or read.
     pub(crate) fn apply(&self, image: &mut SpectralImage) -> miette::Result<()> {
         if self.is_nothing() {
             return Ok(());
@@ -42,7 +42,7 @@ fn light(text: &str) -> Result<(String, Relight), String> {
         .split_once('=')
         .map(|(group, lamp)| (group.trim(), lamp.trim()))
         .filter(|(group, _)| !group.is_empty())
-        .ok_or("a light is written like key=F11, key=D65*0.3 or key=*0.3")?;
+        .ok_or("write a light group and its lamp, such as key=F11, key=D65*0.3 or key=*0.3")?;
     let relight = if let Some(factor) = lamp.strip_prefix('*') {
         Relight {
             lamp: None,

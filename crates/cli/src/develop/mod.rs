@@ -1,4 +1,4 @@
-//! `pellicle develop`: a spectral image becomes a picture for a display; and the options by which `render` does the same.
+//! `pellicle develop`: turns a spectral image into a picture for a display. `render` has the same options.
 
 mod options;
 mod pictures;
@@ -19,29 +19,29 @@ use values::{FOV_DEG, number};
 pub(crate) struct Arguments {
     /// The spectral image (EXR), as `render` writes it
     image: PathBuf,
-    /// What to write: .png for the display, .exr for its linear red, green and blue; can be repeated
+    /// Output file: .png for the display, .exr for its linear red, green and blue; can be repeated
     #[arg(short, long, value_name = "PATH", required = true)]
     output: Vec<PathBuf>,
-    /// A contact sheet (.png): the image with all its lights burning with each of these lamps in turn, like A,D65,F11,LED-B3,
-    /// each times a factor or not
+    /// Write a contact sheet (.png) of the image with all its lights set to each of these lamps in turn, such as
+    /// A,D65,F11,LED-B3, each with or without a factor
     #[arg(long, conflicts_with = "lights", value_name = "LAMP,LAMP,…", value_delimiter = ',', value_parser = booth::lamp)]
     booth: Vec<BoothLamp>,
     #[command(flatten)]
     options: Options,
 }
 
-/// What an image says of itself that developing asks for.
+/// The properties of an image that developing needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct OfImage {
     /// The exposure that it was rendered with.
     pub(crate) exposure_ev: f64,
-    /// Height of the camera's view, of a perspective camera.
+    /// Vertical field of view, if the camera is perspective.
     pub(crate) fov_deg: Option<f64>,
     /// The white of its brightest lamp.
     pub(crate) lamp: Option<SceneWhite>,
 }
 
-/// The name under which a spectral image keeps the height of its camera's view.
+/// The name under which a spectral image stores the vertical field of view of its camera.
 pub(crate) const FOV_SETTING: &str = "fov_deg";
 
 impl OfImage {

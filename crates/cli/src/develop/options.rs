@@ -1,4 +1,4 @@
-//! The options of developing, what cannot be, and the settings that they make.
+//! The options of developing, the checks on them, and the settings that they give.
 
 use super::OfImage;
 use super::values::{
@@ -21,52 +21,52 @@ use std::path::PathBuf;
 pub(crate) struct Options {
     #[command(flatten)]
     lamps: RelightArguments,
-    /// How much light becomes the display's white: stops (3), a luminance in the scene (250cd), that of the display (display), or
-    /// the one that a percentage of the pixels does not exceed (auto, which is auto:99) [default: the scene's stops]
+    /// Light that becomes the display's white: stops (3), a luminance in the scene (250cd), the luminance of the display's white
+    /// (display), or the luminance that a percentage of the pixels do not exceed (auto, which is auto:99) [default: the scene's stops]
     #[arg(long, value_name = "STOPS|CDcd|display|auto[:PERCENT]", value_parser = exposure, allow_hyphen_values = true)]
     exposure: Option<ExposureOption>,
-    /// The display, by its name or a file .toml; `pellicle display` lists the names
+    /// Display, by its name or as a .toml file; `pellicle display` lists the names
     #[arg(long, value_name = "NAME|FILE", default_value = "srgb", value_parser = display)]
     display: Display,
-    /// Adapt from the scene's white to the display's
+    /// Chromatic adaptation from the scene's white to the display's
     #[arg(long, value_name = "none|bradford|cat16", default_value = "none")]
     adapt: Adaptation,
-    /// The scene's white: that of its own brightest lamp, of another lamp, a chromaticity x,y, or the image's mean [default: its
-    /// own lamp]
+    /// White of the scene for --adapt: that of a lamp, a chromaticity x,y, or the image's mean [default: that of the scene's own
+    /// brightest lamp]
     #[arg(long, value_name = "LAMP|X,Y|mean", value_parser = white)]
     adapt_from: Option<White>,
-    /// What bright light does to its environment: a star of what is too bright for the display, or the glare of an eye adapted to
-    /// light, to dusk or to dark
+    /// Glare around bright light: a star from light that is too bright for the display, or the glare of an eye adapted to light
+    /// (photopic), to dusk (mesopic) or to dark (scotopic)
     #[arg(long, value_enum, default_value_t = GlareName::Off)]
     glare: GlareName,
-    /// For the glare of the eye: the height of the view [default: the scene's camera]
+    /// Vertical field of view for the glare of an eye [default: that of the scene's camera]
     #[arg(long, value_name = "DEGREES", value_parser = fov)]
     glare_fov: Option<f64>,
-    /// For the star: where its arms have fallen to 1/e, as a share of the picture's height [default: 0.05]
-    #[arg(long, value_name = "SHARE", value_parser = star_length)]
+    /// Distance at which the arms of the star have fallen to 1/e, as a fraction of the picture's height [default: 0.05]
+    #[arg(long, value_name = "FRACTION", value_parser = star_length)]
     star_length: Option<f64>,
-    /// What becomes of colors that the display cannot show: chroma taken away at constant hue and lightness, mixed with white at
-    /// constant luminance, clipped, or kept, for .exr [default: perceptual, for .exr keep]
+    /// Gamut mapping of colors that the display cannot show: reduce chroma at constant hue and lightness (perceptual), mix with white
+    /// at constant luminance (white), clip, or keep, for .exr [default: perceptual, for .exr keep]
     #[arg(long, value_enum)]
     pub(super) gamut: Option<GamutName>,
-    /// Stripe the pixels that the display cannot show
+    /// Mark the pixels that the display cannot show with stripes
     #[arg(long)]
     gamut_warning: bool,
-    /// Print which share of the pixels the display cannot show, and how far the mapping moves them
+    /// Print which fraction of the pixels the display cannot show, and how far gamut mapping moves them
     #[arg(long)]
     pub(super) gamut_report: bool,
-    /// Bits of a channel: 8 or 16 in a .png, 16 or 32 in an .exr [default: 8 and 16]
+    /// Bits per channel: 8 or 16 in a .png, 16 or 32 in an .exr [default: 8 in a .png, 16 in an .exr]
     #[arg(long, value_name = "8|16|32", value_parser = bits)]
     pub(super) bits: Option<u8>,
-    /// Spread the rounding to codes over neighboring pixels, so that gradients show no steps
+    /// Dither: spread the rounding to codes over neighboring pixels, so that gradients show no steps
     #[arg(long)]
     dither: bool,
 }
 
 fn unknown_lamp() -> miette::Report {
     miette!(
-        help = "say with --adapt-from which lamp is white, or `mean` for the image's mean",
-        "--adapt: what the image's brightest lights burn with is not known"
+        help = "name the lamp that is white with --adapt-from, or `mean` for the image's mean",
+        "--adapt: the lamp of the image's brightest lights is not known"
     )
 }
 
@@ -78,7 +78,7 @@ fn without_effect(option: &str, needs: &str) -> miette::Report {
 }
 
 impl Options {
-    /// Tells what cannot be before the work, not after it.
+    /// Reports options that cannot work before the work, not after it.
     pub(crate) fn check(&self, pictures: &[PathBuf], of_image: OfImage) -> miette::Result<()> {
         for path in pictures {
             self.format(path)?;
@@ -94,21 +94,21 @@ impl Options {
         }
         if self.display.seen_by(self.observer()).is_none() {
             print::note(format_args!(
-                "{}: its primaries are known for CIE 1931 alone, and take XYZ of {} as if they were that observer's",
+                "{}: its primaries are known for CIE 1931 alone; XYZ of {} is treated as XYZ of CIE 1931",
                 self.display.name(),
                 self.observer()
             ));
         }
         if self.glare.vision().is_some() && self.glare_fov.or(of_image.fov_deg).is_none() {
             return Err(miette!(
-                help = "say how high the view is with --glare-fov DEGREES",
-                "--glare: the glare of an eye depends on the angle of view, which is not known for this image"
+                help = "give the vertical field of view with --glare-fov DEGREES",
+                "--glare: the glare of an eye depends on the field of view, which is not known for this image"
             ));
         }
         Ok(())
     }
 
-    /// Tells before a picture of these light groups is rendered if none of them will be its white.
+    /// Reports before a picture is rendered if the lamps of its light groups cannot give its white.
     pub(crate) fn check_lamps(&self, groups: &[LightGroup]) -> miette::Result<()> {
         let needs_lamp = self.adapt != Adaptation::None && self.adapt_from.is_none();
         if needs_lamp && groups.iter().any(|group| group.lamp.is_none()) {
@@ -117,7 +117,7 @@ impl Options {
         Ok(())
     }
 
-    /// Tells which of these options a contact sheet does not have.
+    /// Reports options that a contact sheet does not support.
     pub(crate) fn check_booth(&self) -> miette::Result<()> {
         let asked = [
             ("--bits", self.bits.is_some_and(|bits| bits != 8)),
@@ -133,7 +133,7 @@ impl Options {
         }
     }
 
-    /// Shows an image under the lamps and to the observer asked for, and keeps in mind by which lamp it then is.
+    /// Shows an image under the requested lamps and for the requested observer, and records the white of its brightest lamp.
     pub(crate) fn relight(
         &self,
         image: &mut SpectralImage,
@@ -148,7 +148,7 @@ impl Options {
         self.lamps.observer()
     }
 
-    /// Whether the spectra are needed, or colors are enough.
+    /// Whether the spectra are needed, because colors are not enough.
     pub(super) fn needs_spectra(&self) -> bool {
         let needs_lamp = self.adapt != Adaptation::None && self.adapt_from.is_none();
         let needs_bands = matches!(self.glare, GlareName::Mesopic | GlareName::Scotopic);
@@ -200,7 +200,7 @@ impl Options {
         })
     }
 
-    /// The codes of a picture of 8 bits.
+    /// Develops an image into a picture of 8-bit codes.
     pub(crate) fn codes<'a>(
         &self,
         image: impl Into<Latent<'a>>,

@@ -1,4 +1,4 @@
-//! Pictures as files, in the format that their names ask for.
+//! Writes pictures to files, in the format that their names ask for.
 
 use super::{OfImage, Options};
 use crate::output::is_stream;
@@ -12,7 +12,7 @@ use pellicle::color::{png, rgb_exr};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-/// What a picture is written as.
+/// The file format of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Format {
     Png8,
@@ -30,8 +30,8 @@ impl Options {
             (Some("exr"), None | Some(16)) => Ok(Format::Exr(Samples::Half)),
             (Some("exr"), Some(32)) => Ok(Format::Exr(Samples::Float)),
             (Some("png" | "exr"), Some(bits)) => Err(miette!(
-                help = "a .png has 8 or 16, an .exr 16 or 32",
-                "{}: a file of this kind has no channels of {bits} bits",
+                help = "use 8 or 16 for a .png, 16 or 32 for an .exr",
+                "{}: a file of this kind cannot have channels of {bits} bits",
                 path.display()
             )),
             (None, None | Some(8)) if is_stream(path) => Ok(Format::Png8),
@@ -62,7 +62,7 @@ impl Options {
         let not_finite = linear.not_finite();
         if not_finite > 0 {
             print::note(format_args!(
-                "pixels that are no numbers: {not_finite}; they are shown black"
+                "pixels that are not finite numbers: {not_finite}; they are shown black"
             ));
         }
         if self.gamut_report {
@@ -116,11 +116,11 @@ fn report(report: &GamutReport, settings: &DevelopSettings) -> miette::Result<()
         100.0 * report.too_bright as f64 / report.pixels.max(1) as f64,
     ))?;
     if report.not_finite > 0 {
-        print::result(format_args!("{} pixels are no numbers", report.not_finite))?;
+        print::result(format_args!("{} pixels are not finite", report.not_finite))?;
     }
     if report.outside > report.not_finite {
         print::result(format_args!(
-            "mapping moves those by ΔE2000 {:.2} on average, median {:.2}, 95 % below {:.2}, at most {:.2}",
+            "mapping moves these by ΔE2000 {:.2} on average, median {:.2}, 95 % below {:.2}, at most {:.2}",
             report.mean, report.median, report.p95, report.max
         ))?;
     }

@@ -1,4 +1,4 @@
-//! What the options of developing can be, and how they are read.
+//! The values of the options of developing, and their parsers.
 
 use crate::lamp;
 use clap::ValueEnum;
@@ -16,7 +16,7 @@ pub(super) enum ExposureOption {
     Display,
 }
 
-/// A white to adapt from. What a lamp's is depends on the observer.
+/// A white to adapt from. The white of a lamp depends on the observer.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum White {
     Of(SceneWhite),
@@ -40,14 +40,14 @@ pub(super) enum GamutName {
     Keep,
 }
 
-/// Stops that an exposure may have.
+/// The allowed stops of an exposure.
 pub(super) const STOPS: RangeInclusive<f64> = -40.0..=40.0;
-/// Luminances that may become the white.
+/// The luminances that can become the white.
 pub(super) const LUMINANCES: RangeInclusive<f64> = 1e-9..=1e12;
 pub(super) const FOV_DEG: RangeInclusive<f64> = 0.01..=170.0;
 pub(super) const STAR_LENGTHS: RangeInclusive<f64> = 1e-4..=10.0;
 
-/// A number within a range.
+/// Parses a number within a range.
 pub(super) fn number(text: &str, range: &RangeInclusive<f64>) -> Option<f64> {
     text.trim().parse().ok().filter(|v| range.contains(v))
 }
@@ -63,7 +63,7 @@ pub(super) fn exposure(text: &str) -> Result<ExposureOption, String> {
         },
     };
     fixed.map(ExposureOption::Fixed).ok_or_else(|| {
-        "an exposure is stops from -40 to 40 (3), a luminance in cd/m² (250cd), display, auto, or auto with a percentage \
+        "write stops from -40 to 40 (3), a luminance in cd/m² (250cd), display, auto, or auto with a percentage \
          (auto:95)"
             .to_owned()
     })
@@ -93,7 +93,8 @@ pub(super) fn white(text: &str) -> Result<White, String> {
 }
 
 impl White {
-    /// The renderer reads a lamp's table as linear between its points, and so does this, lamps with lines included.
+    /// Returns the white as the observer sees it. A lamp's table is linear between its points, as in the renderer, even for
+    /// lamps with lines.
     pub(super) fn seen_by(&self, observer: Observer) -> miette::Result<SceneWhite> {
         let (name, spectrum) = match self {
             Self::Of(white) => return Ok(*white),
@@ -108,11 +109,11 @@ impl White {
 }
 
 pub(super) fn fov(text: &str) -> Result<f64, String> {
-    number(text, &FOV_DEG).ok_or_else(|| "a view is 0.01 to 170 degrees high".to_owned())
+    number(text, &FOV_DEG).ok_or_else(|| "a field of view is 0.01 to 170 degrees".to_owned())
 }
 
 pub(super) fn star_length(text: &str) -> Result<f64, String> {
-    number(text, &STAR_LENGTHS).ok_or_else(|| "a share of the height is 0.0001 to 10".to_owned())
+    number(text, &STAR_LENGTHS).ok_or_else(|| "a fraction of the height is 0.0001 to 10".to_owned())
 }
 
 pub(super) fn bits(text: &str) -> Result<u8, String> {
