@@ -485,9 +485,9 @@ fn a_sequence_of_a_scene_without_motion_is_reported() {
 #[test]
 fn impossible_sequences_are_refused_before_they_begin() {
     for (frames, said) in [
-        ("--frames 4", "written like 0:48"),
+        ("--frames 4", "write frames as in 0:48"),
         ("--frames 4:4", "must be larger than the first"),
-        ("--frames -1:4", "written like 0:48"),
+        ("--frames -1:4", "write frames as in 0:48"),
     ] {
         refused(frames, &[said]);
     }

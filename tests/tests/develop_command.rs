@@ -206,10 +206,7 @@ fn impossible_options_are_reported_and_nothing_is_written() {
             "image.exr -o out.png --exposure NaN",
             "write stops from -40",
         ),
-        (
-            "image.exr -o out.png --adapt bradford",
-            "with --adapt-from",
-        ),
+        ("image.exr -o out.png --adapt bradford", "with --adapt-from"),
         ("image.exr -o out.png --adapt-from 0.9,0.9", "a sum up to 1"),
         ("image.exr -o out.png --adapt-from X99", "X99"),
         ("image.exr -o out.png --adapt warm", "cat16"),

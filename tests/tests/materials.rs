@@ -158,7 +158,7 @@ fn unknown_names_are_reported_with_suggestions() {
         ("unobtainium", "`pellicle materials` lists all"),
         (
             "--search unobtainium",
-            "no material has to do with \"unobtainium\"",
+            "no material matches \"unobtainium\"",
         ),
         ("gold --search gold", "cannot be used with"),
         ("gold --format yaml", "[possible values: text, json]"),

@@ -13,12 +13,12 @@ use std::io::IsTerminal;
 
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The material to show; without one, all are listed
+    /// The material to show; if it is left out, all are listed
     name: Option<String>,
     /// List only materials whose name, substance, data set or paper contains this
     #[arg(long, value_name = "TEXT", conflicts_with = "name")]
     search: Option<String>,
-    /// How to write it
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
@@ -73,7 +73,7 @@ fn material(name: &str) -> miette::Result<(MaterialInfo, OpticalConstants)> {
     }
 }
 
-/// The materials that have to do with a text.
+/// The materials that match a text.
 fn search(text: &str) -> miette::Result<Vec<MaterialInfo>> {
     let text = text.to_lowercase();
     let is_meant = |info: &MaterialInfo| {
@@ -89,7 +89,7 @@ fn search(text: &str) -> miette::Result<Vec<MaterialInfo>> {
     if found.is_empty() {
         return Err(miette!(
             help = "`pellicle materials` lists all",
-            "no material has to do with {text:?}"
+            "no material matches {text:?}"
         ));
     }
     Ok(found)
@@ -191,7 +191,7 @@ fn with_figures(info: &MaterialInfo, constants: &OpticalConstants) -> Value {
     value
 }
 
-/// The sRGB codes of a polished surface in air under D65 at normal incidence; `None` where the figures do not cover the
+/// The sRGB codes of a polished surface in air under D65 at normal incidence; `None` if the data do not cover the
 /// visible range.
 fn bulk_color(constants: &OpticalConstants) -> Option<[u8; 3]> {
     let grid = BandGrid::new(PLOT_NM.0, PLOT_NM.1, 80).ok()?;

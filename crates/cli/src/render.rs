@@ -18,23 +18,23 @@ use std::time::Instant;
 
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The scene file; - is standard input
+    /// The scene file, or - for standard input
     scene: PathBuf,
-    /// Where to write: .png is a picture, .exr a spectral image, no ending or a folder both; can be repeated
+    /// Output file: .png for a picture, .exr for a spectral image, no ending or a folder for both; can be repeated
     /// [default: both, named after the scene, in the current folder]
     #[arg(short, long, value_name = "PATH")]
     output: Vec<PathBuf>,
-    /// Let the scene name files outside of its folder: only for scenes that can be trusted
+    /// Allow the scene to refer to files outside its folder; use this only for scenes that you trust
     #[arg(long)]
     allow_outside: bool,
-    /// What renders: auto takes the best GPU, or the CPU where there is none
+    /// Device that renders: auto uses the best GPU, or the CPU if there is none
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     backend: BackendName,
     /// Render on the adapter whose name contains this
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
-    /// Render a sequence: frames FIRST up to but without END, each `time_step_s` after the one before, frame 0 at the scene's
-    /// time. They are numbered name_0000.png and so on, with more digits where the last one has more
+    /// Render a sequence: frames FIRST up to but not including END, each `time_step_s` after the one before, with frame 0 at the
+    /// scene's time. Files are numbered name_0000.png and so on, with more digits if the last frame needs them
     #[arg(long, value_name = "FIRST:END", value_parser = frames, allow_hyphen_values = true)]
     frames: Option<Range<u32>>,
     #[command(flatten)]
@@ -50,7 +50,7 @@ enum BackendName {
     Cpu,
 }
 
-/// What replaces the scene's own settings.
+/// Settings that replace the scene's own.
 #[derive(clap::Args)]
 struct Overrides {
     /// Samples per pixel, instead of the scene's
@@ -65,7 +65,7 @@ struct Overrides {
     /// Seed of the random numbers, instead of the scene's
     #[arg(long)]
     seed: Option<u32>,
-    /// Time in seconds, instead of the scene's; of frame 0 with --frames
+    /// Time in seconds, instead of the scene's; with --frames, the time of frame 0
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     time: Option<f64>,
 }
@@ -73,13 +73,13 @@ struct Overrides {
 fn size(text: &str) -> Result<[u32; 2], String> {
     let parts = text.split_once(['x', '×']);
     let parsed = parts.and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
-    parsed.ok_or_else(|| "a size is written like 640x480".to_owned())
+    parsed.ok_or_else(|| "write a size as in 640x480".to_owned())
 }
 
 fn frames(text: &str) -> Result<Range<u32>, String> {
     let parts = text.split_once(':');
     let parsed = parts.and_then(|(first, end)| Some(first.parse().ok()?..end.parse().ok()?));
-    let range: Range<u32> = parsed.ok_or("frames are written like 0:48, which is 0 to 47")?;
+    let range: Range<u32> = parsed.ok_or("write frames as in 0:48, which is 0 to 47")?;
     if range.is_empty() {
         return Err("the second number must be larger than the first".to_owned());
     }
@@ -102,7 +102,7 @@ impl Arguments {
         match (self.backend, &self.adapter) {
             (BackendName::Cpu, Some(_)) => Err(miette!(
                 help = "leave one of them out",
-                "--adapter chooses a GPU, but --backend cpu wants none"
+                "--adapter chooses a GPU, but --backend cpu uses none"
             )),
             (BackendName::Cpu, None) => Ok(Backend::Cpu),
             (_, Some(name)) => Ok(Backend::Gpu(AdapterChoice::Named(name.clone()))),
@@ -116,10 +116,10 @@ impl Arguments {
 pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     let mut file = SceneFile::read(&arguments.scene)?.allow_outside(arguments.allow_outside);
     arguments.overrides.apply(&mut file);
-    // What is wrong with the scene is told before anything is opened.
+    // Report errors in the scene before opening anything.
     let scene = file.validate()?;
     print::notes(scene.notes());
-    // What comes from standard input has no name.
+    // Standard input has no name.
     let named = if arguments.scene.as_os_str() == STANDARD_INPUT {
         Path::new("render")
     } else {
@@ -150,7 +150,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     }
 }
 
-/// Renders a sequence; what goes wrong names its frame, and the frames before it stay.
+/// Renders a sequence. An error names its frame, and the frames before it are kept.
 fn render_frames(
     renderer: &Renderer,
     mut file: SceneFile,
@@ -168,11 +168,11 @@ fn render_frames(
         let of_frame = file.validate().map_err(miette::Report::from);
         of_frame.wrap_err_with(|| format!("frame {frame} cannot be rendered"))
     };
-    // The last frame has the latest time: an impossible one is told before the first is rendered.
+    // The last frame has the latest time: report an impossible one before rendering the first.
     let end = scene_of(last)?;
     if first < last && scene_of(first)?.materials() == end.materials() {
         print::note(format_args!(
-            "frames {first} to {last} are the same picture: nothing in the scene changes from one time to the other"
+            "frames {first} to {last} are the same picture: nothing in the scene changes between their times"
         ));
     }
     for frame in frames {
@@ -186,7 +186,7 @@ fn render_frames(
     Ok(())
 }
 
-/// A time with the digits that tell it from those a step before and after.
+/// A time with enough digits to distinguish it from those a step before and after.
 fn shown_time(time_s: f64, step_s: f64) -> String {
     let decimals = 2.0 - step_s.log10().floor();
     if !(0.0..=12.0).contains(&decimals) {
@@ -199,7 +199,7 @@ fn shown_time(time_s: f64, step_s: f64) -> String {
     }
 }
 
-/// Renders a picture and writes it; `heading` stands before what is said about it.
+/// Renders a picture and writes it; `heading` precedes the messages about it.
 fn render_one(
     renderer: &Renderer,
     scene: &Scene,
@@ -228,19 +228,19 @@ fn render_one(
         total as f64 / seconds * 1e-6,
     ));
     outputs.write_spectral(&image, &metadata(scene, renderer))?;
-    // Other lamps are for the pictures: the spectral image keeps the scene's.
+    // Other lamps apply only to the pictures: the spectral image keeps the scene's.
     let mut of_image = of_image(scene);
     developing.relight(&mut image, &mut of_image)?;
     developing.write(&image, of_image, image.height(), outputs.pictures())
 }
 
-/// A picture of one pixel with the scene's light groups, on which to try what will be done to the whole.
+/// An image of one pixel with the scene's light groups, to try what will be done to the whole image.
 fn one_pixel(scene: &Scene) -> SpectralImage {
     let groups = scene.light_groups().to_vec();
     SpectralImage::with_light_groups(1, 1, scene.settings().bands, groups)
 }
 
-/// What developing asks of an image.
+/// The properties of an image that developing needs.
 fn of_image(scene: &Scene) -> OfImage {
     OfImage {
         exposure_ev: scene.settings().exposure_ev,
@@ -253,7 +253,7 @@ fn samples_of(settings: &RenderSettings) -> u64 {
     u64::from(settings.width) * u64::from(settings.height) * u64::from(settings.samples)
 }
 
-/// What the spectral image says about how it was made.
+/// What the spectral image records about how it was made.
 fn metadata(scene: &Scene, renderer: &Renderer) -> Metadata {
     let settings = scene.settings();
     let said = [
@@ -269,7 +269,7 @@ fn metadata(scene: &Scene, renderer: &Renderer) -> Metadata {
     ];
     let fov = scene.camera().fov_deg();
     let fov = fov.map(|fov| (FOV_SETTING, format!("{fov:.6}")));
-    // What was taken away is not to be forgotten.
+    // Record that radiance was clamped.
     let clamp = settings.clamp.map(|clamp| ("clamp", clamp.to_string()));
     Metadata {
         exposure_ev: settings.exposure_ev,

@@ -13,7 +13,7 @@ use std::error::Error;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-/// How many films there are.
+/// Number of films.
 const COUNT: u32 = 8;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         render: Render {
             size: [8 * COUNT, 8],
             samples: 256,
-            // White is what a surface sends back that keeps a tenth of the light: log2(72 983 / 100).
+            // White is a surface that reflects a tenth of the light: log2(72 983 / 100).
             exposure_ev: (72_983.0_f64 / 100.0).log2(),
             ..Render::default()
         },
@@ -54,14 +54,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         description.materials.insert(name.clone(), film);
         description.objects.push(wall(&name, i, 0.0));
     }
-    // Black sheets take what passes through the films.
+    // Black sheets absorb what the films transmit.
     let black = Material::conductor(Index::Real(1.0));
     description.materials.insert("black".to_owned(), black);
     for i in 0..COUNT {
         description.objects.push(wall("black", i, -0.5));
     }
 
-    // Validation tells every mistake at once; names of files would be looked for in the folder given here.
+    // Validation reports all errors at once; files would be looked up in the folder given here.
     let scene = Scene::new(&description, Path::new("."))?;
     let renderer = Renderer::open(&Backend::Auto)?;
     let image = renderer.render(&scene, &mut |_samples| ControlFlow::Continue(()))?;
@@ -77,7 +77,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A unit square in the i-th place of the row.
+/// A unit square at the i-th position of the row.
 fn wall(material: &str, i: u32, z: f64) -> Object {
     Object::Rectangle {
         material: material.to_owned(),

@@ -1,4 +1,4 @@
-//! 3. What a spectral image knows about a pixel: its spectrum, how sure that is, its color.
+//! 3. What a spectral image holds about a pixel: its spectrum, the error of that, and its color.
 //!
 //! `cargo run --release --example read_a_pixel [FILE.exr [X Y]]`; without a file a small picture is rendered.
 

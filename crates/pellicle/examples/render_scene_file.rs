@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = arguments.next().unwrap_or(shipped);
     let folder = arguments.next().unwrap_or_else(std::env::temp_dir);
 
-    // What the file says can be changed before it is validated, like the options of the command do.
+    // The contents of the file can be changed before it is validated, as the options of the command do.
     let mut file = SceneFile::read(scene)?;
     file.description.render.size = [64, 16];
     file.description.render.samples = 4;
@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     // The best adapter, or the CPU where there is no driver.
     let renderer = Renderer::open(&Backend::Auto)?;
     println!("{}", renderer.description());
-    // The closure is told the samples taken so far; `Break` would stop the render.
+    // The closure receives the samples taken so far; `Break` would stop the render.
     let image = renderer.render(&scene, &mut |_samples| ControlFlow::Continue(()))?;
 
     // The spectral image keeps everything; the picture is developed from it.

@@ -1,10 +1,10 @@
-//! How far a picture is from the one that it converges to, from renders that differ in their seeds alone.
+//! How far a picture is from the one that it converges to, from renders that differ only in their seeds.
 
 use spectra::SpectralImage;
 
-/// Part of the pixels, those with the largest errors, that [`error_between_seeds`] leaves out.
+/// Fraction of the pixels, those with the largest errors, that [`error_between_seeds`] leaves out.
 pub const TRIMMED: f64 = 0.01;
-/// A pixel's error is relative to its own radiance and to this part of the picture's mean.
+/// A pixel's error is relative to its own radiance and to this fraction of the picture's mean.
 pub const FLOOR: f64 = 0.05;
 
 /// The trimmed relative error of a render.
@@ -12,17 +12,17 @@ pub const FLOOR: f64 = 0.05;
 pub struct Error {
     /// The root mean square of the bands' errors.
     pub mean: f64,
-    /// That of the worst band.
+    /// The error of the worst band.
     pub worst: f64,
 }
 
-/// The error of one of several renders of the same scene with different seeds.
+/// Returns the error of one render, from several renders of the same scene with different seeds.
 ///
 /// Per band it is the root of the mean over pixels of (I − R)² / (R² + (0.05 R̄)²), without the hundredth of the pixels where that is
-/// largest: fireflies would rule it. I is the radiance of a render, R what it converges to and R̄ the mean of R over the picture. The variance
-/// between renders is what (I − R)² comes to on average, so no converged picture is needed. For R stands the renders' mean: where errors are
-/// large, that makes them look larger (of the benchmark's bubble 0.147 in place of 0.138 at 4 samples and three seeds, 0.0345 in place of
-/// 0.0337 at 64).
+/// largest: fireflies would dominate it. I is the radiance of a render, R is what it converges to, and R̄ is the mean of R over the picture.
+/// The average of (I − R)² is the variance between renders, so no converged picture is needed. The mean of the renders takes the place of R:
+/// where errors are large, this makes them look larger (for the benchmark's bubble 0.147 instead of 0.138 at 4 samples and three seeds,
+/// 0.0345 instead of 0.0337 at 64).
 ///
 /// # Panics
 /// When there are fewer than two images, or they differ in size or bands.
@@ -70,9 +70,9 @@ fn root_mean_square(values: &[f64]) -> f64 {
     (squares / values.len() as f64).sqrt()
 }
 
-/// Seconds to an error, from seconds and errors at rising numbers of samples, the first of which is the fewest that there can be: on the
-/// straight line between the logarithms of the measured ones, beyond them from the last as if the error fell with the root of the time.
-/// `None` of no measurements.
+/// Returns the seconds to an error, from seconds and errors at increasing numbers of samples, the first of which is the smallest possible.
+/// Interpolates linearly between the logarithms of the measurements, and extrapolates from the last one as if the error fell with the root
+/// of the time. `None` if there are no measurements.
 pub fn seconds_to(error: f64, measured: &[(f64, f64)]) -> Option<f64> {
     let (first, last) = (*measured.first()?, *measured.last()?);
     if error >= first.1 {
@@ -95,7 +95,7 @@ mod tests {
     use super::*;
     use spectra::BandGrid;
 
-    /// Pixels of radiance 2 in each band, off by ± `relative` of it in turn, and `bright` pixels of noise at the end.
+    /// Two images of radiance 2 in each band, off by + and − `relative` of it, with `bright` pixels of noise at the end.
     fn images(relative: [f64; 2], bright: u32) -> Vec<SpectralImage> {
         let side = 100;
         let image = |sign: f64| {
@@ -126,7 +126,7 @@ mod tests {
         assert!((found.mean - mean).abs() < 1e-6, "{found:?}");
     }
 
-    /// A hundredth of fireflies is left out; more are not.
+    /// Fireflies in a hundredth of the pixels are left out; more are not.
     #[test]
     fn few_fireflies_do_not_count() {
         let few = error_between_seeds(&images([0.01; 2], 100)).mean;

@@ -1,10 +1,10 @@
 //! A spectral renderer for the color of thin films and metals, on the GPU and verified against `f64`.
 //!
-//! # A render's way
+//! # Data flow of a render
 //!
 //! ```text
 //! scenes/soap_bubble.toml
-//!   -> scene::SceneFile       TOML as written             all mistakes at once, each with line and column
+//!   -> scene::SceneFile       TOML as written             all errors at once, each with line and column
 //!   -> scene::Scene           validated: spectra as tables over the bands, nothing left to look up
 //!   -> Renderer::render       paths traced on a GPU (or on the CPU in f64), spectra evaluated along them
 //!   -> spectra::SpectralImage radiance per pixel and band, its variance, its XYZ
@@ -12,9 +12,9 @@
 //! ```
 //!
 //! A [`scene::Scene`] comes from a file ([`scene::SceneFile`]) or from a [`scene::description::Description`] that a
-//! program fills in. [`Renderer::open`] finds an adapter, [`Renderer::render`] gives a
-//! [`spectra::SpectralImage`]: radiance per pixel and band, in W m⁻² sr⁻¹ nm⁻¹ up to the scene's scale. Color comes last and
-//! exists once, in [`color`], so that a picture can be developed again without rendering again.
+//! program fills in. [`Renderer::open`] finds an adapter, [`Renderer::render`] returns a
+//! [`spectra::SpectralImage`]: radiance per pixel and band, in W m⁻² sr⁻¹ nm⁻¹ up to the scene's scale. Color is computed last
+//! and only in [`color`], so that a picture can be developed again without rendering again.
 //!
 //! ```no_run
 //! use pellicle::{Backend, Renderer, color, scene};
@@ -31,7 +31,7 @@
 //! # }
 //! ```
 //!
-//! The crates behind the modules can be used alone: [`coating`] and [`optics`] for those who design coatings, [`spectra`] for data over
+//! The crates behind the modules can be used alone: [`coating`] and [`optics`] for the design of coatings, [`spectra`] for data over
 //! wavelength, [`gpu`] and [`mod@reference`] for the two renderers themselves.
 
 pub mod convergence;

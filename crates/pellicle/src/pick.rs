@@ -1,4 +1,4 @@
-//! What a place in a picture shows of its scene.
+//! What a position in a picture shows of its scene.
 
 use coating::{Angle, LayerDescription, Stack, StackDescription};
 use reference::{Ray, camera_ray, layer_thickness, nearest_hit, surface_point};
@@ -10,7 +10,7 @@ mod lamps;
 
 pub use lamps::{SceneLamp, SceneLamps};
 
-/// What is seen at a place of a picture.
+/// What is seen at a position in a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Picked {
     /// The environment.
@@ -21,24 +21,24 @@ pub enum Picked {
     Film(Box<PickedFilm>),
 }
 
-/// A film or a coated surface at a place of a picture.
+/// A film or a coated surface at a position in a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PickedFilm {
     /// The name of its material in the scene.
     pub material: String,
-    /// Its layers, as thick as they are there, in the order in which the light meets them.
+    /// Its layers, with their thicknesses there, in the order in which light meets them.
     pub stack: Stack,
     /// The angle at which it is seen.
     pub angle: Angle,
-    /// The light of the environment that it mirrors; none where an object stands there, or all is dark.
+    /// The light of the environment that it mirrors; `None` if an object is in the mirror direction, or the environment is dark there.
     pub mirrored: Option<SceneLamp>,
 }
 
-/// What is nearest at a place, in pixels from the left and the top of the picture. `description` is what `scene` was made of, in
-/// a file of `directory`.
+/// Returns what is nearest to the camera at a position, in pixels from the left and the top of the picture. `description` is what
+/// `scene` was made from, in a file of `directory`.
 ///
 /// # Errors
-/// What is wrong with the layers as a stack.
+/// When the layers are not valid as a stack.
 pub fn pick(
     description: &Description,
     scene: &Scene,
@@ -73,7 +73,7 @@ pub fn pick(
         optical_thickness: None,
     };
     let mut layer: Vec<LayerDescription> = media.into_iter().zip(thicknesses).map(layer).collect();
-    // A coated surface is one on both of its sides, its first layer outermost.
+    // A coated surface is coated on both sides, with its first layer outermost.
     if !point.is_front && matches!(material, Some(Material::Film { .. })) {
         layer.reverse();
     }
@@ -91,7 +91,7 @@ pub fn pick(
     Ok(Picked::Film(Box::new(PickedFilm {
         material: name.to_owned(),
         stack: stack.check(directory)?,
-        // A ray that grazes exactly meets nothing.
+        // A ray at exactly grazing incidence hits nothing.
         angle: Angle::from_degrees(deg).unwrap_or(Angle::NORMAL),
         mirrored: is_open
             .then(|| lamps::of_environment(scene, mirrored.direction))
@@ -99,7 +99,7 @@ pub fn pick(
     })))
 }
 
-/// What each layer is made of.
+/// The medium of each layer.
 fn media(index: Option<&Index>, layers: Option<&[Layer]>) -> Vec<Index> {
     let layers = layers
         .into_iter()
@@ -154,14 +154,14 @@ mod tests {
 
     #[test]
     fn the_film_is_as_thick_and_as_oblique_as_geometry_says() {
-        // The middle of the bubble: the equator, met at a right angle.
+        // The middle of the bubble: the equator, at normal incidence.
         let Picked::Film(film) = at([50.5, 50.5]) else {
             panic!("a film");
         };
         assert_eq!(film.material, "soap");
         assert!((film.stack.thicknesses_nm()[0] - 1200.0).abs() < 1e-9);
         assert!(film.angle.degrees() < 1e-5);
-        // Half a pixel further up the film is thinner, and seen obliquely.
+        // Ten pixels further up, the film is thinner and seen obliquely.
         let Picked::Film(up) = at([50.5, 40.5]) else {
             panic!("a film");
         };
@@ -170,7 +170,7 @@ mod tests {
         assert_eq!(at([91.5, 9.5]), Picked::Bare("lamp".to_owned()));
     }
 
-    /// Silver under 60 nm of n = 2.4 and 180 nm of n = 1.4, or the same layers free, seen at a right angle from a side.
+    /// Silver under 60 nm of n = 2.4 and 180 nm of n = 1.4, or the same layers free, seen at normal incidence from one side.
     fn plate(material: &str, side: f64) -> (Scene, Picked) {
         let text = format!(
             r#"
@@ -216,7 +216,7 @@ mod tests {
         assert_eq!(order(&film(-5.0)), [180.0, 60.0]);
     }
 
-    /// In environment of radiance 1 a mirror's radiance is its reflectance, which the reference renders.
+    /// In an environment of radiance 1, a mirror's radiance is its reflectance, which the reference renders.
     #[test]
     fn a_coated_plate_is_the_same_from_both_sides() {
         for side in [5.0, -5.0] {

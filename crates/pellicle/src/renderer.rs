@@ -1,4 +1,4 @@
-//! One door to both renderers.
+//! One interface to both renderers.
 
 use gpu::{AdapterChoice, Gpu};
 use scene::Scene;
@@ -6,13 +6,13 @@ use spectra::SpectralImage;
 use std::ops::ControlFlow;
 use thiserror::Error;
 
-/// What is to render.
+/// The device that renders.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Backend {
-    /// The best GPU, and the CPU where there is none: it is faster than a software driver, and needs none.
+    /// The best GPU, or the CPU if there is none: the CPU is faster than a software driver, and needs no driver.
     #[default]
     Auto,
-    /// An adapter.
+    /// The chosen adapter.
     Gpu(AdapterChoice),
     /// The reference in `f64` on the CPU.
     Cpu,
@@ -21,11 +21,11 @@ pub enum Backend {
 /// Why no renderer could be opened.
 pub type OpenError = gpu::OpenError;
 
-/// Why a render did not come to its end.
+/// Why a render did not finish.
 #[derive(Clone, Debug, Error)]
 #[non_exhaustive]
 pub enum RenderError {
-    /// On an adapter.
+    /// The adapter failed.
     #[error(transparent)]
     Gpu(gpu::RenderError),
     /// The caller asked to stop.
@@ -41,16 +41,16 @@ pub enum Renderer {
     Gpu(Box<Gpu>),
     /// The CPU.
     Cpu {
-        /// Why, where a GPU was wanted but there is none.
+        /// Why the CPU is used, if a GPU was wanted but there is none.
         instead_of_gpu: Option<OpenError>,
     },
 }
 
 impl Renderer {
-    /// Opens what a backend asks for.
+    /// Opens the renderer that a backend asks for.
     ///
     /// # Errors
-    /// When an adapter was asked for and there is none such, or the one found refuses.
+    /// When the requested adapter does not exist, or the one found cannot be opened.
     pub fn open(backend: &Backend) -> Result<Self, OpenError> {
         match backend {
             Backend::Cpu => Ok(Self::Cpu {
@@ -69,7 +69,7 @@ impl Renderer {
         }
     }
 
-    /// What renders, in one line.
+    /// The device that renders, in one line.
     pub fn description(&self) -> String {
         match self {
             Self::Gpu(gpu) => gpu.description().to_string(),
@@ -81,10 +81,10 @@ impl Renderer {
         }
     }
 
-    /// Renders a scene. `on_progress` is told the samples taken so far, of width × height × samples per pixel, and may
-    /// stop the render. It is told 0 before a driver compiles the scene's shader, which may take seconds and last into the first
-    /// batch of samples: from 0 to the next number the render is compiling. On the CPU, and where the shader was compiled for a
-    /// picture before, there is no 0.
+    /// Renders a scene. `on_progress` receives the samples taken so far, out of width × height × samples per pixel, and can
+    /// stop the render. It receives 0 before a driver compiles the scene's shader, which can take seconds and last into the first
+    /// batch of samples: from 0 to the next number the render is compiling. It receives no 0 on the CPU, or if the shader was
+    /// compiled for an earlier picture.
     ///
     /// # Errors
     /// When the device fails, the scene is too large for it, or the caller stops the render.

@@ -12,15 +12,15 @@ pub enum StacksError {
     /// A number of the batch is outside its domain.
     #[error(transparent)]
     Batch(#[from] BatchError),
-    /// The GPU could not do it.
+    /// The GPU failed.
     #[error(transparent)]
     Gpu(#[from] gpu::StackError),
 }
 
 /// R and T of every stack at every angle and wavelength, as `[stack][angle][wavelength]`.
 ///
-/// On the CPU in `f64` on all cores ([`optics::batch::evaluate`]); on a GPU in `f32`, where R and T of ordinary stacks seen
-/// from air are within 5e-5 to 88° and 3e-4 beyond ([`gpu::evaluate_stacks`] says where less is kept).
+/// The CPU computes in `f64` on all cores ([`optics::batch::evaluate`]), a GPU in `f32`. On a GPU, R and T of ordinary stacks seen
+/// from air are accurate to 5e-5 up to 88° and to 3e-4 beyond ([`gpu::evaluate_stacks`] says where errors are larger).
 ///
 /// # Errors
 /// When a number of the batch is outside its domain, or the GPU fails.

@@ -13,7 +13,7 @@ use std::time::Instant;
 const SIZE: [u32; 2] = [1920, 1080];
 const BANDS: u32 = 40;
 
-/// The steps that are timed, and whether each is on the way from all bands, and on the way from the file's own colors.
+/// The steps that are timed, and whether each is needed to develop all bands, and to develop the file's own colors.
 const STEPS: [(&str, bool, bool); 5] = [
     ("read every band", true, false),
     ("read the colors alone", false, true),
@@ -22,7 +22,7 @@ const STEPS: [(&str, bool, bool); 5] = [
     ("write the PNG", true, true),
 ];
 
-/// Prints a table of the steps: best of some rounds.
+/// Prints a table of the steps, with the best of several rounds.
 pub(super) fn run() -> miette::Result<()> {
     let [width, height] = SIZE;
     print::result(format_args!(
@@ -47,7 +47,7 @@ pub(super) fn run() -> miette::Result<()> {
     let totals = [total(|step| step.1), total(|step| step.2)];
     print::result(format_args!(
         "{:<24}{:>8}{:>18}{:>18}",
-        "step", "seconds", "share, all bands", "share, colors"
+        "step", "seconds", "time, all bands", "time, colors"
     ))?;
     for ((name, in_all, in_colors), seconds) in STEPS.into_iter().zip(best) {
         let share = |counts: bool, total: f64| {
@@ -65,11 +65,11 @@ pub(super) fn run() -> miette::Result<()> {
     }
     print::result(format_args!(
         "{:<24}{:>8}{:>16.3} s{:>16.3} s",
-        "together", "", totals[0], totals[1]
+        "total", "", totals[0], totals[1]
     ))
 }
 
-/// Seconds of each step.
+/// The seconds of each step.
 fn round(files: &Files) -> miette::Result<[f64; STEPS.len()]> {
     let mut clock = Instant::now();
     let mut lap = || {
@@ -118,7 +118,7 @@ fn films() -> SpectralImage {
     image
 }
 
-/// Files that go when the measurement is over.
+/// Temporary files that are removed after the measurement.
 struct Files {
     spectral: PathBuf,
     picture: PathBuf,

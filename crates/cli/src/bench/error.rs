@@ -1,4 +1,4 @@
-//! `pellicle bench --error`: seconds to a picture that is as good as wanted, so that another renderer can be set beside it.
+//! `pellicle bench --error`: seconds to a picture with a given error, for comparison with another renderer.
 
 use crate::print;
 use miette::IntoDiagnostic;
@@ -12,34 +12,34 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// The most samples per pixel that are tried.
+/// The largest number of samples per pixel that is tried.
 const MOST_SAMPLES: u32 = 16_384;
-/// By how many times the samples rise from one measurement to the next.
+/// The factor by which the samples increase from one measurement to the next.
 const STEP: u32 = 4;
 
-/// What is wanted.
+/// The requested measurement.
 pub(super) struct Wanted {
-    /// The error, as [`convergence`] has it.
+    /// The error, as [`convergence`] defines it.
     pub(super) error: f64,
     pub(super) seeds: u32,
     pub(super) as_json: bool,
     pub(super) allow_outside: bool,
 }
 
-/// What was measured of a scene.
+/// The measurements of a scene.
 struct Measured {
     scene: String,
     bands: u32,
     pixels: u64,
     start_up_s: f64,
-    /// Of each number of samples.
+    /// One step for each number of samples.
     steps: Vec<Step>,
 }
 
-/// Renders with as many samples.
+/// The renders with one number of samples.
 struct Step {
     samples: u32,
-    /// Of one picture.
+    /// Seconds for one picture.
     seconds: f64,
     error: convergence::Error,
 }
@@ -54,7 +54,7 @@ impl Measured {
         convergence::seconds_to(error, &measured)
     }
 
-    /// Of the longest render.
+    /// Samples per second of the longest render.
     fn samples_per_second(&self) -> f64 {
         self.steps.last().map_or(0.0, |step| {
             self.pixels as f64 * f64::from(step.samples) / step.seconds
@@ -142,7 +142,7 @@ fn table(all: &[Measured], renderer: &Renderer, wanted: &Wanted) -> miette::Resu
     if let Some(bytes) = peak_memory_bytes() {
         let megabytes = bytes as f64 * 1e-6;
         print::result(format_args!(
-            "\npeak memory {megabytes:.0} MB, of which the pictures of {} seeds are kept",
+            "\npeak memory {megabytes:.0} MB, including the pictures of {} seeds",
             wanted.seeds
         ))?;
     }
@@ -205,14 +205,14 @@ fn threads() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// The processor's name, where the system tells it.
+/// The name of the processor, if the system reports it.
 fn processor() -> Option<String> {
     let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = text.lines().find(|line| line.starts_with("model name"))?;
     Some(line.split_once(':')?.1.trim().to_owned())
 }
 
-/// The most memory that this process has had, where the system tells it.
+/// The peak memory of this process, if the system reports it.
 fn peak_memory_bytes() -> Option<u64> {
     let text = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

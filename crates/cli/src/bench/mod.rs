@@ -1,4 +1,4 @@
-//! `pellicle bench`: samples and stack evaluations per second on every adapter and on the CPU; seconds to a good picture, and of
+//! `pellicle bench`: samples and stack evaluations per second on every adapter and on the CPU; seconds to a good picture, and for
 //! developing.
 
 mod develop;
@@ -22,21 +22,22 @@ use std::time::Instant;
     reason = "each is an option of its own"
 )]
 pub(crate) struct Arguments {
-    /// The scenes to render; by default soap_bubble, film_wedge and metal_spheres in the folder `scenes` of where it is called; for --variance floating_bubble in place of film_wedge, for --error those of `scenes/bench`
+    /// The scenes to render [default: soap_bubble, film_wedge and metal_spheres in the folder `scenes` of the current folder; for
+    /// --variance, floating_bubble instead of film_wedge; for --error, those of `scenes/bench`]
     scenes: Vec<PathBuf>,
-    /// Let scenes name files outside of their folders: only for scenes that can be trusted
+    /// Allow scenes to refer to files outside their folders; use this only for scenes that you trust
     #[arg(long)]
     allow_outside: bool,
-    /// Only film stacks, no scenes
+    /// Measure only film stacks, no scenes
     #[arg(long)]
     stacks: bool,
-    /// Only developing a picture from a spectral file
+    /// Measure only developing a picture from a spectral file
     #[arg(long, conflicts_with = "stacks")]
     develop: bool,
-    /// Only how much noise the ways to draw paths leave, on the best GPU or, where there is none, on the CPU
+    /// Measure only how much noise the ways of sampling paths leave, on the best GPU, or on the CPU if there is none
     #[arg(long, group = "repeated", conflicts_with_all = ["stacks", "develop"])]
     variance: bool,
-    /// Only seconds to a picture of 40 bands with this error in percent (docs/benchmark.md), on the CPU or the adapter named
+    /// Measure only the seconds to a picture of 40 bands with this error in percent (docs/benchmark.md), on the CPU or on --adapter
     #[arg(
         long,
         value_name = "PERCENT",
@@ -47,25 +48,25 @@ pub(crate) struct Arguments {
         conflicts_with_all = ["stacks", "develop", "variance"]
     )]
     error: Option<f64>,
-    /// The adapter of --error, by a part of its name
+    /// The adapter for --error, by a part of its name
     #[arg(long, value_name = "NAME", requires = "error")]
     adapter: Option<String>,
-    /// How --error prints
+    /// Output format of --error
     #[arg(long, value_enum, default_value_t = Format::Table, requires = "error")]
     format: Format,
-    /// Samples per pixel of --variance
+    /// Samples per pixel for --variance
     #[arg(long, default_value_t = 256, requires = "variance")]
     samples: u32,
-    /// Renders of each kind for --variance (by default 8) and --error (3)
+    /// Number of renders of each kind [default: 8 for --variance, 3 for --error]
     #[arg(long, requires = "repeated", value_parser = clap::value_parser!(u32).range(2..))]
     seeds: Option<u32>,
-    /// Seconds that each measurement takes, about
+    /// Approximate number of seconds of each measurement
     #[arg(long, default_value_t = 4.0)]
     seconds: f64,
 }
 
 impl Arguments {
-    /// The scenes that were named, or else these.
+    /// The scenes that were named, or else the given ones.
     fn scenes(&self, otherwise: [&str; 3]) -> Vec<PathBuf> {
         if self.scenes.is_empty() {
             return otherwise.map(PathBuf::from).to_vec();
@@ -84,22 +85,22 @@ fn percent(text: &str) -> Result<f64, String> {
     let percent: Option<f64> = text.parse().ok();
     let is_some_error = |p: &f64| *p > 0.0 && *p <= 100.0;
     let percent = percent.filter(is_some_error);
-    percent.ok_or_else(|| "an error is a number of percent above 0, up to 100".to_owned())
+    percent.ok_or_else(|| "an error is a percentage above 0, up to 100".to_owned())
 }
 
-/// The scenes of samples per second.
+/// The scenes for samples per second.
 const SCENES: [&str; 3] = [
     "scenes/soap_bubble.toml",
     "scenes/film_wedge.toml",
     "scenes/metal_spheres.toml",
 ];
-/// The scenes of the variance: one side of a bubble, both sides of one, and metals.
+/// The scenes for the variance: one side of a bubble, both sides of one, and metals.
 const NOISY_SCENES: [&str; 3] = [
     "scenes/soap_bubble.toml",
     "scenes/floating_bubble.toml",
     "scenes/metal_spheres.toml",
 ];
-/// The scenes of --error, as docs/benchmark.md describes them.
+/// The scenes for --error, as docs/benchmark.md describes them.
 const COMPARED_SCENES: [&str; 3] = [
     "scenes/bench/bubble.toml",
     "scenes/bench/metals.toml",
@@ -107,7 +108,7 @@ const COMPARED_SCENES: [&str; 3] = [
 ];
 /// The numbers of bands that are compared.
 const BANDS: [u32; 2] = [4, 40];
-/// Rounds of the measurement: machines are noisy, so the variants take turns and the best round of each counts.
+/// Number of rounds of a measurement. Machines are noisy, so the variants take turns and the best round of each counts.
 const ROUNDS: usize = 3;
 
 /// Measures and prints a table.
@@ -196,7 +197,8 @@ fn measure(
     Ok(best)
 }
 
-/// Renders the whole picture, first with a sample per pixel to learn the speed, then with as many as fill the time.
+/// Million samples per second. Renders the whole picture, first with a sample per pixel to measure the speed, then with as many
+/// as fill the time.
 fn rate(renderer: &Renderer, file: &mut SceneFile, seconds: f64) -> miette::Result<f64> {
     file.description.render.samples = 1;
     let scene = file.validate()?;
@@ -207,8 +209,8 @@ fn rate(renderer: &Renderer, file: &mut SceneFile, seconds: f64) -> miette::Resu
     Ok(timed(renderer, &file.validate()?)? * 1e-6)
 }
 
-/// Samples per second of a whole render, reading back included, from the end of the first batch: what comes before it is
-/// compiling.
+/// Samples per second of a whole render, including the readback, from the end of the first batch: the time before it is spent
+/// on compilation.
 fn timed(renderer: &Renderer, scene: &Scene) -> miette::Result<f64> {
     let begun = Instant::now();
     let mut first: Option<(Instant, u64)> = None;
@@ -222,7 +224,7 @@ fn timed(renderer: &Renderer, scene: &Scene) -> miette::Result<f64> {
             ControlFlow::Continue(())
         })
         .into_diagnostic()?;
-    // A picture of a single batch leaves nothing behind it to measure: then all counts.
+    // After a single batch there is nothing left to measure: then the whole render counts.
     let (start, before) = first.filter(|first| first.1 < total).unwrap_or((begun, 0));
     Ok((total - before) as f64 / start.elapsed().as_secs_f64())
 }

@@ -12,7 +12,7 @@ use std::time::Instant;
 const LAYERS: [u32; 3] = [1, 5, 21];
 const WAVELENGTHS: u32 = 81;
 const ANGLES: u32 = 90;
-/// Polarizations: an evaluation is R and T of one stack at one wavelength, angle and polarization.
+/// Number of polarizations. An evaluation is R and T of one stack at one wavelength, angle and polarization.
 const POLARIZATIONS: f64 = 2.0;
 
 /// Prints a table of million evaluations per second.
@@ -41,7 +41,7 @@ pub(super) fn run(renderers: &[Renderer], seconds: f64) -> miette::Result<()> {
     Ok(())
 }
 
-/// Two media in turn on a third, transparent and dispersive (Cauchy), thicknesses of 40 to 120 nm.
+/// Stacks of two alternating media on a third, transparent and dispersive (Cauchy), with thicknesses of 40 to 120 nm.
 struct Designs {
     wavelengths_nm: Vec<f64>,
     cosines: Vec<f64>,
@@ -92,7 +92,8 @@ impl Designs {
     }
 }
 
-/// Calls with as many stacks as take a tenth of a second, until the time is over; one before them does not count.
+/// Million evaluations per second. Each call has as many stacks as take a tenth of a second, until the time is over; one call
+/// before them does not count.
 fn rate(renderer: &Renderer, layers: u32, seconds: f64) -> miette::Result<f64> {
     let probe = Designs::new(layers, 8);
     stacks::evaluate(renderer, &probe.batch()).into_diagnostic()?;

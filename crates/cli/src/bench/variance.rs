@@ -1,4 +1,4 @@
-//! Noise at equal samples and at equal time: what each way to draw paths gains.
+//! Noise at equal samples and at equal time: what each way of sampling paths gains.
 
 use crate::print;
 use miette::IntoDiagnostic;
@@ -11,10 +11,10 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
-/// A way to draw paths.
+/// A way of sampling paths.
 type Way = fn(&mut Render);
 
-/// The ways that are compared. Each starts from what the scene's file says, and is rendered once for each seed.
+/// The ways that are compared. Each starts from the settings of the scene file, and is rendered once for each seed.
 const WAYS: [Way; 7] = [
     |render| {
         render.sampler = Sampler::Independent;
@@ -37,7 +37,7 @@ const WAYS: [Way; 7] = [
     |_| {},
 ];
 
-/// Neither splits nor roulette; the sampler as it was.
+/// Turns off splits and roulette; leaves the sampler unchanged.
 fn plain(render: &mut Render) {
     render.film_splits = 0;
     render.roulette_after = render.max_path_segments;
@@ -48,7 +48,7 @@ struct Change {
     name: &'static str,
     before: usize,
     after: usize,
-    /// Whether it changes what a sample does at films, and what it costs: then both are also compared at equal time.
+    /// Whether it changes what a sample does at films, and so what it costs: then both are also compared at equal time.
     splits: bool,
 }
 
@@ -63,19 +63,19 @@ const fn change(name: &'static str, before: usize, after: usize, splits: bool) -
 
 const CHANGES: [Change; 5] = [
     change("independent to Sobol", 0, 1, false),
-    change("the same, as the file is", 5, 6, false),
+    change("the same, file's settings", 5, 6, false),
     change("no roulette to roulette", 1, 2, false),
     change("no split to 1 split", 1, 3, true),
     change("no split to 2 splits", 1, 4, true),
 ];
 
-/// The largest width of the pictures; a pixel's noise does not depend on how many there are.
+/// The largest width of the pictures; the noise of a pixel does not depend on the number of pixels.
 const WIDTH: u32 = 64;
 
-/// The most samples of the renders that are given as much time as others took.
+/// The largest number of samples of the renders that take as much time as others took.
 const MOST_SAMPLES: f64 = 65_536.0;
 
-/// What is measured.
+/// The requested measurement.
 pub(super) struct Wanted {
     /// Samples per pixel.
     pub(super) samples: u32,
@@ -84,10 +84,10 @@ pub(super) struct Wanted {
     pub(super) allow_outside: bool,
 }
 
-/// Prints, of each scene, what each change does to the variance.
+/// Prints what each change does to the variance of each scene.
 ///
-/// The variance of a pixel is that of its mean over renders with different seeds: what samples say of themselves holds only
-/// where they are independent.
+/// The variance of a pixel is that of its mean over renders with different seeds: an estimate from the samples of one render
+/// is valid only if they are independent.
 pub(super) fn run(
     scenes: &[impl AsRef<Path>],
     renderer: &Renderer,
@@ -95,9 +95,9 @@ pub(super) fn run(
 ) -> miette::Result<()> {
     let Wanted { samples, seeds, .. } = wanted;
     print::result(format_args!(
-        "\nvariance at {samples} samples, over {seeds} seeds, of {}: before / after the change, so that more is better;\n\
-         of all pixels and of those that show a film in their middle: by the mean variance, and the median of the pixels' own quotients;\n\
-         time of a sample, after / before; at equal time: before the change with as many samples more, rounded up to a power of two",
+        "\nvariance at {samples} samples, over {seeds} seeds, on {}: before / after the change, so higher is better;\n\
+         for all pixels and for those that show a film at their center: ratio of the mean variances, and median of the ratios per pixel;\n\
+         time of a sample, after / before; at equal time: before the change with that many times the samples, rounded up to a power of two",
         renderer.description()
     ))?;
     print::result(format_args!(
@@ -160,7 +160,7 @@ fn scene(path: &Path, renderer: &Renderer, wanted: &Wanted) -> miette::Result<()
     Ok(())
 }
 
-/// The scene with so many samples or more: Sobol's points are at their best where their number is a power of two.
+/// The scene with at least this many samples: Sobol points are best if their number is a power of two.
 fn equal_time(file: &SceneFile, samples: f64) -> SceneFile {
     let mut more = file.clone();
     more.description.render.samples =
@@ -168,7 +168,7 @@ fn equal_time(file: &SceneFile, samples: f64) -> SceneFile {
     more
 }
 
-/// Whether the middle of each pixel shows a film.
+/// Whether the center of each pixel shows a film.
 fn film_pixels(file: &SceneFile, directory: &Path) -> miette::Result<Vec<bool>> {
     let scene = file.validate()?;
     let [width, height] = file.description.render.size;
@@ -183,8 +183,8 @@ fn film_pixels(file: &SceneFile, directory: &Path) -> miette::Result<Vec<bool>> 
     Ok(found)
 }
 
-/// Of the pixels that count, the mean variance before over that after, and the median of their own quotients; NaN where there
-/// are none.
+/// The mean variance before divided by that after, and the median of the ratios per pixel, over the pixels that count; NaN if
+/// there are none.
 fn gains(before: &Spread, after: &Spread, counts: &[bool]) -> (f64, f64) {
     let pairs = before.variances().into_iter().zip(after.variances());
     let counted: Vec<(f64, f64)> = pairs
@@ -209,7 +209,7 @@ fn median(values: &mut [f64]) -> f64 {
 /// Sums over renders with different seeds.
 #[derive(Default)]
 struct Spread {
-    /// Of each value of the picture: the mean, and the sum of squared differences from it (Welford 1962).
+    /// For each value of the picture, the mean and the sum of squared differences from it (Welford 1962).
     values: Vec<(f64, f64)>,
     bands: usize,
     seconds: Vec<f64>,
@@ -239,7 +239,7 @@ impl Spread {
                 ControlFlow::Continue(())
             })
             .into_diagnostic()?;
-        // What comes before the first batch is compiling.
+        // The time before the first batch is spent on compilation.
         let (start, before) = started.filter(|first| first.1 < last).unwrap_or((begun, 0));
         self.seconds
             .push(start.elapsed().as_secs_f64() / (last - before) as f64);
@@ -258,12 +258,12 @@ impl Spread {
         }
     }
 
-    /// The median of the seconds that a sample took.
+    /// The median of the seconds per sample.
     fn time(&self) -> f64 {
         median(&mut self.seconds.clone())
     }
 
-    /// Of each pixel the mean variance of its bands.
+    /// The mean variance of the bands of each pixel.
     fn variances(&self) -> Vec<f64> {
         let pixels = self.values.chunks(self.bands.max(1));
         let degrees = (self.seconds.len().max(2) - 1) as f64;

@@ -31,7 +31,7 @@ impl Options {
             (Some("exr"), Some(32)) => Ok(Format::Exr(Samples::Float)),
             (Some("png" | "exr"), Some(bits)) => Err(miette!(
                 help = "use 8 or 16 for a .png, 16 or 32 for an .exr",
-                "{}: a file of this kind cannot have channels of {bits} bits",
+                "{}: a file of this kind has no channels of {bits} bits",
                 path.display()
             )),
             (None, None | Some(8)) if is_stream(path) => Ok(Format::Png8),

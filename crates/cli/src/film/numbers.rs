@@ -44,7 +44,7 @@ fn range(from: f64, to: f64, step: f64, decimals: Option<usize>) -> Result<Vec<f
         ));
     }
     if step <= 0.0 {
-        return Err(format!("the step is {step}; it must be more than 0"));
+        return Err(format!("a step of {step}; it must be more than 0"));
     }
     let steps = ((to - from) / step + 1e-9).floor();
     if steps >= MOST as f64 {

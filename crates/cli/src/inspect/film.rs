@@ -1,4 +1,4 @@
-//! The film that a place shows.
+//! The film that a position shows.
 
 use super::{FilmArguments, Inspection};
 use crate::film::numbers::Vary;
@@ -12,11 +12,11 @@ use pellicle::scene::{Scene, SceneFile};
 use pellicle::spectra::{LightGroup, SpectralImage};
 use std::path::{Path, PathBuf};
 
-/// Where films are known from.
+/// What is known about films.
 pub(super) enum Films {
-    /// Nothing was said of films.
+    /// No film was given.
     None,
-    /// From the scene.
+    /// The films of a scene.
     Scene(Box<KnownScene>),
     /// One stack at one angle.
     Stack(Box<Stack>, Angle, Vec<SceneLamp>),
@@ -29,17 +29,17 @@ pub(super) struct KnownScene {
     lamps: SceneLamps,
 }
 
-/// What was found at a place.
+/// What was found at a position.
 pub(super) enum FilmFinding {
-    /// The scene has no film there, but this.
+    /// The scene has no film there. This is what it has instead.
     Other(String),
     /// A film.
     Film(Box<Fitted>),
 }
 
-/// A film and the thicknesses that come near what is seen.
+/// A film and the thicknesses that are closest to what is seen.
 pub(super) struct Fitted {
-    /// The scene's name of its material.
+    /// The name of its material in the scene.
     pub(super) material: Option<String>,
     pub(super) stack: Stack,
     pub(super) layer: usize,
@@ -47,13 +47,13 @@ pub(super) struct Fitted {
     pub(super) angle: Angle,
     /// The name of the lamp.
     pub(super) lamp: String,
-    /// What was found; `None` where the place is black.
+    /// The fits; `None` if the position is black.
     pub(super) fits: Option<FilmFits>,
-    /// The light of the best film by shape, as bright as what is seen.
+    /// The spectrum of the best film by shape, as bright as what is seen.
     pub(super) model: Option<Vec<f64>>,
 }
 
-/// The thickest film that is looked for where nothing else is said, nm.
+/// The default for the largest thickness to fit, nm.
 const USUAL_TO_NM: f64 = 2000.0;
 
 impl Films {
@@ -83,7 +83,7 @@ impl Films {
         Ok(Self::Stack(Box::new(stack), angle, lamps))
     }
 
-    /// The film at a place; `None` where nothing was said of films.
+    /// The film at a position; `None` if no film was given.
     pub(super) fn find(
         &self,
         inspection: &Inspection,
@@ -126,7 +126,7 @@ impl KnownScene {
         }
         let lamps = SceneLamps::new(&file.description, &scene);
         if lamps.is_empty() {
-            return Err(miette!("--scene {}: nothing shines in it", path.display()));
+            return Err(miette!("--scene {}: it has no emitters", path.display()));
         }
         Ok(Self {
             directory: path.parent().unwrap_or(Path::new("")).to_owned(),
@@ -161,7 +161,7 @@ impl KnownScene {
     }
 }
 
-/// --lamp, or the lamps that the file knows, or else D65.
+/// The lamp of --lamp, or the lamps that the file records, or else D65.
 fn lamps(asked: &FilmArguments, image: &SpectralImage) -> miette::Result<Vec<SceneLamp>> {
     let nm = FilmFitting::wavelengths_nm(image.bands());
     if asked.lamp.is_none() {
@@ -182,7 +182,7 @@ fn lamps(asked: &FilmArguments, image: &SpectralImage) -> miette::Result<Vec<Sce
     Ok(vec![SceneLamp { name, power }])
 }
 
-/// The different lamps of light groups, named after the groups that burn with them.
+/// The distinct lamps of light groups, named after the groups that use them.
 fn lamps_of_groups(groups: &[LightGroup], nm: &[f64]) -> Vec<SceneLamp> {
     let mut known: Vec<SceneLamp> = Vec::new();
     for group in groups {
@@ -199,7 +199,7 @@ fn lamps_of_groups(groups: &[LightGroup], nm: &[f64]) -> Vec<SceneLamp> {
     known
 }
 
-/// The thicknesses that come nearest, in the lamp in which they come nearest.
+/// The closest thicknesses, under the lamp for which they are closest.
 fn fitted(
     inspection: &Inspection,
     probe: &Probe,
@@ -258,7 +258,7 @@ fn fitted(
     })
 }
 
-/// The layer whose thickness is looked for.
+/// The layer whose thickness is fitted.
 fn vary(asked: Option<Vary>, stack: &Stack) -> miette::Result<Vary> {
     let layers = stack.layers().len();
     if layers == 0 {

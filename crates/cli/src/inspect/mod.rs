@@ -14,25 +14,25 @@ use pellicle::color::{Probe, Region, probe};
 use pellicle::spectra::SpectralImage;
 use std::path::PathBuf;
 
-/// What a spectral image holds: spectrum, noise and color of pixels and regions, and the film that they show.
+/// Show the spectrum, noise and color of pixels and regions of a spectral image, and the film that they show.
 ///
-/// Without --at and --region it is the mean of the whole image. A film is looked for where --scene tells the scene that was
-/// rendered, which knows the film and the angle at each pixel, or where --film tells a stack. The nearest thicknesses are those
-/// whose spectrum has the same shape, and those of the same color, up to a scale; what is left is told with them.
+/// If --at and --region are left out, the mean of the whole image is shown. The thickness of a film is fitted if --scene gives the
+/// scene that was rendered, which has the film and the angle at each pixel, or if --film gives a stack. The closest thicknesses are
+/// those whose spectrum has the same shape, and those of the same color, up to a scale; the residual of each is printed.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The spectral image (.exr)
     image: PathBuf,
-    /// A pixel, from the left and the top, counted from 0; can be repeated
+    /// A pixel, counted from 0 from the left and the top; can be repeated
     #[arg(long, value_name = "X,Y", value_parser = pixel)]
     at: Vec<Region>,
-    /// A rectangle of pixels, whose mean is taken; can be repeated
+    /// A rectangle of pixels to average; can be repeated
     #[arg(long, value_name = "X,Y,WIDTH,HEIGHT", value_parser = region)]
     region: Vec<Region>,
-    /// Stops by which colors are shown brighter [default: those of the file]
+    /// Stops by which colors are shown brighter [default: the stops of the file]
     #[arg(long, value_name = "EV", allow_hyphen_values = true)]
     exposure: Option<f64>,
-    /// How the figures are printed
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
     /// Write a plot of the spectra (.svg or .png)
@@ -42,13 +42,13 @@ pub(crate) struct Arguments {
     film: FilmArguments,
 }
 
-/// What film may be seen.
+/// The film to fit.
 #[derive(clap::Args)]
 struct FilmArguments {
-    /// The scene that the image was rendered from: which film each pixel shows, at which angle, in which lamps
+    /// The scene that the image was rendered from: it gives the film at each pixel, the angle and the lamps
     #[arg(long, value_name = "FILE", conflicts_with_all = ["film", "angle", "lamp"])]
     scene: Option<PathBuf>,
-    /// Let the scene or stack name files outside of its folder: only for those that can be trusted
+    /// Allow the scene or stack to refer to files outside its folder; use this only for files that you trust
     #[arg(long)]
     allow_outside: bool,
     /// The film that the pixels show: a stack file, or a stack in one line such as "1 | water 300nm | 1"
@@ -57,26 +57,26 @@ struct FilmArguments {
     /// The angle at which --film is seen, in degrees
     #[arg(long, value_name = "DEGREES", requires = "film", value_parser = numbers::number, allow_hyphen_values = true)]
     angle: Option<f64>,
-    /// The lamp that --film mirrors: an illuminant's name or a file .csv [default: those that the image's light
-    /// groups burn with, where it tells; else D65]
+    /// The lamp that --film mirrors: the name of an illuminant or a file such as a .csv [default: the lamps of the image's
+    /// light groups if it records them, else D65]
     #[arg(long, value_name = "LAMP", requires = "film")]
     lamp: Option<String>,
-    /// The layer whose thickness is looked for, from 1, and its range in nm [default: layer 1 from 0 to 2000 nm]
+    /// The layer whose thickness is fitted, counted from 1, and its range in nm [default: layer 1 from 0 to 2000 nm]
     #[arg(long, value_name = "LAYER:FROM:TO", value_parser = Vary::parse, allow_hyphen_values = true)]
     vary: Option<Vary>,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Format {
-    /// For people
+    /// A text table
     Table,
-    /// wavelength_nm, then radiance and its deviation at each place
+    /// wavelength_nm, then radiance and its deviation at each position
     Csv,
-    /// Everything
+    /// All results
     Json,
 }
 
-/// What is known of an image.
+/// An image and what is known about it.
 struct Inspection<'a> {
     arguments: &'a Arguments,
     image: SpectralImage,
@@ -85,7 +85,7 @@ struct Inspection<'a> {
     places: Vec<Place>,
 }
 
-/// What is known of a place in it.
+/// A pixel or region of the image and what is known about it.
 struct Place {
     /// `320,200`, `10,10,40,40` or `the whole image`.
     label: String,
@@ -93,7 +93,7 @@ struct Place {
     film: Option<FilmFinding>,
 }
 
-/// Looks, prints and draws.
+/// Inspects, prints and draws.
 pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     plot::check(arguments)?;
     let inspection = Inspection::new(arguments)?;

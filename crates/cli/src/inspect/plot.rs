@@ -9,7 +9,7 @@ use pellicle::color::{PendingFile, png};
 use std::io::Write;
 use std::path::Path;
 
-/// Tells what could not be drawn or written before the image is read.
+/// Reports what cannot be drawn or written, before the image is read.
 pub(super) fn check(arguments: &Arguments) -> miette::Result<()> {
     let Some(path) = &arguments.plot else {
         return Ok(());
@@ -25,13 +25,13 @@ pub(super) fn check(arguments: &Arguments) -> miette::Result<()> {
     if places > SpectrumPlot::MAX_SERIES {
         let most = SpectrumPlot::MAX_SERIES;
         return Err(miette!(
-            "--plot: {places} places; at most {most} can be told apart"
+            "--plot: {places} positions; at most {most} can be told apart"
         ));
     }
     output::check_place("--plot", path, &arguments.image)
 }
 
-/// Draws and writes it where it is asked for.
+/// Draws and writes the plot if it is requested.
 pub(super) fn write(inspection: &Inspection) -> miette::Result<()> {
     let Some(path) = &inspection.arguments.plot else {
         return Ok(());
@@ -65,7 +65,7 @@ fn plot(inspection: &Inspection) -> SpectrumPlot {
             deviation: place.probe.deviation.clone(),
             codes: Some(inspection.color_of(place).codes),
         });
-        // The film beside it, where there is room.
+        // Add the film if there is room.
         if let Some(FilmFinding::Film(fitted)) = &place.film
             && let (Some(model), Some(fits)) = (&fitted.model, &fitted.fits)
             && 2 * inspection.places.len() <= SpectrumPlot::MAX_SERIES

@@ -1,4 +1,4 @@
-//! What was found, as a table, as CSV or as JSON.
+//! The results as a table, as CSV or as JSON.
 
 use super::film::{FilmFinding, Fitted};
 use super::{Inspection, Place};
@@ -10,10 +10,10 @@ use pellicle::colorimetry::{Lab, chromaticity, srgb};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// The most thicknesses that are told.
+/// The largest number of thicknesses that are printed.
 const MOST_FITS: usize = 3;
 
-/// The color of a place.
+/// The color at a position.
 pub(super) struct PlaceColor {
     /// Y = 1 for the display's white.
     xyz: [f64; 3],
@@ -29,7 +29,7 @@ impl Inspection<'_> {
             .xyz
             .map(|v| v * exposure_scale(self.exposure_ev));
         let linear = srgb::linear_from_xyz(xyz);
-        // Half a code of 8 bits is a rounding.
+        // Half an 8-bit code counts as rounding.
         let is_shown = |v: &f64| (-1.5e-4..=1.0045).contains(v);
         PlaceColor {
             xyz,
@@ -64,7 +64,7 @@ impl Inspection<'_> {
                 film.describe(&mut text);
             }
         }
-        // The mean of a whole image is no spectrum that anyone asked for.
+        // Nobody asked for the spectrum of a whole image.
         if !(self.arguments.at.is_empty() && self.arguments.region.is_empty()) {
             text.push('\n');
             self.spectra(&mut text);
@@ -109,14 +109,14 @@ impl Inspection<'_> {
         if probe.left_out > 0 {
             let _ = write!(
                 text,
-                "; {} pixels are not a number and left out",
+                "; {} pixels are not finite and left out",
                 probe.left_out
             );
         }
         text.push('\n');
     }
 
-    /// How much of the luminance each light group makes, where there are several.
+    /// Writes how much each light group contributes to the luminance, if there are several.
     fn light_groups(&self, text: &mut String, place: &Place) {
         let probe = &place.probe;
         if probe.light_groups.len() < 2 {
@@ -178,8 +178,8 @@ impl Inspection<'_> {
             .map(|band| bands.center_nm(band))
             .collect();
         let value = json!({
-            "about": "means over bands and regions; deviation is the standard deviation of the mean by the renderer's noise; \
-                      lab under the white of sRGB at the exposure",
+            "about": "means over bands and regions; deviation is the standard deviation of the mean due to the renderer's noise; \
+                      lab is relative to the white of sRGB, at the exposure",
             "program": concat!("pellicle ", env!("CARGO_PKG_VERSION")),
             "image": self.arguments.image.display().to_string(),
             "size": [self.image.width(), self.image.height()],
@@ -254,12 +254,12 @@ impl Fitted {
         );
         if self.material.is_some() {
             let nm = self.stack.thicknesses_nm()[self.layer];
-            let _ = writeln!(text, "        the scene makes it {nm:.2} nm there");
+            let _ = writeln!(text, "        in the scene it is {nm:.2} nm thick there");
         }
         let Some(fits) = &self.fits else {
             let _ = writeln!(
                 text,
-                "        nothing to fit: the place is black or not a number"
+                "        nothing to fit: the position is black or not finite"
             );
             return;
         };
@@ -285,16 +285,16 @@ impl Fitted {
         let (from, to) = self.range_nm;
         match fits.verdict() {
             Verdict::Film => format!(
-                "{:.2} nm has the shape of the spectrum: {:.2} % is left{noise}",
+                "{:.2} nm has the shape of the spectrum: residual {:.2} %{noise}",
                 best.thickness_nm,
                 100.0 * best.residual
             ),
             Verdict::Lamp => format!(
-                "no film is told: the lamp's own spectrum fits to {:.2} %{noise}",
+                "no film can be identified: the lamp's own spectrum fits to {:.2} %{noise}",
                 100.0 * fits.of_lamp
             ),
             Verdict::Nothing => format!(
-                "nothing fits from {from} to {to} nm: the nearest film leaves {:.2} %{noise}, the lamp's own spectrum {:.2} %",
+                "nothing fits from {from} to {to} nm: the closest film has a residual of {:.2} %{noise}, the lamp's own spectrum {:.2} %",
                 100.0 * best.residual,
                 100.0 * fits.of_lamp
             ),
@@ -333,7 +333,7 @@ impl Fitted {
     }
 }
 
-/// What a light group makes of a luminance; black has no shares.
+/// The contribution of a light group to a luminance; black has no percentages.
 fn light_line(name: &str, [x, y, z]: [f64; 3], of_y: f64) -> String {
     let part = if of_y == 0.0 {
         String::new()

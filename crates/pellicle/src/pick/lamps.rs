@@ -1,4 +1,4 @@
-//! The lamps of a scene, as a fit of a film needs them.
+//! The lamps of a scene, as the fit of a film needs them.
 
 use super::PickedFilm;
 use coating::FilmFitting;
@@ -13,34 +13,34 @@ use scene::{
 use spectra::BandGrid;
 use std::f64::consts::PI;
 
-/// A spectrum that the scene's lights burn with.
+/// The emission spectrum of emitters of the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneLamp {
-    /// What shines so: the name of a material, the place of a light, or the environment.
+    /// The emitter with this spectrum: the name of a material, the entry of a light such as `lights[0]`, or the environment.
     pub name: String,
     /// Relative power at each of [`FilmFitting::wavelengths_nm`] of the scene's bands.
     pub power: Vec<f64>,
 }
 
-/// The different spectra that the scene's lights burn with.
+/// The distinct emission spectra of the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneLamps {
-    /// Those of the environment: of each part of a gradient, and of a picture or a sky their mean over all directions.
+    /// Spectra of the environment: of each part of a gradient, and the mean over all directions of a picture or a sky.
     pub environment: Vec<SceneLamp>,
-    /// Those of lights, the sun of a sky among them, and of objects.
+    /// Spectra of lights, including the sun of a sky, and of objects.
     pub lights: Vec<SceneLamp>,
 }
 
 const SURROUNDINGS: &str = "the environment";
-/// Directions over which the mean of a picture is taken, half of them by its brightness.
+/// Number of directions for the mean of a picture, half of them sampled by its brightness.
 const DIRECTIONS: u32 = 8192;
-/// The golden ratio less 1: its multiples spread evenly.
+/// The golden ratio minus 1: its multiples spread evenly.
 const GOLDEN: f64 = 0.618_033_988_749_895;
-/// Random numbers over which the four pixels around a place are taken.
+/// Number of random numbers that average the four pixels around a position.
 const PLACES: u32 = 64;
 
 impl SceneLamps {
-    /// The lamps of a scene that was made of `description`.
+    /// The lamps of a scene that was made from `description`.
     pub fn new(description: &Description, scene: &Scene) -> Self {
         let mut found = Self::default();
         match scene.environment() {
@@ -57,7 +57,7 @@ impl SceneLamps {
                 }
             }
             Environment::Picture { emission, picture } => {
-                let name = format!("{SURROUNDINGS}, their mean");
+                let name = format!("{SURROUNDINGS}, its mean");
                 found.add_environment(&name, mean(scene, *emission, picture));
             }
         }
@@ -76,12 +76,12 @@ impl SceneLamps {
         found
     }
 
-    /// Whether nothing shines.
+    /// Whether the scene has no emitters.
     pub fn is_empty(&self) -> bool {
         self.environment.is_empty() && self.lights.is_empty()
     }
 
-    /// The lamps in which a film may be seen: of the environment what it mirrors, where it mirrors them.
+    /// The lamps under which a film may be seen. If it mirrors the environment, that is represented by what it mirrors.
     pub fn of(&self, film: &PickedFilm) -> Vec<SceneLamp> {
         let environment = film.mirrored.as_ref().map(std::slice::from_ref);
         let environment = environment.unwrap_or(&self.environment);
@@ -99,7 +99,7 @@ impl SceneLamps {
     }
 }
 
-/// Adds a spectrum that is not yet there, unless it is dark.
+/// Adds a spectrum unless it is already there or dark.
 fn add(lamps: &mut Vec<SceneLamp>, name: &str, power: Vec<f64>) {
     let shines = power.iter().any(|&v| v > 0.0);
     if shines && lamps.iter().all(|lamp| lamp.power != power) {
@@ -108,7 +108,7 @@ fn add(lamps: &mut Vec<SceneLamp>, name: &str, power: Vec<f64>) {
     }
 }
 
-/// Where each of [`Scene::lights`] is written: disks come first, the sun of a sky is the last of them.
+/// The entry of each of [`Scene::lights`] in the scene file: disks come first, and the sun of a sky is the last of them.
 fn names(description: &Description, scene: &Scene) -> Vec<String> {
     let lights = || description.lights.iter().enumerate();
     let is_distant_disk = |light: &description::Light| matches!(light, description::Light::Distant { diameter_deg, .. } if *diameter_deg > 0.0);
@@ -120,7 +120,7 @@ fn names(description: &Description, scene: &Scene) -> Vec<String> {
     disks.map(name).chain(sun).chain(others.map(name)).collect()
 }
 
-/// What the environment have in a direction, given by a unit vector, the disks of distant lights among them; `None` where that is dark.
+/// The light of the environment in a direction, given by a unit vector, including the disks of distant lights; `None` if it is dark.
 pub(super) fn of_environment(scene: &Scene, direction: glam::DVec3) -> Option<SceneLamp> {
     let parts = scene.environment_parts();
     let seen = |part: &EnvironmentPart<'_>| environment_strength(part.shape, direction) > 0.0;
@@ -151,8 +151,8 @@ pub(super) fn of_environment(scene: &Scene, direction: glam::DVec3) -> Option<Sc
     shines.then_some(SceneLamp { name, power })
 }
 
-/// The mean of a picture over all directions. Half of the directions are drawn evenly, half by the picture's brightness, and each
-/// counts by the density of both together, so that no small sun is missed.
+/// The mean of a picture over all directions. Half of the directions are sampled uniformly, half by the picture's brightness, and
+/// each is weighted by the combined density, so that no small sun is missed.
 fn mean(scene: &Scene, emission: Emission, picture: &EnvironmentPicture) -> Vec<f64> {
     let shapes = [
         EnvironmentShape::Everywhere,
@@ -224,14 +224,14 @@ impl<'a> Sum<'a> {
     }
 }
 
-/// The band of a wavelength, and where in it.
+/// The band of a wavelength, and the position in it.
 fn place(bands: &BandGrid, nm: f64) -> (u32, f64) {
     let at = (nm - bands.min_nm()) / bands.width_nm();
     let band = (at as u32).min(bands.count() - 1);
     (band, at - f64::from(band))
 }
 
-/// A spectrum at scale 1; nothing where the scale is 0.
+/// The spectrum of an emission at scale 1; zeros if its scale is 0.
 fn power(scene: &Scene, emission: Emission) -> Vec<f64> {
     let bands = &scene.settings().bands;
     let table = scene.spectrum(emission.spectrum);
@@ -255,7 +255,7 @@ mod tests {
     use std::ops::ControlFlow;
     use std::path::Path;
 
-    /// A free film of water, 620 nm thick, seen at a right angle from +Z, with what else there is.
+    /// A free film of water, 620 nm thick, seen at normal incidence from +Z, and the rest of the scene.
     fn film(rest: &str) -> String {
         format!(
             r#"
@@ -304,7 +304,7 @@ mod tests {
         }
     }
 
-    /// The thickness and the residual of what the reference renders, in the lamp that fits best, and that lamp's name.
+    /// The fitted thickness and residual of what the reference renders, under the lamp that fits best, and that lamp's name.
     fn thickness(found: &Found) -> (f64, f64, String) {
         let bands = &found.scene.settings().bands;
         let image = reference::render(&found.scene, &mut |_| ControlFlow::Continue(())).unwrap();
@@ -332,7 +332,7 @@ mod tests {
         fits.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap()
     }
 
-    /// A wall behind the camera, of which the film mirrors a place.
+    /// A wall behind the camera, part of which the film mirrors.
     const WALL: &str = r#"
         [materials.wall]
         type = "diffuse"
@@ -365,7 +365,7 @@ direction = [0.3, 0, -1]",
 {light}
 emission = {{ illuminant = 'FL11' }}"
             );
-            // The distant ones shine past the film's edge upon no wall: the film lets most of their light through.
+            // Distant lights do not reach the wall past the edge of the film, but the film transmits most of their light.
             let found = found(&film(&format!(
                 "{WALL}
 {light}"
@@ -381,7 +381,7 @@ emission = {{ illuminant = 'FL11' }}"
         }
     }
 
-    /// A disk that the film mirrors, beside environment that it does not.
+    /// A disk that the film mirrors together with the constant environment around it.
     #[test]
     fn a_disk_is_seen_in_the_mirror_with_what_is_around_it() {
         let found = found(&film(
@@ -400,7 +400,7 @@ emission = {{ illuminant = 'FL11' }}"
             &found.lamps.environment[0].power,
             &found.lamps.lights[0].power,
         );
-        // What the disk lights a surface with comes from 2π (1 − cos 20°) sr, and the environment shine there as well.
+        // The disk lights a surface from 2π (1 − cos 20°) sr, and the environment shines there as well.
         let radiance = found.scene.lights()[0].emission.scale;
         let solid_angle = 2.0 * PI * (1.0 - 20_f64.to_radians().cos());
         assert!((radiance * solid_angle - 1.0).abs() < 0.05, "{radiance}");
@@ -444,7 +444,7 @@ emission = {{ illuminant = 'FL11' }}"
         );
     }
 
-    /// By the sum over the pixels with the solid angles of their rows.
+    /// Compares with the sum over the pixels, weighted by the solid angles of their rows.
     #[test]
     fn the_mean_of_a_sky_is_that_of_its_pixels() {
         let found = found(&film(
@@ -466,7 +466,7 @@ emission = {{ illuminant = 'FL11' }}"
             }
         }
         let mean = &found.lamps.environment[0];
-        assert_eq!(mean.name, "the environment, their mean");
+        assert_eq!(mean.name, "the environment, its mean");
         let factor = power(&found.scene, *emission);
         let bands = &found.scene.settings().bands;
         let nm = FilmFitting::wavelengths_nm(bands);
