@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// Measure how far an image is from another: per band, in color, and to the eye.
+/// Compare two images: per band, in color, and as the eye sees them.
 ///
 /// The first image is the reference: a bias above 0 means that the second is brighter. Both are spectral images (.exr) or
 /// pictures (.png), which have no bands. Colors are compared as an sRGB display shows them, both at the exposure of the first.

@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     file.description.render.samples = 4;
     let scene = file.validate()?;
 
-    // The best adapter, or the CPU where there is no driver.
+    // The best adapter, or the CPU if there is no driver.
     let renderer = Renderer::open(&Backend::Auto)?;
     println!("{}", renderer.description());
     // The closure receives the samples taken so far; `Break` would stop the render.

@@ -20,9 +20,9 @@ pub struct Error {
 ///
 /// Per band it is the root of the mean over pixels of (I − R)² / (R² + (0.05 R̄)²), without the hundredth of the pixels where that is
 /// largest: fireflies would dominate it. I is the radiance of a render, R is what it converges to, and R̄ is the mean of R over the picture.
-/// The average of (I − R)² is the variance between renders, so no converged picture is needed. The mean of the renders takes the place of R:
-/// where errors are large, this makes them look larger (for the benchmark's bubble 0.147 instead of 0.138 at 4 samples and three seeds,
-/// 0.0345 instead of 0.0337 at 64).
+/// The average of (I − R)² is the variance between renders, so no converged picture is needed. The mean of the renders is used for R: where
+/// errors are large, this makes them look larger (for the benchmark's bubble 0.147 instead of 0.138 at 4 samples and three seeds, 0.0345
+/// instead of 0.0337 at 64).
 ///
 /// # Panics
 /// When there are fewer than two images, or they differ in size or bands.

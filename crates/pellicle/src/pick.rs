@@ -30,7 +30,7 @@ pub struct PickedFilm {
     pub stack: Stack,
     /// The angle at which it is seen.
     pub angle: Angle,
-    /// The light of the environment that it mirrors; `None` if an object is in the mirror direction, or the environment is dark there.
+    /// The light of the environment in the mirror direction; `None` if an object is in front of it, or it is dark.
     pub mirrored: Option<SceneLamp>,
 }
 

@@ -57,7 +57,7 @@ struct FilmArguments {
     /// The angle at which --film is seen, in degrees
     #[arg(long, value_name = "DEGREES", requires = "film", value_parser = numbers::number, allow_hyphen_values = true)]
     angle: Option<f64>,
-    /// The lamp that --film mirrors: the name of an illuminant or a file such as a .csv [default: the lamps of the image's
+    /// The lamp that --film reflects: the name of an illuminant or a file such as a .csv [default: the lamps of the image's
     /// light groups if it records them, else D65]
     #[arg(long, value_name = "LAMP", requires = "film")]
     lamp: Option<String>,

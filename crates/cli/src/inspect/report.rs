@@ -64,7 +64,7 @@ impl Inspection<'_> {
                 film.describe(&mut text);
             }
         }
-        // Nobody asked for the spectrum of a whole image.
+        // The mean spectrum of a whole image was not requested.
         if !(self.arguments.at.is_empty() && self.arguments.region.is_empty()) {
             text.push('\n');
             self.spectra(&mut text);

@@ -81,7 +81,8 @@ impl SceneLamps {
         self.environment.is_empty() && self.lights.is_empty()
     }
 
-    /// The lamps under which a film may be seen. If it mirrors the environment, that is represented by what it mirrors.
+    /// The lamps under which a film may be seen. If the film mirrors the environment, only the light in the mirror direction
+    /// represents the environment.
     pub fn of(&self, film: &PickedFilm) -> Vec<SceneLamp> {
         let environment = film.mirrored.as_ref().map(std::slice::from_ref);
         let environment = environment.unwrap_or(&self.environment);
