@@ -49,7 +49,7 @@ pub(crate) struct Options {
     /// at constant luminance (white), clip, or keep, for .exr [default: perceptual, for .exr keep]
     #[arg(long, value_enum)]
     pub(super) gamut: Option<GamutName>,
-    /// Mark the pixels that the display cannot show with stripes
+    /// Mark with stripes the pixels that the display cannot show
     #[arg(long)]
     gamut_warning: bool,
     /// Print which fraction of the pixels the display cannot show, and how far gamut mapping moves them
@@ -78,7 +78,7 @@ fn without_effect(option: &str, needs: &str) -> miette::Report {
 }
 
 impl Options {
-    /// Reports options that cannot work before the work, not after it.
+    /// Reports options that cannot work before the work starts, not after it.
     pub(crate) fn check(&self, pictures: &[PathBuf], of_image: OfImage) -> miette::Result<()> {
         for path in pictures {
             self.format(path)?;
