@@ -1,11 +1,11 @@
-//! How a validated scene is to be rendered.
+//! How to render a validated scene.
 
 use crate::Sampler;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use spectra::BandGrid;
 
-/// How a scene is to be rendered.
+/// How to render a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderSettings {
     /// Width of the picture in pixels.
@@ -14,55 +14,54 @@ pub struct RenderSettings {
     pub height: u32,
     /// Samples (paths) per pixel.
     pub samples: u32,
-    /// Where the numbers come from that paths are drawn by.
+    /// The source of the random numbers that paths are sampled with.
     pub sampler: Sampler,
     /// Chooses the sequence of random numbers.
     pub seed: u32,
-    /// Bands that each pixel has.
+    /// The bands of each pixel.
     pub bands: BandGrid,
-    /// Where in its band a sample's wavelength lies.
+    /// Where the wavelengths of a sample lie in their bands.
     pub sampling: WavelengthSampling,
-    /// The most segments of a path, from 1 to [`RenderSettings::MAX_PATH_SEGMENTS`]. The camera ray is the
-    /// first; the one that reaches a light or the environment counts.
+    /// The maximum number of segments of a path, from 1 to [`RenderSettings::MAX_PATH_SEGMENTS`]. The camera ray is the first; the segment
+    /// that reaches a light or the environment counts too.
     pub max_path_segments: u32,
-    /// How light that surfaces scatter is found.
+    /// How direct light at surfaces is sampled.
     pub direct_light: DirectLight,
-    /// Film hits, the first of a path, at which it follows both the reflection and the transmission; at most
-    /// [`RenderSettings::MAX_FILM_SPLITS`].
+    /// How many of a path's first film hits follow both the reflection and the transmission; at most [`RenderSettings::MAX_FILM_SPLITS`].
     pub film_splits: u32,
-    /// Segments after which Russian roulette may end a path.
+    /// The number of segments after which Russian roulette may end a path.
     pub roulette_after: u32,
-    /// The largest radiance that a sample may bring in any band, W m⁻² sr⁻¹ nm⁻¹; brighter ones are dimmed to it.
+    /// The largest radiance that a sample may have in any band, W m⁻² sr⁻¹ nm⁻¹; brighter ones are scaled down to it.
     pub clamp: Option<f64>,
     /// Exposure of the developed picture in stops: 0 shows radiance 1 at every wavelength, 72 983 cd/m², as white.
     pub exposure_ev: f64,
-    /// Time of the picture, s. The thicknesses of the scene are those of this time already.
+    /// Time of the picture, s. The thicknesses of the scene are already evaluated at this time.
     pub time_s: f64,
 }
 
 impl RenderSettings {
-    /// The longest path that can be asked for.
+    /// The largest allowed number of segments of a path.
     pub const MAX_PATH_SEGMENTS: u32 = 32;
-    /// The most film hits at which a path can be split: it then has 8 ends.
+    /// The largest allowed number of film hits that split a path: it then has 8 ends.
     pub const MAX_FILM_SPLITS: u32 = 3;
-    /// The widest or highest picture that can be asked for.
+    /// The largest allowed width or height of a picture.
     pub const MAX_SIDE: u32 = 32_768;
 }
 
-/// Where in its band a sample's wavelength lies.
+/// Where the wavelengths of a sample lie in their bands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WavelengthSampling {
-    /// One offset is drawn per sample, for all bands: a band holds the mean over its width.
+    /// One random offset per sample for all bands: the value of a band is the mean over its width.
     Random,
     /// Always the center of the band: fixed wavelengths.
     Center,
 }
 
-/// How the light that reaches a surface straight from an emitter is found.
+/// How the light that reaches a surface directly from an emitter is sampled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DirectLight {
-    /// By emitter sampling and by BSDF sampling, weighted against each other (multiple importance sampling).
+    /// By emitter sampling and BSDF sampling, combined by multiple importance sampling.
     #[default]
     Both,
     /// By emitter sampling alone.

@@ -1,59 +1,60 @@
-//! The camera as written.
+//! The camera as written in a scene file.
 
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Where the scene is seen from.
+/// The camera.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Camera {
     /// All rays start at one point.
     Perspective {
-        /// Where the camera stands.
+        /// Position of the camera.
         position: [f64; 3],
-        /// The point in the middle of the picture.
+        /// The point that appears at the center of the picture.
         look_at: [f64; 3],
-        /// A direction that points upwards in the picture.
+        /// A direction that points up in the picture.
         #[serde(default = "up_default")]
         up: [f64; 3],
         /// Vertical field of view in degrees.
         #[schemars(range(min = limits::FOV_DEG.low, max = limits::FOV_DEG.high))]
         fov_deg: f64,
-        /// The lens; without one everything is sharp.
+        /// The lens; without one, everything is in focus.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         lens: Option<Lens>,
-        /// How a pixel gathers light from about its middle.
+        /// The reconstruction filter of the pixels.
         #[serde(default)]
         filter: Filter,
     },
-    /// All directions by longitude and latitude: a picture for `environment = { type = "image" }`. Best twice as wide as high.
+    /// All directions by longitude and latitude, which suits `environment = { type = "image" }`. The picture should be twice as wide as
+    /// high.
     Panorama {
-        /// Where the camera stands.
+        /// Position of the camera.
         position: [f64; 3],
-        /// The point in the middle of the picture; straight toward −Z when absent.
+        /// The point that appears at the center of the picture; straight toward −Z when absent.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         look_at: Option<[f64; 3]>,
-        /// A direction that points upwards in the picture.
+        /// A direction that points up in the picture.
         #[serde(default = "up_default")]
         up: [f64; 3],
-        /// How a pixel gathers light from about its middle.
+        /// The reconstruction filter of the pixels.
         #[serde(default)]
         filter: Filter,
     },
     /// All rays are parallel.
     Orthographic {
-        /// The point that the middle ray starts from.
+        /// The point that the central ray starts from.
         position: [f64; 3],
-        /// The point in the middle of the picture.
+        /// The point that appears at the center of the picture.
         look_at: [f64; 3],
-        /// A direction that points upwards in the picture.
+        /// A direction that points up in the picture.
         #[serde(default = "up_default")]
         up: [f64; 3],
         /// Height of the picture in scene units.
         #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
         height: f64,
-        /// How a pixel gathers light from about its middle.
+        /// The reconstruction filter of the pixels.
         #[serde(default)]
         filter: Filter,
     },
@@ -63,25 +64,25 @@ pub enum Camera {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Lens {
-    /// Radius of its opening, in scene units: the larger, the less is sharp.
+    /// Radius of the aperture, in scene units; a larger one gives a smaller depth of field.
     #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
     pub radius: f64,
-    /// Distance of the plane that is sharp, along the direction of view, in scene units; that of `look_at` where it is left out.
+    /// Distance to the plane in focus, along the view direction, in scene units; the distance to `look_at` when absent.
     #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub focus_distance: Option<f64>,
 }
 
-/// How a pixel gathers light from about its middle, in x and in y alike.
+/// The reconstruction filter of the pixels: the same profile in x and in y, centered on the pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Filter {
-    /// Evenly from its own square.
+    /// Constant over the pixel's own square.
     #[default]
     Box,
-    /// By a normal distribution of standard deviation half a pixel, cut off at 1.5 pixels.
+    /// A Gaussian with a standard deviation of half a pixel, truncated at 1.5 pixels.
     Gaussian,
-    /// By Blackman and Harris's window of 3 pixels' width (Harris, Proc. IEEE 66, 1978, four terms, −92 dB).
+    /// The Blackman–Harris window, 3 pixels wide (Harris, Proc. IEEE 66, 1978, four terms, −92 dB).
     BlackmanHarris,
 }
 

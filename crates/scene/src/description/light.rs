@@ -1,59 +1,59 @@
-//! Lights that are no objects, as written.
+//! Lights that are not objects, as written in a scene file.
 
 use super::Emission;
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A light that is no object: rays do not meet it. A distant light with a diameter is seen against what surrounds the scene; points,
-/// spots and distant lights without a diameter are seen only by what they shine upon.
+/// A light that is not an object, so that rays do not hit it. A distant light with a diameter is visible in front of the environment;
+/// points, spots and distant lights without a diameter are visible only by the surfaces that they light.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Light {
-    /// Light from so far away that it comes from the same direction everywhere, such as the sun's.
+    /// A light so far away that it has the same direction everywhere, such as the sun.
     Distant {
         /// What it emits.
         emission: Emission,
         /// Direction toward the light.
         direction: [f64; 3],
-        /// Angle under which it is seen: the sun's 0.533° when absent; 0 is light from a single direction.
+        /// Angular diameter in degrees: the sun's 0.533° when absent; 0 is light from a single direction.
         #[serde(default = "sun")]
         #[schemars(range(min = limits::ANGULAR_DIAMETER_DEG.low, max = limits::ANGULAR_DIAMETER_DEG.high))]
         diameter_deg: f64,
-        /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, that of all such lights
-        /// with this spectrum.
+        /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, it shares a group with all emitters
+        /// of the same spectrum that name none.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         light_group: Option<String>,
     },
-    /// A point that sends light to all sides alike.
+    /// A point that emits equally in all directions.
     Point {
         /// What it emits.
         emission: Emission,
-        /// Where it is.
+        /// Position.
         position: [f64; 3],
-        /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, that of all such lights
-        /// with this spectrum.
+        /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, it shares a group with all emitters
+        /// of the same spectrum that name none.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         light_group: Option<String>,
     },
-    /// A point that sends light into a cone.
+    /// A point that emits into a cone.
     Spot {
         /// What it emits.
         emission: Emission,
-        /// Where it is.
+        /// Position.
         position: [f64; 3],
         /// Direction in which it shines.
         direction: [f64; 3],
-        /// Angle of the whole cone.
+        /// Full angle of the cone, from edge to edge, in degrees.
         #[schemars(range(min = limits::SPOT_DEG.low, max = limits::SPOT_DEG.high))]
         angle_deg: f64,
-        /// Angle of the cone within which it has its full intensity; between the two it falls off smoothly. Four fifths of `angle_deg`
-        /// when absent.
+        /// Full angle of the inner cone of constant intensity, in degrees; between the two cones the intensity falls off smoothly. Four
+        /// fifths of `angle_deg` when absent.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(range(min = 0.0, max = limits::SPOT_DEG.high))]
         full_angle_deg: Option<f64>,
-        /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, that of all such lights
-        /// with this spectrum.
+        /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, it shares a group with all emitters
+        /// of the same spectrum that name none.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         light_group: Option<String>,
     },

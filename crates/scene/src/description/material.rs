@@ -1,4 +1,4 @@
-//! Materials as written.
+//! Materials as written in a scene file.
 
 use super::{ConductorModel, Emission, Finish, Index, Reflectance, Thickness};
 use crate::limits;
@@ -6,12 +6,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// What a surface is made of. Every surface has two sides. They behave alike, but for a film of several layers that absorbs: from
+/// What a surface is made of. Every surface has two sides, which behave alike, except those of an absorbing film of several layers: from
 /// behind, light meets its layers in the reverse order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Material {
-    /// Reflects light evenly into all directions (Lambert).
+    /// Reflects light diffusely, with the same radiance in all directions (Lambert).
     Diffuse {
         /// The reflectance, or a pattern of two.
         reflectance: DiffuseReflectance,
@@ -23,28 +23,28 @@ pub enum Material {
         /// How rough it is.
         #[serde(flatten)]
         finish: Finish,
-        /// How reflection is computed; "microfacets" when absent.
+        /// The reflection model; "microfacets" when absent.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         model: Option<ConductorModel>,
     },
-    /// Glass, enamel, lacquer: a clear coat over a diffuse base, or without a base an opaque body, in which what enters is absorbed.
+    /// Glass, enamel, lacquer: a clear coat over a diffuse base; without a base, an opaque body that absorbs all light that enters it.
     Dielectric {
-        /// The index of the coat or body. Above a base it must be clear: k is taken for 0 up to 1e-5, more is refused.
+        /// The index of the coat or body. Above a base it must be clear: k up to 1e-5 counts as 0, and more is an error.
         index: Index,
         /// How rough it is.
         #[serde(flatten)]
         finish: Finish,
-        /// What the base below the coat reflects, or a pattern of two; opaque when absent.
+        /// The reflectance of the base below the coat, or a pattern of two. When absent, there is no base, only an opaque body.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         base: Option<DiffuseReflectance>,
     },
-    /// A free thin film with air on both sides: one layer (`index` and `thickness_nm`) or several (`layers`).
-    /// Light reflects from it or passes straight through it, both with interference.
+    /// A free thin film with air on both sides: one layer (`index` and `thickness_nm`) or several (`layers`). It reflects and transmits
+    /// light without changing its line, both with interference.
     Film {
         /// The index of the only layer.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         index: Option<Index>,
-        /// How thick the only layer is, in nm.
+        /// Thickness of the only layer, in nm.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         thickness_nm: Option<Thickness>,
         /// The layers, the first on the outside of a sphere or on the side that a plane's normal points to.
@@ -54,20 +54,20 @@ pub enum Material {
         /// How interference is computed.
         #[serde(default)]
         model: FilmModel,
-        /// What `model = "two_beam"` takes for the path difference; "optical" when absent.
+        /// The path difference that `model = "two_beam"` uses; "optical" when absent.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         path_difference: Option<PathDifference>,
     },
-    /// A stack of thin films on a metal, or on any opaque medium: one layer (`index` and `thickness_nm`) or several
-    /// (`layers`). What enters the substrate is absorbed there. Each facet of a rough one
-    /// reflects as the stack does at the facet's own angle.
+    /// A stack of thin layers on a metal, or on any opaque medium: one layer (`index` and `thickness_nm`) or several (`layers`). The
+    /// substrate absorbs all light that enters it. Each facet of a rough surface reflects as the stack does at the facet's own angle of
+    /// incidence.
     Coated {
-        /// The index of what the layers lie on.
+        /// The index of the substrate.
         substrate: Index,
         /// The index of the only layer.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         index: Option<Index>,
-        /// How thick the only layer is, in nm.
+        /// Thickness of the only layer, in nm.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         thickness_nm: Option<Thickness>,
         /// The layers, the outermost first.
@@ -82,18 +82,18 @@ pub enum Material {
     Emitter {
         /// What it emits.
         emission: Emission,
-        /// The part of the light falling on it that it reflects evenly besides; black when absent.
+        /// Its diffuse reflectance for incident light; black when absent.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         reflectance: Option<Reflectance>,
-        /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, that of all such lights
-        /// with this spectrum.
+        /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, it shares a group with all emitters
+        /// of the same spectrum that name none.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         light_group: Option<String>,
     },
 }
 
 impl Material {
-    /// An even diffuse surface.
+    /// A diffuse surface of uniform reflectance.
     pub fn diffuse(reflectance: Reflectance) -> Self {
         Self::Diffuse {
             reflectance: DiffuseReflectance::Uniform(reflectance),
@@ -156,7 +156,7 @@ impl Material {
 pub struct Layer {
     /// The index of the layer.
     pub index: Index,
-    /// How thick it is, in nm.
+    /// Thickness, in nm.
     pub thickness_nm: Thickness,
 }
 
@@ -164,11 +164,11 @@ pub struct Layer {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FilmModel {
-    /// All passes of the light, in reflection and in transmission.
+    /// All beams, in reflection and in transmission.
     #[default]
     Exact,
-    /// Two beams in reflection and none in transmission (Suzuki, Yokoi and Toriwaki, section 4-2), for one layer that
-    /// does not absorb. Energy is not conserved: near grazing it reflects more than falls in.
+    /// Two beams in reflection, and transmission without interference (Suzuki, Yokoi and Toriwaki, section 4-2), for one layer that does
+    /// not absorb. Energy is not conserved: near grazing incidence more is reflected than arrives.
     TwoBeam,
 }
 
@@ -182,28 +182,28 @@ pub enum PathDifference {
     AsPrinted,
 }
 
-/// A reflectance over a surface.
+/// A reflectance that may vary over a surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, deny_unknown_fields)]
 pub enum DiffuseReflectance {
     /// The same everywhere.
     Uniform(Reflectance),
-    /// Squares of two reflectances in the axes of a plane, rectangle or disk, or cubes around a sphere's center.
+    /// A checkerboard of two reflectances: squares along the axes of a plane, rectangle or disk, or cubes around a sphere's center.
     Checker {
-        /// The two reflectances; the square whose lower corner is the origin has the first.
+        /// The two reflectances; the first is that of the square whose lower corner is the origin.
         checker: [Reflectance; 2],
         /// Side of a square.
         #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
         size: f64,
     },
-    /// A picture of colors, each of which becomes a smooth reflectance with that color under D65. On planes, rectangles
-    /// and disks it lies upright in the middle; on spheres it lies like a map on a globe, with its middle toward +Z.
+    /// A picture of colors, each of which becomes a smooth reflectance with that color under D65. On planes, rectangles and disks it is
+    /// upright and centered; on spheres it lies like a map on a globe, with its center toward +Z.
     Texture {
-        /// A PNG file of 8 or 16 bits, in the codes that it says (cICP, iCCP, gAMA and cHRM), else of sRGB; relative to the scene
-        /// file.
+        /// A PNG file of 8 or 16 bits, relative to the scene file. Its color encoding is the one that it declares (cICP, iCCP, gAMA and
+        /// cHRM), otherwise sRGB.
         texture: PathBuf,
-        /// Width and height on planes, rectangles and disks; when absent the whole rectangle, the square about a disk, or a square of
-        /// side 1 on a plane. Beyond it the picture's edge goes on. Not for spheres, which it always covers.
+        /// Width and height on planes, rectangles and disks. When absent, it covers the whole rectangle, the square around a disk, or a
+        /// square of side 1 on a plane. Outside, the picture's edge continues. Not for spheres, which it always covers completely.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(inner(inner(range(min = limits::LENGTH.low, max = limits::LENGTH.high))))]
         size: Option<[f64; 2]>,

@@ -1,31 +1,31 @@
-//! Roughness as written.
+//! Roughness as written in a scene file.
 
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How rough a surface is; smooth when nothing is said.
+/// How rough a surface is; smooth by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Finish {
     /// Roughness; smooth when absent.
     #[serde(default)]
     pub roughness: Roughness,
-    /// How the slopes of a rough surface are distributed; "beckmann" when absent.
+    /// The distribution of the slopes of a rough surface; "beckmann" when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub distribution: Option<Distribution>,
-    /// Which way the grain runs, where `roughness` is `[along, across]`.
+    /// The direction of the grain, if `roughness` is `[along, across]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub brushed: Option<Brushed>,
 }
 
-/// Roughness of a surface: the width α of its distribution of slopes. For Beckmann's distribution α is the root mean
-/// square slope. 0 is a smooth surface, otherwise it is from 0.02 to 1.
+/// Roughness of a surface: the width α of its distribution of slopes. For Beckmann's distribution α is the root mean square slope. It is 0
+/// for a smooth surface, and otherwise from 0.02 to 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Roughness {
     /// The same in all directions.
     Even(#[schemars(range(min = 0.0, max = limits::ROUGHNESS.high))] f64),
-    /// `[along, across]` the grain of a brushed surface, whose direction `brushed` tells.
+    /// `[along, across]` the grain of a brushed surface; `brushed` gives the grain's direction.
     Brushed(
         #[schemars(inner(range(min = limits::ROUGHNESS.low, max = limits::ROUGHNESS.high)))]
         [f64; 2],
@@ -38,7 +38,7 @@ impl Default for Roughness {
     }
 }
 
-/// How the slopes of a rough surface are distributed.
+/// The distribution of the slopes of a rough surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Distribution {
@@ -49,16 +49,16 @@ pub enum Distribution {
     Ggx,
 }
 
-/// Which way the grain of a brushed surface runs.
+/// The direction of the grain of a brushed surface.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, deny_unknown_fields)]
 pub enum Brushed {
     /// Along the same direction everywhere.
     Along {
-        /// The direction; its part in the surface counts.
+        /// The direction, which is projected onto the surface.
         along: [f64; 3],
     },
-    /// In circles about an axis through the object's center, as a lathe leaves it.
+    /// In circles about an axis through the object's center, as on a lathe-turned part.
     Around {
         /// Direction of the axis.
         around: [f64; 3],

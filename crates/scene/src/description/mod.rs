@@ -1,8 +1,8 @@
-//! A scene as it is written in a file.
+//! A scene as written in a file.
 //!
-//! These types are the one description of the file format: the TOML reader and the JSON Schema
-//! (`scenes/scene.schema.json`) are both made from them. A program can fill them in as well and hand the
-//! result to [`Scene::new`](crate::Scene::new). Nothing here is checked beyond its type.
+//! These types are the only description of the file format: both the TOML reader and the JSON Schema (`scenes/scene.schema.json`) are
+//! derived from them. A program can also fill them in and pass the result to [`Scene::new`](crate::Scene::new). Nothing here is checked
+//! beyond its type.
 
 mod camera;
 mod cook;
@@ -48,21 +48,21 @@ use std::collections::BTreeMap;
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Pellicle scene")]
 pub struct Description {
-    /// Where the scene is seen from.
+    /// The camera.
     pub camera: Camera,
-    /// How it is rendered.
+    /// How to render the scene.
     #[serde(default)]
     pub render: Render,
-    /// What surfaces are made of, by name.
+    /// The materials of the surfaces, by name.
     #[serde(default)]
     pub materials: BTreeMap<String, Material>,
-    /// The shapes in space.
+    /// The objects.
     #[serde(default)]
     pub objects: Vec<Object>,
-    /// Lights that are no objects.
+    /// Lights that are not objects.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lights: Vec<Light>,
-    /// What surrounds the objects; black when absent.
+    /// The environment; black when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub environment: Option<Environment>,
 }

@@ -1,4 +1,4 @@
-//! Objects as written.
+//! Objects as written in a scene file.
 
 use crate::limits;
 use schemars::JsonSchema;
@@ -18,22 +18,22 @@ pub enum Object {
         #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
         radius: f64,
     },
-    /// A plane without bounds.
+    /// An infinite plane.
     Plane {
         /// The name of one of the `materials`.
         material: String,
-        /// A point of the plane; patterns start from it.
+        /// A point of the plane, and the origin of patterns.
         point: [f64; 3],
-        /// A direction at right angles to the plane.
+        /// A direction perpendicular to the plane.
         normal: [f64; 3],
     },
-    /// A plane bounded to a rectangle.
+    /// A rectangle.
     Rectangle {
         /// The name of one of the `materials`.
         material: String,
         /// Center.
         center: [f64; 3],
-        /// A direction at right angles to the rectangle.
+        /// A direction perpendicular to the rectangle.
         normal: [f64; 3],
         /// Width and height.
         #[schemars(inner(range(min = limits::LENGTH.low, max = limits::LENGTH.high)))]
@@ -42,13 +42,13 @@ pub enum Object {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         up: Option<[f64; 3]>,
     },
-    /// A plane bounded to a disk.
+    /// A disk.
     Disk {
         /// The name of one of the `materials`.
         material: String,
         /// Center.
         center: [f64; 3],
-        /// A direction at right angles to the disk.
+        /// A direction perpendicular to the disk.
         normal: [f64; 3],
         /// Radius.
         #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]

@@ -1,4 +1,4 @@
-//! Numbers over wavelength as written.
+//! Spectra as written in a scene file: reflectances and refractive indices.
 
 use super::{IndexColumns, TableColumn};
 use crate::limits;
@@ -6,73 +6,74 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// What a table says outside its wavelengths.
+/// How a table extends outside its wavelengths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Extrapolate {
-    /// Nothing: asking there is an error.
+    /// Not at all: it is an error if the scene needs a value there.
     #[default]
     Error,
     /// Its first or last value.
     Clamp,
 }
 
-/// A reflectance: the part of the light that comes back, from 0 to 1.
+/// A reflectance: the fraction of the incident light that is reflected, from 0 to 1.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, deny_unknown_fields)]
 pub enum Reflectance {
     /// The same at every wavelength.
     Constant(#[schemars(range(min = 0.0, max = 1.0))] f64),
-    /// The name of a reflectance that Pellicle carries, such as `white_9_5` of the `ColorChecker`.
+    /// The name of a reflectance built into Pellicle, such as `white_9_5` of the `ColorChecker`.
     Name(String),
-    /// A smooth reflectance with the color of these codes of sRGB (IEC 61966-2-1) under D65.
+    /// A smooth reflectance whose color under D65 has these sRGB values (IEC 61966-2-1).
     Srgb {
-        /// Red, green and blue as pictures have them, from 0 to 1.
+        /// Red, green and blue as encoded in pictures, from 0 to 1.
         #[schemars(inner(range(min = 0.0, max = 1.0)))]
         srgb: [f64; 3],
     },
-    /// A smooth reflectance with the color of these amounts of sRGB's primaries under D65.
+    /// A smooth reflectance whose color under D65 has these linear sRGB values.
     LinearSrgb {
-        /// Red, green and blue in proportion to light, from 0 to 1.
+        /// Red, green and blue, proportional to light, from 0 to 1.
         #[schemars(inner(range(min = 0.0, max = 1.0)))]
         linear_srgb: [f64; 3],
     },
-    /// The name of a reflectance that Pellicle carries, and what to do outside its wavelengths.
+    /// The name of a reflectance built into Pellicle, and how it extends outside its wavelengths.
     Named {
         /// The name.
         name: String,
-        /// What the table says outside its wavelengths.
+        /// How the table extends outside its wavelengths.
         #[serde(default)]
         extrapolate: Extrapolate,
     },
-    /// A table in the scene, linear between its points.
+    /// A table in the scene file, interpolated linearly.
     Table {
-        /// Wavelengths in nm, rising.
+        /// Wavelengths in nm, in ascending order.
         nm: Vec<f64>,
         /// The reflectance at each of them.
         values: Vec<f64>,
-        /// What the table says outside its wavelengths.
+        /// How the table extends outside its wavelengths.
         #[serde(default)]
         extrapolate: Extrapolate,
     },
     /// A table in a file.
     File {
-        /// A text file with the columns wavelength and reflectance, or of a measuring instrument; relative to the scene file.
+        /// A text file with columns for wavelength and reflectance, or a file written by a measuring instrument. The path is relative to
+        /// the scene file.
         csv: PathBuf,
-        /// Which column of the file, by its name in the head or its number from 1; needed where there are several.
+        /// The column of the file, by its name in the header or its number from 1; needed if there are several.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         column: Option<TableColumn>,
-        /// Units that the file's head does not name: "nm", "um", "angstrom" or "eV" of its wavelengths, "percent" of its values,
-        /// or both, as in "um percent".
+        /// The units that the file's header does not name: "nm", "um", "angstrom" or "eV" for wavelengths, "percent" for values, or both,
+        /// as in "um percent".
         #[serde(default, skip_serializing_if = "Option::is_none")]
         unit: Option<String>,
-        /// What the table says outside its wavelengths.
+        /// How the table extends outside its wavelengths.
         #[serde(default)]
         extrapolate: Extrapolate,
     },
 }
 
-/// A complex index of refraction n + ik; k ≥ 0 absorbs.
+/// A complex index of refraction n + ik with k ≥ 0; k > 0 absorbs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, deny_unknown_fields)]
 pub enum Index {
@@ -80,41 +81,41 @@ pub enum Index {
     Real(#[schemars(range(min = limits::INDEX_N.low, max = limits::INDEX_N.high))] f64),
     /// `[n, k]`, the same at every wavelength.
     Complex([f64; 2]),
-    /// The name of a material whose index Pellicle carries, such as "gold".
+    /// The name of a material whose index is built into Pellicle, such as "gold".
     Name(String),
-    /// The name of a material whose index Pellicle carries, and what to do outside its wavelengths.
+    /// The name of a material whose index is built into Pellicle, and how it extends outside its wavelengths.
     Named {
         /// The name.
         name: String,
-        /// What the table says outside its wavelengths.
+        /// How the table extends outside its wavelengths.
         #[serde(default)]
         extrapolate: Extrapolate,
     },
-    /// A table in the scene, linear between its points.
+    /// A table in the scene file, interpolated linearly.
     Table {
-        /// Wavelengths in nm, rising.
+        /// Wavelengths in nm, in ascending order.
         nm: Vec<f64>,
         /// The real part at each of them.
         n: Vec<f64>,
         /// The imaginary part at each of them; 0 when absent.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         k: Option<Vec<f64>>,
-        /// What the table says outside its wavelengths.
+        /// How the table extends outside its wavelengths.
         #[serde(default)]
         extrapolate: Extrapolate,
     },
     /// A table in a file.
     File {
-        /// A text file with the columns wavelength, n and (0 when absent) k; relative to the scene file.
+        /// A text file with columns for wavelength, n and, unless it is 0, k. The path is relative to the scene file.
         csv: PathBuf,
-        /// The columns of n and k, as in `["n_o", "k_o"]`, or that of n alone: by their names in the head or their numbers from 1;
-        /// needed where the head does not tell.
+        /// The columns of n and k, as in `["n_o", "k_o"]`, or the column of n alone, by their names in the header or their numbers from 1;
+        /// needed if the header does not identify them.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         column: Option<IndexColumns>,
-        /// The unit that the file's head does not name: "nm", "um", "angstrom" or "eV" of its wavelengths.
+        /// The unit of the wavelengths, if the file's header does not name it: "nm", "um", "angstrom" or "eV".
         #[serde(default, skip_serializing_if = "Option::is_none")]
         unit: Option<String>,
-        /// What the table says outside its wavelengths.
+        /// How the table extends outside its wavelengths.
         #[serde(default)]
         extrapolate: Extrapolate,
     },
@@ -122,15 +123,15 @@ pub enum Index {
     Database {
         /// A YAML file with `DATA` blocks: tables of n, k or both, and the formulas 1 to 9; relative to the scene file.
         yaml: PathBuf,
-        /// What the data say outside their wavelengths.
+        /// How the data extend outside their wavelengths.
         #[serde(default)]
         extrapolate: Extrapolate,
     },
     /// Cauchy's formula, n = A + B/λ² + C/λ⁴ with λ in µm; k is 0.
     Cauchy {
-        /// A, B in µm² and C in µm⁴; the later ones may be left out.
+        /// A, B in µm² and C in µm⁴; C, or B and C, may be left out.
         cauchy: Vec<f64>,
-        /// What the formula says where it gives no index.
+        /// What to do at wavelengths where the formula yields no index.
         #[serde(default)]
         extrapolate: Extrapolate,
     },
@@ -138,23 +139,22 @@ pub enum Index {
     Sellmeier {
         /// The coefficients.
         sellmeier: SellmeierTerms,
-        /// What the formula says where it gives no index.
+        /// What to do at wavelengths where the formula yields no index.
         #[serde(default)]
         extrapolate: Extrapolate,
     },
-    /// The index without absorption that reflects as much at normal incidence: n = (1 + √F) / (1 − √F), k = 0
-    /// (Cook and Torrance 1982).
+    /// The real index with a given reflectance at normal incidence: n = (1 + √F) / (1 − √F), k = 0 (Cook and Torrance 1982).
     Reflecting {
         /// The reflectance at normal incidence, at most 0.996.
         normal_reflectance: Reflectance,
     },
-    /// A mixture of two media, in grains far smaller than the wavelength.
+    /// A mixture of two media, in grains much smaller than the wavelength.
     Mixture {
         /// The rule.
         mixture: MixtureRule,
-        /// The two media; by Maxwell Garnett the second is spheres in the first.
+        /// The two media; for Maxwell Garnett, the second forms spheres in the first.
         of: Box<[Index; 2]>,
-        /// The part of the volume that the second medium fills.
+        /// The fraction of the volume that the second medium fills.
         #[schemars(range(min = limits::FRACTION.low, max = limits::FRACTION.high))]
         fraction: f64,
     },

@@ -1,4 +1,4 @@
-//! What is said of tables in files.
+//! Columns of tables in files, as written in a scene file.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub enum TableColumn {
     /// Its position; the first column of the file is 1.
     Number(#[schemars(range(min = 1))] u32),
-    /// Its name in the head, or the id or name of a sample.
+    /// Its name in the header, or the id or name of a sample.
     Name(String),
 }
 
@@ -17,8 +17,8 @@ pub enum TableColumn {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum IndexColumns {
-    /// That of n; k is 0.
+    /// The column of n; k is 0.
     N(TableColumn),
-    /// Those of n and k.
+    /// The columns of n and k.
     Both([TableColumn; 2]),
 }

@@ -1,11 +1,11 @@
-//! Thicknesses as written.
+//! Thicknesses as written in a scene file.
 
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// What of a picture's pixel is a number.
+/// The channel of a picture that is used as a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PictureChannel {
@@ -17,14 +17,14 @@ pub enum PictureChannel {
     B,
     /// Alpha: 1 where the picture is opaque.
     A,
-    /// 0.2126 r + 0.7152 g + 0.0722 b of the values as they stand.
+    /// 0.2126 r + 0.7152 g + 0.0722 b of the stored values.
     Luma,
 }
 
 /// The thickness of a layer over its surface, in nm.
 ///
-/// What sums and products come to is kept from 0 to 100 000 nm: where less comes out the layer is absent. Within a
-/// product a value may be a factor without unit.
+/// The results of sums and products are clamped to 0 to 100 000 nm: where the result is 0 or less, the layer is absent. Within a product, a
+/// value may be a dimensionless factor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, deny_unknown_fields)]
 pub enum Thickness {
@@ -32,8 +32,8 @@ pub enum Thickness {
     Constant(
         #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))] f64,
     ),
-    /// On spheres only, linear in the angle from an axis through the center: grows (or shrinks) from the pole over
-    /// the equator and on to the other pole at the same rate.
+    /// On spheres only: linear in the angle from an axis through the center, at the same rate from the pole to the equator and on to the
+    /// opposite pole.
     Polar {
         /// Thickness where the axis leaves the sphere, nm.
         #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))]
@@ -63,24 +63,24 @@ pub enum Thickness {
         /// The steps.
         steps: Steps,
     },
-    /// A soap film that drains under gravity as time goes on.
+    /// A soap film that drains under gravity with time.
     Drainage {
         /// The film.
         drainage: Drainage,
     },
-    /// Turbulent streaks: noise carried along by a flow without sources.
+    /// Turbulent streaks: noise advected by a divergence-free flow.
     Swirls {
         /// The streaks.
         swirls: Swirls,
     },
     /// A picture over the surface.
     Image {
-        /// A PNG file, relative to the scene file. Its values are taken as numbers from 0 to 1 as they stand, without any
-        /// transfer function, whatever the file says of its colors. On a sphere its left edge and its right edge meet behind,
-        /// toward −Z, its middle looks to +Z and its upper edge is the pole +Y.
+        /// A PNG file, relative to the scene file. Its stored values are used as numbers from 0 to 1, without any transfer function,
+        /// whatever color space the file declares. On a sphere its center is toward +Z, its left and right edges meet toward −Z, and its
+        /// upper edge is the pole +Y.
         image: PathBuf,
-        /// What of the picture is taken: one of its channels, or their luma (0.2126 r + 0.7152 g + 0.0722 b of the values).
-        /// Luma when absent, which is the value of a gray picture. glTF keeps thicknesses in "g".
+        /// The channel to use: one of the picture's channels, or their luma (0.2126 r + 0.7152 g + 0.0722 b of the stored values). Luma
+        /// when absent, which for a gray picture is its value. glTF stores thicknesses in "g".
         #[serde(default, skip_serializing_if = "Option::is_none")]
         channel: Option<PictureChannel>,
         /// Thickness where the picture is black, nm.
@@ -89,8 +89,8 @@ pub enum Thickness {
         /// Thickness where the picture is white, nm.
         #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))]
         max: f64,
-        /// Width and height on planes and rectangles, about the origin of their axes; the edges go on beyond. When absent
-        /// the picture covers a rectangle, and a square of side 1 on a plane.
+        /// Width and height on planes and rectangles, centered on the origin of their axes; outside, the edges continue. When absent, the
+        /// picture covers the whole rectangle, or a square of side 1 on a plane.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(inner(range(min = limits::LENGTH.low, max = limits::LENGTH.high)))]
         size: Option<[f64; 2]>,
@@ -100,17 +100,17 @@ pub enum Thickness {
         /// What is added.
         sum: Vec<Thickness>,
     },
-    /// The product of several, of which one has the unit nm and the others are factors.
+    /// The product of several: one has the unit nm, and the others are factors.
     Product {
         /// What is multiplied.
         product: Vec<Thickness>,
     },
-    /// The oxide that anodizing leaves.
+    /// The oxide that anodizing grows.
     Anodizing {
         /// The process.
         anodizing: Anodizing,
     },
-    /// The oxide that heating steel in air leaves.
+    /// The oxide that grows on steel heated in air.
     HeatTint {
         /// The process.
         heat_tint: HeatTint,
@@ -118,7 +118,7 @@ pub enum Thickness {
 }
 
 impl Thickness {
-    /// This and everything that it is made of.
+    /// This thickness and, recursively, the terms of its sums and products.
     pub(crate) fn parts(&self) -> impl Iterator<Item = &Self> {
         let mut open = vec![self];
         std::iter::from_fn(move || {
@@ -138,29 +138,28 @@ pub struct Steps {
     /// Thickness on each step, nm.
     #[schemars(inner(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high)))]
     pub values: Vec<f64>,
-    /// The point where the first step begins; it goes on before.
+    /// The point where the first step begins; before it, that step continues.
     pub from: [f64; 3],
-    /// The point where the last step ends; it goes on beyond.
+    /// The point where the last step ends; beyond it, that step continues.
     pub to: [f64; 3],
 }
 
-/// A soap film of water that drains under gravity (downwards is −Y) from the same thickness everywhere at time 0.
+/// A soap film of water that drains under gravity (−Y is down) from a uniform thickness at time 0.
 ///
-/// The liquid flows between two surfaces that do not move (rigid: Mysels, Shinoda and Frankel, Soap Films, 1959; Reynolds
-/// 1886): a flux of ρ g h³ / (12 η) down a vertical film of thickness h. With nothing flowing in from above, a plane film has
-/// h = √(4 η z / (ρ g t)) at the depth z (Jeffreys 1930), or still its first thickness where that is less, and a bubble of
-/// radius R at its top (h₀⁻² + ρ g t / (3 η R))^(−1/2). Where the film becomes thinner than `black_below` it is a black film, with
-/// a sharp edge as in real films.
+/// The liquid flows between two surfaces that do not move (rigid: Mysels, Shinoda and Frankel, Soap Films, 1959; Reynolds 1886), with a
+/// flux of ρ g h³ / (12 η) down a vertical film of thickness h. With no inflow from above, a plane film has h = √(4 η z / (ρ g t)) at depth
+/// z (Jeffreys 1930), or its initial thickness where that is less; a bubble of radius R has (h₀⁻² + ρ g t / (3 η R))^(−1/2) at its top.
+/// Where the film becomes thinner than `black_below` it turns into a black film, with a sharp edge as in real films.
 ///
-/// Real films of small soap molecules have surfaces that move, and thin many times faster by exchange with their borders
-/// (marginal regeneration). A smaller, effective viscosity then gives the right time with the shape of this model. What
-/// gathers at a bubble's lowest point, a hanging drop, is cut off at 20 µm.
+/// Real films of small soap molecules have mobile surfaces, and thin many times faster by exchange with their borders (marginal
+/// regeneration). A smaller effective viscosity then gives the right time scale with the shape of this model. The hanging drop that gathers
+/// at a bubble's lowest point is cut off at 20 µm.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, deny_unknown_fields)]
 pub enum Drainage {
-    /// A bubble; on spheres only.
+    /// A bubble, on spheres only.
     Sphere {
-        /// Thickness everywhere at time 0, nm.
+        /// Uniform thickness at time 0, nm.
         #[schemars(range(min = limits::DRAINING_NM.low, max = limits::DRAINING_NM.high))]
         initial: f64,
         /// Radius of the real bubble, m, whatever its size in the scene.
@@ -174,7 +173,7 @@ pub enum Drainage {
         #[serde(default = "density_default")]
         #[schemars(range(min = limits::DENSITY_KG_M3.low, max = limits::DENSITY_KG_M3.high))]
         density_kg_m3: f64,
-        /// A film thinner than this is black, nm.
+        /// Where the film is thinner than this, nm, it is a black film.
         #[serde(default = "black_below_default")]
         #[schemars(range(min = limits::DRAINING_NM.low, max = limits::DRAINING_NM.high))]
         black_below: f64,
@@ -183,9 +182,9 @@ pub enum Drainage {
         #[schemars(range(min = limits::DRAINING_NM.low, max = limits::DRAINING_NM.high))]
         black: f64,
     },
-    /// A plane film, vertical or leaning.
+    /// A plane film, vertical or inclined.
     Plane {
-        /// Thickness everywhere at time 0, nm.
+        /// Uniform thickness at time 0, nm.
         #[schemars(range(min = limits::DRAINING_NM.low, max = limits::DRAINING_NM.high))]
         initial: f64,
         /// A point of the upper edge.
@@ -203,7 +202,7 @@ pub enum Drainage {
         #[serde(default = "density_default")]
         #[schemars(range(min = limits::DENSITY_KG_M3.low, max = limits::DENSITY_KG_M3.high))]
         density_kg_m3: f64,
-        /// A film thinner than this is black, nm.
+        /// Where the film is thinner than this, nm, it is a black film.
         #[serde(default = "black_below_default")]
         #[schemars(range(min = limits::DRAINING_NM.low, max = limits::DRAINING_NM.high))]
         black_below: f64,
@@ -214,43 +213,43 @@ pub enum Drainage {
     },
 }
 
-/// Turbulent streaks: gradient noise (Perlin 2002) of several octaves, carried along the surface by a flow whose stream
-/// function is noise too, so that it has no sources (curl noise: Bridson, Houriham and Nordenstam 2007).
+/// Turbulent streaks: gradient noise (Perlin 2002) of several octaves, advected along the surface by a flow whose stream function is also
+/// noise, which makes it divergence-free (curl noise: Bridson, Houriham and Nordenstam 2007).
 ///
-/// On spheres it is solid noise at the direction from the center, on planes it lies in the surface's two axes and time runs
-/// across them. It imitates the look of a stirred film; no equation of motion is solved.
+/// On spheres it is solid noise of the direction from the center; on planes it is noise of the two surface axes, with time as the third. It
+/// imitates the look of a stirred film; no equation of motion is solved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Swirls {
-    /// The value that the streaks lie about, nm, or a number such as 1 within a product.
+    /// The mean value, nm, or a number such as 1 within a product.
     #[serde(default)]
     #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))]
     pub mean: f64,
-    /// The largest deviation from it; half of all places deviate by more than about half of this.
+    /// The largest deviation from the mean; on half of the surface the deviation is more than roughly half of this.
     #[schemars(range(min = limits::THICKNESS_NM.low, max = limits::THICKNESS_NM.high))]
     pub amplitude: f64,
-    /// Size of the largest streaks: in scene units on planes, in radii on spheres.
+    /// Size of the largest streaks, in scene units on planes, in radii on spheres.
     #[schemars(range(min = limits::SWIRL_SCALE.low, max = limits::SWIRL_SCALE.high))]
     pub scale: f64,
-    /// Chooses the pattern. The octaves take the seeds from this one on, so patterns of neighboring seeds have lattices in
-    /// common: leave `octaves` between the seeds of patterns that should have nothing to do with each other.
+    /// Chooses the pattern. The octaves use consecutive seeds from this one on, so patterns of neighboring seeds have lattices in common:
+    /// leave `octaves` between the seeds of patterns that should be independent.
     #[serde(default)]
     pub seed: u32,
-    /// Octaves: each is half as large and half as strong as the one before.
+    /// Number of octaves; each is half as large and half as strong as the one before.
     #[serde(default = "octaves_default")]
     #[schemars(range(min = limits::OCTAVES.low, max = limits::OCTAVES.high))]
     pub octaves: u32,
-    /// How far the flow has carried the streaks, in their own size: 0 gives clouds, 1 streaks, 3 thin filaments.
+    /// How far the flow has carried the streaks, relative to their size: 0 gives clouds, 1 streaks, 3 thin filaments.
     #[serde(default = "warp_default")]
     #[schemars(range(min = limits::WARP.low, max = limits::WARP.high))]
     pub warp: f64,
-    /// How often per second the pattern becomes another one.
+    /// How many times per second the pattern changes into another one.
     #[serde(default)]
     #[schemars(range(min = limits::SWIRL_RATE.low, max = limits::SWIRL_RATE.high))]
     pub rate: f64,
 }
 
-/// A number, or one that is linear along a line in space.
+/// A number that is constant, or linear along a line in space.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, deny_unknown_fields)]
 pub enum Quantity {
@@ -271,27 +270,27 @@ pub enum Quantity {
 
 /// Anodizing: an oxide that grows in proportion to the voltage, d = `native` + `nm_per_volt` · V.
 ///
-/// On titanium 2.4 to 2.8 nm/V, by electrolyte, were measured by ellipsometry up to 7.5 V (Ohtsuka, Masuda and Sato,
-/// J. Electrochem. Soc. 132, 787, 1985); the sequence of colors up to some 120 V follows the same line, but rougher and
-/// partly crystalline films above about 10 V depart from it by electrolyte and current.
+/// On titanium, 2.4 to 2.8 nm/V, depending on the electrolyte, were measured by ellipsometry up to 7.5 V (Ohtsuka, Masuda and Sato, J.
+/// Electrochem. Soc. 132, 787, 1985). The sequence of colors up to about 120 V follows the same line, but above about 10 V rougher and
+/// partly crystalline films deviate from it, depending on electrolyte and current.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Anodizing {
     /// The metal.
     pub metal: AnodizedMetal,
-    /// The voltage, V, from 0 to 150; a number or linear along a line.
+    /// The voltage, V, from 0 to 150: a number, or linear along a line.
     pub volts: Quantity,
     /// Growth of the oxide, nm/V.
     #[serde(default = "nm_per_volt_default")]
     #[schemars(range(min = limits::NM_PER_VOLT.low, max = limits::NM_PER_VOLT.high))]
     pub nm_per_volt: f64,
-    /// The oxide that the metal has by itself, nm: 0.5 to 7 on titanium (Aladjem, J. Mater. Sci. 8, 688, 1973).
+    /// The native oxide of the metal, nm: 0.5 to 7 on titanium (Aladjem, J. Mater. Sci. 8, 688, 1973).
     #[serde(default = "native_default")]
     #[schemars(range(min = 0.0, max = limits::THICKNESS_NM.high))]
     pub native: f64,
 }
 
-/// A metal that can be anodized to colors.
+/// A metal that takes on colors when anodized.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum AnodizedMetal {
@@ -302,17 +301,17 @@ pub enum AnodizedMetal {
 /// Heat tint: polished steel heated in air. The oxide grows by the parabolic law d² = k t (Wagner 1933; found on iron below
 /// 570 °C by del Campo, Pérez-Sáez and Tello, Corros. Sci. 50, 194, 2008) with k = k₀ exp(−E / (R T)).
 ///
-/// k₀ = 1.06e6 nm²/s and E = 60 kJ/mol are no material constants: they are fitted here, for ten minutes, so that magnetite
-/// (Querry 1985) on iron (Johnson and Christy 1974) goes through the temper colors of carbon steel at their temperatures
-/// (Machinery's Handbook: straw 230, brown-yellow 260, purple 282, blue 293 to 299, light blue 338 °C). The thinnest oxides grow
-/// more slowly with time than this (McAdam and Geil, J. Res. Natl. Bur. Stand. 23, 63, 1939), so trust it from some minutes to an
-/// hour. Alloyed and stainless steels need other temperatures.
+/// k₀ = 1.06e6 nm²/s and E = 60 kJ/mol are not material constants: they are fitted, for ten minutes, so that magnetite (Querry 1985) on
+/// iron (Johnson and Christy 1974) goes through the temper colors of carbon steel at their temperatures (Machinery's Handbook: straw 230,
+/// brown-yellow 260, purple 282, blue 293 to 299, light blue 338 °C). The thinnest oxides grow more slowly than this law (McAdam and Geil,
+/// J. Res. Natl. Bur. Stand. 23, 63, 1939), so trust it from a few minutes to an hour. Alloyed and stainless steels need other
+/// temperatures.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeatTint {
-    /// Temperature, °C, from 150 to 400; a number or linear along a line.
+    /// Temperature, °C, from 150 to 400: a number, or linear along a line.
     pub temperature_c: Quantity,
-    /// How long it is held, min.
+    /// How long the temperature is held, min.
     #[schemars(range(min = limits::MINUTES.low, max = limits::MINUTES.high))]
     pub minutes: f64,
     /// The steel.
@@ -320,7 +319,7 @@ pub struct HeatTint {
     pub steel: Steel,
 }
 
-/// A steel that heat tints.
+/// A steel that can be heat tinted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Steel {
