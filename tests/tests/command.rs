@@ -260,7 +260,7 @@ fn check_summarizes_a_scene() {
     std::fs::write(&dark, camera).unwrap();
     let said = place.run(&format!("check {}", dark.display())).succeeded();
     told(&said.stdout, &["0 objects, no light;"], "check");
-    told(&said.stderr, &["note: nothing shines"], "check");
+    told(&said.stderr, &["note: nothing emits light"], "check");
     std::fs::remove_file(&dark).unwrap();
     assert!(place.names().is_empty());
 }

@@ -1,7 +1,7 @@
-//! The ranges that numbers of a scene must lie in.
+//! The allowed ranges of a scene's numbers.
 //!
-//! They keep every product that a renderer forms inside `f32` with room to spare, and are wide enough for
-//! anything that thin films and metals need. The JSON Schema shows the same numbers.
+//! They keep every product that a renderer computes well within `f32`, and are wide enough for anything that thin films and metals need.
+//! The JSON Schema shows the same numbers.
 
 use std::fmt;
 
@@ -12,7 +12,7 @@ pub struct Range {
     pub low: f64,
     /// The largest number allowed.
     pub high: f64,
-    /// The unit with a space before it, or nothing.
+    /// The unit with a leading space, or nothing.
     pub unit: &'static str,
 }
 
@@ -21,7 +21,7 @@ impl Range {
         Self { low, high, unit }
     }
 
-    /// Whether `value` is a number of the range; NaN never is.
+    /// Whether `value` is in the range; NaN never is.
     pub fn contains(&self, value: f64) -> bool {
         self.low <= value && value <= self.high
     }
@@ -39,7 +39,7 @@ impl fmt::Display for Range {
     }
 }
 
-/// A number as messages show it: long rows of digits as a power of ten.
+/// A number as messages show it: in scientific notation if it has many digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shown(pub f64);
 
@@ -68,33 +68,34 @@ pub const MIN_SINE: f64 = 1e-4;
 pub const FOV_DEG: Range = Range::new(0.001, 179.9, "°");
 /// Thickness of a film: 100 µm is far beyond the last visible fringe.
 pub const THICKNESS_NM: Range = Range::new(0.0, 100_000.0, " nm");
-/// The deepest nesting of sums and products in a thickness.
+/// The maximum nesting depth of sums and products in a thickness.
 pub const MAX_FIELD_DEPTH: usize = 4;
-/// The most parts of a thickness, sums and products counted.
+/// The maximum number of parts of a thickness, including sums and products.
 pub const MAX_FIELD_PARTS: usize = 64;
-/// The largest value that a sum or product within a thickness may come to: its products stay inside `f32`.
+/// The largest allowed value of a sum or product within a thickness: its products stay within `f32`.
 pub const MAX_FIELD_VALUE: f64 = 1e9;
-/// The most values of a stepped thickness.
+/// The maximum number of values of a stepped thickness.
 pub const MAX_STEPS: usize = 4096;
 /// Size of the largest swirls, in scene units or in radii of a sphere.
 pub const SWIRL_SCALE: Range = Range::new(1e-3, 1e6, "");
-/// Distance by which swirls are carried along, in their own size.
+/// Distance by which the flow carries swirls, relative to their size.
 pub const WARP: Range = Range::new(0.0, 4.0, "");
 /// Rate at which swirls change, in lives of a swirl per second.
 pub const SWIRL_RATE: Range = Range::new(0.0, 1000.0, " per second");
-/// Octaves of swirls: each is half as large and half as strong as the one before.
+/// Number of octaves of swirls; each is half as large and half as strong as the one before.
 pub const OCTAVES: Range = Range::new(1.0, 6.0, "");
-/// The widest or highest picture, in pixels.
+/// The maximum width and height of a picture, in pixels.
 pub const MAX_PICTURE_SIDE: u32 = 16_384;
-/// The most pixels of such a picture: 16384 × 8192. A panorama of as many takes 4.3 GB while it is read, and 2.1 GB of the scene.
+/// The maximum number of pixels of such a picture: 16384 × 8192. A panorama of this size takes 4.3 GB while it is read, and 2.1 GB in the
+/// scene.
 pub const MAX_PICTURE_PIXELS: u64 = 1 << 27;
-/// The most pixels of a picture of spectra times the scene's bands, in whole fours: 512 MiB.
+/// The maximum of the pixels of a spectral picture times the scene's bands, rounded up to a multiple of four: 512 MiB.
 pub const MAX_PICTURE_VALUES: u64 = 1 << 27;
-/// The largest file of a picture, in bytes: that of 2²⁷ pixels of four numbers.
+/// The maximum size of a picture file, in bytes: 2²⁷ pixels of four numbers each.
 pub const MAX_PICTURE_BYTES: u64 = 2 << 30;
-/// How far the width of a picture of all directions may be from twice its height, as a part of it, and by how many pixels.
+/// How far the width of a picture of all directions may differ from twice its height: as a fraction of the width, or in pixels.
 pub const PANORAMA_ASIDE: (f64, u32) = (0.01, 2);
-/// Time, and the step of a sequence.
+/// Time, and the time step of a sequence.
 pub const TIME_S: Range = Range::new(0.0, 1e9, " s");
 /// A viscosity.
 pub const VISCOSITY_PA_S: Range = Range::new(1e-9, 1e6, " Pa s");
@@ -102,51 +103,51 @@ pub const VISCOSITY_PA_S: Range = Range::new(1e-9, 1e6, " Pa s");
 pub const DENSITY_KG_M3: Range = Range::new(1.0, 25_000.0, " kg/m³");
 /// Radius or height of a draining film.
 pub const FILM_SIZE_M: Range = Range::new(1e-6, 1e3, " m");
-/// Thickness of a draining film at the start. What gathers at a bubble's lowest point is cut off at the end of the range.
+/// Initial thickness of a draining film. The drop at a bubble's lowest point is cut off at the upper end of the range.
 pub const DRAINING_NM: Range = Range::new(0.0, 20_000.0, " nm");
-/// Anodizing voltage: titanium's films break down at some 100 to 150 V.
+/// Anodizing voltage: films on titanium break down at about 100 to 150 V.
 pub const VOLTS: Range = Range::new(0.0, 150.0, " V");
 /// Growth of an anodic film. Valve metals have 1 to 3.
 pub const NM_PER_VOLT: Range = Range::new(0.1, 10.0, " nm/V");
-/// Temperature of a heat tint: where the temper colors of carbon steel lie, with some room.
+/// Temperature of a heat tint: the temper colors of carbon steel, with some margin.
 pub const HEAT_TINT_C: Range = Range::new(150.0, 400.0, " °C");
 /// Time of a heat tint.
 pub const MINUTES: Range = Range::new(0.0, 600.0, " min");
-/// Real part of an index. Silver, the smallest measured one, has 0.03.
+/// Real part of an index. The smallest measured value is silver's 0.03.
 pub const INDEX_N: Range = Range::new(0.001, 1000.0, "");
 /// Imaginary part of an index.
 pub const INDEX_K: Range = Range::new(0.0, 1000.0, "");
-/// The most layers of a film or coating.
+/// The maximum number of layers of a film or coating.
 pub const MAX_LAYERS: usize = 64;
-/// The part of a mixture that one of its media fills.
+/// A fraction, such as that of a mixture's volume that one medium fills.
 pub const FRACTION: Range = Range::new(0.0, 1.0, "");
 /// A coefficient of a dispersion formula.
 pub const COEFFICIENT: Range = Range::new(-1e12, 1e12, "");
-/// The most terms of a dispersion formula.
+/// The maximum number of terms of a dispersion formula.
 pub const MAX_FORMULA_TERMS: usize = 16;
 /// A reflectance.
 pub const REFLECTANCE: Range = Range::new(0.0, 1.0, "");
-/// Radiance, its scale and their product: the square, which the variance needs, times 2²⁴ samples fits in `f32`.
+/// Radiance, its scale and their product: its square, which the variance needs, times 2²⁴ samples fits in `f32`.
 pub const EMISSION: Range = Range::new(0.0, 1e9, "");
-/// Radiance, luminance, power in watts or lumens, irradiance, illuminance or intensity of a light in its unit; what comes of it must lie in [`EMISSION`].
-/// The sun's luminance is 1.6e9 cd/m².
+/// Radiance, luminance, power in watts or lumens, irradiance, illuminance or intensity of a light in its unit; the resulting spectrum must
+/// be in [`EMISSION`]. The sun's luminance is 1.6e9 cd/m².
 pub const STRENGTH: Range = Range::new(0.0, 1e12, "");
-/// Angular diameter of a distant light: up to half of the sky.
+/// Angular diameter of a distant light: at most half of the sky.
 pub const ANGULAR_DIAMETER_DEG: Range = Range::new(0.0, 180.0, "°");
-/// The smallest angular diameter above 0: below it, what `f32` keeps of directions would show.
+/// The smallest angular diameter above 0: below it, the rounding of directions to `f32` would be visible.
 pub const MIN_ANGULAR_DIAMETER_DEG: f64 = 0.01;
 /// Angle of the cone of a spot.
 pub const SPOT_DEG: Range = Range::new(0.1, 180.0, "°");
-/// The sharpest edge of a spot: how much of its angle may have the full intensity.
+/// The sharpest edge of a spot: the largest fraction of its angle with the full intensity.
 pub const SPOT_SHARPEST: f64 = 0.99;
-/// The most lights that are no objects.
+/// The maximum number of lights that are not objects.
 pub const MAX_LIGHTS: usize = 1024;
-/// The most distant lights with a diameter: what escapes the scene looks at each of them.
+/// The maximum number of distant lights with a diameter: every ray that leaves the scene tests each of them.
 pub const MAX_DISTANT_DISKS: usize = 16;
-/// Roughness where it is not 0. The highlight's exponent (tan θ / m)² has a relative error of about 2⁻²³ / m²
-/// in `f32`: 3e-4 at m = 0.02, and growing to where the highlight of a smoother surface is mostly rounding.
+/// Roughness, if it is not 0. The highlight's exponent (tan θ / m)² has a relative error of about 2⁻²³ / m² in `f32`: 3e-4 at m = 0.02, and
+/// more for smoother surfaces, until the highlight is mostly rounding error.
 pub const ROUGHNESS: Range = Range::new(0.02, 1.0, "");
-/// Height of the sun.
+/// Elevation of the sun.
 pub const SUN_ELEVATION_DEG: Range = Range::new(0.0, 90.0, "°");
 /// Turbidity of a sky.
 pub const TURBIDITY: Range = Range::new(
@@ -154,26 +155,26 @@ pub const TURBIDITY: Range = Range::new(
     spectra::sky::ClearSky::TURBIDITY.1,
     "",
 );
-/// A turn of the environment.
+/// A rotation of the environment.
 pub const ROTATION_DEG: Range = Range::new(-360.0, 360.0, "°");
-/// The most slopes of a surface by Cook's model.
+/// The maximum number of slopes of a surface by Cook's model.
 pub const MAX_SLOPES: usize = 8;
-/// The constant c of Cook's Gaussian distribution; what comes of it must be at most [`MAX_COOK_GAIN`].
+/// The constant c of Cook's Gaussian distribution; the resulting gain must be at most [`MAX_COOK_GAIN`].
 pub const COOK_CONSTANT: Range = Range::new(0.0, 1e6, "");
-/// How many times the light may leave a white surface by Cook's model as printed: after the 31 reflections of the longest path
-/// 16³¹ = 2¹²⁴ is still a number in `f32`.
+/// The maximum gain, reflected over incident light, of a white surface by Cook's model as printed: 16³¹ = 2¹²⁴, after the 31 reflections of
+/// the longest path, is still a number in `f32`.
 pub const MAX_COOK_GAIN: f64 = 16.0;
-/// Imaginary part of an index up to which a coat over a base is taken for clear. A coat of thickness d takes 1 − exp(−8π k d / λ)
-/// of the light that goes in and out along the normal: at this k and 500 nm 1 % for 20 µm of lacquer, 5 % for 0.1 mm of glaze. The
-/// clear glasses, plastics and liquids have 1e-9 to 3e-6 in the visible.
+/// Imaginary part of an index up to which a coat over a base counts as clear. A coat of thickness d absorbs 1 − exp(−8π k d / λ) of the
+/// light that enters and leaves along the normal. At this k and 500 nm that is 1 % for 20 µm of lacquer and 5 % for 0.1 mm of glaze. Clear
+/// glasses, plastics and liquids have 1e-9 to 3e-6 in the visible.
 pub const CLEAR_COAT_K: f64 = 1e-5;
-/// A reflectance at normal incidence that is turned into an index: of 0.996 the index is 998.
+/// A reflectance at normal incidence that is converted to an index: 0.996 gives the index 998.
 pub const NORMAL_REFLECTANCE: Range = Range::new(0.0, 0.996, "");
-/// The largest radiance of a sample in W m⁻² sr⁻¹ nm⁻¹, where it is bounded.
+/// The largest radiance of a sample in W m⁻² sr⁻¹ nm⁻¹, if it is clamped.
 pub const CLAMP: Range = Range::new(1e-9, 1e9, "");
 /// Exposure in stops.
 pub const EXPOSURE_EV: Range = Range::new(-32.0, 32.0, " stops");
-/// Wavelengths that bands may cover.
+/// The wavelengths that bands may cover.
 pub const BAND_NM: Range = Range::new(
     spectra::BandGrid::LIMITS_NM.0,
     spectra::BandGrid::LIMITS_NM.1,
@@ -183,19 +184,19 @@ pub const BAND_NM: Range = Range::new(
 pub const MIN_BAND_RANGE_NM: f64 = 1.0;
 /// Wavelengths of a table.
 pub const TABLE_NM: Range = Range::new(1.0, 1e6, " nm");
-/// The most points of a table.
+/// The maximum number of points of a table.
 pub const MAX_TABLE_POINTS: usize = 100_000;
-/// The most samples per pixel: a sum of as many ones is still exact in `f32`.
+/// The maximum number of samples per pixel: a sum of that many ones is still exact in `f32`.
 pub const MAX_SAMPLES: u32 = 1 << 24;
-/// The most objects.
+/// The maximum number of objects.
 pub const MAX_OBJECTS: usize = 65_536;
-/// The most materials.
+/// The maximum number of materials.
 pub const MAX_MATERIALS: usize = 4096;
-/// The most light groups: with 1024 bands a row of 512 pixels of theirs fits into the 128 MiB that any device binds.
+/// The maximum number of light groups: with 1024 bands, their values for a row of 512 pixels fit in the 128 MiB that any device can bind.
 pub const MAX_LIGHT_GROUPS: usize = 32;
-/// The largest spectral image, in bytes.
+/// The maximum size of a spectral image, in bytes.
 pub const MAX_IMAGE_BYTES: u128 = 32 << 30;
-/// The largest file of text that is read, of a scene or of figures that it names, in bytes.
+/// The maximum size of a text file, in bytes: a scene, or a table that it names.
 pub const MAX_FILE_BYTES: u64 = spectra::text_file::MAX_BYTES;
 
 #[cfg(test)]

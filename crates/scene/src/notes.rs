@@ -1,12 +1,12 @@
-//! What is worth saying of a scene that is sound.
+//! Notes on a valid scene.
 
 use crate::{Emission, LightShape, Material, Scene, prepared};
 
 impl Scene {
-    /// What was assumed of files, and what may not be meant though it can be rendered: one line each.
+    /// Assumptions about files, and anything that can be rendered but may be unintended, one line each.
     pub fn notes(&self) -> Vec<String> {
         let dark = (self.lamps() == 0 && !self.is_lit_by_environment())
-            .then(|| "nothing shines: the picture will be black".to_owned());
+            .then(|| "nothing emits light: the picture will be black".to_owned());
         let assumed = self.assumptions.iter().cloned();
         assumed
             .chain(dark)
@@ -16,7 +16,7 @@ impl Scene {
             .collect()
     }
 
-    /// How many objects and lights shine, the sun of a sky among them.
+    /// The number of objects and lights that emit light, including the sun of a sky.
     pub fn lamps(&self) -> usize {
         let of_objects =
             self.objects()
@@ -30,7 +30,7 @@ impl Scene {
         all.filter(|&emission| self.shines(emission)).count()
     }
 
-    /// Whether light comes from around the objects, the disks of distant lights not counted.
+    /// Whether the environment emits light. The disks of distant lights do not count.
     pub fn is_lit_by_environment(&self) -> bool {
         let parts = self.environment().parts();
         parts.iter().any(|part| self.shines(part.emission))
@@ -40,7 +40,7 @@ impl Scene {
         emission.scale > 0.0 && self.spectrum(emission.spectrum).extent().1 > 0.0
     }
 
-    /// Surfaces that lie in one another, stack by stack.
+    /// Notes on coincident surfaces, one per stack.
     fn notes_on_stacks(&self) -> Vec<String> {
         let mut notes: Vec<(u32, String)> = Vec::new();
         for (object, sheet) in self.sheets().iter().enumerate() {
@@ -55,8 +55,8 @@ impl Scene {
             let Some((other, _)) = over else { continue };
             if notes.iter().all(|(stack, _)| *stack != sheet.stack) {
                 let note = format!(
-                    "objects[{object}] and objects[{other}] lie in one another; of coincident surfaces the one named first lies outside: of \
-                     planes on the side of its normal, of spheres outermost"
+                    "objects[{object}] and objects[{other}] coincide; of coincident surfaces the first in the file is outermost on \
+                     spheres, and on the side of its normal on planes"
                 );
                 notes.push((sheet.stack, note));
             }
@@ -64,7 +64,7 @@ impl Scene {
         notes.into_iter().map(|(_, note)| note).collect()
     }
 
-    /// Lights without a size, and nothing that scatters what comes from them.
+    /// A note if all lights have no size and nothing scatters their light.
     fn note_on_mirrors(&self) -> Option<String> {
         let has_no_size = |shape: &LightShape| !matches!(shape, LightShape::DistantDisk { .. });
         let mut lights = self
@@ -78,20 +78,20 @@ impl Scene {
         let mut objects = self.objects().iter();
         let only_mirrors = objects.all(|object| self.material(object.material).is_mirror());
         (only_points && only_mirrors && !self.objects().is_empty()).then(|| {
-            "the picture will be black: all surfaces are smooth mirrors or films, in which a light without a size is never seen; give a \
-             surface roughness, or take a sphere that emits, or a distant light with an angular diameter"
+            "the picture will be black: all surfaces are smooth mirrors or films, in which a light without a size is never visible; give a \
+             surface roughness, or use a sphere that emits, or a distant light with an angular diameter"
                 .to_owned()
         })
     }
 
-    /// How many objects shine.
+    /// The number of objects that emit light.
     fn emitting_objects(&self) -> usize {
         let emission = |object: &crate::Object| self.material(object.material).emission();
         let emissions = self.objects().iter().filter_map(emission);
         emissions.filter(|&emission| self.shines(emission)).count()
     }
 
-    /// Light that grows from one surface to the next.
+    /// A note if light grows from one reflection to the next.
     fn note_on_gain(&self) -> Option<String> {
         let segments = self.settings().max_path_segments;
         let gains =
@@ -102,11 +102,11 @@ impl Scene {
                     _ => None,
                 });
         let gain = gains.fold(0.0, f64::max);
-        // Rounding is no gain.
+        // The margin keeps rounding from counting as gain.
         (gain > 1.0 + 1e-6 && segments > 2).then(|| {
             format!(
-                "a surface by cook1981 with printed constants sends back up to {gain:.1} times the light that falls on it, and more \
-                 after every reflection; render.max_path_segments = 2 is the single reflection of the paper (here {segments})"
+                "a surface by cook1981 with printed constants reflects up to {gain:.1} times the incident light, and more after every \
+                 reflection; render.max_path_segments = 2 gives the single reflection of the paper (found {segments})"
             )
         })
     }

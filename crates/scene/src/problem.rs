@@ -1,4 +1,4 @@
-//! What is wrong with a scene, and where.
+//! Problems of a scene and their locations.
 
 use crate::{FieldPath, Snippet};
 use miette::{Diagnostic, LabeledSpan, SourceCode};
@@ -7,31 +7,31 @@ use std::fmt;
 use std::ops::Range;
 use thiserror::Error;
 
-/// What sort of mistake a [`Problem`] is.
+/// The kind of a [`Problem`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ProblemKind {
-    /// A file cannot be read, or is not what it should be.
+    /// A file cannot be read, or has the wrong format.
     File,
     /// The file is not TOML.
     Syntax,
-    /// A field that does not exist here.
+    /// A field does not exist at this position.
     UnknownField,
-    /// A field that must be there is not.
+    /// A required field is missing.
     MissingField,
-    /// A value of another type than the field has.
+    /// A value has the wrong type.
     WrongType,
-    /// A name that nothing has: a material, a spectrum, a `type`.
+    /// A name is unknown: of a material, a spectrum, a `type`.
     UnknownName,
-    /// A number outside the range that makes sense.
+    /// A number is outside its allowed range.
     OutOfRange,
-    /// Values that do not go together.
+    /// Values contradict each other.
     Inconsistent,
-    /// More than can be held.
+    /// Something exceeds a limit of size or number.
     TooLarge,
 }
 
-/// Where in a scene file a problem lies.
+/// The location of a problem in a scene file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Location {
@@ -39,13 +39,13 @@ pub struct Location {
     pub line: usize,
     /// Column in characters, counted from 1.
     pub column: usize,
-    /// The bytes of the file that are meant.
+    /// The byte range in the file.
     pub bytes: Range<usize>,
 }
 
 impl Location {
     pub(crate) fn new(text: &str, bytes: Range<usize>) -> Self {
-        // A span of the parser lies on character boundaries; one at the end of the text may lie past it.
+        // A span of the parser is on character boundaries; one at the end of the text may go past it.
         let start = bytes.start.min(text.len());
         let before = text.get(..start).unwrap_or(text);
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
@@ -61,22 +61,22 @@ impl Location {
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub struct Problem {
-    /// What sort of mistake.
+    /// The kind of mistake.
     pub kind: ProblemKind,
-    /// Which value; the root for the file as a whole.
+    /// The field; the root for the file as a whole.
     pub field: FieldPath,
     /// What was found, and what would be right.
     pub message: String,
     /// Further advice.
     pub help: Option<String>,
-    /// Where in the file; `None` when the value does not come from a file.
+    /// The location in the file; `None` if the value does not come from a file.
     pub location: Option<Location>,
-    /// Other values that the judgment rests on.
+    /// Other fields that the problem depends on.
     pub(crate) involves: Vec<FieldPath>,
 }
 
 impl Problem {
-    /// A mistake in the value `field`: `message` says what was found, and what would be right.
+    /// Creates a problem of the value `field`; `message` says what was found, and what would be right.
     pub fn new(kind: ProblemKind, field: &FieldPath, message: impl Into<String>) -> Self {
         Self {
             kind,
@@ -95,13 +95,13 @@ impl Problem {
         self
     }
 
-    /// Names another value that the judgment rests on: where that one is broken, this problem is not shown.
+    /// Adds another field that the problem depends on: if that one is broken, this problem is not shown.
     pub(crate) fn involving(mut self, field: FieldPath) -> Self {
         self.involves.push(field);
         self
     }
 
-    /// The same mistake, told of a value that lies within `base`.
+    /// Moves the problem to a field within `base`.
     #[must_use]
     pub fn within(mut self, base: &FieldPath) -> Self {
         self.field = base.join(&self.field);
@@ -116,7 +116,7 @@ impl Problem {
         self
     }
 
-    /// Tells a number in the form that the file has it in, `1e9`, where `written` is the message's number in another one.
+    /// Replaces the number in the message by `written`, its form in the file such as `1e9`, if both are the same number.
     pub(crate) fn with_written(mut self, written: &str) -> Self {
         let Ok(value) = written.replace('_', "").parse::<f64>() else {
             return self;
@@ -125,7 +125,7 @@ impl Problem {
         let is_it = |rest: &str| !rest.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '.');
         if let Some(rest) = found.iter().find_map(|found| {
             let rest = self.message.strip_prefix(found)?;
-            // A number at the end of a sentence is no other number.
+            // A period at the end of a sentence does not make it another number.
             (is_it(rest) || rest == ".").then(|| rest.to_owned())
         }) {
             self.message = format!("found {written}{rest}");
@@ -134,7 +134,7 @@ impl Problem {
     }
 }
 
-/// The most characters of a field and of a message that are shown: names in a file may be of any length.
+/// The maximum number of characters shown of a field and of a message: names in a file may have any length.
 const MOST_OF_FIELD: usize = 200;
 const MOST_OF_MESSAGE: usize = 2000;
 
@@ -160,24 +160,23 @@ impl Diagnostic for Problem {
     }
 }
 
-/// Everything that is wrong with a scene, in the order of the file.
+/// All problems of a scene, in the order of the file.
 ///
-/// As a [`miette::Diagnostic`] it is a heading with one related diagnostic per problem, each with its source
-/// line. For logs `{:#}` gives one line per problem, `file:line:column: field: message`; plain `{}` gives the
-/// heading alone.
+/// As a [`miette::Diagnostic`] it is a heading with one related diagnostic per problem, each with its source line. For logs, `{:#}` gives
+/// one line per problem, `file:line:column: field: message`; plain `{}` gives only the heading.
 #[derive(Clone, Debug, Error)]
 pub struct Problems(Box<Inner>);
 
 #[derive(Clone, Debug)]
 struct Inner {
-    /// What has the problems, where there is no file.
+    /// What has the problems, if there is no file.
     subject: &'static str,
     name: Option<String>,
     list: Vec<Placed>,
     omitted: usize,
 }
 
-/// A problem with the lines of the file that it is shown in.
+/// A problem with the source lines that are shown with it.
 #[derive(Clone, Debug, Error)]
 #[error("{problem}")]
 struct Placed {
@@ -201,20 +200,20 @@ impl Diagnostic for Placed {
 }
 
 impl Problems {
-    /// The most problems that are kept; the others are only counted.
+    /// The maximum number of problems that are kept; the others are only counted.
     pub const MAX_SHOWN: usize = 100;
 
-    /// Problems of a scene that a program has filled in.
+    /// Problems of a scene that a program filled in.
     pub(crate) fn of_program(list: Vec<Problem>) -> Self {
         Self::new("the scene", None, list, 0)
     }
 
-    /// Problems of an index of refraction that is part of no scene.
+    /// Problems of an index of refraction that does not belong to a scene.
     pub(crate) fn of_index(list: Vec<Problem>) -> Self {
         Self::new("the index", None, list, 0)
     }
 
-    /// A file that cannot be read.
+    /// The problem of a file that cannot be read.
     pub(crate) fn of_unread_file(name: String, problem: Problem) -> Self {
         Self::new("the scene", Some((name, "")), vec![problem], 0)
     }
@@ -253,12 +252,12 @@ impl Problems {
         self.0.list.iter().map(|placed| &placed.problem)
     }
 
-    /// How many more were found than [`Self::iter`] lists.
+    /// The number of problems found beyond those that [`Self::iter`] lists.
     pub fn omitted(&self) -> usize {
         self.0.omitted
     }
 
-    /// The file as it was named, where there is one.
+    /// The name of the file, if there is one.
     pub fn file_name(&self) -> Option<&str> {
         self.0.name.as_deref()
     }
@@ -270,7 +269,7 @@ impl Problems {
             count if self.0.omitted == 0 => write!(f, "{subject} has {count} problems"),
             count => write!(
                 f,
-                "{subject} has {count} problems, of which the first {} are shown",
+                "{subject} has {count} problems; the first {} are shown",
                 self.0.list.len()
             ),
         }

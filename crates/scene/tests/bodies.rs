@@ -175,7 +175,7 @@ fn what_does_not_fit_cooks_model_is_reported() {
         (
             gold("model = 'cook1981'"),
             "materials.a",
-            "give a `roughness`",
+            "give the material a `roughness`",
         ),
         (
             gold("roughness = 0.3, distribution = 'ggx', model = 'cook1981'"),
@@ -214,7 +214,7 @@ fn what_does_not_fit_cooks_model_is_reported() {
                 "roughness = 0.3, model = { cook1981 = { distribution = 'gaussian', constant = 1e6 } }",
             ),
             "materials.a.model.cook1981.constant",
-            "at most 16 times is possible, that is 4.718e1",
+            "at most 16 times is possible, which is 4.718e1",
         ),
         (
             gold(
@@ -262,7 +262,7 @@ fn what_does_not_fit_an_index_is_reported() {
         (
             "{ type = 'conductor', index = { normal_reflectance = 'gold' } }".to_owned(),
             "materials.a.index.normal_reflectance",
-            "is the name of an index",
+            "the name of an index",
         ),
     ]);
 }

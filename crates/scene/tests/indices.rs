@@ -104,7 +104,7 @@ fn files_that_are_not_of_the_database_are_reported() {
         ("OTHER:\n  - type: tabulated n\n", "no `DATA`"),
         ("DATA:\n  - type: [\n", "line 3: this is not YAML: "),
         ("DATA:\n\t- type: x\n", "line 2: this is not YAML: "),
-        ("a: &a 1\nDATA:\n  - type: *a\n", "line 3: an alias"),
+        ("a: &a 1\nDATA:\n  - type: *a\n", "line 3: found an alias"),
         ("DATA:\n  - data: 1\n", "line 2: the block has no `type`"),
         (
             "DATA:\n\n  - type: formula 10\n",
@@ -124,19 +124,19 @@ fn files_that_are_not_of_the_database_are_reported() {
         ),
         (
             "DATA:\n  - type: tabulated n\n    data: 0.4 1\nCOMMENTS: x\nDATA:\n  - type: tabulated n\n    data: 0.4 2\n",
-            "line 5: the key \"DATA\" is already there in line 1",
+            "line 5: the key \"DATA\" is already in line 1",
         ),
         (
             "DATA:\n  - type: tabulated n\n    data: 0.4 1\n    data: 0.4 2\n",
-            "line 4: the key \"data\" is already there in line 3",
+            "line 4: the key \"data\" is already in line 3",
         ),
         (
             "SPECS: {a: {b: 1, b: 2}}\nDATA:\n  - type: tabulated n\n    data: 0.4 1\n",
-            "line 1: the key \"b\" is already there in line 1",
+            "line 1: the key \"b\" is already in line 1",
         ),
         (
             "DATA:\n  - type: tabulated n\n    data: 0.4 1\n---\nDATA:\n  - type: tabulated k\n    data: 0.4 2\n",
-            "line 4: a second document begins",
+            "line 4: found a second document",
         ),
     ];
     assert_reported(&cases.map(|(text, expected)| (text.to_owned(), expected)));
@@ -371,11 +371,11 @@ fn what_is_assumed_of_a_database_file_is_noted() {
         ),
         (
             table("0.3 1.5 0|1e-4 1 0|0.9 1.5 0", ""),
-            vec!["1 of the rows are left out: they are beyond 1 to 1e6 nm"],
+            vec!["1 of the rows are left out: they are outside 1 to 1e6 nm"],
         ),
         (
             table("0.3 1.5 0|0.9 1.5 0", n2),
-            vec!["line 6: \"tabulated n2\", the nonlinear index, is passed over"],
+            vec!["line 6: \"tabulated n2\", the nonlinear index, is ignored"],
         ),
         (
             table(
@@ -383,8 +383,8 @@ fn what_is_assumed_of_a_database_file_is_noted() {
                 "SPECS:\n    n_is_absolute: false\n    wavelength_is_vacuum: false\n",
             ),
             vec![
-                "line 7: n is relative to air (`n_is_absolute: false`) and is used as it stands",
-                "line 8: wavelengths are those in air (`wavelength_is_vacuum: false`) and are used as they stand",
+                "line 7: n is relative to air (`n_is_absolute: false`) and is used unchanged",
+                "line 8: wavelengths are in air (`wavelength_is_vacuum: false`) and are used unchanged",
             ],
         ),
         (
@@ -550,7 +550,7 @@ fn mistakes_in_an_index_are_reported_where_they_are() {
         ),
         (
             mix("of = ['gold', { cauchy = [] }], fraction = 0.5"),
-            "index.of[1].cauchy: found 0 coefficients; it must be 1 to 3",
+            "index.of[1].cauchy: found 0 coefficients; there must be 1 to 3",
         ),
         (
             "{ mixture = 'brugeman', of = [1, 2], fraction = 0 }".to_owned(),

@@ -183,7 +183,7 @@ fn bad_names_are_reported() {
         ["environment.light_group", "\"\" cannot be the name"],
         ["materials.a.light_group", "1 to 32 ASCII letters"],
         ["materials.b.light_group", "\"a.b\" cannot be the name"],
-        ["materials.c.light_group", "mean other things"],
+        ["materials.c.light_group", "have other meanings"],
     ]) {
         for phrase in phrases {
             assert!(told.contains(phrase), "{told:?} lacks {phrase:?}");
@@ -221,7 +221,7 @@ fn too_many_groups_and_too_much_memory_are_reported() {
     let emitters: Vec<_> = names.zip(says.iter().map(String::as_str)).collect();
     let told = complaints("", &emitters, "");
     assert!(
-        told.len() == 1 && told[0].contains("make more than 32 light groups"),
+        told.len() == 1 && told[0].contains("found more than 32 light groups"),
         "{told:#?}"
     );
 

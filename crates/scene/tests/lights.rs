@@ -78,7 +78,7 @@ fn a_plane_has_no_power() {
     refused(
         &emitter("constant = 1, power_w = 10", PLANE),
         "objects[0].material",
-        &["no bounds", "power_w", "rectangle"],
+        &["infinite plane", "power_w", "rectangle"],
     );
 }
 
@@ -122,7 +122,7 @@ fn a_light_has_one_unit_and_one_that_fits() {
         &[
             "found 1e12",
             "a radiance of 2.500e9",
-            "at most 1e9 is possible, that is `radiance` = 4.000e11",
+            "at most 1e9 is possible, which is `radiance` = 4.000e11",
         ],
     );
     let distant =
@@ -170,7 +170,7 @@ fn lumens_are_watts_by_the_eye() {
     refused(
         &emitter("constant = 1, power_lm = 10", PLANE),
         "objects[0].material",
-        &["no bounds", "`power_lm`"],
+        &["infinite plane", "`power_lm`"],
     );
 }
 
@@ -241,7 +241,7 @@ fn light_that_no_surface_can_show_is_noted() {
     let sun = "[[lights]]\ntype = 'distant'\ndirection = [0, -1, 0]\ndiameter_deg = 0.5\nemission = { constant = 1 }\n";
     let says = |rest: &[&str]| {
         let notes = scene(&rest.concat()).notes();
-        notes.iter().any(|note| note.contains("never seen"))
+        notes.iter().any(|note| note.contains("never visible"))
     };
     assert!(says(&[&gold, POINT]) && says(&[&gold, &soap, POINT]));
     for lit in [&rough, &white, &glow] {
@@ -260,7 +260,7 @@ fn a_scene_that_may_not_be_meant_is_noted() {
     let notes = |rest: &str| scene(rest).notes();
     let dark = notes("");
     assert!(
-        dark.len() == 1 && dark[0].contains("nothing shines"),
+        dark.len() == 1 && dark[0].contains("nothing emits light"),
         "{dark:?}"
     );
     assert_eq!(notes(&emitter("constant = 0", PLANE)).len(), 1);

@@ -38,8 +38,8 @@ pub enum Material {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         base: Option<DiffuseReflectance>,
     },
-    /// A free thin film with air on both sides: one layer (`index` and `thickness_nm`) or several (`layers`). It reflects and transmits
-    /// light without changing its line, both with interference.
+    /// A free thin film with air on both sides: one layer (`index` and `thickness_nm`) or several (`layers`). It reflects light and
+    /// transmits it in a straight line, both with interference.
     Film {
         /// The index of the only layer.
         #[serde(default, skip_serializing_if = "Option::is_none")]

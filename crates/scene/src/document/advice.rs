@@ -1,32 +1,32 @@
-//! Advice on words of other programs' scenes, and on names that changed.
+//! Advice on words from other renderers' scenes, and on names that changed.
 
 use crate::FieldPath;
 use crate::field_path::Step;
 
-/// What to write for a `type` that is not there.
+/// What to write instead of an unknown `type`.
 pub(super) fn of_type(field: &FieldPath, word: &str) -> Option<&'static str> {
     match (section(field)?, word) {
         ("lights", "sphere" | "rectangle" | "disk" | "quad" | "plane" | "area" | "emitter") => {
             Some("a light with a shape is an object whose material is `type = \"emitter\"`")
         }
         ("lights", "environment" | "constant" | "image" | "sky") => {
-            Some("light from all around is written as [environment]")
+            Some("light from all directions is written as [environment]")
         }
         _ => None,
     }
 }
 
-/// What to write for a field that is not there.
+/// What to write instead of an unknown field.
 pub(super) fn of_field(field: &FieldPath, name: &str) -> Option<&'static str> {
     match (section(field)?, name) {
         ("camera", "f_number" | "f_stop" | "aperture") => Some(
-            "lens = { radius = ... } has the radius of the opening in scene units: the focal length over 2 N for an f-number of N",
+            "write lens = { radius = ... } with the aperture radius in scene units: the focal length divided by 2 N for the f-number N",
         ),
         _ => None,
     }
 }
 
-/// Fields and words that are called otherwise now.
+/// Fields and words that were renamed: the old and the new name.
 const RENAMED: &[(&str, &str)] = &[
     ("anodising", "anodizing"),
     ("centre", "center"),
@@ -36,7 +36,7 @@ const RENAMED: &[(&str, &str)] = &[
     ("surfaces", "bsdf"),
 ];
 
-/// What an old name is called now, if that is one of those that are possible here.
+/// The new name of a renamed field or word, if it is one of `possible`.
 pub(super) fn renamed<'a>(
     name: &str,
     mut possible: impl Iterator<Item = &'a str>,
@@ -45,7 +45,7 @@ pub(super) fn renamed<'a>(
     possible.find(|known| known == now)
 }
 
-/// The part of the file that a field lies in.
+/// The section of the file that a field belongs to.
 fn section(field: &FieldPath) -> Option<&str> {
     match field.steps().first()? {
         Step::Key(section) => Some(section),

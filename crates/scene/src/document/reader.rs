@@ -1,4 +1,4 @@
-//! From a TOML tree to a description, with everything that does not fit.
+//! From a TOML tree to a description, collecting everything that does not fit.
 
 use super::shape::{Field, Fields, Forms, Shape, TAG, listed, quoted_choice};
 use super::{Tree, advice};
@@ -12,13 +12,13 @@ use std::ops::Range;
 use toml::de::{DeArray, DeInteger, DeTable, DeValue};
 use toml::{Spanned, Value};
 
-/// What does not fit in a scene file.
+/// The problems found while reading a scene file.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Findings {
     pub(crate) problems: Vec<Problem>,
-    /// How many more there were than could be kept.
+    /// The number of problems beyond those that are kept.
     pub(crate) omitted: usize,
-    /// Values that are missing or unusable and have been filled in, with all that lies around them.
+    /// Values that were missing or unusable and have stand-ins.
     broken: HashSet<FieldPath>,
     around_broken: HashSet<FieldPath>,
 }
@@ -26,7 +26,7 @@ pub(crate) struct Findings {
 impl Findings {
     const MOST_MARKS: usize = 10 * Problems::MAX_SHOWN;
 
-    /// Whether a value, something in it or something around it had to be filled in.
+    /// Whether a value, a part of it or something that contains it has a stand-in.
     pub(crate) fn is_broken(&self, field: &FieldPath) -> bool {
         self.around_broken.contains(field)
             || field.and_around().any(|part| self.broken.contains(&part))
@@ -40,7 +40,7 @@ impl Findings {
         }
     }
 
-    /// Of a file that is broken all over, whole sections are marked, so that the marks stay few.
+    /// Marks a value as broken; in a file with very many broken values, its whole section, to bound the number of marks.
     fn mark_broken(&mut self, field: &FieldPath) {
         let section = || {
             field
@@ -56,8 +56,8 @@ impl Findings {
     }
 }
 
-/// The description that `tree` gives, with stand-ins where it is broken; `None` only if the types refuse what
-/// the schema accepts, which is then among the findings.
+/// Converts `tree` to a description, with stand-ins where it is broken. It is `None` only if the types reject what the schema accepts,
+/// which is then among the findings.
 pub(crate) fn read<T: DeserializeOwned + JsonSchema>(
     text: &str,
     tree: &Tree<'_>,
@@ -98,11 +98,11 @@ impl Place {
 
 /// What is known about a table besides its own fields.
 struct Context<'a> {
-    /// Whether the field [`TAG`] has been looked at already.
+    /// Whether the field [`TAG`] has been read already.
     is_tagged: bool,
-    /// Says where else an unknown field would be right.
+    /// Says where else an unknown field would be valid.
     elsewhere: &'a dyn Fn(&str) -> Option<String>,
-    /// All forms that the table may have, where it may have several.
+    /// All forms that the table may have, if there are several.
     forms: &'a [&'a Fields],
 }
 
@@ -125,7 +125,7 @@ impl Reader<'_> {
         match (shape, value.get_ref()) {
             (Shape::Number, DeValue::Integer(integer)) => Value::Float(float_of(integer)),
             (Shape::Number, DeValue::Float(float)) => {
-                // What the parser takes for a number, Rust reads as one.
+                // Rust can parse everything that the TOML parser accepts as a number.
                 Value::Float(float.as_str().parse().unwrap_or(f64::NAN))
             }
             (Shape::Integer { low, high }, DeValue::Integer(integer)) => {
@@ -262,7 +262,7 @@ impl Reader<'_> {
         Value::Table(values)
     }
 
-    /// A table where one of several is possible: the one whose fields it has most of.
+    /// Reads a table that may have one of several forms as the form whose fields it has most of.
     fn any_table(
         &mut self,
         shape: &Shape,
@@ -279,7 +279,7 @@ impl Reader<'_> {
         let candidates = forms
             .iter()
             .map(|fields| (likeness(fields, table), *fields));
-        // The first of equals, so that the order of the format's types decides.
+        // Among equals the first wins, so that the order of the format's types decides.
         let best = candidates.reduce(|best, next| if next.0 > best.0 { next } else { best });
         let Some((_, fields)) = best.filter(|((required, _), _)| *required > 0) else {
             return self.mismatch(shape, value.get_ref(), place);
@@ -300,7 +300,7 @@ impl Reader<'_> {
         Value::Table(self.fields(fields, table, place, &context))
     }
 
-    /// The fields of a table; what is unknown is reported and left out, what is missing is reported and filled in.
+    /// Reads the fields of a table. Unknown fields are reported and left out; missing ones are reported and filled in.
     fn fields(
         &mut self,
         fields: &Fields,
@@ -367,7 +367,7 @@ impl Reader<'_> {
         suggestion
     }
 
-    /// Fills in a field that is not there, and says so unless a misspelled field already has.
+    /// Fills in a missing field, and reports it unless a misspelled field was reported in its place.
     fn missing_field(&mut self, name: &str, field: &Field, place: &Place, said: bool) -> Value {
         let at = Place {
             field: place.field.key(name),
@@ -424,7 +424,7 @@ impl Reader<'_> {
     }
 
     fn add(&mut self, problem: Problem, place: &Place) {
-        // Finding a line takes a walk through the file, so only for those that are kept.
+        // Finding the line takes a pass through the file, so it is done only for problems that are kept.
         if self.findings.problems.len() < Problems::MAX_SHOWN {
             let location = Location::new(self.text, place.bytes.clone());
             self.findings.add(problem.located(location));
@@ -444,7 +444,7 @@ impl Reader<'_> {
     }
 }
 
-/// How many of a table's required fields are there, misspelled or not, and how many of all its fields.
+/// How many of a form's required fields a table has, misspelled or not, and how many of all its fields.
 fn likeness(fields: &Fields, table: &DeTable<'_>) -> (usize, usize) {
     let names = || table.iter().map(|(key, _)| key.get_ref().as_ref());
     let required = fields
@@ -481,7 +481,7 @@ fn float_of(integer: &DeInteger<'_>) -> f64 {
     sign * digits.fold(0.0, append)
 }
 
-/// The smallest value of a shape, to stand in for one that is not there.
+/// The simplest value of a shape, as a stand-in for a missing one.
 fn any_value(shape: &Shape) -> Value {
     match shape.resolved() {
         Shape::Number => Value::Float(1.0),
@@ -496,7 +496,7 @@ fn any_value(shape: &Shape) -> Value {
         Shape::Table(fields) => Value::Table(any_fields(fields)),
         Shape::Tagged(variants) => any_tagged(variants),
         Shape::AnyOf(shapes) => shapes.first().map_or(Value::Float(1.0), any_value),
-        Shape::Again(_) => unreachable!("a resolved shape is no name"),
+        Shape::Again(_) => unreachable!("a resolved shape is not a name"),
     }
 }
 
@@ -516,7 +516,7 @@ fn any_tagged(variants: &BTreeMap<String, Fields>) -> Value {
     Value::Table(values)
 }
 
-/// A piece of source that fits into a message.
+/// A piece of the source, shortened to fit in a message.
 fn shortened(source: &str) -> String {
     const MOST: usize = 40;
     let line = source.lines().next().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! What a value in a scene file may look like.
+//! The allowed forms of values in a scene file.
 
 use schemars::JsonSchema;
 use serde_json::Value as Json;
@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::LazyLock;
 
-/// What a value may look like: the part of JSON Schema that the format needs, in a form that is easy to walk.
+/// The allowed form of a value: the part of JSON Schema that the format needs, in a form that is easy to traverse.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Shape {
     Number,
@@ -23,14 +23,14 @@ pub(crate) enum Shape {
         item: Box<Shape>,
         length: Option<usize>,
     },
-    /// A table with keys of the user's choice.
+    /// A table with arbitrary keys.
     Map(Box<Shape>),
     Table(Fields),
-    /// A table whose field `type` says which fields the others are.
+    /// A table whose field `type` determines its other fields.
     Tagged(BTreeMap<String, Fields>),
-    /// Any of several, told apart by their type or by their fields. Never nested.
+    /// Any of several, distinguished by their type or by their fields. Never nested.
     AnyOf(Vec<Shape>),
-    /// The shape of this name, within itself: an index may be a mixture of indices, a thickness a sum of thicknesses.
+    /// The shape of this name, for recursion: an index may be a mixture of indices, a thickness a sum of thicknesses.
     Again(String),
 }
 
@@ -43,14 +43,14 @@ pub(crate) struct Fields(pub(crate) BTreeMap<String, Field>);
 pub(crate) struct Field {
     pub(crate) shape: Shape,
     pub(crate) is_required: bool,
-    /// What it means, for advice.
+    /// Its description, for advice.
     pub(crate) meaning: Option<String>,
 }
 
-/// The field that tells the kind of a [`Shape::Tagged`].
+/// The field that selects the variant of a [`Shape::Tagged`].
 pub(crate) const TAG: &str = "type";
 
-/// The shapes that have a name. A type that holds itself is known by its name: it must be one that scene files have too.
+/// The shapes that have a name. A recursive type refers to itself by name, so it must be one that scene files have too.
 static NAMED: LazyLock<BTreeMap<String, Shape>> = LazyLock::new(|| {
     let root = crate::schema();
     let names = root["definitions"].as_object().into_iter().flatten();
@@ -59,13 +59,13 @@ static NAMED: LazyLock<BTreeMap<String, Shape>> = LazyLock::new(|| {
 });
 
 impl Shape {
-    /// The shape of the files that are read as `T`.
+    /// The shape of files that are read as `T`.
     pub(crate) fn of<T: JsonSchema>() -> Self {
         let root = crate::schema::schema_of::<T>();
         Compiler::new(&root).shape(&root)
     }
 
-    /// The shape itself, where this is only its name.
+    /// The shape itself, resolved if this is only its name.
     pub(crate) fn resolved(&self) -> &Self {
         match self {
             Self::Again(name) => &NAMED[name],
@@ -138,7 +138,7 @@ pub(crate) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     names.join(", ")
 }
 
-/// The fields of a table that has one of several forms: what tells the forms apart, then what all of them have.
+/// The fields of a table that has one of several forms: first those that differ between the forms, then those that all have.
 pub(crate) struct Forms<'a>(pub(crate) &'a [&'a Fields]);
 
 impl fmt::Display for Forms<'_> {
@@ -178,11 +178,10 @@ pub(crate) fn quoted_choice<S: AsRef<str>>(words: &[S]) -> String {
     }
 }
 
-/// Reads the schema of our own types. A form that it does not know is a mistake in this crate, which the first
-/// test that reads a scene shows; so it panics.
+/// Reads the schema of our own types. An unknown form is a bug in this crate, which any test that reads a scene reveals, so it panics.
 struct Compiler<'a> {
     root: &'a Json,
-    /// The names that are being read, from the outermost.
+    /// The names that are being read, outermost first.
     open: RefCell<Vec<String>>,
 }
 
@@ -192,7 +191,7 @@ impl<'a> Compiler<'a> {
         Self { root, open }
     }
 
-    /// The shape that a reference such as `#/definitions/Index` names.
+    /// The shape of a reference such as `#/definitions/Index`.
     fn named(&self, reference: &str) -> Shape {
         let name = reference.trim_start_matches("#/definitions/").to_owned();
         if self.open.borrow().contains(&name) {
@@ -245,7 +244,7 @@ impl<'a> Compiler<'a> {
                 item @ Json::Object(_) => Shape::Map(Box::new(self.shape(item))),
                 _ => Shape::Table(self.fields(schema)),
             },
-            _ => panic!("a schema of a form that the reader does not know: {schema}"),
+            _ => panic!("a schema of a form unknown to the reader: {schema}"),
         }
     }
 
@@ -297,7 +296,7 @@ impl<'a> Compiler<'a> {
         )
     }
 
-    /// The tag's own schema is a constant, which is looked at elsewhere.
+    /// The schema of the tag itself is a constant, which is handled elsewhere.
     fn shape_of_property(&self, schema: &Json) -> Shape {
         if schema["const"].is_string() {
             Shape::Choice(vec![word(&schema["const"])])
@@ -307,7 +306,7 @@ impl<'a> Compiler<'a> {
     }
 }
 
-/// The length of arrays that can have one alone. Where it may vary the checks tell what is wrong with it.
+/// The length of arrays of fixed length. If it may vary, the checks report wrong lengths.
 fn exact_length(schema: &Json) -> Option<usize> {
     let [least, most] = ["minItems", "maxItems"].map(|bound| schema[bound].as_u64());
     least

@@ -1,4 +1,4 @@
-//! A file that has been read as a description, and what did not fit in it.
+//! A file that has been read as a description, and the problems found in it.
 
 use super::{Findings, Tree, TreeError, read};
 use crate::problem::{Location, Problem, ProblemKind, Problems};
@@ -9,10 +9,10 @@ use spectra::text_file::{STANDARD_INPUT, read_text};
 use std::path::Path;
 use std::sync::Arc;
 
-/// A TOML file that has been read as a description, and what did not fit in it.
+/// A TOML file that has been read as a description, and the problems found in it.
 ///
-/// Reading compares the text with the schema of the description's type and fills in what is missing or unusable, so that
-/// the rest can still be checked; [`Self::finish`] then tells everything at once, each problem with its place.
+/// Reading compares the text with the schema of the description's type and replaces missing and unusable values by stand-ins, so that the
+/// rest can still be checked; [`Self::finish`] then reports all problems at once, each with its location.
 #[derive(Clone, Debug)]
 pub struct SourceFile {
     findings: Findings,
@@ -22,10 +22,11 @@ pub struct SourceFile {
 }
 
 impl SourceFile {
-    /// Reads a file, or standard input for `-`, whose own paths are relative to the working folder. `needs` says what the least is that such a file holds, for the error about an empty one.
+    /// Reads a file, or standard input for `-`, whose paths are relative to the working folder. `needs` says what such a file must contain,
+    /// for the error about an empty one.
     ///
     /// # Errors
-    /// When there is no such file, or it is not TOML. Other mistakes wait for [`Self::finish`].
+    /// When there is no such file, or it is not TOML. [`Self::finish`] reports other mistakes.
     pub fn read<T: DeserializeOwned + JsonSchema>(
         path: &Path,
         needs: &str,
@@ -43,7 +44,7 @@ impl SourceFile {
         Self::parse(&name, &text, &Folder::from(directory), needs)
     }
 
-    /// Reads the text of a file: `name` is what errors call it, and its own paths are relative to `folder`.
+    /// Parses the text of a file. `name` is its name in errors, and its paths are relative to `folder`.
     ///
     /// # Errors
     /// When the text is not TOML.
@@ -81,26 +82,26 @@ impl SourceFile {
         Ok((description, file))
     }
 
-    /// Where the file's own paths start from.
+    /// The folder that the file's paths are relative to.
     pub fn folder(&self) -> &Folder {
         &self.folder
     }
 
-    /// Whether the file's own paths may lead out of its folder, which they may not by default.
+    /// Sets whether the file's paths may lead out of its folder; by default they may not.
     pub fn allow_outside(&mut self, allows_outside: bool) {
         self.folder = self.folder.clone().allow_outside(allows_outside);
     }
 
-    /// What came of checking the description, if reading found nothing wrong either.
+    /// Returns the result of checking the description, if reading found no problems either.
     ///
     /// # Errors
-    /// Everything that reading and checking found, but for what only a stand-in caused. Mistakes of the checks are told with
-    /// the place of their field.
+    /// All problems that reading and checking found, except those that only a stand-in caused. Problems of the checks get the location of
+    /// their field.
     pub fn finish<T>(&self, checked: Result<T, Vec<Problem>>) -> Result<T, Problems> {
         self.finish_changed(checked, |_| false)
     }
 
-    /// The same, where a field that `is_changed` does not have its value from the file.
+    /// Like [`Self::finish`], but fields that `is_changed` do not have their value from the file.
     pub(crate) fn finish_changed<T>(
         &self,
         checked: Result<T, Vec<Problem>>,
@@ -134,7 +135,7 @@ impl SourceFile {
         mistakes.into_iter().filter(rests_on_file).collect()
     }
 
-    /// Says of each problem where in the file it lies, or that its value does not come from there.
+    /// Adds to each problem its location in the file, or a note that its value does not come from there.
     fn placed(
         &self,
         problems: Vec<Problem>,
@@ -143,7 +144,7 @@ impl SourceFile {
         if problems.is_empty() {
             return problems;
         }
-        // The tree borrows the text, so it is made again where it is needed, which is here alone.
+        // The tree borrows the text, so it is parsed again here, the only place that needs it.
         let Ok(tree) = Tree::parse(&self.text) else {
             return problems;
         };

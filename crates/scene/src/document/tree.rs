@@ -1,4 +1,4 @@
-//! A TOML document in which every value knows its place.
+//! A TOML document in which every value has its source position.
 
 use crate::FieldPath;
 use crate::field_path::Step;
@@ -6,10 +6,10 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// A TOML document in which every value knows its place.
+/// A TOML document in which every value has its source position.
 pub(crate) struct Tree<'text>(Spanned<DeTable<'text>>);
 
-/// Why a text is not a [`Tree`].
+/// The reason why a text is not a [`Tree`].
 pub(crate) struct TreeError {
     pub(crate) message: String,
     pub(crate) bytes: Range<usize>,
@@ -17,12 +17,12 @@ pub(crate) struct TreeError {
 
 /// Deeper nesting than any scene has.
 const MAX_DEPTH: usize = 32;
-/// The parser bounds the nesting of brackets and the length of dotted keys, each to 80, but not their product,
-/// and its trees are dropped by recursion: 6400 levels need some 1 MiB.
+/// The parser limits the nesting of brackets and the length of dotted keys to 80 each, but not their product, and its trees are dropped
+/// recursively: 6400 levels need about 1 MiB.
 const PARSER_STACK_BYTES: usize = 16 << 20;
 
 impl<'text> Tree<'text> {
-    /// Parses `text` on a stack of its own, so that no nesting can exhaust the caller's.
+    /// Parses `text` on a separate stack, so that no nesting can exhaust the caller's stack.
     pub(crate) fn parse(text: &'text str) -> Result<Self, TreeError> {
         let failed = |message: &str| TreeError {
             message: message.to_owned(),
@@ -32,7 +32,7 @@ impl<'text> Tree<'text> {
             std::thread::Builder::new()
                 .stack_size(PARSER_STACK_BYTES)
                 .spawn_scoped(scope, || parse_here(text))
-                .map_err(|error| failed(&format!("no thread to parse it with: {error}")))?
+                .map_err(|error| failed(&format!("cannot start a thread to parse it: {error}")))?
                 .join()
                 .unwrap_or_else(|_| Err(failed("the TOML parser failed on this text")))
         })
@@ -43,7 +43,7 @@ impl<'text> Tree<'text> {
         self.0.get_ref()
     }
 
-    /// The bytes of the value at `field`, or else of the innermost table around it that the file has.
+    /// The bytes of the value at `field`, or else of the innermost table in the file that would contain it.
     pub(crate) fn bytes_of(&self, field: &FieldPath) -> Range<usize> {
         let mut bytes = self.0.span();
         let Some((Step::Key(first), rest)) = field.steps().split_first() else {
@@ -72,7 +72,7 @@ fn parse_here(text: &str) -> Result<Tree<'_>, TreeError> {
         if depth(value.get_ref()) > MAX_DEPTH {
             return Err(TreeError {
                 message: format!(
-                    "tables and arrays nested more than {MAX_DEPTH} deep; no scene needs that"
+                    "found tables and arrays nested more than {MAX_DEPTH} deep; at most {MAX_DEPTH} levels are possible"
                 ),
                 bytes: key.span(),
             });

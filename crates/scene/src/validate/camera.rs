@@ -38,7 +38,7 @@ pub(crate) fn check(checks: &mut Checks, camera: &description::Camera) -> Option
     let back = -forward.normalize();
     let up = checks.across(
         (&top.key("up"), up?),
-        (-back, "the direction of view"),
+        (-back, "the view direction"),
         &[position_field, look_at_field],
     )?;
     let (lens, filter) = match *camera {
@@ -64,7 +64,7 @@ pub(crate) fn check(checks: &mut Checks, camera: &description::Camera) -> Option
     })
 }
 
-/// A lens; it is focused on what lies at `target_distance` unless it says otherwise.
+/// Checks a lens. It focuses at `target_distance` unless it has a focus distance.
 fn check_lens(
     checks: &mut Checks,
     top: &FieldPath,
@@ -89,7 +89,7 @@ fn check_radius(checks: &mut Checks, field: &FieldPath, radius: f64) -> Option<f
     }
     let message = format!("found 0; it must be from {}", limits::LENGTH);
     let problem = Problem::new(ProblemKind::OutOfRange, field, message);
-    checks.report(problem.help("leave out `lens` to have everything sharp"));
+    checks.report(problem.help("leave out `lens` to have everything in focus"));
     None
 }
 

@@ -1,4 +1,4 @@
-//! The checks that many fields share, and the list of what they found.
+//! Checks that many fields share, and the list of problems that they found.
 
 use crate::limits::{self, Range, Shown};
 use crate::problem::{Problem, ProblemKind};
@@ -9,17 +9,17 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Collects problems, and knows what the whole scene shares. A check returns the value when it is sound.
+/// Collects problems, and holds what the whole scene shares. A check returns the value if it is valid.
 #[derive(Debug)]
 pub(crate) struct Checks {
     pub(crate) problems: Vec<Problem>,
-    /// What was assumed, a line each, none twice.
+    /// Assumptions, one line each, without duplicates.
     pub(crate) notes: Vec<String>,
-    /// Where files are looked for.
+    /// The folder that paths of files are relative to.
     folder: Folder,
     /// Time of the picture, s.
     pub(crate) time_s: f64,
-    /// Tables of rough surfaces made so far: those alike share theirs.
+    /// Energy tables of the rough surfaces so far: surfaces with equal parameters share one.
     energies: Vec<(Distribution, [f64; 2], Arc<Energy>)>,
 }
 
@@ -34,7 +34,7 @@ impl Checks {
         }
     }
 
-    /// The path to the file that `field` names as `written`. Every file that a description names is opened by what this returns.
+    /// The path to the file that `field` names as `written`. Every file that a description names is opened by this path.
     pub(crate) fn path(&mut self, field: &FieldPath, written: &Path) -> Option<PathBuf> {
         self.folder
             .path_to(written)
@@ -45,7 +45,7 @@ impl Checks {
             .ok()
     }
 
-    /// The table of energy of a rough surface.
+    /// The energy table of a rough surface.
     pub(crate) fn energy(
         &mut self,
         distribution: Distribution,
@@ -67,7 +67,7 @@ impl Checks {
         self.problems.push(problem);
     }
 
-    /// Says what was assumed about what is written at `field`.
+    /// Notes an assumption about the value of `field`.
     pub(crate) fn note(&mut self, field: &FieldPath, assumed: impl Display) {
         let note = if field.is_root() {
             assumed.to_string()
@@ -79,10 +79,10 @@ impl Checks {
         }
     }
 
-    /// A number within `range`.
+    /// Checks that a number is in `range`.
     pub(crate) fn number(&mut self, field: &FieldPath, value: f64, range: &Range) -> Option<f64> {
         if range.contains(value) {
-            // −0 and 0 are the same number, and would be two entries of a list without duplicates.
+            // −0 and 0 are the same number, but would be two entries in a list without duplicates.
             return Some(value + 0.0);
         }
         let message = format!("found {}; it must be from {range}", Shown(value));
@@ -90,7 +90,7 @@ impl Checks {
         None
     }
 
-    /// A point whose coordinates are in range.
+    /// Checks that the coordinates of a point are in range.
     pub(crate) fn point(&mut self, field: &FieldPath, point: [f64; 3]) -> Option<DVec3> {
         let mut is_sound = true;
         for (index, &value) in point.iter().enumerate() {
@@ -100,7 +100,7 @@ impl Checks {
         is_sound.then_some(DVec3::from_array(point))
     }
 
-    /// The unit vector along a direction of any length but 0.
+    /// Normalizes a direction, which may have any length except 0.
     pub(crate) fn direction(&mut self, field: &FieldPath, direction: [f64; 3]) -> Option<DVec3> {
         let vector = self.point(field, direction)?;
         if vector.length() < limits::MIN_DISTANCE {
@@ -115,9 +115,9 @@ impl Checks {
         Some(vector.normalize())
     }
 
-    /// The vector from one point to another that must lie elsewhere; the problem is told of `field`.
+    /// The vector between two points, which must differ; otherwise the problem is reported at `field`.
     ///
-    /// Elsewhere means: so far that the points still differ when they are rounded to `f32`.
+    /// They must be far enough apart to differ when they are rounded to `f32`.
     pub(crate) fn distance(
         &mut self,
         (field, to): (&FieldPath, DVec3),
@@ -130,7 +130,7 @@ impl Checks {
             return Some(vector);
         }
         let message = format!(
-            "found {}, which is not far enough from `{other}` {}; they must be at least {least:.1e} apart",
+            "found {}, which is not far enough from `{other}` {}; the two must be at least {least:.1e} apart",
             shown(to),
             shown(from),
         );
@@ -139,7 +139,7 @@ impl Checks {
         None
     }
 
-    /// The part of the unit vector `up` that is at right angles to the unit vector `axis`, normalized.
+    /// The component of the unit vector `up` perpendicular to the unit vector `axis`, normalized.
     pub(crate) fn across(
         &mut self,
         (field, up): (&FieldPath, DVec3),
@@ -151,7 +151,7 @@ impl Checks {
             return Some(across.normalize());
         }
         let message = format!(
-            "found a direction parallel to {what} {}; it must point elsewhere",
+            "found a direction parallel to {what} {}; it must have another direction",
             shown(axis)
         );
         let problem = Problem::new(ProblemKind::Inconsistent, field, message);
@@ -159,7 +159,7 @@ impl Checks {
         None
     }
 
-    /// A name that nothing has.
+    /// Reports an unknown name.
     pub(crate) fn unknown_name(
         &mut self,
         field: &FieldPath,
@@ -177,8 +177,8 @@ impl Checks {
     }
 }
 
-/// Width and height of a picture on a surface; the inner `None` where they are left to the surface.
-#[expect(clippy::option_option, reason = "the outer one is of the check")]
+/// Checks the width and height of a picture on a surface; the inner `None` means that the surface determines them.
+#[expect(clippy::option_option, reason = "the outer one is the check's result")]
 pub(crate) fn placed_size(
     checks: &mut Checks,
     field: &FieldPath,
@@ -200,7 +200,7 @@ fn list_of_names(what: &str, known: &[&str]) -> String {
         .map(|name| format!("{name:?}"))
         .collect();
     match known.len() {
-        0 => format!("no {what} is known at all"),
+        0 => format!("no {what} is known"),
         count if count > MOST => {
             format!("known are {} and {} more", names.join(", "), count - MOST)
         }

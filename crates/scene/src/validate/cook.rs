@@ -1,4 +1,4 @@
-//! Conductors by Cook's model: slopes and constants to weights.
+//! Conductors by Cook's model: from slopes and constants to weights.
 
 use super::checks::Checks;
 use super::microsurface::Reported;
@@ -10,17 +10,17 @@ use crate::problem::{Problem, ProblemKind};
 use crate::{Cook1981, CookDistribution, CookFacets, DiffuseTerm, Emission, FieldPath, SpectrumId};
 use std::f64::consts::PI;
 
-/// The weights of slopes may sum to 1 with an error like that of 0.333 three times.
+/// The allowed error of the sum of the weights: three times 0.333 must pass as 1.
 const WEIGHTS: f64 = 2e-3;
 
-/// What the material says beside the model.
+/// The fields of the material besides the model.
 #[derive(Clone, Copy)]
 pub(super) struct Surface {
     pub(super) index: Option<(SpectrumId, SpectrumId)>,
     pub(super) finish: Finish,
 }
 
-/// The surface at `field` by the model at `field.model.cook1981`.
+/// Checks the surface at `field` with the model at `field.model.cook1981`.
 pub(super) fn check(
     checks: &mut Checks,
     spectra: &mut SpectrumList,
@@ -80,13 +80,13 @@ pub(super) fn check(
     Some(cook)
 }
 
-/// What a constant of D₁ makes of the light must stay a number over the longest path.
+/// Checks that the light stays a finite number over the longest path with this constant of D₁.
 fn check_gain(checks: &mut Checks, field: &FieldPath, constant: f64, gain: f64) -> Option<()> {
     if gain <= limits::MAX_COOK_GAIN {
         return Some(());
     }
     let message = format!(
-        "found {}, with which the surface sends back {gain:.3e} times the light that falls on it; at most {} times is possible, that is {:.3e}",
+        "found {}, with which the surface reflects {gain:.3e} times the incident light; at most {} times is possible, which is {:.3e}",
         Shown(constant),
         limits::MAX_COOK_GAIN,
         constant * limits::MAX_COOK_GAIN / gain
@@ -96,7 +96,7 @@ fn check_gain(checks: &mut Checks, field: &FieldPath, constant: f64, gain: f64) 
     None
 }
 
-/// What stands before D with one slope: the printed 1 / π, with D₁ times c; or 1/4, with D made to cover the surface once.
+/// The factor of D for one slope: 1 / π as printed, for D₁ times c; or 1/4, with D normalized to cover the surface once.
 fn constant_of(
     distribution: CookDistribution,
     normalization: CookNormalization,
@@ -113,7 +113,7 @@ fn constant_of(
     }
 }
 
-/// The model knows slopes that are the same in all directions, and brings its own distribution.
+/// Checks the roughness: the model has slopes that are the same in all directions, and its own distribution.
 fn check_roughness(checks: &mut Checks, field: &FieldPath, finish: Finish) -> Option<f64> {
     let is_even = matches!(finish.roughness, Roughness::Even(_));
     let wrong = [
@@ -124,7 +124,7 @@ fn check_roughness(checks: &mut Checks, field: &FieldPath, finish: Finish) -> Op
     let mut is_sound = true;
     for (name, _) in wrong.iter().filter(|(_, is_wrong)| *is_wrong) {
         let message = format!(
-            "cook1981 cannot use this `{name}`: its facets slope alike in all directions, by a distribution that the model itself names"
+            "cook1981 cannot use this `{name}`: its slopes are the same in all directions, and the model itself has a distribution"
         );
         let problem = Problem::new(ProblemKind::Inconsistent, &field.key(name), message);
         let help = "write one `roughness`, and model = { cook1981 = { distribution = \"beckmann\" } } or \"gaussian\"";
@@ -139,7 +139,7 @@ fn check_roughness(checks: &mut Checks, field: &FieldPath, finish: Finish) -> Op
     }
 }
 
-/// The slopes of the model, or the one of the material.
+/// The slopes of the model, or the material's roughness as the only one.
 fn check_slopes(
     checks: &mut Checks,
     material: &FieldPath,
@@ -155,8 +155,7 @@ fn check_slopes(
                 weight: 1.0,
             }]);
         }
-        let message =
-            "cook1981 is for rough surfaces: give a `roughness`, or `slopes` to the model";
+        let message = "cook1981 is for rough surfaces: give the material a `roughness`, or the model `slopes`";
         let help = "model = { cook1981 = { slopes = [{ m = 0.2, weight = 0.4 }, { m = 0.6, weight = 0.6 }] } }";
         let problem = Problem::new(ProblemKind::MissingField, material, message);
         checks.report(problem.help(help));
@@ -164,7 +163,7 @@ fn check_slopes(
     };
     if roughness > 0.0 {
         let message = format!(
-            "found slopes and a roughness of {roughness}; the surface has either the ones or the other"
+            "found slopes and a roughness of {roughness}; the surface can have only one of them"
         );
         let problem = Problem::new(ProblemKind::Inconsistent, &field, message);
         checks.report(problem.involving(material.key("roughness")));
@@ -182,7 +181,7 @@ fn check_slopes(
     check_list(checks, &field, slopes)
 }
 
-/// Slopes in range whose weights sum to 1, which they then do exactly.
+/// Checks slopes and that their weights sum to 1, and normalizes the weights.
 fn check_list(checks: &mut Checks, field: &FieldPath, slopes: &[Slope]) -> Option<Vec<Slope>> {
     let mut sound = Vec::new();
     for (index, slope) in slopes.iter().enumerate() {
@@ -206,7 +205,7 @@ fn check_list(checks: &mut Checks, field: &FieldPath, slopes: &[Slope]) -> Optio
     Some(sound)
 }
 
-/// c of D₁, 1 when absent; the other forms have none.
+/// Checks c of D₁, 1 when absent; the other forms have none.
 fn check_constant(
     checks: &mut Checks,
     own: &FieldPath,
@@ -220,14 +219,14 @@ fn check_constant(
     if is_printed && written.distribution == description::CookDistribution::Gaussian {
         return checks.number(&field, constant, &limits::COOK_CONSTANT);
     }
-    let message = "only D1 as printed has a constant to choose";
+    let message = "found a constant, but only D1 as printed has one";
     let problem = Problem::new(ProblemKind::Inconsistent, &field, message);
     let help = "leave it out, or write distribution = \"gaussian\" and normalization = \"printed\"";
     checks.report(problem.help(help));
     None
 }
 
-/// s and d.
+/// Checks s and d.
 fn check_shares(
     checks: &mut Checks,
     own: &FieldPath,
@@ -239,7 +238,7 @@ fn check_shares(
     let specular = checks.number(&specular_field, specular, &limits::FRACTION);
     let diffuse = checks.number(&own.key("diffuse"), diffuse, &limits::FRACTION);
     let (specular, diffuse) = specular.zip(diffuse)?;
-    // 0.7 + 0.3 may come to a little more than 1.
+    // 0.7 + 0.3 may be slightly above 1.
     if specular + diffuse <= 1.0 + 1e-9 {
         return Some((specular, diffuse));
     }
@@ -252,7 +251,7 @@ fn check_shares(
     None
 }
 
-/// ρ, where there is a diffuse share.
+/// Checks ρ, which is required if the diffuse fraction is above 0.
 fn check_diffuse(
     checks: &mut Checks,
     spectra: &mut SpectrumList,
@@ -271,11 +270,11 @@ fn check_diffuse(
             let (kind, message) = match given {
                 Some(_) => (
                     ProblemKind::Inconsistent,
-                    "nothing is reflected evenly: the share `diffuse` is 0",
+                    "found a diffuse reflectance, but the fraction `diffuse` is 0",
                 ),
                 None => (
                     ProblemKind::MissingField,
-                    "a diffuse share needs a `diffuse_reflectance`",
+                    "is missing; a fraction `diffuse` above 0 needs it",
                 ),
             };
             let problem = Problem::new(kind, &field, message);

@@ -1,8 +1,8 @@
 //! n and k from files of the refractiveindex.info database.
 //!
-//! The database reaches from X-rays to radio waves, and its faults lie mostly far from what is asked for. A value that cannot be
-//! used is therefore not an error of the file: its environment, from the sound value before it to the next, become a
-//! [`spectra::Fault`], and only what asks for these wavelengths is refused, with the line.
+//! The database covers X-rays to radio waves, and its faults are mostly far from the wavelengths of a scene. An unusable value is therefore
+//! not an error of the whole file: the interval around it, from the previous valid value to the next, becomes a [`spectra::Fault`], and
+//! only a scene that needs these wavelengths is rejected, with the line.
 
 use super::checks::Checks;
 use super::database_file::{self, Block, Data, DatabaseFile, OfAir};
@@ -25,17 +25,17 @@ const K: Quantity = Quantity {
     range: &limits::INDEX_K,
     noise: NOISE,
 };
-/// How far below 0 a k may be and still be a transparent medium's 0 with noise.
+/// How far below 0 a k may be to still count as a transparent medium's 0 with noise.
 const NOISE: f64 = 1e-6;
 
-/// A file that is being turned into spectra.
+/// A file that is being converted to spectra.
 struct Reading<'a> {
     checks: &'a mut Checks,
     field: &'a FieldPath,
     path: &'a Path,
 }
 
-/// n and k from a file.
+/// Reads n and k from a file.
 pub(super) fn read(checks: &mut Checks, field: &FieldPath, path: &Path) -> Option<[Spectrum; 2]> {
     let mut reading = Reading {
         checks,
@@ -78,7 +78,7 @@ impl Reading<'_> {
         for block in &file.blocks {
             if matches!(block.data, Data::N2) {
                 self.note(&format!(
-                    "line {}: \"tabulated n2\", the nonlinear index, is passed over",
+                    "line {}: \"tabulated n2\", the nonlinear index, is ignored",
                     block.line
                 ));
             }
@@ -86,17 +86,17 @@ impl Reading<'_> {
         for of_air in &file.of_air {
             self.note(&match of_air {
                 OfAir::Index(line) => format!(
-                    "line {line}: n is relative to air (`n_is_absolute: false`) and is used as it stands"
+                    "line {line}: n is relative to air (`n_is_absolute: false`) and is used unchanged"
                 ),
                 OfAir::Wavelengths(line) => format!(
-                    "line {line}: wavelengths are those in air (`wavelength_is_vacuum: false`) and are used as they stand"
+                    "line {line}: wavelengths are in air (`wavelength_is_vacuum: false`) and are used unchanged"
                 ),
             });
         }
         Some([n.pop()?, k.pop().unwrap_or(Spectrum::Constant(0.0))])
     }
 
-    /// The n and the k that a block gives.
+    /// The n and the k of a block.
     fn block(&mut self, block: &Block) -> Option<[Option<Spectrum>; 2]> {
         Some(match &block.data {
             Data::N(rows) => {

@@ -13,7 +13,7 @@
 //!   n_is_absolute: true
 //! ```
 //!
-//! Wavelengths are in µm. What else a file says (references, conditions, properties) is passed over.
+//! Wavelengths are in µm. Everything else in a file (references, conditions, properties) is ignored.
 
 mod yaml;
 
@@ -25,27 +25,27 @@ use std::path::Path;
 use thiserror::Error;
 use yaml::{Document, Text, Written};
 
-/// What a file gives.
+/// The contents of a file.
 pub(crate) struct DatabaseFile {
     /// Its `DATA`.
     pub(crate) blocks: Vec<Block>,
-    /// Those of its `SPECS` that say that figures are not those of vacuum.
+    /// Entries of its `SPECS` which say that data do not refer to vacuum.
     pub(crate) of_air: Vec<OfAir>,
 }
 
-/// Figures that are not those of vacuum, with the line that says so.
+/// Data that do not refer to vacuum, with the line that says so.
 pub(crate) enum OfAir {
     Index(usize),
     Wavelengths(usize),
 }
 
-/// One of the `DATA` of a file, with the line that it begins in.
+/// One entry of a file's `DATA`, with its first line.
 pub(crate) struct Block {
     pub(crate) line: usize,
     pub(crate) data: Data,
 }
 
-/// What a block gives.
+/// The data of a block.
 pub(crate) enum Data {
     N(Vec<Row<1>>),
     K(Vec<Row<1>>),
@@ -55,20 +55,18 @@ pub(crate) enum Data {
     N2,
 }
 
-/// Why a file is not one of the database. Lines are counted from 1.
+/// The reason why a file is not a file of the database. Lines are counted from 1.
 #[derive(Debug, Error)]
 pub(crate) enum DatabaseFileError {
     #[error(transparent)]
     File(#[from] TextFileError),
     #[error("line {line}: this is not YAML: {message}")]
     Yaml { line: usize, message: String },
-    #[error("line {line}: an alias; the figures must be written where they belong")]
+    #[error("line {line}: found an alias; write the numbers themselves")]
     Alias { line: usize },
-    #[error("line {line}: a second document begins; the file must be one")]
+    #[error("line {line}: found a second document; the file must contain only one")]
     Documents { line: usize },
-    #[error(
-        "line {line}: the key {key:?} is already there in line {first}; each may be there once"
-    )]
+    #[error("line {line}: the key {key:?} is already in line {first}; each key may occur once")]
     Twice {
         line: usize,
         first: usize,
@@ -97,10 +95,10 @@ pub(crate) enum DatabaseFileError {
     Formula { line: usize, source: FormulaError },
 }
 
-/// The database's formulas have at most 17.
+/// The maximum number of coefficients. The database's formulas have at most 17.
 const MOST_COEFFICIENTS: usize = 1 + 4 * MAX_FORMULA_TERMS;
 
-/// What a file gives, as it stands there.
+/// Reads a file.
 pub(crate) fn read(path: &Path) -> Result<DatabaseFile, DatabaseFileError> {
     let text = read_text(path)?;
     let document = yaml::document(text.strip_prefix('\u{feff}').unwrap_or(&text))?;
@@ -162,7 +160,7 @@ fn formula(
         .ok()
         .and_then(FormulaKind::from_number)
         .ok_or_else(|| unknown_type(kind))?;
-    // Older files say `range`.
+    // Older files have `range`.
     let range = written
         .field("wavelength_range")
         .or_else(|missing| written.field("range").map_err(|_| missing))?;

@@ -1,4 +1,4 @@
-//! Tables of the refractiveindex.info database: rows to spectra, with what is wrong in them kept in its place.
+//! Tables of the refractiveindex.info database: from rows to spectra that keep the faults of the rows.
 
 use crate::limits::{Range, TABLE_NM};
 use spectra::table_file::Row;
@@ -9,35 +9,35 @@ use std::sync::Arc;
 pub(super) struct Quantity {
     pub(super) name: &'static str,
     pub(super) range: &'static Range,
-    /// How far below the range a value is still taken for its lower end.
+    /// How far below the range a value still counts as its lower end.
     pub(super) noise: f64,
 }
 
-/// The rows of a table by wavelength, those of one wavelength in the order of the file.
+/// The rows of a table sorted by wavelength; rows of equal wavelength are in the order of the file.
 pub(super) struct Table<const N: usize> {
     rows: Vec<Row<N>>,
     repeats: Repeats,
     beyond: usize,
 }
 
-/// Rows that say again what another says: how many, and the lines of the first and of what it repeats.
+/// Rows that repeat another: their number, and the line numbers of the first and of the row that it repeats.
 #[derive(Default)]
 struct Repeats {
     count: usize,
     first: Option<(usize, usize)>,
 }
 
-/// What a table says at a wavelength.
+/// The value of a table at a wavelength.
 enum Entry {
     Sound(f64),
     Faulty(String),
 }
 
 impl<const N: usize> Table<N> {
-    /// The table, without rows beyond the wavelengths of any scene and without exact repeats.
+    /// Creates the table without rows outside the range of tables, and without exact repeats.
     ///
     /// # Errors
-    /// When a wavelength is none.
+    /// When a wavelength is not a positive finite number.
     pub(super) fn new(rows: &[Row<N>]) -> Result<Self, String> {
         if let Some(row) = rows
             .iter()
@@ -48,14 +48,14 @@ impl<const N: usize> Table<N> {
         }
         let within = rows.iter().filter(|row| TABLE_NM.contains(row.nm));
         let mut sorted: Vec<&Row<N>> = within.collect();
-        // Stable: the database has tables that step back for a row.
+        // A stable sort: the database has tables with a row that steps back.
         sorted.sort_by(|a, b| a.nm.total_cmp(&b.nm));
         let beyond = rows.len() - sorted.len();
         let mut repeats = Repeats::default();
         let mut kept: Vec<Row<N>> = Vec::with_capacity(sorted.len());
         for row in sorted {
             let of_one_nm = kept.iter().rev().take_while(|other| other.nm == row.nm);
-            // Of many at one wavelength the last few are looked at: the others are at worst told as a contradiction.
+            // Only the last few rows of one wavelength are compared: at worst, others are reported as a contradiction.
             let same = of_one_nm.take(4).find(|other| is_repeat(other, row));
             match same {
                 Some(other) => repeats.add(row.line, other.line),
@@ -76,7 +76,7 @@ impl<const N: usize> Table<N> {
         })
     }
 
-    /// What was left out.
+    /// Notes on rows that were left out.
     pub(super) fn notes(&self) -> impl Iterator<Item = String> {
         let repeats = self.repeats.first.map(|(line, other)| {
             let more = match self.repeats.count {
@@ -87,15 +87,15 @@ impl<const N: usize> Table<N> {
         });
         let beyond = (self.beyond > 0).then(|| {
             let count = self.beyond;
-            format!("{count} of the rows are left out: they are beyond {TABLE_NM}")
+            format!("{count} of the rows are left out: they are outside {TABLE_NM}")
         });
         repeats.into_iter().chain(beyond)
     }
 
-    /// A column as a spectrum with its faults, and what was assumed of it.
+    /// A column as a spectrum with its faults, and a note on what was assumed.
     ///
     /// # Errors
-    /// When no value of it is sound; the first fault is told.
+    /// When the column has no valid value; the error is its first fault.
     pub(super) fn spectrum(
         &self,
         column: usize,
@@ -104,7 +104,7 @@ impl<const N: usize> Table<N> {
         let mut noisy: Vec<&Row<N>> = Vec::new();
         let mut points: Vec<(f64, f64)> = Vec::new();
         let mut faults: Vec<Fault> = Vec::new();
-        // The fault that the sound value before the next one ends in.
+        // The reason of a fault that begins after the last valid value.
         let mut pending: Option<Arc<str>> = None;
         for same in self.rows.chunk_by(|a, b| a.nm == b.nm) {
             let (first, nm) = (&same[0], same[0].nm);
@@ -153,7 +153,7 @@ fn is_repeat<const N: usize>(a: &Row<N>, b: &Row<N>) -> bool {
     a.values == b.values
 }
 
-/// What the rows of one wavelength say in a column.
+/// The value of a column in the rows of one wavelength.
 fn entry<const N: usize>(same: &[Row<N>], column: usize, quantity: &Quantity) -> Entry {
     let Quantity { name, range, noise } = quantity;
     let (first, nm) = (&same[0], same[0].nm);
@@ -162,7 +162,7 @@ fn entry<const N: usize>(same: &[Row<N>], column: usize, quantity: &Quantity) ->
         let (line, again, found) = (first.line, other.line, other.values[column]);
         if value.is_finite() {
             return Entry::Faulty(format!(
-                "lines {line} and {again} both give {name} at {nm} nm, as {value} and as {found}; one must go"
+                "lines {line} and {again} both give {name} at {nm} nm, as {value} and as {found}; remove one of them"
             ));
         }
     }

@@ -1,4 +1,4 @@
-//! Dielectrics: opaque ones, and coats over a diffuse base.
+//! Dielectrics: opaque bodies, and coats over a diffuse base.
 
 use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
@@ -8,7 +8,7 @@ use crate::prepared::coats::RoughCoat;
 use crate::problem::{Problem, ProblemKind};
 use crate::{CoatEstimate, CoatedBody, FieldPath, Material, Microsurface, Pattern, SpectrumId};
 
-/// A material at `field` of index `(n, k)`, written as `index`, with `base` below it where there is one.
+/// Checks the material at `field` with the index `(n, k)`, written as `index`, and with `base` below it, if any.
 pub(super) fn check(
     checks: &mut Checks,
     spectra: &mut SpectrumList,
@@ -80,13 +80,13 @@ fn report_absorption(checks: &mut Checks, field: &FieldPath, index: &Index, (k, 
         Shown(CLEAR_COAT_K)
     );
     let help = format!(
-        "leave out `base` for an opaque body of this index, or write the real part alone, such as index = {n:.3}, for a coat without color"
+        "leave out `base` for an opaque body of this index, or write only the real part, such as index = {n:.3}, for a colorless coat"
     );
     let problem = Problem::new(ProblemKind::Inconsistent, field, message);
     checks.report(problem.help(help));
 }
 
-/// A number of a table by its first two digits.
+/// A number rounded to two digits.
 fn digits(number: f64) -> Shown {
     let rounded = format!("{number:.1e}").parse();
     Shown(rounded.unwrap_or(number))

@@ -14,7 +14,7 @@ use crate::{DirectLight, Environment, FieldPath, Light, PictureSpectra, descript
 use std::path::Path;
 use std::sync::Arc;
 
-/// Checks `[environment]`; without one it is black. A sky may come with the light of its sun.
+/// Checks `[environment]`; it is black when absent. A sky may come with its sun as a light.
 pub(crate) fn check<'a>(
     checks: &mut Checks,
     spectra: &mut SpectrumList,
@@ -104,7 +104,7 @@ pub(crate) fn check<'a>(
     Some((environment?, light))
 }
 
-/// A sky, and the light of its sun where that is there.
+/// Checks a sky, and adds its sun as a light if `has_sun`.
 fn check_sky(
     checks: &mut Checks,
     spectra: &mut SpectrumList,
@@ -141,7 +141,7 @@ fn times(spectrum: EmissionSpectrum, scale: f64) -> Emission {
     }
 }
 
-/// A picture of all directions as written.
+/// A picture of all directions as written in a scene file.
 struct Image<'a> {
     file: &'a Path,
     layer: Option<&'a str>,
@@ -185,7 +185,7 @@ impl Image<'_> {
             emission.scale * spectra.peak(emission.spectrum),
         )?;
         if is_spectral && self.illuminant.is_some() {
-            let message = "the picture has spectra of its own, which no illuminant changes";
+            let message = "found an illuminant for a picture that has spectra of its own; leave out `illuminant`";
             let field = top.key("illuminant");
             let problem = Problem::new(ProblemKind::Inconsistent, &field, message);
             checks.report(problem.involving(top.key("image")));
@@ -197,11 +197,11 @@ impl Image<'_> {
         })
     }
 
-    /// Checks what the brightest pixel comes to at most, times a factor.
+    /// Checks an upper bound of the brightest pixel times a factor.
     fn check_brightest(&self, checks: &mut Checks, sphere: &Sphere, factor: f64) -> Option<()> {
         let texels = sphere.texels.values.iter();
         let largest = match sphere.spectra {
-            // The last number times a reflectance.
+            // A texel's radiance is its last number times a reflectance.
             PictureSpectra::Smooth => texels.map(|texel| texel[3]).fold(0.0, f32::max),
             PictureSpectra::Bands => texels.flatten().copied().fold(0.0, f32::max),
         };
@@ -210,7 +210,7 @@ impl Image<'_> {
             return Some(());
         }
         let message = format!(
-            "found {}, with which the picture's brightest pixel may come to a radiance of {found:.3e} W m⁻² sr⁻¹ nm⁻¹; at most {} is possible, that is {:.3e}",
+            "found {}, which may give the picture's brightest pixel a radiance of {found:.3e} W m⁻² sr⁻¹ nm⁻¹; the limit is {}, reached at {:.3e}",
             Shown(self.scale),
             Shown(most),
             self.scale * (most / found)

@@ -1,4 +1,4 @@
-//! Pictures of the environment: from files to texels and a table of directions.
+//! Pictures of the environment: from files to texels and a direction table.
 
 use super::checks::Checks;
 use super::picture_file::{LightFile, PictureFileError, read_light};
@@ -13,7 +13,7 @@ use spectra::{BandGrid, SpectralImage};
 use std::path::Path;
 use thiserror::Error;
 
-/// A picture of all directions as a file has it.
+/// A picture of all directions as read from a file.
 pub(super) struct Sphere {
     pub(super) texels: Texels,
     pub(super) spectra: PictureSpectra,
@@ -22,7 +22,7 @@ pub(super) struct Sphere {
 }
 
 impl Sphere {
-    /// The picture with its middle turned from −Z by an angle.
+    /// The picture with its center rotated from −Z by an angle.
     pub(super) fn turned(self, rotation_deg: f64, sent: Sampled) -> EnvironmentPicture {
         let (sine, cosine) = rotation_deg.to_radians().sin_cos();
         let size = [self.texels.width, self.texels.height];
@@ -38,7 +38,7 @@ impl Sphere {
     }
 }
 
-/// Reads a picture of all directions, of the layer asked for where a file has several.
+/// Reads a picture of all directions, from the given layer if the file has several.
 pub(super) fn read(
     checks: &mut Checks,
     field: &FieldPath,
@@ -61,7 +61,7 @@ pub(super) fn read(
             Ok(sphere) => return Some(sphere),
             Err(pixel) => format!("{}: {pixel}", path.display()),
         },
-        // It names the file already.
+        // The message already names the file.
         Err(PictureFileError::Exr(message)) => message,
         Err(error) => format!("{}: {error}", path.display()),
     };
@@ -69,7 +69,7 @@ pub(super) fn read(
     None
 }
 
-/// A pixel that is no light.
+/// A pixel whose value is not a radiance.
 #[derive(Debug, Error)]
 #[error(
     "the pixel in column {column} of row {row}, counted from 1, has a value of {}; it must be a number of at most {}",
@@ -81,12 +81,12 @@ struct BadPixel {
     value: f32,
 }
 
-/// The shortest decimal number that is this one in `f32`.
+/// The shortest decimal number that rounds to this one in `f32`.
 fn shortest(value: f32) -> f64 {
     value.to_string().parse().unwrap_or(f64::NAN)
 }
 
-/// Looks at all values, of which a pixel has so many.
+/// Checks all values, `per_pixel` for each pixel.
 fn check_pixels(values: &[f32], per_pixel: usize, width: u32) -> Result<(), BadPixel> {
     let is_sound = |value: f32| value.is_finite() && f64::from(value) <= limits::EMISSION.high;
     match values.iter().position(|&value| !is_sound(value)) {
@@ -99,8 +99,8 @@ fn check_pixels(values: &[f32], per_pixel: usize, width: u32) -> Result<(), BadP
     }
 }
 
-/// Colors as smooth spectra: each is a factor, twice its largest part, times a reflectance of at most a half, which makes it
-/// smoother than a brighter one would be.
+/// Colors as smooth spectra: each is a factor, twice its largest component, times a reflectance of at most one half, which is smoother than
+/// a higher one would be.
 fn lifted(width: u32, rgb: &[[f32; 3]]) -> Result<Sphere, BadPixel> {
     check_pixels(rgb.as_flattened(), 3, width)?;
     let fill_row = |(texels, row): (&mut [[f32; 4]], &[[f32; 3]])| {
@@ -117,7 +117,7 @@ fn lifted(width: u32, rgb: &[[f32; 3]]) -> Result<Sphere, BadPixel> {
             *texel = [c0, c1, c2, scale].map(|value| value as f32);
         }
     };
-    // Filled in its place: a picture may have many pixels.
+    // Filled in place: a picture may have many pixels.
     let mut values = vec![[0.0; 4]; rgb.len()];
     let rows = rgb.par_chunks(width as usize);
     let texels = values.par_chunks_mut(width as usize);
@@ -138,7 +138,7 @@ fn lifted(width: u32, rgb: &[[f32; 3]]) -> Result<Sphere, BadPixel> {
     })
 }
 
-/// Spectra as means over the bands of a grid, which they cover.
+/// Spectra as means over the bands of a grid, which the picture's bands cover.
 fn resampled(image: &SpectralImage, grid: &BandGrid) -> Result<Sphere, BadPixel> {
     let own = image.bands();
     check_pixels(image.radiance(), own.count() as usize, image.width())?;
@@ -159,7 +159,7 @@ fn resampled(image: &SpectralImage, grid: &BandGrid) -> Result<Sphere, BadPixel>
     Ok(banded(image.width(), image.height(), &pixels))
 }
 
-/// A picture of which each pixel has its bands.
+/// A picture from the bands of each pixel.
 pub(super) fn banded(width: u32, height: u32, pixels: &[Vec<f32>]) -> Sphere {
     let of_pixel = |bands: &Vec<f32>| {
         let last = bands.last().copied().unwrap_or_default();
@@ -181,7 +181,7 @@ pub(super) fn banded(width: u32, height: u32, pixels: &[Vec<f32>]) -> Sphere {
     }
 }
 
-/// The bands of `own` that a band of `grid` lies over, each with its share of it.
+/// The bands of `own` that overlap a band of `grid`, each with the fraction of the band that it covers.
 fn overlaps(own: &BandGrid, grid: &BandGrid, band: u32) -> Vec<(usize, f32)> {
     let ends =
         |grid: &BandGrid, band: u32| (grid.wavelength_nm(band, 0.0), grid.wavelength_nm(band, 1.0));

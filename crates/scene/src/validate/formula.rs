@@ -1,4 +1,4 @@
-//! Dispersion formulas: coefficients from a scene, and for which wavelengths they give an index.
+//! Dispersion formulas: their coefficients in a scene, and the wavelengths at which they yield an index.
 
 use super::checks::Checks;
 use crate::FieldPath;
@@ -15,7 +15,7 @@ pub(crate) fn cauchy(
 ) -> Option<DispersionFormula> {
     if !(1..=3).contains(&coefficients.len()) {
         let message = format!(
-            "found {} coefficients; it must be 1 to 3: A, B, C",
+            "found {} coefficients; there must be 1 to 3: A, B, C",
             coefficients.len()
         );
         checks.report(Problem::new(ProblemKind::Inconsistent, field, message));
@@ -44,7 +44,7 @@ pub(crate) fn sellmeier(
     let (b, c) = (terms.b.len(), terms.c_um2.len());
     if b != c || b == 0 || b > MAX_FORMULA_TERMS {
         let message = format!(
-            "found {b} strengths `b` for {c} resonances `c_um2`; each needs one, and there can be 1 to {MAX_FORMULA_TERMS}"
+            "found {b} strengths `b` for {c} resonances `c_um2`; there must be one for each, and 1 to {MAX_FORMULA_TERMS} in all"
         );
         let problem = Problem::new(ProblemKind::Inconsistent, field, message);
         checks.report(problem.involving(strengths).involving(squares));
@@ -66,11 +66,11 @@ fn are_in_range(checks: &mut Checks, field: &FieldPath, coefficients: &[f64]) ->
             .number(&field.index(index), value, &COEFFICIENT)
             .map(|_| ())
     });
-    // Every one is looked at, so that all are told.
+    // All are checked, so that all problems are reported.
     found.fold(Some(()), Option::and)
 }
 
-/// From 100 nm to 30 µm, every nanometer to 2.5 µm and every tenth one beyond.
+/// Wavelengths from 100 nm to 30 µm: every nanometer up to 2.5 µm, then every ten nanometers.
 fn wavelengths_nm() -> impl Iterator<Item = f64> {
     let fine = (100..2500).map(f64::from);
     fine.chain((250..=3000).map(|tens| 10.0 * f64::from(tens)))
@@ -80,8 +80,7 @@ fn gives_an_index(formula: &DispersionFormula, nm: f64) -> bool {
     formula.at(nm).is_ok_and(|n| INDEX_N.contains(n))
 }
 
-/// A formula whose range nobody states: it is taken to be valid where it gives an index, around 550 nm or else in the
-/// nearest range above.
+/// A formula without a stated range. It counts as valid where it yields an index: around 550 nm, or else in the nearest range above.
 fn over_all_it_gives(
     checks: &mut Checks,
     field: &FieldPath,
@@ -110,8 +109,8 @@ fn over_all_it_gives(
     formula
 }
 
-/// A formula with the wavelengths of its range marked at which it gives no index that a scene may have, or goes through a pole:
-/// there its faults tell of `line`. `None` where it gives no index at all.
+/// A formula with faults, which name `line`, at the wavelengths of its range where it has a pole or yields no index that a scene may have.
+/// `None` if it yields no index at all.
 pub(crate) fn without_gaps(formula: &DispersionFormula, line: usize) -> Option<DispersionFormula> {
     let (low, high) = formula.range_nm();
     let poles = formula.poles_nm();
@@ -140,7 +139,7 @@ pub(crate) fn without_gaps(formula: &DispersionFormula, line: usize) -> Option<D
     Some(formula.clone().with_faults(faults))
 }
 
-/// From 30 µm to the end of all tables, every micrometer.
+/// Wavelengths from 31 µm to 1 mm, where tables end, every micrometer.
 fn far_wavelengths_nm() -> impl Iterator<Item = f64> {
     (31..=1000).map(|um| 1e3 * f64::from(um))
 }

@@ -1,4 +1,4 @@
-//! Indices of refraction: from what is written to n and k over wavelength.
+//! Indices of refraction: from the description to n and k over wavelength.
 
 use super::checks::Checks;
 use super::database;
@@ -14,7 +14,7 @@ use spectra::{DispersionFormula, OpticalConstants, Spectrum, Tabulated};
 const INDEX_N: Column = Column::new("n", "n", &limits::INDEX_N, QuantityKind::Plain);
 const INDEX_K: Column = Column::new("k", "k", &limits::INDEX_K, QuantityKind::Plain);
 
-/// n and k over wavelength, and what to do where they do not reach far enough.
+/// n and k over wavelength, and advice for the case that they do not cover the bands.
 pub(crate) fn read<'w>(
     checks: &mut Checks,
     field: &FieldPath,
@@ -44,7 +44,7 @@ pub(crate) fn read<'w>(
             k,
             extrapolate,
         } => {
-            // Without k there are as many zeros as it takes for n alone to be judged.
+            // A missing k is replaced by as many zeros as there are wavelengths, so that only n is checked.
             let zeros = vec![0.0; nm.len()];
             let k = k.as_deref().unwrap_or(&zeros);
             let columns = [(INDEX_N, n.as_slice()), (INDEX_K, k)];
@@ -108,7 +108,7 @@ fn transparent(formula: DispersionFormula, extrapolate: Extrapolate) -> [Spectru
     [n, Spectrum::Constant(0.0)]
 }
 
-/// The index without absorption of a reflectance at normal incidence.
+/// The real index with a given reflectance at normal incidence.
 fn reflecting<'w>(
     checks: &mut Checks,
     field: &FieldPath,
@@ -118,7 +118,7 @@ fn reflecting<'w>(
         && spectra::reflectance(name).is_none()
         && spectra::optical_constants(name).is_some()
     {
-        let message = format!("{name:?} is the name of an index, not of a reflectance");
+        let message = format!("found {name:?}, the name of an index; it must be a reflectance");
         let problem = Problem::new(ProblemKind::UnknownName, field, message);
         checks.report(problem.help(format!("write index = {name:?} for its exact index")));
         return None;
@@ -127,7 +127,7 @@ fn reflecting<'w>(
     let (reflectance, advice) = read_reflectance(checks, range, field, written)?;
     let points = points_of(&reflectance);
     if let Some((nm, value)) = points.iter().find(|(_, value)| !range.contains(*value)) {
-        // Numbers have been looked at where they are written: this is a name or a color.
+        // Numbers are already checked where they are written: this is a name or a color.
         let message = format!("found {value:.4} at {nm} nm; it must be from {range}");
         checks.report(Problem::new(ProblemKind::OutOfRange, field, message));
         return None;
@@ -138,7 +138,7 @@ fn reflecting<'w>(
             Spectrum::Constant(optics::index_from_normal_reflectance(*value))
         }
         other => {
-            // What `finely` gives rises in wavelength like the table that it comes from.
+            // The wavelengths of `finely` increase like those of its table.
             let table = Tabulated::new(finely(&points).map(index).collect()).ok()?;
             match other {
                 Spectrum::ClampedTable(_) => Spectrum::ClampedTable(table),
@@ -158,8 +158,8 @@ fn points_of(spectrum: &Spectrum) -> Vec<(f64, f64)> {
     }
 }
 
-/// The same line through more points, at most a nanometer apart where the table is not longer than scenes can use: the index bends
-/// where the reflectance runs straight.
+/// The same piecewise linear curve through more points, at most a nanometer apart unless an interval is very long: where the reflectance is
+/// linear, the index is curved.
 fn finely(points: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> {
     const MOST: f64 = 1000.0;
     let between = points.windows(2).flat_map(|ends| {

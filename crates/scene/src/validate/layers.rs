@@ -1,4 +1,4 @@
-//! The layers of films and coatings: one, written in the material itself, or a list.
+//! The layers of films and coatings: one written in the material itself, or a list.
 
 use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
@@ -8,7 +8,7 @@ use crate::limits;
 use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, Interference, Layer};
 
-/// Layers as a material writes them.
+/// Layers as written in a material.
 #[derive(Clone, Copy)]
 pub(super) struct Written<'a> {
     pub(super) index: Option<&'a description::Index>,
@@ -17,7 +17,7 @@ pub(super) struct Written<'a> {
 }
 
 impl Written<'_> {
-    /// The layers of the material at `field`; at least one.
+    /// Checks the layers of the material at `field`; there is at least one.
     pub(super) fn check(
         self,
         checks: &mut Checks,
@@ -43,7 +43,7 @@ impl Written<'_> {
     }
 }
 
-/// Neither the one form nor the other.
+/// Reports fields that match neither form.
 fn report_forms(checks: &mut Checks, field: &FieldPath, given: [(&str, bool); 3]) {
     let found: Vec<_> = given
         .iter()
@@ -51,7 +51,7 @@ fn report_forms(checks: &mut Checks, field: &FieldPath, given: [(&str, bool); 3]
         .map(|(name, _)| format!("`{name}`"))
         .collect();
     let found = match found.as_slice() {
-        [] => "neither a layer nor a list of them".to_owned(),
+        [] => "neither a layer nor a list of layers".to_owned(),
         names => names.join(" and "),
     };
     let message = format!(
@@ -108,7 +108,7 @@ fn check_layer(
     })
 }
 
-/// The two-beam formula is for a single layer that does not absorb.
+/// Checks the interference model: the two-beam formula is for a single layer that does not absorb.
 pub(super) fn check_interference(
     checks: &mut Checks,
     spectra: &SpectrumList,
@@ -120,7 +120,7 @@ pub(super) fn check_interference(
         if path_difference.is_none() {
             return Some(Interference::Exact);
         }
-        let message = "the exact sum has no choice of path difference";
+        let message = "the exact model has no choice of path difference";
         let field = field.key("path_difference");
         let problem = Problem::new(ProblemKind::Inconsistent, &field, message);
         checks.report(problem.help("leave it out, or write model = \"two_beam\""));
@@ -129,7 +129,8 @@ pub(super) fn check_interference(
     let is_fit =
         matches!(layers, [only] if spectra.is_black(only.k) && spectra.least(only.n) >= 1.0);
     if !is_fit {
-        let message = "two beams are for a single layer with n ≥ 1 that does not absorb (k = 0)";
+        let message =
+            "the two-beam model is for a single layer with n ≥ 1 that does not absorb (k = 0)";
         let field = field.key("model");
         let problem = Problem::new(ProblemKind::Inconsistent, &field, message);
         checks.report(problem.help("write model = \"exact\" for any stack"));

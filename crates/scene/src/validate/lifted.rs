@@ -1,4 +1,4 @@
-//! Colors: from codes to smooth reflectances.
+//! Colors: from RGB values to smooth reflectances.
 
 use super::checks::Checks;
 use super::picture_file::read_colors;
@@ -13,7 +13,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Red, green and blue from 0 to 1.
+/// Checks that red, green and blue are from 0 to 1.
 pub(super) fn color(checks: &mut Checks, field: &FieldPath, rgb: [f64; 3]) -> Option<[f64; 3]> {
     let checked: Vec<_> = (0..3)
         .map(|i| checks.number(&field.index(i), rgb[i], &limits::REFLECTANCE))
@@ -24,13 +24,13 @@ pub(super) fn color(checks: &mut Checks, field: &FieldPath, rgb: [f64; 3]) -> Op
         .then_some(rgb)
 }
 
-/// The smooth reflectance of a color, as a table at every nm that bands may cover.
+/// The smooth reflectance of a color, tabulated at every nanometer that bands may cover.
 pub(super) fn reflectance(linear_rgb: [f64; 3]) -> Spectrum {
     let reflectance = SigmoidReflectance::of_linear_srgb(linear_rgb);
     let (first, last) = BandGrid::LIMITS_NM;
     let points =
         (first as u32..=last as u32).map(|nm| (f64::from(nm), reflectance.at(f64::from(nm))));
-    Spectrum::Table(Tabulated::new(points.collect()).expect("its wavelengths rise"))
+    Spectrum::Table(Tabulated::new(points.collect()).expect("its wavelengths increase"))
 }
 
 /// The texels of a picture's colors.
@@ -55,7 +55,7 @@ pub(super) fn picture(checks: &mut Checks, field: &FieldPath, file: &Path) -> Op
     if beyond > 0 {
         let of = colors.len();
         notes.push(format!(
-            "{beyond} of its {of} colors lie beyond those of sRGB, and are clipped to them"
+            "{beyond} of its {of} colors are outside the gamut of sRGB, and are clipped to it"
         ));
     }
     for note in notes {
@@ -73,7 +73,7 @@ pub(super) fn picture(checks: &mut Checks, field: &FieldPath, file: &Path) -> Op
     }))
 }
 
-/// Whether sRGB does not reach a color, by more than rounding.
+/// Whether a color is outside the gamut of sRGB by more than rounding.
 fn is_beyond(meaning: &CodeColors, codes: [u16; 3]) -> bool {
     let linear = meaning.linear_srgb(codes);
     linear.iter().any(|value| !(-1e-3..=1.001).contains(value))

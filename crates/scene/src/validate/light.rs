@@ -1,4 +1,4 @@
-//! Lights that are no objects: from `[[lights]]` to [`Light`].
+//! Lights that are not objects: from `[[lights]]` to [`Light`].
 
 use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
@@ -9,7 +9,7 @@ use crate::problem::{Problem, ProblemKind};
 use crate::{DirectLight, FieldPath, Light, LightShape, description};
 use std::f64::consts::{PI, TAU};
 
-/// A light and the name of its light group, where one is written.
+/// A light and the written name of its light group, if any.
 pub(crate) type Named<'a> = (Light, Option<&'a str>);
 
 /// Checks `[[lights]]`.
@@ -30,7 +30,7 @@ pub(crate) fn check_all<'a>(
     checked.into_iter().collect()
 }
 
-/// Lights that no ray meets are found by sending to them alone.
+/// Reports lights that no ray hits if `direct_light` is `bsdf`: only emitter sampling finds them.
 pub(crate) fn check_way(checks: &mut Checks, description: &Description) {
     if description.render.direct_light != DirectLight::Bsdf {
         return;
@@ -45,18 +45,18 @@ pub(crate) fn check_way(checks: &mut Checks, description: &Description) {
             description::Light::Distant { .. } => continue,
         };
         let message = format!(
-            "{what} is met by no scattered ray, and render.direct_light = \"bsdf\" looks for light by these alone: it would be dark"
+            "found {what}, which BSDF sampling never finds, with render.direct_light = \"bsdf\": it would be dark"
         );
         let field = FieldPath::root().key("lights").index(index);
         let way = FieldPath::root().key("render").key("direct_light");
         let problem = Problem::new(ProblemKind::Inconsistent, &field, message).involving(way);
         checks.report(
-            problem.help("leave `render.direct_light` out, or write \"both\" or \"emitters\""),
+            problem.help("leave out `render.direct_light`, or write \"both\" or \"emitters\""),
         );
     }
 }
 
-/// The same with the sun of a sky, disks first; no more disks than are possible.
+/// Adds the sun of a sky, sorts disks first, and checks the number of disks.
 pub(crate) fn with_sun<'a>(
     checks: &mut Checks,
     mut lights: Vec<Named<'a>>,
@@ -70,7 +70,7 @@ pub(crate) fn with_sun<'a>(
         .count();
     if disks > limits::MAX_DISTANT_DISKS {
         let message = format!(
-            "found {disks} distant lights with a diameter, the sun of a sky counted; at most {} are possible",
+            "found {disks} distant lights with a diameter, including the sun of a sky; at most {} are possible",
             limits::MAX_DISTANT_DISKS
         );
         let top = FieldPath::root().key("lights");
@@ -120,7 +120,7 @@ fn check(
     })
 }
 
-/// What a light without a sound shape is checked as.
+/// The radiator that stands in for a light with an invalid shape.
 fn any_radiator(light: &description::Light) -> Radiator {
     match light {
         description::Light::Distant { .. } => Radiator::Distant(1.0),
@@ -130,11 +130,11 @@ fn any_radiator(light: &description::Light) -> Radiator {
 
 fn radiator(shape: LightShape) -> Radiator {
     match shape {
-        // ∫ cos dω = π sin² of the angle at the edge.
+        // ∫ cos dω = π sin²θ, with θ the angle at the edge.
         LightShape::DistantDisk { height, .. } => Radiator::Distant(PI * height * (2.0 - height)),
         LightShape::Direction { .. } => Radiator::Distant(0.0),
         LightShape::Point { .. } => Radiator::Point(2.0 * TAU),
-        // The smooth edge is odd about its middle, so that half of it counts.
+        // The smooth edge is point-symmetric about its middle, so half of it counts.
         LightShape::Spot {
             full_height,
             edge_height,

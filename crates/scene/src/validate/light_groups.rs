@@ -1,4 +1,4 @@
-//! Light groups: which lights are kept apart.
+//! Light groups: which emitters are kept apart.
 
 use super::checks::Checks;
 use super::light::Named;
@@ -9,7 +9,7 @@ use crate::problem::{Problem, ProblemKind};
 use crate::{Emission, Environment, FieldPath, LightGroupId, Material, Object};
 use spectra::LightGroup;
 
-/// The parts of a scene that know of light. Each emission has its lamp's number for a light group.
+/// The parts of a scene that have emissions. In place of its light group, each emission has the number of its lamp.
 pub(crate) struct Unlit<'a> {
     pub(crate) materials: Vec<Material>,
     pub(crate) objects: Vec<Object>,
@@ -17,13 +17,13 @@ pub(crate) struct Unlit<'a> {
     pub(crate) environment: Environment,
 }
 
-/// The same with light groups.
+/// The same parts with light groups assigned.
 pub(crate) struct Lit<'a> {
     pub(crate) parts: Unlit<'a>,
     pub(crate) light_groups: Vec<LightGroup>,
 }
 
-/// Checks the names that are written.
+/// Checks the names of light groups.
 pub(crate) fn check_names(checks: &mut Checks, description: &Description) {
     let root = FieldPath::root();
     let of_materials = description.materials.iter().map(|(name, material)| {
@@ -78,14 +78,14 @@ fn check_name(checks: &mut Checks, field: &FieldPath, name: &str) {
     }
     let message = format!("{short:?} cannot be the name of a light group");
     let help = format!(
-        "a name has 1 to {} ASCII letters, digits, `_` or `-`, such as \"key\"; S0 to S3, T and pellicle mean other things \
+        "write 1 to {} ASCII letters, digits, `_` or `-`, such as \"key\"; S0 to S3, T and pellicle have other meanings \
          in image files",
         LightGroup::MAX_NAME
     );
     checks.report(Problem::new(ProblemKind::OutOfRange, field, message).help(help));
 }
 
-/// Gives every emission its light group. Only what shines on objects that are there makes a group.
+/// Assigns a light group to every emission. Materials that no object has, and emissions of 0, make no group.
 pub(crate) fn assign<'a>(
     checks: &mut Checks,
     lamps: &[Lamp],
@@ -126,12 +126,12 @@ pub(crate) fn assign<'a>(
     })
 }
 
-/// The light groups of lamps, each with a name where one is written, and the group of each lamp; `None` where there are too many.
+/// The light groups of lamps, with their written names if any, and the group of each lamp; `None` if there are too many.
 fn grouped(burning: &[(&Lamp, Option<&str>)]) -> Option<(Vec<LightGroup>, Vec<LightGroupId>)> {
     let mut list = List::default();
     let mut ids = vec![LightGroupId(0); burning.len()];
     let shining = || (0..).zip(burning).filter(|(_, (lamp, _))| lamp.shines);
-    // The names that are written come first, and the others keep clear of them.
+    // Written names come first, and the others avoid them.
     for (index, &(lamp, name)) in shining() {
         if let Some(name) = name {
             ids[index] = list.named(name, lamp)?;
@@ -147,14 +147,15 @@ fn grouped(burning: &[(&Lamp, Option<&str>)]) -> Option<(Vec<LightGroup>, Vec<Li
 
 fn report_too_many(checks: &mut Checks) {
     let message = format!(
-        "the lights make more than {MAX_LIGHT_GROUPS} light groups, which are the most that are possible"
+        "found more than {MAX_LIGHT_GROUPS} light groups; at most {MAX_LIGHT_GROUPS} are possible"
     );
     let field = FieldPath::root().key("render").key("light_groups");
-    let help = "give lights a common `light_group`, or write `render.light_groups = \"single\"`";
+    let help =
+        "give several emitters a common `light_group`, or write `render.light_groups = \"single\"`";
     checks.report(Problem::new(ProblemKind::TooLarge, &field, message).help(help));
 }
 
-/// The emissions of objects and environment, each with the name of a light group where one is written.
+/// The emissions of objects, lights and environment, each with the written name of its light group, if any.
 fn lights<'a>(
     description: &'a Description,
     parts: &'a mut Unlit<'_>,
@@ -195,12 +196,12 @@ fn lights<'a>(
 #[derive(Default)]
 struct List {
     groups: Vec<LightGroup>,
-    /// How many of them have a name that is written.
+    /// How many of them have a written name.
     written: usize,
 }
 
 impl List {
-    /// The group of this name, which loses its lamp where lights differ; `None` where there are too many.
+    /// The group of this name, whose lamp becomes `None` if its lamps differ; `None` if there are too many groups.
     fn named(&mut self, name: &str, lamp: &Lamp) -> Option<LightGroupId> {
         let position = self.groups.iter().position(|group| group.name == name);
         if let Some(position) = position {
@@ -212,7 +213,7 @@ impl List {
         self.add(name.to_owned(), lamp)
     }
 
-    /// The group of all lights without a name that burn with this lamp; `None` where there are too many.
+    /// The group of all emissions without a name that have this lamp; `None` if there are too many groups.
     fn by_spectrum(&mut self, lamp: &Lamp) -> Option<LightGroupId> {
         let others = &self.groups[self.written..];
         let position = others
@@ -234,13 +235,13 @@ impl List {
         Some(id)
     }
 
-    /// A name like that of a lamp that no group has: `D65`, then `D65_2`.
+    /// A free name derived from a lamp's name: `D65`, then `D65_2`.
     fn free_name(&self, like: &str) -> String {
         let letters = like.bytes().map(|byte| match byte {
             byte if LightGroup::is_in_names(byte) => char::from(byte),
             _ => '_',
         });
-        // Room for a number.
+        // Leaves room for a number.
         let mut stem: String = letters.take(LightGroup::MAX_NAME - 4).collect();
         if !LightGroup::is_name(&stem) {
             "light".clone_into(&mut stem);

@@ -1,4 +1,4 @@
-//! Materials: spectra by number.
+//! Materials: from written spectra to their numbers.
 
 use super::checks::Checks;
 use super::checks::placed_size;
@@ -105,7 +105,7 @@ fn check(
     }
 }
 
-/// A conductor: by its facets, or by Cook's model.
+/// A conductor, with microfacets or Cook's model.
 fn conductor(
     checks: &mut Checks,
     spectra: &mut SpectrumList,
@@ -138,7 +138,7 @@ fn conductor(
     })
 }
 
-/// A dielectric, opaque or a coat over a base.
+/// A dielectric: an opaque body, or a coat over a base.
 fn dielectric(
     checks: &mut Checks,
     spectra: &mut SpectrumList,
@@ -163,7 +163,7 @@ fn dielectric(
     dielectric::check(checks, spectra, (field, written), surface, base)
 }
 
-/// Cook's model, where it is asked for.
+/// The parameters of Cook's model, if it is chosen.
 fn cook_model(model: Option<&ConductorModel>) -> Option<Cook1981> {
     match model? {
         ConductorModel::Named(ConductorModelName::Microfacets) => None,

@@ -1,4 +1,4 @@
-//! Roughness: either smooth or rough enough, and a grain where directions differ.
+//! Roughness: a surface is smooth or rough enough, and has a grain if directions differ.
 
 use super::checks::Checks;
 use crate::description::{Brushed, Finish, Roughness};
@@ -6,12 +6,12 @@ use crate::limits;
 use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, Grain, Microsurface};
 
-/// A problem has been told.
+/// A problem has been reported.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reported;
 
 impl Finish {
-    /// The facets of the surface; none where it is smooth.
+    /// Checks the facets of the surface; `None` if it is smooth.
     pub(super) fn check(
         self,
         checks: &mut Checks,
@@ -32,7 +32,7 @@ impl Finish {
         }))
     }
 
-    /// Along and across the grain; none of a smooth surface.
+    /// Checks the roughness along and across the grain; `None` for a smooth surface.
     fn check_roughness(
         self,
         checks: &mut Checks,
@@ -52,7 +52,7 @@ impl Finish {
         }
     }
 
-    /// None where nothing is said.
+    /// Checks the grain's direction; `None` if it is absent.
     fn check_brushed(
         self,
         checks: &mut Checks,
@@ -72,7 +72,7 @@ impl Finish {
         grain.map(Some).ok_or(Reported)
     }
 
-    /// Two numbers and a direction belong together.
+    /// Checks that either both two numbers and a direction are given, or neither.
     fn check_grain(
         self,
         checks: &mut Checks,
@@ -86,13 +86,13 @@ impl Finish {
             None => (
                 "roughness",
                 "brushed",
-                "two numbers are for a brushed surface, and nothing says which way its grain runs",
+                "found two numbers, which are for a brushed surface, but no direction of its grain",
                 "add brushed = { along = [1, 0, 0] } or brushed = { around = [0, 0, 1] }, or write one number",
             ),
             Some(_) => (
                 "brushed",
                 "roughness",
-                "a surface of the same roughness in all directions has no grain",
+                "found a grain, but the roughness is the same in all directions",
                 "write the roughness along and across the grain: roughness = [0.05, 0.3]",
             ),
         };
@@ -101,7 +101,7 @@ impl Finish {
         Err(Reported)
     }
 
-    /// A smooth surface has neither a distribution nor a grain.
+    /// Checks that a smooth surface has neither a distribution nor a grain.
     fn nothing_is_lost(self, checks: &mut Checks, field: &FieldPath) -> Result<(), Reported> {
         let given = [
             ("distribution", self.distribution.is_some()),
@@ -111,14 +111,14 @@ impl Finish {
         for (name, _) in given.iter().filter(|(_, is_given)| *is_given) {
             let message = format!("`{name}` is for a rough surface; this one has no roughness");
             let problem = Problem::new(ProblemKind::Inconsistent, &field.key(name), message);
-            checks.report(problem.help("add a roughness from 0.02 to 1, or leave it out"));
+            checks.report(problem.help("add a roughness from 0.02 to 1, or leave out this field"));
             result = Err(Reported);
         }
         result
     }
 }
 
-/// See [`limits::ROUGHNESS`].
+/// Checks that a number is in [`limits::ROUGHNESS`].
 fn check_number(
     checks: &mut Checks,
     field: &FieldPath,

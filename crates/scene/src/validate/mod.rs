@@ -1,4 +1,4 @@
-//! From a description to a scene: every number, name and table is looked at, and all that is wrong is told at once.
+//! From a description to a scene: checks every number, name and table, and reports all problems at once.
 
 mod camera;
 mod checks;
@@ -35,7 +35,7 @@ use checks::Checks;
 use spectra::OpticalConstants;
 use spectrum_list::SpectrumList;
 
-/// The scene that `description` describes; tables are looked for from `folder`.
+/// Checks `description` and builds its scene; paths of files are relative to `folder`.
 pub(crate) fn scene(description: &Description, folder: &Folder) -> Result<Scene, Vec<Problem>> {
     let mut checks = Checks::new(folder);
     check_counts(&mut checks, description);
@@ -101,7 +101,7 @@ pub(crate) fn scene(description: &Description, folder: &Folder) -> Result<Scene,
     }
 }
 
-/// The optical constants that `index` describes, and what was assumed of its files; files are looked for from `folder`.
+/// Checks `index` and returns its optical constants and the assumptions about its files; paths are relative to `folder`.
 pub(crate) fn optical_constants(
     index: &Index,
     folder: &Folder,

@@ -1,4 +1,4 @@
-//! Objects: materials by number, axes orthonormal.
+//! Objects: from names of materials to numbers, and from directions to orthonormal axes.
 
 use super::checks::Checks;
 use crate::description::{self, Brushed, DiffuseReflectance, Drainage, Material, Thickness};
@@ -61,7 +61,7 @@ fn material(
     None
 }
 
-/// A thickness that only spheres can have, and what to write for a plane instead.
+/// A thickness that only spheres can have, and what to write instead for flat shapes.
 #[derive(Clone, Copy)]
 struct OnlyOnSpheres {
     thickness: &'static str,
@@ -86,7 +86,7 @@ fn only_on_spheres(material: &Material) -> Option<OnlyOnSpheres> {
     })
 }
 
-/// Reported of the object: other objects may have the same material.
+/// Checks that an object is a sphere. The problem is reported at the object, since other objects may have the same material.
 fn check_is_sphere(
     checks: &mut Checks,
     field: &FieldPath,
@@ -101,15 +101,16 @@ fn check_is_sphere(
     };
     let name = object.material();
     let message = format!(
-        "the material {name:?} has a thickness by {thickness}, which is for spheres; this is a {shape}"
+        "the material {name:?} has a thickness by {thickness}, which is only for spheres; this is a {shape}"
     );
-    let help = format!("give the {shape} a material whose thickness runs along a line: {instead}");
+    let help =
+        format!("give the {shape} a material whose thickness varies along a line: {instead}");
     let problem = Problem::new(ProblemKind::Inconsistent, &field.key("material"), message);
     let material = FieldPath::root().key("materials").key(name);
     checks.report(problem.help(help).involving(material));
 }
 
-/// Which way the grain of a material runs.
+/// The grain of a material.
 fn grain(material: &Material) -> Option<Brushed> {
     match material {
         Material::Conductor { finish, .. }
@@ -119,7 +120,7 @@ fn grain(material: &Material) -> Option<Brushed> {
     }
 }
 
-/// Reported of the object: on a flat one the grain must not point out of the surface everywhere.
+/// Checks that the grain does not point along the normal of a flat object, and reports it at the object.
 fn check_grain(
     checks: &mut Checks,
     (field, shape): (&FieldPath, &Shape),
@@ -145,7 +146,7 @@ fn check_grain(
         return;
     }
     let message = format!(
-        "the grain of the material {material:?} points along the normal of this surface, on which it has no direction"
+        "the grain of the material {material:?} is parallel to the normal of this surface; it must have a direction within the surface"
     );
     let problem = Problem::new(ProblemKind::Inconsistent, &field.key("material"), message);
     let brushed = FieldPath::root()
@@ -166,7 +167,7 @@ fn normal(shape: &Shape) -> Option<DVec3> {
     }
 }
 
-/// A picture covers a sphere whole: where a material has only spheres, the size of its picture says nothing.
+/// Reports the size of a picture if only spheres have its material: a picture always covers the whole sphere.
 fn check_sizes(
     checks: &mut Checks,
     materials: &BTreeMap<String, Material>,
@@ -189,10 +190,11 @@ fn check_sizes(
         if is_for_spheres && own.all(|object| matches!(object, description::Object::Sphere { .. }))
         {
             let material = FieldPath::root().key("materials").key(name);
-            let message = "a picture always covers the whole of a sphere, and only spheres have this material";
+            let message =
+                "only spheres have this material, and a picture always covers the whole sphere";
             let field = material.key(place).key("size");
             let problem = Problem::new(ProblemKind::Inconsistent, &field, message);
-            checks.report(problem.help("leave `size` out"));
+            checks.report(problem.help("leave out `size`"));
         }
     }
 }
@@ -277,8 +279,8 @@ fn rectangle(
     })
 }
 
-/// The second axis of a surface whose file names none: as near to +Y as it can be, or to −Z where the surface
-/// lies flat (the sine between normal and Y is below 1e-3). A floor of normal +Y so has the axes +X and −Z.
+/// The second axis of a surface without an `up`: as close as possible to +Y, or to −Z if the surface is horizontal (the sine between normal
+/// and Y is below 1e-3). A floor with normal +Y thus has the axes +X and −Z.
 fn usual_up(normal: DVec3) -> DVec3 {
     let lies_flat = normal.x.hypot(normal.z) < 1e-3;
     let up = if lies_flat { DVec3::NEG_Z } else { DVec3::Y };

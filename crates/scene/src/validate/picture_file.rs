@@ -1,4 +1,4 @@
-//! Pictures as numbers.
+//! Reads picture files as numbers or colors.
 
 use crate::PictureFile;
 use crate::description::PictureChannel;
@@ -16,7 +16,7 @@ use std::io::Cursor;
 use std::path::Path;
 use thiserror::Error;
 
-/// Why a file is not a picture that can be used.
+/// The reason why a picture file cannot be used.
 #[derive(Debug, Error)]
 pub(crate) enum PictureFileError {
     #[error(transparent)]
@@ -25,7 +25,7 @@ pub(crate) enum PictureFileError {
     NotPng(#[from] image::ImageError),
     #[error("is neither a Radiance picture (.hdr) nor an OpenEXR picture")]
     NotLight,
-    #[error("is a Radiance picture, which has no layers; leave `layer` out")]
+    #[error("is a Radiance picture, which has no layers; leave out `layer`")]
     NoLayers,
     #[error(transparent)]
     Radiance(#[from] RadianceError),
@@ -42,18 +42,18 @@ pub(crate) enum PictureFileError {
     )]
     NoPanorama { width: u32, height: u32 },
     #[error(
-        "has {width} × {height} pixels, which for {bands} bands are too many: at most {} are possible", MAX_PICTURE_VALUES / bands.next_multiple_of(4)
+        "has {width} × {height} pixels, which is too many for {bands} bands: at most {} are possible", MAX_PICTURE_VALUES / bands.next_multiple_of(4)
     )]
     TooManyValues { width: u32, height: u32, bands: u64 },
     #[error(
-        "has {width} × {height} pixels; at most {MAX_PICTURE_SIDE} on a side and {MAX_PICTURE_PIXELS} in all are possible"
+        "has {width} × {height} pixels; at most {MAX_PICTURE_SIDE} per side and {MAX_PICTURE_PIXELS} in all are possible"
     )]
     TooLarge { width: u32, height: u32 },
 }
 
-/// Reads the values of a channel of a PNG file of 8 or 16 bits as they stand, without regard to what the file says of its colors.
+/// Reads the stored values of a channel of a PNG file of 8 or 16 bits, regardless of the color space that the file declares.
 ///
-/// Without a channel it is gray, or luma of a colored picture. What that leaves out is noted.
+/// Without a channel, the values are gray, or the luma of a color picture. What this ignores is noted.
 pub(crate) fn read(
     path: &Path,
     channel: Option<PictureChannel>,
@@ -64,12 +64,12 @@ pub(crate) fn read(
         return Err(PictureFileError::NoAlpha);
     }
     if channel != Some(PictureChannel::A) && has_transparency(&picture) {
-        notes.push("it has transparent pixels: their values are taken as they stand".to_owned());
+        notes.push("it has transparent pixels: their values are used unchanged".to_owned());
     }
     if channel.is_none() && has_colors(&picture) {
         notes.push(
-            "its red, green and blue differ: their luma is taken (channel = \"g\", say, takes one of them, channel = \"luma\" says \
-             that this is meant)"
+            "its red, green and blue differ: their luma is used (write channel = \"luma\" if this is intended, or a channel such as \
+             channel = \"g\")"
                 .to_owned(),
         );
     }
@@ -93,7 +93,7 @@ fn one_of(picture: &ImageBuffer<Rgba<u16>, Vec<u16>>, channel: usize) -> Vec<u16
     picture.pixels().map(|pixel| pixel.0[channel]).collect()
 }
 
-/// Whether there are pixels of which red, green and blue differ.
+/// Whether red, green and blue differ in any pixel.
 fn has_colors(picture: &DynamicImage) -> bool {
     fn differ<T: PartialEq>(codes: &[T], per_pixel: usize) -> bool {
         let mut pixels = codes.chunks_exact(per_pixel);
@@ -108,7 +108,7 @@ fn has_colors(picture: &DynamicImage) -> bool {
     }
 }
 
-/// Whether there are pixels that are not opaque.
+/// Whether any pixel is not opaque.
 fn has_transparency(picture: &DynamicImage) -> bool {
     match picture {
         DynamicImage::ImageLumaA8(picture) => picture.pixels().any(|pixel| pixel.0[1] != u8::MAX),
@@ -122,7 +122,7 @@ fn has_transparency(picture: &DynamicImage) -> bool {
 /// Codes of red, green and blue.
 pub(crate) type Codes = ImageBuffer<Rgb<u16>, Vec<u16>>;
 
-/// The codes of red, green and blue of 16 bits of a PNG file of 8 or 16 bits, and the colors that they are.
+/// Reads a PNG file of 8 or 16 bits: its codes of red, green and blue as 16 bits, and the meaning of the codes as colors.
 pub(crate) fn read_colors(
     path: &Path,
     notes: &mut Vec<String>,
@@ -132,21 +132,21 @@ pub(crate) fn read_colors(
     let picture = decode(&bytes)?;
     notes.extend_from_slice(colors.notes());
     if has_transparency(&picture) {
-        notes.push("it has transparent pixels: their colors are taken as they stand".to_owned());
+        notes.push("it has transparent pixels: their colors are used unchanged".to_owned());
     }
     Ok((picture.into_rgb16(), colors))
 }
 
-/// Light from all directions as a file has it.
+/// A picture of all directions as read from a file.
 pub(crate) enum LightFile {
-    /// Linear red, green and blue of the primaries of sRGB, row by row.
+    /// Linear red, green and blue with the primaries of sRGB, row by row.
     Colors { width: u32, rgb: Vec<[f32; 3]> },
     /// Spectra.
     Spectra(Box<SpectralImage>),
 }
 
-/// Reads a picture of all directions for these bands: a Radiance file or an OpenEXR file, of colors or of spectra. `layer` is
-/// that of an OpenEXR file of several, and is then one of colors. What is assumed goes into `notes`.
+/// Reads a picture of all directions for these bands: a Radiance file, or an OpenEXR file of colors or spectra. `layer` selects a color
+/// layer of an OpenEXR file with several. Assumptions are added to `notes`.
 pub(crate) fn read_light(
     path: &Path,
     layer: Option<&str>,
@@ -226,7 +226,7 @@ fn read_spectra(
     Ok(LightFile::Spectra(Box::new(image)))
 }
 
-/// An error with what lies behind it, in one line.
+/// An error with its sources, in one line.
 fn chain(error: &dyn std::error::Error) -> String {
     let mut text = error.to_string();
     let mut inner = error.source();
@@ -253,7 +253,7 @@ fn check_size(width: u32, height: u32) -> Result<(), PictureFileError> {
     }
 }
 
-/// Refuses pictures that see the directions in another way: of a mirror ball, of the sides of a cube.
+/// Rejects pictures with another projection, such as a mirror ball or a cube map.
 fn check_panorama(width: u32, height: u32) -> Result<(), PictureFileError> {
     let (part, pixels) = PANORAMA_ASIDE;
     let aside = width.abs_diff(2 * height);

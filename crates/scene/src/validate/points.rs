@@ -1,4 +1,4 @@
-//! Tables over wavelength, written in the scene or in a file of their own.
+//! Tables over wavelength, in the scene file or in a separate file.
 
 use super::checks::Checks;
 use super::spectrum_list::extrapolated;
@@ -10,15 +10,15 @@ use spectra::table_file::{self, ColumnChoice, Options, Quantity, QuantityKind};
 use spectra::{Spectrum, Tabulated};
 use std::path::Path;
 
-/// One of the quantities that a table gives over wavelength.
+/// One of the quantities that a table contains.
 #[derive(Clone, Copy)]
 pub(crate) struct Column {
-    /// What it is, for messages.
+    /// Its name, for messages.
     noun: &'static str,
     /// Its field in a table within the scene.
     field: &'static str,
     range: &'static Range,
-    /// What files do with it.
+    /// How files represent it.
     kind: QuantityKind,
 }
 
@@ -46,21 +46,21 @@ impl Column {
     }
 }
 
-/// A table in a file, and what the scene says of it.
+/// A table in a file, with the options from the scene.
 pub(crate) struct FileTable<'a> {
     pub(crate) path: &'a Path,
-    /// Empty where none is chosen.
+    /// Empty if none is chosen.
     pub(crate) columns: Vec<ColumnChoice>,
     pub(crate) unit: Option<&'a str>,
     pub(crate) extrapolate: Extrapolate,
 }
 
-/// A column as it is asked for.
+/// The chosen column, if any.
 pub(crate) fn chosen(column: Option<&TableColumn>) -> Vec<ColumnChoice> {
     column.map(choice).into_iter().collect()
 }
 
-/// The columns of n and k as they are asked for.
+/// The chosen columns of n and k, if any.
 pub(crate) fn chosen_of_index(columns: Option<&IndexColumns>) -> Vec<ColumnChoice> {
     match columns {
         None => Vec::new(),
@@ -76,7 +76,7 @@ fn choice(column: &TableColumn) -> ColumnChoice {
     }
 }
 
-/// Problems of one table that are told; the rest are likely to be the same mistake again.
+/// The maximum number of problems reported for one table; the rest are likely to be the same mistake.
 const MOST_PROBLEMS: usize = 3;
 
 /// The spectra of a table in the scene.
@@ -163,7 +163,7 @@ pub(crate) fn file<const N: usize>(
     }
 }
 
-/// Takes the units that the scene says.
+/// Applies the units that the scene specifies.
 fn set_unit(
     checks: &mut Checks,
     field: &FieldPath,
@@ -184,7 +184,7 @@ fn set_unit(
     None
 }
 
-/// `prefix` names the table where it is not the scene's own.
+/// Checks the number of points; `prefix` names the table if it is not in the scene file.
 fn check_count(checks: &mut Checks, field: &FieldPath, count: usize, prefix: &str) -> bool {
     let complaint = match count {
         0 => format!("{prefix}the table has no points; it needs at least one"),
@@ -197,14 +197,15 @@ fn check_count(checks: &mut Checks, field: &FieldPath, count: usize, prefix: &st
     false
 }
 
-/// Wavelengths out of range or not above the one before, by position.
+/// Wavelengths that are out of range or not above their predecessor, by position.
 fn faults_of_wavelengths(nm: &[f64]) -> impl Iterator<Item = (usize, String)> {
     nm.iter().enumerate().filter_map(|(index, &value)| {
         let before = index.checked_sub(1).map(|before| nm[before]);
         if !TABLE_NM.contains(value) {
             Some((index, format!("found {value}; it must be from {TABLE_NM}")))
         } else if let Some(before) = before.filter(|&before| value <= before) {
-            let complaint = format!("found {value} nm after {before} nm; wavelengths must rise");
+            let complaint =
+                format!("found {value} nm after {before} nm; wavelengths must increase");
             Some((index, complaint))
         } else {
             None

@@ -1,4 +1,4 @@
-//! Emitters by power: each object that has one gets a material of its own, since the radiance depends on the object's area.
+//! Emitters by power: each object that has one gets a separate material, since the radiance depends on the object's area.
 
 use super::checks::Checks;
 use super::light_groups::Unlit;
@@ -9,7 +9,7 @@ use crate::{FieldPath, Material, MaterialId, Shape, SpectrumId};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
-/// Replaces power by radiance, Φ / (π A); `peak` is the largest value of a spectrum.
+/// Replaces power by radiance, Φ / (π A); `peak` returns the largest value of a spectrum.
 pub(crate) fn spread(
     checks: &mut Checks,
     description: &Description,
@@ -26,7 +26,7 @@ pub(crate) fn spread(
         let field = FieldPath::root().key("objects").index(index);
         let Some(area) = area(&object.shape) else {
             let message = format!(
-                "a plane has no bounds, so no radiance gives it the `{unit}` of its material"
+                "found an infinite plane, to which the `{unit}` of its material cannot apply; it must have a bounded shape"
             );
             let field = field.key("material");
             let problem = Problem::new(ProblemKind::Inconsistent, &field, message)
@@ -41,7 +41,7 @@ pub(crate) fn spread(
                 let radiance = peak(emission.spectrum) * emission.scale;
                 if !limits::EMISSION.contains(radiance) {
                     let message = format!(
-                        "the `{unit}` of its material makes its radiance {radiance:.3e} W m⁻² sr⁻¹ nm⁻¹ at the spectrum's peak; at most {} is possible",
+                        "the `{unit}` of its material gives a radiance of {radiance:.3e} W m⁻² sr⁻¹ nm⁻¹ at the spectrum's peak; at most {} is possible",
                         Shown(limits::EMISSION.high)
                     );
                     checks.report(Problem::new(ProblemKind::OutOfRange, &field, message));
@@ -65,7 +65,7 @@ fn unit_of_power(material: &description::Material) -> Option<&'static str> {
     watts.or(strength.power_lm.map(|_| "power_lm"))
 }
 
-/// The area that emits, both sides of plane shapes together.
+/// The area that emits, both sides of flat shapes together.
 fn area(shape: &Shape) -> Option<f64> {
     match *shape {
         Shape::Sphere { radius, .. } => Some(4.0 * PI * radius * radius),

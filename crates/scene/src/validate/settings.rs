@@ -7,11 +7,11 @@ use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, RenderSettings, WavelengthSampling};
 use spectra::{BandGrid, SpectralImage};
 
-/// What `[render]` gives.
+/// The result of checking `[render]`.
 pub(crate) struct Checked {
-    /// `None` when something is wrong.
+    /// `None` if there is a problem.
     pub(crate) settings: Option<RenderSettings>,
-    /// The bands, when at least these are sound.
+    /// The bands, if at least they are valid.
     pub(crate) grid: Option<BandGrid>,
 }
 
@@ -115,7 +115,8 @@ fn size(checks: &mut Checks, top: &FieldPath, size: [u32; 2]) -> Option<[u32; 2]
     Some([width?, height?])
 }
 
-/// The ends are rounded to `f32` here: a grid that both renderers share to the last bit is worth 2e-5 nm.
+/// Checks the bands. The ends are rounded to `f32` here: that both renderers have the same grid to the last bit is worth an error of 2e-5
+/// nm.
 fn grid(checks: &mut Checks, top: &FieldPath, render: &Render) -> Option<BandGrid> {
     let field = top.key("wavelengths_nm");
     let [first, last] = render.wavelengths_nm;
@@ -136,7 +137,7 @@ fn grid(checks: &mut Checks, top: &FieldPath, render: &Render) -> Option<BandGri
     grid.map_err(|error| checks.report(refuse(error))).ok()
 }
 
-/// Checks that the picture of so many light groups fits into memory.
+/// Checks that the spectral image with this many light groups fits in memory.
 pub(crate) fn check_memory(checks: &mut Checks, render: &Render, light_groups: usize) {
     let top = FieldPath::root().key("render");
     let ([width, height], bands) = (render.size, render.bands);

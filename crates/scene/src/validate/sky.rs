@@ -1,4 +1,4 @@
-//! A clear sky: from the sun's height to a picture of all directions with the sun's azimuth in its middle, and the sun's disk.
+//! A clear sky: from the sun's elevation to a picture of all directions, with the sun's azimuth at its center, and the sun's disk.
 
 use super::checks::Checks;
 use super::environment_picture::{Sphere, banded};
@@ -11,10 +11,10 @@ use spectra::sky::{ClearSky, SUN_DIAMETER_DEG, daylight_basis};
 use spectra::{BandGrid, BandTable, Spectrum, Tabulated};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Pixels around and from top to bottom; the horizon lies between two rows.
+/// Width and height of the picture in pixels; the horizon is between two rows.
 const SIZE: [u32; 2] = [256, 128];
 
-/// A sky as written.
+/// A sky as written in a scene file.
 pub(super) struct Sky<'a> {
     pub(super) sun_elevation_deg: f64,
     pub(super) sun_azimuth_deg: f64,
@@ -22,13 +22,13 @@ pub(super) struct Sky<'a> {
     pub(super) ground: &'a Reflectance,
 }
 
-/// A sky as it is.
+/// A sky after the checks.
 pub(super) struct Checked {
     /// The sky over its ground.
     pub(super) sphere: Sphere,
     /// The radiance of the sun's disk.
     pub(super) sunlight: Spectrum,
-    /// Where that is.
+    /// The direction and size of the sun's disk.
     pub(super) disk: LightShape,
 }
 
@@ -69,21 +69,21 @@ impl Sky<'_> {
     }
 }
 
-/// Radiance of the sun's disk at every nm that bands may cover.
+/// Radiance of the sun's disk at every nanometer that bands may cover.
 fn sunlight(sky: &ClearSky) -> Spectrum {
     let (first, last) = BandGrid::LIMITS_NM;
     let points = (first as u32..=last as u32).map(f64::from);
     let points = points.map(|nm| (nm, sky.sun_radiance(nm)));
-    Spectrum::Table(Tabulated::new(points.collect()).expect("its wavelengths rise"))
+    Spectrum::Table(Tabulated::new(points.collect()).expect("its wavelengths increase"))
 }
 
-/// The mean of a spectrum over each band, which covers them all.
+/// The mean over each band of a spectrum that covers all bands.
 fn of_bands(grid: &BandGrid, spectrum: &Spectrum) -> Vec<f64> {
     let table = BandTable::new(grid, spectrum);
     table.map_or_else(|_| vec![0.0; grid.count() as usize], |t| means(grid, &t))
 }
 
-/// The mean over each band.
+/// The mean of a table over each band.
 fn means(grid: &BandGrid, table: &BandTable) -> Vec<f64> {
     let steps = table.steps();
     let of_band = |band| {
@@ -94,7 +94,7 @@ fn means(grid: &BandGrid, table: &BandTable) -> Vec<f64> {
     (0..grid.count()).map(of_band).collect()
 }
 
-/// A sky with the sun toward the middle of its picture.
+/// A sky with the sun toward the center of its picture.
 struct BandedSky<'a> {
     sky: &'a ClearSky,
     sun_angle: f64,
@@ -104,7 +104,7 @@ struct BandedSky<'a> {
 
 impl<'a> BandedSky<'a> {
     fn new(sky: &'a ClearSky, sun_angle: f64, grid: &BandGrid) -> Self {
-        // Daylight's components cover 300 to 830 nm, as bands do.
+        // The components of daylight cover 300 to 830 nm, the range that bands may have.
         let of_bands = daylight_basis().map(|component| of_bands(grid, &component));
         let components =
             (0..grid.count() as usize).map(|band| of_bands.each_ref().map(|of| of[band]));
@@ -115,7 +115,7 @@ impl<'a> BandedSky<'a> {
         }
     }
 
-    /// The picture, with ground of a reflectance below that the sun's radiance lights too.
+    /// The picture, with ground of the given reflectance below the horizon, lit by the sky and by the sun.
     fn over(&self, ground: &[f64], sunlight: &[f64]) -> Sphere {
         let [width, height] = SIZE;
         let upper: Vec<Vec<f32>> = (0..width * height / 2)
@@ -145,7 +145,7 @@ impl<'a> BandedSky<'a> {
             .collect()
     }
 
-    /// Irradiance of flat ground in each band, by the sky and the sun.
+    /// Irradiance of flat ground in each band from the sky and the sun.
     fn irradiance(&self, upper: &[Vec<f32>], sunlight: &[f64]) -> Vec<f64> {
         let half = (SUN_DIAMETER_DEG / 2.0).to_radians();
         let of_sun = PI * half.sin().powi(2) * self.sun_angle.cos();
@@ -161,7 +161,7 @@ impl<'a> BandedSky<'a> {
     }
 }
 
-/// Angle from the zenith of a row's middle.
+/// Angle between the zenith and the center of a row.
 fn angle_of(row: u32) -> f64 {
     PI * (f64::from(row) + 0.5) / f64::from(SIZE[1])
 }

@@ -17,7 +17,7 @@ use spectra::{BandGrid, BandTable, OpticalConstants, Spectrum, Tabulated};
 use std::collections::HashMap;
 use std::path::Path;
 
-/// The spectra of a scene, each one once.
+/// The spectra of a scene without duplicates.
 pub(crate) struct SpectrumList {
     grid: Option<BandGrid>,
     sampling: WavelengthSampling,
@@ -27,18 +27,18 @@ pub(crate) struct SpectrumList {
     lamps: Vec<Lamp>,
 }
 
-/// What an emission burns with.
+/// The lamp of an emission.
 #[derive(Clone, Debug)]
 pub(crate) struct Lamp {
     /// The name of an illuminant, the stem of a file, or the kind of spectrum.
     pub(crate) name: String,
     /// Its spectrum at scale 1.
     pub(crate) spectrum: Tabulated,
-    /// Whether it gives light at all.
+    /// Whether it emits any light.
     pub(crate) shines: bool,
 }
 
-/// What a light's spectrum is, for messages: the noun, and the range of its values.
+/// An emission's spectrum, for messages: the noun, and the range of its values.
 const EMISSION: Column = Column::new(
     "radiance",
     "values",
@@ -47,7 +47,7 @@ const EMISSION: Column = Column::new(
 );
 
 impl SpectrumList {
-    /// An empty list over `grid`. Without a grid everything is still checked, but nothing comes of it.
+    /// Creates an empty list over `grid`. Without a grid everything is still checked, but no spectra result.
     pub(crate) fn new(grid: Option<BandGrid>, sampling: WavelengthSampling) -> Self {
         Self {
             grid,
@@ -64,12 +64,12 @@ impl SpectrumList {
         self.grid
     }
 
-    /// All spectra, at the positions that their numbers say.
+    /// All spectra, indexed by their numbers.
     pub(crate) fn into_tables(self) -> Vec<BandTable> {
         self.tables
     }
 
-    /// The lamps of all emissions, at the positions that [`Self::emission`] gives as their light groups.
+    /// The lamps of all emissions, indexed by the numbers that [`Self::emission`] gives in place of their light groups.
     pub(crate) fn lamps(&self) -> &[Lamp] {
         &self.lamps
     }
@@ -89,12 +89,12 @@ impl SpectrumList {
         self.tables[id.index()].extent().0
     }
 
-    /// One of the spectra.
+    /// The spectrum with this number.
     pub(crate) fn table(&self, id: SpectrumId) -> &BandTable {
         &self.tables[id.index()]
     }
 
-    /// The number of the first of spectra that get numbers one after another.
+    /// Adds spectra with consecutive numbers, and returns the first number.
     pub(crate) fn run(&mut self, tables: impl IntoIterator<Item = BandTable>) -> SpectrumId {
         let first = SpectrumId(self.tables.len() as u32);
         self.tables.extend(tables);
@@ -106,7 +106,7 @@ impl SpectrumList {
         self.tables[id.index()].mean()
     }
 
-    /// The CIE 1931 colour-matching functions on the grid.
+    /// The CIE 1931 color-matching functions on the grid.
     pub(crate) fn observer(&self, checks: &mut Checks) -> Option<[BandTable; 3]> {
         let field = FieldPath::root().key("render").key("wavelengths_nm");
         let [x, y, z] = spectra::observer_1931().clone().map(|table| {
@@ -128,7 +128,7 @@ impl SpectrumList {
         Some(self.single(&table, limits::REFLECTANCE))
     }
 
-    /// The number of a spectrum that is made of two others, knot by knot.
+    /// The number of a spectrum computed from two others, knot by knot.
     pub(crate) fn combined(
         &mut self,
         of: [SpectrumId; 2],
@@ -139,7 +139,7 @@ impl SpectrumList {
         self.single(&table, limits::EMISSION)
     }
 
-    /// The numbers of an index's n and k; that of k is one more than that of n.
+    /// The numbers of an index's n and k; the number of k is one more than that of n.
     pub(crate) fn index(
         &mut self,
         checks: &mut Checks,
@@ -152,8 +152,8 @@ impl SpectrumList {
         Some(self.pair(&n, &k))
     }
 
-    /// An emission with the number of its spectrum. In place of its light group, which depends on all others, stands the number
-    /// of its lamp.
+    /// An emission with the number of its spectrum. In place of its light group, which depends on all other emissions, it has the number of
+    /// its lamp.
     pub(crate) fn emission(
         &mut self,
         checks: &mut Checks,
@@ -171,7 +171,7 @@ impl SpectrumList {
         )
     }
 
-    /// The same of a spectrum that is not written, with the name of its lamp.
+    /// Like [`Self::emission`], for a spectrum that is not written in the file, with the name of its lamp.
     pub(crate) fn emission_of(
         &mut self,
         checks: &mut Checks,
@@ -185,7 +185,7 @@ impl SpectrumList {
         let (amount, grid) = (amount?, self.grid?);
         let scale = amount.scale(checks, &table, (&grid, self.sampling))?;
         let peak = table.extent().1;
-        // What an emitter's power makes of its radiance depends on the object.
+        // The radiance of an emitter by power depends on the object.
         let is_by_area = radiator == Radiator::Emitter && amount.unit.starts_with("power");
         if !is_by_area {
             check_brightness(checks, (field, &amount), radiator, peak * scale)?;
@@ -232,7 +232,7 @@ impl SpectrumList {
         let mut problem = Problem::new(ProblemKind::Inconsistent, field, message)
             .involving(FieldPath::root().key("render").key("wavelengths_nm"));
         problem.help = match error.fault {
-            Some(_) => Some("mend the data, or narrow `render.wavelengths_nm`".to_owned()),
+            Some(_) => Some("correct the data, or narrow `render.wavelengths_nm`".to_owned()),
             None => advice.text(),
         };
         checks.report(problem);
@@ -264,15 +264,15 @@ impl SpectrumList {
     }
 }
 
-/// What to do about a table that is too short.
+/// What to do if a table does not cover the bands.
 #[derive(Clone, Copy)]
 pub(super) enum Advice<'a> {
     None,
-    /// The field `extrapolate` can be added to the table that is there.
+    /// The field `extrapolate` can be added to the table.
     Add,
-    /// The name must become a table first.
+    /// The name must first be written as a table.
     Name(&'a str),
-    /// It is a part of the mixture that is too short.
+    /// A part of the mixture does not cover the bands.
     Part,
 }
 
@@ -288,12 +288,12 @@ impl Advice<'_> {
             Self::Name(name) => format!("write {{ name = {name:?}, extrapolate = \"clamp\" }}"),
         };
         Some(format!(
-            "{clamp} to go on with its end values, or narrow `render.wavelengths_nm`"
+            "{clamp} to continue with its end values, or narrow `render.wavelengths_nm`"
         ))
     }
 }
 
-/// A reflectance over wavelength, and what to do where it does not reach far enough; what is written as a number must lie in `range`.
+/// A reflectance over wavelength, and advice for the case that it does not cover the bands. Written numbers must be in `range`.
 pub(super) fn read_reflectance<'w>(
     checks: &mut Checks,
     range: &'static limits::Range,
@@ -376,7 +376,7 @@ fn named_illuminant(
                 .extension()
                 .and_then(|ending| ending.to_str());
             if ending.is_some_and(|ending| ending.starts_with(|c: char| c.is_ascii_alphabetic())) {
-                problem = problem.help(format!("a file is written {{ csv = {name:?} }}"));
+                problem = problem.help(format!("for a file, write {{ csv = {name:?} }}"));
             }
             checks.report(problem);
             None
@@ -403,7 +403,7 @@ fn lamp_name(written: &EmissionSpectrum) -> String {
     }
 }
 
-/// Checks the largest value that a light of an amount comes to.
+/// Checks the peak of an emission of this amount.
 fn check_brightness(
     checks: &mut Checks,
     (field, amount): (&FieldPath, &Amount),
@@ -416,7 +416,7 @@ fn check_brightness(
     }
     let (quantity, unit) = radiator.quantity();
     let message = format!(
-        "found {}, which comes to {quantity} of {found:.3e} {unit} at the spectrum's peak; at most {} is possible, that is `{}` = {:.3e}",
+        "found {}, which gives {quantity} of {found:.3e} {unit} at the spectrum's peak; at most {} is possible, which is `{}` = {:.3e}",
         Shown(amount.value),
         Shown(most),
         amount.unit,
@@ -433,7 +433,7 @@ fn check_brightness(
     None
 }
 
-/// Interpolation between two values in range may leave it by a rounding.
+/// Clamps a table to `range`, which interpolation between two values within it may leave by rounding.
 fn kept_within(table: &BandTable, range: limits::Range) -> BandTable {
     table.map(|value| value.clamp(range.low, range.high))
 }
@@ -443,7 +443,7 @@ fn bits(table: &BandTable) -> Vec<u64> {
     rows.map(|value| value.to_bits()).collect()
 }
 
-/// What an emission's spectrum is at scale 1.
+/// The spectrum of an emission at scale 1.
 fn emission_spectrum(
     checks: &mut Checks,
     field: &FieldPath,

@@ -1,4 +1,4 @@
-//! How much light: from the units of a file to the factor of a spectrum.
+//! The strength of emitters: from the units of a file to the factor of a spectrum.
 
 use super::checks::Checks;
 use crate::FieldPath;
@@ -8,24 +8,24 @@ use crate::problem::{Problem, ProblemKind};
 use spectra::{BandGrid, BandTable, KM_LUMENS_PER_WATT, observer_1931};
 use std::f64::consts::PI;
 
-/// What emits, as far as its units go.
+/// The kind of an emitter, as far as its units depend on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Radiator {
-    /// The material of objects. Its factor by power is that of an object of which πA = 1.
+    /// The material of objects. Its factor by power is that of an object with πA = 1.
     Emitter,
-    /// Environment of the same radiance from everywhere.
+    /// An environment with the same radiance from everywhere.
     Environment,
-    /// A part of environment that are brighter in some directions.
+    /// A part of an environment that is brighter in some directions.
     PartOfEnvironment,
-    /// Light from everywhere that nothing hides.
+    /// Ambient light from everywhere, which nothing occludes.
     Ambient,
-    /// A distant light: ∫ cos dω over it; 0 where it comes from a single direction.
+    /// A distant light: ∫ cos dω over it; 0 for a single direction.
     Distant(f64),
     /// A point or spot: ∫ dω of its intensity relative to the largest.
     Point(f64),
 }
 
-/// What a number is divided by to become the factor of a spectrum.
+/// The integral that a number is divided by to become the factor of a spectrum.
 #[derive(Clone, Copy, PartialEq)]
 enum Over {
     Nothing,
@@ -55,7 +55,7 @@ impl Unit {
     }
 }
 
-/// A number alone: the factor of the spectrum itself.
+/// A dimensionless number: the factor of the spectrum itself.
 const SCALE: Unit = Unit {
     name: "scale",
     written: |strength| strength.scale,
@@ -76,7 +76,7 @@ const UNITS: [Unit; 9] = [
 ];
 
 impl Radiator {
-    /// Factor from a unit to what the scene keeps; none where the unit does not fit.
+    /// Factor from a unit to what the scene stores; `None` if the unit does not apply.
     fn factor(self, unit: &str) -> Option<f64> {
         match (self, unit) {
             (Self::Distant(solid), "scale" | "irradiance_w_m2" | "illuminance_lux") => {
@@ -110,7 +110,7 @@ impl Radiator {
         }
     }
 
-    /// What the spectrum times its factor is, and its unit.
+    /// The quantity of the spectrum times its factor, and its unit.
     pub(crate) fn quantity(self) -> (&'static str, &'static str) {
         match self {
             Self::Distant(0.0) => ("an irradiance", "W m⁻² nm⁻¹"),
@@ -119,7 +119,7 @@ impl Radiator {
         }
     }
 
-    /// The units that fit, as a list.
+    /// The units that apply, as a list.
     fn units(self) -> String {
         let fits = UNITS.iter().map(|unit| unit.name);
         let fits = fits.filter(|unit| self.factor(unit).is_some());
@@ -128,19 +128,19 @@ impl Radiator {
     }
 }
 
-/// The unit of an emission and its number, checked.
+/// The unit of an emission and its number, both checked.
 pub(crate) struct Amount {
-    /// The field that says it.
+    /// The field of the number.
     pub(crate) field: FieldPath,
     /// Its unit, the last part of the field.
     pub(crate) unit: &'static str,
-    /// The number as it is written.
+    /// The number as written.
     pub(crate) value: f64,
     factor: f64,
     over: Over,
 }
 
-/// Checks that one unit at most is written, that it fits, and its number.
+/// Checks that at most one unit is written, that it applies, and its number.
 pub(crate) fn check(
     checks: &mut Checks,
     field: &FieldPath,
@@ -167,7 +167,7 @@ pub(crate) fn check(
     let value = checks.number(&at, value, &unit.range);
     let Some(factor) = radiator.factor(unit.name) else {
         let message = format!("{} has no `{}`", radiator.noun(), unit.name);
-        let help = format!("what it can have is one of {}", radiator.units());
+        let help = format!("write one of {}", radiator.units());
         checks.report(Problem::new(ProblemKind::Inconsistent, &at, message).help(help));
         return None;
     };
@@ -180,7 +180,7 @@ pub(crate) fn check(
     })
 }
 
-/// Reported of the whole emission: none of its units is more wrong than the others.
+/// Reports several units at the emission as a whole, since each of them is as wrong as the others.
 fn report_several(
     checks: &mut Checks,
     field: &FieldPath,
@@ -189,10 +189,10 @@ fn report_several(
 ) {
     let names: Vec<_> = units.map(|unit| format!("`{unit}`")).collect();
     let message = format!(
-        "found {}, each of which says how bright it is; a light has one of them",
+        "found {}; the strength of an emission is given by only one of them",
         names.join(" and ")
     );
-    let help = format!("{} can have one of {}", radiator.noun(), radiator.units());
+    let help = format!("{} takes one of {}", radiator.noun(), radiator.units());
     checks.report(Problem::new(ProblemKind::Inconsistent, field, message).help(help));
 }
 
@@ -235,7 +235,7 @@ impl Amount {
     }
 }
 
-/// ∫ f g dλ over the bands as a render sums it: over all wavelengths, or at the bands' centers.
+/// ∫ f g dλ over the bands as a render estimates it: over all wavelengths, or at the bands' centers.
 fn integral(
     f: &BandTable,
     g: &BandTable,

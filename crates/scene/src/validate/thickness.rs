@@ -1,4 +1,4 @@
-//! Thicknesses: fields at the scene's time, with every value within bounds.
+//! Thicknesses: from the description to fields at the scene's time, with every value within bounds.
 
 mod drainage;
 mod growth;
@@ -11,8 +11,8 @@ use crate::problem::{Problem, ProblemKind};
 use crate::{FieldPath, Step, Thickness};
 use glam::DVec3;
 
-/// Knots of a profile that is no straight line. On a draining bubble what lies between them is off by less than 1e-4 of the
-/// thickness to 160° from the top, and by 1e-3 to 175°.
+/// Number of knots of a profile that is not linear. On a draining bubble the relative error between them is below 1e-4 up to 160° from the
+/// top, and below 1e-3 up to 175°.
 const KNOTS: u32 = 513;
 
 /// Checks a thickness.
@@ -25,7 +25,7 @@ pub(crate) fn check(
     part(checks, field, written)
 }
 
-/// Refuses what is too deep or too long before anything walks through it.
+/// Rejects a thickness that is too deep or too long before anything traverses it recursively.
 fn check_extent(
     checks: &mut Checks,
     field: &FieldPath,
@@ -128,7 +128,7 @@ fn polar(
     })
 }
 
-/// Linear from the pole over the equator, the thickness at the far pole is 2 equator − pole.
+/// Checks the thickness at the far pole, which is 2 equator − pole.
 fn check_far_pole(
     checks: &mut Checks,
     field: &FieldPath,
@@ -141,8 +141,8 @@ fn check_far_pole(
         return Some(());
     }
     let message = format!(
-        "from {pole_nm} nm at the pole over {equator_nm} nm at the equator the thickness comes to {far_nm} nm at \
-         the far pole; it must be from {range} everywhere"
+        "found {pole_nm} nm at the pole and {equator_nm} nm at the equator, which gives {far_nm} nm at the far pole; \
+         it must be from {range} everywhere"
     );
     let least_nm = pole_nm / 2.0;
     let most_nm = f64::midpoint(pole_nm, range.high);
@@ -153,9 +153,9 @@ fn check_far_pole(
 
 /// Values along a line in space.
 struct Ramp {
-    /// Where it starts and where it ends.
+    /// The start and the end of the line.
     line: (DVec3, DVec3),
-    /// The values there.
+    /// The values at the start and the end.
     ends: (f64, f64),
 }
 
@@ -183,7 +183,7 @@ fn linear(ramp: &Ramp) -> Thickness {
     }
 }
 
-/// The points `from` and `to`, which must not coincide.
+/// Checks the points `from` and `to`, which must not coincide.
 fn line(
     checks: &mut Checks,
     field: &FieldPath,
@@ -221,7 +221,7 @@ fn stepped(
     Some(Thickness::Steps { start, end, nm })
 }
 
-/// The parts of a sum or product, which must stay within numbers that `f32` has room for.
+/// Checks the parts of a sum or product, which must stay within the range of `f32`.
 fn combined(
     checks: &mut Checks,
     field: &FieldPath,
@@ -249,16 +249,16 @@ fn combined(
             so_far + bound
         }
     };
-    // Part after part, as it is evaluated: a later factor of 0 does not make up for what has left `f32` before it.
+    // Part by part, in the order of evaluation: a later factor of 0 does not help if an earlier product left the range of `f32`.
     let mut so_far = f64::from(u8::from(is_product));
     for (index, bound) in parts.iter().map(largest).enumerate() {
         so_far = step(so_far, bound);
-        // A bound that is no number is not within it either.
+        // A bound that is NaN fails this comparison too.
         if so_far <= limits::MAX_FIELD_VALUE {
             continue;
         }
         let message = format!(
-            "the values here may come to {so_far:.1e} in the first {} parts; at most {:e} can be computed with",
+            "the first {} parts may reach a value of {so_far:.1e}; at most {:e} is possible",
             index + 1,
             limits::MAX_FIELD_VALUE
         );

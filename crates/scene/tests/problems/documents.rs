@@ -200,7 +200,7 @@ fn words_of_other_programs_are_advised_on() {
         &[(
             "6:10",
             "camera.lens.f_number",
-            &["unknown field", "the focal length over 2 N"],
+            &["unknown field", "the focal length divided by 2 N"],
         )],
     );
     assert_problems(

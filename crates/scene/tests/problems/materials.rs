@@ -25,7 +25,7 @@ fn films_out_of_range_are_reported() {
             "9:16",
             "thickness_nm",
             &[
-                "comes to -100 nm at the far pole",
+                "gives -100 nm at the far pole",
                 "`equator` can be from 350 to",
             ],
         ),
@@ -33,7 +33,7 @@ fn films_out_of_range_are_reported() {
             film("{ pole = 0, equator = 60000 }"),
             "9:16",
             "thickness_nm",
-            &["comes to 120000 nm", "to 50000 nm"],
+            &["gives 120000 nm", "to 50000 nm"],
         ),
         (
             film("{ pole = 3, equator = 3, axis = [0, 0, 0] }"),
@@ -71,13 +71,13 @@ fn roughness_out_of_range_is_reported() {
             metal("index = 'gold'\nroughness = [0.1, 0.2]"),
             "9:13",
             "roughness",
-            &["which way its grain runs", "brushed = { along"],
+            &["no direction of its grain", "brushed = { along"],
         ),
         (
             metal("index = 'gold'\nroughness = 0.1\nbrushed = { around = [0, 1, 0] }"),
             "10:11",
             "brushed",
-            &["no grain", "along and across"],
+            &["found a grain", "along and across"],
         ),
         (
             metal("index = 'gold'\nroughness = [0.1, 0.2]\nbrushed = { around = [0, 0, 0] }"),
@@ -166,7 +166,7 @@ fn other_materials_out_of_range_are_reported() {
             &[
                 "found 1e6",
                 "a radiance of 1.000e12 W m⁻² sr⁻¹ nm⁻¹",
-                "at most 1e9 is possible, that is `scale` = 1.000e3",
+                "at most 1e9 is possible, which is `scale` = 1.000e3",
             ],
         ),
         (
@@ -189,7 +189,7 @@ fn a_grain_along_the_normal_is_reported_of_the_object() {
         ))
     };
     let disk = "type = 'disk'\nnormal = [0, 0, 2]";
-    let said = ["\"x\"", "along the normal"];
+    let said = ["\"x\"", "parallel to the normal"];
     for brushed in ["along = [0, 0, -1]", "around = [1, 0, 0]"] {
         assert_problems(
             &scene(brushed, disk),

@@ -100,7 +100,7 @@ fn tables_are_checked_point_by_point() {
                 (
                     "8:33",
                     "reflectance.nm[2]",
-                    &["500 nm after 500 nm", "must rise"],
+                    &["500 nm after 500 nm", "must increase"],
                 ),
                 ("8:63", "reflectance.values[3]", &["found 2", "0 to 1"]),
             ],

@@ -1,10 +1,10 @@
-//! From the text of a database file to its blocks as they are written.
+//! From the text of a database file to its blocks as written.
 
 use super::DatabaseFileError;
 use saphyr_parser::{Event, Parser, ScalarStyle, ScanError, Span};
 use std::collections::HashMap;
 
-/// What a file says, as it is written.
+/// The contents of a file as written.
 #[derive(Default)]
 pub(super) struct Document {
     /// The mappings in the list under `DATA`.
@@ -13,17 +13,17 @@ pub(super) struct Document {
     pub(super) specs: Vec<(String, Text)>,
 }
 
-/// A block as it is written.
+/// A block as written.
 pub(super) struct Written {
     pub(super) line: usize,
     fields: Vec<(String, Text)>,
 }
 
-/// A value and the place of its first line.
+/// A value and the number of its first line.
 pub(super) struct Text {
     pub(super) content: String,
     pub(super) line: usize,
-    /// Whether a line of the value is a line of the file.
+    /// Whether the value is a literal block, each line of which is a line of the file.
     pub(super) is_literal: bool,
 }
 
@@ -33,7 +33,7 @@ enum Open {
     Mapping(Mapping),
 }
 
-/// A mapping, with the key whose value comes next, and the lines of the keys so far.
+/// A mapping, with the key whose value comes next, and the line numbers of the keys so far.
 #[derive(Default)]
 struct Mapping {
     key: Option<String>,
@@ -51,7 +51,7 @@ impl Written {
     }
 }
 
-/// The blocks in the list under the key `DATA` of the file's mapping, and what stands under `SPECS`.
+/// Reads the blocks in the list under the key `DATA` of the file's mapping, and the values under `SPECS`.
 pub(super) fn document(text: &str) -> Result<Document, DatabaseFileError> {
     let mut parser = Parser::new_from_str(text);
     let mut open: Vec<Open> = Vec::new();
@@ -106,7 +106,7 @@ fn is_list_of_data(open: &[Open]) -> bool {
     matches!(open, [file, Open::List] if key_of(file) == Some("DATA"))
 }
 
-/// A key, or a value, which is kept if it is one of a block's or of `SPECS`.
+/// Handles a key or a value. A value is kept if it belongs to a block or to `SPECS`.
 fn scalar(
     open: &mut [Open],
     document: &mut Document,
@@ -145,7 +145,7 @@ fn scalar(
 
 fn value(content: String, style: ScalarStyle, line: usize) -> Text {
     let is_literal = style == ScalarStyle::Literal;
-    // The place of a literal is that of its first line that is not empty.
+    // The parser reports the first nonempty line of a literal.
     let empty = content.lines().take_while(|line| line.is_empty()).count();
     Text {
         line: line.saturating_sub(if is_literal { empty } else { 0 }),
@@ -154,7 +154,7 @@ fn value(content: String, style: ScalarStyle, line: usize) -> Text {
     }
 }
 
-/// After a value its mapping expects a key again. A collection may itself be a key; its mapping then expects a value.
+/// Ends a value: its mapping then expects a key. A collection may itself be a key; its mapping then expects a value.
 fn value_is_over(open: &mut [Open]) {
     if let Some(Open::Mapping(Mapping { key, .. })) = open.last_mut() {
         *key = match key {

@@ -1,4 +1,4 @@
-//! Draining soap films: tables of the model at the scene's time.
+//! Draining soap films: tables of the drainage model at the scene's time.
 
 use super::{KNOTS, line};
 use crate::description::Drainage;
@@ -10,10 +10,10 @@ use crate::{BlackFilm, Coordinate, FieldPath, Profile};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// In the first instant the profile of a plane film is endlessly steep: all of the film is as it was.
+/// At time 0 the profile of a plane film is infinitely steep: the whole film has its initial thickness.
 const STEEPEST_NM2: f64 = 1e20;
 
-/// What both kinds of draining films have.
+/// The parameters that both kinds of draining films have.
 struct Film {
     initial_nm: f64,
     liquid: Liquid,
@@ -99,13 +99,13 @@ pub(super) fn check(checks: &mut Checks, field: &FieldPath, written: &Drainage) 
     }
 }
 
-/// The sine of the slope from `from` down to `to`, which must lie lower.
+/// The sine of the slope from `from` down to `to`, which must be lower.
 fn falling(checks: &mut Checks, field: &FieldPath, top: DVec3, bottom: DVec3) -> Option<f64> {
     let sine = (top - bottom).normalize().y;
     if sine >= limits::MIN_SINE {
         return Some(sine);
     }
-    let message = "the film does not run down: `to` must lie lower than `from` in y";
+    let message = "the film does not run down: `to` must be lower than `from` in y";
     let problem = Problem::new(ProblemKind::Inconsistent, &field.key("to"), message);
     checks.report(problem.involving(field.key("from")));
     None
@@ -121,7 +121,7 @@ fn draining_sphere(film: &Film, radius_m: f64, time_s: f64) -> Profile {
     };
     Profile {
         coordinate: Coordinate::Polar { axis: DVec3::Y },
-        // With no film at all there is nothing that could gather.
+        // Without liquid, no drop gathers.
         squares_nm2: match film.initial_nm {
             0.0 => vec![0.0; 2],
             _ => (0..KNOTS).map(square).collect(),
@@ -131,7 +131,7 @@ fn draining_sphere(film: &Film, radius_m: f64, time_s: f64) -> Profile {
     }
 }
 
-/// h² = z / (3 K t) is a straight line, cut off at the first thickness.
+/// h² = z / (3 K t) is linear in z; the film is cut off at its initial thickness.
 fn draining_plane(
     film: &Film,
     height_m: f64,
@@ -157,7 +157,7 @@ fn draining_plane(
 mod tests {
     use super::*;
 
-    /// What is said of the knots: the root of the line between two of them against the model itself.
+    /// Checks the error that [`KNOTS`] states: linear interpolation of squares against the model itself.
     #[test]
     fn the_table_of_a_bubble_is_fine_enough() {
         for tau in [0.3, 3.0, 300.0] {

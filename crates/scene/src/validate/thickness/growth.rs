@@ -1,4 +1,4 @@
-//! Oxides by the process that grows them.
+//! Oxides described by the process that grows them.
 
 use super::{KNOTS, Ramp, linear, ramp};
 use crate::description;
@@ -7,7 +7,7 @@ use crate::limits::{self, Range};
 use crate::validate::checks::Checks;
 use crate::{Coordinate, FieldPath, Profile, Thickness};
 
-/// Linear in the voltage, so it is linear where the voltage is.
+/// An anodic oxide: its thickness is linear in the voltage, so it is linear along a line if the voltage is.
 pub(super) fn anodized(
     checks: &mut Checks,
     field: &FieldPath,
@@ -29,7 +29,7 @@ pub(super) fn anodized(
     })
 }
 
-/// Parabolic in time, so its square is what is smooth.
+/// A heat tint: its growth is parabolic, so the table holds squares of the thickness.
 pub(super) fn tinted(
     checks: &mut Checks,
     field: &FieldPath,
@@ -67,7 +67,7 @@ pub(super) fn tinted(
     })
 }
 
-/// What a process is set to, in its own unit.
+/// The setting of a process, in its unit.
 enum Quantity {
     Constant(f64),
     Linear(Ramp),

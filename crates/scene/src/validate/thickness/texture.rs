@@ -1,4 +1,4 @@
-//! What lies over a surface like a texture: swirls and pictures.
+//! Textured thicknesses: swirls and pictures.
 
 use crate::description;
 use crate::limits;
@@ -9,7 +9,7 @@ use crate::{FieldPath, Picture, Swirls, Thickness};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Checks swirls and moves them to the scene's time.
+/// Checks swirls and advances them to the scene's time.
 pub(super) fn swirls(
     checks: &mut Checks,
     field: &FieldPath,
