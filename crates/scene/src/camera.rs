@@ -3,38 +3,38 @@
 use crate::PixelFilter;
 use glam::DVec3;
 
-/// A camera: rays start at one point, on a lens, or run in parallel.
+/// A camera, whose rays start at one point, start on a lens, or are parallel.
 ///
 /// `right`, `up` and `back` are orthonormal and are the columns of the rotation `world_from_camera`;
 /// the camera looks along −`back`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
-    /// Where the camera stands.
+    /// Position of the camera.
     pub origin: DVec3,
     /// +X of camera space: to the right in the picture.
     pub right: DVec3,
-    /// +Y of camera space: upwards in the picture.
+    /// +Y of camera space: up in the picture.
     pub up: DVec3,
-    /// +Z of camera space: away from what is looked at.
+    /// +Z of camera space: opposite to the view direction.
     pub back: DVec3,
-    /// How rays spread.
+    /// The projection.
     pub projection: Projection,
-    /// The lens of a perspective camera; without one everything is sharp.
+    /// The lens of a perspective camera; without one, everything is in focus.
     pub lens: Option<Lens>,
-    /// How a pixel gathers light from about its middle.
+    /// The reconstruction filter of the pixels.
     pub filter: PixelFilter,
 }
 
-/// A thin lens: what lies at its distance of focus is sharp.
+/// A thin lens: objects at its focus distance are in focus.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
-    /// Radius of its opening, in scene units.
+    /// Radius of the aperture, in scene units.
     pub radius: f64,
-    /// Distance of the plane that is sharp, along the direction of view, in scene units.
+    /// Distance to the plane in focus, along the view direction, in scene units.
     pub focus_distance: f64,
 }
 
-/// How the rays of a camera spread.
+/// The projection of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
     /// All rays start at the origin. `half_height` is tan(vertical field of view / 2).
@@ -42,7 +42,7 @@ pub enum Projection {
         /// Half the picture's height at distance 1.
         half_height: f64,
     },
-    /// All directions from the origin by longitude, from left to right, and latitude; the middle is −`back`, the top is `up`.
+    /// All directions from the origin by longitude, from left to right, and latitude; the center is −`back`, the top is `up`.
     Panorama,
     /// All rays are parallel.
     Orthographic {
@@ -52,7 +52,7 @@ pub enum Projection {
 }
 
 impl Camera {
-    /// Height of the view in degrees; `None` where rays are parallel or go everywhere.
+    /// Vertical field of view in degrees; `None` if rays are parallel or go in all directions.
     pub fn fov_deg(&self) -> Option<f64> {
         match self.projection {
             Projection::Perspective { half_height } => Some(2.0 * half_height.atan().to_degrees()),

@@ -1,29 +1,29 @@
-//! Cook's model in a validated scene.
+//! Cook's model of a validated scene.
 
 use crate::{Emission, SpectrumId};
 use std::f64::consts::PI;
 
-/// A surface by Cook's model (Cook and Torrance 1981; Suzuki, Yokoi and Toriwaki, section 3-1): toward the eye goes
-/// F(E·H) G / ((N·L) (N·E)) Σ wⱼ Dⱼ, and `diffuse` of the light evenly.
+/// A surface by Cook's model (Cook and Torrance 1981; Suzuki, Yokoi and Toriwaki, section 3-1): the specular term F(E·H) G / ((N·L) (N·E))
+/// Σ wⱼ Dⱼ plus the Lambertian term `diffuse`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cook1981 {
     /// Real part of the index.
     pub n: SpectrumId,
-    /// Imaginary part of the index; 0 everywhere where it comes from a normal reflectance.
+    /// Imaginary part of the index; 0 everywhere if the index comes from a normal reflectance.
     pub k: SpectrumId,
     /// The form of all Dⱼ.
     pub distribution: CookDistribution,
     /// The slopes, at least one.
     pub facets: Vec<CookFacets>,
-    /// What is reflected evenly; `None` is nothing.
+    /// The Lambertian term, if any.
     pub diffuse: Option<DiffuseTerm>,
-    /// Ia Ra: what comes of the ambient light, the same in every direction.
+    /// Ia Ra: the reflected ambient light, the same in every direction.
     pub ambient: Option<Emission>,
 }
 
 impl Cook1981 {
-    /// How many times the light that falls along the normal a white metal's facets would send back, were nothing hidden: s with the
-    /// normalized constants, 4 s with the printed π and D₂.
+    /// The ratio of reflected to incident light at normal incidence for the facets of a white metal, without masking and shadowing: s with
+    /// the normalized constants, 4 s with the printed π and D₂.
     pub fn gain(&self) -> f64 {
         let gain = |facets: &CookFacets| {
             let normalized = match self.distribution {
@@ -39,7 +39,7 @@ impl Cook1981 {
 /// The form of a distribution of facets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CookDistribution {
-    /// D₁ = exp(−a² / m²), its constant being part of the weight.
+    /// D₁ = exp(−a² / m²); its constant is part of the weight.
     Gaussian,
     /// D₂ = exp(−tan²a / m²) / (m² cos⁴a).
     Beckmann,
@@ -50,19 +50,19 @@ pub enum CookDistribution {
 pub struct CookFacets {
     /// Root mean square slope m.
     pub slope: f64,
-    /// wⱼ: the part of the surface, times the specular share and the model's constant.
+    /// wⱼ: the fraction of the surface times the specular fraction and the model's constant.
     pub weight: f64,
-    /// The part of the surface; those of all slopes sum to 1.
+    /// The fraction of the surface; the fractions of all slopes sum to 1.
     pub part: f64,
 }
 
-/// A Lambertian share.
+/// A Lambertian term.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DiffuseTerm {
-    /// Which part of the light, in (0, 1\].
+    /// The fraction of the light, in (0, 1\].
     pub share: f64,
-    /// Which share of the paths goes there, in (0, 1\].
+    /// The probability that a path samples this term, in (0, 1\].
     pub chance: f64,
-    /// How much of it comes back.
+    /// Its reflectance.
     pub reflectance: SpectrumId,
 }

@@ -1,24 +1,24 @@
-//! Gravity drainage of a soap film with rigid surfaces, as numbers.
+//! Gravity drainage of a soap film with rigid surfaces.
 //!
-//! The flux through a film of thickness h between two surfaces that do not move is K h³ sin β, K = ρ g / (12 η), where β is the
-//! slope (Reynolds 1886; Mysels, Shinoda and Frankel, Soap Films, 1959). Conservation of volume on a sphere of radius R is
+//! The flux through a film of thickness h between two surfaces that do not move is K h³ sin β with K = ρ g / (12 η), where β is the slope
+//! (Reynolds 1886; Mysels, Shinoda and Frankel, Soap Films, 1959). Conservation of volume on a sphere of radius R is
 //!
 //! ∂h/∂t + 1 / (R sin θ) ∂/∂θ (sin²θ K h³) = 0.
 //!
-//! Along its characteristics dθ/dt = 3 K h² sin θ / R the product h sin^(2/3) θ does not change. From h = h₀ everywhere, with
-//! τ = 3 K h₀² t / R and I(θ) = ∫₀^θ sin^(1/3) u du, a characteristic that began at θ₀ is at time t where
+//! Along its characteristics dθ/dt = 3 K h² sin θ / R, the product h sin^(2/3) θ is constant. From h = h₀ everywhere, with τ = 3 K h₀² t /
+//! R and I(θ) = ∫₀^θ sin^(1/3) u du, the characteristic that began at θ₀ is, at time t, at the θ with
 //!
 //! I(θ) = I(θ₀) + τ sin^(4/3) θ₀, and h = h₀ (sin θ₀ / sin θ)^(2/3) there.
 //!
-//! One characteristic reaches every θ < π. At the top h⁻² = h₀⁻² + 4 K t / R, and late h² = R / (3 K t) sin^(−4/3) θ I(θ): the
-//! similarity solution of Takagi and Huppert (J. Fluid Mech. 647, 221, 2010) for the outside of a sphere. At the bottom
-//! τ = 3/4 ends it: what arrives there gathers as a drop.
+//! Exactly one characteristic reaches every θ < π. At the top h⁻² = h₀⁻² + 4 K t / R. At late times h² = R / (3 K t) sin^(−4/3) θ I(θ), the
+//! similarity solution of Takagi and Huppert (J. Fluid Mech. 647, 221, 2010) for the outside of a sphere. At the bottom the solution ends
+//! at τ = 3/4: the liquid that arrives there gathers in a drop.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Standard gravity, m/s².
 const GRAVITY: f64 = 9.806_65;
-/// Panels of the quadrature.
+/// Number of panels of the quadrature.
 const PANELS: u32 = 16;
 
 /// A liquid.
@@ -29,14 +29,14 @@ pub(crate) struct Liquid {
 }
 
 impl Liquid {
-    /// 3 K t / `length_m`, in 1/nm²: 1/h² of a film that has drained down this length to a similar shape.
+    /// 3 K t / `length_m`, in 1/nm²: 1/h² of a film that has drained along this length to its similarity shape.
     pub(crate) fn thinning(self, time_s: f64, length_m: f64) -> f64 {
         let k = self.density_kg_m3 * GRAVITY / (12.0 * self.viscosity_pa_s);
         3.0 * k * time_s / length_m * 1e-18
     }
 }
 
-/// (h / h₀)² on a sphere at a polar angle from the top, at the time τ; `f64::INFINITY` at the bottom from τ = 3/4 on.
+/// (h / h₀)² on a sphere at a polar angle from the top, at time τ; `f64::INFINITY` at the bottom from τ = 3/4 on.
 pub(crate) fn sphere_profile2(theta: f64, tau: f64) -> f64 {
     if theta <= 0.0 {
         return 1.0 / (1.0 + 4.0 / 3.0 * tau);
@@ -53,12 +53,12 @@ pub(crate) fn sphere_profile2(theta: f64, tau: f64) -> f64 {
     (sine / theta.sin()).powf(4.0 / 3.0)
 }
 
-/// Where the characteristic began that is at `theta` at the time τ: Newton's method, by halves where that leaves the bracket.
-/// The arrival grows with the start up to the one wanted.
+/// The start of the characteristic that is at `theta` at time τ: by Newton's method, or bisection if a step leaves the bracket. The arrival
+/// increases with the start up to the solution.
 fn sphere_start(theta: f64, tau: f64) -> f64 {
     let wanted = sine_integral(theta);
     let (mut low, mut high) = (0.0, theta);
-    // Near the top, where I = 3/4 θ^(4/3), this is the answer.
+    // Near the top, where I = 3/4 θ^(4/3), this is the exact solution.
     let mut start = theta * (0.75 / (0.75 + tau)).powf(0.75);
     for _ in 0..60 {
         let root = start.sin().cbrt();
@@ -141,8 +141,7 @@ mod tests {
         assert_eq!(sphere_profile2(PI, 0.75), f64::INFINITY);
     }
 
-    /// The differential equation itself, by central differences: with H = h/h₀ and τ it reads
-    /// 3 ∂H/∂τ + 1/sin θ ∂/∂θ (sin²θ H³) = 0.
+    /// The differential equation itself, by central differences. With H = h/h₀ and τ it is 3 ∂H/∂τ + 1/sin θ ∂/∂θ (sin²θ H³) = 0.
     #[test]
     fn the_equation_holds_everywhere() {
         let h = |theta: f64, tau: f64| sphere_profile2(theta, tau).sqrt();
@@ -163,7 +162,7 @@ mod tests {
         }
     }
 
-    /// The same by another road: finite volumes, upwind, first order, which conserve the liquid to rounding.
+    /// An independent method: first-order upwind finite volumes, which conserve the liquid to rounding.
     #[test]
     fn finite_volumes_come_to_the_same_thickness() {
         const CELLS: usize = 1000;
@@ -176,7 +175,7 @@ mod tests {
         let mut h = vec![1.0_f64; CELLS];
         let (mut tau, mut gathered) = (0.0, 0.0);
         while tau < END {
-            // The bottom cell lets everything out: the drop is not the film's any more.
+            // Liquid that leaves through the bottom cells joins the drop and no longer belongs to the film.
             let fastest = h[..CELLS - CELLS / 50]
                 .iter()
                 .fold(0.0_f64, |a, &b| a.max(b));

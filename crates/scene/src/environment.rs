@@ -1,17 +1,16 @@
-//! What surrounds the objects, in a validated scene.
+//! The environment of a validated scene.
 
 use crate::prepared::DirectionTable;
 use crate::{Emission, Texels};
 use glam::DVec3;
 use std::sync::Arc;
 
-/// What surrounds the objects.
+/// The environment: what rays meet that leave the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Environment {
     /// The same radiance from every direction.
     Constant(Emission),
-    /// A mixture by the height h = dot(direction, +Y): `horizon` at 0, `zenith` at 1, `ground` at −1,
-    /// linear in h between.
+    /// A mixture by the height h = dot(direction, +Y): `horizon` at 0, `zenith` at 1, `ground` at −1, linear in h in between.
     Gradient {
         /// Radiance from straight above.
         zenith: Emission,
@@ -20,7 +19,7 @@ pub enum Environment {
         /// Radiance from straight below.
         ground: Emission,
     },
-    /// A picture of all directions: the emission times what the picture has.
+    /// A picture of all directions: the emission times the picture's radiance.
     Picture {
         /// The factor of the picture.
         emission: Emission,
@@ -29,63 +28,63 @@ pub enum Environment {
     },
 }
 
-/// A picture of all directions by longitude and latitude, +Y on top.
+/// A picture of all directions by longitude and latitude, with +Y at the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnvironmentPicture {
     /// Its pixels.
     pub texels: Texels,
-    /// What they hold.
+    /// The meaning of the texels.
     pub spectra: PictureSpectra,
-    /// The direction of its middle, horizontal.
+    /// The direction of its center, horizontal.
     pub forward: DVec3,
-    /// The direction of the middle of its right half, horizontal.
+    /// The direction of the center of its right half, horizontal.
     pub right: DVec3,
-    /// Mean radiance, over all directions and wavelengths, of what light is sent for.
+    /// Mean over all directions and wavelengths of the radiance that is importance-sampled.
     pub sampled_mean: f64,
-    /// For drawing directions in proportion to that.
+    /// The table for sampling directions in proportion to this radiance.
     pub table: DirectionTable,
 }
 
-/// What the texels of a picture hold.
+/// The meaning of the texels of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureSpectra {
-    /// One each: coefficients of a smooth spectrum, and its factor.
+    /// One texel per pixel: the coefficients of a smooth spectrum, and its factor.
     Smooth,
-    /// A value for each band, four to a texel; the last texel is filled up with its last band.
+    /// A value for each band, four per texel; the last band pads the last texel.
     Bands,
 }
 
-/// Where the radiance of a part of the environment comes from.
+/// The directional distribution of a part of the environment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EnvironmentShape<'a> {
-    /// Every direction alike.
+    /// The same in every direction.
     Everywhere,
-    /// All around, by 1 − |h| with h the height of the direction.
+    /// Proportional to 1 − |h|, with h the height of the direction.
     Horizon,
-    /// About a pole, by the cosine with it; nothing from the other side.
+    /// Proportional to the cosine with a pole; 0 on the other side.
     Pole(DVec3),
-    /// By a picture.
+    /// Given by a picture.
     Picture(&'a EnvironmentPicture),
     /// A disk about a unit vector.
     DistantDisk {
-        /// Toward its middle.
+        /// The direction of its center.
         toward: DVec3,
-        /// 1 − cos of the angle between middle and edge, > 0.
+        /// 1 − cos of the angle between center and edge, > 0.
         height: f64,
     },
 }
 
-/// A part of the environment: its radiance is its emission times the share that its shape has in the direction.
+/// A part of the environment: its radiance is its emission times a weight that depends on its shape and the direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnvironmentPart<'a> {
-    /// Where it comes from.
+    /// Its directional distribution.
     pub shape: EnvironmentShape<'a>,
-    /// Its radiance where the share is 1.
+    /// Its radiance where the weight is 1.
     pub emission: Emission,
 }
 
 impl Environment {
-    /// The parts whose radiances add up to that of the environment, dark ones too.
+    /// The parts whose radiances sum to the environment's radiance, including dark ones.
     pub fn parts(&self) -> Vec<EnvironmentPart<'_>> {
         let part = |shape, emission| EnvironmentPart { shape, emission };
         match *self {

@@ -1,8 +1,8 @@
-//! The place of a value within a description.
+//! The position of a value in a description.
 
 use std::fmt;
 
-/// The way from the top of a description to one of its values, shown as `objects[2].radius`.
+/// The path from the root of a description to one of its values, shown as `objects[2].radius`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct FieldPath(Vec<Step>);
 
@@ -21,19 +21,19 @@ impl FieldPath {
         Self::default()
     }
 
-    /// The field `key` of this table.
+    /// The path to the field `key` of this table.
     #[must_use]
     pub fn key(&self, key: &str) -> Self {
         self.then(Step::Key(key.to_owned()))
     }
 
-    /// Element `index` of this array.
+    /// The path to element `index` of this array.
     #[must_use]
     pub fn index(&self, index: usize) -> Self {
         self.then(Step::Index(index))
     }
 
-    /// What `inner` names when this value is taken for its top.
+    /// The path to what `inner` names relative to this value.
     #[must_use]
     pub fn join(&self, inner: &Self) -> Self {
         Self(self.0.iter().chain(&inner.0).cloned().collect())
@@ -44,12 +44,12 @@ impl FieldPath {
         self.0.is_empty()
     }
 
-    /// The steps from the top.
+    /// The steps from the root.
     pub fn steps(&self) -> &[Step] {
         &self.0
     }
 
-    /// This value, the table or array that it lies in, and so on out to the description itself.
+    /// This value, the table or array that contains it, and so on up to the description itself.
     pub(crate) fn and_around(&self) -> impl Iterator<Item = Self> + '_ {
         (0..=self.0.len())
             .rev()
@@ -80,7 +80,7 @@ impl fmt::Display for FieldPath {
     }
 }
 
-/// A key as TOML would have it: bare where possible.
+/// Writes a key as in TOML: bare if possible.
 fn write_key(f: &mut fmt::Formatter<'_>, key: &str) -> fmt::Result {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     if !key.is_empty() && key.chars().all(is_bare) {

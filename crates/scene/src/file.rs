@@ -1,4 +1,4 @@
-//! Scene files: read, changed where the command line says so, then validated.
+//! Scene files: read, changed by command-line options, then validated.
 
 use crate::description::Description;
 use crate::document::SourceFile;
@@ -9,13 +9,13 @@ use std::cell::OnceCell;
 use std::path::Path;
 use toml::Value;
 
-/// The least that a scene file holds.
+/// The minimum contents of a scene file.
 const NEEDS: &str = "a scene needs at least a [camera]";
 
 /// Reads and validates a scene file.
 ///
 /// # Errors
-/// Everything that is wrong with it.
+/// All problems of the scene.
 pub fn load(path: impl AsRef<Path>) -> Result<Scene, Problems> {
     SceneFile::read(path)?.validate()
 }
@@ -32,8 +32,8 @@ pub fn load(path: impl AsRef<Path>) -> Result<Scene, Problems> {
 /// ```
 #[derive(Clone, Debug)]
 pub struct SceneFile {
-    /// What the file says. Where it is broken there are stand-ins, so that the rest can be changed and checked;
-    /// [`Self::validate`] then fails whatever is written over them.
+    /// The description from the file. Broken values have stand-ins, so that the rest can be changed and checked; [`Self::validate`] then
+    /// fails even if they are overwritten.
     pub description: Description,
     as_read: Description,
     source: SourceFile,
@@ -43,14 +43,13 @@ impl SceneFile {
     /// Reads a scene file.
     ///
     /// # Errors
-    /// When there is no such file, or it is not TOML. Other mistakes wait for [`Self::validate`], so that all of
-    /// them can be told at once.
+    /// When there is no such file, or it is not TOML. [`Self::validate`] reports other mistakes, all at once.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Problems> {
         Ok(Self::new(SourceFile::read(path.as_ref(), NEEDS)?))
     }
 
-    /// Reads the text of a scene file: `name` is what errors call it, and files are looked for from `folder` and must lie in
-    /// it; the empty path is the working folder.
+    /// Parses the text of a scene file. `name` is its name in errors; paths of files are relative to `folder`, and the files must be in it.
+    /// The empty path is the working folder.
     ///
     /// # Errors
     /// When the text is not TOML.
@@ -71,23 +70,22 @@ impl SceneFile {
         }
     }
 
-    /// Whether the files that the scene names may lie outside of its folder, which they may not by default: only for scenes that
-    /// can be trusted.
+    /// Sets whether the files that the scene names may be outside its folder; by default they may not. Only for scenes that can be trusted.
     #[must_use]
     pub fn allow_outside(mut self, allows_outside: bool) -> Self {
         self.source.allow_outside(allows_outside);
         self
     }
 
-    /// Where the files are looked for that the scene names.
+    /// The folder that paths of the scene's files are relative to.
     pub fn folder(&self) -> &Folder {
         self.source.folder()
     }
 
-    /// The scene that the file, as changed, describes.
+    /// Validates the description, with its changes, and returns the scene.
     ///
     /// # Errors
-    /// Everything that is wrong with the file and with [`Self::description`].
+    /// All problems of the file and of [`Self::description`].
     pub fn validate(&self) -> Result<Scene, Problems> {
         let checked = validate::scene(&self.description, self.source.folder());
         let changes = OnceCell::new();
@@ -98,7 +96,7 @@ impl SceneFile {
     }
 }
 
-/// Where two descriptions differ.
+/// The difference between two descriptions.
 struct Changes(Option<(Value, Value)>);
 
 impl Changes {

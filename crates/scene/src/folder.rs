@@ -1,12 +1,12 @@
-//! Where the files are that a scene or a stack names.
+//! The folder of the files that a scene or a stack names.
 
 use std::path::{Component, Path, PathBuf};
 use thiserror::Error;
 
-/// The folder from which the files are looked for that a description names.
+/// The folder that the paths of a description's files are relative to.
 ///
-/// A description may come from someone else, so that the files it names must lie in the folder, or in one within it, wherever links
-/// lead: [`Self::allow_outside`] lifts that.
+/// A description may come from someone else, so the files that it names must be in the folder or its subfolders after links are resolved.
+/// [`Self::allow_outside`] lifts this restriction.
 ///
 /// ```
 /// use pellicle_scene::Folder;
@@ -19,15 +19,15 @@ pub struct Folder {
     allows_outside: bool,
 }
 
-/// A file lies outside of the folder.
+/// The error for a file outside the folder.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error(
-    "found \"{}\", which leads out of the folder \"{}\"; a file in it is read, others only where --allow-outside is given",
+    "found \"{}\", which leads out of the folder \"{}\"; it must be in this folder unless --allow-outside is given",
     file.display(),
     shown(folder).display()
 )]
 pub struct OutsideError {
-    /// The file as it is written.
+    /// The file as written.
     pub file: PathBuf,
     /// The folder.
     pub folder: PathBuf,
@@ -49,7 +49,7 @@ impl From<Folder> for PathBuf {
 }
 
 impl Folder {
-    /// Whether files outside are read as well: only for descriptions that can be trusted.
+    /// Sets whether files outside may be read too: only for descriptions that can be trusted.
     #[must_use]
     pub fn allow_outside(mut self, allows_outside: bool) -> Self {
         self.allows_outside = allows_outside;
@@ -61,10 +61,10 @@ impl Folder {
         &self.path
     }
 
-    /// The path to a file that a description names so. Whether there is such a file is not said.
+    /// The path to a file that a description names. It does not check whether the file exists.
     ///
     /// # Errors
-    /// When it leads out of the folder and may not.
+    /// When it leads out of the folder and this is not allowed.
     pub fn path_to(&self, file: &Path) -> Result<PathBuf, OutsideError> {
         let path = self.path.join(file);
         if self.allows_outside || self.holds(file, &path) {
@@ -82,13 +82,13 @@ impl Folder {
         };
         match path.canonicalize() {
             Ok(path) => path.starts_with(folder),
-            // It cannot be opened either, which is told by who tries.
+            // It cannot be opened either, which is reported when someone tries.
             Err(_) => stays_within(file),
         }
     }
 }
 
-/// The folder by a path that can be looked at.
+/// The folder as a nonempty path.
 fn shown(folder: &Path) -> &Path {
     if folder.as_os_str().is_empty() {
         Path::new(".")
@@ -97,7 +97,7 @@ fn shown(folder: &Path) -> &Path {
     }
 }
 
-/// Whether a path, as it is written, never leads above where it starts.
+/// Whether a path, as written, never leads above its start.
 fn stays_within(file: &Path) -> bool {
     let mut depth = 0_usize;
     file.components().all(|component| match component {
@@ -149,7 +149,7 @@ mod tests {
             let path = folder.path_to(Path::new(file)).unwrap();
             assert_eq!(fs::read(path).unwrap(), b"x", "{file}");
         }
-        // What is not there is told by who opens it.
+        // A missing file is reported when it is opened.
         assert!(folder.path_to(Path::new("missing.csv")).is_ok());
         assert!(folder.path_to(Path::new("missing/../a.csv")).is_ok());
     }

@@ -1,4 +1,4 @@
-//! Oxides that a process grows, as numbers. Sources and limits: [`Anodizing`](crate::description::Anodizing) and
+//! Oxides grown by a process. For sources and limits, see [`Anodizing`](crate::description::Anodizing) and
 //! [`HeatTint`](crate::description::HeatTint).
 
 /// The gas constant, J/(mol K) (CODATA 2018, exact).
@@ -18,7 +18,7 @@ pub(crate) fn heat_tint_nm2(temperature_c: f64, minutes: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Parabolic in time, Arrhenius in temperature, and at the thickness where the calibration puts purple.
+    /// Parabolic in time, Arrhenius in temperature, and with the thickness of purple at its calibrated temperature.
     #[test]
     fn heat_tints_follow_their_law() {
         let nm = |c, minutes| heat_tint_nm2(c, minutes).sqrt();

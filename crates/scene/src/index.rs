@@ -4,10 +4,10 @@ use crate::description::Index;
 use crate::{Folder, Problems, validate};
 use spectra::OpticalConstants;
 
-/// The optical constants that `index` describes, and what was assumed of its files, a line each; files that it names are looked for from `folder` and must
-/// lie in it.
+/// Returns the optical constants of `index`, and the assumptions about its files, one line each. Paths of files are relative to `folder`,
+/// and the files must be in it.
 ///
-/// What wavelengths will be asked for is not known here: that a table is too short shows when it is read.
+/// The wavelengths of interest are not known here: reading a table outside its range fails later.
 ///
 /// ```
 /// use pellicle_scene::{description::Index, optical_constants};
@@ -18,8 +18,8 @@ use spectra::OpticalConstants;
 /// ```
 ///
 /// # Errors
-/// Everything that is wrong with the index, and with the file that it names. The fields of the problems start at the
-/// index: `n[2]` is the third value of its table.
+/// All problems of the index, and of the file that it names. The fields of the problems start at the index: `n[2]` is the third value of
+/// its table.
 pub fn optical_constants(
     index: &Index,
     folder: impl Into<Folder>,

@@ -1,22 +1,21 @@
 //! From a scene file to a validated [`Scene`].
 //!
-//! [`Scene`] is what the renderers read. It cannot be built invalid: it comes from a
-//! [`description`] (the types as written in a file, or filled in by a program), and every number
-//! in it is finite and within its domain, every index within its list.
+//! [`Scene`] is the input of the renderers. It is always valid: it is built from a [`description`] (the types as written in a file, or
+//! filled in by a program), every number in it is finite and within its domain, and every index is within its list.
 //!
 //! ```text
 //! scenes/soap_bubble.toml
-//!   -> SceneFile::read      TOML, compared with the schema        what does not fit is kept for later
+//!   -> SceneFile::read      TOML, compared with the schema        mistakes are kept for later
 //!   -> SceneFile.description    changed by the command line
 //!   -> SceneFile::validate  numbers, names and tables checked     Problems: all of them, each with its line
 //!   -> Scene
 //! ```
 //!
-//! A program that fills in a [`Description`](description::Description) itself goes straight to [`Scene::new`];
-//! [`optical_constants`] reads an index of refraction alone.
+//! A program that fills in a [`Description`](description::Description) itself calls [`Scene::new`]; [`optical_constants`] reads only an
+//! index of refraction.
 //!
-//! Space: right-handed, lengths in scene units, +Y up by custom. Angles are radians here and
-//! degrees in files. Wavelengths and film thicknesses are nanometers.
+//! Space is right-handed, lengths are in scene units, and +Y is up by convention. Angles are in radians here and in degrees in files.
+//! Wavelengths and film thicknesses are in nanometers.
 
 mod camera;
 mod coated_body;

@@ -1,25 +1,26 @@
-//! Lights that are no objects, and all that light can be sent from, in a validated scene.
+//! Lights that are not objects, and all emitters that are sampled, in a validated scene.
 
 use crate::{DirectLight, Emission, EnvironmentPart, EnvironmentShape, Scene, Shape};
 use glam::DVec3;
 
-/// A light that is no object. Rays do not meet it.
+/// A light that is not an object. Rays do not hit it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
-    /// Where it is.
+    /// Its position.
     pub shape: LightShape,
-    /// Radiance of a disk, irradiance of a surface that faces light from a direction, intensity of a point and of a spot on its axis.
+    /// Radiance of a disk; irradiance of a surface that faces light from a single direction; intensity of a point, or of a spot along its
+    /// axis.
     pub emission: Emission,
 }
 
-/// Where a light that is no object is.
+/// The kind and position of a light that is not an object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightShape {
-    /// A disk in the sky, seen where nothing is in front of it.
+    /// A disk in the sky, visible wherever nothing is in front of it.
     DistantDisk {
-        /// Unit vector toward its middle.
+        /// Unit vector toward its center.
         toward: DVec3,
-        /// 1 − cos of the angle between middle and edge, > 0.
+        /// 1 − cos of the angle between center and edge, > 0.
         height: f64,
     },
     /// Light from a single direction.
@@ -27,51 +28,51 @@ pub enum LightShape {
         /// Unit vector toward the light.
         toward: DVec3,
     },
-    /// A point that shines to all sides alike.
+    /// A point that emits equally in all directions.
     Point {
-        /// Where it is.
+        /// Its position.
         position: DVec3,
     },
-    /// A point that shines into a cone.
+    /// A point that emits into a cone.
     Spot {
-        /// Where it is.
+        /// Its position.
         position: DVec3,
-        /// Unit vector in which it shines.
+        /// Unit vector in which it emits.
         axis: DVec3,
-        /// 1 − cosine with the axis, up to which the intensity is full.
+        /// 1 − cosine with the axis up to which the intensity is constant.
         full_height: f64,
-        /// 1 − cosine with the axis, beyond which there is no light; more than `full_height`.
+        /// 1 − cosine with the axis beyond which the intensity is 0; more than `full_height`.
         edge_height: f64,
     },
 }
 
-/// Something that light can be sent from.
+/// An emitter that can be sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EmitterSource {
-    /// What it is.
+    /// Its kind and index.
     pub kind: EmitterKind,
     /// What it emits.
     pub emission: Emission,
-    /// How bright that is to the eye, up to a factor that all sources share; never 0. It steers the choice among sources.
+    /// Its visual brightness, up to a factor that all emitters share; never 0. It steers the choice among emitters.
     pub brightness: f64,
 }
 
-/// Where a source of light stands in its list.
+/// The kind of an emitter, and its index in the list of this kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EmitterKind {
-    /// One of [`Scene::objects`], which has bounds.
+    /// One of [`Scene::objects`] with bounds.
     Object(usize),
     /// One of [`Scene::environment_parts`].
     Environment(usize),
-    /// One of [`Scene::lights`] that is no disk.
+    /// One of [`Scene::lights`] that is not a disk.
     Light(usize),
 }
 
 impl Scene {
-    /// All that light is sent from: emitting objects with bounds, what surrounds them, and lights. What emits nothing is not
-    /// among them, nor are constant environment and gradients, unless sending is the only way to find light: scattered rays
-    /// find them with less noise. (The density of a light after compensation for those rays is then 0: Karlík et al., MIS
-    /// Compensation, ACM Transactions on Graphics 38(6), 2019.)
+    /// The emitters that are sampled: emitting objects with bounds, parts of the environment, and lights. Dark ones are left out. So are
+    /// constant environments and gradients, unless emitter sampling is the only way to find light: BSDF sampling finds them with less
+    /// noise. (Their density after compensation for BSDF sampling is 0: Karlík et al., MIS Compensation, ACM Transactions on Graphics
+    /// 38(6), 2019.)
     pub fn emitters(&self) -> Vec<EmitterSource> {
         let objects = self.objects().iter().enumerate();
         let objects = objects
@@ -112,7 +113,7 @@ impl Scene {
             .collect()
     }
 
-    /// What a ray sees that leaves the scene: the parts of the environment, then the disks of distant lights.
+    /// What rays meet that leave the scene: the parts of the environment, then the disks of distant lights.
     pub fn environment_parts(&self) -> Vec<EnvironmentPart<'_>> {
         let disks = self.lights().iter().filter_map(|light| match light.shape {
             LightShape::DistantDisk { toward, height } => Some(EnvironmentPart {
@@ -128,9 +129,9 @@ impl Scene {
             .collect()
     }
 
-    /// Luminance per nm of bandwidth without its unit. What the eye hardly sees counts a little too.
+    /// Luminance per nanometer of bandwidth, without its unit. Wavelengths that are barely visible count a little too.
     fn brightness(&self, emission: Emission) -> f64 {
-        /// Of the peak of ȳ.
+        /// Weight of all wavelengths, relative to the peak of ȳ.
         const INVISIBLE: f64 = 0.05;
         let bands = self.settings().bands.count();
         let (spectrum, [_, y, _]) = (self.spectrum(emission.spectrum), self.observer());

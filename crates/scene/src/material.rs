@@ -1,11 +1,11 @@
-//! What a surface is made of, in a validated scene.
+//! Materials of a validated scene.
 
 use crate::description::PathDifference;
 use crate::rounding::RoundToF32;
 use crate::{CoatedBody, Cook1981, LightGroupId, Microsurface, SpectrumId, Texels, Thickness};
 use std::sync::Arc;
 
-/// What a surface is made of. Every surface has two sides. They behave alike, but for a film of several layers that absorbs: from
+/// What a surface is made of. Every surface has two sides, which behave alike, except those of an absorbing film of several layers: from
 /// behind, light meets its layers in the reverse order.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Material {
@@ -20,16 +20,16 @@ pub enum Material {
         n: SpectrumId,
         /// Imaginary part of the index, k ≥ 0.
         k: SpectrumId,
-        /// What lies on it, the outermost layer first; none on a bare surface.
+        /// The layers on it, the outermost first; empty for a bare surface.
         layers: Vec<Layer>,
-        /// Its facets; none where it is smooth.
+        /// Its facets; `None` if it is smooth.
         microsurface: Option<Microsurface>,
     },
     /// An opaque metal by the model of Cook and Torrance.
     Cook(Cook1981),
     /// A diffuse body below a clear coat.
     CoatedBody(CoatedBody),
-    /// A free thin film between air and air. Rays reflect from it and pass straight through it.
+    /// A free thin film with air on both sides. It reflects rays and transmits them in a straight line.
     Film {
         /// Its layers, at least one: the first on the outside of a sphere or on the side of a plane's normal.
         layers: Vec<Layer>,
@@ -42,13 +42,13 @@ pub enum Material {
     Emitter {
         /// What it emits.
         emission: Emission,
-        /// Lambertian reflectance besides; `None` is black.
+        /// Its Lambertian reflectance; `None` is black.
         reflectance: Option<SpectrumId>,
     },
 }
 
 impl Material {
-    /// Its layers, the outermost first; none where it has none.
+    /// Its layers, the outermost first; empty if it has no layers.
     pub fn layers(&self) -> &[Layer] {
         match self {
             Self::Interface { layers, .. } | Self::Film { layers, .. } => layers,
@@ -56,7 +56,7 @@ impl Material {
         }
     }
 
-    /// Its facets; none where it is smooth or diffuse.
+    /// Its facets; `None` if it is smooth or diffuse.
     pub fn microsurface(&self) -> Option<&Microsurface> {
         match self {
             Self::Interface { microsurface, .. }
@@ -65,7 +65,7 @@ impl Material {
         }
     }
 
-    /// What it emits; none where it is no emitter.
+    /// What it emits; `None` if it is not an emitter.
     pub fn emission(&self) -> Option<Emission> {
         match self {
             Self::Emitter { emission, .. } => Some(*emission),
@@ -73,7 +73,7 @@ impl Material {
         }
     }
 
-    /// Whether it sends light on in single directions alone: smooth metals and films.
+    /// Whether it scatters light only in single directions, as smooth metals and films do.
     pub(crate) fn is_mirror(&self) -> bool {
         match self {
             Self::Film { .. } => true,
@@ -89,7 +89,7 @@ impl Material {
 }
 
 impl Material {
-    /// What it emits, or sends back of light that is not traced, to be changed.
+    /// A mutable reference to its emission, or to the ambient light that it reflects.
     pub(crate) fn emission_mut(&mut self) -> Option<&mut Emission> {
         match self {
             Self::Emitter { emission, .. } => Some(emission),
@@ -152,32 +152,32 @@ pub struct Layer {
 /// How the interference of a free film is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interference {
-    /// All passes of the light.
+    /// All beams.
     Exact,
-    /// Two beams in reflection, none in transmission, in a single layer that does not absorb
-    /// (Suzuki, Yokoi and Toriwaki, section 4-2).
+    /// Two beams in reflection, and transmission without interference, in a single layer that does not absorb (Suzuki, Yokoi and Toriwaki,
+    /// section 4-2).
     TwoBeam(PathDifference),
 }
 
-/// A spectrum and its scale. Their product is a radiance in W m⁻² sr⁻¹ nm⁻¹; of a point or a spot it is an intensity in
-/// W sr⁻¹ nm⁻¹, of light from a single direction an irradiance in W m⁻² nm⁻¹.
+/// A spectrum and its scale. Their product is a radiance in W m⁻² sr⁻¹ nm⁻¹; for a point or a spot it is an intensity in W sr⁻¹ nm⁻¹, and
+/// for light from a single direction an irradiance in W m⁻² nm⁻¹.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
     /// Spectrum at scale 1, ≥ 0.
     pub spectrum: SpectrumId,
     /// Factor, ≥ 0.
     pub scale: f64,
-    /// The light group that its light is counted to.
+    /// The light group that its light belongs to.
     pub light_group: LightGroupId,
 }
 
-/// A reflectance over a surface.
+/// A reflectance that may vary over a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pattern {
     /// The same everywhere.
     Uniform(SpectrumId),
-    /// Squares (on planes, rectangles and disks, in the surface's two axes from its center) or cubes (on
-    /// spheres, from the center) of two reflectances: `even` where the sum of ⌊coordinate / size⌋ is even.
+    /// A checkerboard of squares (on planes, rectangles and disks, along the surface's two axes from its center) or cubes (on spheres, from
+    /// the center): `even` where the sum of ⌊coordinate / size⌋ is even.
     Checker {
         /// Reflectance of the square whose corner is the center.
         even: SpectrumId,
@@ -190,8 +190,8 @@ pub enum Pattern {
     Texture {
         /// The picture.
         texels: Arc<Texels>,
-        /// Width and height on planes, rectangles and disks; `None` is the whole rectangle, the square about a disk, or a square of
-        /// side 1 on a plane.
+        /// Width and height on planes, rectangles and disks; `None` is the whole rectangle, the square around a disk, or a square of side 1
+        /// on a plane.
         size: Option<[f64; 2]>,
     },
 }

@@ -1,4 +1,4 @@
-//! Rough surfaces, in a validated scene.
+//! Rough surfaces of a validated scene.
 
 use crate::Energy;
 use crate::description::Distribution;
@@ -8,29 +8,29 @@ use std::sync::Arc;
 /// The facets of a rough surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Microsurface {
-    /// How their slopes are distributed.
+    /// The distribution of their slopes.
     pub distribution: Distribution,
-    /// Width α of the distribution along the grain and across it; alike where there is no grain.
+    /// Width α of the distribution along and across the grain; equal if there is no grain.
     pub roughness: [f64; 2],
-    /// Which way the grain runs.
+    /// The direction of the grain.
     pub grain: Grain,
-    /// How much light leaves it without meeting another facet.
+    /// The fraction of light that leaves without hitting another facet.
     pub energy: Arc<Energy>,
 }
 
-/// Which way the grain of a surface runs.
+/// The direction of the grain of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Grain {
     /// The surface is the same in all directions.
     None,
-    /// Along a unit vector, as far as that lies in the surface.
+    /// Along a unit vector, projected onto the surface.
     Along(DVec3),
-    /// In circles about an axis of this direction, a unit vector, through the object's center.
+    /// In circles about an axis through the object's center, with this unit vector as its direction.
     Around(DVec3),
 }
 
 impl Microsurface {
-    /// Whether its directions differ.
+    /// Whether the surface has a grain.
     pub fn is_brushed(&self) -> bool {
         self.grain != Grain::None
     }

@@ -1,4 +1,4 @@
-//! Shapes in space, in a validated scene.
+//! Objects of a validated scene.
 
 use crate::MaterialId;
 use glam::DVec3;
@@ -6,9 +6,9 @@ use glam::DVec3;
 /// A shape made of a material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Object {
-    /// Where and how large.
+    /// The shape, with its position and size.
     pub shape: Shape,
-    /// What it is made of.
+    /// Its material.
     pub material: MaterialId,
 }
 
@@ -23,7 +23,7 @@ pub enum Shape {
         /// Radius, > 0.
         radius: f64,
     },
-    /// A plane without bounds.
+    /// An infinite plane.
     Plane {
         /// A point of the plane, the origin of its two axes.
         point: DVec3,
@@ -34,7 +34,7 @@ pub enum Shape {
         /// Second axis.
         bitangent: DVec3,
     },
-    /// A plane bounded to a rectangle.
+    /// A rectangle.
     Rectangle {
         /// Center, the origin of its two axes.
         center: DVec3,
@@ -49,7 +49,7 @@ pub enum Shape {
         /// Half the height, > 0.
         half_height: f64,
     },
-    /// A plane bounded to a disk.
+    /// A disk.
     Disk {
         /// Center, the origin of its two axes.
         center: DVec3,

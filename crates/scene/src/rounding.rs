@@ -9,7 +9,7 @@ use crate::{
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Rounds what can be rounded and keeps the rest.
+/// Rounds every `f64` of a value to the nearest `f32` and keeps the rest.
 pub(crate) trait RoundToF32 {
     fn rounded(&self) -> Self;
 }
@@ -64,7 +64,7 @@ impl RoundToF32 for Scene {
 
 impl RoundToF32 for RenderSettings {
     fn rounded(&self) -> Self {
-        // The ends of the bands are `f32` numbers already, by validation.
+        // Validation has already rounded the ends of the bands to `f32`.
         Self {
             exposure_ev: self.exposure_ev.rounded(),
             clamp: self.clamp.map(|clamp| clamp.rounded()),

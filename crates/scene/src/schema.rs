@@ -5,9 +5,8 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value;
 
-/// The JSON Schema (draft 7, which TOML editors understand) of scene files, made from the types of
-/// [`description`](crate::description). It is committed as `scenes/scene.schema.json`; write it anew with
-/// `PELLICLE_BLESS=1 cargo test -p pellicle-scene schema`.
+/// The JSON Schema (draft 7, which TOML editors understand) of scene files, derived from the types of [`description`](crate::description).
+/// It is committed as `scenes/scene.schema.json`; regenerate it with `PELLICLE_BLESS=1 cargo test -p pellicle-scene schema`.
 pub fn schema() -> Value {
     schema_of::<Description>()
 }
@@ -23,7 +22,8 @@ pub(crate) fn schema_of<T: JsonSchema>() -> Value {
     schema
 }
 
-/// A table whose fields stand beside those of several forms: each form gets them too, and is then closed like any other table.
+/// Handles a table with shared fields besides those of several forms: each form gets the shared fields too, and then allows no others, like
+/// any other table.
 fn spread_shared_fields(schema: &mut Value) {
     match schema {
         Value::Object(object) => {
@@ -45,7 +45,7 @@ fn spread_shared_fields(schema: &mut Value) {
     }
 }
 
-/// TOML has no null: an optional field is left out. `anyOf [X, null]` becomes X, and a default of null goes.
+/// Removes null, which TOML lacks: optional fields are left out. `anyOf [X, null]` becomes X, and a default of null is removed.
 fn remove_null(schema: &mut Value) {
     match schema {
         Value::Object(object) => {

@@ -1,29 +1,29 @@
-//! The lines of a text that a fault is shown in.
+//! Source lines that show a fault.
 
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 use spectra::wording::{is_obeyed, visible};
 use std::ops::Range;
 
-/// The line of a text that a fault lies in and its neighbors, as an error shows them: of long lines a window, with … where it is
-/// cut, and control characters as signs. Lines and columns are those of the whole text.
+/// The line of a text with a fault, and its neighbors, as an error shows them: long lines are cut to a window, marked with …, and control
+/// characters are replaced by symbols. Line and column numbers refer to the whole text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Snippet {
     name: String,
     text: String,
     /// The number of its first line, from 0.
     line: usize,
-    /// Where the fault begins in its line, in characters from 0.
+    /// Column of the fault in its line, in characters from 0.
     column: usize,
     fault: Range<usize>,
 }
 
-/// The most characters of a line that are shown.
+/// The maximum number of characters of a line that are shown.
 const MOST: usize = 120;
-/// How many of them stand before the fault.
+/// How many of them are before the fault.
 const BEFORE: usize = 40;
 
 impl Snippet {
-    /// The place of `bytes` in a text that is called `name`. A fault of several lines is shown by its first.
+    /// Creates the snippet for `bytes` in a text named `name`. Of a fault of several lines, the first is shown.
     pub fn new(name: &str, text: &str, bytes: Range<usize>) -> Self {
         let start = floor(text, bytes.start);
         let (before, after) = text.split_at(start);
@@ -51,7 +51,7 @@ impl Snippet {
         snippet
     }
 
-    /// Where the fault lies in what is shown, in bytes.
+    /// The byte range of the fault within the snippet.
     pub fn fault(&self) -> Range<usize> {
         self.fault.clone()
     }
@@ -77,7 +77,7 @@ impl Snippet {
                 self.fault.end = self.text.len();
             }
         }
-        // A fault at the line's end.
+        // A fault at the end of the line.
         if within(place) {
             self.fault = self.text.len()..self.text.len();
         }
@@ -88,7 +88,7 @@ impl Snippet {
     }
 }
 
-/// The bytes of a line that are shown of it where something at `place` is meant.
+/// The bytes of a line that are shown if the fault is at `place`.
 fn window(line: &str, place: usize) -> Range<usize> {
     let last = |text: &str| text.char_indices().nth(MOST).map(|(at, _)| at);
     if last(line).is_none() {
@@ -112,7 +112,7 @@ fn floor(text: &str, at: usize) -> usize {
         .unwrap_or(0)
 }
 
-/// A sign of one column in place of one that a terminal would obey.
+/// Replaces a character that a terminal would interpret by a symbol of one column.
 fn shown_as(sign: char) -> char {
     match sign {
         '\t' => sign,
@@ -134,7 +134,7 @@ impl SourceCode for Snippet {
             .text
             .as_str()
             .read_span(span, lines_before, lines_after)?;
-        // Without lines before it a span is asked for to tell its column.
+        // A span without lines before it is requested to get its column.
         let column = if lines_before == 0 { self.column } else { 0 };
         Ok(Box::new(MietteSpanContents::new_named(
             self.name.clone(),
@@ -179,7 +179,7 @@ mod tests {
         );
         assert_eq!(fault(&snippet), "FAULT");
         assert_eq!(snippet.column, 1 << 20);
-        // At both ends, and where the fault itself is long.
+        // At both ends, and with a long fault.
         for (bytes, shown) in [
             (0..3, format!("{}…", "c".repeat(120))),
             (497..500, format!("…{}", "c".repeat(120))),

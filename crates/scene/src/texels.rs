@@ -1,18 +1,18 @@
-//! Pictures with four numbers in each place, in a validated scene.
+//! Pictures with four numbers per texel, in a validated scene.
 
 use std::fmt;
 
-/// Colors on a grid, as both renderers look them up.
+/// A grid of texels that both renderers look up.
 ///
-/// A pixel is one texel or several. Of a color in RGB the texel is `[c₀, c₁, c₂, scale]`: a smooth spectrum
+/// A pixel has one or several texels. The texel of an RGB color is `[c₀, c₁, c₂, scale]`: a smooth spectrum
 /// ([`SigmoidReflectance`](colorimetry::lifting::SigmoidReflectance)) and a factor.
 #[derive(Clone, PartialEq)]
 pub struct Texels {
-    /// Pixels of a row.
+    /// Number of pixels per row.
     pub width: u32,
-    /// Rows.
+    /// Number of rows.
     pub height: u32,
-    /// Texels of a pixel.
+    /// Number of texels per pixel.
     pub per_pixel: u32,
     /// The rows from top to bottom.
     pub values: Vec<[f32; 4]>,

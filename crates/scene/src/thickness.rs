@@ -1,4 +1,4 @@
-//! How thick a layer is over its surface, in a validated scene.
+//! The thickness of a layer over its surface, in a validated scene.
 
 use crate::rounding::RoundToF32;
 use glam::DVec3;
@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 /// The thickness of a layer over its surface, nm, at the scene's time.
 ///
-/// What comes out is kept within [`limits::THICKNESS_NM`](crate::limits::THICKNESS_NM).
+/// The result is clamped to [`limits::THICKNESS_NM`](crate::limits::THICKNESS_NM).
 #[derive(Clone, Debug, PartialEq)]
 pub enum Thickness {
     /// The same everywhere.
@@ -15,8 +15,8 @@ pub enum Thickness {
         /// Thickness, nm.
         nm: f64,
     },
-    /// Linear in the polar angle θ seen from a sphere's center: `pole_nm` at θ = 0, `equator_nm` at
-    /// θ = 90°, and on at the same rate (Suzuki, Yokoi and Toriwaki, section 4-4 (2)).
+    /// Linear in the polar angle θ from a sphere's center: `pole_nm` at θ = 0, `equator_nm` at θ = 90°, and beyond at the same rate
+    /// (Suzuki, Yokoi and Toriwaki, section 4-4 (2)).
     Polar {
         /// Direction of the pole, a unit vector.
         axis: DVec3,
@@ -27,27 +27,27 @@ pub enum Thickness {
     },
     /// Linear along a line in space from `start` to `end`, constant beyond its ends.
     Linear {
-        /// Where the thickness is `start_nm`.
+        /// The point where the thickness is `start_nm`.
         start: DVec3,
-        /// Where the thickness is `end_nm`, different from `start`.
+        /// The point where the thickness is `end_nm`; it differs from `start`.
         end: DVec3,
         /// Thickness at and before `start`, nm.
         start_nm: f64,
         /// Thickness at and beyond `end`, nm.
         end_nm: f64,
     },
-    /// Steps of equal width along a line in space; the first and the last go on beyond.
+    /// Steps of equal width along a line in space; the first and the last continue beyond its ends.
     Steps {
-        /// Where the first begins.
+        /// The point where the first step begins.
         start: DVec3,
-        /// Where the last ends, different from `start`.
+        /// The point where the last step ends; it differs from `start`.
         end: DVec3,
-        /// Thickness on each, nm; at least one.
+        /// Thickness on each step, nm; at least one.
         nm: Vec<f64>,
     },
-    /// A table of what a law of growth or drainage gives.
+    /// A table computed from a law of growth or drainage.
     Profile(Profile),
-    /// Noise carried along by a flow.
+    /// Noise advected by a flow.
     Swirls(Swirls),
     /// A picture over the surface.
     Picture(Picture),
@@ -58,8 +58,7 @@ pub enum Thickness {
 }
 
 impl Thickness {
-    /// Bounds of its values, nm (of a factor or a term of a sum, in its own unit): the thinnest and the thickest that it can be,
-    /// though it need not be either anywhere.
+    /// Lower and upper bound of its values, nm (for a factor or a term of a sum, in its own unit). The values need not reach the bounds.
     pub fn extent_nm(&self) -> (f64, f64) {
         let (least, most) = self.bounds();
         let high = crate::limits::THICKNESS_NM.high;
@@ -106,7 +105,7 @@ impl Thickness {
         }
     }
 
-    /// This and everything that it is made of.
+    /// This thickness and, recursively, the terms of its sums and products.
     pub fn parts(&self) -> impl Iterator<Item = &Self> {
         let mut open = vec![self];
         std::iter::from_fn(move || {
@@ -119,69 +118,69 @@ impl Thickness {
     }
 }
 
-/// The smallest and the largest of some numbers.
+/// The smallest and the largest of several numbers.
 fn extent_of(numbers: &[f64]) -> (f64, f64) {
     let empty = (f64::INFINITY, f64::NEG_INFINITY);
     let wider = |(least, most): (f64, f64), &x: &f64| (least.min(x), most.max(x));
     numbers.iter().fold(empty, wider)
 }
 
-/// What a [`Profile`] runs along.
+/// The coordinate of a [`Profile`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Coordinate {
-    /// The polar angle seen from the surface's center: 0 at the pole, 1 at the opposite one.
+    /// The polar angle from the surface's center: 0 at the pole, 1 at the opposite pole.
     Polar {
         /// Direction of the pole, a unit vector.
         axis: DVec3,
     },
     /// A line in space: 0 at and before `start`, 1 at and beyond `end`.
     Line {
-        /// Where it starts.
+        /// The start of the line.
         start: DVec3,
-        /// Where it ends, different from `start`.
+        /// The end of the line; it differs from `start`.
         end: DVec3,
     },
 }
 
-/// The root of a table that is linear between its knots, which divide the coordinate evenly: the laws of growth
-/// and of drainage are smooth in the square of the thickness.
+/// The square root of a table that is interpolated linearly between equally spaced knots: the laws of growth and drainage are smooth in the
+/// square of the thickness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
-    /// What it runs along.
+    /// The coordinate of the table.
     pub coordinate: Coordinate,
     /// Square of the thickness at each knot, nm²; at least two, ≥ 0.
     pub squares_nm2: Vec<f64>,
-    /// The thickness is never larger, nm.
+    /// Upper limit of the thickness, nm.
     pub most_nm: f64,
-    /// Where it is a black film.
+    /// The black film that thin parts turn into, if any.
     pub black: Option<BlackFilm>,
 }
 
-/// A soap film that has thinned out to a black film, with a sharp edge.
+/// A soap film that has thinned to a black film, with a sharp edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BlackFilm {
-    /// A film thinner than this is black, nm.
+    /// Where the film is thinner than this, nm, it is a black film.
     pub below_nm: f64,
     /// Thickness of the black film, nm.
     pub nm: f64,
 }
 
-/// Noise carried along by a flow: see [`description::Swirls`](crate::description::Swirls).
+/// Noise advected by a flow: see [`description::Swirls`](crate::description::Swirls).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Swirls {
-    /// The value that the streaks lie about.
+    /// The mean value.
     pub mean: f64,
-    /// The largest deviation from it.
+    /// The largest deviation from the mean.
     pub amplitude: f64,
     /// Cells of the noise per scene unit, or per radius of a sphere.
     pub cells_per_unit: f64,
     /// Chooses the pattern.
     pub seed: u32,
-    /// Octaves, from 1.
+    /// Number of octaves, at least 1.
     pub octaves: u32,
-    /// Distance by which the streaks are carried, in cells.
+    /// Distance by which the flow carries the streaks, in cells.
     pub warp: f64,
-    /// Cells that time has passed through.
+    /// Number of cells that time has passed through.
     pub cells: u32,
     /// Time within its cell, in [0, 1).
     pub phase: f64,
@@ -203,9 +202,9 @@ pub struct Picture {
 /// Numbers from 0 to 1 on a grid, between which a [`Picture`] is bilinear.
 #[derive(Clone, PartialEq)]
 pub struct PictureFile {
-    /// Pixels of a row.
+    /// Number of pixels per row.
     pub width: u32,
-    /// Rows.
+    /// Number of rows.
     pub height: u32,
     /// The rows from top to bottom.
     pub values: Vec<f32>,

@@ -18,7 +18,7 @@ impl SpectrumId {
         self.0 as usize
     }
 
-    /// The spectrum that stands this many places after this one.
+    /// The spectrum this many positions after this one.
     #[must_use]
     pub fn after(self, places: usize) -> Self {
         Self(self.0 + places as u32)
@@ -49,7 +49,7 @@ impl MaterialId {
 
 /// A scene that can be rendered.
 ///
-/// Spectra are tables on the band grid of [`RenderSettings::bands`]; nothing refers to a name or a file any more.
+/// Spectra are tables on the band grid of [`RenderSettings::bands`]; nothing refers to a name or a file anymore.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     pub(crate) settings: RenderSettings,
@@ -59,34 +59,34 @@ pub struct Scene {
     pub(crate) light_groups: Vec<LightGroup>,
     pub(crate) materials: Vec<Material>,
     pub(crate) objects: Vec<Object>,
-    /// Of each object, or of none.
+    /// One for each object, or empty.
     pub(crate) sheets: Vec<Option<Sheet>>,
     pub(crate) lights: Vec<Light>,
     pub(crate) environment: Environment,
-    /// Of each material.
+    /// One for each material.
     pub(crate) estimates: Vec<Estimate>,
     pub(crate) hierarchy: Hierarchy,
     pub(crate) emitter_tree: EmitterTree,
-    /// What was assumed of its files, a line each.
+    /// Assumptions about its files, one line each.
     pub(crate) assumptions: Vec<String>,
 }
 
 impl Scene {
-    /// The scene that `description` describes. Files are looked for from `folder` and must lie in it.
+    /// Validates `description` and builds its scene. Paths of files are relative to `folder`, and the files must be in it.
     ///
     /// # Errors
-    /// Everything that is wrong with the description. For one that comes from a file,
-    /// [`SceneFile::validate`](crate::SceneFile::validate) also knows the lines.
+    /// All problems of the description. For a description from a file, [`SceneFile::validate`](crate::SceneFile::validate) also knows the
+    /// lines.
     pub fn new(description: &Description, folder: impl Into<Folder>) -> Result<Self, Problems> {
         validate::scene(description, &folder.into()).map_err(Problems::of_program)
     }
 
-    /// How it is to be rendered.
+    /// The render settings.
     pub fn settings(&self) -> &RenderSettings {
         &self.settings
     }
 
-    /// Where it is seen from.
+    /// The camera.
     pub fn camera(&self) -> &Camera {
         &self.camera
     }
@@ -96,7 +96,7 @@ impl Scene {
         &self.spectra
     }
 
-    /// One of the spectra.
+    /// The spectrum with this index.
     pub fn spectrum(&self, id: SpectrumId) -> &BandTable {
         &self.spectra[id.index()]
     }
@@ -106,12 +106,12 @@ impl Scene {
         &self.observer
     }
 
-    /// The light groups of what shines, at least one; a scene that is all dark has one too.
+    /// The light groups of the emitters. There is at least one, even in a scene without emitters.
     pub fn light_groups(&self) -> &[LightGroup] {
         &self.light_groups
     }
 
-    /// Bytes that the picture takes in memory.
+    /// Size of the spectral image in memory, in bytes.
     pub fn image_bytes(&self) -> u128 {
         let settings = self.settings();
         let bands = settings.bands.count();
@@ -128,17 +128,17 @@ impl Scene {
         &self.materials
     }
 
-    /// The material of an object.
+    /// The material with this index.
     pub fn material(&self, id: MaterialId) -> &Material {
         &self.materials[id.index()]
     }
 
-    /// How each material divides light, roughly.
+    /// An estimate, for each material, of how much light it reflects and transmits.
     pub fn estimates(&self) -> &[Estimate] {
         &self.estimates
     }
 
-    /// How a material divides light, roughly.
+    /// An estimate of how much light a material reflects and transmits.
     pub fn estimate(&self, id: MaterialId) -> &Estimate {
         &self.estimates[id.index()]
     }
@@ -148,35 +148,35 @@ impl Scene {
         &self.objects
     }
 
-    /// The places of objects in stacks of coincident surfaces, by object; empty where no two surfaces coincide.
+    /// The position of each object in a stack of coincident surfaces; empty if no two surfaces coincide.
     pub fn sheets(&self) -> &[Option<Sheet>] {
         &self.sheets
     }
 
-    /// Boxes around the objects.
+    /// The bounding volume hierarchy of the objects.
     pub fn hierarchy(&self) -> &Hierarchy {
         &self.hierarchy
     }
 
-    /// Groups of what light is sent from.
+    /// The tree of the emitters that are sampled.
     pub fn emitter_tree(&self) -> &EmitterTree {
         &self.emitter_tree
     }
 
-    /// Lights that are no objects, disks first. See [`Scene::emitters`] for all that shines.
+    /// Lights that are not objects, disks first. See [`Scene::emitters`] for all emitters that are sampled.
     pub fn lights(&self) -> &[Light] {
         &self.lights
     }
 
-    /// What surrounds the objects.
+    /// The environment.
     pub fn environment(&self) -> &Environment {
         &self.environment
     }
 
     /// The same scene with every number rounded to the nearest `f32`, as a GPU receives it.
     ///
-    /// Axes are then orthonormal to within that rounding, and a polar film that thins out to nothing at its far
-    /// pole may come to a rounding below 0 there.
+    /// Axes are then orthonormal to within this rounding, and a polar thickness that is 0 at its far pole may be below 0 there by a
+    /// rounding error.
     #[must_use]
     pub fn rounded_to_f32(&self) -> Self {
         self.rounded()

@@ -91,11 +91,11 @@ pub struct Strength {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
     pub power_lm: Option<f64>,
-    /// Irradiance in W m⁻² of a surface that faces a distant light, or of one in a constant environment.
+    /// Irradiance in W m⁻² on a surface that faces a distant light, or on one in a constant environment.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
     pub irradiance_w_m2: Option<f64>,
-    /// Illuminance in lux of a surface that faces a distant light, or of one in a constant environment.
+    /// Illuminance in lux on a surface that faces a distant light, or on one in a constant environment.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = limits::STRENGTH.low, max = limits::STRENGTH.high))]
     pub illuminance_lux: Option<f64>,

@@ -1,4 +1,4 @@
-//! What a rough coat reflects over its angle and wavelength.
+//! The reflectance of a rough coat as a function of direction and wavelength.
 
 use super::FacetTable;
 use super::facet_table::direction;
@@ -6,29 +6,29 @@ use crate::Microsurface;
 use spectra::BandTable;
 use std::f64::consts::FRAC_PI_2;
 
-/// Knots over the root of the cosine: close together near grazing, where reflection changes fast.
+/// Number of knots over the square root of the cosine: close near grazing, where the reflectance changes fast.
 pub(crate) const COSINES: usize = 32;
-/// Knots over the root of the cosine at the facet.
+/// Number of knots over the square root of the cosine at the facet.
 const FACET_COSINES: usize = 128;
-/// Facets per direction, squared.
+/// Square root of the number of facets per direction.
 const STEPS: u32 = 48;
-/// Directions about the normal, where they differ: those of a quarter turn.
+/// Number of azimuths within a quarter turn, if the reflectance depends on azimuth.
 const AZIMUTHS: u32 = 6;
 
-/// What a rough coat reflects and lets through.
+/// The reflectance and transmittance of a rough coat.
 pub(crate) struct RoughCoat {
-    /// The reflectance E₀ for light from [`COSINES`] cosines, even in their roots; of a brushed coat about its mean about the normal.
+    /// The reflectance E₀ at [`COSINES`] cosines whose square roots are equally spaced; for a brushed coat, roughly its mean over azimuth.
     pub(crate) reflectances: [BandTable; COSINES],
-    /// Of a brushed coat: (1 − E)/(1 − E₀) over direction.
+    /// For a brushed coat, (1 − E)/(1 − E₀) as a function of direction.
     pub(crate) transmittance_scale: Option<FacetTable>,
-    /// The mean Ē over diffuse light, which is that of the straight lines between the knots.
+    /// The mean Ē for diffuse light, computed from the linear interpolation between the knots.
     pub(crate) mean: BandTable,
 }
 
 impl RoughCoat {
-    /// A coat of index `n`. What met several facets is counted by `optics::multiple_color`.
+    /// A coat of index `n`. Light that hits several facets is included by `optics::multiple_color`.
     ///
-    /// How E of a brushed coat differs about the normal is taken from the one index `typical_n`: E is a product of a table over the
+    /// The azimuthal variation of a brushed coat is that of the single index `typical_n`: 1 − E is the product of a table over the
     /// direction and one over the cosine and the wavelength.
     pub(crate) fn new(microsurface: &Microsurface, n: &BandTable, typical_n: f64) -> Self {
         let visible = std::array::from_fn(|knot| {
@@ -64,18 +64,19 @@ fn cosine_of(knot: usize, knots: usize) -> f64 {
     (knot as f64 / (knots - 1) as f64).powi(2)
 }
 
-/// The facets that light from a direction meets.
+/// The facets that are visible from a direction.
 struct VisibleFacets {
-    /// How much is mirrored by those that stand at each of [`FACET_COSINES`] cosines to it, as hats over the cosines' roots.
+    /// The reflected weight of the facets at each of [`FACET_COSINES`] cosines to the direction, distributed by hat functions over the
+    /// square roots of the cosines.
     weights: [f64; FACET_COSINES],
-    /// How much meets several.
+    /// The fraction of light that hits several facets.
     lost: f64,
-    /// The mean of the facets' albedo.
+    /// The mean directional albedo of the facets.
     mean_energy: f64,
 }
 
 impl VisibleFacets {
-    /// From a direction.
+    /// The facets visible from a direction.
     fn from(microsurface: &Microsurface, wo: [f64; 3]) -> Self {
         let surface = optics::Microsurface {
             distribution: microsurface.distribution.into(),
@@ -96,7 +97,7 @@ impl VisibleFacets {
         }
     }
 
-    /// The mean about the normal.
+    /// The mean over azimuth.
     fn about(microsurface: &Microsurface, cosine: f64) -> Self {
         let azimuths = match microsurface.energy.table().widths() {
             1 => 1,
@@ -117,7 +118,7 @@ impl VisibleFacets {
         mean
     }
 
-    /// What a coat of index `n` reflects of the light.
+    /// The reflectance of a coat of index `n`.
     fn reflectance(&self, n: f64) -> f64 {
         let fresnel = |cosine: f64| optics::reflectance_unpolarized(n.into(), cosine.max(1e-6));
         let facets = self.weights.iter().enumerate();
@@ -129,8 +130,8 @@ impl VisibleFacets {
     }
 }
 
-/// Ē with 1 − Ē = ∫ (1 − E₀) g 2 cos θ d(cos θ) = ∫ (1 − E₀) g 4 t³ dt, g the mean of `transmittance_scale` about the normal: for what is linear in t
-/// between the knots exact by Gauss's three points.
+/// Ē with 1 − Ē = ∫ (1 − E₀) g 2 cos θ d(cos θ) = ∫ (1 − E₀) g 4 t³ dt, where g is the mean of `transmittance_scale` over azimuth.
+/// Three-point Gauss quadrature is exact if E₀ and g are linear in t between the knots.
 fn mean_of(knots: &[BandTable; COSINES], transmittance_scale: impl Fn(f64) -> f64) -> BandTable {
     const GAUSS: [(f64, f64); 3] = [
         (0.112_701_665_379_258_3, 5.0 / 18.0),
@@ -147,7 +148,7 @@ fn mean_of(knots: &[BandTable; COSINES], transmittance_scale: impl Fn(f64) -> f6
             shares[knot + 1] += share * part;
         }
     }
-    // Of no reflectance at all; 0 but for what the transmittance_scale's mean is off 1.
+    // The part that does not depend on the reflectance; 0 except for the deviation of the mean `transmittance_scale` from 1.
     let rest = 1.0 - shares.iter().sum::<f64>();
     let first = knots[0].map(|e| rest + shares[0] * e);
     let others = knots.iter().zip(shares).skip(1);
@@ -176,7 +177,8 @@ mod tests {
         (coat.reflectances, coat.mean)
     }
 
-    /// A nearly smooth coat reflects as a smooth one, but near grazing, where its facets' slopes count, and its mean is that of diffuse light on glass.
+    /// A nearly smooth coat reflects like a smooth one, except near grazing, where its facets' slopes matter, and its mean is that of glass
+    /// for diffuse light.
     #[test]
     fn a_nearly_smooth_coat_is_smooth() {
         let (knots, mean) = coat(0.02, 1.5);
@@ -192,7 +194,7 @@ mod tests {
         assert!((mean.extent().0 - smooth).abs() < 2e-3);
     }
 
-    /// Of a mirror, which an enormous index is, everything comes back: once or after several facets.
+    /// A mirror, approximated by an enormous index, reflects everything, after one or several facets.
     #[test]
     fn a_mirror_keeps_nothing() {
         for roughness in [0.05, 0.3, 1.0] {
@@ -208,8 +210,9 @@ mod tests {
         }
     }
 
-    /// The two tables against E itself, between the knots and in all azimuths: 1 − E is off by 0.003 at most where the index is the typical
-    /// one, and with 0.1 beside it by 0.003 about 1.5 and by 0.01 about 2.4. Without the transmittance_scale it is off by far more.
+    /// The two tables against E itself, between the knots and at all azimuths: the error of 1 − E is at most 0.003 if the index is the
+    /// typical one; if the typical index is 0.1 higher, it is at most 0.003 near 1.5 and 0.01 near 2.4. Without `transmittance_scale` it is
+    /// far larger.
     #[test]
     fn a_brushed_coat_is_a_product_of_two_tables() {
         let mut without = 0.0_f64;

@@ -1,27 +1,27 @@
-//! Surfaces that lie in one another, so that no distance tells which one a ray meets first.
+//! Coincident surfaces, for which the distance does not determine which one a ray hits first.
 //!
-//! A decal in the plane of a wall, a film on a ball of its radius: what they mean is a stack without gaps. The object named first lies
-//! outermost: outside a sphere, and on the side of a plane that the normal of the first object in it points to. Gaps that an `f32` can
-//! hardly tell make a stack as well; there the gap says which surface is outside.
+//! A decal in the plane of a wall, or a film on a ball of the same radius, stands for a stack without gaps. The object that comes first is
+//! outermost: outside on a sphere, and on a plane on the side that the normal of the stack's first object points to. Gaps that an `f32` can
+//! barely resolve make a stack as well; there the gap determines which surface is outside.
 
 use crate::{Object, Shape};
 use glam::DVec3;
 
-/// The place of an object in a stack of coincident surfaces.
+/// The position of an object in a stack of coincident surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sheet {
-    /// Which stack: all its objects have the same number.
+    /// Number of the stack, the same for all its objects.
     pub stack: u32,
-    /// How many of its surfaces lie outside this one.
+    /// How many of its surfaces are outside this one.
     pub depth: u32,
-    /// Whether the shape's own normal points into the stack, not out of it.
+    /// Whether the shape's normal points into the stack instead of out of it.
     pub is_turned: bool,
 }
 
-/// Gaps that count as none, as a share of sizes and distances from the origin: sixteen roundings of an `f32`.
+/// The largest gap that counts as none, relative to sizes and distances from the origin: sixteen rounding errors of an `f32`.
 const GAP: f64 = 1e-6;
 
-/// The places of the objects in stacks, by their numbers; empty where no two surfaces coincide.
+/// The position of each object in a stack, if any; empty if no two surfaces coincide.
 pub(crate) fn sheets(objects: &[Object]) -> Vec<Option<Sheet>> {
     let mut stacks: Vec<Vec<usize>> = Vec::new();
     let mut stack_of: Vec<Option<usize>> = vec![None; objects.len()];
@@ -42,7 +42,7 @@ pub(crate) fn sheets(objects: &[Object]) -> Vec<Option<Sheet>> {
     sheets
 }
 
-/// Puts two objects, with all that coincides with them, into one stack.
+/// Puts two objects, and all that coincide with them, into one stack.
 fn join(stacks: &mut Vec<Vec<usize>>, stack_of: &mut [Option<usize>], a: usize, b: usize) {
     let stack = stack_of[a].or(stack_of[b]).unwrap_or_else(|| {
         stacks.push(Vec::new());
@@ -61,7 +61,7 @@ fn join(stacks: &mut Vec<Vec<usize>>, stack_of: &mut [Option<usize>], a: usize, 
     }
 }
 
-/// Numbers the surfaces of a stack from outside, given in the order of their names.
+/// Numbers the surfaces of a stack from the outside; `members` are in the order of the objects.
 fn order(objects: &[Object], members: &[usize], stack: u32, sheets: &mut [Option<Sheet>]) {
     let Some(first) = members.first().map(|&object| &objects[object].shape) else {
         return;
@@ -70,7 +70,7 @@ fn order(objects: &[Object], members: &[usize], stack: u32, sheets: &mut [Option
         .iter()
         .map(|&object| (height(&objects[object].shape, first), object))
         .collect();
-    // Stable: at the same height the order of the names stays.
+    // A stable sort: at the same height, objects keep their order.
     outwards.sort_by(|a, b| b.0.total_cmp(&a.0));
     for (depth, &(_, object)) in (0..).zip(&outwards) {
         let is_turned = match (normal(&objects[object].shape), normal(first)) {
@@ -85,7 +85,7 @@ fn order(objects: &[Object], members: &[usize], stack: u32, sheets: &mut [Option
     }
 }
 
-/// How far outside the first surface of a stack another one lies, differences within the rounding of an `f64` left out.
+/// How far outside the first surface of a stack another one is; differences within the rounding of an `f64` count as 0.
 fn height(shape: &Shape, first: &Shape) -> f64 {
     let height = match (shape, first) {
         (Shape::Sphere { radius, .. }, Shape::Sphere { radius: of, .. }) => radius - of,
@@ -98,7 +98,7 @@ fn height(shape: &Shape, first: &Shape) -> f64 {
     }
 }
 
-/// Pairs of objects that may coincide: neighbors by the distance of planes from the origin, and by a coordinate of spheres.
+/// Pairs of objects that may coincide: neighbors by the distance from the origin for planes, and by a coordinate for spheres.
 fn near_pairs(objects: &[Object]) -> Vec<(usize, usize)> {
     let key = |shape: &Shape| match shape {
         Shape::Sphere { center, .. } => center.x,
@@ -142,7 +142,7 @@ fn coincide(a: &Shape, b: &Shape) -> bool {
     }
 }
 
-/// The unit normal of what is flat.
+/// The unit normal of a flat shape.
 fn normal(shape: &Shape) -> Option<DVec3> {
     match *shape {
         Shape::Sphere { .. } => None,
@@ -161,7 +161,7 @@ fn middle(shape: &Shape) -> DVec3 {
     }
 }
 
-/// How far a surface goes from its middle.
+/// How far a surface extends from its center.
 fn reach(shape: &Shape) -> f64 {
     match *shape {
         Shape::Sphere { radius, .. } | Shape::Disk { radius, .. } => radius,
@@ -174,7 +174,7 @@ fn reach(shape: &Shape) -> f64 {
     }
 }
 
-/// Of what roundings are a share: distance from the origin, and reach of what has bounds.
+/// The size that rounding errors are relative to: the distance from the origin, plus the extent of bounded shapes.
 fn size(shape: &Shape) -> f64 {
     let far = middle(shape).abs().max_element();
     match shape {
@@ -183,7 +183,7 @@ fn size(shape: &Shape) -> f64 {
     }
 }
 
-/// Whether two coincident surfaces lie over one another somewhere, so that their order counts.
+/// Whether two coincident surfaces overlap, so that their order matters.
 pub(crate) fn overlap(a: &Shape, b: &Shape) -> bool {
     let (Some(n), false) = (normal(a), matches!(b, Shape::Plane { .. })) else {
         return true;

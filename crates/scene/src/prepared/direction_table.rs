@@ -1,46 +1,47 @@
-//! Drawing directions in proportion to the brightness of a picture of the environment.
+//! Sampling directions in proportion to the brightness of a picture of the environment.
 
 use std::f64::consts::PI;
 
-/// The most columns and rows of a table.
+/// The maximum numbers of columns and rows of a table.
 const MOST: [u32; 2] = [1024, 512];
-/// Share of the directions that are drawn evenly where no scattered ray finds what is left out.
+/// Fraction of uniformly sampled directions if BSDF sampling cannot find what the table leaves out.
 const EVEN: f64 = 0.02;
-/// Of the mean brightness: what is brighter by no more than rounding is as bright as the mean.
+/// Relative to the mean brightness: what exceeds the mean by no more than rounding counts as equal to it.
 const NEARLY_EVEN: f64 = 1.0 + 1e-6;
 
 /// A density of directions that is constant within the cells of a grid of longitude and latitude.
 ///
-/// All numbers are `f32`: differences of neighboring ones are the very probabilities that a search among them has.
+/// All numbers are `f32`: differences of neighbors are exactly the probabilities of a search among them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectionTable {
-    /// Cells around.
+    /// Number of cells in longitude.
     pub columns: u32,
-    /// Cells from top to bottom.
+    /// Number of cells in latitude.
     pub rows: u32,
-    /// Heights y of the rows' edges, from 1 at the top to −1, one more than rows.
+    /// Heights y of the edges of rows, from 1 at the top to −1; one more than rows.
     pub heights: Vec<f32>,
-    /// Probability of the rows above each edge, from 0 to 1, one more than rows.
+    /// Probability of the rows above each edge, from 0 to 1; one more than rows.
     pub marginal: Vec<f32>,
-    /// Within each row, probability of the cells to the left of each edge, from 0 to 1, one more than columns.
+    /// Within each row, probability of the cells to the left of each edge, from 0 to 1; one more than columns.
     pub conditional: Vec<f32>,
-    /// The density, sr⁻¹, that light as bright as the mean would have beside the light that the table is of; 0 where that is all light.
+    /// The density, sr⁻¹, that a brightness equal to the mean corresponds to on the scale of the table's density; 0 if the table covers all
+    /// light.
     pub even_density: f32,
 }
 
-/// For what of a picture's light rays are sent.
+/// The part of a picture's light that is importance-sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sampled {
-    /// For all of it.
+    /// All of it.
     All,
-    /// For what is brighter than the mean: scattered rays find the rest with less noise (Karlík, Šik, Vévoda, Skřivan and
-    /// Křivánek, MIS Compensation, ACM Transactions on Graphics 38(6), 2019).
+    /// What exceeds the mean: BSDF sampling finds the rest with less noise (Karlík, Šik, Vévoda, Skřivan and Křivánek, MIS Compensation,
+    /// ACM Transactions on Graphics 38(6), 2019).
     Excess,
 }
 
 impl DirectionTable {
-    /// The table of a picture by longitude and latitude, of which `brightness` has a number ≥ 0 for each pixel, row by row; and
-    /// the mean over all directions of the brightness that rays are sent for.
+    /// The table of a picture by longitude and latitude, with a number ≥ 0 in `brightness` for each pixel, row by row; and the mean over
+    /// all directions of the brightness that is importance-sampled.
     pub(crate) fn new([width, height]: [u32; 2], brightness: &[f32], sent: Sampled) -> (Self, f64) {
         let (columns, rows) = (width.min(MOST[0]), height.min(MOST[1]));
         let picture = Brightness {
@@ -91,7 +92,7 @@ impl DirectionTable {
     }
 }
 
-/// The share of the sum before each number, from 0 to 1; even steps where all are 0.
+/// The fraction of the sum before each number, from 0 to 1; equal steps if all are 0.
 fn running_share(numbers: &[f64]) -> Vec<f32> {
     let total: f64 = numbers.iter().sum();
     let mut sum = 0.0;
@@ -114,7 +115,7 @@ struct Brightness<'a> {
 }
 
 impl Brightness<'_> {
-    /// Means over cells, by points that lie at most half a pixel apart.
+    /// Means over cells, from points that are at most half a pixel apart.
     fn of_cells(&self, columns: usize, rows: usize) -> Vec<f64> {
         let [width, height] = self.size;
         let points = [2 * width.div_ceil(columns), 2 * height.div_ceil(rows)];
@@ -137,7 +138,7 @@ impl Brightness<'_> {
         means
     }
 
-    /// Bilinear between the centers of pixels, at a place in pixels.
+    /// Bilinear interpolation between the centers of pixels, at a position in pixels.
     fn between(&self, x: f64, y: f64) -> f64 {
         let [width, height] = self.size;
         let (x, y) = (x - 0.5, (y - 0.5).clamp(0.0, (height - 1) as f64));
@@ -174,14 +175,14 @@ mod tests {
             .collect();
         let (all, mean) = DirectionTable::new(SIZE, &brightness, Sampled::All);
         assert!((mean - 2.0 * (1.0 + EVEN)).abs() < 1e-6, "{mean}");
-        // Three quarters, less what the row at the edge has of the lower half.
+        // Three quarters, less the part of the lower half in the row at the edge.
         assert!(
             (0.72..0.75).contains(&all.marginal[4]),
             "{:?}",
             all.marginal
         );
         let (excess, mean) = DirectionTable::new(SIZE, &brightness, Sampled::Excess);
-        // Half of the directions, one above the mean of 2; rows between the halves have something of both.
+        // Half of the directions exceed the mean of 2 by 1; rows between the halves mix both.
         assert!((0.4..=0.5).contains(&mean), "{mean}");
         let even = 2.0 / (4.0 * PI * mean);
         assert!((f64::from(excess.even_density) / even - 1.0).abs() < 1e-3);
@@ -195,7 +196,7 @@ mod tests {
         for value in [0.0, 1.0, 0.1] {
             let (table, mean) = DirectionTable::new(SIZE, &[value; 16 * 8], Sampled::Excess);
             assert_eq!(mean, 0.0, "{value}");
-            // It is sound all the same.
+            // The table is still valid.
             assert!(
                 table
                     .marginal

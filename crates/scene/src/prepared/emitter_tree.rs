@@ -1,15 +1,15 @@
-//! A tree of what light is sent from, so that a few of many lights are weighed at a point.
+//! A tree of the emitters, so that only a few of many need weights at a point.
 
 use crate::{EmitterKind, EmitterSource, LightShape, Scene, Shape};
 use glam::{DMat3, DVec3};
 use std::f64::consts::PI;
 
-/// A binary tree over the sources of light that have a place (Conty Estevez and Kulla, Importance Sampling of Many Lights with
-/// Adaptive Tree Splitting, Proceedings of the ACM on Computer Graphics 1(2), 2018).
+/// A binary tree of the emitters that have a position (Conty Estevez and Kulla, Importance Sampling of Many Lights with Adaptive Tree
+/// Splitting, Proceedings of the ACM on Computer Graphics 1(2), 2018).
 ///
-/// Nodes stand depth first: what a node holds follows it, up to its `next`. A loop that goes on with `next` where it has weighed a
-/// node, and with the following node where it looks into one, needs no stack. Few sources, and those without a place, stand beside
-/// each other in their order, in no other node.
+/// Nodes are in depth-first order: the contents of a node follow it, up to its `next`. A loop that continues with `next` after weighing a
+/// node, and with the following node to descend into one, needs no stack. If there are few emitters, all of them are leaves without a
+/// parent, in their order; so are emitters without a position.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EmitterTree {
     /// The nodes, depth first.
@@ -18,64 +18,65 @@ pub struct EmitterTree {
     pub leaves: Vec<u32>,
 }
 
-/// A source of light, or a group of them as it is seen from afar.
+/// An emitter, or a group of emitters as seen from afar.
 ///
-/// Of a source only `near`, which is 0, `next`, `parent` and `source` are meant: it is weighed by itself.
+/// For a single emitter only `near`, which is 0, `next`, `parent` and `source` have a meaning: its weight is computed from the emitter
+/// itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EmitterNode {
-    /// Mean of the places of what the group holds, by power.
+    /// Mean position of the group's emitters, weighted by power.
     pub center: DVec3,
-    /// All that the group holds is within this distance of the center, with a margin.
+    /// All emitters of the group are within this distance of the center, with a margin.
     pub reach: f64,
-    /// Unit vector about which the group shines.
+    /// Unit vector of the group's emission axis.
     pub axis: DVec3,
-    /// Cosine of the angle with `axis` beyond which nothing shines; −1 where the group shines to all sides.
+    /// Cosine of the angle with `axis` beyond which nothing is emitted; −1 if the group emits in all directions.
     pub cone: f64,
-    /// What the group sends into one of the directions in `cone`, in units of brightness times area, or of intensity.
+    /// What the group emits into a direction in `cone`, in units of brightness times area, or of intensity.
     pub power: f64,
-    /// Mean square of the distance from the center, by power; > 0.
+    /// Mean square of the distance from the center, weighted by power; > 0.
     pub variance: f64,
-    /// The share of the power that is sent into a direction is √(`even` + `along` · c²), where c is its cosine with `axis`.
+    /// The emission into a direction relative to `power` is √(`even` + `along` · c²), where c is its cosine with `axis`.
     pub even: f64,
-    /// See `even`; 0 where there is a cone.
+    /// See `even`; 0 if there is a cone.
     pub along: f64,
-    /// From points nearer to the center than this the group is looked into; 0 of a source.
+    /// From points closer to the center than this, the tree is descended into the group; 0 for a single emitter.
     pub near: f64,
-    /// The node after all that the group holds.
+    /// The node after the contents of the group.
     pub next: u32,
-    /// The group that holds it, or [`EmitterTree::NONE`].
+    /// The group that contains it, or [`EmitterTree::NONE`].
     pub parent: u32,
-    /// The source, by its number in [`Scene::emitters`], or [`EmitterTree::NONE`] of a group.
+    /// The emitter's index in [`Scene::emitters`], or [`EmitterTree::NONE`] for a group.
     pub source: u32,
 }
 
-/// So few are weighed one by one: that costs less than the rays of a path, and is exact.
+/// Up to this many emitters get individual weights: this costs less than the rays of a path, and is exact.
 const FEW: usize = 16;
-/// Places along an axis at which a group may be cut in two.
+/// Number of intervals along an axis; a group may be split between any two.
 const CUTS: usize = 16;
-/// From this depth on groups are cut into halves, so that no walk is long.
+/// From this depth on, groups are split into halves, so that no traversal is long.
 const HALVES_FROM: usize = 40;
-/// Relative to a group's size and its distance from the origin: some hundred roundings of an `f32`.
+/// Margin relative to a group's size and its distance from the origin: about a hundred rounding errors of an `f32`.
 const MARGIN: f64 = 1e-5;
-/// Groups are looked into from points within this many standard deviations of their center. Of a thousand lamps that weighs 53 nodes
-/// for a choice, whose second moment is 1.14 times that of an exact one; with 2 it were 29 and 1.49, with 4 86 and 1.10.
+/// The tree is descended into groups from points within this many standard deviations of their center. With a thousand lamps, a choice
+/// weighs 53 nodes, and its second moment is 1.14 times that of an exact choice; with 2 it would be 29 and 1.49, with 4 86 and 1.10.
 const NEAR: f64 = 3.0;
-/// A cone with a smaller cosine is not worth its test.
+/// A cone with a smaller cosine is not worth testing.
 const WIDEST_CONE: f64 = -0.5;
 
-/// A source that has a place.
+/// An emitter that has a position.
 #[derive(Clone, Copy)]
 struct Lamp {
     source: u32,
     center: DVec3,
     reach: f64,
-    /// Mean square of the distance of its surface from its center.
+    /// Mean square distance of its surface from its center.
     variance: f64,
-    /// Mean over all directions of what it sends, in units of brightness times area, or of intensity.
+    /// Mean over all directions of its emission, in units of brightness times area, or of intensity.
     mean_power: f64,
-    /// Mean square less squared mean of that over all directions, of a lamp that is lit in some of them only.
+    /// Variance of this emission over all directions, for a lamp that emits only in some.
     uneven_power: f64,
-    /// Square of what it sends into a direction, by direction, as a quadratic form of mean power 1.
+    /// Square of its emission as a function of direction: a quadratic form of mean power 1.
     form: DMat3,
     cone: Cone,
 }
@@ -84,7 +85,7 @@ struct Lamp {
 #[derive(Clone, Copy)]
 struct Cone {
     axis: DVec3,
-    /// Of half the angle; −1 for all directions.
+    /// Cosine of the half-angle; −1 for all directions.
     cosine: f64,
 }
 
@@ -94,7 +95,7 @@ impl Cone {
         cosine: -1.0,
     };
 
-    /// A cone that holds two (Pharr, Jakob and Humphreys, Physically Based Rendering, 4th edition, 2023, section 3.8.4).
+    /// A cone that contains both (Pharr, Jakob and Humphreys, Physically Based Rendering, 4th edition, 2023, section 3.8.4).
     fn with(self, other: Self) -> Self {
         let (wide, narrow) = if self.cosine <= other.cosine {
             (self, other)
@@ -121,14 +122,14 @@ impl Cone {
         }
     }
 
-    /// The part of all directions.
+    /// The fraction of all directions.
     fn share(self) -> f64 {
         0.5 * (1.0 - self.cosine)
     }
 }
 
 impl Lamp {
-    /// None of what has no place.
+    /// The lamp of an emitter; `None` if it has no position.
     fn of(scene: &Scene, number: usize, source: &EmitterSource) -> Option<Self> {
         let lamp = Self {
             source: number as u32,
@@ -180,7 +181,7 @@ impl Lamp {
         }
     }
 
-    /// Light from both sides of an area: its mean over all directions is half of that along the normal.
+    /// Emission from both sides of an area: its mean over all directions is half its value along the normal.
     fn with_sides(
         self,
         (center, normal): (DVec3, DVec3),
@@ -210,7 +211,7 @@ impl Lamp {
                 full_height,
                 edge_height,
             } => {
-                // Of all directions, those in which it is lit: the smooth step from full light to none has the mean 1/2.
+                // The fraction of all directions that are lit: the smooth step from full intensity to 0 has the mean 1/2.
                 let lit = 0.25 * (full_height + edge_height);
                 Some(Self {
                     center: position,
@@ -231,7 +232,7 @@ fn outer(v: DVec3) -> DMat3 {
     DMat3::from_cols(v * v.x, v * v.y, v * v.z)
 }
 
-/// What is known of a group while cuts are compared.
+/// The data of a group that are needed to compare cuts.
 #[derive(Clone, Copy)]
 struct Group {
     low: DVec3,
@@ -275,22 +276,22 @@ impl Group {
         self.cone.is_none()
     }
 
-    /// Power times size times breadth of directions, after equation 2 of Conty Estevez and Kulla 2018; squared lengths in place of
-    /// surfaces tell lamps in a row apart, too.
+    /// Power times size times spread of directions, after equation 2 of Conty Estevez and Kulla 2018. Squared lengths instead of surface
+    /// areas also separate lamps in a row.
     fn cost(&self) -> f64 {
         let size = (self.high - self.low).max(DVec3::ZERO).length_squared();
         let share = self.cone.unwrap_or(Cone::ALL).share();
         self.power * size * (0.1 + share) * (3.0 - self.alignment())
     }
 
-    /// 1 where all send along one axis, 0 where nothing depends on the direction.
+    /// 1 if all lamps emit along one axis, 0 if the emission does not depend on direction.
     fn alignment(&self) -> f64 {
         let (_, even, along) = axis_of(self.form);
         along / (even + along)
     }
 }
 
-/// The quadratic form `even + along · (axis · direction)²` that is closest to another one, and its axis. By power iteration.
+/// The quadratic form `even + along · (axis · direction)²` that is closest to the given one, and its axis, by power iteration.
 fn axis_of(form: DMat3) -> (DVec3, f64, f64) {
     const STEPS: usize = 12;
     let trace = form.x_axis.x + form.y_axis.y + form.z_axis.z;
@@ -308,10 +309,10 @@ fn axis_of(form: DMat3) -> (DVec3, f64, f64) {
 }
 
 impl EmitterTree {
-    /// No node, or no source.
+    /// No node, or no emitter.
     pub const NONE: u32 = u32::MAX;
 
-    /// That of a scene's sources.
+    /// The tree of a scene's emitters.
     pub(crate) fn new(scene: &Scene) -> Self {
         let sources = scene.emitters();
         let lamps = sources.iter().enumerate();
@@ -347,7 +348,7 @@ impl EmitterTree {
         });
     }
 
-    /// Adds lamps as one node with all that it holds.
+    /// Adds lamps as one node with its contents.
     fn add(&mut self, lamps: &mut [Lamp], parent: u32, depth: usize) {
         if let [lamp] = lamps {
             return self.add_leaf(lamp.source, parent);
@@ -364,7 +365,7 @@ impl EmitterTree {
         self.nodes[node].next = self.nodes.len() as u32;
     }
 
-    /// The two nodes in a group.
+    /// The two child nodes of a group.
     pub fn children(&self, group: u32) -> [u32; 2] {
         let first = group + 1;
         [first, self.nodes[first as usize].next]
@@ -386,7 +387,7 @@ const EMPTY: EmitterNode = EmitterNode {
     source: EmitterTree::NONE,
 };
 
-/// A group as it is seen from afar.
+/// The node of a group as seen from afar.
 fn group_node(lamps: &[Lamp]) -> EmitterNode {
     let Group {
         power, form, cone, ..
@@ -412,7 +413,7 @@ fn group_node(lamps: &[Lamp]) -> EmitterNode {
     let cone = cone.filter(|cone| cone.cosine > WIDEST_CONE);
     let (axis, even, along) = axis_of(form * power.recip());
     let (axis, even, along) = cone.map_or((axis, even, along), |cone| (cone.axis, 1.0, 0.0));
-    // Some of many spots shine on a point: the root of the mean square, which serves the second moment of a choice better than the mean.
+    // Only some of many spots light a point, so the root mean square is used: it suits the second moment of a choice better than the mean.
     let uneven: f64 = lamps.iter().map(|lamp| lamp.uneven_power).sum();
     let power = match cone {
         Some(cone) => power / cone.share(),
@@ -432,7 +433,7 @@ fn group_node(lamps: &[Lamp]) -> EmitterNode {
     }
 }
 
-/// Sorts lamps so that they can be cut in two, and says where: of the cuts across each axis the one with the least cost.
+/// Sorts lamps so that they can be split in two, and returns where: among the cuts across each axis, the one with the least cost.
 fn cut(lamps: &mut [Lamp], depth: usize) -> usize {
     let best = best_cut(lamps).filter(|_| depth < HALVES_FROM);
     let Some((axis, place)) = best else {
@@ -445,7 +446,7 @@ fn cut(lamps: &mut [Lamp], depth: usize) -> usize {
     lamps.partition_point(|lamp| lamp.center[axis] < place)
 }
 
-/// The axis and the place of the best cut; none where all lamps have the same center.
+/// The axis and the position of the best cut; `None` if all lamps have the same center.
 fn best_cut(lamps: &[Lamp]) -> Option<(usize, f64)> {
     let mut best: Option<(f64, usize, f64)> = None;
     for axis in 0..3 {
@@ -481,7 +482,7 @@ mod tests {
     use std::fmt::Write;
     use std::path::Path;
 
-    /// Rectangles, spheres, points and spots, and a direction.
+    /// A scene with rectangles, spheres, points and spots, and a single direction.
     fn lamps(count: u32) -> Scene {
         let mut text = String::from(
             "camera = { type = 'orthographic', position = [0, 0, 9], look_at = [0, 0, 0], height = 9 }\n\
@@ -519,7 +520,7 @@ mod tests {
         Lamp::of(scene, source as usize, &scene.emitters()[source as usize])
     }
 
-    /// Every source once, in groups whose spheres and cones hold what is in them, also with the numbers that a GPU receives.
+    /// Every emitter occurs once, in groups whose spheres and cones contain it, also with the numbers that a GPU receives.
     #[test]
     fn groups_hold_their_sources() {
         let made = lamps(400);

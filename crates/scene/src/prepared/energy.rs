@@ -1,14 +1,13 @@
-//! How much of the light that falls onto facets leaves at once.
+//! The fraction of light that leaves facets after a single reflection.
 
 use super::FacetTable;
 use crate::Distribution;
 use crate::rounding::RoundToF32;
 
-/// Facets per knot, squared.
+/// Square root of the number of facets per knot.
 const STEPS: u32 = 48;
 
-/// The directional albedo E of facets that reflect everything, after a single reflection: 1 − E of the light meets
-/// another facet.
+/// The directional albedo E of perfectly reflecting facets after a single reflection: the fraction 1 − E of the light hits another facet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Energy {
     table: FacetTable,
@@ -25,7 +24,7 @@ impl RoundToF32 for Energy {
 }
 
 impl Energy {
-    /// The table of a distribution and its widths along and across the grain.
+    /// The table for a distribution and its widths along and across the grain.
     pub(crate) fn new(distribution: Distribution, roughness: [f64; 2]) -> Self {
         let surface = optics::Microsurface {
             distribution: distribution.into(),
@@ -36,17 +35,17 @@ impl Energy {
         Self { table, mean }
     }
 
-    /// E over direction.
+    /// E as a function of direction.
     pub fn table(&self) -> &FacetTable {
         &self.table
     }
 
-    /// The mean over directions, each counted with its cosine.
+    /// The cosine-weighted mean over directions.
     pub fn mean(&self) -> f64 {
         self.mean
     }
 
-    /// E in a direction of the local frame, a unit vector whose z is the cosine with the normal and whose x runs along the grain.
+    /// E in a direction of the local frame: a unit vector whose z is the cosine with the normal and whose x is along the grain.
     pub fn at(&self, direction: [f64; 3]) -> f64 {
         self.table.at(direction)
     }
@@ -78,8 +77,8 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// The table against the integral itself, between the knots and at all azimuths, and the white furnace: what leaves at
-    /// once and (1 − E)(1 − E)/(π (1 − mean)) after more facets come to everything within 0.5 % for α from 0.02, to 85°.
+    /// The table against the integral itself, between the knots and at all azimuths, and the white furnace: single reflections and (1 −
+    /// E)(1 − E)/(π (1 − mean)) for several facets sum to 1 within 0.5 %, for α from 0.02 and up to 85°.
     #[test]
     fn nothing_is_lost() {
         let mut worst = (0.0, 0.0_f64);
@@ -125,7 +124,7 @@ mod tests {
         }
     }
 
-    /// (1/π) ∫ (1 − E) cos θ dω, by another rule than the table's own.
+    /// (1/π) ∫ (1 − E) cos θ dω, by a different rule than the table's.
     fn lost_by_cosine(table: &Energy) -> f64 {
         let steps = 400;
         let mut sum = 0.0;

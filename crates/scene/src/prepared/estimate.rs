@@ -1,16 +1,16 @@
-//! How a material divides light, roughly: what steers paths, and what their weights undo.
+//! Rough estimates of how much light materials reflect and transmit; they steer sampling and cancel in the result.
 
 use crate::rounding::RoundToF32;
 use crate::{Interference, Layer, Material, PathDifference, Pattern, Scene, SpectrumId};
 use optics::Complex64;
 
-/// A cheap estimate of how much light a material sends back, the mean over its wavelengths and thicknesses.
+/// A cheap estimate of how much light a material reflects and transmits, averaged over its thicknesses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
-    /// Of all light that arrives, the part that goes on; in \[0, 1\], of the wavelength where it is largest.
+    /// The fraction of incident light that is reflected or transmitted, in \[0, 1\], at the wavelength where it is largest.
     pub albedo: f64,
-    /// Of the light that a film sends on, the part that it reflects: at [`Estimate::KNOTS`] cosines from 0 to 1 in equal steps, in
-    /// \[0, 1\]. Empty of what is no film.
+    /// The fraction R / (R + T) that a film reflects of the light that it does not absorb, in \[0, 1\], averaged over wavelengths, at
+    /// [`Estimate::KNOTS`] equally spaced cosines from 0 to 1. Empty for other materials.
     pub reflected: Vec<f64>,
 }
 
@@ -18,10 +18,10 @@ impl Estimate {
     /// Number of cosines.
     pub const KNOTS: usize = 33;
 
-    /// The part of a film's light that it reflects at a cosine, linear between the knots.
+    /// The fraction [`Self::reflected`] of a film at a cosine, interpolated linearly between the knots.
     ///
     /// # Panics
-    /// For what is no film.
+    /// For materials that are not films.
     pub fn reflected_at(&self, cosine: f64) -> f64 {
         let steps = Self::KNOTS - 1;
         let place = cosine.clamp(0.0, 1.0) * steps as f64;
@@ -48,12 +48,12 @@ pub(crate) fn estimates(scene: &Scene) -> Vec<Estimate> {
         .collect()
 }
 
-/// Wavelengths at which an estimate looks, and thicknesses between the thinnest and the thickest.
+/// Numbers of wavelengths, and of thicknesses between the thinnest and the thickest, of an estimate.
 const WAVELENGTHS: u32 = 16;
 const THICKNESSES: u32 = 8;
-/// Cosines of light from everywhere.
+/// Cosines that represent light from everywhere.
 const COSINES: [f64; 3] = [0.4, 0.7, 1.0];
-/// Nothing is seen at a smaller cosine.
+/// Smaller cosines are replaced by this one.
 const GRAZING: f64 = 1e-6;
 
 fn of_material(scene: &Scene, material: &Material) -> Estimate {
@@ -68,7 +68,7 @@ fn of_material(scene: &Scene, material: &Material) -> Estimate {
             Pattern::Checker { even, odd, .. } => brightest(even).max(brightest(odd)),
             Pattern::Texture { .. } => 1.0,
         }),
-        // What a coat or Cook's model sends back depends on more than an estimate is worth.
+        // What a coat or Cook's model reflects depends on too much to be worth estimating.
         Material::CoatedBody(_) | Material::Cook(_) => albedo(1.0),
         Material::Emitter { reflectance, .. } => albedo(reflectance.map_or(0.0, brightest)),
         &Material::Interface {
@@ -148,14 +148,14 @@ fn film_at(
     )
 }
 
-/// The bands that an estimate looks at.
+/// The bands of an estimate.
 fn bands(scene: &Scene) -> impl Iterator<Item = u32> {
     let count = scene.settings().bands.count();
     let looked_at = WAVELENGTHS.min(count);
     (0..looked_at).map(move |i| (2 * i + 1) * count / (2 * looked_at))
 }
 
-/// The largest value of the bands, in \[0, 1\].
+/// The largest value over these bands, in \[0, 1\].
 fn largest(scene: &Scene, of_band: impl Fn(u32) -> f64) -> f64 {
     bands(scene)
         .map(of_band)
@@ -163,7 +163,7 @@ fn largest(scene: &Scene, of_band: impl Fn(u32) -> f64) -> f64 {
         .clamp(0.0, 1.0)
 }
 
-/// The mean over thicknesses, given as fractions of the way from the thinnest to the thickest.
+/// The mean over thicknesses, which are given as fractions between the thinnest and the thickest.
 fn mean(layers: &[Layer], of_fraction: impl Fn(f64) -> f64) -> f64 {
     let varies = layers.iter().any(|layer| {
         let (least, most) = layer.thickness.extent_nm();
@@ -174,8 +174,7 @@ fn mean(layers: &[Layer], of_fraction: impl Fn(f64) -> f64) -> f64 {
     fractions.map(of_fraction).sum::<f64>() / f64::from(count)
 }
 
-/// The layers in the middle of a band, and its wavelength. Layers that vary do so each for itself: their fractions follow the
-/// golden ratio.
+/// The layers at the center wavelength of a band, and this wavelength. Layers vary independently: their fractions follow the golden ratio.
 fn stack_of(
     scene: &Scene,
     layers: &[Layer],

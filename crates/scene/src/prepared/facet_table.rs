@@ -1,17 +1,17 @@
-//! Tables over the directions from which facets are seen.
+//! Tables over the directions above facets.
 
 use crate::rounding::RoundToF32;
 use std::f64::consts::FRAC_PI_2;
 
-/// Knots over the root of the cosine: close together near grazing, where masking changes fast.
+/// Number of knots over the square root of the cosine: close near grazing, where masking changes fast.
 const COSINES: usize = 32;
-/// Knots over the width of the slopes in the direction's azimuth, where that differs.
+/// Number of knots over the width of the slopes in the direction's azimuth, if it varies.
 const WIDTHS: usize = 17;
-/// Azimuths of a mean about the normal, within a quarter turn.
+/// Number of azimuths of a mean over azimuth, within a quarter turn.
 const AZIMUTHS: u32 = 64;
 
-/// A number for each direction above facets: a table over the cosine and, where the surface is brushed, over the width of the slopes in
-/// the direction's azimuth, linear between its knots; its numbers are `f32` numbers.
+/// A number for each direction above facets: a table over the cosine and, for a brushed surface, over the width of the slopes in the
+/// direction's azimuth, interpolated linearly. Its numbers are exact in `f32`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FacetTable {
     /// Width of the slopes along and across the grain.
@@ -30,14 +30,14 @@ impl RoundToF32 for FacetTable {
 }
 
 impl FacetTable {
-    /// Knots over the root of the cosine.
+    /// Number of knots over the square root of the cosine.
     pub const COSINES: usize = COSINES;
-    /// Knots over the width of the slopes, where that differs with the azimuth.
+    /// Number of knots over the width of the slopes, if it varies with azimuth.
     pub const WIDTHS: usize = WIDTHS;
 
-    /// The table of what `of` is in the directions of the knots, unit vectors, on facets of these widths along and across the grain.
+    /// Tabulates `of` in the directions of the knots, unit vectors, on facets of these widths along and across the grain.
     ///
-    /// Widths that are the same `f32` number are alike: the shader could not tell them apart.
+    /// Widths that round to the same `f32` count as equal: the shader could not distinguish them.
     pub(crate) fn new(roughness: [f64; 2], mut of: impl FnMut([f64; 3]) -> f64) -> Self {
         let [along, across] = roughness.map(|alpha| alpha.rounded());
         let columns = if along == across { 1 } else { WIDTHS };
@@ -55,18 +55,18 @@ impl FacetTable {
         Self { roughness, values }
     }
 
-    /// The table's numbers: for each width, from that along the grain to that across it, those of [`Self::COSINES`] cosines; the
-    /// knots are even in the root of the cosine.
+    /// The table's numbers: for each width, from the one along to the one across the grain, the values at [`Self::COSINES`] cosines whose
+    /// square roots are equally spaced.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// Number of widths: 1 where all directions of the same cosine are alike.
+    /// Number of widths: 1 if the values depend only on the cosine.
     pub fn widths(&self) -> usize {
         self.values.len() / COSINES
     }
 
-    /// The number of a direction of the local frame, a unit vector whose z is the cosine with the normal and whose x runs along the grain.
+    /// The value in a direction of the local frame: a unit vector whose z is the cosine with the normal and whose x is along the grain.
     pub fn at(&self, [x, y, cosine]: [f64; 3]) -> f64 {
         let (row, down) = knot(cosine.clamp(0.0, 1.0).sqrt(), COSINES);
         let of_column = |column: usize| {
@@ -83,7 +83,7 @@ impl FacetTable {
         of_column(column) + (of_column(column + 1) - of_column(column)) * aside
     }
 
-    /// The mean of the numbers about the normal.
+    /// The mean of the values over azimuth.
     pub(crate) fn around(&self, cosine: f64) -> f64 {
         let azimuths = if self.widths() == 1 { 1 } else { AZIMUTHS };
         let of_azimuth = |i| {
@@ -94,21 +94,21 @@ impl FacetTable {
     }
 }
 
-/// A unit vector.
+/// The unit vector of a cosine and an azimuth.
 pub(crate) fn direction(cosine: f64, azimuth: f64) -> [f64; 3] {
     let sine = (1.0 - cosine * cosine).sqrt();
     [sine * azimuth.cos(), sine * azimuth.sin(), cosine]
 }
 
-/// The knot before a place in [0, 1], and the part of the way to the next.
+/// The knot before a position in [0, 1], and the fraction of the interval to the next.
 fn knot(place: f64, knots: usize) -> (usize, f64) {
     let place = place * (knots - 1) as f64;
     let knot = (place as usize).min(knots - 2);
     (knot, place - knot as f64)
 }
 
-/// The azimuth from the grain in which the width has come this part of the way from along to across, which differ:
-/// width² = along² cos² + across² sin².
+/// The azimuth from the grain at which the width is this fraction of the way from `along` to `across`, which differ: width² = along² cos² +
+/// across² sin².
 fn azimuth_of([along, across]: [f64; 2], part: f64) -> f64 {
     let width = along + (across - along) * part;
     let sin2 = (width * width - along * along) / (across * across - along * along);
@@ -119,7 +119,7 @@ fn azimuth_of([along, across]: [f64; 2], part: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Widths that only rounding tells apart have a number in every direction, rounded or not, and it is that of even ones.
+    /// Widths that differ only by rounding have a value in every direction, rounded or not: that of equal widths.
     #[test]
     fn nearly_equal_widths_are_a_table_too() {
         let even = FacetTable::new([0.3; 2], |[.., z]| z);
@@ -143,7 +143,7 @@ mod tests {
         }
     }
 
-    /// Between its knots the table is linear in the width and in the root of the cosine; not at the normal, which has no azimuth.
+    /// Between its knots the table is linear in the width and in the square root of the cosine; not at the normal, which has no azimuth.
     #[test]
     fn what_is_linear_is_exact() {
         let roughness = [0.5, 0.1];

@@ -1,10 +1,10 @@
-//! Pixel filters, as tables by which samples are spread: a sample then counts for one, wherever it lies.
+//! Pixel filters, as tables for importance sampling: every sample then has the weight 1, wherever it is.
 
 use crate::description::Filter;
 use crate::rounding::RoundToF32;
 use std::f64::consts::PI;
 
-/// How the samples of a pixel are spread about its middle, in x and in y alike.
+/// The distribution of a pixel's samples about its center, the same in x and in y.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PixelFilter(Option<Vec<f64>>);
 
@@ -12,7 +12,7 @@ pub struct PixelFilter(Option<Vec<f64>>);
 const RADIUS: f64 = 1.5;
 /// Standard deviation of the Gaussian, in pixels.
 const SIGMA: f64 = 0.5;
-/// Steps by which a filter's weight is summed.
+/// Number of steps of the numerical integral of a filter.
 const STEPS: usize = 60_000;
 
 impl PixelFilter {
@@ -27,13 +27,13 @@ impl PixelFilter {
         }
     }
 
-    /// Offsets from a pixel's middle, in pixels, at knots that stand closer where the filter has little weight (equal steps of the
-    /// square root that `offset_at` takes); `None` of a box, where offsets are uniform from −½ to ½.
+    /// Offsets from a pixel's center, in pixels, at knots that are closer where the filter has little weight (equal steps of the square
+    /// root that `offset_at` computes); `None` for a box, whose offsets are uniform from −½ to ½.
     pub fn offsets(&self) -> Option<&[f64]> {
         self.0.as_deref()
     }
 
-    /// The offset, in pixels, of a sample with the uniform number `u` in [0, 1): linear between the knots.
+    /// The offset, in pixels, of a sample with the uniform number `u` in [0, 1), interpolated linearly between the knots.
     pub fn offset_at(&self, u: f64) -> f64 {
         let Some(offsets) = &self.0 else {
             return u - 0.5;
@@ -50,21 +50,21 @@ impl RoundToF32 for PixelFilter {
     }
 }
 
-/// Places knots closely where a filter has little weight: t = 2u − 1 becomes ±(1 − √(1 − |t|)), from −1 to 1, and that a number
-/// from 0 to 1.
+/// Maps a number so that knots are close where a filter has little weight: t = 2u − 1 becomes ±(1 − √(1 − |t|)), from −1 to 1, which is
+/// then mapped to 0 to 1.
 fn warped(u: f64) -> f64 {
     let t = 2.0 * u - 1.0;
     0.5 + 0.5 * t.signum() * (1.0 - (1.0 - t.abs()).max(0.0).sqrt())
 }
 
-/// The number that is warped to another.
+/// The inverse of [`warped`].
 fn unwarped(place: f64) -> f64 {
     let s = 2.0 * place - 1.0;
     0.5 + 0.5 * s.signum() * (1.0 - (1.0 - s.abs()).powi(2))
 }
 
-/// The minimum four-term window (Harris, On the Use of Windows for Harmonic Analysis with the Discrete Fourier Transform, Proc. IEEE
-/// 66(1), 1978, equation 33), 1 in the middle.
+/// The minimum four-term window (Harris, On the Use of Windows for Harmonic Analysis with the Discrete Fourier Transform, Proc. IEEE 66(1),
+/// 1978, equation 33), 1 at the center.
 fn blackman_harris(x: f64) -> f64 {
     let terms = [0.358_75, 0.488_29, 0.141_28, 0.011_68];
     let turn = PI * x / RADIUS;
@@ -72,7 +72,7 @@ fn blackman_harris(x: f64) -> f64 {
     cosines.map(|(i, a)| a * (i as f64 * turn).cos()).sum()
 }
 
-/// Where the running integral of a filter reaches the knots.
+/// The offsets at which the running integral of a filter reaches the knots.
 fn offsets(weight: impl Fn(f64) -> f64) -> Vec<f64> {
     let width = 2.0 * RADIUS / STEPS as f64;
     let middle = |step: usize| -RADIUS + (step as f64 + 0.5) * width;
@@ -89,7 +89,7 @@ fn offsets(weight: impl Fn(f64) -> f64) -> Vec<f64> {
         sum += own;
     }
     found.push(RADIUS);
-    // Even filters, evenly: the sums of rounding errors are not.
+    // The filters are even; averaging with the mirrored offsets removes the asymmetry of rounding errors.
     let mirrored = found.iter().rev().map(|x| -x);
     found
         .iter()
@@ -110,8 +110,8 @@ mod tests {
         (0..count).map(|i| at(i).powi(power)).sum::<f64>() / f64::from(count)
     }
 
-    /// Variances: 1/12 of a box; of the Gaussian σ² (1 − 2 a φ(a) / (2Φ(a) − 1)) with a = 3 cut-off deviations, 0.973 337 σ²; of the
-    /// window, by its integrals, r² (1/3 + Σ 2 aₖ (−1)ᵏ / (a₀ (kπ)²)).
+    /// Variances: 1/12 for a box; σ² (1 − 2 a φ(a) / (2Φ(a) − 1)) = 0.973 337 σ² for the Gaussian, cut off at a = 3 deviations; r² (1/3 + Σ
+    /// 2 aₖ (−1)ᵏ / (a₀ (kπ)²)) for the window, by its integrals.
     #[test]
     fn the_spread_is_that_of_the_filter() {
         let box_filter = PixelFilter::new(Filter::Box);
@@ -135,8 +135,8 @@ mod tests {
         }
     }
 
-    /// Chi-square of the offsets against the filter itself, over 30 cells of equal width: 29 degrees of freedom, 0.1 % above. The
-    /// table's own error is far below the noise of 20 000 samples.
+    /// Chi-square of the offsets against the filter itself, over 30 cells of equal width: 29 degrees of freedom, at the 0.1 % level. The
+    /// table's error is far below the noise of 20 000 samples.
     #[test]
     fn samples_are_spread_by_the_filter() {
         let chi2 = |filter: &PixelFilter, weight: &dyn Fn(f64) -> f64| {

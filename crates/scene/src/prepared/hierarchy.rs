@@ -1,18 +1,19 @@
-//! Boxes around objects, so that a ray looks at few of many.
+//! Bounding boxes of objects, so that a ray tests only a few of many objects.
 
 use crate::{Object, Shape};
 use glam::DVec3;
 
 /// A bounding volume hierarchy over the objects that have bounds.
 ///
-/// Boxes hold their objects with a margin of 1e-5 of their size and distance from the origin, some hundred roundings of an `f32`.
+/// Boxes contain their objects with a margin of 1e-5 of their size and distance from the origin, about a hundred rounding errors of an
+/// `f32`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hierarchy {
-    /// Objects that every ray is tried against, by index: those without bounds, and all where there are few.
+    /// Indices of the objects that every ray tests: those without bounds, and all if there are few.
     pub everywhere: Vec<u32>,
-    /// The boxes, the one around everything first; none where there are few objects.
+    /// The boxes, with the one around everything first; empty if there are few objects.
     pub nodes: Vec<Node>,
-    /// The objects of the leaves, by index.
+    /// Indices of the objects of the leaves.
     pub leaves: Vec<u32>,
 }
 
@@ -23,21 +24,21 @@ pub struct Node {
     pub low: DVec3,
     /// Its corner with the largest coordinates.
     pub high: DVec3,
-    /// Of a leaf the first of its objects in [`Hierarchy::leaves`]; else the first of its two boxes, which the other one follows.
+    /// For a leaf, the first of its objects in [`Hierarchy::leaves`]; otherwise the first of its two child boxes, which are adjacent.
     pub first: u32,
-    /// How many objects a leaf has; 0 where the box holds two others.
+    /// The number of objects of a leaf; 0 for an inner box.
     pub count: u32,
 }
 
-/// So few objects are tried one by one.
+/// Up to this many objects are tested one by one.
 const FEW: usize = 6;
-/// The most objects of a leaf.
+/// The maximum number of objects of a leaf.
 const LEAF: usize = 4;
-/// Places along an axis at which a box may be cut in two.
+/// Number of intervals along an axis; a box may be split between any two.
 const CUTS: usize = 16;
-/// From this depth on boxes are cut into halves of their objects, so that [`Hierarchy::DEPTH`] is never reached.
+/// From this depth on, boxes are split into halves of their objects, so that [`Hierarchy::DEPTH`] is never reached.
 const HALVES_FROM: usize = 40;
-/// By how much boxes are larger than what they hold.
+/// Relative margin of boxes around their contents.
 const MARGIN: f64 = 1e-5;
 
 #[derive(Clone, Copy)]
@@ -52,7 +53,7 @@ impl Bounds {
         high: DVec3::NEG_INFINITY,
     };
 
-    /// Around an object; none of an unbounded plane.
+    /// The bounds of an object; `None` for an infinite plane.
     fn of(shape: &Shape) -> Option<Self> {
         let (center, reach) = match *shape {
             Shape::Plane { .. } => return None,
@@ -95,7 +96,7 @@ impl Bounds {
         }
     }
 
-    /// Half its surface: about as often does a ray meet it.
+    /// Half its surface area, to which the probability of a hit is roughly proportional.
     fn area(&self) -> f64 {
         let size = (self.high - self.low).max(DVec3::ZERO);
         size.x * size.y + size.y * size.z + size.z * size.x
@@ -107,10 +108,10 @@ impl Bounds {
 }
 
 impl Hierarchy {
-    /// No box lies in so many others.
+    /// No box is nested this deep.
     pub const DEPTH: usize = 64;
 
-    /// That of a scene's objects.
+    /// The hierarchy of a scene's objects.
     pub(crate) fn new(objects: &[Object]) -> Self {
         let bounds: Vec<_> = objects.iter().map(|o| Bounds::of(&o.shape)).collect();
         let (mut bounded, mut everywhere): (Vec<u32>, Vec<u32>) =
@@ -136,7 +137,7 @@ impl Hierarchy {
     }
 }
 
-/// A leaf of objects, the first of which stands at `first`.
+/// A leaf of objects, the first of which is at `first`.
 fn leaf(bounds: &[Bounds], objects: &[u32], first: usize) -> Node {
     let around = objects.iter().fold(Bounds::NOTHING, |around, &object| {
         around.with(bounds[object as usize])
@@ -149,8 +150,8 @@ fn leaf(bounds: &[Bounds], objects: &[u32], first: usize) -> Node {
     }
 }
 
-/// Divides the leaf `node`, whose objects stand from `first` on, as long as that pays: of the cuts across each axis the one with the
-/// least sum of objects times area (MacDonald and Booth, Heuristics for Ray Tracing Using Space Subdivision, 1990).
+/// Splits the leaf `node`, whose objects are from `first` on, recursively down to small leaves: among the cuts across each axis, by the one
+/// with the least sum of objects times area (MacDonald and Booth, Heuristics for Ray Tracing Using Space Subdivision, 1990).
 fn divide(
     bounds: &[Bounds],
     nodes: &mut Vec<Node>,
@@ -186,7 +187,7 @@ fn divide(
     );
 }
 
-/// The axis and the place of the best cut; none where all objects have the same middle.
+/// The axis and the position of the best cut; `None` if all objects have the same center.
 fn best_cut(bounds: &[Bounds], objects: &[u32]) -> Option<(usize, f64)> {
     let mut best: Option<(f64, usize, f64)> = None;
     for axis in 0..3 {
@@ -231,7 +232,7 @@ mod tests {
         object(Shape::Sphere { center, radius })
     }
 
-    /// Every object once, each box around what it holds, leaves small, also where many objects lie in one place.
+    /// Every object occurs once, each box contains its contents, and leaves are small, except where many objects are in one position.
     #[test]
     fn boxes_hold_their_objects() {
         let place = |i: u32| {
@@ -276,7 +277,11 @@ mod tests {
         }
         assert_eq!(met, 520);
         let largest = found.nodes.iter().map(|n| n.count).max();
-        assert_eq!(largest, Some(20), "those in one place cannot be told apart");
+        assert_eq!(
+            largest,
+            Some(20),
+            "those in one position cannot be separated"
+        );
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What both renderers look up and neither should work out by itself, made once from a validated scene.
+//! Data that both renderers look up and neither should compute itself, prepared once from a validated scene.
 
 pub(crate) mod coats;
 mod coincidence;
