@@ -55,8 +55,8 @@ impl Scene {
             let Some((other, _)) = over else { continue };
             if notes.iter().all(|(stack, _)| *stack != sheet.stack) {
                 let note = format!(
-                    "objects[{object}] and objects[{other}] coincide; of coincident surfaces the first in the file is outermost on \
-                     spheres, and on the side of its normal on planes"
+                    "objects[{object}] and objects[{other}] coincide; the first of them in the file is the outermost of spheres, and \
+                     on the side of its own normal on planes"
                 );
                 notes.push((sheet.stack, note));
             }

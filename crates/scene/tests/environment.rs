@@ -207,12 +207,9 @@ fn pictures_of_a_wrong_size_are_reported() {
     };
     told("ball.exr", &["64 × 64", "twice as wide as high"]);
     told("square.exr", &["64 × 64", "twice as wide as high"]);
-    told("wide.hdr", &["16386 × 8193", "at most 16384 on a side"]);
-    told(
-        "wide_spectra.exr",
-        &["16400 × 1", "at most 16384 on a side"],
-    );
-    // A picture with few bands is stored with all bands of the scene.
+    told("wide.hdr", &["16386 × 8193", "at most 16384 per side"]);
+    told("wide_spectra.exr", &["16400 × 1", "at most 16384 per side"]);
+    // A picture with few bands takes all the bands of the scene.
     let text = format!(
         "{CAMERA}render = {{ bands = 1024, size = [8, 8] }}\nenvironment = {{ type = 'image', image = 'fine.exr' }}\n"
     );

@@ -289,7 +289,7 @@ fn a_scene_that_may_not_be_meant_is_noted() {
     };
     let said = printed("", 12);
     assert!(
-        said.len() == 1 && said[0].contains("4.0 times") && said[0].contains("(here 12)"),
+        said.len() == 1 && said[0].contains("4.0 times") && said[0].contains("(found 12)"),
         "{said:?}"
     );
     for (rest, segments) in [

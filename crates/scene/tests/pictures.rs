@@ -79,7 +79,7 @@ fn radiance_files_are_read_with_their_headers() {
         ("-Y 0 +X 2", "sky.hdr: has 2 × 0 pixels, so none at all"),
         ("-Y 4 +X 4", "4 × 4 pixels; a picture of all directions"),
         ("-Y 2 +X 4", "cut short: it ends in scanline 1 of 2"),
-        ("-Y 8200 +X 16400", "at most 16384 on a side"),
+        ("-Y 8200 +X 16400", "at most 16384 per side"),
         ("-Y 1", "-Y HEIGHT +X WIDTH would be right"),
     ] {
         let said = surrounded(format, size).unwrap_err();

@@ -210,7 +210,7 @@ impl Image<'_> {
             return Some(());
         }
         let message = format!(
-            "found {}, which may give the picture's brightest pixel a radiance of {found:.3e} W m⁻² sr⁻¹ nm⁻¹; the limit is {}, reached at {:.3e}",
+            "found {}, which may give the picture's brightest pixel a radiance of {found:.3e} W m⁻² sr⁻¹ nm⁻¹; at most {} is possible, which is a scale of {:.3e}",
             Shown(self.scale),
             Shown(most),
             self.scale * (most / found)

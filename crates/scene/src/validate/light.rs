@@ -45,7 +45,7 @@ pub(crate) fn check_way(checks: &mut Checks, description: &Description) {
             description::Light::Distant { .. } => continue,
         };
         let message = format!(
-            "found {what}, which BSDF sampling never finds, with render.direct_light = \"bsdf\": it would be dark"
+            "found {what} with render.direct_light = \"bsdf\"; BSDF sampling never finds it, so it would be dark"
         );
         let field = FieldPath::root().key("lights").index(index);
         let way = FieldPath::root().key("render").key("direct_light");
