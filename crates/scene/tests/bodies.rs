@@ -195,7 +195,7 @@ fn what_does_not_fit_cooks_model_is_reported() {
         (
             gold("roughness = 0.3, model = { cook1981 = { slopes = [{ m = 0.2, weight = 1 }] } }"),
             "materials.a.model.cook1981.slopes",
-            "either",
+            "only one of them",
         ),
         (
             gold(

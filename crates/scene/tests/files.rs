@@ -262,7 +262,7 @@ fn the_size_of_a_picture_on_spheres_alone_is_refused() {
         let said = told(&with_picture("map.png", &pixel(), &scene(material, "")).unwrap_err());
         assert!(
             said.contains(&format!(
-                "materials.x.{field}.size: a picture always covers"
+                "materials.x.{field}.size: only spheres have this material"
             )),
             "{said}"
         );

@@ -204,7 +204,7 @@ fn formulas_of_a_database_file_are_checked() {
         ),
         (
             format!("{range}    coefficients: 0 1\n"),
-            "line 4: found 2 coefficients: one, then two for each",
+            "line 4: found 2 coefficients; expected one, then two for each",
         ),
         (
             format!("{range}    coefficients: 0 x\n"),

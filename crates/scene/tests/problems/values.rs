@@ -193,7 +193,7 @@ fn directions_that_span_no_plane_are_reported() {
     assert_problems(
         "[camera]\ntype = 'perspective'\nposition = [0, 3, 0]\nlook_at = [0, 0, 0]\nfov_deg = 180\n",
         &[
-            ("1:1", "camera.up", &["parallel to the direction of view"]),
+            ("1:1", "camera.up", &["parallel to the view direction"]),
             ("5:11", "camera.fov_deg", &["0.001 to 179.9°"]),
         ],
     );
