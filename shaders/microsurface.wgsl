@@ -124,15 +124,15 @@ fn visible_slope(cosine: f32, sine: f32, u_in: f32) -> f32 {
     if (cosine < 6.0 * sine) {
         steepest = cosine / sine;
     }
-    let wanted = u * seen_below(cosine, sine, steepest);
+    let wanted = u * visible_cdf(cosine, sine, steepest);
     let theta = polar_angle(cosine, sine);
     let power = 1.0 + theta * (-0.876 + theta * (0.4265 - 0.0594 * theta));
-    let guess = seen_below(1.0, 0.0, steepest) * (1.0 - pow(1.0 - u, power));
+    let guess = visible_cdf(1.0, 0.0, steepest) * (1.0 - pow(1.0 - u, power));
     var x = min(rough_inverse_erf(guess), steepest);
     for (var i = 0u; i < SLOPE_STEPS; i++) {
         let seen = max(cosine - x * sine, 1e-9);
         // √π / 2
-        let newton = (wanted - seen_below(cosine, sine, x)) * 0.8862269255 * exp(x * x) / seen;
+        let newton = (wanted - visible_cdf(cosine, sine, x)) * 0.8862269255 * exp(x * x) / seen;
         let bend = -x - 0.5 * sine / seen;
         x = min(x + newton / (1.0 + newton * bend), steepest);
     }
@@ -140,7 +140,7 @@ fn visible_slope(cosine: f32, sine: f32, u_in: f32) -> f32 {
 }
 
 /// Returns cos θ erfc(−x) + sin θ exp(−x²) / √π.
-fn seen_below(cosine: f32, sine: f32, x: f32) -> f32 {
+fn visible_cdf(cosine: f32, sine: f32, x: f32) -> f32 {
     let gauss = exp(-x * x);
     let tail = gauss * scaled_erfc(abs(x));
     return cosine * select(tail, 2.0 - tail, x > 0.0) + sine * 0.5641895835 * gauss;

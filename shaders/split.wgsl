@@ -11,7 +11,7 @@ fn reflected_at(material: u32, cosine: f32) -> f32 {
 
 /// The least probability of following the reflection of a film, and of following its transmission: even a weak reflection may show
 /// something bright.
-const LEAST_PROBABILITY: f32 = 0.25;
+const MIN_PROBABILITY: f32 = 0.25;
 
 /// A fraction of the light that is 0 up to rounding.
 const NOTHING: f32 = 1e-9;
@@ -22,7 +22,7 @@ fn reflection_probability(reflected: f32) -> f32 {
     if (reflected <= NOTHING) {
         return 0.0;
     }
-    return clamp(reflected, LEAST_PROBABILITY, 1.0 - LEAST_PROBABILITY);
+    return clamp(reflected, MIN_PROBABILITY, 1.0 - MIN_PROBABILITY);
 }
 
 /// Paths that wait for the current one to end.
@@ -43,10 +43,10 @@ fn resume() -> PathState {
 }
 
 /// The least survival probability of a path in Russian roulette, which bounds its weight.
-const LEAST_SURVIVAL: f32 = 0.05;
+const MIN_SURVIVAL: f32 = 0.05;
 
 /// Returns the survival probability of a path with the estimated throughput `throughput`. It is the same for all its wavelengths,
 /// so that each is unbiased.
 fn rr_survival_probability(throughput: f32) -> f32 {
-    return clamp(throughput, LEAST_SURVIVAL, 1.0);
+    return clamp(throughput, MIN_SURVIVAL, 1.0);
 }

@@ -94,7 +94,7 @@ impl<'a> Campaign<'a> {
         if tally.failures.is_empty() {
             self.change(&folder, &mut tally, &read, inputs);
         }
-        self.tell(&tally);
+        self.report(&tally);
     }
 
     fn change(
@@ -186,7 +186,7 @@ impl<'a> Campaign<'a> {
         tally.outcomes.insert(outcome)
     }
 
-    fn tell(&self, tally: &Tally) {
+    fn report(&self, tally: &Tally) {
         println!(
             "{}: {} executions, {} accepted, {} outcomes; at most {:.3} s and {:.1} MB",
             self.name,

@@ -110,7 +110,7 @@ pub fn same_numbers(
     );
     let good = worst_p99.0 <= tolerance.p99
         && bias.abs() <= tolerance.bias
-        && share <= tolerance.outlier_share;
+        && share <= tolerance.outlier_fraction;
     if good { Ok(report) } else { Err(report) }
 }
 

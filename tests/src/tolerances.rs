@@ -97,7 +97,7 @@ pub struct FrameTolerance {
     /// the choice at a film) for at least one of its samples.
     pub outlier: f64,
     /// Fraction of the pixels that may be outliers: the branches that lie within 1e-6 of the deciding value.
-    pub outlier_share: f64,
+    pub outlier_fraction: f64,
     /// Dark values are compared with this fraction of the picture's mean instead of with themselves.
     pub floor: f64,
 }
@@ -107,7 +107,7 @@ pub const FRAMES: FrameTolerance = FrameTolerance {
     p99: 1e-3,
     bias: 1e-4,
     outlier: 1e-2,
-    outlier_share: 5e-3,
+    outlier_fraction: 5e-3,
     floor: 1e-2,
 };
 
@@ -116,7 +116,7 @@ pub const SUMS: FrameTolerance = FrameTolerance {
     p99: 1e-5,
     bias: 1e-6,
     outlier: 1e-4,
-    outlier_share: 0.0,
+    outlier_fraction: 0.0,
     floor: 1e-2,
 };
 
@@ -128,7 +128,7 @@ pub const Z_OVER_3: f64 = 0.03;
 
 /// Single paths: one sample per pixel, so a flipped branch is not diluted, and there are fewer pixels than in a frame.
 pub const PATHS: FrameTolerance = FrameTolerance {
-    outlier_share: 5e-3,
+    outlier_fraction: 5e-3,
     ..FRAMES
 };
 

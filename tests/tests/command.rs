@@ -37,11 +37,11 @@ fn png(place: &Place, name: &str) -> image::RgbImage {
 /// Runs `render` for the soap bubble and checks that it fails with all of `said` and leaves no file.
 fn refused(arguments: &str, said: &[&str]) {
     let place = Place::default();
-    told(&place.run(&render(arguments)).failed(), said, arguments);
+    assert_says(&place.run(&render(arguments)).failed(), said, arguments);
     assert!(place.names().is_empty(), "{arguments}: {:?}", place.names());
 }
 
-fn told(stderr: &str, said: &[&str], case: &str) {
+fn assert_says(stderr: &str, said: &[&str], case: &str) {
     for words in said {
         assert!(
             stderr.contains(words),
@@ -56,7 +56,7 @@ fn a_render_writes_both_files_named_after_the_scene() {
     let ran = place.run(&render(SMALL)).succeeded();
     assert_eq!(place.names(), ["soap_bubble.exr", "soap_bubble.png"]);
     assert!(ran.stdout.is_empty(), "{}", ran.stdout);
-    told(
+    assert_says(
         &ran.stderr,
         &["wrote soap_bubble.png", "wrote soap_bubble.exr"],
         "",
@@ -150,7 +150,7 @@ fn gpu_and_cpu_give_nearly_the_same_files() {
         let codes = gpu.as_raw().iter().zip(cpu.as_raw());
         let apart = codes.filter(|(a, b)| a.abs_diff(**b) > 1).count();
         // Two codes or more are 1 % of light: an outlier. There may be as many as in the spectra.
-        let allowed = FRAMES.outlier_share * cpu.as_raw().len() as f64;
+        let allowed = FRAMES.outlier_fraction * cpu.as_raw().len() as f64;
         assert!(
             apart as f64 <= allowed,
             "{options}: {apart} codes differ by more than one"
@@ -206,7 +206,7 @@ fn without_a_driver_gpu_fails_with_the_command_that_installs_one() {
     let place = Place::default();
     let ran = place.run_without_driver(&render(&format!("{SMALL} --backend gpu")));
     let stderr = ran.failed();
-    told(
+    assert_says(
         &stderr,
         &["`apt-get install mesa-vulkan-drivers`"],
         "no driver",
@@ -215,7 +215,7 @@ fn without_a_driver_gpu_fails_with_the_command_that_installs_one() {
     assert!(place.names().is_empty());
 
     let listed = place.run_without_driver("devices").succeeded().stdout;
-    told(
+    assert_says(
         &listed,
         &["renders run on the CPU", "mesa-vulkan-drivers"],
         "devices",
@@ -229,15 +229,15 @@ fn an_adapter_is_chosen_by_a_part_of_its_name() {
     let name = &adapters[0].info.name;
 
     let listed = place.run("devices").succeeded().stdout;
-    told(&listed, &[name, "[default]", "MiB"], "devices");
+    assert_says(&listed, &[name, "[default]", "MiB"], "devices");
 
     let stderr = place.run(&render("--adapter nosuch")).failed();
     for adapter in &adapters {
-        told(&stderr, &["nosuch", &adapter.info.name], "nosuch");
+        assert_says(&stderr, &["nosuch", &adapter.info.name], "nosuch");
     }
     let part = name.split_whitespace().next().unwrap().to_uppercase();
     let ran = place.run(&render(&format!("{SMALL} --adapter {part} -o a.png")));
-    told(&ran.succeeded().stderr, &[name], "a part");
+    assert_says(&ran.succeeded().stderr, &[name], "a part");
     assert_eq!(place.names(), ["a.png"]);
 
     refused("--backend cpu --adapter x", &["--adapter", "--backend cpu"]);
@@ -248,7 +248,7 @@ fn check_summarizes_a_scene() {
     let place = Place::default();
     let ran = place.run(&format!("check {}", scene("film_wedge.toml")));
     let said = ran.succeeded();
-    told(
+    assert_says(
         &said.stdout,
         &["film_wedge.toml: valid", "bands", "lit by its environment;"],
         "check",
@@ -259,8 +259,8 @@ fn check_summarizes_a_scene() {
         "camera = { type = 'orthographic', position = [0, 0, 5], look_at = [0, 0, 0], height = 2 }";
     std::fs::write(&dark, camera).unwrap();
     let said = place.run(&format!("check {}", dark.display())).succeeded();
-    told(&said.stdout, &["0 objects, no light;"], "check");
-    told(&said.stderr, &["note: nothing emits light"], "check");
+    assert_says(&said.stdout, &["0 objects, no light;"], "check");
+    assert_says(&said.stderr, &["note: nothing emits light"], "check");
     std::fs::remove_file(&dark).unwrap();
     assert!(place.names().is_empty());
 }
@@ -312,7 +312,7 @@ fn files_that_are_not_scenes_are_refused() {
     ] {
         for subcommand in ["render", "check"] {
             let stderr = place.run(&format!("{subcommand} {name}")).failed();
-            told(&stderr, &[name, said], name);
+            assert_says(&stderr, &[name, said], name);
         }
     }
     assert_eq!(place.names(), before);
@@ -332,9 +332,9 @@ fn all_mistakes_of_a_scene_are_reported_with_their_lines() {
         ("bad.toml:14:10", "radius = -1"),
     ];
     for (at, line) in mistakes {
-        told(&stderr, &[at, line], "bad.toml");
+        assert_says(&stderr, &[at, line], "bad.toml");
     }
-    told(&stderr, &["4 problems", "samples"], "bad.toml");
+    assert_says(&stderr, &["4 problems", "samples"], "bad.toml");
     assert_eq!(place.names(), ["bad.toml"]);
 }
 
@@ -369,7 +369,7 @@ fn outputs_that_cannot_be_written_are_refused_before_the_render() {
     let place = Place::default();
     std::fs::create_dir(place.path("soap_bubble.png")).unwrap();
     let stderr = place.run(&render(large)).failed();
-    told(&stderr, &["soap_bubble.png", "folder"], "a folder");
+    assert_says(&stderr, &["soap_bubble.png", "folder"], "a folder");
     assert_eq!(place.names(), ["soap_bubble.png"]);
 }
 
@@ -382,7 +382,7 @@ fn the_scene_file_is_not_overwritten() {
         let stderr = place
             .run(&format!("render scene.png {SMALL} {arguments}"))
             .failed();
-        told(&stderr, &["overwrite the file that is read"], arguments);
+        assert_says(&stderr, &["overwrite the file that is read"], arguments);
     }
     assert_eq!(place.names(), ["scene.png"]);
     assert_eq!(bytes(&place, "scene.png"), before);
@@ -419,12 +419,12 @@ fn the_examples_run() {
     let exr_path = place.path("render_scene_file.exr");
     let (image, _) = read(&exr_path).unwrap();
     let said = example("read_a_pixel", &[&exr_path, "3".as_ref(), "2".as_ref()]);
-    told(&said, &["pixel (3, 2), 4 samples", "XYZ"], "read_a_pixel");
+    assert_says(&said, &["pixel (3, 2), 4 samples", "XYZ"], "read_a_pixel");
     for &radiance in image.pixel(3, 2) {
-        told(&said, &[&format!("{radiance:.5e}")], "read_a_pixel");
+        assert_says(&said, &[&format!("{radiance:.5e}")], "read_a_pixel");
     }
     let said = example("read_a_pixel", &[]);
-    told(&said, &["pixel (16, 4)", "XYZ"], "read_a_pixel");
+    assert_says(&said, &["pixel (16, 4)", "XYZ"], "read_a_pixel");
 }
 
 /// A film that grows thicker with time, one frame per second.
@@ -451,7 +451,7 @@ fn a_sequence_has_a_numbered_file_for_each_frame_at_its_time() {
         .run("render film.toml --backend cpu --frames 2:4 -o a.exr")
         .succeeded();
     assert_eq!(place.names(), ["a_0002.exr", "a_0003.exr", "film.toml"]);
-    told(
+    assert_says(
         &ran.stderr,
         &["frame 2 of 2 to 3 at 20 s", "wrote a_0003.exr"],
         "",
@@ -504,7 +504,7 @@ fn impossible_sequences_are_refused_before_they_begin() {
     let failed = place
         .run("render film.toml --backend cpu --frames 0:3")
         .failed();
-    told(
+    assert_says(
         &failed,
         &["frame 2 cannot be rendered", "render.time_s"],
         "",

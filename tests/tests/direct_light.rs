@@ -13,7 +13,7 @@ const SAMPLES: u32 = 200;
 const Z: f64 = 4.55;
 
 /// Largest allowed ratio of the variance of both techniques together to the lower variance of the two.
-const MOST_VARIANCE: f64 = 1.2;
+const MAX_VARIANCE: f64 = 1.2;
 
 const LIGHTS: &[(&str, &str)] = &[
     ("small sphere", SMALL_SPHERE),
@@ -181,7 +181,7 @@ fn three_techniques_agree_and_both_together_are_never_much_noisier() {
             );
             print!("{line}");
             let is_dark = both.0 <= 0.0;
-            if is_dark || zs.iter().any(|z| z.abs() > Z) || both.1 > MOST_VARIANCE * least {
+            if is_dark || zs.iter().any(|z| z.abs() > Z) || both.1 > MAX_VARIANCE * least {
                 wrong += &line;
             }
         }

@@ -27,7 +27,7 @@ fn rows(csv: &str) -> Vec<Vec<f64>> {
     csv.lines().skip(1).map(row).collect()
 }
 
-fn told(said: &str, words: &[&str], case: &str) {
+fn assert_says(said: &str, words: &[&str], case: &str) {
     for words in words {
         assert!(said.contains(words), "{case}: {words:?} is not in\n{said}");
     }
@@ -169,7 +169,7 @@ fn json_describes_its_content() {
 #[test]
 fn without_a_file_a_table_with_the_colors_is_printed() {
     let ran = film(STEP, "--angles 0,60").succeeded();
-    told(
+    assert_says(
         &ran.stdout,
         &[
             "1 | silica 300 nm | silicon",
@@ -195,8 +195,8 @@ fn without_a_file_a_table_with_the_colors_is_printed() {
         "--wavelengths 550 --illuminant A --exposure 1 --transmitted",
     )
     .succeeded();
-    told(&short.stdout, &["transmitted under A, shown at +1 EV"], "");
-    told(&short.stderr, &["not adapted to A"], "");
+    assert_says(&short.stdout, &["transmitted under A, shown at +1 EV"], "");
+    assert_says(&short.stderr, &["not adapted to A"], "");
     assert!(!ran.stderr.contains("adapted"), "{}", ran.stderr);
     assert_eq!(
         film(STEP, "--format table --angles 0,60")
@@ -237,7 +237,7 @@ fn pictures_are_written_the_same_each_time() {
         let asked = format!("--plot {name}.png --chart {name}_chart.png --vary 1:0:500");
         let ran = film_in(&place, "1 | 1.333 400nm | 1", &asked).succeeded();
         assert!(ran.stdout.is_empty(), "{}", ran.stdout);
-        told(
+        assert_says(
             &ran.stderr,
             &[
                 &format!("wrote {name}.png"),
@@ -308,10 +308,10 @@ fn the_thickness_for_a_wanted_color_is_found() {
 fn an_invisible_layer_is_reported() {
     let stack = "air | gold 500nm | silica 100nm | 1.5";
     let said = film(stack, "--match #2e6fd0 --vary 2:0:400").succeeded();
-    told(&said.stdout, &["does not depend on this layer"], "");
+    assert_says(&said.stdout, &["does not depend on this layer"], "");
     assert!(!said.stdout.contains(" EV"), "{}", said.stdout);
     let ends = film(STEP, "--match #000000 --vary 1:20:30").succeeded();
-    told(&ends.stdout, &["(end of the range)"], "");
+    assert_says(&ends.stdout, &["(end of the range)"], "");
 }
 
 #[test]
@@ -319,7 +319,7 @@ fn tolerance_and_sensitivity_are_reported_per_layer() {
     let stack = "air | titania 60nm | silica 90nm | bk7";
     let asked = "--tolerance 2% --trials 500 --seed 3 --sensitivity --angles 0,50";
     let ran = film(stack, asked).succeeded();
-    told(
+    assert_says(
         &ran.stdout,
         &[
             "at 0°, thicknesses off by 2 %",
@@ -369,7 +369,7 @@ fn bad_stacks_are_reported_with_their_position() {
         (".", vec!["is a directory"]),
     ] {
         let place = Place::default();
-        told(&film_in(&place, stack, "").failed(), &words, stack);
+        assert_says(&film_in(&place, stack, "").failed(), &words, stack);
         assert!(place.names().is_empty());
     }
     let place = Place::default();
@@ -383,7 +383,7 @@ fn bad_stacks_are_reported_with_their_position() {
         "bad.toml:5:16",
         "found -3",
     ];
-    told(
+    assert_says(
         &film_in(&place, "bad.toml", "").failed(),
         &words,
         "bad.toml",
@@ -469,7 +469,7 @@ fn bad_arguments_are_reported_and_leave_no_file() {
         ),
     ] {
         let place = Place::default();
-        told(
+        assert_says(
             &film_in(&place, STEP, arguments).failed(),
             &words,
             arguments,
@@ -477,7 +477,7 @@ fn bad_arguments_are_reported_and_leave_no_file() {
         assert!(place.names().is_empty(), "{arguments}: {:?}", place.names());
     }
     let many = format!("1 | {}1.5", "1.5 10nm | ".repeat(65));
-    told(
+    assert_says(
         &film(&many, "--wavelengths 380:780:0.005 --absorptance").failed(),
         &[
             "--absorptance",
@@ -487,7 +487,7 @@ fn bad_arguments_are_reported_and_leave_no_file() {
         "",
     );
     for report in ["--tolerance 1%", "--sensitivity", "--chart a.png"] {
-        told(&film("1 | 1.5", report).failed(), &["no layer"], report);
+        assert_says(&film("1 | 1.5", report).failed(), &["no layer"], report);
     }
 }
 
@@ -496,7 +496,7 @@ fn a_stack_file_is_not_overwritten() {
     let place = Place::default();
     let text = "substrate = 1.5\n";
     std::fs::write(place.path("stack.png"), text).unwrap();
-    told(
+    assert_says(
         &film_in(&place, "stack.png", "--plot stack.png").failed(),
         &["overwrite"],
         "",
@@ -514,9 +514,9 @@ fn without_data_for_the_visible_range_there_is_no_color() {
     let text = "substrate = { nm = [400, 700], n = [1.5, 1.4] }\n";
     std::fs::write(place.path("stack.toml"), text).unwrap();
     let ran = film_in(&place, "stack.toml", "--wavelengths 400:700:100").succeeded();
-    told(&ran.stdout, &["no color", "0.039946"], "");
+    assert_says(&ran.stdout, &["no color", "0.039946"], "");
     let said = film_in(&place, "stack.toml", "").failed();
-    told(&said, &["380 nm", "the substrate", "400 to 700 nm"], "");
+    assert_says(&said, &["380 nm", "the substrate", "400 to 700 nm"], "");
 }
 
 /// The commands of the README run, as in a shell, on the file that it shows.

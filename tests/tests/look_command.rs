@@ -44,7 +44,7 @@ fn json(ran: Ran) -> Value {
     serde_json::from_str(&ran.succeeded().stdout).unwrap()
 }
 
-fn told(said: &str, words: &[&str]) {
+fn assert_says(said: &str, words: &[&str]) {
     for words in words {
         assert!(said.contains(words), "{words:?} is not in\n{said}");
     }
@@ -65,7 +65,7 @@ fn equal_images_do_not_differ() {
         assert_eq!((&band["rmse"], &band["bias"]), (&0.0.into(), &0.0.into()));
     }
     let table = place.run("compare a.exr a.exr").succeeded().stdout;
-    told(
+    assert_says(
         &table,
         &["ΔE2000", "FLIP", "the codes are the same", "bias/σ"],
     );
@@ -169,7 +169,7 @@ fn files_that_do_not_compare_give_one_clear_error() {
         ("a.exr wide.exr --map m.png", &["6×4"]),
     ] {
         let said = place.run(&format!("compare {arguments}")).failed();
-        told(&said, words);
+        assert_says(&said, words);
     }
     assert_eq!(place.names(), before, "a partly written file was left");
 }
@@ -211,12 +211,12 @@ fn a_pixel_and_a_region_are_reported_correctly() {
     assert_eq!(csv.lines().count(), 6);
     assert!(csv.starts_with("wavelength_nm,radiance_2_1,deviation_2_1\n420,"));
     let table = place.run("inspect a.exr --at 2,1").succeeded().stdout;
-    told(
+    assert_says(
         &table,
         &["4×3 pixels", "2,1: #", "x, y", "Lab", "16 samples"],
     );
     let whole = place.run("inspect a.exr").succeeded().stdout;
-    told(&whole, &["the whole image", "192 samples"]);
+    assert_says(&whole, &["the whole image", "192 samples"]);
     // One stop is a factor of two.
     let shown = |ev: &str| {
         let found = json(place.run(&format!("inspect a.exr --format json --exposure {ev}")));
@@ -233,7 +233,7 @@ fn spectra_are_plotted() {
         .run("inspect a.exr --at 1,1 --region 0,0,2,2 --plot p.svg")
         .succeeded();
     let svg = std::fs::read_to_string(place.path("p.svg")).unwrap();
-    told(&svg, &["<svg", "1,1", "0,0,2,2", "wavelength in vacuum"]);
+    assert_says(&svg, &["<svg", "1,1", "0,0,2,2", "wavelength in vacuum"]);
     let _ = place.run("inspect a.exr --plot p.png").succeeded();
     assert!(image::open(place.path("p.png")).unwrap().width() > 1000);
     assert_eq!(place.names(), ["a.exr", "p.png", "p.svg"]);
@@ -266,7 +266,7 @@ fn files_that_cannot_be_inspected_give_one_clear_error() {
         ("a.exr --exposure 1e9", &["--exposure"]),
     ] {
         let said = place.run(&format!("inspect {arguments}")).failed();
-        told(&said, words);
+        assert_says(&said, words);
     }
     assert_eq!(place.names(), before, "a partly written file was left");
 }
@@ -334,7 +334,7 @@ fn a_film_is_recognized_and_other_pixels_are_reported() {
         );
     }
     let table = inspect(water, "--angle 30 --lamp FL11 --plot p.svg").succeeded();
-    told(
+    assert_says(
         &table.stdout,
         &[
             "has the shape of the spectrum",
@@ -344,9 +344,9 @@ fn a_film_is_recognized_and_other_pixels_are_reported() {
         ],
     );
     let svg = std::fs::read_to_string(place.path("p.svg")).unwrap();
-    told(&svg, &["film 412.0 nm"]);
+    assert_says(&svg, &["film 412.0 nm"]);
     let beyond = inspect(water, "--vary 1:600:900 --angle 30 --lamp FL11").succeeded();
-    told(&beyond.stdout, &["nothing fits from 600 to 900 nm"]);
+    assert_says(&beyond.stdout, &["nothing fits from 600 to 900 nm"]);
 }
 
 /// A rendered bubble, inspected with its scene: the film's thickness follows from the spectrum alone.
@@ -373,7 +373,7 @@ fn the_scene_identifies_the_film_at_a_pixel() {
         // The film varies by some 25 nm over a pixel of this size.
         assert!((best - known).abs() < 15.0, "{best} {known}");
     }
-    told(
+    assert_says(
         found["places"][2]["film"]["other"].as_str().unwrap(),
         &["velvet"],
     );
@@ -381,7 +381,7 @@ fn the_scene_identifies_the_film_at_a_pixel() {
     let table = place
         .run(&format!("inspect a.exr --at 1,1 --scene {scene}"))
         .succeeded();
-    told(&table.stdout, &["no film: the scene has \"velvet\""]);
+    assert_says(&table.stdout, &["no film: the scene has \"velvet\""]);
     // A scene that the image was not rendered from gives other results; its bands are fitted to those of the image.
     let _ = place
         .run(&format!(
@@ -410,7 +410,7 @@ fn files_of_other_origin_are_reported() {
     let ran = place
         .run("inspect t.exr --at 0,0 --format json")
         .succeeded();
-    told(
+    assert_says(
         &ran.stderr,
         &[
             "t.exr: holds reflectances",
@@ -467,11 +467,11 @@ fn a_booth_shows_each_lamp() {
         ("a.exr --booth A -o b.exr", &["b.exr", ".png"]),
         ("none.exr --booth A -o b.png", &["none.exr"]),
     ] {
-        told(&place.run(&format!("develop {arguments}")).failed(), words);
+        assert_says(&place.run(&format!("develop {arguments}")).failed(), words);
     }
     // An image with an unknown lamp cannot be relit by another.
     write(&place.path("unknown.exr"), &gray([4, 3], 5, None));
     let said = place.run("develop unknown.exr --booth A -o b.png").failed();
-    told(&said, &["--booth A", "cannot be changed"]);
+    assert_says(&said, &["--booth A", "cannot be changed"]);
     assert_eq!(place.names().len(), before.len() + 1);
 }

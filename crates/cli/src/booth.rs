@@ -1,6 +1,6 @@
 //! `pellicle develop --booth`: the same image under one lamp after another, on one sheet.
 
-use crate::develop::{OfImage, Options};
+use crate::develop::{ImageProperties, Options};
 use crate::lamp::Lamp;
 use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
@@ -19,7 +19,7 @@ pub(crate) struct BoothLamp {
 }
 
 /// The largest number of pictures on a sheet.
-const MOST: usize = 36;
+const MAX: usize = 36;
 
 /// Parses one lamp of `A,D65,F11,LED-B3`, with or without a factor.
 pub(crate) fn lamp(text: &str) -> Result<BoothLamp, String> {
@@ -45,10 +45,10 @@ pub(crate) fn check(lamps: &[BoothLamp], outputs: &[PathBuf]) -> miette::Result<
             path.display()
         ));
     }
-    if lamps.len() > MOST {
+    if lamps.len() > MAX {
         let found = lamps.len();
         return Err(miette!(
-            "--booth: {found} lamps; a sheet has room for {MOST}"
+            "--booth: {found} lamps; a sheet has room for {MAX}"
         ));
     }
     Ok(())
@@ -57,7 +57,7 @@ pub(crate) fn check(lamps: &[BoothLamp], outputs: &[PathBuf]) -> miette::Result<
 /// Sets all lights to each lamp in turn, develops, and writes the sheet.
 pub(crate) fn write(
     image: &SpectralImage,
-    of_image: OfImage,
+    of_image: ImageProperties,
     lamps: &[BoothLamp],
     options: &Options,
     outputs: &[PathBuf],
@@ -76,7 +76,7 @@ pub(crate) fn write(
         relight(&mut relit, &lights, options.observer())
             .into_diagnostic()
             .wrap_err_with(|| format!("--booth {label}"))?;
-        let of_image = OfImage {
+        let of_image = ImageProperties {
             lamp: SceneWhite::of_lamps(&relit, options.observer()),
             ..of_image
         };

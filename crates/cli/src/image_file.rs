@@ -59,12 +59,12 @@ pub(crate) fn spectral(path: &Path) -> miette::Result<(SpectralImage, Metadata)>
     let (image, metadata) = spectral_exr::read(file)
         .into_diagnostic()
         .wrap_err_with(|| format!("{} was not read", path.display()))?;
-    tell(path, &metadata);
+    print_notes(path, &metadata);
     Ok((image, metadata))
 }
 
 /// Prints what the reader of a file assumed or changed.
-pub(crate) fn tell(path: &Path, metadata: &Metadata) {
+pub(crate) fn print_notes(path: &Path, metadata: &Metadata) {
     for note in &metadata.notes {
         print::note(format_args!("{}: {note}", path.display()));
     }

@@ -65,7 +65,7 @@ enum Command {
 fn main() -> ExitCode {
     print::keep_lines_whole();
     let arguments =
-        Arguments::try_parse().unwrap_or_else(|error| print::of_arguments::<Arguments>(&error));
+        Arguments::try_parse().unwrap_or_else(|error| print::exit_with::<Arguments>(&error));
     let result = match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Develop(arguments) => develop::run(&arguments),

@@ -60,7 +60,7 @@ pub(crate) fn error(report: &miette::Report) {
 }
 
 /// Prints the help of `P`, or what is wrong with its arguments, and exits. Control characters in the arguments are escaped first.
-pub(crate) fn of_arguments<P: clap::Parser>(error: &clap::Error) -> ! {
+pub(crate) fn exit_with<P: clap::Parser>(error: &clap::Error) -> ! {
     let arguments = std::env::args_os().map(|argument| argument.to_string_lossy().into_owned());
     let arguments: Vec<String> = arguments.collect();
     let is_safe = |argument: &String| visible(argument) == argument.as_str();
@@ -97,11 +97,11 @@ impl ReportHandler for Safely {
 }
 
 /// The largest number of characters of a message.
-const MOST: usize = 4000;
+const MAX: usize = 4000;
 
 fn safe(text: impl Display) -> String {
     let text = text.to_string();
-    visible(&shortened(&text, MOST)).into_owned()
+    visible(&shortened(&text, MAX)).into_owned()
 }
 
 /// A message and its causes.

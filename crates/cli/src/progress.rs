@@ -27,7 +27,7 @@ impl Progress {
     }
 
     /// Shows how many samples are done; 0 means that shaders are being compiled.
-    pub(crate) fn tell(&mut self, done: u64) {
+    pub(crate) fn update(&mut self, done: u64) {
         if done == 0 {
             self.is_compiling = true;
             self.bar.set_style(style(COMPILING));
@@ -148,10 +148,10 @@ mod tests {
     #[test]
     fn a_compile_shows_until_the_first_batch_is_done() {
         let (mut progress, screen) = on_a_screen();
-        progress.tell(0);
+        progress.update(0);
         assert_eq!(screen.line(), "frame 3, compiling shaders …");
         wait();
-        progress.tell(100);
+        progress.update(100);
         let line = screen.line();
         assert!(
             line.starts_with("frame 3, █") && line.ends_with("10 %"),
@@ -163,7 +163,7 @@ mod tests {
             assert!(is_blank || is_compiling || line.ends_with("10 %"), "{line}");
         }
         wait();
-        progress.tell(200);
+        progress.update(200);
         wait();
         progress.bar.force_draw();
         let line = screen.line();
@@ -173,13 +173,13 @@ mod tests {
     #[test]
     fn the_time_left_does_not_count_the_compile() {
         let (mut progress, _) = on_a_screen();
-        progress.tell(0);
+        progress.update(0);
         std::thread::sleep(Duration::from_millis(600));
-        progress.tell(1);
+        progress.update(1);
         let started = Instant::now();
         for done in 2..12 {
             std::thread::sleep(Duration::from_millis(5));
-            progress.tell(done);
+            progress.update(done);
         }
         progress.bar.tick();
         let (pace, seconds) = (progress.bar.per_sec(), started.elapsed().as_secs_f64());
@@ -193,7 +193,7 @@ mod tests {
     fn without_a_compile_there_is_the_bar_at_once() {
         let (mut progress, screen) = on_a_screen();
         wait();
-        progress.tell(500);
+        progress.update(500);
         progress.bar.force_draw();
         let line = screen.line();
         assert!(

@@ -1,6 +1,6 @@
 //! `pellicle render`.
 
-use crate::develop::{self, FOV_SETTING, OfImage};
+use crate::develop::{self, FOV_SETTING, ImageProperties};
 use crate::output::Outputs;
 use crate::progress::Progress;
 use crate::{memory, print};
@@ -213,7 +213,7 @@ fn render_one(
     let started = Instant::now();
     let mut image = renderer
         .render(scene, &mut |done| {
-            progress.tell(done);
+            progress.update(done);
             ControlFlow::Continue(())
         })
         .into_diagnostic()?;
@@ -241,8 +241,8 @@ fn one_pixel(scene: &Scene) -> SpectralImage {
 }
 
 /// The properties of an image that developing needs.
-fn of_image(scene: &Scene) -> OfImage {
-    OfImage {
+fn of_image(scene: &Scene) -> ImageProperties {
+    ImageProperties {
         exposure_ev: scene.settings().exposure_ev,
         fov_deg: scene.camera().fov_deg(),
         lamp: None,

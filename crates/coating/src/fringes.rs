@@ -10,17 +10,17 @@ use crate::{Light, View};
 
 /// Maximum number of times that a step is divided in four: into 4096 parts. Finer fringes, in stacks thicker than some 10 mm, are
 /// sampled at random phases, but at so many positions that the mean of R and T is right to 1e-3.
-const MOST_DIVISIONS: u32 = 6;
+const MAX_DIVISIONS: u32 = 6;
 
 /// Position on the grid of a rule, in parts of a step from the start; a step has [`PARTS`] of them.
-type Place = u32;
+type Position = u32;
 
 /// Number of parts of a step.
-const PARTS: u32 = 4_u32.pow(MOST_DIVISIONS);
+const PARTS: u32 = 4_u32.pow(MAX_DIVISIONS);
 
 /// Largest change between neighbors of the round-trip phase of light through all layers, in radians: a fringe then has at least
 /// seven points.
-const MOST_PHASE: f64 = 0.9;
+const MAX_PHASE: f64 = 0.9;
 /// The same on the grid of the CIE's sums at 1 nm. The sums stay within ΔE₀₀ 0.005 of the integral far beyond this.
 const MOST_PHASE_AT_1_NM: f64 = 0.55;
 /// One of three second differences belongs to a corner where the other two are below this fraction of it.
@@ -30,7 +30,7 @@ const NEGLIGIBLE: f64 = 1e-6;
 /// Largest error that a span may add to X, Y or Z.
 const ERROR: f64 = 5e-9;
 /// Number of indices in memory at a time.
-const MOST_INDICES: usize = 1 << 21;
+const MAX_INDICES: usize = 1 << 21;
 
 /// A film at an angle, for the integration of its color.
 pub(crate) struct Fringes<'a> {
@@ -46,14 +46,14 @@ pub(crate) struct Fringes<'a> {
 
 /// A part of a step with R or T at its ends.
 struct Span {
-    start: Place,
+    start: Position,
     length: u32,
     ends: [f64; 2],
 }
 
 /// R or T at a position, and its weight in the sum.
 struct Node {
-    place: Place,
+    position: Position,
     weight: [f64; 3],
     share: f64,
 }
@@ -66,50 +66,50 @@ pub(crate) struct Places {
 
 impl Fringes<'_> {
     /// Returns XYZ, given R or T at the wavelengths of the light's sums.
-    pub(crate) fn xyz(&self, shares: &[f64]) -> [f64; 3] {
-        let mut xyz = self.light.xyz(shares.iter().copied());
-        self.integrate(shares, |node| add(&mut xyz, node.weight, node.share));
+    pub(crate) fn xyz(&self, values: &[f64]) -> [f64; 3] {
+        let mut xyz = self.light.xyz(values.iter().copied());
+        self.integrate(values, |node| add(&mut xyz, node.weight, node.share));
         xyz
     }
 
     /// Returns the positions that [`Self::xyz`] sums over, for sums of other quantities of the same stack.
-    pub(crate) fn places(&self, shares: &[f64]) -> Places {
+    pub(crate) fn positions(&self, values: &[f64]) -> Places {
         let own = (0..).step_by(PARTS as usize);
-        let mut places: Vec<_> = own
+        let mut positions: Vec<_> = own
             .zip(self.light.per_wavelength().iter().copied())
             .collect();
-        self.integrate(shares, |node| places.push((node.place, node.weight)));
-        places.sort_by_key(|&(place, _)| place);
-        places.dedup_by(|next, kept| {
+        self.integrate(values, |node| positions.push((node.position, node.weight)));
+        positions.sort_by_key(|&(position, _)| position);
+        positions.dedup_by(|next, kept| {
             let is_same = next.0 == kept.0;
             if is_same {
                 add(&mut kept.1, next.1, 1.0);
             }
             is_same
         });
-        let (places, weights): (Vec<Place>, _) = places.into_iter().unzip();
+        let (positions, weights): (Vec<Position>, _) = positions.into_iter().unzip();
         Places {
-            sampled: self.sampled(&places),
+            sampled: self.sampled(&positions),
             weights,
         }
     }
 
     /// Calls `node` with what turns the CIE's sum into the integral: nothing at 1 nm where all steps are smooth.
-    fn integrate(&self, shares: &[f64], mut node: impl FnMut(Node)) {
-        let is_rough = self.rough_steps(shares);
+    fn integrate(&self, values: &[f64], mut node: impl FnMut(Node)) {
+        let is_rough = self.rough_steps(values);
         if self.light.step_nm() == 1.0 && !is_rough.contains(&true) {
             return;
         }
         let mut open = Vec::new();
         for (step, &is_rough) in is_rough.iter().enumerate() {
             if is_rough {
-                open.push(Span::of_step(step, shares));
+                open.push(Span::of_step(step, values));
             }
-            self.corrections(step, is_rough, shares).for_each(&mut node);
+            self.corrections(step, is_rough, values).for_each(&mut node);
         }
         while !open.is_empty() {
-            let inner: Vec<Place> = open.iter().flat_map(Span::inner).collect();
-            let found = self.shares(&inner);
+            let inner: Vec<Position> = open.iter().flat_map(Span::inner).collect();
+            let found = self.values(&inner);
             let mut rough = Vec::new();
             for (span, inner) in open.iter().zip(found.chunks_exact(3)) {
                 let values = [span.ends[0], inner[0], inner[1], inner[2], span.ends[1]];
@@ -124,18 +124,18 @@ impl Fringes<'_> {
     }
 
     /// Returns for each step of the rule whether R or T is not smooth in it.
-    fn rough_steps(&self, shares: &[f64]) -> Vec<bool> {
-        let Some(last) = shares.len().checked_sub(5) else {
+    fn rough_steps(&self, values: &[f64]) -> Vec<bool> {
+        let Some(last) = values.len().checked_sub(5) else {
             return Vec::new();
         };
         let is_thin = self.most_phase() <= MOST_PHASE_AT_1_NM;
         let is_rough = |step: usize| {
             let around = step.saturating_sub(2).min(last);
-            let five = std::array::from_fn(|i| shares[around + i]);
+            let five = std::array::from_fn(|i| values[around + i]);
             let is_thick = || self.phase(step as u32 * PARTS, PARTS) > MOST_PHASE_AT_1_NM;
             !is_thin && is_thick() || self.is_bent(step, &five)
         };
-        let rough: Vec<bool> = (0..shares.len()).map(is_rough).collect();
+        let rough: Vec<bool> = (0..values.len()).map(is_rough).collect();
         rough.windows(2).map(|ends| ends[0] || ends[1]).collect()
     }
 
@@ -146,7 +146,7 @@ impl Fringes<'_> {
         &self,
         step: usize,
         is_rough: bool,
-        shares: &[f64],
+        values: &[f64],
     ) -> impl Iterator<Item = Node> {
         let weights = self.light.per_wavelength();
         let mut added = [[0.0; 3]; 4];
@@ -155,7 +155,7 @@ impl Fringes<'_> {
             let (linear, bent) = ((w1 - w0) / 6.0, (w0 + w1) / 48.0);
             let of_ends = if is_rough {
                 [0.0, -0.5 * w0, -0.5 * w1, 0.0]
-            } else if step == 0 || step + 2 == shares.len() {
+            } else if step == 0 || step + 2 == values.len() {
                 [0.0, linear, -linear, 0.0]
             } else {
                 [-bent, linear + bent, bent - linear, -bent]
@@ -168,14 +168,14 @@ impl Fringes<'_> {
             step.saturating_sub(1),
             step,
             step + 1,
-            (step + 2).min(shares.len() - 1),
+            (step + 2).min(values.len() - 1),
         ];
-        let shares = around.map(|at| (at as u32 * PARTS, shares[at]));
-        shares
+        let values = around.map(|at| (at as u32 * PARTS, values[at]));
+        values
             .into_iter()
             .zip(added)
-            .map(|((place, share), weight)| Node {
-                place,
+            .map(|((position, share), weight)| Node {
+                position,
                 weight,
                 share,
             })
@@ -192,10 +192,10 @@ impl Fringes<'_> {
         ];
         let width = f64::from(span.length) / f64::from(PARTS);
         [0, 1, 2, 3, 4].map(|quarter: usize| {
-            let place = span.start + quarter as u32 * (span.length / 4);
+            let position = span.start + quarter as u32 * (span.length / 4);
             Node {
-                place,
-                weight: self.weight(place).map(|w| w * width * BOOLE[quarter]),
+                position,
+                weight: self.weight(position).map(|w| w * width * BOOLE[quarter]),
                 share: values[quarter],
             }
         })
@@ -205,7 +205,7 @@ impl Fringes<'_> {
     fn is_smooth(&self, span: &Span, values: &[f64; 5]) -> bool {
         let width = f64::from(span.length) / f64::from(PARTS);
         let (_, fourth) = differences(values);
-        self.phase(span.start, span.length / 4) <= MOST_PHASE
+        self.phase(span.start, span.length / 4) <= MAX_PHASE
             && self.largest_weight(span.start) * width * fourth / 180.0 <= ERROR
     }
 
@@ -225,13 +225,13 @@ impl Fringes<'_> {
         !is_corner && fourth > MOST_PHASE_AT_1_NM.powi(2) * largest
     }
 
-    fn largest_weight(&self, place: Place) -> f64 {
-        self.weight(place).into_iter().fold(0.0, f64::max)
+    fn largest_weight(&self, position: Position) -> f64 {
+        self.weight(position).into_iter().fold(0.0, f64::max)
     }
 
     /// Change of the round-trip phase of light through all layers over a number of parts of a step.
-    fn phase(&self, place: Place, parts: u32) -> f64 {
-        let (step, _) = self.fine_step(place);
+    fn phase(&self, position: Position, parts: u32) -> f64 {
+        let (step, _) = self.fine_step(position);
         let optical: f64 = self
             .fine
             .layers()
@@ -239,7 +239,7 @@ impl Fringes<'_> {
             .zip(self.thicknesses_nm)
             .map(|(indices, d)| indices[step].re * d)
             .sum();
-        let nm = self.nm(place);
+        let nm = self.nm(position);
         let width = self.light.step_nm() * f64::from(parts) / f64::from(PARTS);
         4.0 * std::f64::consts::PI * optical / (nm * nm) * width
     }
@@ -257,58 +257,58 @@ impl Fringes<'_> {
     }
 
     /// R or T at positions between the wavelengths of the sums.
-    fn shares(&self, places: &[Place]) -> Vec<f64> {
-        let at_once = (MOST_INDICES / (self.thicknesses_nm.len() + 1)).max(256);
-        let mut shares = Vec::with_capacity(places.len());
-        for places in places.chunks(at_once) {
+    fn values(&self, positions: &[Position]) -> Vec<f64> {
+        let at_once = (MAX_INDICES / (self.thicknesses_nm.len() + 1)).max(256);
+        let mut values = Vec::with_capacity(positions.len());
+        for positions in positions.chunks(at_once) {
             let set = [self.thicknesses_nm.to_vec()];
-            let powers = self.sampled(places).powers_of_all(&set, &[self.angle]);
+            let powers = self.sampled(positions).powers_of_all(&set, &[self.angle]);
             let seen = powers
                 .iter()
                 .map(|powers| self.view.of(powers.reflectance, powers.transmittance));
-            shares.extend(seen);
+            values.extend(seen);
         }
-        shares
+        values
     }
 
-    fn sampled(&self, places: &[Place]) -> Sampled {
-        let fine = |&place| (self.nm(place), self.fine_step(place));
-        self.fine.between(places.iter().map(fine))
+    fn sampled(&self, positions: &[Position]) -> Sampled {
+        let fine = |&position| (self.nm(position), self.fine_step(position));
+        self.fine.between(positions.iter().map(fine))
     }
 
     /// The wavelength of a position.
-    fn nm(&self, place: Place) -> f64 {
+    fn nm(&self, position: Position) -> f64 {
         let first = self.fine.wavelengths_nm().first().copied();
-        first.unwrap_or_default() + f64::from(place) / f64::from(PARTS) * self.light.step_nm()
+        first.unwrap_or_default() + f64::from(position) / f64::from(PARTS) * self.light.step_nm()
     }
 
     /// Returns the whole nm before a position, counted from the first, and the fraction of the way to the next.
-    fn fine_step(&self, place: Place) -> (usize, f64) {
-        let along = f64::from(place) / f64::from(PARTS) * self.light.step_nm();
+    fn fine_step(&self, position: Position) -> (usize, f64) {
+        let along = f64::from(position) / f64::from(PARTS) * self.light.step_nm();
         let step = (along as usize).min(self.fine.wavelengths_nm().len().saturating_sub(2));
         (step, along - step as f64)
     }
 
     /// The weights of the light's sums, interpolated linearly between their wavelengths.
-    fn weight(&self, place: Place) -> [f64; 3] {
+    fn weight(&self, position: Position) -> [f64; 3] {
         let weights = self.light.per_wavelength();
-        let step = ((place / PARTS) as usize).min(weights.len().saturating_sub(2));
-        let along = f64::from(place) / f64::from(PARTS) - step as f64;
+        let step = ((position / PARTS) as usize).min(weights.len().saturating_sub(2));
+        let along = f64::from(position) / f64::from(PARTS) - step as f64;
         std::array::from_fn(|i| weights[step][i] * (1.0 - along) + weights[step + 1][i] * along)
     }
 }
 
 impl Span {
-    fn of_step(step: usize, shares: &[f64]) -> Self {
+    fn of_step(step: usize, values: &[f64]) -> Self {
         Self {
             start: step as u32 * PARTS,
             length: PARTS,
-            ends: [shares[step], shares[step + 1]],
+            ends: [values[step], values[step + 1]],
         }
     }
 
     /// The positions at one, two and three quarters of the span.
-    fn inner(&self) -> [Place; 3] {
+    fn inner(&self) -> [Position; 3] {
         [1, 2, 3].map(|quarter| self.start + quarter * (self.length / 4))
     }
 

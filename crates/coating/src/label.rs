@@ -18,7 +18,7 @@ pub(crate) fn rounded(value: f64) -> String {
 }
 
 /// Maximum number of parts of a label.
-const MOST: usize = 24;
+const MAX: usize = 24;
 
 /// Returns the layers in one line. Repeated layers become a group with a power, `(TiO2 60 nm | SiO2 90 nm)^8`, and a line that is
 /// still long keeps only its ends.
@@ -42,7 +42,7 @@ pub(crate) fn of_layers(layers: &[String]) -> Vec<String> {
             }
         }
     }
-    let left_out = parts.len().saturating_sub(MOST);
+    let left_out = parts.len().saturating_sub(MAX);
     if left_out > 1 {
         let middle = (parts.len() - left_out) / 2;
         let layers: usize = parts
@@ -55,7 +55,7 @@ pub(crate) fn of_layers(layers: &[String]) -> Vec<String> {
 }
 
 fn shortened(group: &[String]) -> Vec<String> {
-    let (ends, middle) = (MOST / 2, group.len().saturating_sub(MOST));
+    let (ends, middle) = (MAX / 2, group.len().saturating_sub(MAX));
     if middle < 2 {
         return group.to_vec();
     }

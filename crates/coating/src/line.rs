@@ -42,7 +42,7 @@ pub struct LineError {
 }
 
 /// Maximum number of characters of a message, since the text between two bars may have any length.
-const MOST_OF_MESSAGE: usize = 400;
+const MAX_OF_MESSAGE: usize = 400;
 
 /// An example of a one-line stack.
 pub(crate) const EXAMPLE: &str = "air | silica 300nm | silicon";
@@ -73,7 +73,7 @@ pub(crate) fn parse(line: &str) -> Result<Stack, LineError> {
     read(line).map_err(|Misplaced(Fault { message, help }, bytes)| {
         let snippet = Snippet::new("stack", line, bytes);
         LineError {
-            message: visible(&shortened(&message, MOST_OF_MESSAGE)).into_owned(),
+            message: visible(&shortened(&message, MAX_OF_MESSAGE)).into_owned(),
             help: help.map(|help| visible(&help).into_owned()),
             at: snippet.fault().into(),
             line: Arc::new(snippet),

@@ -57,7 +57,7 @@ pub(crate) const FAINT: RGBColor = RGBColor(222, 222, 222);
 
 /// Draws as the text of an SVG file.
 pub(crate) fn svg(drawing: &impl Drawing) -> String {
-    know_font();
+    register_font_once();
     let (width, height) = drawing.size();
     let fine = (width * SVG_STEPS, height * SVG_STEPS);
     let mut text = String::new();
@@ -73,7 +73,7 @@ pub(crate) fn svg(drawing: &impl Drawing) -> String {
 
 /// Draws as pixels.
 pub(crate) fn pixels(drawing: &impl Drawing) -> RgbImage8 {
-    know_font();
+    register_font_once();
     let (width, height) = drawing.size();
     let fine = PIXELS_PER_UNIT * SUPERSAMPLING;
     let mut codes = vec![255; 3 * (width * fine) as usize * (height * fine) as usize];
@@ -115,7 +115,7 @@ fn smoothed(fine: &[u8], (width, height): (u32, u32)) -> RgbImage8 {
     }
 }
 
-fn know_font() {
+fn register_font_once() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
         let is_font = register_font(FONT, FontStyle::Normal, dejavu::sans::regular());
@@ -136,17 +136,17 @@ pub(crate) fn draw_title<B: DrawingBackend>(
 
 /// Shortens a stack to fit into a line: a long one keeps its first layers, their number, and the substrate.
 fn shortened(title: &str) -> String {
-    const MOST: usize = 90;
+    const MAX: usize = 90;
     let parts: Vec<&str> = title.split(" | ").collect();
-    if title.chars().count() <= MOST || parts.len() < 3 {
-        return title.chars().take(2 * MOST).collect();
+    if title.chars().count() <= MAX || parts.len() < 3 {
+        return title.chars().take(2 * MAX).collect();
     }
     let (start, layers, end) = (parts[0], parts.len() - 2, parts[parts.len() - 1]);
     let end = format!("… ({layers} layers) | {end}");
     let mut shown = start.to_owned();
     for part in &parts[1..=layers] {
         let length = shown.chars().count() + part.chars().count() + end.chars().count() + 6;
-        if length > MOST {
+        if length > MAX {
             break;
         }
         shown += &format!(" | {part}");
@@ -186,12 +186,12 @@ pub(crate) fn decimals(from: f64, to: f64, most: usize, least: usize) -> usize {
         .windows(2)
         .map(|pair| pair[1] - pair[0])
         .fold(to - from, f64::min);
-    let is_told = |decimals: &usize| {
+    let is_distinct = |decimals: &usize| {
         let unit = 10.0_f64.powi(*decimals as i32);
         let is_exact = |tick: &f64| ((tick * unit).round() / unit - tick).abs() < 1e-3 * step;
         ticks.iter().all(is_exact)
     };
-    (least..12).find(is_told).unwrap_or(12)
+    (least..12).find(is_distinct).unwrap_or(12)
 }
 
 #[cfg(test)]

@@ -35,12 +35,12 @@ pub fn sensitivity(stack: &StackColor, thicknesses_nm: &[f64], angle: Angle) -> 
     let color = stack.at(thicknesses_nm, angle);
     let share = |d: &ThicknessDerivative| stack.view().of(d.reflectance, d.transmittance);
     // For each wavelength and layer.
-    let places = stack.places(thicknesses_nm, angle);
-    let derivatives = places.sampled.derivatives(thicknesses_nm, angle);
+    let positions = stack.positions(thicknesses_nm, angle);
+    let derivatives = positions.sampled.derivatives(thicknesses_nm, angle);
     let of_layer = |layer: usize| {
         let shares = derivatives.iter().map(|layers| share(&layers[layer]));
         let mut xyz_per_nm = [0.0; 3];
-        for (share, weight) in shares.zip(&places.weights) {
+        for (share, weight) in shares.zip(&positions.weights) {
             xyz_per_nm = std::array::from_fn(|i| xyz_per_nm[i] + share * weight[i]);
         }
         let lab_per_nm = Lab::derivative(color.xyz, color.white, xyz_per_nm);

@@ -212,9 +212,9 @@ impl StackColor {
     }
 
     /// Positions and weights of the sum for its color with these thicknesses.
-    pub(crate) fn places(&self, thicknesses_nm: &[f64], angle: Angle) -> Places {
+    pub(crate) fn positions(&self, thicknesses_nm: &[f64], angle: Angle) -> Places {
         let shares = self.shares(thicknesses_nm, angle);
-        self.fringes(thicknesses_nm, angle).places(&shares)
+        self.fringes(thicknesses_nm, angle).positions(&shares)
     }
 
     /// Returns XYZ with many sets of thicknesses at many angles, as `[set][angle]`, on all cores.

@@ -110,7 +110,7 @@ impl Tolerance {
 }
 
 /// Maximum number of thicknesses in memory at a time.
-const MOST_THICKNESSES: usize = 1 << 16;
+const MAX_THICKNESSES: usize = 1 << 16;
 
 /// Draws stacks with wrong thicknesses and evaluates their colors.
 ///
@@ -181,7 +181,7 @@ fn scatter(
 
 /// Divides the trials into parts whose thicknesses fit in memory together.
 fn parts(trials: u32, layers: usize) -> impl Iterator<Item = std::ops::Range<u32>> {
-    let step = (MOST_THICKNESSES / layers.max(1)).clamp(1, 1024);
+    let step = (MAX_THICKNESSES / layers.max(1)).clamp(1, 1024);
     (0..trials)
         .step_by(step)
         .map(move |first| first..trials.min(first.saturating_add(step as u32)))
@@ -274,7 +274,7 @@ mod tests {
             let mut next = 0;
             for part in parts(trials, layers) {
                 assert!(part.start == next && part.end > next, "{part:?}");
-                assert!(part.len() == 1 || part.len() * layers <= MOST_THICKNESSES);
+                assert!(part.len() == 1 || part.len() * layers <= MAX_THICKNESSES);
                 next = part.end;
             }
             assert_eq!(next, trials);

@@ -16,7 +16,7 @@ pub enum Destination {
 }
 
 /// The most links to follow, as in operating systems.
-const MOST_LINKS: usize = 40;
+const MAX_LINKS: usize = 40;
 
 impl Destination {
     /// Follows the links of a path; the file at the end need not exist.
@@ -30,7 +30,7 @@ impl Destination {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
         }
         let mut path = path.to_owned();
-        for _ in 0..MOST_LINKS {
+        for _ in 0..MAX_LINKS {
             let metadata = fs::metadata(&path);
             let kind = metadata.as_ref().ok().map(fs::Metadata::file_type);
             if kind.is_some_and(|kind| kind.is_dir()) {

@@ -39,7 +39,7 @@ pub struct RecordLimits {
 
 impl RecordLimits {
     /// The smallest value of each.
-    pub const LEAST: Self = Self {
+    pub const MIN: Self = Self {
         vertices: 1,
         crossings: 1,
         thicknesses: 1,
@@ -192,7 +192,7 @@ mod tests {
 
     #[test]
     fn a_line_is_traced_back_to_its_file() {
-        let made_for = Specialization::general(RecordLimits::LEAST);
+        let made_for = Specialization::general(RecordLimits::MIN);
         let shader = Shader::assemble(&made_for, "fn extra() {}");
         let text: Vec<_> = shader.text().lines().collect();
         let line = text
@@ -209,7 +209,7 @@ mod tests {
 
     #[test]
     fn a_mistake_is_reported_with_its_file_and_line() {
-        let made_for = Specialization::general(RecordLimits::LEAST);
+        let made_for = Specialization::general(RecordLimits::MIN);
         for (extra, told) in [
             ("\nfn f() -> f32 { return 1u; }", "(extra):2:"),
             ("fn f() {\n\n oops; }", "(extra):3:"),

@@ -188,7 +188,7 @@ struct Evaluator {
 
 impl Evaluator {
     fn new(gpu: &Gpu, batch: &StackBatch<'_>, most_stacks: usize) -> Result<Self, StackError> {
-        let made_for = Specialization::general(RecordLimits::LEAST);
+        let made_for = Specialization::general(RecordLimits::MIN);
         let shader = Shader::assemble(&made_for, "");
         let pipeline = compile(gpu, &shader, "evaluate_stacks")?.compute;
         let wavelengths: Vec<f32> = batch.wavelengths_nm.iter().map(|&nm| nm as f32).collect();

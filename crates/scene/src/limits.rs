@@ -94,7 +94,7 @@ pub const MAX_PICTURE_VALUES: u64 = 1 << 27;
 /// The maximum size of a picture file, in bytes: 2²⁷ pixels of four numbers each.
 pub const MAX_PICTURE_BYTES: u64 = 2 << 30;
 /// How far the width of a picture of all directions may differ from twice its height: as a fraction of the width, or in pixels.
-pub const PANORAMA_ASIDE: (f64, u32) = (0.01, 2);
+pub const PANORAMA_TOLERANCE: (f64, u32) = (0.01, 2);
 /// Time, and the time step of a sequence.
 pub const TIME_S: Range = Range::new(0.0, 1e9, " s");
 /// A viscosity.

@@ -135,16 +135,16 @@ impl Problem {
 }
 
 /// The maximum number of characters shown of a field and of a message: names in a file may have any length.
-const MOST_OF_FIELD: usize = 200;
-const MOST_OF_MESSAGE: usize = 2000;
+const MAX_OF_FIELD: usize = 200;
+const MAX_OF_MESSAGE: usize = 2000;
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.field.steps().is_empty() {
             let field = self.field.to_string();
-            write!(f, "{}: ", visible(&shortened(&field, MOST_OF_FIELD)))?;
+            write!(f, "{}: ", visible(&shortened(&field, MAX_OF_FIELD)))?;
         }
-        let message = shortened(&self.message, MOST_OF_MESSAGE);
+        let message = shortened(&self.message, MAX_OF_MESSAGE);
         write!(f, "{}", visible(&message))
     }
 }

@@ -18,7 +18,7 @@ pub struct Snippet {
 }
 
 /// The maximum number of characters of a line that are shown.
-const MOST: usize = 120;
+const MAX: usize = 120;
 /// How many of them are before the fault.
 const BEFORE: usize = 40;
 
@@ -90,7 +90,7 @@ impl Snippet {
 
 /// The bytes of a line that are shown if the fault is at `place`.
 fn window(line: &str, place: usize) -> Range<usize> {
-    let last = |text: &str| text.char_indices().nth(MOST).map(|(at, _)| at);
+    let last = |text: &str| text.char_indices().nth(MAX).map(|(at, _)| at);
     if last(line).is_none() {
         return 0..line.len();
     }
@@ -99,7 +99,7 @@ fn window(line: &str, place: usize) -> Range<usize> {
     let mut start = back(&line[..place], BEFORE).map_or(0, |(at, _)| at);
     let end = last(&line[start..]).map_or(line.len(), |length| start + length);
     if end == line.len() {
-        start = back(line, MOST).map_or(0, |(at, _)| at);
+        start = back(line, MAX).map_or(0, |(at, _)| at);
     }
     start..end
 }

@@ -158,13 +158,13 @@ fn gold(rest: &str) -> String {
 fn one_problem_each(cases: &[(String, &str, &str)]) {
     for (material, field, words) in cases {
         let problems = scene(material).expect_err(material);
-        let told: Vec<_> = problems.iter().collect();
-        assert_eq!(told.len(), 1, "{material}: {problems:#}");
-        assert_eq!(told[0].field.to_string(), *field, "{material}");
+        let reported: Vec<_> = problems.iter().collect();
+        assert_eq!(reported.len(), 1, "{material}: {problems:#}");
+        assert_eq!(reported[0].field.to_string(), *field, "{material}");
         assert!(
-            told[0].message.contains(words),
+            reported[0].message.contains(words),
             "{material}: {}",
-            told[0].message
+            reported[0].message
         );
     }
 }

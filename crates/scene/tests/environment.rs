@@ -201,14 +201,14 @@ fn pictures_of_a_wrong_size_are_reported() {
         BandGrid::visible(1).unwrap(),
         1.0,
     );
-    let told = |name: &str, phrases: &[&str]| {
+    let reported = |name: &str, phrases: &[&str]| {
         let phrases = [&[name], phrases].concat();
         assert_reported(surrounded_by(folder, name), "environment.image", &phrases);
     };
-    told("ball.exr", &["64 × 64", "twice as wide as high"]);
-    told("square.exr", &["64 × 64", "twice as wide as high"]);
-    told("wide.hdr", &["16386 × 8193", "at most 16384 per side"]);
-    told("wide_spectra.exr", &["16400 × 1", "at most 16384 per side"]);
+    reported("ball.exr", &["64 × 64", "twice as wide as high"]);
+    reported("square.exr", &["64 × 64", "twice as wide as high"]);
+    reported("wide.hdr", &["16386 × 8193", "at most 16384 per side"]);
+    reported("wide_spectra.exr", &["16400 × 1", "at most 16384 per side"]);
     // A picture with few bands takes all the bands of the scene.
     let text = format!(
         "{CAMERA}render = {{ bands = 1024, size = [8, 8] }}\nenvironment = {{ type = 'image', image = 'fine.exr' }}\n"

@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-fn told(problems: &Problems) -> String {
+fn reported(problems: &Problems) -> String {
     format!("{problems:#}")
 }
 
@@ -44,7 +44,11 @@ fn scene_files_that_cannot_be_read_say_why() {
     ];
     for (name, expected) in cases {
         let problems = SceneFile::read(path(name)).unwrap_err();
-        assert!(told(&problems).contains(expected), "{}", told(&problems));
+        assert!(
+            reported(&problems).contains(expected),
+            "{}",
+            reported(&problems)
+        );
         let kinds: Vec<_> = problems.iter().map(|problem| problem.kind).collect();
         assert_eq!(kinds, [ProblemKind::File]);
     }
@@ -55,7 +59,8 @@ fn a_table_file_is_read_beside_the_scene() {
     let directory = TempDir::new().unwrap();
     let table = "\u{feff}# a metal of our own\nwavelength, n, k\n\n380, 0.5, 2\n 780 ; 0.5 ; 4\n";
     fs::write(directory.path().join("metal.csv"), table).unwrap();
-    let scene = with_csv(directory.path(), "metal.csv").unwrap_or_else(|p| panic!("{}", told(&p)));
+    let scene =
+        with_csv(directory.path(), "metal.csv").unwrap_or_else(|p| panic!("{}", reported(&p)));
     let Material::Interface { n, k, .. } = scene.materials()[0] else {
         panic!("{:?}", scene.materials());
     };
@@ -63,7 +68,8 @@ fn a_table_file_is_read_beside_the_scene() {
     // 580 nm, in the middle of the table.
     assert!((scene.spectrum(k).at(20, 0.0) - 3.0).abs() < 1e-12);
     fs::write(directory.path().join("glass.csv"), "380\t1.5\n780\t1.5\n").unwrap();
-    let scene = with_csv(directory.path(), "glass.csv").unwrap_or_else(|p| panic!("{}", told(&p)));
+    let scene =
+        with_csv(directory.path(), "glass.csv").unwrap_or_else(|p| panic!("{}", reported(&p)));
     assert_eq!(scene.spectra()[1].extent(), (0.0, 0.0));
 }
 
@@ -121,7 +127,7 @@ fn table_files_that_cannot_be_used_name_the_field_and_the_line() {
     for (name, content, expected) in cases {
         fs::write(directory.path().join(name), content).unwrap();
         let problems = with_csv(directory.path(), name).unwrap_err();
-        let text = told(&problems);
+        let text = reported(&problems);
         assert!(text.contains(expected), "{text}");
         assert!(text.contains("scene.toml:8:"), "{text}");
         assert!(text.contains("materials.metal.index"), "{text}");
@@ -131,10 +137,10 @@ fn table_files_that_cannot_be_used_name_the_field_and_the_line() {
         .map(|i| format!("{},1,1\n", 380.0 + f64::from(i) * 0.01))
         .collect();
     fs::write(directory.path().join("long.csv"), long.concat()).unwrap();
-    let text = told(&with_csv(directory.path(), "long.csv").unwrap_err());
+    let text = reported(&with_csv(directory.path(), "long.csv").unwrap_err());
     assert!(text.contains("has more than 100000 points"), "{text}");
     for (name, expected) in [("none.csv", "cannot be opened"), ("", "is a directory")] {
-        let text = told(&with_csv(directory.path(), name).unwrap_err());
+        let text = reported(&with_csv(directory.path(), name).unwrap_err());
         assert!(
             text.contains(expected) && text.contains("materials.metal.index.csv"),
             "{text}"
@@ -159,7 +165,11 @@ fn links_in_a_circle_and_devices_are_refused_at_once() {
         ("pipe.csv", "is not a regular file"),
     ] {
         let problems = with_csv(directory.path(), name).unwrap_err();
-        assert!(told(&problems).contains(expected), "{}", told(&problems));
+        assert!(
+            reported(&problems).contains(expected),
+            "{}",
+            reported(&problems)
+        );
         assert_eq!(problems.iter().len(), 1);
     }
 }
@@ -223,9 +233,9 @@ fn the_brightest_pixel_of_environment_is_bounded_with_its_scale() {
     let scene = |scale: &str| {
         format!("[environment]\ntype = 'image'\nimage = 'picture'\nscale = {scale}\n")
     };
-    with_picture("sky.hdr", &pixels, &scene("100")).unwrap_or_else(|p| panic!("{}", told(&p)));
+    with_picture("sky.hdr", &pixels, &scene("100")).unwrap_or_else(|p| panic!("{}", reported(&p)));
     let problems = with_picture("sky.hdr", &pixels, &scene("1e4")).unwrap_err();
-    let said = told(&problems);
+    let said = reported(&problems);
     assert!(
         said.contains("environment.scale: found 1e4, which may give the picture's brightest pixel"),
         "{said}"
@@ -259,7 +269,7 @@ fn the_size_of_a_picture_on_spheres_alone_is_refused() {
             "base",
         ),
     ] {
-        let said = told(&with_picture("map.png", &pixel(), &scene(material, "")).unwrap_err());
+        let said = reported(&with_picture("map.png", &pixel(), &scene(material, "")).unwrap_err());
         assert!(
             said.contains(&format!(
                 "materials.x.{field}.size: only spheres have this material"
@@ -267,10 +277,10 @@ fn the_size_of_a_picture_on_spheres_alone_is_refused() {
             "{said}"
         );
         with_picture("map.png", &pixel(), &scene(material, disk))
-            .unwrap_or_else(|p| panic!("{}", told(&p)));
+            .unwrap_or_else(|p| panic!("{}", reported(&p)));
         let plain = material.replace(", size = [1, 1]", "");
         with_picture("map.png", &pixel(), &scene(&plain, ""))
-            .unwrap_or_else(|p| panic!("{}", told(&p)));
+            .unwrap_or_else(|p| panic!("{}", reported(&p)));
     }
 }
 
@@ -307,7 +317,8 @@ fn tables_say_what_was_assumed_and_take_columns_and_units() {
         ("nm,R,T\n380,0.25,1\n780,0.75,1\n", ", column = 2", ""),
         ("0.38,25\n0.78,75\n", ", unit = 'um percent'", ""),
     ] {
-        let (value, notes) = with_reflectance(csv, more).unwrap_or_else(|p| panic!("{}", told(&p)));
+        let (value, notes) =
+            with_reflectance(csv, more).unwrap_or_else(|p| panic!("{}", reported(&p)));
         assert!((value - 0.5).abs() < 1e-12, "{csv}: {value}");
         let notes: Vec<_> = notes
             .iter()
@@ -340,7 +351,7 @@ fn tables_say_what_was_assumed_and_take_columns_and_units() {
             "there is no column \"X\"",
         ),
     ] {
-        let problems = told(&with_reflectance(csv, more).unwrap_err());
+        let problems = reported(&with_reflectance(csv, more).unwrap_err());
         assert!(problems.contains(said), "{problems}");
     }
 }

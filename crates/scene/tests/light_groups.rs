@@ -177,16 +177,16 @@ fn bad_names_are_reported() {
         ("c", reserved.as_str()),
     ];
     let sky = "{ type = 'constant', emission = { constant = 1 }, light_group = '' }";
-    let told = complaints("", &emitters, sky);
-    assert_eq!(told.len(), 4, "{told:#?}");
-    for (told, phrases) in told.iter().zip([
+    let reported = complaints("", &emitters, sky);
+    assert_eq!(reported.len(), 4, "{reported:#?}");
+    for (reported, phrases) in reported.iter().zip([
         ["environment.light_group", "\"\" cannot be the name"],
         ["materials.a.light_group", "1 to 32 ASCII letters"],
         ["materials.b.light_group", "\"a.b\" cannot be the name"],
         ["materials.c.light_group", "have other meanings"],
     ]) {
         for phrase in phrases {
-            assert!(told.contains(phrase), "{told:?} lacks {phrase:?}");
+            assert!(reported.contains(phrase), "{reported:?} lacks {phrase:?}");
         }
     }
 }
@@ -219,10 +219,10 @@ fn too_many_groups_and_too_much_memory_are_reported() {
     let materials: Vec<_> = (0..33).map(|i| format!("m{i}")).collect();
     let names = materials.iter().map(String::as_str);
     let emitters: Vec<_> = names.zip(says.iter().map(String::as_str)).collect();
-    let told = complaints("", &emitters, "");
+    let reported = complaints("", &emitters, "");
     assert!(
-        told.len() == 1 && told[0].contains("found more than 32 light groups"),
-        "{told:#?}"
+        reported.len() == 1 && reported[0].contains("found more than 32 light groups"),
+        "{reported:#?}"
     );
 
     // With names for all but one emitter, that one is also too many.
@@ -233,10 +233,12 @@ fn too_many_groups_and_too_much_memory_are_reported() {
     // 10 000 × 10 000 pixels of 40 bands: 31.3 GiB in one light group, 130 in four.
     let size = "size = [10000, 10000]";
     assert!(checked(size, &emitters[..1], "").is_ok());
-    let told = complaints(size, &emitters[..4], "");
+    let reported = complaints(size, &emitters[..4], "");
     assert!(
-        told.len() == 1 && told[0].contains("and 4 light groups") && told[0].contains("single"),
-        "{told:#?}"
+        reported.len() == 1
+            && reported[0].contains("and 4 light groups")
+            && reported[0].contains("single"),
+        "{reported:#?}"
     );
     // The size is known in advance, and exact.
     let scene = checked("size = [100, 10], bands = 8", &emitters[..2], "").unwrap();

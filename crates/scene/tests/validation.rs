@@ -430,12 +430,12 @@ fn a_bad_override_is_not_blamed_on_the_file() {
     let mut file = file("[render]\nsamples = 8\nbands = 0\n");
     file.description.render.samples = 0;
     let problems = file.validate().unwrap_err();
-    let told: Vec<_> = problems
+    let reported: Vec<_> = problems
         .iter()
         .map(|p| (p.field.to_string(), p.location.is_some()))
         .collect();
     assert_eq!(
-        told,
+        reported,
         [
             ("render.samples".to_owned(), false),
             ("render.bands".to_owned(), true)

@@ -6,7 +6,7 @@ use crate::Tabulated;
 /// Steps of the tables that are interpolated, nm. At 5 nm and less, linear interpolation suffices.
 const STEPS_NM: [f64; 2] = [10.0, 20.0];
 /// The smallest number of points.
-const LEAST: usize = 6;
+const MIN: usize = 6;
 
 /// Weights of the first six values, times 209, that extrapolate one step ([`NEXT`]) and two steps ([`AFTER_NEXT`]) beyond an end
 /// (CIE 167:2005, table 1; Westland, Ripamonti and Cheung, Computational Color Science, second edition, 2012, section 4.3).
@@ -38,7 +38,7 @@ pub fn sprague(table: &Tabulated, range: (f64, f64)) -> Option<(Tabulated, f64)>
         };
         table.points().enumerate().all(on_grid)
     })?;
-    if values.len() < LEAST {
+    if values.len() < MIN {
         return None;
     }
     let longer = extended(&values);

@@ -9,7 +9,7 @@ use reference::random4;
 use std::f64::consts::{PI, TAU};
 
 /// More facets than any walk meets.
-const MOST: u32 = 10_000;
+const MAX: u32 = 10_000;
 
 /// Where a walk leaves, and the facets that it met.
 pub(crate) struct Walk {
@@ -28,7 +28,7 @@ impl Walk {
         };
         let mut direction = wo.map(|x| -x);
         let mut below = 1.0;
-        for step in 0..MOST {
+        for step in 0..MAX {
             let [height, u, v, _] = random4([index % 4096, index / 4096], step, 9, seed);
             let Some(met) = next_height(surface, direction, below, height) else {
                 walk.left = Some(direction);

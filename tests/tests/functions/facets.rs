@@ -52,9 +52,9 @@ fn special_functions() -> Vec<Check> {
         Check {
             probe: pure(
                 (2, 1),
-                "put(0u, seen_below(a(0u), sqrt(1.0 - a(0u) * a(0u)), a(1u)) * exp(a(1u) * a(1u)));",
+                "put(0u, visible_cdf(a(0u), sqrt(1.0 - a(0u) * a(0u)), a(1u)) * exp(a(1u) * a(1u)));",
             ),
-            proves: &["seen_below"],
+            proves: &["visible_cdf"],
             inputs: table(&[(0.0, 1.0), (-4.0, 1.0)], &[&[1.0, 0.0], &[0.0, 0.0]]),
             twin: |a| {
                 let (cosine, sine) = (a[0], (1.0 - a[0] * a[0]).sqrt());

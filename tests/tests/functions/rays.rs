@@ -62,16 +62,16 @@ fn beyond_the_edge(shape: &Shape, place: DVec3) -> f64 {
 
 /// Whether the ray misses the shape's edge and starts off its surface by a thousandth, and does not run along it.
 fn is_clear(shape: &Shape, ray: &Ray, starts_here: bool) -> bool {
-    const LEAST: f64 = 1e-3;
+    const MIN: f64 = 1e-3;
     let origin = ray.origin - center_of(shape);
     match *shape {
         Shape::Sphere { radius, .. } => {
             let along = origin.dot(ray.direction);
             let off_axis = (origin - along * ray.direction).length();
             if starts_here {
-                return along.abs() > LEAST;
+                return along.abs() > MIN;
             }
-            (off_axis - radius).abs() > LEAST && (origin.length() - radius).abs() > LEAST
+            (off_axis - radius).abs() > MIN && (origin.length() - radius).abs() > MIN
         }
         _ if starts_here => true,
         Shape::Plane { normal, .. }
@@ -79,9 +79,7 @@ fn is_clear(shape: &Shape, ray: &Ray, starts_here: bool) -> bool {
         | Shape::Disk { normal, .. } => {
             let (height, speed) = (origin.dot(normal), ray.direction.dot(normal));
             let place = ray.origin - height / speed * ray.direction;
-            height.abs() > LEAST
-                && speed.abs() > 0.05
-                && beyond_the_edge(shape, place).abs() > LEAST
+            height.abs() > MIN && speed.abs() > 0.05 && beyond_the_edge(shape, place).abs() > MIN
         }
     }
 }

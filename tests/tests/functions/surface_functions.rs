@@ -161,7 +161,7 @@ pub(crate) fn checks() -> Vec<Check> {
 }
 
 /// Largest relative difference between the two directions, over all rows; NaN where either is NaN.
-fn lopsidedness(values: &[f64], by_row: impl Fn(usize) -> f64) -> f64 {
+fn asymmetry(values: &[f64], by_row: impl Fn(usize) -> f64) -> f64 {
     let of_row = |(row, both): (usize, &[f64])| {
         let (there, back) = both.split_at(4);
         let pairs = there.iter().zip(back);
@@ -189,15 +189,15 @@ fn surfaces_are_reciprocal() {
         .collect();
     let on_cpu: Vec<f64> = rows.iter().flat_map(|row| both_ways(row)).collect();
     for (who, values) in [("gpu", on_gpu), ("cpu", on_cpu)] {
-        let off = lopsidedness(&values, |_| 1.0);
+        let off = asymmetry(&values, |_| 1.0);
         println!("{who}: {off:.1e}");
         assert!(off < RECIPROCITY.relative, "{who}: {off}");
-        let with_cosines = lopsidedness(&values, |row| rows[row][8] / rows[row][5]);
+        let with_cosines = asymmetry(&values, |row| rows[row][8] / rows[row][5]);
         assert!(with_cosines > 0.1, "{who}: {with_cosines}");
         for broken in [0, values.len() / 2, values.len() - 1] {
             let mut values = values.clone();
             values[broken] = f64::NAN;
-            assert!(lopsidedness(&values, |_| 1.0).is_nan(), "{who}: {broken}");
+            assert!(asymmetry(&values, |_| 1.0).is_nan(), "{who}: {broken}");
         }
     }
 }

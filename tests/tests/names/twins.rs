@@ -133,7 +133,7 @@ const WITHOUT_TWIN: &[(&str, &[&str], &str)] = &[
     ),
     (
         "microsurface",
-        &["scaled_erfc", "seen_below"],
+        &["scaled_erfc", "visible_cdf"],
         "precision of f32; `erfc_and_gauss`",
     ),
     (

@@ -73,7 +73,7 @@ fn normal_tail(z: f64) -> f64 {
 }
 
 /// Probability of a chi-square at least this large, by Wilson and Hilferty's cube root (1931).
-pub(crate) fn chance(chi2: f64, freedom: f64) -> f64 {
+pub(crate) fn probability(chi2: f64, freedom: f64) -> f64 {
     let spread = 2.0 / (9.0 * freedom);
     normal_tail(((chi2 / freedom).cbrt() - (1.0 - spread)) / spread.sqrt())
 }
@@ -94,7 +94,7 @@ fn chi_square(counts: &[f64], expected: &[f64]) -> (f64, f64) {
         chi2 += (pooled.0 - pooled.1).powi(2) / pooled.1;
         cells += 1;
     } else if pooled.0 > pooled.1 + 12.0 {
-        // Where almost nothing is expected, so large a count does not occur by chance.
+        // Where almost nothing is expected, so large a count does not occur by probability.
         chi2 = f64::INFINITY;
     }
     assert!(cells > 20, "only {cells} cells expect five or more samples");
@@ -118,7 +118,7 @@ pub(crate) struct Experiment<'a> {
 
 impl Experiment<'_> {
     /// The probability of so large a chi-square, and the integral of the density.
-    fn chance_and_total(&self, seed: u32) -> (f64, f64) {
+    fn probability_and_total(&self, seed: u32) -> (f64, f64) {
         let [across, around] = self.ranges;
         let mut counts = vec![0.0; ROWS * COLUMNS + 1];
         for (u, v) in numbers(seed) {
@@ -140,15 +140,22 @@ impl Experiment<'_> {
             *expect *= f64::from(SAMPLES);
         }
         let (chi2, freedom) = chi_square(&counts, &expected);
-        (chance(chi2, freedom), total)
+        (probability(chi2, freedom), total)
     }
 
     /// Checks that the sampler follows its density.
     pub(crate) fn holds(&self, seed: u32) {
-        let (chance, total) = self.chance_and_total(seed);
-        println!("{}: chance {chance:.3}, integral {total:.9}", self.name);
+        let (probability, total) = self.probability_and_total(seed);
+        println!(
+            "{}: probability {probability:.3}, integral {total:.9}",
+            self.name
+        );
         let level = 1.0 - (1.0 - FALSE_ALARM).powf(1.0 / TESTS);
-        assert!(chance > level, "{}: chance {chance:e}", self.name);
+        assert!(
+            probability > level,
+            "{}: probability {probability:e}",
+            self.name
+        );
         let whole = total + self.outside.unwrap_or(0.0);
         assert!(
             self.outside.is_none() || (whole - 1.0).abs() < 1e-5,
@@ -160,8 +167,8 @@ impl Experiment<'_> {
 
     /// Checks that a sampler with another density is noticed.
     pub(crate) fn is_refused(&self, seed: u32) {
-        let (chance, _) = self.chance_and_total(seed);
-        assert!(chance < 1e-6, "{} passes: {chance}", self.name);
+        let (probability, _) = self.probability_and_total(seed);
+        assert!(probability < 1e-6, "{} passes: {probability}", self.name);
     }
 }
 
@@ -196,7 +203,7 @@ fn probabilities_of_chi_square_agree_with_tables() {
         (124.342, 100.0, 0.05),
         (149.449, 100.0, 0.001),
     ] {
-        let found = chance(chi2, freedom);
+        let found = probability(chi2, freedom);
         assert!((found / expected - 1.0).abs() < 0.03, "{found} {expected}");
     }
 }

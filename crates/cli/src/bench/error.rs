@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// The largest number of samples per pixel that is tried.
-const MOST_SAMPLES: u32 = 16_384;
+const MAX_SAMPLES: u32 = 16_384;
 /// The factor by which the samples increase from one measurement to the next.
 const STEP: u32 = 4;
 
@@ -166,7 +166,7 @@ fn measure(path: &Path, renderer: &Renderer, wanted: &Wanted) -> miette::Result<
         steps: Vec::new(),
     };
     let mut samples = 1;
-    while samples <= MOST_SAMPLES {
+    while samples <= MAX_SAMPLES {
         let mut images = Vec::new();
         let mut seconds = 0.0;
         for seed in 0..wanted.seeds {

@@ -73,7 +73,7 @@ const CHANGES: [Change; 5] = [
 const WIDTH: u32 = 64;
 
 /// The largest number of samples of the renders that take as much time as others took.
-const MOST_SAMPLES: f64 = 65_536.0;
+const MAX_SAMPLES: f64 = 65_536.0;
 
 /// The requested measurement.
 pub(super) struct Wanted {
@@ -164,7 +164,7 @@ fn scene(path: &Path, renderer: &Renderer, wanted: &Wanted) -> miette::Result<()
 fn equal_time(file: &SceneFile, samples: f64) -> SceneFile {
     let mut more = file.clone();
     more.description.render.samples =
-        (samples.clamp(1.0, MOST_SAMPLES).ceil() as u32).next_power_of_two();
+        (samples.clamp(1.0, MAX_SAMPLES).ceil() as u32).next_power_of_two();
     more
 }
 

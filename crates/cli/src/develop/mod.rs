@@ -32,7 +32,7 @@ pub(crate) struct Arguments {
 
 /// The properties of an image that developing needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct OfImage {
+pub(crate) struct ImageProperties {
     /// The exposure that it was rendered with.
     pub(crate) exposure_ev: f64,
     /// Vertical field of view, if the camera is perspective.
@@ -44,7 +44,7 @@ pub(crate) struct OfImage {
 /// The name under which a spectral image stores the vertical field of view of its camera.
 pub(crate) const FOV_SETTING: &str = "fov_deg";
 
-impl OfImage {
+impl ImageProperties {
     fn said_by(metadata: &Metadata) -> Self {
         let fov = metadata.settings.get(FOV_SETTING);
         Self {
@@ -66,7 +66,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
         booth::check(&arguments.booth, &arguments.output)?;
         options.check_booth()?;
         let (image, metadata) = image_file::spectral(path)?;
-        let of_image = OfImage::said_by(&metadata);
+        let of_image = ImageProperties::said_by(&metadata);
         options.check(&arguments.output, of_image)?;
         return booth::write(
             &image,
@@ -78,18 +78,18 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     }
     if options.needs_spectra() {
         let (mut image, metadata) = spectral_exr::read(path).into_diagnostic()?;
-        image_file::tell(path, &metadata);
-        let mut of_image = OfImage::said_by(&metadata);
+        image_file::print_notes(path, &metadata);
+        let mut of_image = ImageProperties::said_by(&metadata);
         options.relight(&mut image, &mut of_image)?;
         write(arguments, &image, image.height(), of_image)
     } else {
         let (image, metadata) = spectral_exr::read_xyz(path).into_diagnostic()?;
-        image_file::tell(path, &metadata);
+        image_file::print_notes(path, &metadata);
         write(
             arguments,
             &image,
             image.height(),
-            OfImage::said_by(&metadata),
+            ImageProperties::said_by(&metadata),
         )
     }
 }
@@ -98,7 +98,7 @@ fn write<'a>(
     arguments: &Arguments,
     image: impl Into<Latent<'a>>,
     height: u32,
-    of_image: OfImage,
+    of_image: ImageProperties,
 ) -> miette::Result<()> {
     let (options, outputs) = (&arguments.options, &arguments.output);
     options.check(outputs, of_image)?;

@@ -1,6 +1,6 @@
 //! The options of developing, the checks on them, and the settings that they give.
 
-use super::OfImage;
+use super::ImageProperties;
 use super::values::{
     ExposureOption, GamutName, GlareName, White, bits, display, exposure, fov, star_length, white,
 };
@@ -79,7 +79,11 @@ fn without_effect(option: &str, needs: &str) -> miette::Report {
 
 impl Options {
     /// Reports options that cannot work before the work starts, not after it.
-    pub(crate) fn check(&self, pictures: &[PathBuf], of_image: OfImage) -> miette::Result<()> {
+    pub(crate) fn check(
+        &self,
+        pictures: &[PathBuf],
+        of_image: ImageProperties,
+    ) -> miette::Result<()> {
         for path in pictures {
             self.format(path)?;
         }
@@ -137,7 +141,7 @@ impl Options {
     pub(crate) fn relight(
         &self,
         image: &mut SpectralImage,
-        of_image: &mut OfImage,
+        of_image: &mut ImageProperties,
     ) -> miette::Result<()> {
         self.lamps.apply(image)?;
         of_image.lamp = SceneWhite::of_lamps(image, self.observer());
@@ -155,7 +159,7 @@ impl Options {
         needs_lamp || needs_bands || !self.lamps.is_nothing()
     }
 
-    fn adaptation(&self, of_image: OfImage) -> miette::Result<Option<WhiteAdaptation>> {
+    fn adaptation(&self, of_image: ImageProperties) -> miette::Result<Option<WhiteAdaptation>> {
         if self.adapt == Adaptation::None {
             return Ok(None);
         }
@@ -169,7 +173,7 @@ impl Options {
 
     pub(super) fn settings(
         &self,
-        of_image: OfImage,
+        of_image: ImageProperties,
         height: u32,
     ) -> miette::Result<DevelopSettings> {
         let exposure = match self.exposure {
@@ -204,7 +208,7 @@ impl Options {
     pub(crate) fn codes<'a>(
         &self,
         image: impl Into<Latent<'a>>,
-        of_image: OfImage,
+        of_image: ImageProperties,
         height: u32,
     ) -> miette::Result<RgbImage8> {
         develop(image, &self.settings(of_image, height)?)

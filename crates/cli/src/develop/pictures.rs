@@ -1,6 +1,6 @@
 //! Writes pictures to files, in the format that their names ask for.
 
-use super::{OfImage, Options};
+use super::{ImageProperties, Options};
 use crate::output::is_stream;
 use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
@@ -48,7 +48,7 @@ impl Options {
     pub(crate) fn write<'a>(
         &self,
         image: impl Into<Latent<'a>>,
-        of_image: OfImage,
+        of_image: ImageProperties,
         height: u32,
         pictures: &[PathBuf],
     ) -> miette::Result<()> {

@@ -140,7 +140,7 @@ fn wanted(text: &str) -> Result<Wanted, String> {
 }
 
 /// The largest product of wavelengths and angles.
-const MOST_ROWS: usize = 4_000_000;
+const MAX_ROWS: usize = 4_000_000;
 
 /// The input that every part of the command needs.
 struct Film<'a> {
@@ -240,15 +240,15 @@ impl<'a> Film<'a> {
         let angles = self.angles.len();
         let rows = wavelengths * angles;
         let layers = self.stack.layers().len();
-        if rows > MOST_ROWS {
+        if rows > MAX_ROWS {
             return Err(miette!(
-                "{wavelengths} wavelengths at {angles} angles are {rows} rows; at most {MOST_ROWS} are possible"
+                "{wavelengths} wavelengths at {angles} angles are {rows} rows; at most {MAX_ROWS} are possible"
             ));
         }
-        if self.arguments.absorptance && rows.saturating_mul(layers) > MOST_ROWS {
+        if self.arguments.absorptance && rows.saturating_mul(layers) > MAX_ROWS {
             return Err(miette!(
                 help = "use fewer wavelengths or angles",
-                "--absorptance: {rows} rows of {layers} layers; rows times layers may be at most {MOST_ROWS}"
+                "--absorptance: {rows} rows of {layers} layers; rows times layers may be at most {MAX_ROWS}"
             ));
         }
         Ok(())

@@ -1,7 +1,7 @@
 //! Numbers on the command line: lists, ranges, percentages.
 
 /// The largest length of a list.
-const MOST: usize = 100_000;
+const MAX: usize = 100_000;
 
 /// Numbers in the order in which they were written.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,8 +13,8 @@ impl List {
         let mut numbers = Vec::new();
         for item in text.split(',') {
             numbers.extend(item_of_list(item.trim())?);
-            if numbers.len() > MOST {
-                return Err(format!("more than {MOST} numbers"));
+            if numbers.len() > MAX {
+                return Err(format!("more than {MAX} numbers"));
             }
         }
         Ok(Self(numbers))
@@ -47,8 +47,8 @@ fn range(from: f64, to: f64, step: f64, decimals: Option<usize>) -> Result<Vec<f
         return Err(format!("a step of {step}; it must be more than 0"));
     }
     let steps = ((to - from) / step + 1e-9).floor();
-    if steps >= MOST as f64 {
-        return Err(format!("more than {MOST} numbers; use a larger step"));
+    if steps >= MAX as f64 {
+        return Err(format!("more than {MAX} numbers; use a larger step"));
     }
     Ok((0..=steps as usize)
         .map(|i| rounded(from + i as f64 * step, decimals))

@@ -12,7 +12,7 @@ use pellicle::colorimetry::srgb;
 use std::fmt::Write;
 
 /// The largest number of matches that are printed.
-const MOST_MATCHES: usize = 6;
+const MAX_MATCHES: usize = 6;
 
 /// Prints the requested reports.
 pub(crate) fn print(film: &Film) -> miette::Result<()> {
@@ -108,11 +108,11 @@ fn matches(film: &Film, wanted: &Wanted, vary: &Vary) -> miette::Result<String> 
         "{:>4} {:>14} {:>10} {:>9}  color",
         "", "thickness / nm", "ΔE2000", "shown at"
     );
-    for (index, found) in found.iter().take(MOST_MATCHES).enumerate() {
+    for (index, found) in found.iter().take(MAX_MATCHES).enumerate() {
         text.push_str(&line_of_match(index + 1, found));
     }
-    if found.len() > MOST_MATCHES {
-        let _ = writeln!(text, "and {} more", found.len() - MOST_MATCHES);
+    if found.len() > MAX_MATCHES {
+        let _ = writeln!(text, "and {} more", found.len() - MAX_MATCHES);
     }
     Ok(text)
 }

@@ -82,11 +82,11 @@ struct Inspection<'a> {
     image: SpectralImage,
     metadata: Metadata,
     exposure_ev: f64,
-    places: Vec<Place>,
+    places: Vec<Position>,
 }
 
 /// A pixel or region of the image and what is known about it.
-struct Place {
+struct Position {
     /// `320,200`, `10,10,40,40` or `the whole image`.
     label: String,
     probe: Probe,
@@ -129,7 +129,7 @@ impl<'a> Inspection<'a> {
         for (label, region) in regions {
             let probe = probe(&inspection.image, region).into_diagnostic()?;
             let film = films.find(&inspection, &probe)?;
-            inspection.places.push(Place { label, probe, film });
+            inspection.places.push(Position { label, probe, film });
         }
         Ok(inspection)
     }

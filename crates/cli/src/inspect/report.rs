@@ -1,7 +1,7 @@
 //! The results as a table, as CSV or as JSON.
 
 use super::film::{FilmFinding, Fitted};
-use super::{Inspection, Place};
+use super::{Inspection, Position};
 use crate::film::swatch::swatch;
 use crate::print;
 use pellicle::coating::{FilmFit, FilmFits, MatchPlace, Verdict};
@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// The largest number of thicknesses that are printed.
-const MOST_FITS: usize = 3;
+const MAX_FITS: usize = 3;
 
 /// The color at a position.
 pub(super) struct PlaceColor {
@@ -23,7 +23,7 @@ pub(super) struct PlaceColor {
 }
 
 impl Inspection<'_> {
-    pub(super) fn color_of(&self, place: &Place) -> PlaceColor {
+    pub(super) fn color_of(&self, place: &Position) -> PlaceColor {
         let xyz = place
             .probe
             .xyz
@@ -72,7 +72,7 @@ impl Inspection<'_> {
         print::result(text.trim_end())
     }
 
-    fn color(&self, text: &mut String, place: &Place) {
+    fn color(&self, text: &mut String, place: &Position) {
         let (color, probe) = (self.color_of(place), &place.probe);
         let [r, g, b] = color.codes;
         let _ = writeln!(
@@ -117,7 +117,7 @@ impl Inspection<'_> {
     }
 
     /// Writes how much each light group contributes to the luminance, if there are several.
-    fn light_groups(&self, text: &mut String, place: &Place) {
+    fn light_groups(&self, text: &mut String, place: &Position) {
         let probe = &place.probe;
         if probe.light_groups.len() < 2 {
             return;
@@ -195,7 +195,7 @@ impl Inspection<'_> {
         print::result(format_args!("{value:#}"))
     }
 
-    fn json_of(&self, place: &Place) -> Value {
+    fn json_of(&self, place: &Position) -> Value {
         let (color, probe) = (self.color_of(place), &place.probe);
         let [r, g, b] = color.codes;
         let region = probe.region;
@@ -270,7 +270,7 @@ impl Fitted {
             "nearest", "thickness / nm", "±", "residual", "ΔE2000", "of lamp"
         );
         for (name, found) in [("by shape", &fits.by_shape), ("by color", &fits.by_color)] {
-            for (index, fit) in found.iter().take(MOST_FITS).enumerate() {
+            for (index, fit) in found.iter().take(MAX_FITS).enumerate() {
                 let name = if index == 0 { name } else { "" };
                 text.push_str(&line(name, fit));
             }
@@ -309,7 +309,7 @@ impl Fitted {
                 "end_of_range": fit.place != MatchPlace::Within,
             })
         };
-        let all = |found: &[FilmFit]| found.iter().take(MOST_FITS).map(fit).collect::<Vec<_>>();
+        let all = |found: &[FilmFit]| found.iter().take(MAX_FITS).map(fit).collect::<Vec<_>>();
         let verdict = |fits: &FilmFits| match fits.verdict() {
             Verdict::Film => "film",
             Verdict::Lamp => "lamp",

@@ -336,7 +336,7 @@ fn is_row_of_letters(text: &str) -> bool {
 /// undefined letters than a design has.
 fn undefined_letters(text: &str, known: &[&str]) -> Option<Vec<char>> {
     /// More letters than designs of filters use.
-    const MOST: usize = 4;
+    const MAX: usize = 4;
     let is_of_factor = |c: &char| c.is_ascii_digit() || *c == '.';
     let mut letters: Vec<char> = Vec::new();
     let mut has_known = false;
@@ -351,7 +351,7 @@ fn undefined_letters(text: &str, known: &[&str]) -> Option<Vec<char>> {
     }
     let are_capitals = letters.iter().all(char::is_ascii_uppercase);
     let is_row = has_known || (are_capitals && spectra::material_info(text).is_none());
-    (is_row && (1..=MOST).contains(&letters.len())).then_some(letters)
+    (is_row && (1..=MAX).contains(&letters.len())).then_some(letters)
 }
 
 /// Splits a word into its leading number, 1 if absent, and its name.

@@ -14,7 +14,7 @@ use crate::spectral_exr::ReadExrError;
 pub const MAX_BYTES: u128 = 64 << 30;
 
 /// How many times as large as its pixels in the file a picture may be, plus [`MISSING_BYTES`].
-const MOST_MISSING: u128 = 16;
+const MAX_MISSING: u128 = 16;
 /// By how many further bytes a picture may exceed its pixels in the file: missing pixels take memory without bytes in the file.
 const MISSING_BYTES: u128 = 1 << 30;
 
@@ -77,7 +77,7 @@ pub(crate) fn fits(window: &Window, bytes_of: impl Fn(u32, u32) -> u128) -> bool
     if shown > MAX_BYTES
         || shown
             > held
-                .saturating_mul(MOST_MISSING)
+                .saturating_mul(MAX_MISSING)
                 .saturating_add(MISSING_BYTES)
     {
         return false;

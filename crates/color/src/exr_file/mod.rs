@@ -24,7 +24,7 @@ mod window;
 pub(crate) use window::{Run, Window};
 
 /// The most names that a message lists.
-const MOST_LISTED: usize = 24;
+const MAX_LISTED: usize = 24;
 
 /// Opens a file and reads its header. Returns the reader and the file's length in bytes. The header's claims are checked by
 /// [`guard::check`].
@@ -93,9 +93,9 @@ pub(crate) fn name_of(bytes: &[u8]) -> String {
 
 /// Lists names in quotation marks, with control characters escaped; of many names the first ones and the number of the others.
 pub(crate) fn listed(names: &[String]) -> String {
-    let shown = names.iter().take(MOST_LISTED);
+    let shown = names.iter().take(MAX_LISTED);
     let shown: Vec<String> = shown.map(|name| format!("{name:?}")).collect();
-    match names.len().saturating_sub(MOST_LISTED) {
+    match names.len().saturating_sub(MAX_LISTED) {
         0 => shown.join(", "),
         more => format!("{} and {more} more", shown.join(", ")),
     }

@@ -3,7 +3,7 @@
 use spectra::{BandGrid, BandGridError};
 use thiserror::Error;
 
-use super::wavelength::Place;
+use super::wavelength::SpectralPosition;
 
 /// Why the spectral channels of a file do not form a band grid.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -86,19 +86,19 @@ pub(super) struct Bands {
     /// The file's bands that are used, counted from the shortest wavelength.
     pub(super) used: std::ops::Range<usize>,
     /// How the grid's bands are computed from them; `None` if they are the grid's bands.
-    pub(super) shares: Option<Shares>,
+    pub(super) shares: Option<BandMix>,
     /// The ends of the file's bands, nm, if [`Bands::reaching_the_ends`] extended them.
     pub(super) ends_nm: Option<(f64, f64)>,
 }
 
 /// For each band of the grid the bands from which it is computed, counted from the first one used, and their weights. The
 /// integral over wavelength is preserved.
-pub(super) type Shares = Vec<Vec<(usize, f32)>>;
+pub(super) type BandMix = Vec<Vec<(usize, f32)>>;
 
 impl Bands {
     /// Creates the grid for bands in order of their wavelengths. `range_nm` gives the ends of a uniform grid if the file has them.
     pub(super) fn new(
-        places: &[Place],
+        places: &[SpectralPosition],
         range_nm: Option<(f64, f64)>,
     ) -> Result<Self, BandLayoutError> {
         let centers: Vec<f64> = places.iter().map(|place| place.center_nm()).collect();
@@ -155,7 +155,7 @@ impl Bands {
 /// How far from the ends of [`SEEN_NM`] bands may begin and end, nm: less than 0.1 % of any lamp's X, Y or Z lies beyond.
 const NEAR_ENDS_NM: f64 = 5.0;
 /// The most parts into which bands are split to come that near.
-const MOST_PARTS: u32 = 8;
+const MAX_PARTS: u32 = 8;
 
 impl Bands {
     /// Extends or cuts the bands so that they reach from one end of [`SEEN_NM`] to the other, which reflectances need to be shown
@@ -176,7 +176,7 @@ impl Bands {
             let to_nm = self.grid.min_nm() + end * step;
             from_nm - low <= NEAR_ENDS_NM && high - to_nm <= NEAR_ENDS_NM
         };
-        let parts = (1..=MOST_PARTS).find(is_near).unwrap_or(MOST_PARTS);
+        let parts = (1..=MAX_PARTS).find(is_near).unwrap_or(MAX_PARTS);
         let (step, first, end) = lattice(parts);
         if parts == 1 && first == 0.0 && end == count {
             return Ok(self);
@@ -221,13 +221,13 @@ fn furthest_off(grid: &BandGrid, centers: &[f64]) -> Option<(f64, f64)> {
 
 /// Returns the edges of the bands. Between two centers the edge is halfway, as the layout specifies for channels without a response
 /// curve; the first and the last band are symmetrical.
-fn edges(places: &[Place], centers: &[f64]) -> Result<Vec<f64>, BandLayoutError> {
-    if let [Place::Range(first, _), ..] = places {
+fn edges(places: &[SpectralPosition], centers: &[f64]) -> Result<Vec<f64>, BandLayoutError> {
+    if let [SpectralPosition::Range(first, _), ..] = places {
         let mut edges = vec![*first];
         for place in places {
             let (low, high) = match *place {
-                Place::Range(low, high) => (low, high),
-                Place::Center(nm) => (nm, nm),
+                SpectralPosition::Range(low, high) => (low, high),
+                SpectralPosition::Center(nm) => (nm, nm),
             };
             let end_nm = edges[edges.len() - 1];
             // Names have two decimals.
@@ -272,7 +272,7 @@ fn used(edges: &[f64]) -> Result<std::ops::Range<usize>, BandLayoutError> {
 }
 
 /// Returns weights that make each band of the grid the mean over its width of a spectrum that is constant between the edges.
-fn shares(edges: &[f64], grid: &BandGrid) -> Shares {
+fn shares(edges: &[f64], grid: &BandGrid) -> BandMix {
     let share = |band: u32| {
         let (low, high) = (grid.wavelength_nm(band, 0.0), grid.wavelength_nm(band, 1.0));
         let of_source = |(source, pair): (usize, &[f64])| {
@@ -289,8 +289,8 @@ mod tests {
     use super::*;
     use crate::spectral_exr::wavelength::spectral_channel;
 
-    fn centers(nm: &[f64]) -> Vec<Place> {
-        nm.iter().copied().map(Place::Center).collect()
+    fn centers(nm: &[f64]) -> Vec<SpectralPosition> {
+        nm.iter().copied().map(SpectralPosition::Center).collect()
     }
 
     fn uniform(min_nm: f64, max_nm: f64, used: std::ops::Range<usize>) -> Bands {
@@ -316,7 +316,7 @@ mod tests {
                 let name = radiance_name(grid.center_nm(band));
                 spectral_channel(&name).unwrap().unwrap().1
             };
-            let places: Vec<Place> = (0..count).map(place).collect();
+            let places: Vec<SpectralPosition> = (0..count).map(place).collect();
             let range = (grid.min_nm(), grid.max_nm());
             let found = Bands::new(&places, Some(range)).unwrap();
             assert_eq!(found, uniform(380.0, 780.0, 0..count as usize));
@@ -405,7 +405,7 @@ mod tests {
 
     #[test]
     fn ranges_are_taken_as_they_are() {
-        let range = |low, high| Place::Range(low, high);
+        let range = |low, high| SpectralPosition::Range(low, high);
         let found = Bands::new(&[range(400.0, 410.0), range(410.0, 420.0)], None).unwrap();
         assert_eq!(found, uniform(400.0, 420.0, 0..2));
         assert!(Bands::new(&[range(400.0, 500.0)], None).is_ok());

@@ -15,9 +15,9 @@ const LAYER: &str = "pellicle.light.";
 /// Attribute: the names in order, separated by spaces.
 const NAMES: &str = "pellicle.lightGroups";
 /// The most names of a list; a longer list was not written here.
-const MOST: usize = 256;
+const MAX: usize = 256;
 /// The largest power of a lamp: products of larger powers with other numbers would not be finite in `f32`.
-const MOST_POWER: f64 = 1e30;
+const MAX_POWER: f64 = 1e30;
 /// The names of X, Y and Z after the name of the light group.
 const XYZ: [&str; 3] = ["cieX", "cieY", "cieZ"];
 
@@ -116,8 +116,8 @@ pub(super) fn of_header(
         name: name.to_owned(),
         lamp: None,
     };
-    let mut groups: Vec<LightGroup> = names.split(' ').take(MOST + 1).map(group).collect();
-    if groups.len() > MOST || bad_name(&groups).is_some() {
+    let mut groups: Vec<LightGroup> = names.split(' ').take(MAX + 1).map(group).collect();
+    if groups.len() > MAX || bad_name(&groups).is_some() {
         return vec![LightGroup::unknown()];
     }
     for LightGroup { name, lamp } in &mut groups {
@@ -152,7 +152,7 @@ fn parsed(text: &str, grid: &BandGrid) -> Option<Tabulated> {
     let point = |line: &str| {
         let (nm, value) = line.split_once(',')?;
         let (nm, value): (f64, f64) = (nm.parse().ok()?, value.parse().ok()?);
-        let is_sound = (low..=high).contains(&nm) && (0.0..=MOST_POWER).contains(&value);
+        let is_sound = (low..=high).contains(&nm) && (0.0..=MAX_POWER).contains(&value);
         is_sound.then_some((nm, value))
     };
     let points: Option<Vec<_>> = text.lines().map(point).collect();

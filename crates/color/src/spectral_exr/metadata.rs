@@ -18,7 +18,7 @@ const EXPOSURE: &str = "pellicle.exposureEv";
 const SETTING: &str = "pellicle.setting.";
 
 /// The largest plausible exposure of a file, in stops up or down.
-const MOST_STOPS: f64 = 40.0;
+const MAX_STOPS: f64 = 40.0;
 
 /// The most bytes that an attribute's name may have in an `OpenEXR` file.
 const NAME_BYTES: usize = 255;
@@ -137,11 +137,11 @@ pub(super) fn range_nm(header: &Header) -> Option<(f64, f64)> {
 fn exposure_ev(header: &Header, notes: &mut Vec<String>) -> f64 {
     let told = number(header, EXPOSURE).unwrap_or(0.0);
     // A NaN fails the comparison.
-    if told.abs() <= MOST_STOPS {
+    if told.abs() <= MAX_STOPS {
         return told;
     }
     notes.push(format!(
-        "its exposure of {told} stops is not from -{MOST_STOPS} to {MOST_STOPS}: 0 is used"
+        "its exposure of {told} stops is not from -{MAX_STOPS} to {MAX_STOPS}: 0 is used"
     ));
     0.0
 }

@@ -44,14 +44,14 @@ pub(super) enum Quantity {
 
 /// The position of a channel in the spectrum, nm.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Place {
+pub(super) enum SpectralPosition {
     /// A band around this wavelength, whose width follows from its neighbors.
     Center(f64),
     /// A band from one wavelength to another.
     Range(f64, f64),
 }
 
-impl Place {
+impl SpectralPosition {
     /// The center of the band.
     pub(super) fn center_nm(self) -> f64 {
         match self {
@@ -62,10 +62,12 @@ impl Place {
 }
 
 /// Returns the quantity and position of a channel by its name; `None` if it is not a spectral channel that is read here.
-pub(super) fn spectral_channel(name: &str) -> Option<Result<(Quantity, Place), BandLayoutError>> {
+pub(super) fn spectral_channel(
+    name: &str,
+) -> Option<Result<(Quantity, SpectralPosition), BandLayoutError>> {
     if let Some(text) = name.strip_prefix("S0.") {
         return match wavelength_nm(text) {
-            Some(nm) => Some(Ok((Quantity::Radiance, Place::Center(nm)))),
+            Some(nm) => Some(Ok((Quantity::Radiance, SpectralPosition::Center(nm)))),
             // Light that is absorbed at one wavelength and emitted at another.
             None if is_reradiation(text) => None,
             None => Some(Err(BandLayoutError::NotAWavelength(name.to_owned()))),
@@ -77,11 +79,11 @@ pub(super) fn spectral_channel(name: &str) -> Option<Result<(Quantity, Place), B
     let range = || {
         let (low, high) = name.split_once('-')?;
         let (low, high) = (number(low)?, number(high.strip_suffix("nm")?)?);
-        (low < high).then_some((Quantity::Range, Place::Range(low, high)))
+        (low < high).then_some((Quantity::Range, SpectralPosition::Range(low, high)))
     };
     let found = bare
-        .map(|nm| (Quantity::Radiance, Place::Center(nm)))
-        .or_else(|| reflective().map(|nm| (Quantity::Reflectance, Place::Center(nm))))
+        .map(|nm| (Quantity::Radiance, SpectralPosition::Center(nm)))
+        .or_else(|| reflective().map(|nm| (Quantity::Reflectance, SpectralPosition::Center(nm))))
         .or_else(range)?;
     Some(Ok(found))
 }
@@ -171,7 +173,7 @@ mod tests {
 
     fn radiance_at(name: &str) -> f64 {
         match spectral_channel(name) {
-            Some(Ok((Quantity::Radiance, Place::Center(nm)))) => nm,
+            Some(Ok((Quantity::Radiance, SpectralPosition::Center(nm)))) => nm,
             other => panic!("{name}: {other:?}"),
         }
     }
@@ -203,10 +205,10 @@ mod tests {
 
     #[test]
     fn other_kinds_of_channel_are_distinguished() {
-        let reflectance = Some(Ok((Quantity::Reflectance, Place::Center(450.0))));
+        let reflectance = Some(Ok((Quantity::Reflectance, SpectralPosition::Center(450.0))));
         assert_eq!(spectral_channel("T.450nm"), reflectance);
         assert_eq!(spectral_channel("T450nm"), reflectance);
-        let range = Some(Ok((Quantity::Range, Place::Range(400.0, 410.5))));
+        let range = Some(Ok((Quantity::Range, SpectralPosition::Range(400.0, 410.5))));
         assert_eq!(spectral_channel("400.00-410.50nm"), range);
         for other in [
             "R",

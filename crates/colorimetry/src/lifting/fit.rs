@@ -11,7 +11,7 @@ use spectra::Observer;
 use std::sync::OnceLock;
 
 /// The largest number of steps of a fit.
-const MOST_STEPS: u32 = 60;
+const MAX_STEPS: u32 = 60;
 /// A residual below this, in linear sRGB, is accepted as 0.
 const GOOD_ENOUGH: f64 = 1e-6;
 /// The starting gray is limited to this and 1 minus this.
@@ -40,7 +40,7 @@ pub(super) struct Known {
 }
 
 /// Lists are padded to a multiple of this, which is a multiple of the lanes of every vector type.
-const MOST_LANES: usize = 8;
+const MAX_LANES: usize = 8;
 
 impl Colors {
     /// The instance that all fits share.
@@ -60,7 +60,7 @@ impl Colors {
             .zip(weights.per_wavelength())
             .map(|(nm, &xyz)| (place(nm), times(&rgb_from_xyz, xyz)))
             .collect();
-        terms.resize(terms.len().next_multiple_of(MOST_LANES), (0.0, [0.0; 3]));
+        terms.resize(terms.len().next_multiple_of(MAX_LANES), (0.0, [0.0; 3]));
         let list = |index: usize| {
             let power = (index / 3) as i32;
             let terms = terms.iter();
@@ -155,7 +155,7 @@ pub(super) fn fit_from(colors: &Colors, rgb: [f64; 3], start: Known) -> Fit {
     let mut error = residual(rgb, best.rgb);
     let mut before = f64::INFINITY;
     let mut damping = 1e-6;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         if squares(error) < GOOD_ENOUGH * GOOD_ENOUGH || damping > 1e12 {
             break;
         }

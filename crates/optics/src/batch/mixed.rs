@@ -1,7 +1,7 @@
 //! Lanes filled with consecutive results, for batches of few wavelengths.
 
 use super::{LayerOf, Powers, StackBatch, write};
-use crate::wide::{Index, Lanes, MOST, Real, SCALED_AFTER, Sweep, Wave};
+use crate::wide::{Index, Lanes, MAX, Real, SCALED_AFTER, Sweep, Wave};
 use num_complex::Complex64;
 use pulp::{Simd, WithSimd};
 
@@ -48,7 +48,7 @@ struct Light<S: Simd> {
 
 impl<S: Simd> Light<S> {
     #[inline(always)]
-    fn wave(&self, n: &[f64; MOST], k: &[f64; MOST]) -> Wave<Lanes<S>> {
+    fn wave(&self, n: &[f64; MAX], k: &[f64; MAX]) -> Wave<Lanes<S>> {
         let clear = k[..Lanes::<S>::COUNT].iter().all(|k| *k == 0.0);
         let (n, k) = (Lanes::load(self.simd, n), Lanes::load(self.simd, k));
         let index = Index::new(n, k, clear, self.incident);
@@ -74,7 +74,7 @@ impl WithSimd for Part<'_> {
         for (group, powers) in powers.chunks_mut(Lanes::<S>::COUNT).enumerate() {
             let start = first + group * Lanes::<S>::COUNT;
             // Lanes beyond the last result repeat it.
-            let mut items = [Item::new(batch, start); MOST];
+            let mut items = [Item::new(batch, start); MAX];
             for (lane, item) in items.iter_mut().enumerate() {
                 *item = Item::new(batch, (start + lane).min(last));
             }
@@ -84,9 +84,9 @@ impl WithSimd for Part<'_> {
 }
 
 #[inline(always)]
-fn evaluate<S: Simd>(simd: S, batch: &StackBatch, items: &[Item; MOST], powers: &mut [Powers]) {
-    let (mut cosines, mut half_waves) = ([0.0; MOST], [0.0; MOST]);
-    let (mut n, mut k) = ([0.0; MOST], [0.0; MOST]);
+fn evaluate<S: Simd>(simd: S, batch: &StackBatch, items: &[Item; MAX], powers: &mut [Powers]) {
+    let (mut cosines, mut half_waves) = ([0.0; MAX], [0.0; MAX]);
+    let (mut n, mut k) = ([0.0; MAX], [0.0; MAX]);
     for (lane, item) in items.iter().enumerate() {
         cosines[lane] = item.cosine;
         half_waves[lane] = 2.0 / batch.wavelengths_nm[item.wavelength];
@@ -122,12 +122,12 @@ fn evaluate<S: Simd>(simd: S, batch: &StackBatch, items: &[Item; MOST], powers: 
 #[inline(always)]
 fn gather(
     batch: &StackBatch,
-    items: &[Item; MOST],
+    items: &[Item; MAX],
     step: usize,
-    n: &mut [f64; MOST],
-    k: &mut [f64; MOST],
-) -> [f64; MOST] {
-    let mut thickness_nm = [0.0; MOST];
+    n: &mut [f64; MAX],
+    k: &mut [f64; MAX],
+) -> [f64; MAX] {
+    let mut thickness_nm = [0.0; MAX];
     for (lane, item) in items.iter().enumerate() {
         if step < item.layers.len() {
             let layer = item.layers[item.layers.len() - 1 - step];

@@ -45,7 +45,7 @@ mod tests;
 pub use check::BatchError;
 
 use crate::Polarized;
-use crate::wide::{Lanes, MOST};
+use crate::wide::{Lanes, MAX};
 use bytemuck::{Pod, Zeroable};
 use num_complex::Complex64;
 use pulp::Arch;
@@ -110,7 +110,7 @@ pub struct Powers {
 impl StackBatch<'_> {
     /// Number of results: stacks × angles × wavelengths.
     pub fn len(&self) -> usize {
-        self.stacks.len() * self.rows_per_stack()
+        self.stacks.len() * self.results_per_stack()
     }
 
     /// Returns whether the batch has no results.
@@ -127,7 +127,7 @@ impl StackBatch<'_> {
     }
 
     /// Number of results per stack.
-    fn rows_per_stack(&self) -> usize {
+    fn results_per_stack(&self) -> usize {
         self.cosines.len() * self.wavelengths_nm.len()
     }
 
@@ -206,7 +206,7 @@ fn run(arch: Arch, batch: &StackBatch, powers: &mut [Powers]) {
 /// Writes the powers of consecutive lanes to as many results.
 #[inline(always)]
 fn write<S: pulp::Simd>(lanes: [Lanes<S>; 4], powers: &mut [Powers]) {
-    let mut rows = [[0.0; MOST]; 4];
+    let mut rows = [[0.0; MAX]; 4];
     for (row, lanes) in rows.iter_mut().zip(lanes) {
         lanes.store(row);
     }

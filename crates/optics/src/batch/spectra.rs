@@ -1,7 +1,7 @@
 //! Lanes along the spectrum: what depends on a medium is computed once for all layers of all stacks of a part.
 
 use super::{Powers, StackBatch, write};
-use crate::wide::{Index, Lanes, MOST, SCALED_AFTER, Sweep, Wave};
+use crate::wide::{Index, Lanes, MAX, SCALED_AFTER, Sweep, Wave};
 use pulp::{Simd, WithSimd};
 use std::ops::Range;
 
@@ -122,19 +122,19 @@ impl<S: Simd> Band<S> {
         let count = batch.wavelengths_nm.len();
         let wavelengths = first..(first + Lanes::<S>::COUNT).min(count);
         let place = |lane: usize| (first + lane).min(count - 1);
-        let mut half_waves = [0.0; MOST];
+        let mut half_waves = [0.0; MAX];
         for (lane, number) in half_waves.iter_mut().enumerate() {
             *number = 2.0 / batch.wavelengths_nm[place(lane)];
         }
         let incident = Lanes::splat(simd, batch.incident);
         let mut indices = Vec::with_capacity(media.len());
         for &medium in media {
-            let (mut n, mut k) = ([0.0; MOST], [0.0; MOST]);
-            for lane in 0..MOST {
+            let (mut n, mut k) = ([0.0; MAX], [0.0; MAX]);
+            for lane in 0..MAX {
                 let index = batch.index(medium, place(lane));
                 (n[lane], k[lane]) = (index.re, index.im);
             }
-            let clear = k == [0.0; MOST];
+            let clear = k == [0.0; MAX];
             let (n, k) = (Lanes::load(simd, &n), Lanes::load(simd, &k));
             indices.push(Index::new(n, k, clear, incident));
         }

@@ -24,7 +24,7 @@ pub(super) fn erfc_and_gauss(x: f64) -> (f64, f64) {
 
 /// Returns the x for which (1 + erf x) / 2 is `p`, in (0, 1): the quantile of the normal distribution (Wichura, Algorithm AS 241,
 /// Appl. Statist. 37, 1988) over √2, with a relative error of some 1e-16.
-pub(super) fn inverse_erf_of_share(p: f64) -> f64 {
+pub(super) fn inverse_erf_of_fraction(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {
         let r = 0.180_625 - q * q;
@@ -203,12 +203,12 @@ mod tests {
     fn the_inverse_is_that_of_the_error_function() {
         for i in 1..10_000 {
             let p = f64::from(i) * 1e-4;
-            let x = inverse_erf_of_share(p);
+            let x = inverse_erf_of_fraction(p);
             let back = 0.5 * libm::erfc(-x);
             assert!((back - p).abs() < 4e-16 + 1e-15 * p, "{p}: {back}");
         }
         for p in [1e-7, 1e-12, 1e-30, 1e-200] {
-            let back = 0.5 * libm::erfc(-inverse_erf_of_share(p));
+            let back = 0.5 * libm::erfc(-inverse_erf_of_fraction(p));
             assert!((back / p - 1.0).abs() < 1e-12, "{p:e}: {back:e}");
         }
     }

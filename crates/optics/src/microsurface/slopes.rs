@@ -1,6 +1,6 @@
 //! Sampling of visible facets, on surfaces of α = 1.
 
-use super::erf::{erfc_and_gauss, inverse_erf_of_share};
+use super::erf::{erfc_and_gauss, inverse_erf_of_fraction};
 use crate::wide::sin_cos_turns;
 use std::f64::consts::PI;
 
@@ -9,7 +9,7 @@ const STEPS: u32 = 4;
 /// A step this small is the last: the next would be of the order of its third power, which is below rounding.
 const LAST_STEP: f64 = 1e-6;
 /// The smallest quantile of the slopes that is sampled.
-const LEAST_PROBABILITY: f64 = 1e-7;
+const MIN_PROBABILITY: f64 = 1e-7;
 
 /// Samples a visible facet of a GGX surface: the half vector of `wo` and a point of the spherical cap (Dupuy and Benyoub 2023,
 /// listing 3).
@@ -31,7 +31,7 @@ pub(super) fn sample_visible_beckmann(wo: [f64; 3], u: f64, v: f64) -> [f64; 3] 
         (1.0, 0.0)
     };
     let toward = visible_slope(wo[2], sine, u);
-    let aside = inverse_erf_of_share(v.max(LEAST_PROBABILITY));
+    let aside = inverse_erf_of_fraction(v.max(MIN_PROBABILITY));
     let x = cos_phi * toward - sin_phi * aside;
     let y = sin_phi * toward + cos_phi * aside;
     super::normalized([-x, -y, 1.0])
@@ -44,7 +44,7 @@ pub(super) fn sample_visible_beckmann(wo: [f64; 3], u: f64, v: f64) -> [f64; 3] 
 /// Halley's rule improves an initial guess (Jakob, An Improved Visible Normal Sampling Routine for the Beckmann Distribution, 2014)
 /// until nothing changes.
 pub(super) fn visible_slope(cosine: f64, sine: f64, u: f64) -> f64 {
-    let u = u.max(LEAST_PROBABILITY);
+    let u = u.max(MIN_PROBABILITY);
     let steepest = if cosine < 6.0 * sine {
         cosine / sine
     } else {

@@ -6,7 +6,7 @@ use pulp::Simd;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The most lanes of any instruction set.
-pub const MOST: usize = 8;
+pub const MAX: usize = 8;
 
 /// As many `f64` as a register of `S` holds.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +18,7 @@ pub struct Lanes<S: Simd> {
 impl<S: Simd> Lanes<S> {
     /// Number of lanes.
     pub const COUNT: usize = {
-        assert!(S::F64_LANES <= MOST);
+        assert!(S::F64_LANES <= MAX);
         S::F64_LANES
     };
 

@@ -28,6 +28,6 @@ pub(crate) use complex::WideComplex;
 pub use elementary::{decay, sin_cos_half_turns, sin_cos_turns, sin_half_turns};
 pub use film::{clear_film_reflectance, two_beam_powers};
 pub use interface::interface_reflectance;
-pub use lanes::{Lanes, MOST};
+pub use lanes::{Lanes, MAX};
 pub use real::Real;
 pub use stack::{Index, SCALED_AFTER, Sweep, Wave};

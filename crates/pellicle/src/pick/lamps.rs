@@ -31,7 +31,7 @@ pub struct SceneLamps {
     pub lights: Vec<SceneLamp>,
 }
 
-const SURROUNDINGS: &str = "the environment";
+const ENVIRONMENT: &str = "the environment";
 /// Number of directions for the mean of a picture, half of them sampled by its brightness.
 const DIRECTIONS: u32 = 8192;
 /// The golden ratio minus 1: its multiples spread evenly.
@@ -45,7 +45,7 @@ impl SceneLamps {
         let mut found = Self::default();
         match scene.environment() {
             Environment::Constant(emission) => {
-                found.add_environment(SURROUNDINGS, power(scene, *emission));
+                found.add_environment(ENVIRONMENT, power(scene, *emission));
             }
             Environment::Gradient {
                 zenith,
@@ -53,11 +53,11 @@ impl SceneLamps {
                 ground,
             } => {
                 for emission in [zenith, horizon, ground] {
-                    found.add_environment(SURROUNDINGS, power(scene, *emission));
+                    found.add_environment(ENVIRONMENT, power(scene, *emission));
                 }
             }
             Environment::Picture { emission, picture } => {
-                let name = format!("{SURROUNDINGS}, its mean");
+                let name = format!("{ENVIRONMENT}, its mean");
                 found.add_environment(&name, mean(scene, *emission, picture));
             }
         }
@@ -127,9 +127,9 @@ pub(super) fn of_environment(scene: &Scene, direction: glam::DVec3) -> Option<Sc
     let seen = |part: &EnvironmentPart<'_>| environment_strength(part.shape, direction) > 0.0;
     let is_even = |part: &EnvironmentPart<'_>| part.shape == EnvironmentShape::Everywhere;
     let name = if parts.iter().filter(|part| seen(part)).all(is_even) {
-        SURROUNDINGS.to_owned()
+        ENVIRONMENT.to_owned()
     } else {
-        format!("{SURROUNDINGS} in the mirror direction")
+        format!("{ENVIRONMENT} in the mirror direction")
     };
     let mut sum = Sum::new(scene);
     for part in &parts {

@@ -11,12 +11,12 @@ pub(crate) use spectral_path::SpectralPath;
 pub(crate) use spectrum::{Row, Tables};
 
 use bytemuck::{Pod, Zeroable};
-use optics::wide::{Lanes, MOST, Real};
+use optics::wide::{Lanes, MAX, Real};
 use pulp::Simd;
 use scene::Emission;
 
 /// Bands of a chunk: as many as the widest registers hold, so that registers of any width divide it.
-const CHUNK: usize = MOST;
+const CHUNK: usize = MAX;
 
 /// Some bands, in one cache line.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]

@@ -24,7 +24,7 @@ pub(crate) struct Findings {
 }
 
 impl Findings {
-    const MOST_MARKS: usize = 10 * Problems::MAX_SHOWN;
+    const MAX_MARKS: usize = 10 * Problems::MAX_SHOWN;
 
     /// Whether a value, a part of it or something that contains it has a stand-in.
     pub(crate) fn is_broken(&self, field: &FieldPath) -> bool {
@@ -48,7 +48,7 @@ impl Findings {
                 .nth(field.steps().len().saturating_sub(1))
         };
         let marked = match self.broken.len() {
-            0..Self::MOST_MARKS => field.clone(),
+            0..Self::MAX_MARKS => field.clone(),
             _ => section().unwrap_or_default(),
         };
         self.around_broken.extend(marked.and_around());
@@ -518,10 +518,10 @@ fn any_tagged(variants: &BTreeMap<String, Fields>) -> Value {
 
 /// A piece of the source, shortened to fit in a message.
 fn shortened(source: &str) -> String {
-    const MOST: usize = 40;
+    const MAX: usize = 40;
     let line = source.lines().next().unwrap_or_default();
-    if line.chars().count() > MOST || line.len() < source.len() {
-        format!("{}…", line.chars().take(MOST).collect::<String>())
+    if line.chars().count() > MAX || line.len() < source.len() {
+        format!("{}…", line.chars().take(MAX).collect::<String>())
     } else {
         line.to_owned()
     }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 /// The maximum numbers of columns and rows of a table.
-const MOST: [u32; 2] = [1024, 512];
+const MAX: [u32; 2] = [1024, 512];
 /// Fraction of uniformly sampled directions if BSDF sampling cannot find what the table leaves out.
 const EVEN: f64 = 0.02;
 /// Relative to the mean brightness: what exceeds the mean by no more than rounding counts as equal to it.
@@ -42,8 +42,12 @@ pub(crate) enum Sampled {
 impl DirectionTable {
     /// The table of a picture by longitude and latitude, with a number ≥ 0 in `brightness` for each pixel, row by row; and the mean over
     /// all directions of the brightness that is importance-sampled.
-    pub(crate) fn new([width, height]: [u32; 2], brightness: &[f32], sent: Sampled) -> (Self, f64) {
-        let (columns, rows) = (width.min(MOST[0]), height.min(MOST[1]));
+    pub(crate) fn new(
+        [width, height]: [u32; 2],
+        brightness: &[f32],
+        sampled: Sampled,
+    ) -> (Self, f64) {
+        let (columns, rows) = (width.min(MAX[0]), height.min(MAX[1]));
         let picture = Brightness {
             size: [width as usize, height as usize],
             values: brightness,
@@ -59,7 +63,7 @@ impl DirectionTable {
             rows.map(of_row).sum::<f64>() / f64::from(columns)
         };
         let whole = mean(&cells);
-        let (least, even) = match sent {
+        let (least, even) = match sampled {
             Sampled::All => (0.0, EVEN * whole),
             Sampled::Excess => (NEARLY_EVEN * whole, 0.0),
         };
@@ -74,7 +78,7 @@ impl DirectionTable {
         let of_rows: Vec<f64> = in_rows()
             .map(|(row, cells)| share(row) * cells.iter().sum::<f64>())
             .collect();
-        let even_density = match sent {
+        let even_density = match sampled {
             Sampled::Excess if sampled_mean > 0.0 => whole / (4.0 * PI * sampled_mean),
             _ => 0.0,
         };
@@ -168,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn rays_are_sent_for_what_is_brighter_than_the_mean() {
+    fn only_what_is_brighter_than_the_mean_is_sampled() {
         // The upper half is three times as bright as the lower.
         let brightness: Vec<f32> = (0..16 * 8)
             .map(|i| if i < 16 * 4 { 3.0 } else { 1.0 })
@@ -192,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn rays_are_not_sent_for_what_is_even() {
+    fn nothing_even_is_sampled() {
         for value in [0.0, 1.0, 0.1] {
             let (table, mean) = DirectionTable::new(SIZE, &[value; 16 * 8], Sampled::Excess);
             assert_eq!(mean, 0.0, "{value}");

@@ -80,7 +80,7 @@ mod tests {
     /// The table against the integral itself, between the knots and at all azimuths, and the white furnace: single reflections and (1 −
     /// E)(1 − E)/(π (1 − mean)) for several facets sum to 1 within 0.5 %, for α from 0.02 and up to 85°.
     #[test]
-    fn nothing_is_lost() {
+    fn check_smooth() {
         let mut worst = (0.0, 0.0_f64);
         for distribution in [Distribution::Beckmann, Distribution::Ggx] {
             for roughness in [

@@ -193,16 +193,16 @@ pub(crate) fn placed_size(
 }
 
 fn list_of_names(what: &str, known: &[&str]) -> String {
-    const MOST: usize = 30;
+    const MAX: usize = 30;
     let names: Vec<_> = known
         .iter()
-        .take(MOST)
+        .take(MAX)
         .map(|name| format!("{name:?}"))
         .collect();
     match known.len() {
         0 => format!("no {what} is known"),
-        count if count > MOST => {
-            format!("known are {} and {} more", names.join(", "), count - MOST)
+        count if count > MAX => {
+            format!("known are {} and {} more", names.join(", "), count - MAX)
         }
         _ => format!("known are {}", names.join(", ")),
     }

@@ -87,7 +87,7 @@ pub(crate) enum DatabaseFileError {
         found: usize,
         expected: usize,
     },
-    #[error("line {line}: found {found} coefficients; at most {MOST_COEFFICIENTS} are possible")]
+    #[error("line {line}: found {found} coefficients; at most {MAX_COEFFICIENTS} are possible")]
     Coefficients { line: usize, found: usize },
     #[error("line {line}: {text:?} is not a number")]
     Number { line: usize, text: String },
@@ -96,7 +96,7 @@ pub(crate) enum DatabaseFileError {
 }
 
 /// The maximum number of coefficients. The database's formulas have at most 17.
-const MOST_COEFFICIENTS: usize = 1 + 4 * MAX_FORMULA_TERMS;
+const MAX_COEFFICIENTS: usize = 1 + 4 * MAX_FORMULA_TERMS;
 
 /// Reads a file.
 pub(crate) fn read(path: &Path) -> Result<DatabaseFile, DatabaseFileError> {
@@ -175,7 +175,7 @@ fn formula(
     let coefficients = written.field("coefficients")?;
     let line = coefficients.line;
     let figures = numbers(&coefficients.content, line)?;
-    if figures.len() > MOST_COEFFICIENTS {
+    if figures.len() > MAX_COEFFICIENTS {
         let found = figures.len();
         return Err(DatabaseFileError::Coefficients { line, found });
     }

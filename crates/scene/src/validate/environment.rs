@@ -21,7 +21,7 @@ pub(crate) fn check<'a>(
     description: &'a Description,
 ) -> Option<(Environment, Option<Named<'a>>)> {
     let environment = description.environment.as_ref();
-    let sent = match description.render.direct_light {
+    let sampled = match description.render.direct_light {
         DirectLight::Emitters => Sampled::All,
         DirectLight::Both | DirectLight::Bsdf => Sampled::Excess,
     };
@@ -60,7 +60,7 @@ pub(crate) fn check<'a>(
                 turbidity: *turbidity,
                 ground,
             };
-            let (sky, sunlight) = check_sky(checks, spectra, &sky, (*scale, *sun, sent))?;
+            let (sky, sunlight) = check_sky(checks, spectra, &sky, (*scale, *sun, sampled))?;
             let name = sun_light_group.as_deref().or(light_group.as_deref());
             light = sunlight.map(|sunlight| (sunlight, name));
             Some(sky)
@@ -80,7 +80,7 @@ pub(crate) fn check<'a>(
                 illuminant: illuminant.as_deref(),
                 rotation_deg: *rotation_deg,
             };
-            written.check(checks, spectra, sent)
+            written.check(checks, spectra, sampled)
         }
         Some(description::Environment::Gradient {
             zenith,
@@ -109,14 +109,14 @@ fn check_sky(
     checks: &mut Checks,
     spectra: &mut SpectrumList,
     sky: &Sky<'_>,
-    (scale, has_sun, sent): (f64, bool, Sampled),
+    (scale, has_sun, sampled): (f64, bool, Sampled),
 ) -> Option<(Environment, Option<Light>)> {
     let top = FieldPath::root().key("environment");
     let checked = sky.check(checks, spectra);
     let factor = times(EmissionSpectrum::Constant { constant: 1.0 }, scale);
     let emission = spectra.emission(checks, &top, &factor, Radiator::Environment)?;
     let checked = checked?;
-    let picture = Arc::new(checked.sphere.turned(-sky.sun_azimuth_deg, sent));
+    let picture = Arc::new(checked.sphere.turned(-sky.sun_azimuth_deg, sampled));
     let sky = Environment::Picture { emission, picture };
     if !has_sun {
         return Some((sky, None));
@@ -155,7 +155,7 @@ impl Image<'_> {
         &self,
         checks: &mut Checks,
         spectra: &mut SpectrumList,
-        sent: Sampled,
+        sampled: Sampled,
     ) -> Option<Environment> {
         let top = FieldPath::root().key("environment");
         let turn = checks.number(
@@ -193,7 +193,7 @@ impl Image<'_> {
         }
         Some(Environment::Picture {
             emission,
-            picture: Arc::new(sphere.turned(turn?, sent)),
+            picture: Arc::new(sphere.turned(turn?, sampled)),
         })
     }
 

@@ -1,7 +1,7 @@
 //! Pictures of the environment: from files to texels and a direction table.
 
 use super::checks::Checks;
-use super::picture_file::{LightFile, PictureFileError, read_light};
+use super::picture_file::{PanoramaFile, PictureFileError, read_panorama};
 use crate::limits::{self, Shown};
 use crate::prepared::{DirectionTable, Sampled};
 use crate::problem::{Problem, ProblemKind};
@@ -23,10 +23,10 @@ pub(super) struct Sphere {
 
 impl Sphere {
     /// The picture with its center rotated from −Z by an angle.
-    pub(super) fn turned(self, rotation_deg: f64, sent: Sampled) -> EnvironmentPicture {
+    pub(super) fn turned(self, rotation_deg: f64, sampled: Sampled) -> EnvironmentPicture {
         let (sine, cosine) = rotation_deg.to_radians().sin_cos();
         let size = [self.texels.width, self.texels.height];
-        let (table, sampled_mean) = DirectionTable::new(size, &self.brightness, sent);
+        let (table, sampled_mean) = DirectionTable::new(size, &self.brightness, sampled);
         EnvironmentPicture {
             texels: self.texels,
             spectra: self.spectra,
@@ -48,16 +48,16 @@ pub(super) fn read(
     let path = checks.path(field, file)?;
     let grid = grid?;
     let mut notes = Vec::new();
-    let found = read_light(&path, layer, &grid, &mut notes);
+    let found = read_panorama(&path, layer, &grid, &mut notes);
     for note in notes {
         checks.note(field, format_args!("{}: {note}", file.display()));
     }
     let message = match found {
-        Ok(LightFile::Colors { width, rgb }) => match lifted(width, &rgb) {
+        Ok(PanoramaFile::Colors { width, rgb }) => match lifted(width, &rgb) {
             Ok(sphere) => return Some(sphere),
             Err(pixel) => format!("{}: {pixel}", path.display()),
         },
-        Ok(LightFile::Spectra(image)) => match resampled(&image, &grid) {
+        Ok(PanoramaFile::Spectra(image)) => match resampled(&image, &grid) {
             Ok(sphere) => return Some(sphere),
             Err(pixel) => format!("{}: {pixel}", path.display()),
         },

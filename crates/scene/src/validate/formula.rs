@@ -31,7 +31,7 @@ pub(crate) fn cauchy(
             .skip(1)
             .flat_map(|(&c, power)| [c, power]),
     );
-    over_all_it_gives(checks, field, FormulaKind::Cauchy, &terms)
+    over_valid_range(checks, field, FormulaKind::Cauchy, &terms)
 }
 
 /// n² = 1 + Σ b λ²/(λ² − c).
@@ -57,7 +57,7 @@ pub(crate) fn sellmeier(
     let coefficients: Vec<f64> = std::iter::once(0.0)
         .chain(pairs.flat_map(|(&b, &c)| [b, c]))
         .collect();
-    over_all_it_gives(checks, field, FormulaKind::Sellmeier2, &coefficients)
+    over_valid_range(checks, field, FormulaKind::Sellmeier2, &coefficients)
 }
 
 fn are_in_range(checks: &mut Checks, field: &FieldPath, coefficients: &[f64]) -> Option<()> {
@@ -81,7 +81,7 @@ fn gives_an_index(formula: &DispersionFormula, nm: f64) -> bool {
 }
 
 /// A formula without a stated range. It counts as valid where it yields an index: around 550 nm, or else in the nearest range above.
-fn over_all_it_gives(
+fn over_valid_range(
     checks: &mut Checks,
     field: &FieldPath,
     kind: FormulaKind,

@@ -161,10 +161,10 @@ fn points_of(spectrum: &Spectrum) -> Vec<(f64, f64)> {
 /// The same piecewise linear curve through more points, at most a nanometer apart unless an interval is very long: where the reflectance is
 /// linear, the index is curved.
 fn finely(points: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> {
-    const MOST: f64 = 1000.0;
+    const MAX: f64 = 1000.0;
     let between = points.windows(2).flat_map(|ends| {
         let [(nm, value), (next_nm, next)] = [ends[0], ends[1]];
-        let parts = (next_nm - nm).ceil().clamp(1.0, MOST);
+        let parts = (next_nm - nm).ceil().clamp(1.0, MAX);
         (0..parts as u32).map(move |part| {
             let t = f64::from(part) / parts;
             (nm + t * (next_nm - nm), value + t * (next - value))

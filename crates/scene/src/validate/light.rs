@@ -31,7 +31,7 @@ pub(crate) fn check_all<'a>(
 }
 
 /// Reports lights that no ray hits if `direct_light` is `bsdf`: only emitter sampling finds them.
-pub(crate) fn check_way(checks: &mut Checks, description: &Description) {
+pub(crate) fn check_direct_light(checks: &mut Checks, description: &Description) {
     if description.render.direct_light != DirectLight::Bsdf {
         return;
     }

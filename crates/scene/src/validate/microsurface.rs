@@ -20,7 +20,7 @@ impl Finish {
         let brushed = self.check_brushed(checks, &field.key("brushed"));
         let roughness = self.check_roughness(checks, &field.key("roughness"))?;
         let Some(roughness) = roughness else {
-            return self.nothing_is_lost(checks, field).map(|()| None);
+            return self.check_smooth(checks, field).map(|()| None);
         };
         let grain = self.check_grain(checks, field, brushed?)?;
         let distribution = self.distribution.unwrap_or_default();
@@ -102,7 +102,7 @@ impl Finish {
     }
 
     /// Checks that a smooth surface has neither a distribution nor a grain.
-    fn nothing_is_lost(self, checks: &mut Checks, field: &FieldPath) -> Result<(), Reported> {
+    fn check_smooth(self, checks: &mut Checks, field: &FieldPath) -> Result<(), Reported> {
         let given = [
             ("distribution", self.distribution.is_some()),
             ("brushed", self.brushed.is_some()),

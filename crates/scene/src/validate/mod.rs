@@ -45,7 +45,7 @@ pub(crate) fn scene(description: &Description, folder: &Folder) -> Result<Scene,
     let materials = material::check_all(&mut checks, &mut spectra, &description.materials);
     let objects = object::check_all(&mut checks, &description.materials, &description.objects);
     let lights = light::check_all(&mut checks, &mut spectra, &description.lights);
-    light::check_way(&mut checks, description);
+    light::check_direct_light(&mut checks, description);
     let environment = environment::check(&mut checks, &mut spectra, description);
     let observer = spectra.observer(&mut checks);
     light_groups::check_names(&mut checks, description);

@@ -3,7 +3,7 @@
 use crate::PictureFile;
 use crate::description::PictureChannel;
 use crate::limits::{
-    MAX_PICTURE_BYTES, MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE, MAX_PICTURE_VALUES, PANORAMA_ASIDE,
+    MAX_PICTURE_BYTES, MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE, MAX_PICTURE_VALUES, PANORAMA_TOLERANCE,
 };
 use color::png_colors::{CodeColors, PngColorsError};
 use color::radiance::{RadianceError, RadiancePicture, is_radiance};
@@ -24,7 +24,7 @@ pub(crate) enum PictureFileError {
     #[error("is not a PNG picture that can be read: {0}")]
     NotPng(#[from] image::ImageError),
     #[error("is neither a Radiance picture (.hdr) nor an OpenEXR picture")]
-    NotLight,
+    NotPanorama,
     #[error("is a Radiance picture, which has no layers; leave out `layer`")]
     NoLayers,
     #[error(transparent)]
@@ -138,7 +138,7 @@ pub(crate) fn read_colors(
 }
 
 /// A picture of all directions as read from a file.
-pub(crate) enum LightFile {
+pub(crate) enum PanoramaFile {
     /// Linear red, green and blue with the primaries of sRGB, row by row.
     Colors { width: u32, rgb: Vec<[f32; 3]> },
     /// Spectra.
@@ -147,12 +147,12 @@ pub(crate) enum LightFile {
 
 /// Reads a picture of all directions for these bands: a Radiance file, or an OpenEXR file of colors or spectra. `layer` selects a color
 /// layer of an OpenEXR file with several. Assumptions are added to `notes`.
-pub(crate) fn read_light(
+pub(crate) fn read_panorama(
     path: &Path,
     layer: Option<&str>,
     grid: &BandGrid,
     notes: &mut Vec<String>,
-) -> Result<LightFile, PictureFileError> {
+) -> Result<PanoramaFile, PictureFileError> {
     let start = read_start(path, 64)?;
     if is_radiance(&start) {
         return match layer {
@@ -167,11 +167,11 @@ pub(crate) fn read_light(
             Err(ReadExrError::NoSpectrum { .. }) => read_exr_colors(path, None, notes),
             Err(error) => Err(PictureFileError::Exr(chain(&error))),
         },
-        _ => Err(PictureFileError::NotLight),
+        _ => Err(PictureFileError::NotPanorama),
     }
 }
 
-fn read_radiance(path: &Path, notes: &mut Vec<String>) -> Result<LightFile, PictureFileError> {
+fn read_radiance(path: &Path, notes: &mut Vec<String>) -> Result<PanoramaFile, PictureFileError> {
     let bytes = read_bytes(path, MAX_PICTURE_BYTES)?;
     let picture = RadiancePicture::new(&bytes)?;
     check_size(picture.width(), picture.height())?;
@@ -179,14 +179,14 @@ fn read_radiance(path: &Path, notes: &mut Vec<String>) -> Result<LightFile, Pict
     let rgb = picture.pixels()?;
     notes.extend_from_slice(picture.notes());
     let width = picture.width();
-    Ok(LightFile::Colors { width, rgb })
+    Ok(PanoramaFile::Colors { width, rgb })
 }
 
 fn read_exr_colors(
     path: &Path,
     layer: Option<&str>,
     notes: &mut Vec<String>,
-) -> Result<LightFile, PictureFileError> {
+) -> Result<PanoramaFile, PictureFileError> {
     let file = RgbFile::open(path, layer);
     let file = file.map_err(|error| PictureFileError::Exr(chain(&error)))?;
     let [width, height] = file.size();
@@ -195,7 +195,7 @@ fn read_exr_colors(
     notes.extend_from_slice(file.notes());
     let rgb = file.read();
     let rgb = rgb.map_err(|error| PictureFileError::Exr(chain(&error)))?;
-    Ok(LightFile::Colors { width, rgb })
+    Ok(PanoramaFile::Colors { width, rgb })
 }
 
 fn read_spectra(
@@ -203,7 +203,7 @@ fn read_spectra(
     ([width, height], own): ([u32; 2], BandGrid),
     grid: &BandGrid,
     notes: &mut Vec<String>,
-) -> Result<LightFile, PictureFileError> {
+) -> Result<PanoramaFile, PictureFileError> {
     check_size(width, height)?;
     check_panorama(width, height)?;
     let bands = u64::from(grid.count());
@@ -223,7 +223,7 @@ fn read_spectra(
     let read = color::spectral_exr::read(path);
     let (image, metadata) = read.map_err(|error| PictureFileError::Exr(chain(&error)))?;
     notes.extend(metadata.notes);
-    Ok(LightFile::Spectra(Box::new(image)))
+    Ok(PanoramaFile::Spectra(Box::new(image)))
 }
 
 /// An error with its sources, in one line.
@@ -255,7 +255,7 @@ fn check_size(width: u32, height: u32) -> Result<(), PictureFileError> {
 
 /// Rejects pictures with another projection, such as a mirror ball or a cube map.
 fn check_panorama(width: u32, height: u32) -> Result<(), PictureFileError> {
-    let (part, pixels) = PANORAMA_ASIDE;
+    let (part, pixels) = PANORAMA_TOLERANCE;
     let aside = width.abs_diff(2 * height);
     if aside <= pixels || f64::from(aside) <= part * f64::from(width) {
         Ok(())

@@ -77,7 +77,7 @@ fn choice(column: &TableColumn) -> ColumnChoice {
 }
 
 /// The maximum number of problems reported for one table; the rest are likely to be the same mistake.
-const MOST_PROBLEMS: usize = 3;
+const MAX_PROBLEMS: usize = 3;
 
 /// The spectra of a table in the scene.
 pub(crate) fn inline<const N: usize>(
@@ -105,12 +105,12 @@ pub(crate) fn inline<const N: usize>(
             .iter()
             .enumerate()
             .filter(|&(_, &v)| !column.range.contains(v));
-        for (index, &value) in faults.take(MOST_PROBLEMS) {
+        for (index, &value) in faults.take(MAX_PROBLEMS) {
             checks.number(&own.index(index), value, column.range);
             is_sound = false;
         }
     }
-    for (index, complaint) in faults_of_wavelengths(nm).take(MOST_PROBLEMS) {
+    for (index, complaint) in faults_of_wavelengths(nm).take(MAX_PROBLEMS) {
         let at = nm_field.index(index);
         let problem = Problem::new(ProblemKind::OutOfRange, &at, complaint);
         checks.report(problem.involving(nm_field.clone()));

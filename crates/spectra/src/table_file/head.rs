@@ -199,13 +199,13 @@ impl Head {
 
     /// Lists the columns for a message.
     pub(super) fn known(&self, width: usize) -> String {
-        const MOST: usize = 24;
+        const MAX: usize = 24;
         let column = |at: usize| match self.names.get(at) {
             Some(name) => format!("{} {}", at + 1, cell_text(name)),
             None => (at + 1).to_string(),
         };
-        let shown: Vec<_> = (0..width.min(MOST)).map(column).collect();
-        let more = width.saturating_sub(MOST);
+        let shown: Vec<_> = (0..width.min(MAX)).map(column).collect();
+        let more = width.saturating_sub(MAX);
         let rest = if more > 0 {
             format!(" and {more} more")
         } else {

@@ -6,11 +6,11 @@ use spectra::{BandGrid, LightGroup, Spectrum};
 use super::{ReadExrError, reflectances};
 use crate::exr_file::{Context, Window, name_of};
 use crate::spectral_exr::BandLayoutError;
-use crate::spectral_exr::bands::{Bands, Shares};
+use crate::spectral_exr::bands::{BandMix, Bands};
 use crate::spectral_exr::channels::{Content, plain_content, variance_band};
 use crate::spectral_exr::lights;
 use crate::spectral_exr::metadata::{Metadata, range_nm};
-use crate::spectral_exr::wavelength::{Place, Quantity, spectral_channel};
+use crate::spectral_exr::wavelength::{Quantity, SpectralPosition, spectral_channel};
 
 /// The layer with the spectrum, and the contents of its channels.
 #[derive(Debug)]
@@ -26,7 +26,7 @@ pub(super) struct Plan {
     /// Number of channels with [`Content::Radiance`].
     pub(super) spectral_channels: usize,
     /// How the grid's bands are computed from the spectral channels; `None` if the channels are the grid's bands.
-    pub(super) shares: Option<Shares>,
+    pub(super) shares: Option<BandMix>,
     /// The factor on radiances and XYZ; variances are multiplied by its square.
     pub(super) scale: f32,
     /// The light groups, at least one.
@@ -38,7 +38,7 @@ pub(super) struct Plan {
 /// The spectral channels of a layer, in order of their wavelengths.
 struct Spectral {
     quantity: Quantity,
-    channels: Vec<(Place, usize)>,
+    channels: Vec<(SpectralPosition, usize)>,
 }
 
 impl Plan {
@@ -59,7 +59,8 @@ impl Plan {
                     path: context.path.to_owned(),
                 })?;
         let header = &headers[layer];
-        let places: Vec<Place> = spectrum.channels.iter().map(|&(place, _)| place).collect();
+        let places: Vec<SpectralPosition> =
+            spectrum.channels.iter().map(|&(place, _)| place).collect();
         let is_reflectance = spectrum.quantity == Quantity::Reflectance;
         let bands = Bands::new(&places, range_nm(header));
         let bands = if is_reflectance {

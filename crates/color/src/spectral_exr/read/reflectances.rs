@@ -18,11 +18,11 @@ const ATTRIBUTE: &str = "illuminant";
 /// The illuminant of files without a usable one.
 const USUAL: &str = "D65";
 /// The fewest points of a table that can be recognized as a known illuminant.
-const LEAST_POINTS: usize = 6;
+const MIN_POINTS: usize = 6;
 /// Relative tolerance within which the values of a table are those of a known illuminant, up to a factor.
 const SAME: f64 = 2e-3;
 /// The most points of a table; longer tables are not used.
-const MOST_POINTS: usize = 4096;
+const MAX_POINTS: usize = 4096;
 
 /// The light group of the image while it is read: its lamp has a radiance of 1.
 pub(super) fn light_groups(grid: &BandGrid) -> Vec<LightGroup> {
@@ -113,8 +113,8 @@ fn table(text: &str) -> Option<Tabulated> {
         (value >= 0.0 && value.is_finite()).then_some((nm, value))
     };
     let entries = text.split(';').filter(|entry| !entry.trim().is_empty());
-    let points: Option<Vec<(f64, f64)>> = entries.take(MOST_POINTS + 1).map(point).collect();
-    let mut points = points.filter(|points| points.len() <= MOST_POINTS)?;
+    let points: Option<Vec<(f64, f64)>> = entries.take(MAX_POINTS + 1).map(point).collect();
+    let mut points = points.filter(|points| points.len() <= MAX_POINTS)?;
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     Tabulated::new(points).ok()
 }
@@ -124,7 +124,7 @@ fn recognized(table: &Tabulated) -> Option<(String, Spectrum)> {
     let is_same = |known: &Spectrum| {
         let ratio = |(nm, value): (f64, f64)| Some(value / known.at(nm).ok()?);
         let ratios: Option<Vec<f64>> = table.points().map(ratio).collect();
-        let Some(ratios) = ratios.filter(|ratios| ratios.len() >= LEAST_POINTS) else {
+        let Some(ratios) = ratios.filter(|ratios| ratios.len() >= MIN_POINTS) else {
             return false;
         };
         let (low, high) = ratios
