@@ -13,9 +13,9 @@ use glam::{DMat3, DVec3};
 use scene::{DirectLight, EmitterKind, EnvironmentShape};
 
 /// A direction toward an emitter that illuminates a surface, if nothing is in the way.
-struct EmitterSample<'a> {
+pub(super) struct EmitterSample<'a> {
     emitter: SceneEmitter<'a>,
-    light: Emitted<'a>,
+    emitted: Emitted<'a>,
     direction: DVec3,
     /// Probability with which the emitter was chosen.
     pmf: f64,
@@ -26,30 +26,17 @@ struct EmitterSample<'a> {
 }
 
 impl<'a, T: Transport> PathTracer<'a, T> {
-    /// Connects the path to an emitter, if one contributes at the surface. Returns the sum of the emitters' weights there.
+    /// Connects the path to the emitter of a sample, if it is visible from the surface.
     pub(super) fn connect(
         &mut self,
-        object: usize,
-        point: &SurfacePoint,
+        (object, point): (usize, &SurfacePoint),
+        sample: &EmitterSample<'a>,
         bsdf: &Bsdf<'_>,
         (local_from_world, wo): (DMat3, DVec3),
-    ) -> f64 {
+    ) {
         let settings = self.settings();
-        let samples = settings.direct_light != DirectLight::Bsdf;
-        if !samples || self.path.segment >= settings.max_path_segments {
-            return 0.0;
-        }
-        let prepared = self.prepared;
-        let place = ShadingPoint {
-            position: point.position,
-            normal: point.normal,
-        };
-        let sum = prepared.weigh_emitters(place, &mut self.weighted);
-        let Some(sample) = self.sample_emitter(place, sum) else {
-            return sum;
-        };
         let eval = bsdf.eval(wo, local_from_world * sample.direction);
-        if eval.lobes.sum() > 0.0 && self.is_visible(object, point, &sample) {
+        if eval.lobes.sum() > 0.0 && self.is_visible(object, point, sample) {
             let mis = match (settings.direct_light, sample.density) {
                 (DirectLight::Both, Some(density)) => {
                     mis_weight_emitter(sample.emitter.emitter, eval.pdf, sample.pmf, density)
@@ -59,17 +46,29 @@ impl<'a, T: Transport> PathTracer<'a, T> {
             let weight = self.path.weight * sample.weight * mis;
             let scattering = (bsdf, &eval.lobes);
             self.transport
-                .connect(scattering, &sample.light, weight, &self.films);
+                .connect(scattering, &sample.emitted, weight, &self.films);
         }
-        sum
     }
 
-    /// Chooses an emitter and a direction toward it.
-    fn sample_emitter(
+    /// Chooses an emitter and a direction toward it, if one contributes at the surface. Returns the sum of the emitters' weights too.
+    pub(super) fn sample_emitter(
         &mut self,
-        place: ShadingPoint,
-        weight_sum: f64,
-    ) -> Option<EmitterSample<'a>> {
+        point: &SurfacePoint,
+    ) -> (Option<EmitterSample<'a>>, f64) {
+        let settings = self.settings();
+        let samples = settings.direct_light != DirectLight::Bsdf;
+        if !samples || self.path.segment >= settings.max_path_segments {
+            return (None, 0.0);
+        }
+        let place = ShadingPoint {
+            position: point.position,
+            normal: point.normal,
+        };
+        let sum = self.prepared.weigh_emitters(place, &mut self.weighted);
+        (self.choose_sample(place, sum), sum)
+    }
+
+    fn choose_sample(&mut self, place: ShadingPoint, weight_sum: f64) -> Option<EmitterSample<'a>> {
         let random = self.random_at(Use::Emitter);
         let weighted = (&self.weighted[..], weight_sum);
         let choice = self
@@ -96,7 +95,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         let emission = chosen.source.emission;
         Some(EmitterSample {
             emitter: chosen,
-            light: Emitted { emission, pixel },
+            emitted: Emitted { emission, pixel },
             direction,
             pmf: choice.pmf,
             density,

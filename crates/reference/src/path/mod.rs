@@ -99,11 +99,19 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         });
         let ray = sampled_camera_ray(scene, pixel, [numbers.get(0), numbers.get(1)], on_lens);
         self.path = PathState::new(ray, settings.film_splits);
-        self.extend_path();
+        self.follow_path();
         while let Some(path) = self.waiting.pop() {
             self.path = path;
             self.transport.resume();
-            self.extend_path();
+            self.follow_path();
+        }
+    }
+
+    /// Follows the current path to its end.
+    fn follow_path(&mut self) {
+        let most = self.settings().max_path_segments;
+        while self.path.segment <= most && self.extend_path() {
+            self.path.segment += 1;
         }
     }
 
@@ -129,25 +137,20 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         self.numbers_of(BRANCH_DIMENSIONS * path.branch + 3 * path.segment - 2 + use_of as u32)
     }
 
-    /// Follows the current path to its end.
-    fn extend_path(&mut self) {
+    /// Extends the path by one segment, and shades what it meets. Returns whether the path continues.
+    fn extend_path(&mut self) -> bool {
         let settings = self.settings();
-        while self.path.segment <= settings.max_path_segments {
-            let path = &self.path;
-            let Some(hit) = nearest_hit(self.prepared.scene, &path.ray, path.from_object) else {
-                self.shade_environment();
-                return;
-            };
-            if !self.shade_object(hit) {
-                return;
-            }
-            let is_last = self.path.segment == settings.max_path_segments;
-            let plays = self.path.segment >= settings.roulette_after && !is_last;
-            if plays && !self.russian_roulette() {
-                return;
-            }
-            self.path.segment += 1;
+        let path = &self.path;
+        let Some(hit) = nearest_hit(self.prepared.scene, &path.ray, path.from_object) else {
+            self.shade_environment();
+            return false;
+        };
+        if !self.shade_object(hit) {
+            return false;
         }
+        let is_last = self.path.segment == settings.max_path_segments;
+        let has_roulette = self.path.segment >= settings.roulette_after && !is_last;
+        !has_roulette || self.russian_roulette()
     }
 
     /// Plays Russian roulette: ends the path at random, or increases its weight. Returns whether the path continues.
@@ -260,7 +263,11 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         let specular = bsdf.specular_probability(wo);
         let mut emitter_weight_sum = 0.0;
         if specular < 1.0 {
-            emitter_weight_sum = self.connect(object, point, bsdf, (local_from_world, wo));
+            let (sample, sum) = self.sample_emitter(point);
+            emitter_weight_sum = sum;
+            if let Some(sample) = sample {
+                self.connect((object, point), &sample, bsdf, (local_from_world, wo));
+            }
         }
         let random = self.random_at(Use::Bsdf);
         if specular > 0.0 && (specular >= 1.0 || random.get(2) < specular) {
