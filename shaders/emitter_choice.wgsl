@@ -30,8 +30,8 @@ fn group_weight(node: EmitterNode, point: vec3f, normal: vec3f) -> f32 {
     let soft = distance2 + SOFTENING * node.variance;
     let along = dot(toward, node.axis);
     let square = (along * along + node.variance / 3.0) / (distance2 + node.variance);
-    let sent = sqrt(node.even + node.along * square);
-    return node.power * sent * mean_above(height, HORIZON * node.variance) / (soft * sqrt(soft));
+    let directional = sqrt(node.even + node.along * square);
+    return node.power * directional * mean_above(height, HORIZON * node.variance) / (soft * sqrt(soft));
 }
 
 /// Returns roughly the mean of max(0, h) over heights h with a mean and a squared width, without a difference of nearly equal numbers.

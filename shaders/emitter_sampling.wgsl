@@ -40,10 +40,10 @@ fn sample_emitter(path: PathState, sample: Sample, point: SurfacePoint) -> Emitt
 }
 
 /// Adds the contribution of the emitter, with its weight, to the pending vertex.
-fn connect(path: PathState, object: u32, point: SurfacePoint, sampled: EmitterSample, toward: BsdfEval) {
+fn connect(path: PathState, object: u32, point: SurfacePoint, sampled: EmitterSample, eval: BsdfEval) {
     let emitter = sampled.emitter;
     let strength = emitter_strength(emitter, point.position, sampled.direction);
-    if (lobes_sum(toward.lobes) <= 0.0 || strength <= 0.0) {
+    if (lobes_sum(eval.lobes) <= 0.0 || strength <= 0.0) {
         return;
     }
     let first_crossing = crossing_count;
@@ -56,7 +56,7 @@ fn connect(path: PathState, object: u32, point: SurfacePoint, sampled: EmitterSa
     }
     var mis = 1.0;
     if (SAMPLES_BSDF && !is_delta(emitter)) {
-        mis = mis_weight_emitter(emitter, toward.pdf, sampled.pmf, sampled.density);
+        mis = mis_weight_emitter(emitter, eval.pdf, sampled.pmf, sampled.density);
     }
     pending.crossings = (first_crossing << CROSSING_BITS) | (crossing_count - first_crossing);
     pending.emission = emitter_at(emitter).emission;
@@ -64,7 +64,7 @@ fn connect(path: PathState, object: u32, point: SurfacePoint, sampled: EmitterSa
     if (HAS_ENVIRONMENT_PICTURE) {
         pending_texel = sampled.texel;
     }
-    record_lit(toward.lobes, mis * strength * emitter_at(emitter).scale / (sampled.pmf * sampled.density));
+    record_lit(eval.lobes, mis * strength * emitter_at(emitter).scale / (sampled.pmf * sampled.density));
 }
 
 /// Writes to the pending vertex how the surface scatters the emission that joins it.

@@ -31,11 +31,11 @@ fn sample_environment(emitter: u32, random: vec2f) -> vec3f {
     }
     if (emitter_at(emitter).kind == EMITTER_HORIZON) {
         // |h| with density 2 (1 − |h|), above the horizon for the lower half of the numbers.
-        let upwards = random.x < 0.5;
-        let t = 2.0 * random.x - select(1.0, 0.0, upwards);
+        let upward = random.x < 0.5;
+        let t = 2.0 * random.x - select(1.0, 0.0, upward);
         let height = t / (1.0 + sqrt(1.0 - t));
         let around = sqrt((1.0 - height) * (1.0 + height)) * direction_of_turn(random.y);
-        return vec3f(around.x, select(-height, height, upwards), around.y);
+        return vec3f(around.x, select(-height, height, upward), around.y);
     }
     if (HAS_DISTANT_DISKS && emitter_at(emitter).kind == EMITTER_DISTANT_DISK) {
         return normalize(frame_of(emitter_at(emitter).axis) * sample_cone(random.x, random.y, emitter_at(emitter).edge_height));

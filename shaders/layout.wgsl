@@ -1,5 +1,5 @@
 // Generated from crates/gpu/src/layout.rs: edit there, then run
-//     PELLICLE_BLESS=1 cargo test -p pellicle-tests --test layout
+//     PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test layout
 
 /// Width and height of a workgroup, in invocations.
 const WORKGROUP_SIDE: u32 = 8u;

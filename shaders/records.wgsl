@@ -1,5 +1,5 @@
 // The records of a scene, and how they are read. Generated from crates/gpu/src/layout.rs: edit there, then run
-//     PELLICLE_BLESS=1 cargo test -p pellicle-tests --test layout
+//     PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test layout
 
 /// An object that rays meet: a shape with a material.
 struct Shape {
@@ -80,7 +80,7 @@ struct Emitter {
     emission: u32,
     /// Factor of its emission.
     scale: f32,
-    /// Brightness to the eye, which steers the choice among emitters; 0 where it is not sampled.
+    /// Luminance, which steers the choice among emitters; 0 where it is not sampled.
     brightness: f32,
     /// Index of its object, or NONE.
     object: u32,

@@ -463,7 +463,7 @@ fn a_booth_shows_each_lamp() {
 
     let before = place.names();
     for (arguments, words) in [
-        ("a.exr --booth A,x -o b.png", &["\"x\"", "known are"][..]),
+        ("a.exr --booth A,x -o b.png", &["\"x\"", "known names:"][..]),
         ("a.exr --booth A -o b.exr", &["b.exr", ".png"]),
         ("none.exr --booth A -o b.png", &["none.exr"]),
     ] {

@@ -36,7 +36,7 @@ fn light(lamps: usize, is_lit_by_environment: bool) -> String {
         (0, false) => "no light".to_owned(),
         (0, true) => "lit by its environment".to_owned(),
         (lamps, false) => counted(lamps, "light"),
-        (lamps, true) => format!("{}, and lit by its environment", counted(lamps, "light")),
+        (lamps, true) => format!("{}, and an environment", counted(lamps, "light")),
     }
 }
 
@@ -50,7 +50,7 @@ mod tests {
             (0, false, "no light"),
             (0, true, "lit by its environment"),
             (1, false, "1 light"),
-            (2, true, "2 lights, and lit by its environment"),
+            (2, true, "2 lights, and an environment"),
         ] {
             assert_eq!(light(lamps, environment), words);
         }

@@ -133,7 +133,7 @@ mod tests {
     fn what_is_no_lamp_is_reported() {
         for (text, said) in [
             ("d65", "did you mean \"D65\"?"),
-            ("", "known are"),
+            ("", "known names:"),
             ("D65*", "is not a factor"),
             ("D65*x", "is not a factor"),
             ("D65*-1", "is not a factor"),

@@ -27,7 +27,7 @@ use std::process::ExitCode;
 
 /// Renders the color of thin films and metals, wavelength by wavelength.
 #[derive(Parser)]
-#[command(version, about)]
+#[command(name = "pellicle", version, about)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,

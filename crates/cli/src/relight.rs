@@ -118,8 +118,8 @@ mod tests {
             (["--light", "=F11"], "key=F11"),
             (["--light", "key=f11"], "did you mean"),
             (["--light", "key=*x"], "is not a factor"),
-            (["--light", "key="], "known are"),
-            (["--observer", "1931"], "known are 1931_2"),
+            (["--light", "key="], "known names:"),
+            (["--observer", "1931"], "known names: 1931_2"),
         ] {
             let error = parsed(&arguments).unwrap_err().to_string();
             assert!(error.contains(said), "{arguments:?}: {error}");

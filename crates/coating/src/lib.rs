@@ -1,4 +1,4 @@
-//! Stacks of thin films, for those who design them.
+//! Design and analysis of thin-film stacks.
 //!
 //! ```text
 //! "air | silica 300nm | silicon"  or a stack file     errors: where, what was found, what would be right

@@ -23,7 +23,7 @@ pub enum Adaptation {
 
 /// The name is not that of an adaptation.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("there is no adaptation {0:?}; known are none, bradford and cat16")]
+#[error("there is no adaptation {0:?}; known names: none, bradford and cat16")]
 pub struct UnknownAdaptation(String);
 
 /// The matrix from XYZ to the responses of Lam (1985).

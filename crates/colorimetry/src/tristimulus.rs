@@ -21,7 +21,7 @@ pub enum Rule {
 
 /// The name is not that of a rule.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("there is no rule {0:?}; known are 5nm and 1nm")]
+#[error("there is no rule {0:?}; known names: 5nm and 1nm")]
 pub struct UnknownRule(String);
 
 impl Rule {

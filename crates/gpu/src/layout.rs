@@ -437,7 +437,7 @@ records! { EMITTERS;
         pub emission: u32,
         /// Factor of its emission.
         pub scale: f32,
-        /// Brightness to the eye, which steers the choice among emitters; 0 where it is not sampled.
+        /// Luminance, which steers the choice among emitters; 0 where it is not sampled.
         pub brightness: f32,
         /// Index of its object, or NONE.
         pub object: u32,
@@ -696,7 +696,7 @@ records! { TREES;
 pub fn wgsl() -> String {
     let mut text = String::from(
         "// Generated from crates/gpu/src/layout.rs: edit there, then run\n\
-         //     PELLICLE_BLESS=1 cargo test -p pellicle-tests --test layout\n",
+         //     PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test layout\n",
     );
     for declaration in CONSTANTS.iter().chain(STRUCTS) {
         text += &declare(declaration);
@@ -708,7 +708,7 @@ pub fn wgsl() -> String {
 pub fn records_wgsl() -> String {
     let mut text = String::from(
         "// The records of a scene, and how they are read. Generated from crates/gpu/src/layout.rs: edit there, then run\n\
-         //     PELLICLE_BLESS=1 cargo test -p pellicle-tests --test layout\n",
+         //     PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test layout\n",
     );
     let lists = [
         ("shapes", SHAPES),

@@ -60,9 +60,9 @@ pub struct CookFacets {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DiffuseTerm {
     /// The fraction of the light, in (0, 1\].
-    pub share: f64,
+    pub fraction: f64,
     /// The probability that a path samples this term, in (0, 1\].
-    pub chance: f64,
+    pub probability: f64,
     /// Its reflectance.
     pub reflectance: SpectrumId,
 }

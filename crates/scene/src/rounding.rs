@@ -143,8 +143,8 @@ impl RoundToF32 for CookFacets {
 impl RoundToF32 for DiffuseTerm {
     fn rounded(&self) -> Self {
         Self {
-            share: self.share.rounded(),
-            chance: self.chance.rounded(),
+            fraction: self.fraction.rounded(),
+            probability: self.probability.rounded(),
             reflectance: self.reflectance,
         }
     }

@@ -6,7 +6,7 @@ use schemars::generate::SchemaSettings;
 use serde_json::Value;
 
 /// The JSON Schema (draft 7, which TOML editors understand) of scene files, derived from the types of [`description`](crate::description).
-/// It is committed as `scenes/scene.schema.json`; regenerate it with `PELLICLE_BLESS=1 cargo test -p pellicle-scene schema`.
+/// It is committed as `scenes/scene.schema.json`; regenerate it with `PELLICLE_BLESS=1 cargo test --release -p pellicle-scene schema`.
 pub fn schema() -> Value {
     schema_of::<Description>()
 }

@@ -17,7 +17,7 @@ pub(super) struct Look {
     /// Observer of colors: 1931_2, 1964_10, 2015_2 or 2015_10
     #[arg(long, value_name = "NAME", default_value_t = Observer::Cie1931Deg2)]
     pub(super) observer: Observer,
-    /// Stops by which colors are shown brighter; a soap film reflects 8 % at most
+    /// Exposure in stops; a soap film reflects 8 % at most
     #[arg(long, value_name = "EV", default_value = "0", value_parser = numbers::number, allow_hyphen_values = true)]
     pub(super) exposure: f64,
     /// Show transmitted light instead of reflected light

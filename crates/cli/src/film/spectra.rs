@@ -76,12 +76,12 @@ impl<'a> Spectra<'a> {
 
     /// The layers whose absorptance is printed, counted from 1.
     fn layers(&self) -> std::ops::RangeInclusive<usize> {
-        let told = if self.film.arguments.absorptance {
+        let printed = if self.film.arguments.absorptance {
             self.film.stack.layers().len()
         } else {
             0
         };
-        1..=told
+        1..=printed
     }
 
     fn table(&self) -> String {

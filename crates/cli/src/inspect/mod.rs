@@ -29,7 +29,7 @@ pub(crate) struct Arguments {
     /// A rectangle of pixels to average; can be repeated
     #[arg(long, value_name = "X,Y,WIDTH,HEIGHT", value_parser = region)]
     region: Vec<Region>,
-    /// Stops by which colors are shown brighter [default: the stops of the file]
+    /// Exposure in stops [default: the stops of the file]
     #[arg(long, value_name = "EV", allow_hyphen_values = true)]
     exposure: Option<f64>,
     /// Output format

@@ -267,7 +267,7 @@ impl Fitted {
         let _ = writeln!(
             text,
             "        {:<10} {:>14} {:>8} {:>9} {:>8} {:>10}",
-            "nearest", "thickness / nm", "±", "residual", "ΔE2000", "of lamp"
+            "nearest", "thickness / nm", "±", "residual", "ΔE2000", "scale"
         );
         for (name, found) in [("by shape", &fits.by_shape), ("by color", &fits.by_color)] {
             for (index, fit) in found.iter().take(MAX_FITS).enumerate() {
@@ -285,7 +285,7 @@ impl Fitted {
         let (from, to) = self.range_nm;
         match fits.verdict() {
             Verdict::Film => format!(
-                "{:.2} nm has the shape of the spectrum: residual {:.2} %{noise}",
+                "best fit by the shape of the spectrum: {:.2} nm, residual {:.2} %{noise}",
                 best.thickness_nm,
                 100.0 * best.residual
             ),

@@ -135,13 +135,13 @@ pub(super) fn range_nm(header: &Header) -> Option<(f64, f64)> {
 
 /// Returns the exposure in stops; 0 if the file has none, or none that is plausible.
 fn exposure_ev(header: &Header, notes: &mut Vec<String>) -> f64 {
-    let told = number(header, EXPOSURE).unwrap_or(0.0);
+    let stops = number(header, EXPOSURE).unwrap_or(0.0);
     // A NaN fails the comparison.
-    if told.abs() <= MAX_STOPS {
-        return told;
+    if stops.abs() <= MAX_STOPS {
+        return stops;
     }
     notes.push(format!(
-        "its exposure of {told} stops is not from -{MAX_STOPS} to {MAX_STOPS}: 0 is used"
+        "its exposure of {stops} stops is not from -{MAX_STOPS} to {MAX_STOPS}: 0 is used"
     ));
     0.0
 }

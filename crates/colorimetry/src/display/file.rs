@@ -17,7 +17,7 @@ use super::validate::Checks;
 #[non_exhaustive]
 pub enum DisplayError {
     /// The name is unknown.
-    #[error("there is no display {name:?}{}; known are {}, or a .toml file", .nearest.map_or_else(String::new, |near| format!("; did you mean {near:?}?")), Display::names().join(", "))]
+    #[error("there is no display {name:?}{}; known names: {}, or a .toml file", .nearest.map_or_else(String::new, |near| format!("; did you mean {near:?}?")), Display::names().join(", "))]
     Unknown {
         /// The requested name.
         name: String,

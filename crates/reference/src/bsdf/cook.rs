@@ -24,7 +24,9 @@ impl<'a> Cook<'a> {
 
     /// The probability that a path is scattered by the Lambertian fraction.
     fn diffuse_probability(&self) -> f64 {
-        self.model.diffuse.map_or(0.0, |diffuse| diffuse.chance)
+        self.model
+            .diffuse
+            .map_or(0.0, |diffuse| diffuse.probability)
     }
 
     pub(super) fn eval(&self, wo: DVec3, wi: DVec3) -> BsdfEval {
@@ -34,7 +36,7 @@ impl<'a> Cook<'a> {
         let mut eval = BsdfEval::dark(wo, wi);
         eval.lobes.single = facets.reflection * wi.z;
         eval.lobes.cosine = facets.cosine;
-        eval.lobes.body = self.model.diffuse.map_or(0.0, |d| d.share) * lambert;
+        eval.lobes.body = self.model.diffuse.map_or(0.0, |d| d.fraction) * lambert;
         eval.pdf = probability * lambert + (1.0 - probability) * facets.pdf;
         eval
     }

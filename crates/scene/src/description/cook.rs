@@ -28,7 +28,7 @@ pub enum ConductorModelName {
     Cook1981,
 }
 
-/// Cook's model: I = Ia Ra + Σ Il (N·L) dω (Rs + d ρ / π) with Rs = s F D G / (π (N·L) (N·E)). Only F, ρ and the lights depend on
+/// Cook's model: I = Ia Ra + Σ Il dω (Rs + (N·L) d ρ / π) with Rs = s F D G / (π (N·E)). Only F, ρ and the lights depend on
 /// wavelength.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -353,7 +353,7 @@ impl Reader<'_> {
         let suggestion = renamed.or_else(|| nearest(name, free()));
         let message = match ((context.elsewhere)(name), suggestion) {
             (Some(owner), _) => format!("unknown field here: `{name}` {owner}"),
-            (None, Some(known)) if renamed.is_some() => format!("is called `{known}` now"),
+            (None, Some(known)) if renamed.is_some() => format!("was renamed to `{known}`"),
             (None, Some(known)) => format!("unknown field; did you mean `{known}`?"),
             (None, None) => "unknown field".to_owned(),
         };
@@ -388,7 +388,10 @@ impl Reader<'_> {
     fn unknown_word(&mut self, words: &[String], word: &str, at: &Place) {
         let known = words.iter().map(String::as_str);
         let suggestion = match advice::renamed(word, known.clone()) {
-            Some(now) => format!("; it is called {now:?} now"),
+            Some(now) => format!(
+                "; {} was renamed to {now:?}",
+                shortened(&format!("{word:?}"))
+            ),
             None => nearest(word, known)
                 .map(|known| format!("; did you mean {known:?}?"))
                 .unwrap_or_default(),

@@ -202,9 +202,9 @@ fn list_of_names(what: &str, known: &[&str]) -> String {
     match known.len() {
         0 => format!("no {what} is known"),
         count if count > MAX => {
-            format!("known are {} and {} more", names.join(", "), count - MAX)
+            format!("known names: {} and {} more", names.join(", "), count - MAX)
         }
-        _ => format!("known are {}", names.join(", ")),
+        _ => format!("known names: {}", names.join(", ")),
     }
 }
 

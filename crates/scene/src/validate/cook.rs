@@ -51,8 +51,8 @@ pub(super) fn check(
         }
     });
     let diffuse = reflectance.map(|reflectance| DiffuseTerm {
-        share: diffuse,
-        chance: diffuse / (specular + diffuse),
+        fraction: diffuse,
+        probability: diffuse / (specular + diffuse),
         reflectance,
     });
     let ambient = match &written.ambient {
@@ -299,7 +299,7 @@ fn ambient_light(
     let returned = match diffuse {
         Some(diffuse) => {
             let both = [normal, diffuse.reflectance];
-            spectra.combined(both, |[facets, rho]| facets + diffuse.share * rho)
+            spectra.combined(both, |[facets, rho]| facets + diffuse.fraction * rho)
         }
         None => normal,
     };

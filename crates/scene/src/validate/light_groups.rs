@@ -93,22 +93,22 @@ pub(crate) fn assign<'a>(
     mut parts: Unlit<'a>,
 ) -> Option<Lit<'a>> {
     let mut lights = lights(description, &mut parts);
-    let burning: Vec<(&Lamp, Option<&str>)> = lights
+    let emissions: Vec<(&Lamp, Option<&str>)> = lights
         .iter()
         .map(|(light, name)| (&lamps[light.light_group.index()], *name))
         .collect();
     let single = || {
-        let of_all: Vec<_> = burning
+        let of_all: Vec<_> = emissions
             .iter()
             .map(|(lamp, _)| (*lamp, Some("all")))
             .collect();
         grouped(&of_all)
     };
-    let is_named = burning.iter().any(|(_, name)| name.is_some());
+    let is_named = emissions.iter().any(|(_, name)| name.is_some());
     let found = match description.render.light_groups {
         LightGroups::Single => single(),
-        LightGroups::BySpectrum if is_named => grouped(&burning),
-        LightGroups::BySpectrum => grouped(&burning).or_else(single),
+        LightGroups::BySpectrum if is_named => grouped(&emissions),
+        LightGroups::BySpectrum => grouped(&emissions).or_else(single),
     };
     let Some((mut light_groups, ids)) = found else {
         report_too_many(checks);
@@ -127,17 +127,17 @@ pub(crate) fn assign<'a>(
 }
 
 /// The light groups of lamps, with their written names if any, and the group of each lamp; `None` if there are too many.
-fn grouped(burning: &[(&Lamp, Option<&str>)]) -> Option<(Vec<LightGroup>, Vec<LightGroupId>)> {
+fn grouped(emissions: &[(&Lamp, Option<&str>)]) -> Option<(Vec<LightGroup>, Vec<LightGroupId>)> {
     let mut list = List::default();
-    let mut ids = vec![LightGroupId(0); burning.len()];
-    let shining = || (0..).zip(burning).filter(|(_, (lamp, _))| lamp.shines);
+    let mut ids = vec![LightGroupId(0); emissions.len()];
+    let emitting = || (0..).zip(emissions).filter(|(_, (lamp, _))| lamp.shines);
     // Written names come first, and the others avoid them.
-    for (index, &(lamp, name)) in shining() {
+    for (index, &(lamp, name)) in emitting() {
         if let Some(name) = name {
             ids[index] = list.named(name, lamp)?;
         }
     }
-    for (index, &(lamp, name)) in shining() {
+    for (index, &(lamp, name)) in emitting() {
         if name.is_none() {
             ids[index] = list.by_spectrum(lamp)?;
         }

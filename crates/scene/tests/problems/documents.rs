@@ -67,7 +67,7 @@ type = 'constant'
                 &[
                     "no material with a known index \"watr\"",
                     "did you mean \"water\"?",
-                    "known are",
+                    "known names:",
                 ],
             ),
             (

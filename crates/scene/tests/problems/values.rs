@@ -52,12 +52,12 @@ fn numbers_out_of_range_are_reported_with_the_range() {
         (
             "sampling = 'centre'",
             "sampling",
-            &["\"centre\"", "it is called \"center\" now"],
+            &["\"centre\"", "was renamed to \"center\""],
         ),
         (
             "direct_light = 'surfaces'",
             "direct_light",
-            &["\"surfaces\"", "it is called \"bsdf\" now"],
+            &["\"surfaces\"", "was renamed to \"bsdf\""],
         ),
     ];
     for (line, field, phrases) in cases {

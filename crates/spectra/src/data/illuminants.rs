@@ -90,7 +90,7 @@ const KNOWN: &str = "A, B, C, D50, D55, D65, D75, E, FL1 to FL12 (or F1 to F12),
 #[non_exhaustive]
 pub enum IlluminantError {
     /// The name is unknown.
-    #[error("there is no illuminant {name:?}{}; known are {KNOWN}", suggestion(.nearest.as_deref()))]
+    #[error("there is no illuminant {name:?}{}; known names: {KNOWN}", suggestion(.nearest.as_deref()))]
     Unknown {
         /// The requested name.
         name: String,

@@ -26,7 +26,7 @@ pub enum Observer {
 /// The name is not that of an observer.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error(
-    "there is no observer {0:?}; known are 1931_2, 1964_10, 2015_2 and 2015_10 (year and degrees)"
+    "there is no observer {0:?}; known names: 1931_2, 1964_10, 2015_2 and 2015_10 (year and degrees)"
 )]
 pub struct UnknownObserver(String);
 

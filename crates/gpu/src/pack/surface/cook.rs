@@ -22,8 +22,8 @@ pub(super) fn pack(tables: &mut Tables, cook: &Cook1981) -> PackedSurface {
     };
     if let Some(diffuse) = &cook.diffuse {
         packed.base = id(diffuse.reflectance);
-        packed.base_fraction = diffuse.share as f32;
-        packed.base_probability = diffuse.chance as f32;
+        packed.base_fraction = diffuse.fraction as f32;
+        packed.base_probability = diffuse.probability as f32;
         features.push("HAS_BASES");
     }
     PackedSurface {
