@@ -337,7 +337,7 @@ fn a_film_is_recognized_and_other_pixels_are_reported() {
     assert_says(
         &table.stdout,
         &[
-            "has the shape of the spectrum",
+            "best fit by the shape of the spectrum",
             "by color",
             "the lamp's own spectrum",
             "nothing to fit",
