@@ -132,7 +132,7 @@ fn cases_outside_the_two_beam_model_are_refused() {
         (
             "1 | 1.5 1nm | 1",
             "--path-difference optical",
-            "the exact model has no choice of path difference",
+            "a path difference applies only to the two_beam model",
         ),
         ("1 | 1.5 1nm | 1", "--model two-beam", "two_beam"),
     ] {

@@ -212,8 +212,8 @@ impl Comparison {
         if let Some(ratio) = self.over_noise() {
             let _ = writeln!(
                 text,
-                "\nover all bands the RMSE is {ratio:.3} times that of the noise of both; \
-                 with different seeds, 1 means that they differ by noise alone"
+                "\nover all bands the RMSE is {ratio:.3} times the RMSE expected from noise: \
+                 about 1 if images with different seeds differ only by noise"
             );
         }
     }

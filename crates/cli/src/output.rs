@@ -32,7 +32,7 @@ impl Outputs {
                 _ if path == Path::new("-") => {
                     return Err(miette!(
                         help = "-o /dev/stdout writes a PNG file there",
-                        "-o -: this name does not say which kind of file to write"
+                        "-o -: the file type cannot be told from this name"
                     ));
                 }
                 _ if path.is_dir() => outputs.add_both(&path.join(stem)),
@@ -166,7 +166,7 @@ pub(crate) fn check_place(option: &str, path: &Path, read: &Path) -> miette::Res
     if path == Path::new("-") {
         return Err(miette!(
             help = "write ./- for a file of this name",
-            "{option} -: this name does not say which kind of file to write"
+            "{option} -: the file type cannot be told from this name"
         ));
     }
     if path.is_dir() {

@@ -479,9 +479,9 @@ impl Stack {
 
     fn help_beyond_data(&self) -> &'static str {
         if self.is_line {
-            "ask for wavelengths within that range, or use the end values with --clamp"
+            "choose wavelengths within that range, or use the end values with --clamp"
         } else {
-            "ask for wavelengths within that range; or use the end values with --clamp, or in the stack file with \
+            "choose wavelengths within that range; or use the end values with --clamp, or in the stack file with \
              index = { name = …, extrapolate = \"clamp\" }"
         }
     }

@@ -57,7 +57,7 @@ pub enum RadianceError {
         scanline: u32,
     },
     /// There are no pixels.
-    #[error("has {width} × {height} pixels, so none at all")]
+    #[error("has {width} × {height} pixels: it is empty")]
     Empty {
         /// Width in pixels.
         width: u32,

@@ -124,7 +124,7 @@ fn what_is_wrong_with_layers_is_reported() {
         (
             "type = 'film'\nindex = 1.5\nthickness_nm = 100\npath_difference = 'optical'",
             "materials.x.path_difference",
-            &["no choice", "two_beam"],
+            &["only to the two_beam model", "two_beam"],
         ),
         (
             "type = 'film'\nindex = [1.5, 0.1]\nthickness_nm = 100\nmodel = 'two_beam'",

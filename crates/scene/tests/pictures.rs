@@ -76,7 +76,7 @@ fn radiance_files_are_read_with_their_headers() {
     assert!(notes[0].contains("XYZE"), "{notes:?}");
 
     for (size, problem) in [
-        ("-Y 0 +X 2", "sky.hdr: has 2 × 0 pixels, so none at all"),
+        ("-Y 0 +X 2", "sky.hdr: has 2 × 0 pixels: it is empty"),
         ("-Y 4 +X 4", "4 × 4 pixels; a picture of all directions"),
         ("-Y 2 +X 4", "cut short: it ends in scanline 1 of 2"),
         ("-Y 8200 +X 16400", "at most 16384 per side"),

@@ -28,7 +28,7 @@ pub(super) fn model(model: ModelName, path: Option<PathName>) -> miette::Result<
         (ModelName::Exact, None) => Ok(Model::Exact),
         (ModelName::Exact, Some(_)) => Err(miette!(
             help = "leave it out, or add --model two_beam",
-            "--path-difference: the exact model has no choice of path difference"
+            "--path-difference: a path difference applies only to the two_beam model"
         )),
         (ModelName::TwoBeam, Some(PathName::AsPrinted)) => {
             Ok(Model::TwoBeam(PathDifference::AsPrinted))

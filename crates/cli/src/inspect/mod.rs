@@ -17,8 +17,8 @@ use std::path::PathBuf;
 /// Show the spectrum, noise and color of pixels and regions of a spectral image, and the film that they show.
 ///
 /// If --at and --region are left out, the mean of the whole image is shown. The thickness of a film is fitted if --scene gives the
-/// scene that was rendered, which has the film and the angle at each pixel, or if --film gives a stack. The closest thicknesses are
-/// those whose spectrum has the same shape, and those of the same color, up to a scale; the residual of each is printed.
+/// scene that was rendered, which has the film and the angle at each pixel, or if --film gives a stack. It prints the
+/// thicknesses that fit best by the shape of the spectrum and by color, each up to a scale, with their residuals.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The spectral image (.exr)
@@ -70,7 +70,7 @@ struct FilmArguments {
 enum Format {
     /// A text table
     Table,
-    /// wavelength_nm, then radiance and its deviation at each position
+    /// wavelength_nm, then radiance and its standard deviation at each position
     Csv,
     /// All results
     Json,

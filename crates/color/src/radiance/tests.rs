@@ -263,7 +263,7 @@ fn what_is_no_picture_is_one_error() {
         ),
         (
             file(&PLAIN, "-Y 0 +X 2", &[]),
-            "has 2 × 0 pixels, so none at all",
+            "has 2 × 0 pixels: it is empty",
         ),
         (file(&PLAIN, "+X 0 -Y 2", &[]), "has 0 × 2 pixels"),
         (file(&PLAIN, "-Y 1 +Y 1", &pixel), "line 4 of its header"),

@@ -176,7 +176,7 @@ pub enum FilmModel {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PathDifference {
-    /// l = 2 n d cos θ₂, as physics has it.
+    /// l = 2 n d cos θ₂, the physical path difference.
     Optical,
     /// l = 2 d cos θ₂, as the paper prints it, without the index.
     AsPrinted,

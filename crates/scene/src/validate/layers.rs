@@ -120,7 +120,7 @@ pub(super) fn check_interference(
         if path_difference.is_none() {
             return Some(Interference::Exact);
         }
-        let message = "the exact model has no choice of path difference";
+        let message = "a path difference applies only to the two_beam model";
         let field = field.key("path_difference");
         let problem = Problem::new(ProblemKind::Inconsistent, &field, message);
         checks.report(problem.help("leave it out, or write model = \"two_beam\""));
