@@ -1,5 +1,6 @@
 //! Checks that the README and the other pages show what exists.
 
+use pellicle_tests::sources::{Source, sources};
 use pellicle_tests::wgsl::root;
 use scene::SceneFile;
 
@@ -37,6 +38,14 @@ fn the_lights_of_the_documentation_are_valid() {
     assert_eq!((scene.objects().len(), scene.lights().len()), (1, 3));
 }
 
+/// The pages of the documentation. The changelog also names what has gone.
+fn pages() -> Vec<Source> {
+    let mut pages = sources();
+    pages.retain(|page| page.ends_in("md") && page.path != "CHANGELOG.md");
+    assert!(pages.len() > 12, "few pages found: {}", pages.len());
+    pages
+}
+
 #[test]
 fn the_commands_of_the_documentation_exist() {
     let help = std::process::Command::new(pellicle_tests::command::program("pellicle"))
@@ -50,22 +59,15 @@ fn the_commands_of_the_documentation_exist() {
         .filter_map(|line| line.split_whitespace().next())
         .collect();
     assert!(known.contains(&"render") && known.len() >= 10, "{known:?}");
-    let pages = std::fs::read_dir(root().join("docs")).expect("the folder has pages");
-    let pages = pages.map(|page| page.expect("readable").path());
     let mut named = 0;
-    for page in pages.chain([root().join("README.md")]) {
-        if page.extension().is_none_or(|extension| extension != "md") {
-            continue;
-        }
-        let text = std::fs::read_to_string(&page).expect("readable");
+    for Source { path, text } in pages() {
         // In a code span, at the start of a line of a block, or after cargo's two dashes.
         let starts = ["`pellicle ", "\npellicle ", "run --release -- "];
         for rest in starts.iter().flat_map(|start| text.split(start).skip(1)) {
             let command: String = rest.chars().take_while(char::is_ascii_lowercase).collect();
             assert!(
                 command.is_empty() || known.contains(&command.as_str()),
-                "{}: pellicle {command}",
-                page.display()
+                "{path}: pellicle {command}"
             );
             named += 1;
         }
@@ -86,21 +88,14 @@ fn paths_in(text: &str) -> Vec<&str> {
 
 #[test]
 fn the_files_that_pages_name_exist() {
-    let docs = std::fs::read_dir(root().join("docs")).expect("the folder has pages");
-    let docs = docs.map(|page| page.expect("readable").path());
-    let top = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"].map(|page| root().join(page));
     let mut named = 0;
     let mut missing = Vec::new();
-    for page in docs
-        .chain(top)
-        .filter(|page| page.extension().is_some_and(|end| end == "md"))
-    {
-        let text = std::fs::read_to_string(&page).expect("readable");
-        for path in paths_in(&text) {
+    for page in pages() {
+        for path in paths_in(&page.text) {
             let path = path.trim_end_matches(['.', ':', '/']);
             named += 1;
-            if !root().join(path).exists() && !page.with_file_name(path).exists() {
-                missing.push(format!("{}: {path}", page.display()));
+            if !root().join(path).exists() {
+                missing.push(format!("{}: {path}", page.path));
             }
         }
     }
@@ -154,26 +149,17 @@ fn the_gallery_shows_what_exists() {
 /// Every picture and page that a page of the documentation shows or links to exists.
 #[test]
 fn the_links_of_the_pages_exist() {
-    let docs = std::fs::read_dir(root().join("docs")).expect("the folder has pages");
-    let docs = docs.map(|page| page.expect("readable").path());
-    let top = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"].map(|page| root().join(page));
     let mut links = 0;
-    for page in docs
-        .chain(top)
-        .filter(|page| page.extension().is_some_and(|end| end == "md"))
-    {
-        let text = std::fs::read_to_string(&page).expect("readable");
-        let targets = text
+    for page in pages() {
+        let targets = page
+            .text
             .split("](")
             .skip(1)
             .filter_map(|rest| rest.split(')').next());
         for target in targets.filter(|target| !target.contains("://")) {
             let file = target.split('#').next().unwrap_or(target);
-            assert!(
-                page.with_file_name(file).exists(),
-                "{}: {target}",
-                page.display()
-            );
+            let beside = root().join(&page.path).with_file_name(file);
+            assert!(beside.exists(), "{}: {target}", page.path);
             links += 1;
         }
     }
