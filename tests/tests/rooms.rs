@@ -5,13 +5,15 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The crates that each crate may depend on. A test crate may depend on everything.
 const ARROWS: &[(&str, &[&str])] = &[
-    ("pellicle-spectra", &[]),
+    ("pellicle-document", &[]),
+    ("pellicle-spectra", &["pellicle-document"]),
     ("pellicle-optics", &[]),
     (
         "pellicle-scene",
         &[
             "pellicle-color",
             "pellicle-colorimetry",
+            "pellicle-document",
             "pellicle-optics",
             "pellicle-spectra",
         ],
@@ -21,7 +23,10 @@ const ARROWS: &[(&str, &[&str])] = &[
         &["pellicle-scene", "pellicle-optics", "pellicle-spectra"],
     ),
     ("pellicle-gpu", &["pellicle-scene", "pellicle-spectra"]),
-    ("pellicle-colorimetry", &["pellicle-spectra"]),
+    (
+        "pellicle-colorimetry",
+        &["pellicle-document", "pellicle-spectra"],
+    ),
     (
         "pellicle-color",
         &["pellicle-colorimetry", "pellicle-spectra"],
@@ -31,6 +36,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         &[
             "pellicle-color",
             "pellicle-colorimetry",
+            "pellicle-document",
             "pellicle-optics",
             "pellicle-scene",
             "pellicle-spectra",
@@ -42,6 +48,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "pellicle-coating",
             "pellicle-color",
             "pellicle-colorimetry",
+            "pellicle-document",
             "pellicle-gpu",
             "pellicle-optics",
             "pellicle-reference",

@@ -2,9 +2,9 @@
 
 use crate::print;
 use pellicle::colorimetry::tristimulus::Rule;
+use pellicle::document::text_file::STANDARD_INPUT;
+use pellicle::document::wording::visible;
 use pellicle::spectra::table_file::{self, Options, Quantity};
-use pellicle::spectra::text_file::STANDARD_INPUT;
-use pellicle::spectra::wording::visible;
 use pellicle::spectra::{Spectrum, find_illuminant};
 use std::path::Path;
 

@@ -7,8 +7,8 @@ use miette::{
     Diagnostic, IntoDiagnostic, LabeledSpan, MietteHandler, ReportHandler, Severity, SourceCode,
     WrapErr,
 };
-use pellicle::spectra::text_file::STANDARD_INPUT;
-use pellicle::spectra::wording::{shortened, visible};
+use pellicle::document::text_file::STANDARD_INPUT;
+use pellicle::document::wording::{shortened, visible};
 use std::error::Error;
 use std::fmt::{self, Display};
 use std::io::{ErrorKind, Write};

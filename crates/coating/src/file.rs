@@ -2,15 +2,13 @@
 
 use crate::stack::{Layer, Medium, Stack};
 use crate::thickness::optical_nm;
+use document::{Checks, Document, FieldPath, Folder, Problem, ProblemKind, Problems, SourceFile};
 use scene::description::Index;
-use scene::{FieldPath, Folder, Problem, ProblemKind, Problems, SourceFile, limits};
+use scene::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use spectra::{OpticalConstants, Spectrum};
 use std::path::Path;
-
-/// Minimum content of a stack file.
-const NEEDS: &str = "a stack needs at least `substrate = …`";
 
 /// A stack as written in a file (TOML):
 ///
@@ -64,6 +62,10 @@ pub struct OpticalThickness {
     pub at_nm: f64,
 }
 
+impl Document for StackDescription {
+    const NEEDS: &'static str = "a stack needs at least `substrate = …`";
+}
+
 fn air() -> Index {
     Index::Name("air".to_owned())
 }
@@ -84,13 +86,13 @@ pub(crate) fn medium(index: &Index, folder: &Folder) -> Result<Medium, Vec<Probl
 }
 
 pub(crate) fn read(path: &Path, allows_outside: bool) -> Result<Stack, Problems> {
-    let (description, mut source) = SourceFile::read(path, NEEDS)?;
+    let (description, mut source) = SourceFile::read(path)?;
     source.allow_outside(allows_outside);
     finish((description, source))
 }
 
 pub(crate) fn parse(name: &str, text: &str, folder: &Folder) -> Result<Stack, Problems> {
-    finish(SourceFile::parse(name, text, folder, NEEDS)?)
+    finish(SourceFile::parse(name, text, folder)?)
 }
 
 fn finish((description, source): (StackDescription, SourceFile)) -> Result<Stack, Problems> {
@@ -116,35 +118,28 @@ impl StackDescription {
     /// # Errors
     /// Reports everything that is wrong; the fields of the problems say where.
     pub fn check(&self, folder: impl Into<Folder>) -> Result<Stack, Vec<Problem>> {
-        let mut checks = Checks {
-            folder: folder.into(),
-            problems: Vec::new(),
-        };
+        let mut checks = StackChecks(Checks::new(&folder.into()));
         let root = FieldPath::root();
         let incident = checks.incident(&root.key("incident"), &self.incident);
         let substrate = checks.medium(&root.key("substrate"), &self.substrate);
         let layers = checks.layers(&root.key("layer"), &self.layer);
-        match (incident, layers, substrate) {
-            (Some(incident), Some(layers), Some(substrate)) if checks.problems.is_empty() => {
-                Ok(Stack::new(incident, layers, substrate))
-            }
-            _ => Err(checks.problems),
-        }
+        let stack = || Some(Stack::new(incident?, layers?, substrate?));
+        let (stack, _) = checks.0.finish(stack())?;
+        Ok(stack)
     }
 }
 
-struct Checks {
-    folder: Folder,
-    problems: Vec<Problem>,
-}
+/// The checks of a stack. A check returns the value if it is valid.
+struct StackChecks(Checks);
 
-impl Checks {
+impl StackChecks {
     fn medium(&mut self, field: &FieldPath, written: &Index) -> Option<Medium> {
-        match medium(written, &self.folder) {
+        match medium(written, self.0.folder()) {
             Ok(medium) => Some(medium),
             Err(problems) => {
-                let placed = problems.into_iter().map(|problem| problem.within(field));
-                self.problems.extend(placed);
+                for problem in problems {
+                    self.0.report(problem.within(field));
+                }
                 None
             }
         }
@@ -203,13 +198,7 @@ impl Checks {
     }
 
     fn thickness(&mut self, at: &FieldPath, thickness_nm: f64) -> Option<f64> {
-        if limits::THICKNESS_NM.contains(thickness_nm) {
-            return Some(thickness_nm);
-        }
-        let range = limits::THICKNESS_NM;
-        let message = format!("found {thickness_nm}; it must be from {range}");
-        self.report(ProblemKind::OutOfRange, at, message);
-        None
+        self.0.number(at, thickness_nm, &limits::THICKNESS_NM)
     }
 
     fn optical(
@@ -223,14 +212,14 @@ impl Checks {
             Ok(nm) => Some(nm),
             Err((message, help)) => {
                 let problem = Problem::new(ProblemKind::OutOfRange, at, message);
-                self.problems.push(problem.help(help));
+                self.0.report(problem.help(help));
                 None
             }
         }
     }
 
     fn report(&mut self, kind: ProblemKind, field: &FieldPath, message: String) {
-        self.problems.push(Problem::new(kind, field, message));
+        self.0.report(Problem::new(kind, field, message));
     }
 }
 

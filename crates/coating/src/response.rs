@@ -1,10 +1,10 @@
 //! Response of a stack: R, T and A over wavelength at an angle.
 
 use crate::model::{Model, TwoBeamFilm};
+use document::wording::number;
 use optics::batch::{LayerOf, Media, Powers, StackBatch, StackOf, evaluate};
 use optics::{Complex64, Layer, Polarized, ThicknessDerivative};
 use rayon::prelude::*;
-use spectra::wording::number;
 use thiserror::Error;
 
 /// A stack at chosen wavelengths: only numbers, no names or tables. Thicknesses and angles are given when it is evaluated.

@@ -1,8 +1,8 @@
 //! Thicknesses in one-line stacks: a length with its unit, or waves at a wavelength.
 
+use document::wording::number;
 use scene::limits::{TABLE_NM, THICKNESS_NM};
 use spectra::OpticalConstants;
-use spectra::wording::number;
 
 /// Units of a thickness, in nm. The micro sign µ and the Greek letter are different characters, as are the angstrom sign and the
 /// letter Å.

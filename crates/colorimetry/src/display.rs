@@ -7,6 +7,7 @@
 //! M comes from the spectra of the primaries, M = ∫ (x̄, ȳ, z̄) (r, g, b) dλ, or from the chromaticities of the primaries and the
 //! white, with each column scaled so that C = (1, 1, 1) is the white (SMPTE RP 177:1993). See [`Display::open`] for names and files.
 
+mod description;
 mod file;
 mod response;
 mod shipped;

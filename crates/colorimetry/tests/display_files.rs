@@ -111,15 +111,18 @@ fn refused(cases: impl IntoIterator<Item = (String, &'static str)>) {
 #[test]
 fn mistakes_of_colors_say_where_and_what_would_be_right() {
     refused([
-        (String::new(), "missing field `primaries`"),
-        ("what = [".to_owned(), "line 1"),
+        (
+            String::new(),
+            "the file is empty; a display needs at least [primaries]",
+        ),
+        ("what = [".to_owned(), "screen.toml:1:"),
         (
             change("white = 'D65'", "white = 'D66'"),
             "white: there is no illuminant \"D66\"",
         ),
         (
             change("white = 'D65'", "white = 6500"),
-            "expected a chromaticity [x, y] or the name of an illuminant",
+            "white: found the whole number 6500, expected an array of numbers or a string",
         ),
         (
             change("white = 'D65'", "white = [0.1, 0.8]"),
@@ -175,7 +178,7 @@ fn mistakes_of_light_and_tables_say_where_and_what_would_be_right() {
         ),
         (
             change("gamma = [2.1, 2.2, 2.3]", "gamma = [2.1, 2.2]"),
-            "expected a number, or three",
+            "response.gamma: found an array of 2, expected an array of 3 numbers",
         ),
         (
             change("gamma = [2.1, 2.2, 2.3], ", ""),
@@ -187,9 +190,12 @@ fn mistakes_of_light_and_tables_say_where_and_what_would_be_right() {
         ),
         (
             change("curve = 'gamma'", "curve = 'rec709'"),
-            "unknown variant `rec709`",
+            "response.curve: found \"rec709\", expected \"linear\", ",
         ),
-        (change("alpha", "alfa"), "unknown field `alfa`"),
+        (
+            change("alpha", "alfa"),
+            "response.alfa: unknown field; did you mean `alpha`?",
+        ),
         (
             change("reflectance = 0.01", "reflectance = 1.01"),
             "ambient.reflectance: found 1.01",
@@ -210,6 +216,22 @@ fn mistakes_of_light_and_tables_say_where_and_what_would_be_right() {
         ),
         (table("none.csv"), "none.csv: cannot be opened"),
     ]);
+}
+
+/// All mistakes are reported at once, each with line and column.
+#[test]
+fn mistakes_are_reported_together() {
+    let text = change("white = 'D65'", "white = 'D66'")
+        .replace("black_luminance = 0.2", "black_luminance = -1")
+        .replace("alpha", "alfa");
+    let said = read(&text).unwrap_err().to_string();
+    for line in [
+        "screen.toml:2:9: white: there is no illuminant",
+        "screen.toml:4:19: black_luminance: found -1",
+        "response.alfa: unknown field",
+    ] {
+        assert!(said.contains(line), "{line} is not in\n{said}");
+    }
 }
 
 #[test]

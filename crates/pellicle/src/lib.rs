@@ -42,6 +42,7 @@ pub mod stacks;
 pub use coating;
 pub use color;
 pub use colorimetry;
+pub use document;
 pub use gpu;
 pub use optics;
 pub use reference;

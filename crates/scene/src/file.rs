@@ -1,16 +1,11 @@
 //! Scene files: read, changed by command-line options, then validated.
 
 use crate::description::Description;
-use crate::document::SourceFile;
-use crate::field_path::Step;
-use crate::problem::Problems;
-use crate::{FieldPath, Folder, Scene, validate};
+use crate::{Scene, validate};
+use document::{FieldPath, Folder, Problems, SourceFile, Step};
 use std::cell::OnceCell;
 use std::path::Path;
 use toml::Value;
-
-/// The minimum contents of a scene file.
-const NEEDS: &str = "a scene needs at least a [camera]";
 
 /// Reads and validates a scene file.
 ///
@@ -23,7 +18,7 @@ pub fn load(path: impl AsRef<Path>) -> Result<Scene, Problems> {
 /// A scene file that has been read and can still be changed before it is validated.
 ///
 /// ```no_run
-/// # fn main() -> Result<(), pellicle_scene::Problems> {
+/// # fn main() -> Result<(), pellicle_document::Problems> {
 /// let mut file = pellicle_scene::SceneFile::read("scenes/soap_bubble.toml")?;
 /// file.description.render.samples = 4;
 /// let scene = file.validate()?;
@@ -45,7 +40,7 @@ impl SceneFile {
     /// # Errors
     /// When there is no such file, or it is not TOML. [`Self::validate`] reports other mistakes, all at once.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Problems> {
-        Ok(Self::new(SourceFile::read(path.as_ref(), NEEDS)?))
+        Ok(Self::new(SourceFile::read(path.as_ref())?))
     }
 
     /// Parses the text of a scene file. `name` is its name in errors; paths of files are relative to `folder`, and the files must be in it.
@@ -54,12 +49,7 @@ impl SceneFile {
     /// # Errors
     /// When the text is not TOML.
     pub fn parse(name: &str, text: &str, folder: impl Into<Folder>) -> Result<Self, Problems> {
-        Ok(Self::new(SourceFile::parse(
-            name,
-            text,
-            &folder.into(),
-            NEEDS,
-        )?))
+        Ok(Self::new(SourceFile::parse(name, text, &folder.into())?))
     }
 
     fn new((description, source): (Description, SourceFile)) -> Self {

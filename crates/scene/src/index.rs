@@ -1,7 +1,8 @@
 //! An index of refraction outside a scene.
 
 use crate::description::Index;
-use crate::{Folder, Problems, validate};
+use crate::validate;
+use document::{Folder, Problems};
 use spectra::OpticalConstants;
 
 /// Returns the optical constants of `index`, and the assumptions about its files, one line each. Paths of files are relative to `folder`,
@@ -24,5 +25,6 @@ pub fn optical_constants(
     index: &Index,
     folder: impl Into<Folder>,
 ) -> Result<(OpticalConstants, Vec<String>), Problems> {
-    validate::optical_constants(index, &folder.into()).map_err(Problems::of_index)
+    validate::optical_constants(index, &folder.into())
+        .map_err(|list| Problems::of_program("the index", list))
 }

@@ -21,12 +21,9 @@ mod camera;
 mod coated_body;
 mod cook;
 pub mod description;
-mod document;
 mod drainage;
 mod environment;
-mod field_path;
 pub mod file;
-mod folder;
 mod growth;
 mod index;
 mod light;
@@ -36,11 +33,8 @@ mod microsurface;
 mod notes;
 mod object;
 mod prepared;
-mod problem;
 mod rounding;
-mod schema;
 mod settings;
-mod snippet;
 mod texels;
 mod thickness;
 mod validate;
@@ -49,14 +43,13 @@ mod validated;
 pub use camera::{Camera, Lens, Projection};
 pub use coated_body::{CoatEstimate, CoatedBody};
 pub use cook::{Cook1981, CookDistribution, CookFacets, DiffuseTerm};
-pub use description::{Distribution, PathDifference, Sampler};
-pub use document::SourceFile;
+pub use description::{Distribution, PathDifference, Sampler, schema};
+/// Types of the interface that come from the reader of documents.
+pub use document::{FieldPath, Folder, Location, Problem, ProblemKind, Problems, Step};
 pub use environment::{
     Environment, EnvironmentPart, EnvironmentPicture, EnvironmentShape, PictureSpectra,
 };
-pub use field_path::{FieldPath, Step};
 pub use file::SceneFile;
-pub use folder::{Folder, OutsideError};
 pub use index::optical_constants;
 pub use light::{EmitterKind, EmitterSource, Light, LightShape};
 pub use material::{Emission, Interference, Layer, Material, Pattern};
@@ -66,10 +59,7 @@ pub use prepared::{
     DirectionTable, EmitterNode, EmitterTree, Energy, Estimate, FacetTable, Hierarchy, Node,
     PixelFilter, Sheet,
 };
-pub use problem::{Location, Problem, ProblemKind, Problems};
-pub use schema::schema;
 pub use settings::{DirectLight, RenderSettings, WavelengthSampling};
-pub use snippet::Snippet;
 pub use texels::Texels;
 pub use thickness::{BlackFilm, Coordinate, Picture, PictureFile, Profile, Swirls, Thickness};
 pub use validated::{LightGroupId, MaterialId, Scene, SpectrumId};

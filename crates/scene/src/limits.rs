@@ -3,58 +3,7 @@
 //! They keep every product that a renderer computes well within `f32`, and are wide enough for anything that thin films and metals need.
 //! The JSON Schema shows the same numbers.
 
-use std::fmt;
-
-/// A closed range of numbers with its unit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
-    /// The smallest number allowed.
-    pub low: f64,
-    /// The largest number allowed.
-    pub high: f64,
-    /// The unit with a leading space, or nothing.
-    pub unit: &'static str,
-}
-
-impl Range {
-    const fn new(low: f64, high: f64, unit: &'static str) -> Self {
-        Self { low, high, unit }
-    }
-
-    /// Whether `value` is in the range; NaN never is.
-    pub fn contains(&self, value: f64) -> bool {
-        self.low <= value && value <= self.high
-    }
-}
-
-impl fmt::Display for Range {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{} to {}{}",
-            Shown(self.low),
-            Shown(self.high),
-            self.unit
-        )
-    }
-}
-
-/// A number as messages show it: in scientific notation if it has many digits.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shown(pub f64);
-
-impl fmt::Display for Shown {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (plain, power) = (self.0.to_string(), format!("{:e}", self.0));
-        let is_long = self.0 != 0.0 && !(1e-4..1e6).contains(&self.0.abs());
-        let shown = if is_long && power.len() < plain.len() {
-            power
-        } else {
-            plain
-        };
-        write!(f, "{shown}")
-    }
-}
+use document::Range;
 
 /// A coordinate of a point or direction. `f32` resolves 0.06 at the ends.
 pub const COORDINATE: Range = Range::new(-1e6, 1e6, "");
@@ -197,28 +146,4 @@ pub const MAX_LIGHT_GROUPS: usize = 32;
 /// The maximum size of a spectral image, in bytes.
 pub const MAX_IMAGE_BYTES: u128 = 32 << 30;
 /// The maximum size of a text file, in bytes: a scene, or a table that it names.
-pub const MAX_FILE_BYTES: u64 = spectra::text_file::MAX_BYTES;
-
-#[cfg(test)]
-mod tests {
-    use super::Shown;
-
-    #[test]
-    fn long_rows_of_digits_are_shown_as_powers() {
-        for (number, shown) in [
-            (0.0, "0"),
-            (-1e6, "-1e6"),
-            (1e9, "1e9"),
-            (1e30, "1e30"),
-            (1e-9, "1e-9"),
-            (100_000.0, "100000"),
-            (16_777_216.0, "16777216"),
-            (0.001, "0.001"),
-            (0.25, "0.25"),
-            (f64::NAN, "NaN"),
-            (f64::INFINITY, "inf"),
-        ] {
-            assert_eq!(Shown(number).to_string(), shown);
-        }
-    }
-}
+pub const MAX_FILE_BYTES: u64 = document::text_file::MAX_BYTES;

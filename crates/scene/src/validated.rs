@@ -3,9 +3,10 @@
 use crate::description::Description;
 use crate::rounding::RoundToF32;
 use crate::{
-    Camera, EmitterTree, Environment, Estimate, Folder, Hierarchy, Light, Material, Object,
-    Problems, RenderSettings, Sheet, validate,
+    Camera, EmitterTree, Environment, Estimate, Hierarchy, Light, Material, Object, RenderSettings,
+    Sheet, validate,
 };
+use document::{Folder, Problems};
 use spectra::{BandTable, LightGroup, SpectralImage};
 
 /// Index of a spectrum in [`Scene::spectra`].
@@ -78,7 +79,8 @@ impl Scene {
     /// All problems of the description. For a description from a file, [`SceneFile::validate`](crate::SceneFile::validate) also knows the
     /// lines.
     pub fn new(description: &Description, folder: impl Into<Folder>) -> Result<Self, Problems> {
-        validate::scene(description, &folder.into()).map_err(Problems::of_program)
+        validate::scene(description, &folder.into())
+            .map_err(|list| Problems::of_program("the scene", list))
     }
 
     /// The render settings.

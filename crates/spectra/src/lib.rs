@@ -26,10 +26,7 @@ pub mod sky;
 mod spectral_image;
 mod spectrum;
 mod sprague;
-pub mod suggestion;
 pub mod table_file;
-pub mod text_file;
-pub mod wording;
 
 pub use band_grid::{BandGrid, BandGridError};
 pub use band_table::BandTable;

@@ -16,9 +16,9 @@ use miette::{IntoDiagnostic, WrapErr, miette};
 use model::{ModelName, PathName};
 use numbers::{List, Vary};
 use pellicle::coating::{Angle, Light, MatchBy, Model, Stack, StackColor, parse_srgb};
+use pellicle::document::wording::number;
 use pellicle::gpu::AdapterChoice;
 use pellicle::spectra::Observer;
-use pellicle::spectra::wording::number;
 use pellicle::{Backend, Renderer, coating, stacks};
 use std::path::PathBuf;
 

@@ -3,7 +3,7 @@
 use super::{Fault, Misplaced, example};
 use crate::stack::Stack;
 use crate::thickness;
-use spectra::suggestion::nearest;
+use document::suggestion::nearest;
 use std::ops::Range;
 
 /// A part of the line, and the byte at which it begins.

@@ -1,16 +1,15 @@
 //! Display files.
 
 use std::ffi::OsStr;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use serde::Deserialize;
-use spectra::suggestion;
-use spectra::table_file::TableFileError;
-use spectra::text_file::{STANDARD_INPUT, TextFileError, read_text};
+use document::text_file::STANDARD_INPUT;
+use document::{Problems, SourceFile, suggestion};
 use thiserror::Error;
 
 use super::Display;
-use super::validate::Checks;
+use super::description::Description;
+use super::validate::{Tables, check};
 
 /// Why a display cannot be found or read.
 #[derive(Debug, Error)]
@@ -24,40 +23,9 @@ pub enum DisplayError {
         /// The name that was probably meant.
         nearest: Option<&'static str>,
     },
-    /// A file cannot be read.
-    #[error("{path}: {source}")]
-    File {
-        /// The file.
-        path: String,
-        /// Why.
-        source: TextFileError,
-    },
-    /// A file is not TOML, or does not have the fields of a display.
-    #[error("{path} is not a display: {}", .source.to_string().trim_end())]
-    Toml {
-        /// The file.
-        path: String,
-        /// What and where.
-        source: Box<toml::de::Error>,
-    },
-    /// A table of spectra or of a response cannot be used.
-    #[error("{path}: {source}")]
-    Table {
-        /// The file.
-        path: String,
-        /// What and where.
-        source: Box<TableFileError>,
-    },
-    /// A field has an impossible value.
-    #[error("{path}: {field}: {message}")]
-    Field {
-        /// The file.
-        path: String,
-        /// The field, such as `primaries.red`.
-        field: &'static str,
-        /// What is wrong and what would be right.
-        message: String,
-    },
+    /// The file or one of its tables cannot be read, or its content is wrong.
+    #[error("{0:#}")]
+    File(Problems),
 }
 
 impl Display {
@@ -104,19 +72,11 @@ impl Display {
     /// ```
     ///
     /// # Errors
-    /// When the file or one of its tables cannot be read, a field is unknown or missing, or a value is impossible.
+    /// All problems of the file: it or one of its tables cannot be read, a field is unknown or missing, or a value is impossible.
     pub fn read(path: &Path) -> Result<Self, DisplayError> {
-        let file = |path: &Path| {
-            read_text(path).map_err(|source| DisplayError::File {
-                path: path.display().to_string(),
-                source,
-            })
-        };
-        let text = file(path)?;
-        let directory = path.parent().unwrap_or(Path::new(""));
-        let mut display = parse(&path.display().to_string(), &text, &|name| {
-            file(&directory.join(name))
-        })?;
+        let (written, mut source) = SourceFile::read(path).map_err(DisplayError::File)?;
+        source.allow_outside(true);
+        let mut display = finish(&written, &source, &Tables::Files).map_err(DisplayError::File)?;
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         stem.as_ref().clone_into(&mut display.name);
         Ok(display)
@@ -133,104 +93,22 @@ fn nearest(name: &str) -> Option<&'static str> {
     suggestion::nearest(name, Display::names()).or_else(part)
 }
 
-/// A display as written in a file.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Description {
-    #[serde(default)]
-    pub(super) title: String,
-    #[serde(default)]
-    pub(super) source: String,
-    #[serde(default)]
-    pub(super) notes: String,
-    pub(super) white: Option<WhiteDescription>,
-    #[serde(default = "hundred")]
-    pub(super) white_luminance: f64,
-    #[serde(default)]
-    pub(super) black_luminance: f64,
-    pub(super) primaries: PrimariesDescription,
-    pub(super) response: ResponseDescription,
-    pub(super) ambient: Option<AmbientDescription>,
+/// Parses the text of a built-in display; its tables are `(file, text)`.
+pub(super) fn parse(
+    name: &str,
+    text: &str,
+    tables: &'static [(&'static str, &'static str)],
+) -> Result<Display, Problems> {
+    let (written, source) = SourceFile::parse(name, text, &"".into())?;
+    let mut display = finish(&written, &source, &Tables::BuiltIn(tables))?;
+    name.clone_into(&mut display.name);
+    Ok(display)
 }
 
-fn hundred() -> f64 {
-    100.0
-}
-
-#[derive(Deserialize)]
-#[serde(
-    untagged,
-    expecting = "expected a chromaticity [x, y] or the name of an illuminant"
-)]
-pub(super) enum WhiteDescription {
-    Chromaticity([f64; 2]),
-    Illuminant(String),
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct PrimariesDescription {
-    pub(super) red: Option<Vec<f64>>,
-    pub(super) green: Option<Vec<f64>>,
-    pub(super) blue: Option<Vec<f64>>,
-    pub(super) spectra: Option<PathBuf>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ResponseDescription {
-    pub(super) curve: Curve,
-    pub(super) gamma: Option<PerChannel>,
-    pub(super) alpha: Option<PerChannel>,
-    pub(super) csv: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, Deserialize, PartialEq)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum Curve {
-    Linear,
-    Srgb,
-    Gamma,
-    Bt1886,
-    Pq,
-    Table,
-}
-
-#[derive(Clone, Copy, Deserialize)]
-#[serde(
-    untagged,
-    expecting = "expected a number, or three for red, green and blue"
-)]
-pub(super) enum PerChannel {
-    Same(f64),
-    Each([f64; 3]),
-}
-
-impl PerChannel {
-    pub(super) fn each(self) -> [f64; 3] {
-        match self {
-            Self::Same(value) => [value; 3],
-            Self::Each(values) => values,
-        }
-    }
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct AmbientDescription {
-    pub(super) illuminance_lux: f64,
-    pub(super) reflectance: f64,
-    pub(super) illuminant: String,
-}
-
-/// A function that reads the text of a table named in a display file.
-pub(super) type ReadTable<'a> = &'a dyn Fn(&Path) -> Result<String, DisplayError>;
-
-/// Parses a display from the text of a file, which errors call `path`.
-pub(super) fn parse(path: &str, text: &str, read: ReadTable) -> Result<Display, DisplayError> {
-    let written: Description = toml::from_str(text).map_err(|source| DisplayError::Toml {
-        path: path.to_owned(),
-        source: Box::new(source),
-    })?;
-    Checks { path, read }.display(written)
+fn finish(
+    written: &Description,
+    source: &SourceFile,
+    tables: &Tables,
+) -> Result<Display, Problems> {
+    source.finish(check(written, source.folder(), tables))
 }

@@ -1,7 +1,6 @@
 //! The built-in displays: files in the same format as users' files, with their sources.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::OnceLock;
 
 use super::Display;
@@ -49,14 +48,10 @@ const TABLES: &[(&str, &str)] = &[
 fn all() -> &'static BTreeMap<&'static str, Display> {
     static ALL: OnceLock<BTreeMap<&'static str, Display>> = OnceLock::new();
     ALL.get_or_init(|| {
-        let table = |path: &Path| {
-            let own = TABLES.iter().find(|(name, _)| Path::new(name) == path);
-            Ok(own.map_or(String::new(), |(_, text)| (*text).to_owned()))
-        };
         let display = |&(name, text): &(&'static str, &str)| {
             // No user can cause an error in them, and the test that loads every display rules it out.
-            let display = parse(name, text, &table)
-                .unwrap_or_else(|error| panic!("the built-in display {name}: {error}"));
+            let display = parse(name, text, TABLES)
+                .unwrap_or_else(|error| panic!("the built-in display {name}: {error:#}"));
             (name, display)
         };
         FILES.iter().map(display).collect()

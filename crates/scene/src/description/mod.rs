@@ -4,6 +4,7 @@
 //! derived from them. A program can also fill them in and pass the result to [`Scene::new`](crate::Scene::new). Nothing here is checked
 //! beyond its type.
 
+mod advice;
 mod camera;
 mod cook;
 mod emission;
@@ -36,8 +37,10 @@ pub use thickness::{
     Thickness,
 };
 
+use document::{Document, FieldPath, schema_of};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// A Pellicle scene.
@@ -65,4 +68,23 @@ pub struct Description {
     /// The environment; black when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub environment: Option<Environment>,
+}
+
+impl Document for Description {
+    const NEEDS: &'static str = "a scene needs at least a [camera]";
+    const RENAMED: &'static [(&'static str, &'static str)] = advice::RENAMED;
+
+    fn advice_on_type(field: &FieldPath, word: &str) -> Option<&'static str> {
+        advice::of_type(field, word)
+    }
+
+    fn advice_on_field(field: &FieldPath, name: &str) -> Option<&'static str> {
+        advice::of_field(field, name)
+    }
+}
+
+/// The JSON Schema of scene files, derived from the types of this module. It is committed as `scenes/scene.schema.json`; regenerate it
+/// with `PELLICLE_BLESS=1 cargo test --release -p pellicle-scene schema`.
+pub fn schema() -> Value {
+    schema_of::<Description>()
 }

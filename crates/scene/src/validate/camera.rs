@@ -2,8 +2,8 @@
 
 use super::checks::Checks;
 use crate::limits;
-use crate::problem::{Problem, ProblemKind};
-use crate::{Camera, FieldPath, Lens, PixelFilter, Projection, description};
+use crate::{Camera, Lens, PixelFilter, Projection, description};
+use document::{FieldPath, Problem, ProblemKind};
 
 /// Checks `[camera]`.
 pub(crate) fn check(checks: &mut Checks, camera: &description::Camera) -> Option<Camera> {

@@ -1,48 +1,47 @@
-//! Checks that many fields share, and the list of problems that they found.
+//! Checks that many fields of a scene share.
 
-use crate::limits::{self, Range, Shown};
-use crate::problem::{Problem, ProblemKind};
-use crate::{Distribution, Energy, FieldPath, Folder};
+use crate::{Distribution, Energy, limits};
+use document::{FieldPath, Folder, Problem, ProblemKind, Shown};
 use glam::DVec3;
-use spectra::suggestion::nearest;
-use std::fmt::Display;
-use std::path::{Path, PathBuf};
+use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
 
-/// Collects problems, and holds what the whole scene shares. A check returns the value if it is valid.
+/// The checks of a scene, and what all of them need to know. A check returns the value if it is valid.
 #[derive(Debug)]
 pub(crate) struct Checks {
-    pub(crate) problems: Vec<Problem>,
-    /// Assumptions, one line each, without duplicates.
-    pub(crate) notes: Vec<String>,
-    /// The folder that paths of files are relative to.
-    folder: Folder,
+    checks: document::Checks,
     /// Time of the picture, s.
     pub(crate) time_s: f64,
     /// Energy tables of the rough surfaces so far: surfaces with equal parameters share one.
     energies: Vec<(Distribution, [f64; 2], Arc<Energy>)>,
 }
 
+impl Deref for Checks {
+    type Target = document::Checks;
+
+    fn deref(&self) -> &document::Checks {
+        &self.checks
+    }
+}
+
+impl DerefMut for Checks {
+    fn deref_mut(&mut self) -> &mut document::Checks {
+        &mut self.checks
+    }
+}
+
 impl Checks {
     pub(crate) fn new(folder: &Folder) -> Self {
         Self {
-            problems: Vec::new(),
-            notes: Vec::new(),
-            folder: folder.clone(),
+            checks: document::Checks::new(folder),
             time_s: 0.0,
             energies: Vec::new(),
         }
     }
 
-    /// The path to the file that `field` names as `written`. Every file that a description names is opened by this path.
-    pub(crate) fn path(&mut self, field: &FieldPath, written: &Path) -> Option<PathBuf> {
-        self.folder
-            .path_to(written)
-            .map_err(|error| {
-                self.problems
-                    .push(Problem::new(ProblemKind::File, field, error.to_string()));
-            })
-            .ok()
+    /// As [`document::Checks::finish`].
+    pub(crate) fn finish<T>(self, value: Option<T>) -> Result<(T, Vec<String>), Vec<Problem>> {
+        self.checks.finish(value)
     }
 
     /// The energy table of a rough surface.
@@ -61,33 +60,6 @@ impl Checks {
         self.energies
             .push((distribution, roughness, Arc::clone(&energy)));
         energy
-    }
-
-    pub(crate) fn report(&mut self, problem: Problem) {
-        self.problems.push(problem);
-    }
-
-    /// Notes an assumption about the value of `field`.
-    pub(crate) fn note(&mut self, field: &FieldPath, assumed: impl Display) {
-        let note = if field.is_root() {
-            assumed.to_string()
-        } else {
-            format!("{field}: {assumed}")
-        };
-        if !self.notes.contains(&note) {
-            self.notes.push(note);
-        }
-    }
-
-    /// Checks that a number is in `range`.
-    pub(crate) fn number(&mut self, field: &FieldPath, value: f64, range: &Range) -> Option<f64> {
-        if range.contains(value) {
-            // −0 and 0 are the same number, but would be two entries in a list without duplicates.
-            return Some(value + 0.0);
-        }
-        let message = format!("found {}; it must be from {range}", Shown(value));
-        self.report(Problem::new(ProblemKind::OutOfRange, field, message));
-        None
     }
 
     /// Checks that the coordinates of a point are in range.
@@ -158,23 +130,6 @@ impl Checks {
         self.report(involved.iter().cloned().fold(problem, Problem::involving));
         None
     }
-
-    /// Reports an unknown name.
-    pub(crate) fn unknown_name(
-        &mut self,
-        field: &FieldPath,
-        (what, name): (&str, &str),
-        known: &[&str],
-    ) {
-        let short: String = name.chars().take(64).collect();
-        let suggestion = nearest(name, known.iter().copied())
-            .map(|known| format!("; did you mean {known:?}?"))
-            .unwrap_or_default();
-        let message = format!("there is no {what} {short:?}{suggestion}");
-        let mut problem = Problem::new(ProblemKind::UnknownName, field, message);
-        problem.help = Some(list_of_names(what, known));
-        self.report(problem);
-    }
 }
 
 /// Checks the width and height of a picture on a surface; the inner `None` means that the surface determines them.
@@ -190,22 +145,6 @@ pub(crate) fn placed_size(
     let width = checks.number(&field.index(0), width, &limits::LENGTH);
     let height = checks.number(&field.index(1), height, &limits::LENGTH);
     Some(Some([width?, height?]))
-}
-
-fn list_of_names(what: &str, known: &[&str]) -> String {
-    const MAX: usize = 30;
-    let names: Vec<_> = known
-        .iter()
-        .take(MAX)
-        .map(|name| format!("{name:?}"))
-        .collect();
-    match known.len() {
-        0 => format!("no {what} is known"),
-        count if count > MAX => {
-            format!("known names: {} and {} more", names.join(", "), count - MAX)
-        }
-        _ => format!("known names: {}", names.join(", ")),
-    }
 }
 
 /// A vector as TOML writes it.

@@ -5,9 +5,9 @@ use super::microsurface::Reported;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
 use crate::description::{self, CookNormalization, Finish, Roughness, Slope};
-use crate::limits::{self, Shown};
-use crate::problem::{Problem, ProblemKind};
-use crate::{Cook1981, CookDistribution, CookFacets, DiffuseTerm, Emission, FieldPath, SpectrumId};
+use crate::limits;
+use crate::{Cook1981, CookDistribution, CookFacets, DiffuseTerm, Emission, SpectrumId};
+use document::{FieldPath, Problem, ProblemKind, Shown};
 use std::f64::consts::PI;
 
 /// The allowed error of the sum of the weights: three times 0.333 must pass as 1.

@@ -18,8 +18,8 @@
 mod yaml;
 
 use crate::limits::MAX_FORMULA_TERMS;
+use document::text_file::{TextFileError, read_text};
 use spectra::table_file::Row;
-use spectra::text_file::{TextFileError, read_text};
 use spectra::{DispersionFormula, FormulaError, FormulaKind};
 use std::path::Path;
 use thiserror::Error;

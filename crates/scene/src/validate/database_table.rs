@@ -1,6 +1,7 @@
 //! Tables of the refractiveindex.info database: from rows to spectra that keep the faults of the rows.
 
-use crate::limits::{Range, TABLE_NM};
+use crate::limits::TABLE_NM;
+use document::Range;
 use spectra::table_file::Row;
 use spectra::{Fault, Spectrum, Tabulated};
 use std::sync::Arc;

@@ -3,10 +3,10 @@
 use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
 use crate::description::Index;
-use crate::limits::{CLEAR_COAT_K, Shown};
+use crate::limits::CLEAR_COAT_K;
 use crate::prepared::coats::RoughCoat;
-use crate::problem::{Problem, ProblemKind};
-use crate::{CoatEstimate, CoatedBody, FieldPath, Material, Microsurface, Pattern, SpectrumId};
+use crate::{CoatEstimate, CoatedBody, Material, Microsurface, Pattern, SpectrumId};
+use document::{FieldPath, Problem, ProblemKind, Shown};
 
 /// Checks the material at `field` with the index `(n, k)`, written as `index`, and with `base` below it, if any.
 pub(super) fn check(

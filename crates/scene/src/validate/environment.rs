@@ -7,10 +7,9 @@ use super::sky::Sky;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
 use crate::description::{Description, Emission, EmissionSpectrum, Extrapolate, Strength};
-use crate::limits::Shown;
 use crate::prepared::Sampled;
-use crate::problem::{Problem, ProblemKind};
-use crate::{DirectLight, Environment, FieldPath, Light, PictureSpectra, description, limits};
+use crate::{DirectLight, Environment, Light, PictureSpectra, description, limits};
+use document::{FieldPath, Problem, ProblemKind, Shown};
 use std::path::Path;
 use std::sync::Arc;
 

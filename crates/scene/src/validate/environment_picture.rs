@@ -2,11 +2,11 @@
 
 use super::checks::Checks;
 use super::picture_file::{PanoramaFile, PictureFileError, read_panorama};
-use crate::limits::{self, Shown};
+use crate::limits;
 use crate::prepared::{DirectionTable, Sampled};
-use crate::problem::{Problem, ProblemKind};
-use crate::{EnvironmentPicture, FieldPath, PictureSpectra, Texels};
+use crate::{EnvironmentPicture, PictureSpectra, Texels};
 use colorimetry::lifting::{Lifting, SigmoidReflectance};
+use document::{FieldPath, Problem, ProblemKind, Shown};
 use glam::DVec3;
 use rayon::prelude::*;
 use spectra::{BandGrid, SpectralImage};

@@ -1,10 +1,9 @@
 //! Dispersion formulas: their coefficients in a scene, and the wavelengths at which they yield an index.
 
 use super::checks::Checks;
-use crate::FieldPath;
 use crate::description::SellmeierTerms;
 use crate::limits::{COEFFICIENT, INDEX_N, MAX_FORMULA_TERMS};
-use crate::problem::{Problem, ProblemKind};
+use document::{FieldPath, Problem, ProblemKind};
 use spectra::{DispersionFormula, Fault, FormulaKind};
 
 /// n = A + B/λ² + C/λ⁴.

@@ -6,8 +6,8 @@ use super::formula;
 use super::points::{self, Column, FileTable};
 use super::spectrum_list::{Advice, extrapolated, read_reflectance};
 use crate::description::{Extrapolate, Index, MixtureRule, Reflectance};
-use crate::problem::{Problem, ProblemKind};
-use crate::{FieldPath, limits};
+use crate::limits;
+use document::{FieldPath, Problem, ProblemKind};
 use spectra::table_file::QuantityKind;
 use spectra::{DispersionFormula, OpticalConstants, Spectrum, Tabulated};
 

@@ -5,8 +5,8 @@ use super::spectrum_list::SpectrumList;
 use super::thickness;
 use crate::description::{self, FilmModel, PathDifference};
 use crate::limits;
-use crate::problem::{Problem, ProblemKind};
-use crate::{FieldPath, Interference, Layer};
+use crate::{Interference, Layer};
+use document::{FieldPath, Problem, ProblemKind};
 
 /// Layers as written in a material.
 #[derive(Clone, Copy)]

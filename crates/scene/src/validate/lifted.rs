@@ -2,11 +2,11 @@
 
 use super::checks::Checks;
 use super::picture_file::read_colors;
+use crate::Texels;
 use crate::limits;
-use crate::problem::{Problem, ProblemKind};
-use crate::{FieldPath, Texels};
 use color::png_colors::CodeColors;
 use colorimetry::lifting::SigmoidReflectance;
+use document::{FieldPath, Problem, ProblemKind};
 use rayon::prelude::*;
 use spectra::{BandGrid, Spectrum, Tabulated};
 use std::collections::HashMap;

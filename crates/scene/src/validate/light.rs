@@ -5,8 +5,8 @@ use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
 use crate::description::Description;
 use crate::limits;
-use crate::problem::{Problem, ProblemKind};
-use crate::{DirectLight, FieldPath, Light, LightShape, description};
+use crate::{DirectLight, Light, LightShape, description};
+use document::{FieldPath, Problem, ProblemKind};
 use std::f64::consts::{PI, TAU};
 
 /// A light and the written name of its light group, if any.

@@ -5,8 +5,8 @@ use super::light::Named;
 use super::spectrum_list::Lamp;
 use crate::description::{self, Description, LightGroups};
 use crate::limits::MAX_LIGHT_GROUPS;
-use crate::problem::{Problem, ProblemKind};
-use crate::{Emission, Environment, FieldPath, LightGroupId, Material, Object};
+use crate::{Emission, Environment, LightGroupId, Material, Object};
+use document::{FieldPath, Problem, ProblemKind};
 use spectra::LightGroup;
 
 /// The parts of a scene that have emissions. In place of its light group, each emission has the number of its lamp.

@@ -10,7 +10,8 @@ use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
 use crate::description::{self, ConductorModel, ConductorModelName, Cook1981, DiffuseReflectance};
 use crate::limits;
-use crate::{FieldPath, Material, Pattern};
+use crate::{Material, Pattern};
+use document::FieldPath;
 use std::collections::BTreeMap;
 
 /// Checks `[materials]`; they are numbered in the order of their names.

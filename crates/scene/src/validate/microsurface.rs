@@ -3,8 +3,8 @@
 use super::checks::Checks;
 use crate::description::{Brushed, Finish, Roughness};
 use crate::limits;
-use crate::problem::{Problem, ProblemKind};
-use crate::{FieldPath, Grain, Microsurface};
+use crate::{Grain, Microsurface};
+use document::{FieldPath, Problem, ProblemKind};
 
 /// A problem has been reported.
 #[derive(Clone, Copy, Debug)]

@@ -29,9 +29,9 @@ mod thickness;
 
 use crate::description::{Description, Index};
 use crate::limits::{MAX_LIGHTS, MAX_MATERIALS, MAX_OBJECTS};
-use crate::problem::{Problem, ProblemKind};
-use crate::{EmitterTree, FieldPath, Folder, Hierarchy, Scene, prepared};
+use crate::{EmitterTree, Hierarchy, Scene, prepared};
 use checks::Checks;
+use document::{FieldPath, Folder, Problem, ProblemKind};
 use spectra::OpticalConstants;
 use spectrum_list::SpectrumList;
 
@@ -90,15 +90,11 @@ pub(crate) fn scene(description: &Description, folder: &Folder) -> Result<Scene,
             assumptions: Vec::new(),
         })
     };
-    match assemble() {
-        Some(mut scene) if checks.problems.is_empty() => {
-            scene.estimates = prepared::estimates(&scene);
-            scene.emitter_tree = EmitterTree::new(&scene);
-            scene.assumptions = checks.notes;
-            Ok(scene)
-        }
-        _ => Err(checks.problems),
-    }
+    let (mut scene, assumptions) = checks.finish(assemble())?;
+    scene.estimates = prepared::estimates(&scene);
+    scene.emitter_tree = EmitterTree::new(&scene);
+    scene.assumptions = assumptions;
+    Ok(scene)
 }
 
 /// Checks `index` and returns its optical constants and the assumptions about its files; paths are relative to `folder`.
@@ -107,10 +103,8 @@ pub(crate) fn optical_constants(
     folder: &Folder,
 ) -> Result<(OpticalConstants, Vec<String>), Vec<Problem>> {
     let mut checks = Checks::new(folder);
-    match index::read(&mut checks, &FieldPath::root(), index) {
-        Some((constants, _)) if checks.problems.is_empty() => Ok((constants, checks.notes)),
-        _ => Err(checks.problems),
-    }
+    let constants = index::read(&mut checks, &FieldPath::root(), index);
+    checks.finish(constants.map(|(constants, _)| constants))
 }
 
 fn check_counts(checks: &mut Checks, description: &Description) {

@@ -3,8 +3,8 @@
 use super::checks::Checks;
 use crate::description::{self, Brushed, DiffuseReflectance, Drainage, Material, Thickness};
 use crate::limits;
-use crate::problem::{Problem, ProblemKind};
-use crate::{FieldPath, MaterialId, Object, Shape};
+use crate::{MaterialId, Object, Shape};
+use document::{FieldPath, Problem, ProblemKind};
 use glam::DVec3;
 use std::collections::BTreeMap;
 

@@ -2,10 +2,9 @@
 
 use super::checks::Checks;
 use super::spectrum_list::extrapolated;
-use crate::FieldPath;
 use crate::description::{Extrapolate, IndexColumns, TableColumn};
-use crate::limits::{MAX_TABLE_POINTS, Range, TABLE_NM};
-use crate::problem::{Problem, ProblemKind};
+use crate::limits::{MAX_TABLE_POINTS, TABLE_NM};
+use document::{FieldPath, Problem, ProblemKind, Range};
 use spectra::table_file::{self, ColumnChoice, Options, Quantity, QuantityKind};
 use spectra::{Spectrum, Tabulated};
 use std::path::Path;

@@ -3,9 +3,9 @@
 use super::checks::Checks;
 use super::light_groups::Unlit;
 use crate::description::{self, Description};
-use crate::limits::{self, Shown};
-use crate::problem::{Problem, ProblemKind};
-use crate::{FieldPath, Material, MaterialId, Shape, SpectrumId};
+use crate::limits;
+use crate::{Material, MaterialId, Shape, SpectrumId};
+use document::{FieldPath, Problem, ProblemKind, Shown};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 

@@ -2,9 +2,9 @@
 
 use super::checks::Checks;
 use crate::description::{self, Render};
-use crate::limits::{self, Range};
-use crate::problem::{Problem, ProblemKind};
-use crate::{FieldPath, RenderSettings, WavelengthSampling};
+use crate::limits;
+use crate::{RenderSettings, WavelengthSampling};
+use document::{FieldPath, Problem, ProblemKind, Range};
 use spectra::{BandGrid, SpectralImage};
 
 /// The result of checking `[render]`.

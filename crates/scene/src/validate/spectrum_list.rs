@@ -8,10 +8,10 @@ use super::strength::{self, Amount, Radiator};
 use crate::description::{
     self, EmissionSpectrum, Extrapolate, Index, Reflectance, WavelengthSampling,
 };
-use crate::limits::{self, Shown};
-use crate::problem::{Problem, ProblemKind};
-use crate::{Emission, FieldPath, LightGroupId, SpectrumId};
+use crate::limits;
+use crate::{Emission, LightGroupId, SpectrumId};
 use colorimetry::srgb::decode;
+use document::{FieldPath, Problem, ProblemKind, Shown};
 use spectra::table_file::QuantityKind;
 use spectra::{BandGrid, BandTable, OpticalConstants, Spectrum, Tabulated};
 use std::collections::HashMap;
@@ -239,7 +239,7 @@ impl SpectrumList {
         None
     }
 
-    fn single(&mut self, table: &BandTable, range: limits::Range) -> SpectrumId {
+    fn single(&mut self, table: &BandTable, range: document::Range) -> SpectrumId {
         let table = kept_within(table, range);
         let key = bits(&table);
         let next = SpectrumId(self.tables.len() as u32);
@@ -296,7 +296,7 @@ impl Advice<'_> {
 /// A reflectance over wavelength, and advice for the case that it does not cover the bands. Written numbers must be in `range`.
 pub(super) fn read_reflectance<'w>(
     checks: &mut Checks,
-    range: &'static limits::Range,
+    range: &'static document::Range,
     field: &FieldPath,
     written: &'w Reflectance,
 ) -> Option<(Spectrum, Advice<'w>)> {
@@ -434,7 +434,7 @@ fn check_brightness(
 }
 
 /// Clamps a table to `range`, which interpolation between two values within it may leave by rounding.
-fn kept_within(table: &BandTable, range: limits::Range) -> BandTable {
+fn kept_within(table: &BandTable, range: document::Range) -> BandTable {
     table.map(|value| value.clamp(range.low, range.high))
 }
 

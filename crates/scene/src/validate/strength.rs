@@ -1,10 +1,9 @@
 //! The strength of emitters: from the units of a file to the factor of a spectrum.
 
 use super::checks::Checks;
-use crate::FieldPath;
 use crate::description::{self, Strength};
-use crate::limits::{self, Range, Shown};
-use crate::problem::{Problem, ProblemKind};
+use crate::limits;
+use document::{FieldPath, Problem, ProblemKind, Range, Shown};
 use spectra::{BandGrid, BandTable, KM_LUMENS_PER_WATT, observer_1931};
 use std::f64::consts::PI;
 

@@ -5,10 +5,10 @@ mod growth;
 mod texture;
 
 use super::checks::Checks;
+use crate::Thickness;
 use crate::description;
-use crate::limits::{self, Range};
-use crate::problem::{Problem, ProblemKind};
-use crate::{FieldPath, Step, Thickness};
+use crate::limits;
+use document::{FieldPath, Problem, ProblemKind, Range, Step};
 use glam::DVec3;
 
 /// Number of knots of a profile that is not linear. On a draining bubble the relative error between them is below 1e-4 up to 160° from the

@@ -9,8 +9,8 @@ use thiserror::Error;
 use super::observer::observer_1931;
 use super::table::{Table, TableError, embedded};
 use super::{DataSet, radiators};
-use crate::suggestion::nearest;
 use crate::{OutOfRange, Spectrum, Tabulated};
+use document::suggestion::nearest;
 
 /// The wavelengths of the 1 nm rule: 380, 381 … 780 nm.
 fn rule_1nm() -> impl Iterator<Item = f64> {

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::text_file::TextFileError;
+use document::text_file::TextFileError;
 
 /// Why a file is not a usable table.
 #[derive(Debug, Error)]

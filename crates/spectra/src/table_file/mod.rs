@@ -30,7 +30,7 @@ pub use error::{TableFileError, cell_text};
 pub use options::{ColumnChoice, Options, Unit};
 
 use crate::Tabulated;
-use crate::text_file::read_text;
+use document::text_file::read_text;
 
 /// A row of a table: a wavelength and the `N` values there.
 #[derive(Clone, Copy, Debug, PartialEq)]

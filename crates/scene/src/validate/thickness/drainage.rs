@@ -4,9 +4,9 @@ use super::{KNOTS, line};
 use crate::description::Drainage;
 use crate::drainage::{Liquid, sphere_profile2};
 use crate::limits;
-use crate::problem::{Problem, ProblemKind};
 use crate::validate::checks::Checks;
-use crate::{BlackFilm, Coordinate, FieldPath, Profile};
+use crate::{BlackFilm, Coordinate, Profile};
+use document::{FieldPath, Problem, ProblemKind};
 use glam::DVec3;
 use std::f64::consts::PI;
 

@@ -3,9 +3,10 @@
 use super::{KNOTS, Ramp, linear, ramp};
 use crate::description;
 use crate::growth::heat_tint_nm2;
-use crate::limits::{self, Range};
+use crate::limits;
 use crate::validate::checks::Checks;
-use crate::{Coordinate, FieldPath, Profile, Thickness};
+use crate::{Coordinate, Profile, Thickness};
+use document::{FieldPath, Range};
 
 /// An anodic oxide: its thickness is linear in the voltage, so it is linear along a line if the voltage is.
 pub(super) fn anodized(

@@ -2,10 +2,10 @@
 
 use crate::description;
 use crate::limits;
-use crate::problem::{Problem, ProblemKind};
 use crate::validate::checks::{Checks, placed_size};
 use crate::validate::picture_file;
-use crate::{FieldPath, Picture, Swirls, Thickness};
+use crate::{Picture, Swirls, Thickness};
+use document::{FieldPath, Problem, ProblemKind};
 use std::path::Path;
 use std::sync::Arc;
 

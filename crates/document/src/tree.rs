@@ -1,7 +1,6 @@
 //! A TOML document in which every value has its source position.
 
-use crate::FieldPath;
-use crate::field_path::Step;
+use crate::{FieldPath, Step};
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};

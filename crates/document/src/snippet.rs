@@ -1,7 +1,7 @@
 //! Source lines that show a fault.
 
+use crate::wording::{is_obeyed, visible};
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
-use spectra::wording::{is_obeyed, visible};
 use std::ops::Range;
 
 /// The line of a text with a fault, and its neighbors, as an error shows them: long lines are cut to a window, marked with …, and control

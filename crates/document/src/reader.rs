@@ -1,18 +1,15 @@
-//! From a TOML tree to a description, collecting everything that does not fit.
+//! From a TOML tree to a document, collecting everything that does not fit.
 
-use super::shape::{Field, Fields, Forms, Shape, TAG, listed, quoted_choice};
-use super::{Tree, advice};
-use crate::problem::{Location, Problem, ProblemKind};
-use crate::{FieldPath, Problems};
-use schemars::JsonSchema;
-use serde::de::DeserializeOwned;
-use spectra::suggestion::nearest;
+use crate::shape::{Field, Fields, Forms, Shape, TAG, listed, quoted_choice};
+use crate::suggestion::nearest;
+use crate::tree::Tree;
+use crate::{Document, FieldPath, Location, Problem, ProblemKind, Problems};
 use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
 use toml::de::{DeArray, DeInteger, DeTable, DeValue};
 use toml::{Spanned, Value};
 
-/// The problems found while reading a scene file.
+/// The problems found while reading a file.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Findings {
     pub(crate) problems: Vec<Problem>,
@@ -56,28 +53,27 @@ impl Findings {
     }
 }
 
-/// Converts `tree` to a description, with stand-ins where it is broken. It is `None` only if the types reject what the schema accepts,
+/// Converts `tree` to a document, with stand-ins where it is broken. It is `None` only if the types reject what the schema accepts,
 /// which is then among the findings.
-pub(crate) fn read<T: DeserializeOwned + JsonSchema>(
-    text: &str,
-    tree: &Tree<'_>,
-) -> (Option<T>, Findings) {
+pub(crate) fn read<T: Document>(text: &str, tree: &Tree<'_>) -> (Option<T>, Findings) {
     let mut reader = Reader {
         text,
+        advice: Advice::of::<T>(),
         findings: Findings::default(),
     };
-    let Shape::Table(fields) = Shape::of::<T>() else {
+    let shape = Shape::of::<T>();
+    let Shape::Table(fields) = &*shape else {
         unreachable!("a file is a table");
     };
     let place = Place::root();
-    let table = reader.fields(&fields, tree.table(), &place, &Context::PLAIN);
-    let description = Value::Table(table).try_into::<T>();
-    let description = description
+    let table = reader.fields(fields, tree.table(), &place, &Context::PLAIN);
+    let document = Value::Table(table).try_into::<T>();
+    let document = document
         .map_err(|error| {
             reader.report(ProblemKind::WrongType, &place, error.message().to_owned());
         })
         .ok();
-    (description, reader.findings)
+    (document, reader.findings)
 }
 
 /// A value's name and its bytes in the file.
@@ -114,8 +110,36 @@ impl Context<'_> {
     };
 }
 
+/// The advice of the type that is read.
+struct Advice {
+    renamed: &'static [(&'static str, &'static str)],
+    on_type: fn(&FieldPath, &str) -> Option<&'static str>,
+    on_field: fn(&FieldPath, &str) -> Option<&'static str>,
+}
+
+impl Advice {
+    fn of<T: Document>() -> Self {
+        Self {
+            renamed: T::RENAMED,
+            on_type: T::advice_on_type,
+            on_field: T::advice_on_field,
+        }
+    }
+
+    /// The new name of a renamed field or word, if it is one of `possible`.
+    fn renamed<'a>(
+        &self,
+        name: &str,
+        mut possible: impl Iterator<Item = &'a str>,
+    ) -> Option<&'a str> {
+        let (_, now) = self.renamed.iter().find(|(old, _)| *old == name)?;
+        possible.find(|known| known == now)
+    }
+}
+
 struct Reader<'a> {
     text: &'a str,
+    advice: Advice,
     findings: Findings,
 }
 
@@ -349,7 +373,7 @@ impl Reader<'_> {
         context: &Context<'_>,
     ) -> Option<&'f str> {
         let free = || fields.names().filter(|known| !table.contains_key(*known));
-        let renamed = advice::renamed(name, free());
+        let renamed = self.advice.renamed(name, free());
         let suggestion = renamed.or_else(|| nearest(name, free()));
         let message = match ((context.elsewhere)(name), suggestion) {
             (Some(owner), _) => format!("unknown field here: `{name}` {owner}"),
@@ -357,7 +381,7 @@ impl Reader<'_> {
             (None, Some(known)) => format!("unknown field; did you mean `{known}`?"),
             (None, None) => "unknown field".to_owned(),
         };
-        let help = match (advice::of_field(&at.field, name), context.forms) {
+        let help = match ((self.advice.on_field)(&at.field, name), context.forms) {
             (Some(advice), _) => advice.to_owned(),
             (None, [_, _, ..]) => format!("the fields here are {}", Forms(context.forms)),
             (None, _) => format!("the fields here are {}", listed(fields.names())),
@@ -387,7 +411,7 @@ impl Reader<'_> {
 
     fn unknown_word(&mut self, words: &[String], word: &str, at: &Place) {
         let known = words.iter().map(String::as_str);
-        let suggestion = match advice::renamed(word, known.clone()) {
+        let suggestion = match self.advice.renamed(word, known.clone()) {
             Some(now) => format!(
                 "; {} was renamed to {now:?}",
                 shortened(&format!("{word:?}"))
@@ -402,7 +426,7 @@ impl Reader<'_> {
             quoted_choice(words)
         );
         let mut problem = Problem::new(ProblemKind::UnknownName, &at.field, message);
-        problem.help = advice::of_type(&at.field, word).map(str::to_owned);
+        problem.help = (self.advice.on_type)(&at.field, word).map(str::to_owned);
         self.add(problem, at);
     }
 
@@ -499,7 +523,7 @@ fn any_value(shape: &Shape) -> Value {
         Shape::Table(fields) => Value::Table(any_fields(fields)),
         Shape::Tagged(variants) => any_tagged(variants),
         Shape::AnyOf(shapes) => shapes.first().map_or(Value::Float(1.0), any_value),
-        Shape::Again(_) => unreachable!("a resolved shape is not a name"),
+        Shape::Again(_) => unreachable!("a resolved shape is not a reference"),
     }
 }
 

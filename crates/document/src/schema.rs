@@ -1,18 +1,11 @@
-//! The JSON Schema of scene files.
+//! The JSON Schema of types that are read from files.
 
-use crate::description::Description;
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value;
 
-/// The JSON Schema (draft 7, which TOML editors understand) of scene files, derived from the types of [`description`](crate::description).
-/// It is committed as `scenes/scene.schema.json`; regenerate it with `PELLICLE_BLESS=1 cargo test --release -p pellicle-scene schema`.
-pub fn schema() -> Value {
-    schema_of::<Description>()
-}
-
-/// The JSON Schema of files that are read as `T`.
-pub(crate) fn schema_of<T: JsonSchema>() -> Value {
+/// The JSON Schema (draft 7, which TOML editors understand) of files that are read as `T`.
+pub fn schema_of<T: JsonSchema>() -> Value {
     let mut schema = SchemaSettings::draft07()
         .into_generator()
         .into_root_schema_for::<T>()

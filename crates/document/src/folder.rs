@@ -9,7 +9,7 @@ use thiserror::Error;
 /// [`Self::allow_outside`] lifts this restriction.
 ///
 /// ```
-/// use pellicle_scene::Folder;
+/// use pellicle_document::Folder;
 /// assert!(Folder::from("scenes").path_to("../Cargo.toml".as_ref()).is_err());
 /// assert!(Folder::from("scenes").allow_outside(true).path_to("../Cargo.toml".as_ref()).is_ok());
 /// ```

@@ -1,15 +1,33 @@
-//! A file that has been read as a description, and the problems found in it.
+//! A file that has been read as a document, and the problems found in it.
 
-use super::{Findings, Tree, TreeError, read};
-use crate::problem::{Location, Problem, ProblemKind, Problems};
-use crate::{FieldPath, Folder};
+use crate::reader::{Findings, read};
+use crate::text_file::{STANDARD_INPUT, read_text};
+use crate::tree::{Tree, TreeError};
+use crate::{FieldPath, Folder, Location, Problem, ProblemKind, Problems};
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
-use spectra::text_file::{STANDARD_INPUT, read_text};
 use std::path::Path;
 use std::sync::Arc;
 
-/// A TOML file that has been read as a description, and the problems found in it.
+/// A type that TOML files are read as.
+pub trait Document: DeserializeOwned + JsonSchema + 'static {
+    /// What such a file must contain, for the error about an empty one: "a scene needs at least a [camera]".
+    const NEEDS: &'static str;
+    /// Fields and words that were renamed: the old and the new name.
+    const RENAMED: &'static [(&'static str, &'static str)] = &[];
+
+    /// What to write instead of an unknown `type`, if it is a word from elsewhere.
+    fn advice_on_type(_field: &FieldPath, _word: &str) -> Option<&'static str> {
+        None
+    }
+
+    /// What to write instead of an unknown field, if it is a word from elsewhere.
+    fn advice_on_field(_field: &FieldPath, _name: &str) -> Option<&'static str> {
+        None
+    }
+}
+
+/// A TOML file that has been read as a [`Document`], and the problems found in it.
 ///
 /// Reading compares the text with the schema of the description's type and replaces missing and unusable values by stand-ins, so that the
 /// rest can still be checked; [`Self::finish`] then reports all problems at once, each with its location.
@@ -22,15 +40,11 @@ pub struct SourceFile {
 }
 
 impl SourceFile {
-    /// Reads a file, or standard input for `-`, whose paths are relative to the working folder. `needs` says what such a file must contain,
-    /// for the error about an empty one.
+    /// Reads a file, or standard input for `-`, whose paths are relative to the working folder.
     ///
     /// # Errors
     /// When there is no such file, or it is not TOML. [`Self::finish`] reports other mistakes.
-    pub fn read<T: DeserializeOwned + JsonSchema>(
-        path: &Path,
-        needs: &str,
-    ) -> Result<(T, Self), Problems> {
+    pub fn read<T: Document>(path: &Path) -> Result<(T, Self), Problems> {
         let name = if path.as_os_str() == STANDARD_INPUT {
             "<standard input>".to_owned()
         } else {
@@ -41,23 +55,22 @@ impl SourceFile {
             Problems::of_unread_file(name.clone(), problem)
         })?;
         let directory = path.parent().unwrap_or(Path::new(""));
-        Self::parse(&name, &text, &Folder::from(directory), needs)
+        Self::parse(&name, &text, &Folder::from(directory))
     }
 
     /// Parses the text of a file. `name` is its name in errors, and its paths are relative to `folder`.
     ///
     /// # Errors
     /// When the text is not TOML.
-    pub fn parse<T: DeserializeOwned + JsonSchema>(
+    pub fn parse<T: Document>(
         name: &str,
         text: &str,
         folder: &Folder,
-        needs: &str,
     ) -> Result<(T, Self), Problems> {
         let text: Arc<str> = Arc::from(text);
         let refuse = |problem| Problems::of_file(name, &text, vec![problem], 0);
         if text.trim().is_empty() {
-            let message = format!("the file is empty; {needs}");
+            let message = format!("the file is empty; {}", T::NEEDS);
             let problem = Problem::new(ProblemKind::MissingField, &FieldPath::root(), message);
             return Err(refuse(problem.located(Location::new(&text, 0..0))));
         }
@@ -102,7 +115,10 @@ impl SourceFile {
     }
 
     /// Like [`Self::finish`], but fields that `is_changed` do not have their value from the file.
-    pub(crate) fn finish_changed<T>(
+    ///
+    /// # Errors
+    /// As for [`Self::finish`].
+    pub fn finish_changed<T>(
         &self,
         checked: Result<T, Vec<Problem>>,
         is_changed: impl Fn(&FieldPath) -> bool,

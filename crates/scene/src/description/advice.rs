@@ -1,7 +1,6 @@
 //! Advice on words from other renderers' scenes, and on names that changed.
 
-use crate::FieldPath;
-use crate::field_path::Step;
+use document::{FieldPath, Step};
 
 /// What to write instead of an unknown `type`.
 pub(super) fn of_type(field: &FieldPath, word: &str) -> Option<&'static str> {
@@ -27,7 +26,7 @@ pub(super) fn of_field(field: &FieldPath, name: &str) -> Option<&'static str> {
 }
 
 /// Fields and words that were renamed: the old and the new name.
-const RENAMED: &[(&str, &str)] = &[
+pub(super) const RENAMED: &[(&str, &str)] = &[
     ("anodising", "anodizing"),
     ("centre", "center"),
     ("lights", "emitters"),
@@ -35,15 +34,6 @@ const RENAMED: &[(&str, &str)] = &[
     ("normalised", "normalized"),
     ("surfaces", "bsdf"),
 ];
-
-/// The new name of a renamed field or word, if it is one of `possible`.
-pub(super) fn renamed<'a>(
-    name: &str,
-    mut possible: impl Iterator<Item = &'a str>,
-) -> Option<&'a str> {
-    let (_, now) = RENAMED.iter().find(|(old, _)| *old == name)?;
-    possible.find(|known| known == now)
-}
 
 /// The section of the file that a field belongs to.
 fn section(field: &FieldPath) -> Option<&str> {

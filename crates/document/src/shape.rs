@@ -1,14 +1,16 @@
-//! The allowed forms of values in a scene file.
+//! The allowed forms of values in a file.
 
+use crate::schema_of;
 use schemars::JsonSchema;
 use serde_json::Value as Json;
+use std::any::TypeId;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
-use std::sync::LazyLock;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// The allowed form of a value: the part of JSON Schema that the format needs, in a form that is easy to traverse.
-#[derive(Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Shape {
     Number,
     Integer {
@@ -30,16 +32,16 @@ pub(crate) enum Shape {
     Tagged(BTreeMap<String, Fields>),
     /// Any of several, distinguished by their type or by their fields. Never nested.
     AnyOf(Vec<Shape>),
-    /// The shape of this name, for recursion: an index may be a mixture of indices, a thickness a sum of thicknesses.
-    Again(String),
+    /// A shape that contains this one.
+    Again(Again),
 }
 
 /// The fields of a table.
-#[derive(Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Fields(pub(crate) BTreeMap<String, Field>);
 
 /// A field of a table.
-#[derive(Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Field {
     pub(crate) shape: Shape,
     pub(crate) is_required: bool,
@@ -50,25 +52,46 @@ pub(crate) struct Field {
 /// The field that selects the variant of a [`Shape::Tagged`].
 pub(crate) const TAG: &str = "type";
 
-/// The shapes that have a name. A recursive type refers to itself by name, so it must be one that scene files have too.
-static NAMED: LazyLock<BTreeMap<String, Shape>> = LazyLock::new(|| {
-    let root = crate::schema();
-    let names = root["definitions"].as_object().into_iter().flatten();
-    let shape = |name: &String| Compiler::new(&root).named(&format!("#/definitions/{name}"));
-    names.map(|(name, _)| (name.clone(), shape(name))).collect()
-});
+/// A shape that contains itself: an index may be a mixture of indices, a thickness a sum of thicknesses.
+#[derive(Clone)]
+pub(crate) struct Again {
+    name: String,
+    shape: Arc<OnceLock<Shape>>,
+}
+
+impl fmt::Debug for Again {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Again({})", self.name)
+    }
+}
+
+impl PartialEq for Again {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+/// The shapes of the types that have been read so far. There are few types, and their shapes are kept forever.
+static KNOWN: Mutex<BTreeMap<TypeId, Arc<Shape>>> = Mutex::new(BTreeMap::new());
 
 impl Shape {
     /// The shape of files that are read as `T`.
-    pub(crate) fn of<T: JsonSchema>() -> Self {
-        let root = crate::schema::schema_of::<T>();
-        Compiler::new(&root).shape(&root)
+    pub(crate) fn of<T: JsonSchema + 'static>() -> Arc<Self> {
+        let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+        let compiled = || {
+            let root = schema_of::<T>();
+            Arc::new(Compiler::new(&root).shape(&root))
+        };
+        Arc::clone(known.entry(TypeId::of::<T>()).or_insert_with(compiled))
     }
 
-    /// The shape itself, resolved if this is only its name.
+    /// The shape itself, if this is only a reference to it.
     pub(crate) fn resolved(&self) -> &Self {
         match self {
-            Self::Again(name) => &NAMED[name],
+            Self::Again(again) => again
+                .shape
+                .get()
+                .expect("a shape is complete before it is used"),
             shape => shape,
         }
     }
@@ -178,11 +201,11 @@ pub(crate) fn quoted_choice<S: AsRef<str>>(words: &[S]) -> String {
     }
 }
 
-/// Reads the schema of our own types. An unknown form is a bug in this crate, which any test that reads a scene reveals, so it panics.
+/// Reads the schema of our own types. An unknown form is a bug in this crate, which any test that reads a file of the type reveals, so it panics.
 struct Compiler<'a> {
     root: &'a Json,
-    /// The names that are being read, outermost first.
-    open: RefCell<Vec<String>>,
+    /// The references that are being read, outermost first.
+    open: RefCell<Vec<Again>>,
 }
 
 impl<'a> Compiler<'a> {
@@ -194,15 +217,21 @@ impl<'a> Compiler<'a> {
     /// The shape of a reference such as `#/definitions/Index`.
     fn named(&self, reference: &str) -> Shape {
         let name = reference.trim_start_matches("#/definitions/").to_owned();
-        if self.open.borrow().contains(&name) {
-            return Shape::Again(name);
+        let mut open = self.open.borrow().clone().into_iter();
+        if let Some(again) = open.find(|again| again.name == name) {
+            return Shape::Again(again.clone());
         }
         let Some(target) = self.root.pointer(reference.trim_start_matches('#')) else {
             panic!("the schema has no {reference}")
         };
-        self.open.borrow_mut().push(name);
+        let shape = Arc::default();
+        self.open.borrow_mut().push(Again { name, shape });
         let shape = self.shape(target);
-        self.open.borrow_mut().pop();
+        if let Some(again) = self.open.borrow_mut().pop()
+            && Arc::strong_count(&again.shape) > 1
+        {
+            again.shape.get_or_init(|| shape.clone());
+        }
         shape
     }
 
@@ -321,32 +350,47 @@ fn word(schema: &Json) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::description::Description;
+
+    /// A thing of one of two kinds.
+    #[derive(JsonSchema)]
+    #[serde(tag = "type", rename_all = "snake_case")]
+    #[expect(dead_code, reason = "only its schema is used")]
+    enum Thing {
+        Plain {
+            size: f64,
+        },
+        Sum {
+            of: Vec<Thing>,
+            #[schemars(range(min = 1, max = 4))]
+            count: Option<u32>,
+        },
+    }
+
+    #[derive(JsonSchema)]
+    #[expect(dead_code, reason = "only its schema is used")]
+    struct File {
+        thing: Thing,
+        name: Option<String>,
+    }
 
     #[test]
-    fn the_schema_is_understood() {
-        let shape = Shape::of::<Description>();
-        let Shape::Table(scene) = &shape else {
-            panic!("a scene is a table, not {shape}");
+    fn a_schema_is_understood() {
+        let shape = Shape::of::<File>();
+        let Shape::Table(file) = &*shape else {
+            panic!("a file is a table, not {shape}");
         };
-        assert_eq!(scene.required().collect::<Vec<_>>(), ["camera"]);
-        let Shape::Tagged(cameras) = &scene.0["camera"].shape else {
-            panic!("a camera has a type");
+        assert_eq!(file.required().collect::<Vec<_>>(), ["thing"]);
+        let Shape::Tagged(things) = &file.0["thing"].shape else {
+            panic!("a thing has a type");
         };
-        assert_eq!(
-            cameras["perspective"].required().collect::<Vec<_>>(),
-            ["fov_deg", "look_at", "position"]
-        );
-        let Shape::Table(render) = &scene.0["render"].shape else {
-            panic!("render is a table");
+        assert_eq!(things["sum"].required().collect::<Vec<_>>(), ["of"]);
+        let count = &things["sum"].0["count"];
+        assert_eq!(count.shape, Shape::Integer { low: 1, high: 4 });
+        // The things within a sum are things again.
+        let Shape::List { item, .. } = &things["sum"].0["of"].shape else {
+            panic!("a sum is a list");
         };
-        assert_eq!(
-            render.0["samples"].shape,
-            Shape::Integer {
-                low: 1,
-                high: 1 << 24
-            }
-        );
-        assert_eq!(render.required().count(), 0);
+        assert_eq!(item.resolved(), &file.0["thing"].shape);
+        assert!(Arc::ptr_eq(&shape, &Shape::of::<File>()));
     }
 }

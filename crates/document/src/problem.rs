@@ -1,8 +1,8 @@
-//! Problems of a scene and their locations.
+//! Problems of a document and their locations.
 
+use crate::wording::{number, shortened, visible};
 use crate::{FieldPath, Snippet};
 use miette::{Diagnostic, LabeledSpan, SourceCode};
-use spectra::wording::{number, shortened, visible};
 use std::fmt;
 use std::ops::Range;
 use thiserror::Error;
@@ -31,7 +31,7 @@ pub enum ProblemKind {
     TooLarge,
 }
 
-/// The location of a problem in a scene file.
+/// The location of a problem in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Location {
@@ -57,7 +57,7 @@ impl Location {
     }
 }
 
-/// One mistake in a scene.
+/// One mistake in a document.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub struct Problem {
@@ -96,7 +96,8 @@ impl Problem {
     }
 
     /// Adds another field that the problem depends on: if that one is broken, this problem is not shown.
-    pub(crate) fn involving(mut self, field: FieldPath) -> Self {
+    #[must_use]
+    pub fn involving(mut self, field: FieldPath) -> Self {
         self.involves.push(field);
         self
     }
@@ -160,7 +161,7 @@ impl Diagnostic for Problem {
     }
 }
 
-/// All problems of a scene, in the order of the file.
+/// All problems of a document, in the order of the file.
 ///
 /// As a [`miette::Diagnostic`] it is a heading with one related diagnostic per problem, each with its source line. For logs, `{:#}` gives
 /// one line per problem, `file:line:column: field: message`; plain `{}` gives only the heading.
@@ -203,25 +204,20 @@ impl Problems {
     /// The maximum number of problems that are kept; the others are only counted.
     pub const MAX_SHOWN: usize = 100;
 
-    /// Problems of a scene that a program filled in.
-    pub(crate) fn of_program(list: Vec<Problem>) -> Self {
-        Self::new("the scene", None, list, 0)
-    }
-
-    /// Problems of an index of refraction that does not belong to a scene.
-    pub(crate) fn of_index(list: Vec<Problem>) -> Self {
-        Self::new("the index", None, list, 0)
+    /// Problems of what a program filled in rather than read from a file; `subject`, such as "the scene", is its name in the heading.
+    pub fn of_program(subject: &'static str, list: Vec<Problem>) -> Self {
+        Self::new(subject, None, list, 0)
     }
 
     /// The problem of a file that cannot be read.
     pub(crate) fn of_unread_file(name: String, problem: Problem) -> Self {
-        Self::new("the scene", Some((name, "")), vec![problem], 0)
+        Self::new("", Some((name, "")), vec![problem], 0)
     }
 
     /// Problems of a file with this text; `omitted` more were found.
     pub(crate) fn of_file(name: &str, text: &str, mut list: Vec<Problem>, omitted: usize) -> Self {
         list.sort_by_key(|problem| problem.location.as_ref().map(|place| place.bytes.start));
-        Self::new("the scene", Some((name.to_owned(), text)), list, omitted)
+        Self::new("", Some((name.to_owned(), text)), list, omitted)
     }
 
     fn new(
