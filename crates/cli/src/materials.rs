@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
 fn material(name: &str) -> miette::Result<(MaterialInfo, OpticalConstants)> {
     let index = Index::Name(name.to_owned());
     match (
-        pellicle::scene::optical_constants(&index, ""),
+        pellicle::media::optical_constants(&index, ""),
         spectra::material_info(name),
     ) {
         (Ok((constants, _)), Some(info)) => Ok((info, constants)),

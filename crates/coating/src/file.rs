@@ -3,8 +3,7 @@
 use crate::stack::{Layer, Medium, Stack};
 use crate::thickness::optical_nm;
 use document::{Checks, Document, FieldPath, Folder, Problem, ProblemKind, Problems, SourceFile};
-use scene::description::Index;
-use scene::limits;
+use media::Index;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use spectra::{OpticalConstants, Spectrum};
@@ -79,7 +78,7 @@ pub(crate) fn medium(index: &Index, folder: &Folder) -> Result<Medium, Vec<Probl
         };
         return Ok(Medium::new(index.clone(), constants, Vec::new()));
     }
-    let read = scene::optical_constants(index, folder.clone());
+    let read = media::optical_constants(index, folder.clone());
     let (constants, notes) =
         read.map_err(|problems| problems.iter().cloned().collect::<Vec<_>>())?;
     Ok(Medium::new(index.clone(), constants, notes))
@@ -198,7 +197,7 @@ impl StackChecks {
     }
 
     fn thickness(&mut self, at: &FieldPath, thickness_nm: f64) -> Option<f64> {
-        self.0.number(at, thickness_nm, &limits::THICKNESS_NM)
+        self.0.number(at, thickness_nm, &Stack::THICKNESS_NM)
     }
 
     fn optical(

@@ -5,12 +5,13 @@ use crate::label;
 use crate::line::{self, EXAMPLE, LineError};
 use crate::model::{self, Model};
 use crate::response::Sampled;
+use crate::thickness::THICKNESS_NM;
 use document::text_file::STANDARD_INPUT;
 use document::wording::visible;
-use document::{Folder, Problems};
+use document::{Folder, Problems, Range};
+use media::{Extrapolate, Index};
 use miette::Diagnostic;
 use optics::Complex64;
-use scene::description::{Extrapolate, Index};
 use spectra::{OpticalConstants, OutOfRange};
 use std::path::Path;
 use std::sync::Arc;
@@ -222,6 +223,8 @@ impl Stack {
     pub const INCIDENT_K: f64 = 1e-6;
     /// Maximum number of layers.
     pub const MAX_LAYERS: usize = 1000;
+    /// Thickness of a layer.
+    pub const THICKNESS_NM: Range = THICKNESS_NM;
 
     /// Opens a stack file if `text` is a path, reads one from standard input if it is `-`, or parses a one-line stack if it contains `|`.
     ///

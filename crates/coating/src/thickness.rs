@@ -1,8 +1,12 @@
 //! Thicknesses in one-line stacks: a length with its unit, or waves at a wavelength.
 
+use document::Range;
 use document::wording::number;
-use scene::limits::{TABLE_NM, THICKNESS_NM};
+use media::limits::TABLE_NM;
 use spectra::OpticalConstants;
+
+/// Thickness of a layer: 100 µm is far beyond the last visible fringe.
+pub(crate) const THICKNESS_NM: Range = Range::new(0.0, 100_000.0, " nm");
 
 /// Units of a thickness, in nm. The micro sign µ and the Greek letter are different characters, as are the angstrom sign and the
 /// letter Å.

@@ -44,6 +44,7 @@ pub use color;
 pub use colorimetry;
 pub use document;
 pub use gpu;
+pub use media;
 pub use optics;
 pub use reference;
 pub use renderer::{Backend, OpenError, RenderError, Renderer};

@@ -11,8 +11,7 @@
 //!   -> Scene
 //! ```
 //!
-//! A program that fills in a [`Description`](description::Description) itself calls [`Scene::new`]; [`optical_constants`] reads only an
-//! index of refraction.
+//! A program that fills in a [`Description`](description::Description) itself calls [`Scene::new`].
 //!
 //! Space is right-handed, lengths are in scene units, and +Y is up by convention. Angles are in radians here and in degrees in files.
 //! Wavelengths and film thicknesses are in nanometers.
@@ -25,7 +24,6 @@ mod drainage;
 mod environment;
 pub mod file;
 mod growth;
-mod index;
 mod light;
 pub mod limits;
 mod material;
@@ -50,7 +48,6 @@ pub use environment::{
     Environment, EnvironmentPart, EnvironmentPicture, EnvironmentShape, PictureSpectra,
 };
 pub use file::SceneFile;
-pub use index::optical_constants;
 pub use light::{EmitterKind, EmitterSource, Light, LightShape};
 pub use material::{Emission, Interference, Layer, Material, Pattern};
 pub use microsurface::{Grain, Microsurface};

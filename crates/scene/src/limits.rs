@@ -62,20 +62,10 @@ pub const NM_PER_VOLT: Range = Range::new(0.1, 10.0, " nm/V");
 pub const HEAT_TINT_C: Range = Range::new(150.0, 400.0, " °C");
 /// Time of a heat tint.
 pub const MINUTES: Range = Range::new(0.0, 600.0, " min");
-/// Real part of an index. The smallest measured value is silver's 0.03.
-pub const INDEX_N: Range = Range::new(0.001, 1000.0, "");
-/// Imaginary part of an index.
-pub const INDEX_K: Range = Range::new(0.0, 1000.0, "");
 /// The maximum number of layers of a film or coating.
 pub const MAX_LAYERS: usize = 64;
 /// A fraction, such as that of a mixture's volume that one medium fills.
 pub const FRACTION: Range = Range::new(0.0, 1.0, "");
-/// A coefficient of a dispersion formula.
-pub const COEFFICIENT: Range = Range::new(-1e12, 1e12, "");
-/// The maximum number of terms of a dispersion formula.
-pub const MAX_FORMULA_TERMS: usize = 16;
-/// A reflectance.
-pub const REFLECTANCE: Range = Range::new(0.0, 1.0, "");
 /// Radiance, its scale and their product: its square, which the variance needs, times 2²⁴ samples fits in `f32`.
 pub const EMISSION: Range = Range::new(0.0, 1e9, "");
 /// Radiance, luminance, power in watts or lumens, irradiance, illuminance or intensity of a light in its unit; the resulting spectrum must
@@ -117,8 +107,6 @@ pub const MAX_COOK_GAIN: f64 = 16.0;
 /// light that enters and leaves along the normal. At this k and 500 nm that is 1 % for 20 µm of lacquer and 5 % for 0.1 mm of glaze. Clear
 /// glasses, plastics and liquids have 1e-9 to 3e-6 in the visible.
 pub const CLEAR_COAT_K: f64 = 1e-5;
-/// A reflectance at normal incidence that is converted to an index: 0.996 gives the index 998.
-pub const NORMAL_REFLECTANCE: Range = Range::new(0.0, 0.996, "");
 /// The largest radiance of a sample in W m⁻² sr⁻¹ nm⁻¹, if it is clamped.
 pub const CLAMP: Range = Range::new(1e-9, 1e9, "");
 /// Exposure in stops.
@@ -131,10 +119,6 @@ pub const BAND_NM: Range = Range::new(
 );
 /// The narrowest range of wavelengths that bands may divide, nm.
 pub const MIN_BAND_RANGE_NM: f64 = 1.0;
-/// Wavelengths of a table.
-pub const TABLE_NM: Range = Range::new(1.0, 1e6, " nm");
-/// The maximum number of points of a table.
-pub const MAX_TABLE_POINTS: usize = 100_000;
 /// The maximum number of samples per pixel: a sum of that many ones is still exact in `f32`.
 pub const MAX_SAMPLES: u32 = 1 << 24;
 /// The maximum number of objects.

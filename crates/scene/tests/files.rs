@@ -5,7 +5,7 @@
 )]
 
 use pellicle_scene::description::{Extrapolate, Index};
-use pellicle_scene::{Material, ProblemKind, Problems, SceneFile, file, optical_constants};
+use pellicle_scene::{Material, ProblemKind, Problems, SceneFile, file};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -188,13 +188,13 @@ fn an_index_alone_is_read_and_its_mistakes_are_reported() {
         unit: None,
         extrapolate: Extrapolate::Error,
     };
-    let (constants, _) = optical_constants(&file("good.csv"), folder.path()).unwrap();
+    let (constants, _) = media::optical_constants(&file("good.csv"), folder.path()).unwrap();
     assert_eq!(constants.n.at(600.0), Ok(2.0));
     assert_eq!(constants.k.at(600.0), Ok(0.5));
     assert!(constants.n.at(399.0).is_err());
 
     let said = |index: &Index| {
-        let problems = optical_constants(index, folder.path()).unwrap_err();
+        let problems = media::optical_constants(index, folder.path()).unwrap_err();
         format!("{problems}\n{problems:#}")
     };
     let missing = said(&file("absent.csv"));

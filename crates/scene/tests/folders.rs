@@ -1,7 +1,7 @@
 //! Files that a scene names must be in its folder, unless the caller allows others.
 
 use pellicle_scene::description::{Extrapolate, Index};
-use pellicle_scene::{Folder, Problems, Scene, SceneFile, optical_constants};
+use pellicle_scene::{Folder, Problems, Scene, SceneFile};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -99,7 +99,7 @@ fn an_index_alone_reads_no_file_outside_either() {
         extrapolate: Extrapolate::Error,
     };
     let folder = Folder::from(&tree.path().join("scenes"));
-    let problems = optical_constants(&index, folder.clone()).unwrap_err();
+    let problems = media::optical_constants(&index, folder.clone()).unwrap_err();
     assert!(format!("{problems:#}").contains("../table.yml"));
-    assert!(optical_constants(&index, folder.allow_outside(true)).is_ok());
+    assert!(media::optical_constants(&index, folder.allow_outside(true)).is_ok());
 }

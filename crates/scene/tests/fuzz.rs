@@ -1,7 +1,7 @@
 //! No scene file causes a panic, and accepted scenes have only valid numbers.
 
 use pellicle_scene::description::{Extrapolate, Index};
-use pellicle_scene::{Scene, SceneFile, Shape, optical_constants};
+use pellicle_scene::{Scene, SceneFile, Shape};
 use proptest::prelude::*;
 use std::path::Path;
 
@@ -136,7 +136,7 @@ fn try_database_file(text: &str) -> bool {
     std::fs::write(folder.path().join("a.yml"), text).unwrap();
     let yaml = "a.yml".into();
     let extrapolate = Extrapolate::Error;
-    match optical_constants(&Index::Database { yaml, extrapolate }, folder.path()) {
+    match media::optical_constants(&Index::Database { yaml, extrapolate }, folder.path()) {
         Ok((constants, _)) => {
             let range = constants.range_nm().expect("a file covers a range");
             for nm in [range.0, f64::midpoint(range.0, range.1), range.1] {

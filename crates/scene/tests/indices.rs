@@ -1,7 +1,7 @@
 //! User-defined indices: files of the refractiveindex.info database, coefficients, mixtures.
 
 use pellicle_scene::description::{Extrapolate, Index};
-use pellicle_scene::{Problems, SceneFile, optical_constants};
+use pellicle_scene::{Problems, SceneFile};
 use spectra::OpticalConstants;
 use std::fs;
 use std::path::Path;
@@ -19,7 +19,7 @@ fn noted(text: &str) -> Result<(OpticalConstants, Vec<String>), Problems> {
     let yaml = "medium.yml".into();
     let extrapolate = Extrapolate::Error;
     let index = Index::Database { yaml, extrapolate };
-    optical_constants(&index, folder.path())
+    media::optical_constants(&index, folder.path())
 }
 
 fn close(constants: &OpticalConstants, nm: f64, (n, k): (f64, f64)) -> bool {
@@ -409,7 +409,7 @@ fn what_is_assumed_of_a_database_file_is_noted() {
 
 #[test]
 fn names_of_chemistry_are_materials() {
-    let named = |name: &str| optical_constants(&Index::Name(name.to_owned()), Path::new(""));
+    let named = |name: &str| media::optical_constants(&Index::Name(name.to_owned()), Path::new(""));
     let (gold, notes) = named("Au").unwrap();
     assert_eq!(gold, spectra::optical_constants("gold").unwrap().data);
     let note =

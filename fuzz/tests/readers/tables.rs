@@ -180,7 +180,7 @@ fn database_files() {
     };
     let read = |bytes: &[u8]| {
         fs::write(&file, bytes).unwrap();
-        let constants = match scene::optical_constants(&index, folder.path()) {
+        let constants = match media::optical_constants(&index, folder.path()) {
             Ok((constants, _)) => constants,
             Err(problems) => return Outcome::Refused(format!("{problems:#}")),
         };

@@ -212,7 +212,7 @@ impl<'a> Film<'a> {
             None => (380..=780).step_by(step_nm).map(f64::from).collect(),
         };
         self.check_rows(nm.len())?;
-        let possible = pellicle::scene::limits::TABLE_NM;
+        let possible = pellicle::media::limits::TABLE_NM;
         match nm.iter().find(|&&nm| !possible.contains(nm)) {
             Some(nm) => Err(miette!(
                 "--wavelengths: {} nm; it must be from {possible}",

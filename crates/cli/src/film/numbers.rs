@@ -96,7 +96,7 @@ pub(crate) struct Vary {
 
 impl Vary {
     /// The thickest layer, nm.
-    const MAX_NM: f64 = pellicle::scene::limits::THICKNESS_NM.high;
+    const MAX_NM: f64 = pellicle::coating::Stack::THICKNESS_NM.high;
 
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         let parts: Vec<&str> = text.split(':').collect();

@@ -14,8 +14,6 @@ mod material;
 mod microsurface;
 mod object;
 mod render;
-mod spectrum;
-mod table_file;
 mod thickness;
 
 pub use crate::settings::DirectLight;
@@ -27,11 +25,13 @@ pub use emission::{Emission, EmissionSpectrum, Strength};
 pub use environment::Environment;
 pub use light::Light;
 pub use material::{DiffuseReflectance, FilmModel, Layer, Material, PathDifference};
+/// Media and reflectances, which stacks have too.
+pub use media::{
+    Extrapolate, Index, IndexColumns, MixtureRule, Reflectance, SellmeierTerms, TableColumn,
+};
 pub use microsurface::{Brushed, Distribution, Finish, Roughness};
 pub use object::Object;
 pub use render::{LightGroups, Render, Sampler, WavelengthSampling};
-pub use spectrum::{Extrapolate, Index, MixtureRule, Reflectance, SellmeierTerms};
-pub use table_file::{IndexColumns, TableColumn};
 pub use thickness::{
     AnodizedMetal, Anodizing, Drainage, HeatTint, PictureChannel, Quantity, Steel, Steps, Swirls,
     Thickness,

@@ -3,35 +3,13 @@
 use super::checks::Checks;
 use super::picture_file::read_colors;
 use crate::Texels;
-use crate::limits;
 use color::png_colors::CodeColors;
 use colorimetry::lifting::SigmoidReflectance;
 use document::{FieldPath, Problem, ProblemKind};
 use rayon::prelude::*;
-use spectra::{BandGrid, Spectrum, Tabulated};
 use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
-
-/// Checks that red, green and blue are from 0 to 1.
-pub(super) fn color(checks: &mut Checks, field: &FieldPath, rgb: [f64; 3]) -> Option<[f64; 3]> {
-    let checked: Vec<_> = (0..3)
-        .map(|i| checks.number(&field.index(i), rgb[i], &limits::REFLECTANCE))
-        .collect();
-    checked
-        .into_iter()
-        .all(|value| value.is_some())
-        .then_some(rgb)
-}
-
-/// The smooth reflectance of a color, tabulated at every nanometer that bands may cover.
-pub(super) fn reflectance(linear_rgb: [f64; 3]) -> Spectrum {
-    let reflectance = SigmoidReflectance::of_linear_srgb(linear_rgb);
-    let (first, last) = BandGrid::LIMITS_NM;
-    let points =
-        (first as u32..=last as u32).map(|nm| (f64::from(nm), reflectance.at(f64::from(nm))));
-    Spectrum::Table(Tabulated::new(points.collect()).expect("its wavelengths increase"))
-}
 
 /// The texels of a picture's colors.
 pub(super) fn picture(checks: &mut Checks, field: &FieldPath, file: &Path) -> Option<Arc<Texels>> {

@@ -3,14 +3,9 @@
 mod camera;
 mod checks;
 mod cook;
-mod database;
-mod database_file;
-mod database_table;
 mod dielectric;
 mod environment;
 mod environment_picture;
-mod formula;
-mod index;
 mod layers;
 mod lifted;
 mod light;
@@ -19,7 +14,6 @@ mod material;
 mod microsurface;
 mod object;
 mod picture_file;
-mod points;
 mod power;
 mod settings;
 mod sky;
@@ -27,12 +21,11 @@ mod spectrum_list;
 mod strength;
 mod thickness;
 
-use crate::description::{Description, Index};
+use crate::description::Description;
 use crate::limits::{MAX_LIGHTS, MAX_MATERIALS, MAX_OBJECTS};
 use crate::{EmitterTree, Hierarchy, Scene, prepared};
 use checks::Checks;
 use document::{FieldPath, Folder, Problem, ProblemKind};
-use spectra::OpticalConstants;
 use spectrum_list::SpectrumList;
 
 /// Checks `description` and builds its scene; paths of files are relative to `folder`.
@@ -95,16 +88,6 @@ pub(crate) fn scene(description: &Description, folder: &Folder) -> Result<Scene,
     scene.emitter_tree = EmitterTree::new(&scene);
     scene.assumptions = assumptions;
     Ok(scene)
-}
-
-/// Checks `index` and returns its optical constants and the assumptions about its files; paths are relative to `folder`.
-pub(crate) fn optical_constants(
-    index: &Index,
-    folder: &Folder,
-) -> Result<(OpticalConstants, Vec<String>), Vec<Problem>> {
-    let mut checks = Checks::new(folder);
-    let constants = index::read(&mut checks, &FieldPath::root(), index);
-    checks.finish(constants.map(|(constants, _)| constants))
 }
 
 fn check_counts(checks: &mut Checks, description: &Description) {

@@ -1,17 +1,15 @@
 //! Spectra: from names, tables and constants to band tables without duplicates.
 
 use super::checks::Checks;
-use super::index;
-use super::lifted;
-use super::points::{self, Column, FileTable};
 use super::strength::{self, Amount, Radiator};
 use crate::description::{
     self, EmissionSpectrum, Extrapolate, Index, Reflectance, WavelengthSampling,
 };
 use crate::limits;
 use crate::{Emission, LightGroupId, SpectrumId};
-use colorimetry::srgb::decode;
 use document::{FieldPath, Problem, ProblemKind, Shown};
+use media::points::{self, Column, FileTable};
+use media::{Advice, extrapolated, read_index, read_reflectance};
 use spectra::table_file::QuantityKind;
 use spectra::{BandGrid, BandTable, OpticalConstants, Spectrum, Tabulated};
 use std::collections::HashMap;
@@ -123,9 +121,10 @@ impl SpectrumList {
         field: &FieldPath,
         written: &Reflectance,
     ) -> Option<SpectrumId> {
-        let (spectrum, advice) = read_reflectance(checks, &limits::REFLECTANCE, field, written)?;
+        let (spectrum, advice) =
+            read_reflectance(checks, &media::limits::REFLECTANCE, field, written)?;
         let table = self.resampled(checks, field, &spectrum, advice)?;
-        Some(self.single(&table, limits::REFLECTANCE))
+        Some(self.single(&table, media::limits::REFLECTANCE))
     }
 
     /// The number of a spectrum computed from two others, knot by knot.
@@ -146,7 +145,7 @@ impl SpectrumList {
         field: &FieldPath,
         written: &Index,
     ) -> Option<(SpectrumId, SpectrumId)> {
-        let (OpticalConstants { n, k }, advice) = index::read(checks, field, written)?;
+        let (OpticalConstants { n, k }, advice) = read_index(checks, field, written)?;
         let n = self.resampled(checks, field, &n, advice)?;
         let k = self.resampled(checks, field, &k, advice)?;
         Some(self.pair(&n, &k))
@@ -233,7 +232,7 @@ impl SpectrumList {
             .involving(FieldPath::root().key("render").key("wavelengths_nm"));
         problem.help = match error.fault {
             Some(_) => Some("correct the data, or narrow `render.wavelengths_nm`".to_owned()),
-            None => advice.text(),
+            None => advice_text(advice),
         };
         checks.report(problem);
         None
@@ -251,8 +250,8 @@ impl SpectrumList {
     }
 
     fn pair(&mut self, n: &BandTable, k: &BandTable) -> (SpectrumId, SpectrumId) {
-        let n = kept_within(n, limits::INDEX_N);
-        let k = kept_within(k, limits::INDEX_K);
+        let n = kept_within(n, media::limits::INDEX_N);
+        let k = kept_within(k, media::limits::INDEX_K);
         let mut key = bits(&n);
         key.extend(bits(&k));
         let next = SpectrumId(self.tables.len() as u32);
@@ -262,104 +261,6 @@ impl SpectrumList {
         }
         (id, SpectrumId(id.0 + 1))
     }
-}
-
-/// What to do if a table does not cover the bands.
-#[derive(Clone, Copy)]
-pub(super) enum Advice<'a> {
-    None,
-    /// The field `extrapolate` can be added to the table.
-    Add,
-    /// The name must first be written as a table.
-    Name(&'a str),
-    /// A part of the mixture does not cover the bands.
-    Part,
-}
-
-impl Advice<'_> {
-    fn text(self) -> Option<String> {
-        let clamp = match self {
-            Self::None => return None,
-            Self::Part => {
-                "add `extrapolate = \"clamp\"` to the part of the mixture that ends there"
-                    .to_owned()
-            }
-            Self::Add => "add `extrapolate = \"clamp\"`".to_owned(),
-            Self::Name(name) => format!("write {{ name = {name:?}, extrapolate = \"clamp\" }}"),
-        };
-        Some(format!(
-            "{clamp} to continue with its end values, or narrow `render.wavelengths_nm`"
-        ))
-    }
-}
-
-/// A reflectance over wavelength, and advice for the case that it does not cover the bands. Written numbers must be in `range`.
-pub(super) fn read_reflectance<'w>(
-    checks: &mut Checks,
-    range: &'static document::Range,
-    field: &FieldPath,
-    written: &'w Reflectance,
-) -> Option<(Spectrum, Advice<'w>)> {
-    let column = Column::new("reflectance", "values", range, QuantityKind::Part);
-    Some(match written {
-        Reflectance::Constant(value) => {
-            let value = checks.number(field, *value, range)?;
-            (Spectrum::Constant(value), Advice::None)
-        }
-        Reflectance::Name(name) => (
-            named_reflectance(checks, field, name, Extrapolate::Error)?,
-            Advice::Name(name),
-        ),
-        Reflectance::Srgb { srgb } => {
-            let rgb = lifted::color(checks, &field.key("srgb"), *srgb)?;
-            (lifted::reflectance(rgb.map(decode)), Advice::None)
-        }
-        Reflectance::LinearSrgb { linear_srgb } => {
-            let rgb = lifted::color(checks, &field.key("linear_srgb"), *linear_srgb)?;
-            (lifted::reflectance(rgb), Advice::None)
-        }
-        Reflectance::Named { name, extrapolate } => (
-            named_reflectance(checks, &field.key("name"), name, *extrapolate)?,
-            Advice::Add,
-        ),
-        Reflectance::Table {
-            nm,
-            values,
-            extrapolate,
-        } => {
-            let columns = [(column, values.as_slice())];
-            let [spectrum] = points::inline(checks, field, nm, columns, *extrapolate)?;
-            (spectrum, Advice::Add)
-        }
-        Reflectance::File {
-            csv,
-            column: chosen,
-            unit,
-            extrapolate,
-        } => {
-            let table = FileTable {
-                path: &checks.path(&field.key("csv"), csv)?,
-                columns: points::chosen(chosen.as_ref()),
-                unit: unit.as_deref(),
-                extrapolate: *extrapolate,
-            };
-            let [spectrum] = points::file(checks, field, table, [column])?;
-            (spectrum, Advice::Add)
-        }
-    })
-}
-
-fn named_reflectance(
-    checks: &mut Checks,
-    field: &FieldPath,
-    name: &str,
-    extrapolate: Extrapolate,
-) -> Option<Spectrum> {
-    let Some(set) = spectra::reflectance(name) else {
-        checks.unknown_name(field, ("reflectance", name), &spectra::reflectance_names());
-        return None;
-    };
-    Some(extrapolated(set.data, extrapolate))
 }
 
 fn named_illuminant(
@@ -384,13 +285,6 @@ fn named_illuminant(
     }
 }
 
-pub(super) fn extrapolated(spectrum: Spectrum, extrapolate: Extrapolate) -> Spectrum {
-    match extrapolate {
-        Extrapolate::Clamp => spectrum.clamped(),
-        Extrapolate::Error => spectrum,
-    }
-}
-
 fn lamp_name(written: &EmissionSpectrum) -> String {
     match written {
         EmissionSpectrum::Constant { .. } => "constant".to_owned(),
@@ -401,6 +295,21 @@ fn lamp_name(written: &EmissionSpectrum) -> String {
             stem.to_string_lossy().into_owned()
         }
     }
+}
+
+/// What a user can do about data that do not cover the bands.
+fn advice_text(advice: Advice<'_>) -> Option<String> {
+    let clamp = match advice {
+        Advice::None => return None,
+        Advice::Part => {
+            "add `extrapolate = \"clamp\"` to the part of the mixture that ends there".to_owned()
+        }
+        Advice::Add => "add `extrapolate = \"clamp\"`".to_owned(),
+        Advice::Name(name) => format!("write {{ name = {name:?}, extrapolate = \"clamp\" }}"),
+    };
+    Some(format!(
+        "{clamp} to continue with its end values, or narrow `render.wavelengths_nm`"
+    ))
 }
 
 /// Checks the peak of an emission of this amount.

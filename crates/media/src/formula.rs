@@ -1,9 +1,8 @@
 //! Dispersion formulas: their coefficients in a scene, and the wavelengths at which they yield an index.
 
-use super::checks::Checks;
 use crate::description::SellmeierTerms;
 use crate::limits::{COEFFICIENT, INDEX_N, MAX_FORMULA_TERMS};
-use document::{FieldPath, Problem, ProblemKind};
+use document::{Checks, FieldPath, Problem, ProblemKind};
 use spectra::{DispersionFormula, Fault, FormulaKind};
 
 /// n = A + B/λ² + C/λ⁴.

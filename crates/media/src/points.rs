@@ -1,20 +1,19 @@
-//! Tables over wavelength, in the scene file or in a separate file.
+//! Tables over wavelength, in the document or in a separate file.
 
-use super::checks::Checks;
-use super::spectrum_list::extrapolated;
 use crate::description::{Extrapolate, IndexColumns, TableColumn};
+use crate::extrapolated;
 use crate::limits::{MAX_TABLE_POINTS, TABLE_NM};
-use document::{FieldPath, Problem, ProblemKind, Range};
+use document::{Checks, FieldPath, Problem, ProblemKind, Range};
 use spectra::table_file::{self, ColumnChoice, Options, Quantity, QuantityKind};
 use spectra::{Spectrum, Tabulated};
 use std::path::Path;
 
 /// One of the quantities that a table contains.
-#[derive(Clone, Copy)]
-pub(crate) struct Column {
+#[derive(Clone, Copy, Debug)]
+pub struct Column {
     /// Its name, for messages.
     noun: &'static str,
-    /// Its field in a table within the scene.
+    /// Its field in a table within the document.
     field: &'static str,
     range: &'static Range,
     /// How files represent it.
@@ -22,7 +21,8 @@ pub(crate) struct Column {
 }
 
 impl Column {
-    pub(crate) const fn new(
+    /// `noun` and `field` are its name in messages and its field in an inline table; values must be in `range`.
+    pub const fn new(
         noun: &'static str,
         field: &'static str,
         range: &'static Range,
@@ -45,22 +45,26 @@ impl Column {
     }
 }
 
-/// A table in a file, with the options from the scene.
-pub(crate) struct FileTable<'a> {
-    pub(crate) path: &'a Path,
+/// A table in a file, with the options from the document.
+#[derive(Clone, Debug)]
+pub struct FileTable<'a> {
+    /// Its path.
+    pub path: &'a Path,
     /// Empty if none is chosen.
-    pub(crate) columns: Vec<ColumnChoice>,
-    pub(crate) unit: Option<&'a str>,
-    pub(crate) extrapolate: Extrapolate,
+    pub columns: Vec<ColumnChoice>,
+    /// The units that its header does not name.
+    pub unit: Option<&'a str>,
+    /// How it extends outside its wavelengths.
+    pub extrapolate: Extrapolate,
 }
 
 /// The chosen column, if any.
-pub(crate) fn chosen(column: Option<&TableColumn>) -> Vec<ColumnChoice> {
+pub fn chosen(column: Option<&TableColumn>) -> Vec<ColumnChoice> {
     column.map(choice).into_iter().collect()
 }
 
 /// The chosen columns of n and k, if any.
-pub(crate) fn chosen_of_index(columns: Option<&IndexColumns>) -> Vec<ColumnChoice> {
+pub fn chosen_of_index(columns: Option<&IndexColumns>) -> Vec<ColumnChoice> {
     match columns {
         None => Vec::new(),
         Some(IndexColumns::N(column)) => vec![choice(column)],
@@ -79,7 +83,7 @@ fn choice(column: &TableColumn) -> ColumnChoice {
 const MAX_PROBLEMS: usize = 3;
 
 /// The spectra of a table in the scene.
-pub(crate) fn inline<const N: usize>(
+pub fn inline<const N: usize>(
     checks: &mut Checks,
     field: &FieldPath,
     nm: &[f64],
@@ -126,7 +130,7 @@ pub(crate) fn inline<const N: usize>(
 }
 
 /// The spectra of a table in a file.
-pub(crate) fn file<const N: usize>(
+pub fn file<const N: usize>(
     checks: &mut Checks,
     field: &FieldPath,
     table: FileTable,
@@ -162,7 +166,7 @@ pub(crate) fn file<const N: usize>(
     }
 }
 
-/// Applies the units that the scene specifies.
+/// Applies the units that the document specifies.
 fn set_unit(
     checks: &mut Checks,
     field: &FieldPath,
@@ -183,7 +187,7 @@ fn set_unit(
     None
 }
 
-/// Checks the number of points; `prefix` names the table if it is not in the scene file.
+/// Checks the number of points; `prefix` names the table if it is not in the document.
 fn check_count(checks: &mut Checks, field: &FieldPath, count: usize, prefix: &str) -> bool {
     let complaint = match count {
         0 => format!("{prefix}the table has no points; it needs at least one"),

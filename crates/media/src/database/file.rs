@@ -15,15 +15,12 @@
 //!
 //! Wavelengths are in µm. Everything else in a file (references, conditions, properties) is ignored.
 
-mod yaml;
-
-use crate::limits::MAX_FORMULA_TERMS;
-use document::text_file::{TextFileError, read_text};
+use super::error::{DatabaseFileError, MAX_COEFFICIENTS};
+use super::yaml::{self, Document, Text, Written};
+use document::text_file::read_text;
 use spectra::table_file::Row;
-use spectra::{DispersionFormula, FormulaError, FormulaKind};
+use spectra::{DispersionFormula, FormulaKind};
 use std::path::Path;
-use thiserror::Error;
-use yaml::{Document, Text, Written};
 
 /// The contents of a file.
 pub(crate) struct DatabaseFile {
@@ -54,49 +51,6 @@ pub(crate) enum Data {
     /// The nonlinear index.
     N2,
 }
-
-/// The reason why a file is not a file of the database. Lines are counted from 1.
-#[derive(Debug, Error)]
-pub(crate) enum DatabaseFileError {
-    #[error(transparent)]
-    File(#[from] TextFileError),
-    #[error("line {line}: this is not YAML: {message}")]
-    Yaml { line: usize, message: String },
-    #[error("line {line}: found an alias; write the numbers themselves")]
-    Alias { line: usize },
-    #[error("line {line}: found a second document; the file must contain only one")]
-    Documents { line: usize },
-    #[error("line {line}: the key {key:?} is already in line {first}; each key may occur once")]
-    Twice {
-        line: usize,
-        first: usize,
-        key: String,
-    },
-    #[error("the file has no `DATA` with a list of blocks, as files of refractiveindex.info have")]
-    NoData,
-    #[error("line {line}: the block has no `{field}`")]
-    Missing { line: usize, field: &'static str },
-    #[error(
-        "line {line}: found the type {found:?}; it must be \"tabulated nk\", \"tabulated n\", \"tabulated k\" or \
-         \"formula 1\" to \"formula 9\""
-    )]
-    Type { line: usize, found: String },
-    #[error("line {line}: found {found} numbers, expected {expected}")]
-    Count {
-        line: usize,
-        found: usize,
-        expected: usize,
-    },
-    #[error("line {line}: found {found} coefficients; at most {MAX_COEFFICIENTS} are possible")]
-    Coefficients { line: usize, found: usize },
-    #[error("line {line}: {text:?} is not a number")]
-    Number { line: usize, text: String },
-    #[error("line {line}: {source}")]
-    Formula { line: usize, source: FormulaError },
-}
-
-/// The maximum number of coefficients. The database's formulas have at most 17.
-const MAX_COEFFICIENTS: usize = 1 + 4 * MAX_FORMULA_TERMS;
 
 /// Reads a file.
 pub(crate) fn read(path: &Path) -> Result<DatabaseFile, DatabaseFileError> {

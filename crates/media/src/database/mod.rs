@@ -4,12 +4,16 @@
 //! not an error of the whole file: the interval around it, from the previous valid value to the next, becomes a [`spectra::Fault`], and
 //! only a scene that needs these wavelengths is rejected, with the line.
 
-use super::checks::Checks;
-use super::database_file::{self, Block, Data, DatabaseFile, OfAir};
-use super::database_table::{Quantity, Table};
-use super::formula;
+mod error;
+mod file;
+mod table;
+mod yaml;
+
+use self::file::{Block, Data, DatabaseFile, OfAir};
+use self::table::{Quantity, Table};
+use crate::formula;
 use crate::limits::{self, INDEX_N, MAX_TABLE_POINTS};
-use document::{FieldPath, Problem, ProblemKind};
+use document::{Checks, FieldPath, Problem, ProblemKind};
 use spectra::table_file::Row;
 use spectra::{DispersionFormula, Spectrum};
 use std::path::Path;
@@ -41,7 +45,7 @@ pub(super) fn read(checks: &mut Checks, field: &FieldPath, path: &Path) -> Optio
         field,
         path,
     };
-    match database_file::read(path) {
+    match file::read(path) {
         Ok(file) => reading.spectra(&file),
         Err(error) => reading.refuse(ProblemKind::File, &error.to_string()),
     }

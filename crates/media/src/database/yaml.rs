@@ -1,6 +1,6 @@
 //! From the text of a database file to its blocks as written.
 
-use super::DatabaseFileError;
+use super::error::DatabaseFileError;
 use saphyr_parser::{Event, Parser, ScalarStyle, ScanError, Span};
 use std::collections::HashMap;
 

@@ -1,21 +1,48 @@
 //! Indices of refraction: from the description to n and k over wavelength.
 
-use super::checks::Checks;
-use super::database;
-use super::formula;
-use super::points::{self, Column, FileTable};
-use super::spectrum_list::{Advice, extrapolated, read_reflectance};
+use crate::database;
 use crate::description::{Extrapolate, Index, MixtureRule, Reflectance};
+use crate::formula;
 use crate::limits;
-use document::{FieldPath, Problem, ProblemKind};
+use crate::points::{self, Column, FileTable};
+use crate::reflectance::read_reflectance;
+use crate::{Advice, extrapolated};
+use document::{Checks, FieldPath, Folder, Problem, ProblemKind, Problems};
 use spectra::table_file::QuantityKind;
 use spectra::{DispersionFormula, OpticalConstants, Spectrum, Tabulated};
 
 const INDEX_N: Column = Column::new("n", "n", &limits::INDEX_N, QuantityKind::Plain);
 const INDEX_K: Column = Column::new("k", "k", &limits::INDEX_K, QuantityKind::Plain);
 
+/// Returns the optical constants of `index`, and the assumptions about its files, one line each. Paths of files are relative to `folder`,
+/// and the files must be in it.
+///
+/// The wavelengths of interest are not known here: reading a table outside its range fails later.
+///
+/// ```
+/// use pellicle_media::{Index, optical_constants};
+/// let gold = Index::Name("gold".to_owned());
+/// let (constants, _) = optical_constants(&gold, "").unwrap();
+/// assert!(constants.k.at(600.0).unwrap() > 2.0);
+/// assert!(constants.k.at(1e5).is_err());
+/// ```
+///
+/// # Errors
+/// All problems of the index, and of the file that it names. The fields of the problems start at the index: `n[2]` is the third value of
+/// its table.
+pub fn optical_constants(
+    index: &Index,
+    folder: impl Into<Folder>,
+) -> Result<(OpticalConstants, Vec<String>), Problems> {
+    let mut checks = Checks::new(&folder.into());
+    let constants = read_index(&mut checks, &FieldPath::root(), index);
+    checks
+        .finish(constants.map(|(constants, _)| constants))
+        .map_err(|list| Problems::of_program("the index", list))
+}
+
 /// n and k over wavelength, and advice for the case that they do not cover the bands.
-pub(crate) fn read<'w>(
+pub fn read_index<'w>(
     checks: &mut Checks,
     field: &FieldPath,
     written: &'w Index,
@@ -183,8 +210,8 @@ fn mixture(
         MixtureRule::MaxwellGarnett => spectra::MixtureRule::MaxwellGarnett,
     };
     let parts = field.key("of");
-    let a = read(checks, &parts.index(0), &of[0]);
-    let b = read(checks, &parts.index(1), &of[1]);
+    let a = read_index(checks, &parts.index(0), &of[0]);
+    let b = read_index(checks, &parts.index(1), &of[1]);
     let fraction = checks.number(&field.key("fraction"), fraction, &limits::FRACTION);
     let ((a, _), (b, _), fraction) = (a?, b?, fraction?);
     let mixture = OpticalConstants::mixture(rule, [&a, &b], fraction);

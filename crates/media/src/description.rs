@@ -1,6 +1,5 @@
-//! Spectra as written in a scene file: reflectances and refractive indices.
+//! Media and reflectances as written in a file.
 
-use super::{IndexColumns, TableColumn};
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,7 +9,7 @@ use std::path::PathBuf;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Extrapolate {
-    /// Not at all: it is an error if the scene needs a value there.
+    /// Not at all: it is an error if a value is needed there.
     #[default]
     Error,
     /// Its first or last value.
@@ -45,7 +44,7 @@ pub enum Reflectance {
         #[serde(default)]
         extrapolate: Extrapolate,
     },
-    /// A table in the scene file, interpolated linearly.
+    /// A table in the document, interpolated linearly.
     Table {
         /// Wavelengths in nm, in ascending order.
         nm: Vec<f64>,
@@ -58,7 +57,7 @@ pub enum Reflectance {
     /// A table in a file.
     File {
         /// A text file with columns for wavelength and reflectance, or a file written by a measuring instrument. The path is relative to
-        /// the scene file.
+        /// the document.
         csv: PathBuf,
         /// The column of the file, by its name in the header or its number from 1; needed if there are several.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -91,7 +90,7 @@ pub enum Index {
         #[serde(default)]
         extrapolate: Extrapolate,
     },
-    /// A table in the scene file, interpolated linearly.
+    /// A table in the document, interpolated linearly.
     Table {
         /// Wavelengths in nm, in ascending order.
         nm: Vec<f64>,
@@ -106,7 +105,7 @@ pub enum Index {
     },
     /// A table in a file.
     File {
-        /// A text file with columns for wavelength, n and, unless it is 0, k. The path is relative to the scene file.
+        /// A text file with columns for wavelength, n and, unless it is 0, k. The path is relative to the document.
         csv: PathBuf,
         /// The columns of n and k, as in `["n_o", "k_o"]`, or the column of n alone, by their names in the header or their numbers from 1;
         /// needed if the header does not identify them.
@@ -121,7 +120,7 @@ pub enum Index {
     },
     /// A file of the refractiveindex.info database, or one like it.
     Database {
-        /// A YAML file with `DATA` blocks: tables of n, k or both, and the formulas 1 to 9; relative to the scene file.
+        /// A YAML file with `DATA` blocks: tables of n, k or both, and the formulas 1 to 9; relative to the document.
         yaml: PathBuf,
         /// How the data extend outside their wavelengths.
         #[serde(default)]
@@ -178,4 +177,24 @@ pub enum MixtureRule {
     Bruggeman,
     /// Spheres of the second medium in the first (Maxwell Garnett 1904).
     MaxwellGarnett,
+}
+
+/// A column of a table in a file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum TableColumn {
+    /// Its position; the first column of the file is 1.
+    Number(#[schemars(range(min = 1))] u32),
+    /// Its name in the header, or the id or name of a sample.
+    Name(String),
+}
+
+/// The columns of an index in a table of a file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum IndexColumns {
+    /// The column of n; k is 0.
+    N(TableColumn),
+    /// The columns of n and k.
+    Both([TableColumn; 2]),
 }
