@@ -8,7 +8,7 @@ use exr::meta::MetaData;
 use pellicle_color::spectral_exr::{self, ReadExrError, WriteExrError, WriteOptions};
 use spectra::{BandGrid, LightGroup, SpectralImage};
 
-use crate::support::{metadata, noise};
+use super::support::{metadata, noise};
 
 /// An image of light groups with these lamps in which every number differs.
 fn image(groups: &[(&str, Option<&str>)]) -> SpectralImage {

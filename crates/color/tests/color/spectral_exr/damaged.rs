@@ -4,7 +4,7 @@ use std::fs;
 
 use pellicle_color::spectral_exr::{self, ReadExrError};
 
-use crate::support::{noise, write_noisy};
+use super::support::{noise, write_noisy};
 
 #[test]
 fn what_is_no_exr_file_is_reported() {

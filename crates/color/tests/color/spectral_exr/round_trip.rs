@@ -9,7 +9,7 @@ use pellicle_color::spectral_exr::{self, Metadata, WriteExrError, WriteOptions};
 use pellicle_color::xyz::exposure_scale;
 use spectra::{BandGrid, SpectralImage};
 
-use crate::support::{metadata, noisy, write_noisy};
+use super::support::{metadata, noisy, write_noisy};
 
 #[test]
 fn what_is_written_is_read_again_to_the_bit() {

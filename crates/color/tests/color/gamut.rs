@@ -34,12 +34,12 @@ impl Loci {
     fn hung_berns() -> Self {
         let (x, y) = (0.3101, 0.3163);
         let white = [x / y, 1.0, (1.0 - x - y) / y];
-        Self::read(include_str!("hung_berns_1995.csv"), white)
+        Self::read(include_str!("gamut/hung_berns_1995.csv"), white)
     }
 
     fn ebner_fairchild() -> Self {
         let white = [0.9501, 1.0, 1.0881];
-        Self::read(include_str!("ebner_fairchild_1998.csv"), white)
+        Self::read(include_str!("gamut/ebner_fairchild_1998.csv"), white)
     }
 }
 

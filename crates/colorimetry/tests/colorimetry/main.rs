@@ -1,0 +1,4 @@
+//! White points and displays.
+
+mod display_files;
+mod white_points;
