@@ -1,6 +1,7 @@
 //! Pictures as environment and as textures, and the sky: a file that cannot be used is reported once, with its name and what
 //! would be right.
 
+use crate::{CAMERA, read, said};
 use color::spectral_exr::{Metadata, WriteOptions};
 use exr::math::Vec2;
 use exr::meta::attribute::Chromaticities;
@@ -9,19 +10,16 @@ use exr::prelude::{
 };
 use image::{ImageBuffer, Rgb};
 use pellicle_scene::{
-    Environment, EnvironmentPicture, LightShape, PictureSpectra, Problems, Scene, SceneFile,
+    Environment, EnvironmentPicture, LightShape, PictureSpectra, Problems, Scene,
 };
 use spectra::{BandGrid, SpectralImage};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-const CAMERA: &str =
-    "camera = { type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }\n";
-
 fn checked(folder: &Path, rest: &str) -> Result<Scene, Problems> {
     let text = format!("{CAMERA}render = {{ bands = 8 }}\n{rest}\n");
-    SceneFile::parse("scene.toml", &text, folder)?.validate()
+    read(&text, folder)
 }
 
 fn surrounded_by(folder: &Path, image: &str) -> Result<Scene, Problems> {
@@ -36,15 +34,10 @@ fn assert_reported(result: Result<Scene, Problems>, field: &str, phrases: &[&str
     let Err(problems) = result else {
         panic!("it is accepted");
     };
-    let said = format!("{problems:#}");
-    assert_eq!(problems.iter().count(), 1, "{said}");
+    assert_eq!(problems.iter().count(), 1, "{problems:#}");
     let problem = problems.iter().next().unwrap();
-    assert_eq!(problem.field.to_string(), field, "{said}");
-    let said = format!(
-        "{} {}",
-        problem.message,
-        problem.help.clone().unwrap_or_default()
-    );
+    assert_eq!(problem.field.to_string(), field, "{problems:#}");
+    let said = said(problem);
     for phrase in phrases {
         assert!(said.contains(phrase), "{said:?} lacks {phrase:?}");
     }
@@ -89,7 +82,7 @@ fn write_spectra(path: &Path, [width, height]: [u32; 2], bands: BandGrid, value:
 fn files_that_are_no_pictures_of_light_are_reported() {
     let directory = TempDir::new().unwrap();
     let folder = directory.path();
-    let hdr = include_bytes!("../../../tests/data/environment.hdr");
+    let hdr = include_bytes!("../../../../tests/data/environment.hdr");
     fs::write(folder.join("cut.hdr"), &hdr[..hdr.len() / 2]).unwrap();
     fs::write(folder.join("head.hdr"), &hdr[..20]).unwrap();
     fs::write(folder.join("text.hdr"), "a picture").unwrap();
@@ -162,7 +155,7 @@ fn luminance_and_layers_of_openexr_are_environment() {
     let wrong = "environment = { type = 'image', image = 'layers.exr', layer = 'fill' }";
     let phrases = ["layers.exr", "no layer \"fill\"", "\"key\""];
     assert_reported(checked(folder, wrong), "environment.image", &phrases);
-    let hdr = include_bytes!("../../../tests/data/environment.hdr");
+    let hdr = include_bytes!("../../../../tests/data/environment.hdr");
     fs::write(folder.join("sky.hdr"), hdr).unwrap();
     let radiance = "environment = { type = 'image', image = 'sky.hdr', layer = 'key' }";
     assert_reported(
@@ -213,9 +206,8 @@ fn pictures_of_a_wrong_size_are_reported() {
     let text = format!(
         "{CAMERA}render = {{ bands = 1024, size = [8, 8] }}\nenvironment = {{ type = 'image', image = 'fine.exr' }}\n"
     );
-    let file = SceneFile::parse("scene.toml", &text, folder).unwrap();
     assert_reported(
-        file.validate(),
+        read(&text, folder),
         "environment.image",
         &["fine.exr", "520 × 260", "1024 bands", "at most 131072"],
     );
@@ -351,11 +343,11 @@ fn the_primaries_of_a_file_are_honored() {
 fn textures_that_cannot_be_used_are_reported() {
     let directory = TempDir::new().unwrap();
     let folder = directory.path();
-    let png = include_bytes!("../../../tests/data/colors.png");
+    let png = include_bytes!("../../../../tests/data/colors.png");
     fs::write(folder.join("cut.png"), &png[..png.len() / 2]).unwrap();
     fs::write(
         folder.join("other.png"),
-        include_bytes!("../../../tests/data/environment.hdr"),
+        include_bytes!("../../../../tests/data/environment.hdr"),
     )
     .unwrap();
     let texture = |name: &str| {

@@ -4,27 +4,23 @@
     reason = "the values are exact in binary, or rounding is what is tested"
 )]
 
+use crate::{CAMERA, checksum};
 use glam::DVec3;
-use pellicle_scene::{
-    BlackFilm, Coordinate, Problem, Profile, Scene, SceneFile, Swirls, Thickness,
-};
+use pellicle_scene::{BlackFilm, Coordinate, Problems, Profile, Scene, Swirls, Thickness};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
 /// A scene at 30 s; the thickness begins on line 5, column 16.
-fn read(thickness: &str, directory: &Path) -> Result<Scene, Vec<Problem>> {
+fn read(thickness: &str, directory: &Path) -> Result<Scene, Problems> {
     let text = format!(
-        "camera = {{ type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }}\n\
-         render = {{ time_s = 30 }}\n[materials.x]\ntype = 'film'\nthickness_nm = {thickness}\nindex = 1.5\n"
+        "{CAMERA}render = {{ time_s = 30 }}\n[materials.x]\ntype = 'film'\nthickness_nm = {thickness}\nindex = 1.5\n"
     );
-    SceneFile::parse("film.toml", &text, directory)
-        .and_then(|file| file.validate())
-        .map_err(|problems| problems.iter().cloned().collect())
+    crate::read(&text, directory)
 }
 
 fn thickness_in(thickness: &str, directory: &Path) -> Thickness {
-    let scene = read(thickness, directory).unwrap_or_else(|problems| panic!("{problems:?}"));
+    let scene = read(thickness, directory).unwrap_or_else(|problems| panic!("{problems:#}"));
     let only = scene.materials()[0].thicknesses().next();
     only.expect("a film has a layer").clone()
 }
@@ -47,9 +43,8 @@ fn assert_refused(written: &str, column: usize, field: &str, said: &[&str]) {
 
 fn assert_refused_in(written: &str, directory: &Path, column: usize, field: &str, said: &[&str]) {
     let problems = read(written, directory).expect_err(written);
-    let [problem] = problems.as_slice() else {
-        panic!("{written}: {problems:?}");
-    };
+    assert_eq!(problems.iter().len(), 1, "{written}: {problems:#}");
+    let problem = problems.iter().next().unwrap();
     let place = problem.location.as_ref().expect("a place in the file");
     assert_eq!((place.line, place.column), (5, column), "{problem}");
     assert_eq!(
@@ -89,8 +84,6 @@ fn a_bubble_drains_from_its_top() {
 
 #[test]
 fn a_film_that_has_had_no_time_is_even() {
-    let text = "camera = { type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }\n\
-                [materials.x]\ntype = 'film'\nindex = 1.5\nthickness_nm = ";
     for (film, most) in [
         (
             "{ drainage = { initial = 500, radius_m = 0.03 } }",
@@ -101,10 +94,8 @@ fn a_film_that_has_had_no_time_is_even() {
             500.0,
         ),
     ] {
-        let file =
-            SceneFile::parse("film.toml", &format!("{text}{film}\n"), Path::new("")).unwrap();
-        let scene = file
-            .validate()
+        let film_of = "[materials.x]\ntype = 'film'\nindex = 1.5\nthickness_nm = ";
+        let scene = crate::read(&format!("{CAMERA}{film_of}{film}\n"), "")
             .unwrap_or_else(|problems| panic!("{problems:#}"));
         let Some(Thickness::Profile(profile)) = scene.materials()[0].thicknesses().next() else {
             panic!("{film}");
@@ -329,7 +320,7 @@ fn what_does_not_fit_the_format_is_reported_at_any_depth() {
     ];
     for (written, column, field, said) in cases {
         let problems = read(written, Path::new("")).expect_err(written);
-        let problem = &problems[0];
+        let problem = problems.iter().next().unwrap();
         let place = problem.location.as_ref().expect("a place in the file");
         assert_eq!((place.line, place.column), (5, *column), "{problem}");
         assert_eq!(
@@ -416,17 +407,9 @@ fn pictures_that_cannot_be_used_are_reported() {
     }
 }
 
-/// Returns the file with the checksum of its first chunk corrected (PNG specification, annex D).
+/// Returns the file with the checksum of its first chunk corrected.
 fn with_checksum(mut file: Vec<u8>) -> Vec<u8> {
-    let crc = file[12..29].iter().fold(u32::MAX, |crc, &byte| {
-        (0..8).fold(crc ^ u32::from(byte), |c, _| {
-            if c & 1 == 1 {
-                0xedb8_8320 ^ (c >> 1)
-            } else {
-                c >> 1
-            }
-        })
-    });
-    file[29..33].copy_from_slice(&(!crc).to_be_bytes());
+    let sum = checksum(&file[12..29]);
+    file[29..33].copy_from_slice(&sum.to_be_bytes());
     file
 }

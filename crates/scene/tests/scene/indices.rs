@@ -1,5 +1,6 @@
 //! User-defined indices: files of the refractiveindex.info database, coefficients, mixtures.
 
+use crate::{CAMERA, read};
 use pellicle_scene::description::{Extrapolate, Index};
 use pellicle_scene::{Problems, SceneFile};
 use spectra::OpticalConstants;
@@ -638,4 +639,35 @@ fn what_is_too_short_can_be_clamped() {
         help.contains("`extrapolate = \"clamp\"` to the part of the mixture"),
         "{help}"
     );
+}
+
+#[test]
+fn an_index_of_any_form_makes_a_scene() {
+    let folder = TempDir::new().unwrap();
+    fs::write(
+        folder.path().join("glass.yml"),
+        "DATA:\n  - type: formula 5\n    wavelength_range: 0.3 1\n    coefficients: 1.5 0.004 -2\n",
+    )
+    .unwrap();
+    fs::write(folder.path().join("glass.csv"), "300,1.5\n1000,1.6\n").unwrap();
+    let forms = [
+        "1.5",
+        "[1.5, 0.01]",
+        "'bk7'",
+        "{ name = 'rutile', extrapolate = 'clamp' }",
+        "{ nm = [300, 1000], n = [1.5, 1.6] }",
+        "{ csv = 'glass.csv' }",
+        "{ yaml = 'glass.yml' }",
+        "{ cauchy = [1.5, 0.004] }",
+        "{ sellmeier = { b = [1.2], c_um2 = [0.01] } }",
+        "{ mixture = 'bruggeman', of = ['gold', { mixture = 'maxwell_garnett', of = ['water', 'silver'], fraction = 0.1 }], fraction = 0.5 }",
+    ];
+    let films = forms.iter().enumerate().map(|(number, index)| {
+        format!("[materials.m{number}]\ntype = 'film'\nthickness_nm = 300\nindex = {index}\n")
+    });
+    let text = format!("{CAMERA}{}", films.collect::<String>());
+    let scene = read(&text, folder.path()).unwrap_or_else(|problems| panic!("{problems:#}"));
+    assert_eq!(scene.materials().len(), forms.len());
+    // Another folder does not have the files.
+    assert_eq!(read(&text, "").unwrap_err().iter().len(), 2);
 }

@@ -1,14 +1,11 @@
 //! Light groups: which emitters are kept apart, and under which names.
 
-use pellicle_scene::{Environment, Material, Problems, Scene, SceneFile};
-use std::path::Path;
-
-const CAMERA: &str =
-    "camera = { type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }";
+use crate::{CAMERA, read, said};
+use pellicle_scene::{Environment, Material, Problems, Scene};
 
 /// A scene with an emitter for each of `emitters`: the name of the material and its fields.
 fn checked(render: &str, emitters: &[(&str, &str)], environment: &str) -> Result<Scene, Problems> {
-    let mut text = format!("{CAMERA}\nrender = {{ {render} }}\n");
+    let mut text = format!("{CAMERA}render = {{ {render} }}\n");
     if !environment.is_empty() {
         text += &format!("environment = {environment}\n");
     }
@@ -20,7 +17,7 @@ fn checked(render: &str, emitters: &[(&str, &str)], environment: &str) -> Result
             "[[objects]]\ntype = 'sphere'\nmaterial = '{name}'\ncenter = [0, 0, 0]\nradius = 1\n"
         );
     }
-    SceneFile::parse("scene.toml", &text, Path::new(""))?.validate()
+    read(&text, "")
 }
 
 fn scene(emitters: &[(&str, &str)], environment: &str) -> Scene {
@@ -125,11 +122,10 @@ fn what_gives_no_light_makes_no_group() {
     );
     // A material that no object has.
     let text = format!(
-        "{CAMERA}\n[materials.spare]\ntype = 'emitter'\nemission = {{ constant = 1 }}\n\
+        "{CAMERA}[materials.spare]\ntype = 'emitter'\nemission = {{ constant = 1 }}\n\
          [environment]\ntype = 'constant'\nemission = {{ illuminant = 'C' }}\n"
     );
-    let file = SceneFile::parse("scene.toml", &text, Path::new("")).unwrap();
-    assert_eq!(names(&file.validate().unwrap()), ["C"]);
+    assert_eq!(names(&read(&text, "").unwrap()), ["C"]);
 }
 
 #[test]
@@ -158,10 +154,7 @@ fn complaints(render: &str, emitters: &[(&str, &str)], environment: &str) -> Vec
     let problems = checked(render, emitters, environment).expect_err("it must be refused");
     problems
         .iter()
-        .map(|problem| {
-            let help = problem.help.clone().unwrap_or_default();
-            format!("{}: {} | {help}", problem.field, problem.message)
-        })
+        .map(|problem| format!("{}: {}", problem.field, said(problem)))
         .collect()
 }
 

@@ -1,16 +1,15 @@
 //! Conductors with the model of Cook and Torrance, and dielectrics: how they are read, and what is refused.
 
-use pellicle_scene::{Material, Problems, Scene, SceneFile};
+use crate::{CAMERA, read};
+use pellicle_scene::{Material, Problems, Scene};
 use std::f64::consts::PI;
-use std::path::Path;
 
 fn scene(material: &str) -> Result<Scene, Problems> {
     let text = format!(
-        "camera = {{ type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }}\n\
-         [materials]\na = {material}\n\
+        "{CAMERA}[materials]\na = {material}\n\
          [[objects]]\ntype = 'sphere'\nmaterial = 'a'\ncenter = [0, 0, 0]\nradius = 1\n"
     );
-    SceneFile::parse("bodies.toml", &text, Path::new("")).and_then(|file| file.validate())
+    read(&text, "")
 }
 
 fn cook(index: &str, model: &str) -> pellicle_scene::Cook1981 {

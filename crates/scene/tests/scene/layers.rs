@@ -1,33 +1,23 @@
 //! Films and coatings of several layers in scene files: what is accepted, and how the rest is reported.
 
-use pellicle_scene::{
-    Interference, Material, PathDifference, Problem, Scene, SceneFile, Thickness, limits,
-};
-use std::path::Path;
+use crate::{CAMERA, read, said};
+use pellicle_scene::{Interference, Material, PathDifference, Problems, Scene, Thickness, limits};
 
-fn validated(body: &str) -> Result<Scene, Vec<Problem>> {
-    let text = format!(
-        "camera = {{ type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }}\n\
-         [materials.x]\n{body}\n"
-    );
-    SceneFile::parse("x.toml", &text, Path::new(""))
-        .and_then(|file| file.validate())
-        .map_err(|problems| problems.iter().cloned().collect())
+fn validated(body: &str) -> Result<Scene, Problems> {
+    read(&format!("{CAMERA}[materials.x]\n{body}\n"), "")
 }
 
 fn material(body: &str) -> Material {
-    let scene = validated(body).unwrap_or_else(|problems| panic!("{problems:#?}"));
+    let scene = validated(body).unwrap_or_else(|problems| panic!("{problems:#}"));
     scene.materials()[0].clone()
 }
 
 /// Returns the only problem of a material: its field, and its message with its help.
 fn problem(body: &str) -> (String, String) {
     let problems = validated(body).expect_err("must not be accepted");
-    let [only] = problems.as_slice() else {
-        panic!("{problems:#?}");
-    };
-    let help = only.help.clone().unwrap_or_default();
-    (only.field.to_string(), format!("{} | {help}", only.message))
+    assert_eq!(problems.iter().len(), 1, "{problems:#}");
+    let only = problems.iter().next().unwrap();
+    (only.field.to_string(), said(only))
 }
 
 const TWO: &str = "layers = [{ index = 1.5, thickness_nm = 100 }, { index = [2, 0.5], thickness_nm = { pole = 10, equator = 20 } }]";

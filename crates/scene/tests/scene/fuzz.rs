@@ -6,11 +6,11 @@ use proptest::prelude::*;
 use std::path::Path;
 
 const SCENES: [&str; 5] = [
-    include_str!("../../../scenes/soap_bubble.toml"),
-    include_str!("../../../scenes/film_wedge.toml"),
-    include_str!("../../../scenes/metal_spheres.toml"),
-    include_str!("../../../scenes/furnace.toml"),
-    include_str!("../../../scenes/draining_bubble.toml"),
+    include_str!("../../../../scenes/soap_bubble.toml"),
+    include_str!("../../../../scenes/film_wedge.toml"),
+    include_str!("../../../../scenes/metal_spheres.toml"),
+    include_str!("../../../../scenes/furnace.toml"),
+    include_str!("../../../../scenes/draining_bubble.toml"),
 ];
 
 /// Words that have a meaning in a scene or in TOML, or that have broken parsers.

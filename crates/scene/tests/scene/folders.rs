@@ -1,13 +1,11 @@
 //! Files that a scene names must be in its folder, unless the caller allows others.
 
+use crate::CAMERA;
 use pellicle_scene::description::{Extrapolate, Index};
 use pellicle_scene::{Folder, Problems, Scene, SceneFile};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
-
-const CAMERA: &str = "camera = { type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }\n\
-     render = { bands = 2 }\n";
 
 /// Each way to name a file: its field, the name of the file, and the scene with FILE in place of the path.
 const WAYS: [(&str, &str, &str); 7] = [
@@ -64,7 +62,8 @@ fn tree() -> TempDir {
 }
 
 fn read(folder: &Path, rest: &str, allows_outside: bool) -> Result<Scene, Problems> {
-    SceneFile::parse("scene.toml", &format!("{CAMERA}{rest}\n"), folder)?
+    let text = format!("{CAMERA}render = {{ bands = 2 }}\n{rest}\n");
+    SceneFile::parse("scene.toml", &text, folder)?
         .allow_outside(allows_outside)
         .validate()
 }

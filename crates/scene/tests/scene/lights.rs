@@ -1,15 +1,11 @@
 //! Units of emission, and lights, which are emitters that are not objects.
 
-use pellicle_scene::{EmitterKind, LightShape, Problems, Scene, SceneFile};
+use crate::{CAMERA, said};
+use pellicle_scene::{EmitterKind, LightShape, Problems, Scene};
 use std::f64::consts::PI;
-use std::path::Path;
-
-const CAMERA: &str =
-    "[camera]\ntype = 'perspective'\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nfov_deg = 40\n";
 
 fn read(rest: &str) -> Result<Scene, Problems> {
-    let text = format!("{CAMERA}{rest}");
-    SceneFile::parse("lights.toml", &text, Path::new("")).and_then(|file| file.validate())
+    crate::read(&format!("{CAMERA}{rest}"), "")
 }
 
 fn scene(rest: &str) -> Scene {
@@ -24,11 +20,7 @@ fn refused(rest: &str, field: &str, phrases: &[&str]) {
     let all: Vec<_> = problems.iter().collect();
     assert_eq!(all.len(), 1, "{problems:#}");
     assert_eq!(all[0].field.to_string(), field, "{problems:#}");
-    let said = format!(
-        "{} | {}",
-        all[0].message,
-        all[0].help.clone().unwrap_or_default()
-    );
+    let said = said(all[0]);
     for phrase in phrases {
         assert!(said.contains(phrase), "{said:?} lacks {phrase:?}");
     }

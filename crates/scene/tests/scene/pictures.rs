@@ -4,21 +4,17 @@
     reason = "the values are exact in binary, or the same arithmetic"
 )]
 
+use crate::{CAMERA, checksum};
 use colorimetry::lifting::SigmoidReflectance;
 use colorimetry::srgb;
 use image::{DynamicImage, ImageBuffer, Luma, LumaA, Rgb, Rgba};
-use pellicle_scene::{
-    Environment, Material, Pattern, Problems, Scene, SceneFile, Texels, Thickness,
-};
+use pellicle_scene::{Environment, Material, Pattern, Problems, Scene, Texels, Thickness};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
 fn read(folder: &Path, rest: &str) -> Result<Scene, Problems> {
-    let text = format!(
-        "camera = {{ type = 'perspective', position = [0, 0, 5], look_at = [0, 0, 0], fov_deg = 40 }}\n{rest}\n"
-    );
-    SceneFile::parse("scene.toml", &text, folder)?.validate()
+    crate::read(&format!("{CAMERA}{rest}\n"), folder)
 }
 
 /// The notes about this file.
@@ -85,15 +81,6 @@ fn radiance_files_are_read_with_their_headers() {
         let said = surrounded(format, size).unwrap_err();
         assert!(said.contains(problem), "{said:?} lacks {problem:?}");
     }
-}
-
-/// CRC-32 of ISO 3309, bit by bit.
-fn checksum(bytes: &[u8]) -> u32 {
-    !bytes.iter().fold(u32::MAX, |sum, &byte| {
-        (0..8).fold(sum ^ u32::from(byte), |sum, _| {
-            (sum >> 1) ^ if sum & 1 == 1 { 0xedb8_8320 } else { 0 }
-        })
-    })
 }
 
 /// Adds a chunk to a PNG file, after the first.

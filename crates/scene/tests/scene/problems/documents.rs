@@ -1,6 +1,6 @@
 //! Problems of whole files: their fields, form and length.
 
-use crate::{assert_problems, problems_of, with_camera, with_material};
+use super::{assert_problem, assert_problems, problems_of, with_camera, with_material};
 use pellicle_scene::Problems;
 
 #[test]
@@ -135,151 +135,134 @@ fn missing_fields_are_reported_at_their_table() {
             ),
         ],
     );
-    assert_problems(
-        "[render]\nsamples = 3\n",
-        &[("1:1", "camera", &["is missing"])],
-    );
 }
 
 #[test]
-fn a_field_of_another_variant_says_where_it_belongs() {
-    assert_problems(
+fn a_missing_camera_is_reported_at_the_beginning() {
+    assert_problem("[render]\nsamples = 3\n", "1:1", "camera", &["is missing"]);
+}
+
+cases! { assert_problem:
+    a_field_of_another_type_of_camera(
         &with_camera("height = 3\n"),
-        &[(
-            "6:1",
-            "camera.height",
-            &["`height` belongs to type \"orthographic\""],
-        )],
+        "6:1",
+        "camera.height",
+        &["`height` belongs to type \"orthographic\""],
     );
-    assert_problems(
-        &with_material(
-            "type = 'film'\nindex = 1.3\nthickness_nm = { pole = 3, equator = 4, from = [0, 0, 0] }",
-        ),
-        &[(
-            "9:41",
-            "materials.x.thickness_nm.from",
-            &[
-                "`from` belongs to another form, a table with `end` and `from` and `start` and `to`",
-                "either `equator`, `pole` (and `axis`); or `end`, `from`, `start`, `to`; or",
-            ],
-        )],
+    a_field_of_another_form_of_thickness(
+        &with_material("type = 'film'\nindex = 1.3\nthickness_nm = { pole = 3, equator = 4, from = [0, 0, 0] }"),
+        "9:41",
+        "materials.x.thickness_nm.from",
+        &[
+            "`from` belongs to another form, a table with `end` and `from` and `start` and `to`",
+            "either `equator`, `pole` (and `axis`); or `end`, `from`, `start`, `to`; or",
+        ],
     );
-    assert_problems(
+    a_misspelled_field_of_an_emission(
         &with_material("type = 'emitter'\nemission = { illuminant = 'D65', skale = 2 }"),
-        &[(
-            "8:34",
-            "materials.x.emission.skale",
-            &[
-                "did you mean `scale`?",
-                "either `constant`; or `illuminant` (and `extrapolate`); or `nm`, `values` (and `extrapolate`); or `csv` (and `column`, \
-                 `extrapolate`, `unit`); and with each `illuminance_lux`",
-            ],
-        )],
+        "8:34",
+        "materials.x.emission.skale",
+        &[
+            "did you mean `scale`?",
+            "either `constant`; or `illuminant` (and `extrapolate`); or `nm`, `values` (and `extrapolate`); or `csv` (and `column`, `extrapolate`, `unit`); and with each `illuminance_lux`",
+        ],
     );
 }
 
-#[test]
-fn words_of_other_programs_are_advised_on() {
-    for word in ["sphere", "area"] {
-        assert_problems(
-            &with_camera(&format!(
-                "[[lights]]\ntype = '{word}'\nemission = {{ constant = 1 }}\n"
-            )),
-            &[(
-                "7:8",
-                "lights[0].type",
-                &[
-                    "\"distant\", \"point\" or \"spot\"",
-                    "an object whose material is `type = \"emitter\"`",
-                ],
-            )],
-        );
-    }
-    assert_problems(
+fn a_light_is_an_object(word: &str) {
+    assert_problem(
+        &with_camera(&format!(
+            "[[lights]]\ntype = '{word}'\nemission = {{ constant = 1 }}\n"
+        )),
+        "7:8",
+        "lights[0].type",
+        &[
+            "\"distant\", \"point\" or \"spot\"",
+            "an object whose material is `type = \"emitter\"`",
+        ],
+    );
+}
+
+// Words of other programs are advised on.
+cases! { a_light_is_an_object:
+    a_sphere_as_light("sphere");
+    an_area_light("area");
+}
+
+cases! { assert_problem:
+    an_f_number(
         &with_camera("lens = { f_number = 2.8, radius = 0.1 }\n"),
-        &[(
-            "6:10",
-            "camera.lens.f_number",
-            &["unknown field", "the focal length divided by 2 N"],
-        )],
+        "6:10",
+        "camera.lens.f_number",
+        &["unknown field", "the focal length divided by 2 N"],
     );
-    assert_problems(
+    a_lens_without_a_radius(
         &with_camera("lens = { radius = 0 }\n"),
-        &[(
-            "6:19",
-            "camera.lens.radius",
-            &["found 0", "1e-6 to 1e6", "leave out `lens`"],
-        )],
+        "6:19",
+        "camera.lens.radius",
+        &["found 0", "1e-6 to 1e6", "leave out `lens`"],
     );
 }
 
-#[test]
-fn a_value_that_fits_no_form_is_reported_all_of_them() {
-    assert_problems(
+// A value that fits no form is reported with all of them.
+cases! { assert_problem:
+    a_boolean_as_reflectance(
         &with_material("type = 'diffuse'\nreflectance = true"),
-        &[(
-            "8:15",
-            "materials.x.reflectance",
-            &[
-                "the boolean true",
-                "a number, a string, a table with `srgb`, a table with `linear_srgb`, a table with `name`",
-                "`checker` and `size`",
-            ],
-        )],
+        "8:15",
+        "materials.x.reflectance",
+        &[
+            "the boolean true",
+            "a number, a string, a table with `srgb`, a table with `linear_srgb`, a table with `name`",
+            "`checker` and `size`",
+        ],
     );
-    assert_problems(
+    an_emission_without_a_spectrum(
         &with_material("type = 'emitter'\nemission = { scale = 3 }"),
-        &[(
-            "8:12",
-            "materials.x.emission",
-            &["found a table", "`constant`", "`illuminant`"],
-        )],
+        "8:12",
+        "materials.x.emission",
+        &["found a table", "`constant`", "`illuminant`"],
     );
-    assert_problems(
+    a_misspelled_spectrum_of_an_emission(
         &with_material("type = 'emitter'\nemission = { iluminant = 'D65' }"),
-        &[(
-            "8:14",
-            "materials.x.emission.iluminant",
-            &["did you mean `illuminant`?"],
-        )],
+        "8:14",
+        "materials.x.emission.iluminant",
+        &["did you mean `illuminant`?"],
     );
-    assert_problems(
+    a_table_as_objects(
         &with_camera("[objects]\ntype = 'sphere'"),
-        &[(
-            "6:1",
-            "objects",
-            &["found a table", "expected an array of tables"],
-        )],
+        "6:1",
+        "objects",
+        &["found a table", "expected an array of tables"],
     );
 }
 
-#[test]
-fn what_is_not_toml_gives_the_parsers_message_and_place() {
-    assert_problems(
-        "[camera\ntype = 3",
-        &[("1:8", "", &["unclosed table", "`]`"])],
-    );
-    assert_problems("", &[("1:1", "", &["empty"])]);
-    assert_problems("# only a comment\n", &[("1:1", "camera", &["is missing"])]);
-    assert_problems("a = 1\na = 2\n", &[("2:1", "", &["duplicate key"])]);
+cases! { assert_problem:
+    an_unclosed_table("[camera\ntype = 3", "1:8", "", &["unclosed table", "`]`"]);
+    an_empty_file("", "1:1", "", &["empty"]);
+    a_file_of_comments("# only a comment\n", "1:1", "camera", &["is missing"]);
+    a_key_that_is_there_twice("a = 1\na = 2\n", "2:1", "", &["duplicate key"]);
+}
+
+/// Text that is nested very deep is refused.
+fn bomb_refused(text: &str) {
+    assert!(format!("{:#}", problems_of(text)).starts_with("bad.toml:"));
+}
+
+cases! { bomb_refused:
+    a_million_brackets(&"[".repeat(1 << 20));
+    a_million_arrays(&("a=".to_owned() + &"[".repeat(1 << 20)));
+    a_million_tables(&("a=".to_owned() + &"{a=".repeat(1 << 20)));
 }
 
 #[test]
-fn nesting_bombs_are_refused() {
-    for text in [
-        "[".repeat(1 << 20),
-        "a=".to_owned() + &"[".repeat(1 << 20),
-        "a=".to_owned() + &"{a=".repeat(1 << 20),
-    ] {
-        assert!(format!("{:#}", problems_of(&text)).starts_with("bad.toml:"));
-    }
+fn dotted_keys_in_tables_are_bounded() {
     let keys = vec!["a"; 79].join(".");
     let deep = format!(
         "x = {}1{}",
         format!("{{{keys} = ").repeat(70),
         "}".repeat(70)
     );
-    assert_problems(&deep, &[("1:1", "", &["nested more than 32 deep"])]);
+    assert_problem(&deep, "1:1", "", &["nested more than 32 deep"]);
 }
 
 #[test]
@@ -293,24 +276,18 @@ fn of_very_many_problems_the_first_are_shown_and_the_rest_counted() {
     );
 }
 
-#[test]
-fn long_files_full_of_mistakes_are_judged_in_seconds() {
+/// A file of a megabyte with the same mistake again and again is judged in seconds.
+fn judged_in_seconds(opening: &str, mistake: &str, closing: &str) {
     let start = std::time::Instant::now();
-    for (opening, mistake, closing) in [
-        (
-            "[materials.x]\ntype = 'conductor'\nindex = { n = [1], nm = [",
-            "'', ",
-            "] }",
-        ),
-        ("", "[[objects]]\n", ""),
-        ("[materials]\n", "a.b=", "1"),
-    ] {
-        let text = format!(
-            "{opening}{}{closing}",
-            mistake.repeat((1 << 20) / mistake.len())
-        );
-        let problems = problems_of(&with_camera(&text));
-        assert!(problems.iter().len() <= Problems::MAX_SHOWN);
-    }
-    assert!(start.elapsed().as_secs() < 60, "{:?}", start.elapsed());
+    let mistakes = mistake.repeat((1 << 20) / mistake.len());
+    let text = format!("{opening}{mistakes}{closing}");
+    let problems = problems_of(&with_camera(&text));
+    assert!(problems.iter().len() <= Problems::MAX_SHOWN);
+    assert!(start.elapsed().as_secs() < 30, "{:?}", start.elapsed());
+}
+
+cases! { judged_in_seconds:
+    many_words_as_wavelengths("[materials.x]\ntype = 'conductor'\nindex = { n = [1], nm = [", "'', ", "] }");
+    many_empty_objects("", "[[objects]]\n", "");
+    many_dotted_keys("[materials]\n", "a.b=", "1");
 }

@@ -4,6 +4,7 @@ mod documents;
 mod materials;
 mod values;
 
+use crate::said;
 use pellicle_scene::{Problems, SceneFile};
 use std::path::Path;
 
@@ -34,15 +35,16 @@ fn assert_problems(text: &str, expected: &[Expected<'_>]) {
             "{listing}"
         );
         assert_eq!(problem.field.to_string(), *field, "{listing}");
-        let said = format!(
-            "{} | {}",
-            problem.message,
-            problem.help.clone().unwrap_or_default()
-        );
+        let said = said(problem);
         for phrase in *phrases {
             assert!(said.contains(phrase), "{said:?} lacks {phrase:?}");
         }
     }
+}
+
+/// The only problem of `text` is at this place, of this field, with these phrases.
+fn assert_problem(text: &str, place: &str, field: &str, phrases: &[&str]) {
+    assert_problems(text, &[(place, field, phrases)]);
 }
 
 /// A valid camera on five lines, then `rest` from line 6.
