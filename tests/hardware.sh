@@ -229,7 +229,7 @@ echo "building; this does not count" >&2
 # Built first with the options that the suites use, so that they find it built.
 cargo build --workspace --release --bin pellicle --examples >&2 || exit 2
 # shellcheck disable=SC2086 # Words, on purpose.
-cargo test --release -p pellicle-tests ${suites:---lib --tests} --no-run >&2 || exit 2
+cargo test --release -p pellicle-tests -p pellicle-cli ${suites:---lib --tests} --no-run >&2 || exit 2
 
 begun_at=$(date +%s)
 deadline=$((begun_at + all_limit))
@@ -273,7 +273,7 @@ done
     fi
 
     heading "tests${suites:+: $suites}"
-    limited "$all_limit" cargo test --release -p pellicle-tests ${suites:---lib --tests} --no-fail-fast
+    limited "$all_limit" cargo test --release -p pellicle-tests -p pellicle-cli ${suites:---lib --tests} --no-fail-fast
 }
 count_tests >>"$report" || all_well=false
 if grep -q '^test result: FAILED' "$folder/output"; then

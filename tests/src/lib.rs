@@ -2,7 +2,6 @@
 
 pub mod agreement;
 pub mod colorimetry;
-pub mod command;
 pub mod device;
 pub mod frames;
 pub mod probe;

@@ -46,35 +46,6 @@ fn pages() -> Vec<Source> {
     pages
 }
 
-#[test]
-fn the_commands_of_the_documentation_exist() {
-    let help = std::process::Command::new(pellicle_tests::command::program("pellicle"))
-        .arg("--help")
-        .output()
-        .expect("the command runs");
-    let help = String::from_utf8(help.stdout).expect("UTF-8");
-    let known: Vec<&str> = help
-        .lines()
-        .filter_map(|line| line.strip_prefix("  "))
-        .filter_map(|line| line.split_whitespace().next())
-        .collect();
-    assert!(known.contains(&"render") && known.len() >= 10, "{known:?}");
-    let mut named = 0;
-    for Source { path, text } in pages() {
-        // In a code span, at the start of a line of a block, or after cargo's two dashes.
-        let starts = ["`pellicle ", "\npellicle ", "run --release -- "];
-        for rest in starts.iter().flat_map(|start| text.split(start).skip(1)) {
-            let command: String = rest.chars().take_while(char::is_ascii_lowercase).collect();
-            assert!(
-                command.is_empty() || known.contains(&command.as_str()),
-                "{path}: pellicle {command}"
-            );
-            named += 1;
-        }
-    }
-    assert!(named > 30, "{named}");
-}
-
 /// Paths of the project that a page names, in code or as a link. A path with `<name>` in it is a pattern.
 fn paths_in(text: &str) -> Vec<&str> {
     let rooms = ["crates/", "docs/", "fuzz/", "scenes/", "shaders/", "tests/"];

@@ -1,10 +1,9 @@
-//! Tests of the command `pellicle materials`, and of the materials in a scene.
+//! Tests of `pellicle materials`.
 
-use pellicle_tests::command::{Place, Ran};
-use scene::SceneFile;
+use crate::assert_says;
+use crate::place::{Place, Ran};
 use serde_json::Value;
 use spectra::{material_info, material_names};
-use std::path::Path;
 
 fn materials(arguments: &str) -> Ran {
     Place::default().run(&format!("materials {arguments}"))
@@ -148,58 +147,14 @@ fn a_part_of_a_name_or_of_a_paper_finds_materials() {
     assert_eq!(found("DAIMON"), ["water"]);
 }
 
-#[test]
-fn unknown_names_are_reported_with_suggestions() {
-    for (arguments, said) in [
-        (
-            "glod",
-            "there is no material with a known index \"glod\"; did you mean \"gold\"?",
-        ),
-        ("unobtainium", "`pellicle materials` lists all"),
-        (
-            "--search unobtainium",
-            "no material matches \"unobtainium\"",
-        ),
-        ("gold --search gold", "cannot be used with"),
-        ("gold --format yaml", "[possible values: text, json]"),
-    ] {
-        let stderr = materials(arguments).failed();
-        assert!(stderr.contains(said), "{arguments}: {stderr}");
-    }
+fn refused(arguments: &str, words: &str) {
+    assert_says(&materials(arguments).failed(), &[words]);
 }
 
-#[test]
-fn an_index_of_any_form_makes_a_scene() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(
-        folder.path().join("glass.yml"),
-        "DATA:\n  - type: formula 5\n    wavelength_range: 0.3 1\n    coefficients: 1.5 0.004 -2\n",
-    )
-    .unwrap();
-    std::fs::write(folder.path().join("glass.csv"), "300,1.5\n1000,1.6\n").unwrap();
-    let forms = [
-        "1.5",
-        "[1.5, 0.01]",
-        "'bk7'",
-        "{ name = 'rutile', extrapolate = 'clamp' }",
-        "{ nm = [300, 1000], n = [1.5, 1.6] }",
-        "{ csv = 'glass.csv' }",
-        "{ yaml = 'glass.yml' }",
-        "{ cauchy = [1.5, 0.004] }",
-        "{ sellmeier = { b = [1.2], c_um2 = [0.01] } }",
-        "{ mixture = 'bruggeman', of = ['gold', { mixture = 'maxwell_garnett', of = ['water', 'silver'], fraction = 0.1 }], fraction = 0.5 }",
-    ];
-    let films = forms.iter().enumerate().map(|(number, index)| {
-        format!("[materials.m{number}]\ntype = 'film'\nthickness_nm = 300\nindex = {index}\n")
-    });
-    let camera = "camera = { type = 'perspective', position = [0, 1, 5], look_at = [0, 0, 0], fov_deg = 30 }\n";
-    let text = camera.to_owned() + &films.collect::<String>();
-    let parsed = SceneFile::parse("forms.toml", &text, folder.path());
-    let scene = parsed
-        .and_then(|file| file.validate())
-        .unwrap_or_else(|problems| panic!("{problems:#}"));
-    assert_eq!(scene.materials().len(), forms.len());
-    // Another folder does not have the files.
-    let elsewhere = SceneFile::parse("forms.toml", &text, Path::new("")).unwrap();
-    assert_eq!(elsewhere.validate().unwrap_err().iter().len(), 2);
+cases! { refused:
+    a_misspelled_name("glod", "there is no material with a known index \"glod\"; did you mean \"gold\"?");
+    an_unknown_name("unobtainium", "`pellicle materials` lists all");
+    a_search_without_results("--search unobtainium", "no material matches \"unobtainium\"");
+    a_name_and_a_search("gold --search gold", "cannot be used with");
+    an_unknown_format("gold --format yaml", "[possible values: text, json]");
 }

@@ -1,10 +1,11 @@
 //! Tests of `pellicle develop`, and of the same options in `pellicle render`.
 
+use crate::assert_says;
+use crate::place::Place;
 use color::BandWeights;
 use color::spectral_exr::{self, Metadata, WriteOptions};
 use color::xyz::equal_energy_luminance;
 use image::{ImageReader, RgbImage};
-use pellicle_tests::command::Place;
 use spectra::{BandGrid, SpectralImage};
 use std::collections::BTreeMap;
 
@@ -50,43 +51,42 @@ fn developed(place: &Place, options: &str) -> RgbImage {
 }
 
 #[test]
-fn each_step_is_controlled_by_its_option() {
+fn the_defaults_are_those_of_the_documentation() {
     let place = place();
     let plain = developed(&place, "");
     // The exposure that the image was rendered with is the default.
     assert_eq!(developed(&place, "--exposure 1"), plain);
-    assert_eq!(
-        developed(
-            &place,
-            "--gamut perceptual --glare off --adapt none --display srgb --bits 8"
-        ),
-        plain
-    );
+    let defaults = "--gamut perceptual --glare off --adapt none --display srgb --bits 8";
+    assert_eq!(developed(&place, defaults), plain);
     let white = equal_energy_luminance() / 2.0;
     assert_eq!(developed(&place, &format!("--exposure {white}cd")), plain);
-    for options in [
-        "--exposure 2",
-        "--exposure -1.5",
-        "--exposure 100cd",
-        "--exposure display",
-        "--exposure auto",
-        "--exposure auto:50",
-        "--adapt bradford --adapt-from mean",
-        "--adapt cat16 --adapt-from A",
-        "--adapt cat16 --adapt-from 0.4,0.4",
-        "--glare star",
-        "--glare star --star-length 0.5",
-        "--glare photopic",
-        "--glare mesopic",
-        "--glare scotopic --glare-fov 60",
-        "--gamut clip",
-        "--gamut white",
-        "--gamut-warning",
-        "--display bt2020",
-        "--dither",
-    ] {
-        assert_ne!(developed(&place, options), plain, "{options}");
-    }
+}
+
+fn changes_the_picture(options: &str) {
+    let place = place();
+    assert_ne!(developed(&place, options), developed(&place, ""));
+}
+
+cases! { changes_the_picture:
+    a_brighter_exposure("--exposure 2");
+    a_darker_exposure("--exposure -1.5");
+    the_luminance_of_white("--exposure 100cd");
+    the_exposure_of_the_display("--exposure display");
+    an_automatic_exposure("--exposure auto");
+    an_automatic_exposure_of_a_percentile("--exposure auto:50");
+    adaptation_from_the_mean("--adapt bradford --adapt-from mean");
+    adaptation_from_an_illuminant("--adapt cat16 --adapt-from A");
+    adaptation_from_a_chromaticity("--adapt cat16 --adapt-from 0.4,0.4");
+    a_star("--glare star");
+    a_short_star("--glare star --star-length 0.5");
+    photopic_glare("--glare photopic");
+    mesopic_glare("--glare mesopic");
+    scotopic_glare_of_a_field_of_view("--glare scotopic --glare-fov 60");
+    clipping("--gamut clip");
+    mapping_toward_white("--gamut white");
+    a_gamut_warning("--gamut-warning");
+    another_display("--display bt2020");
+    dither("--dither");
 }
 
 #[test]
@@ -183,51 +183,36 @@ fn files_have_the_requested_bit_depth() {
     );
 }
 
-#[test]
-fn impossible_options_are_reported_and_nothing_is_written() {
+/// `develop` fails with these words and writes nothing.
+fn refused(arguments: &str, words: &str) {
     let place = place();
     std::fs::write(place.path("notes.txt"), "no image").unwrap();
-    for (arguments, said) in [
-        ("image.exr -o out.jpg", "end it in .png"),
-        ("image.exr -o image.exr", "overwrite"),
-        ("image.exr -o out.png --bits 32", "no channels of 32 bits"),
-        ("image.exr -o out.exr --bits 8", "no channels of 8 bits"),
-        ("image.exr -o out.png --bits 12", "8 or 16 bits"),
-        ("image.exr -o none/out.png", "no folder"),
-        (
-            "image.exr -o out.png --exposure bright",
-            "write stops from -40",
-        ),
-        (
-            "image.exr -o out.png --exposure auto:101",
-            "write stops from -40",
-        ),
-        (
-            "image.exr -o out.png --exposure NaN",
-            "write stops from -40",
-        ),
-        ("image.exr -o out.png --adapt bradford", "with --adapt-from"),
-        ("image.exr -o out.png --adapt-from 0.9,0.9", "a sum up to 1"),
-        ("image.exr -o out.png --adapt-from X99", "X99"),
-        ("image.exr -o out.png --adapt warm", "cat16"),
-        ("image.exr -o out.png --display tv", "tv"),
-        ("image.exr -o out.png --display none.toml", "none.toml"),
-        (
-            "image.exr -o out.png --glare mesopic --glare-fov 190",
-            "170 degrees",
-        ),
-        (
-            "image.exr -o out.png --glare star --star-length 0",
-            "fraction of the height",
-        ),
-        ("image.exr", "--output"),
-        ("missing.exr -o out.png", "missing.exr"),
-        ("notes.txt -o out.png", "not an OpenEXR file"),
-    ] {
-        let error = place.run(&format!("develop {arguments}")).failed();
-        assert!(error.contains(said), "{arguments}: {error}");
-    }
+    let error = place.run(&format!("develop {arguments}")).failed();
+    assert_says(&error, &[words]);
     assert_eq!(place.names(), ["image.exr", "notes.txt"]);
+}
+
+cases! { refused:
+    an_output_of_an_unknown_type("image.exr -o out.jpg", "end it in .png");
+    the_image_itself_as_output("image.exr -o image.exr", "overwrite");
+    too_many_bits_for_a_png("image.exr -o out.png --bits 32", "no channels of 32 bits");
+    too_few_bits_for_an_exr("image.exr -o out.exr --bits 8", "no channels of 8 bits");
+    twelve_bits("image.exr -o out.png --bits 12", "8 or 16 bits");
+    a_missing_folder("image.exr -o none/out.png", "no folder");
+    an_exposure_in_words("image.exr -o out.png --exposure bright", "write stops from -40");
+    a_percentile_above_100("image.exr -o out.png --exposure auto:101", "write stops from -40");
+    an_exposure_that_is_no_number("image.exr -o out.png --exposure NaN", "write stops from -40");
+    adaptation_from_nothing("image.exr -o out.png --adapt bradford", "with --adapt-from");
+    an_impossible_chromaticity("image.exr -o out.png --adapt-from 0.9,0.9", "a sum up to 1");
+    an_unknown_white("image.exr -o out.png --adapt-from X99", "X99");
+    an_unknown_adaptation("image.exr -o out.png --adapt warm", "cat16");
+    an_unknown_display("image.exr -o out.png --display tv", "tv");
+    a_missing_display_file("image.exr -o out.png --display none.toml", "none.toml");
+    a_field_of_view_that_is_too_wide("image.exr -o out.png --glare mesopic --glare-fov 190", "170 degrees");
+    a_star_without_length("image.exr -o out.png --glare star --star-length 0", "fraction of the height");
+    no_output("image.exr", "--output");
+    a_missing_image("missing.exr -o out.png", "missing.exr");
+    a_text_as_image("notes.txt -o out.png", "not an OpenEXR file");
 }
 
 /// Glare in a human eye depends on the field of view: from the scene's camera, which is stored in the file, or from the option.
@@ -284,20 +269,22 @@ center = [0, 0, 0]
 radius = 1
 "#;
 
-/// Developing the file of a render gives the same picture as rendering it, to the byte, whatever the options.
-#[test]
-fn rendering_equals_rendering_then_developing() {
+/// Developing the file of a render gives the same picture as rendering it, to the byte.
+fn rendering_equals_developing(options: &str) {
     let place = Place::default();
     std::fs::write(place.path("scene.toml"), SCENE).unwrap();
-    for options in [
-        "",
+    let render = format!("render scene.toml --backend cpu -o a.png -o a.exr {options}");
+    let _ = place.run(&render).succeeded();
+    let _ = place
+        .run(&format!("develop a.exr -o b.png {options}"))
+        .succeeded();
+    let [a, b] = ["a.png", "b.png"].map(|name| std::fs::read(place.path(name)).unwrap());
+    assert!(a == b);
+}
+
+cases! { rendering_equals_developing:
+    rendering_equals_developing_by_default("");
+    rendering_equals_developing_with_options(
         "--glare mesopic --display display_p3 --exposure 2 --dither --gamut white",
-    ] {
-        let render = format!("render scene.toml --backend cpu -o a.png -o a.exr {options}");
-        assert!(place.run(&render).success);
-        let develop = format!("develop a.exr -o b.png {options}");
-        assert!(place.run(&develop).success);
-        let [a, b] = ["a.png", "b.png"].map(|name| std::fs::read(place.path(name)).unwrap());
-        assert!(a == b, "{options}");
-    }
+    );
 }
