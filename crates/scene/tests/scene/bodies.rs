@@ -148,120 +148,103 @@ fn the_gain_of_the_printed_constants() {
     assert!((printed - 4.0 * 0.3 * 0.28263).abs() < 1e-4, "{printed}");
 }
 
-/// A conductor of gold with more fields.
-fn gold(rest: &str) -> String {
-    format!("{{ type = 'conductor', index = 'gold', {rest} }}")
+/// A material has one problem, at the given field and with the given words.
+fn refused(material: &str, field: &str, words: &str) {
+    let problems = scene(material).expect_err(material);
+    let reported: Vec<_> = problems.iter().collect();
+    assert_eq!(reported.len(), 1, "{problems:#}");
+    assert_eq!(reported[0].field.to_string(), format!("materials.a{field}"));
+    assert!(
+        reported[0].message.contains(words),
+        "{}",
+        reported[0].message
+    );
 }
 
-/// Each material has one problem, at the given field and with the given words.
-fn one_problem_each(cases: &[(String, &str, &str)]) {
-    for (material, field, words) in cases {
-        let problems = scene(material).expect_err(material);
-        let reported: Vec<_> = problems.iter().collect();
-        assert_eq!(reported.len(), 1, "{material}: {problems:#}");
-        assert_eq!(reported[0].field.to_string(), *field, "{material}");
-        assert!(
-            reported[0].message.contains(words),
-            "{material}: {}",
-            reported[0].message
-        );
-    }
+/// A conductor of gold with these fields is refused.
+fn gold(rest: &str, field: &str, words: &str) {
+    let material = format!("{{ type = 'conductor', index = 'gold', {rest} }}");
+    refused(&material, field, words);
 }
 
-#[test]
-fn what_does_not_fit_cooks_model_is_reported() {
-    one_problem_each(&[
-        (
-            gold("model = 'cook1981'"),
-            "materials.a",
-            "give the material a `roughness`",
-        ),
-        (
-            gold("roughness = 0.3, distribution = 'ggx', model = 'cook1981'"),
-            "materials.a.distribution",
-            "cannot use",
-        ),
-        (
-            gold("roughness = 0.3, model = { cook1981 = { constant = 2 } }"),
-            "materials.a.model.cook1981.constant",
-            "only D1",
-        ),
-        (
-            gold("model = { cook1981 = { slopes = [{ m = 0.2, weight = 0.4 }] } }"),
-            "materials.a.model.cook1981.slopes",
-            "sum to 0.4",
-        ),
-        (
-            gold("roughness = 0.3, model = { cook1981 = { slopes = [{ m = 0.2, weight = 1 }] } }"),
-            "materials.a.model.cook1981.slopes",
-            "only one of them",
-        ),
-        (
-            gold(
-                "roughness = 0.3, model = { cook1981 = { diffuse = 0.4, diffuse_reflectance = 0.5 } }",
-            ),
-            "materials.a.model.cook1981.diffuse",
-            "at most 1",
-        ),
-        (
-            gold("roughness = 0.3, model = { cook1981 = { specular = 0.5, diffuse = 0.4 } }"),
-            "materials.a.model.cook1981.diffuse_reflectance",
-            "needs",
-        ),
-        (
-            gold(
-                "roughness = 0.3, model = { cook1981 = { distribution = 'gaussian', constant = 1e6 } }",
-            ),
-            "materials.a.model.cook1981.constant",
-            "at most 16 times is possible, which is 4.718e1",
-        ),
-        (
-            gold(
-                "roughness = 0.3, model = { cook1981 = { ambient = { constant = 1, power_w = 1 } } }",
-            ),
-            "materials.a.model.cook1981.ambient.power_w",
-            "ambient light has no `power_w`",
-        ),
-    ]);
+cases! { gold:
+    cooks_model_without_a_roughness("model = 'cook1981'", "", "give the material a `roughness`");
+    cooks_model_of_another_distribution(
+        "roughness = 0.3, distribution = 'ggx', model = 'cook1981'",
+        ".distribution",
+        "cannot use",
+    );
+    a_constant_of_d2(
+        "roughness = 0.3, model = { cook1981 = { constant = 2 } }",
+        ".model.cook1981.constant",
+        "only D1",
+    );
+    slopes_whose_weights_do_not_sum_to_1(
+        "model = { cook1981 = { slopes = [{ m = 0.2, weight = 0.4 }] } }",
+        ".model.cook1981.slopes",
+        "sum to 0.4",
+    );
+    a_roughness_and_slopes(
+        "roughness = 0.3, model = { cook1981 = { slopes = [{ m = 0.2, weight = 1 }] } }",
+        ".model.cook1981.slopes",
+        "only one of them",
+    );
+    a_diffuse_part_that_is_too_bright(
+        "roughness = 0.3, model = { cook1981 = { diffuse = 0.4, diffuse_reflectance = 0.5 } }",
+        ".model.cook1981.diffuse",
+        "at most 1",
+    );
+    a_diffuse_part_without_a_reflectance(
+        "roughness = 0.3, model = { cook1981 = { specular = 0.5, diffuse = 0.4 } }",
+        ".model.cook1981.diffuse_reflectance",
+        "needs",
+    );
+    a_constant_that_is_too_large(
+        "roughness = 0.3, model = { cook1981 = { distribution = 'gaussian', constant = 1e6 } }",
+        ".model.cook1981.constant",
+        "at most 16 times is possible, which is 4.718e1",
+    );
+    ambient_light_with_a_power(
+        "roughness = 0.3, model = { cook1981 = { ambient = { constant = 1, power_w = 1 } } }",
+        ".model.cook1981.ambient.power_w",
+        "ambient light has no `power_w`",
+    );
 }
 
-#[test]
-fn what_does_not_fit_an_index_is_reported() {
-    one_problem_each(&[
-        (
-            "{ type = 'conductor', index = { normal_reflectance = 0.999 } }".to_owned(),
-            "materials.a.index.normal_reflectance",
-            "0.996",
-        ),
-        (
-            "{ type = 'dielectric', index = 'gold', base = 0.5 }".to_owned(),
-            "materials.a.index",
-            "must be clear (k at most 1e-5)",
-        ),
-        (
-            "{ type = 'dielectric', index = [1.5, 1e-4], base = 0.5 }".to_owned(),
-            "materials.a.index",
-            "found k = 0.0001",
-        ),
-        (
-            "{ type = 'conductor', index = { normal_reflectance = 1.5 } }".to_owned(),
-            "materials.a.index.normal_reflectance",
-            "0 to 0.996",
-        ),
-        (
-            "{ type = 'conductor', index = { normal_reflectance = { nm = [380, 780], values = [0.5, 1.5] } } }".to_owned(),
-            "materials.a.index.normal_reflectance.values[1]",
-            "found 1.5; it must be from 0 to 0.996",
-        ),
-        (
-            "{ type = 'conductor', index = { normal_reflectance = { linear_srgb = [1, 1, 1] } } }".to_owned(),
-            "materials.a.index.normal_reflectance",
-            "nm; it must be from 0 to 0.996",
-        ),
-        (
-            "{ type = 'conductor', index = { normal_reflectance = 'gold' } }".to_owned(),
-            "materials.a.index.normal_reflectance",
-            "the name of an index",
-        ),
-    ]);
+cases! { refused:
+    a_normal_reflectance_near_1(
+        "{ type = 'conductor', index = { normal_reflectance = 0.999 } }",
+        ".index.normal_reflectance",
+        "0.996",
+    );
+    a_coat_of_gold(
+        "{ type = 'dielectric', index = 'gold', base = 0.5 }",
+        ".index",
+        "must be clear (k at most 1e-5)",
+    );
+    a_coat_that_absorbs(
+        "{ type = 'dielectric', index = [1.5, 1e-4], base = 0.5 }",
+        ".index",
+        "found k = 0.0001",
+    );
+    a_normal_reflectance_above_1(
+        "{ type = 'conductor', index = { normal_reflectance = 1.5 } }",
+        ".index.normal_reflectance",
+        "0 to 0.996",
+    );
+    a_normal_reflectance_above_1_in_a_table(
+        "{ type = 'conductor', index = { normal_reflectance = { nm = [380, 780], values = [0.5, 1.5] } } }",
+        ".index.normal_reflectance.values[1]",
+        "found 1.5; it must be from 0 to 0.996",
+    );
+    a_normal_reflectance_of_white(
+        "{ type = 'conductor', index = { normal_reflectance = { linear_srgb = [1, 1, 1] } } }",
+        ".index.normal_reflectance",
+        "nm; it must be from 0 to 0.996",
+    );
+    a_normal_reflectance_by_name(
+        "{ type = 'conductor', index = { normal_reflectance = 'gold' } }",
+        ".index.normal_reflectance",
+        "the name of an index",
+    );
 }

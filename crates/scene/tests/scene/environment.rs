@@ -78,10 +78,8 @@ fn write_spectra(path: &Path, [width, height]: [u32; 2], bands: BandGrid, value:
         .unwrap();
 }
 
-#[test]
-fn files_that_are_no_pictures_of_light_are_reported() {
-    let directory = TempDir::new().unwrap();
-    let folder = directory.path();
+/// Writes files that are no pictures of light.
+fn write_bad_files(folder: &Path) {
     let hdr = include_bytes!("../../../../tests/data/environment.hdr");
     fs::write(folder.join("cut.hdr"), &hdr[..hdr.len() / 2]).unwrap();
     fs::write(folder.join("head.hdr"), &hdr[..20]).unwrap();
@@ -108,28 +106,30 @@ fn files_that_are_no_pictures_of_light_are_reported() {
     );
     let spectra = fs::read(folder.join("spectra.exr")).unwrap();
     fs::write(folder.join("few.exr"), &spectra[..spectra.len() / 2]).unwrap();
-    let neither = "neither channels R, G and B, nor X, Y and Z";
-    for (name, phrase) in [
-        ("none.hdr", "cannot be opened"),
-        ("cut.hdr", "cut short"),
-        ("head.hdr", "cut short"),
-        (
-            "text.hdr",
-            "neither a Radiance picture (.hdr) nor an OpenEXR picture",
-        ),
-        ("folder.exr", "is a directory"),
-        ("depth.exr", neither),
-        ("layers.exr", "several layers of colors, \"a\", \"b\""),
-        ("cut.exr", "cut short"),
-        ("head.exr", "cut short"),
-        ("few.exr", "cut short"),
-    ] {
-        assert_reported(
-            surrounded_by(folder, name),
-            "environment.image",
-            &[name, phrase],
-        );
-    }
+}
+
+/// A file that is no picture of light is reported with this phrase.
+fn no_picture(name: &str, phrase: &str) {
+    let directory = TempDir::new().unwrap();
+    write_bad_files(directory.path());
+    assert_reported(
+        surrounded_by(directory.path(), name),
+        "environment.image",
+        &[name, phrase],
+    );
+}
+
+cases! { no_picture:
+    a_missing_picture("none.hdr", "cannot be opened");
+    half_a_radiance_file("cut.hdr", "cut short");
+    the_header_of_a_radiance_file("head.hdr", "cut short");
+    a_text("text.hdr", "neither a Radiance picture (.hdr) nor an OpenEXR picture");
+    a_folder("folder.exr", "is a directory");
+    a_picture_of_depths("depth.exr", "neither channels R, G and B, nor X, Y and Z");
+    a_picture_of_two_layers("layers.exr", "several layers of colors, \"a\", \"b\"");
+    an_openexr_file_without_its_end("cut.exr", "cut short");
+    the_header_of_an_openexr_file("head.exr", "cut short");
+    half_a_spectral_file("few.exr", "cut short");
 }
 
 /// Luminance is gray, and a layer is chosen by name. The last number of each texel is twice its largest component.
@@ -213,35 +213,37 @@ fn pictures_of_a_wrong_size_are_reported() {
     );
 }
 
-#[test]
-fn pixels_that_are_no_light_are_reported_by_their_place() {
+fn no_light(value: f32, said: &str) {
     let directory = TempDir::new().unwrap();
-    let folder = directory.path();
-    for (name, value, said) in [
-        ("nan.exr", f32::NAN, "a value of NaN"),
-        ("inf.exr", f32::INFINITY, "a value of inf"),
-        ("minus_inf.exr", f32::NEG_INFINITY, "a value of -inf"),
-        ("bright.exr", 2e9, "a value of 2e9"),
-    ] {
-        let mut values = [1.0; 32];
-        values[2 * 8 + 5] = value;
-        write_exr(&folder.join(name), (8, 4), &["R", "G", "B"], &values, None);
-        let phrases = [name, "column 6 of row 3", said, "at most 1e9"];
-        assert_reported(surrounded_by(folder, name), "environment.image", &phrases);
-    }
-    for (name, value) in [
-        ("nan_spectra.exr", f32::NAN),
-        ("inf_spectra.exr", f32::INFINITY),
-    ] {
-        write_spectra(
-            &folder.join(name),
-            [4, 2],
-            BandGrid::visible(8).unwrap(),
-            value,
-        );
-        let phrases = [name, "column 1 of row 1", "it must be a number"];
-        assert_reported(surrounded_by(folder, name), "environment.image", &phrases);
-    }
+    let mut values = [1.0; 32];
+    values[2 * 8 + 5] = value;
+    let path = directory.path().join("a.exr");
+    write_exr(&path, (8, 4), &["R", "G", "B"], &values, None);
+    let phrases = ["a.exr", "column 6 of row 3", said, "at most 1e9"];
+    let read = surrounded_by(directory.path(), "a.exr");
+    assert_reported(read, "environment.image", &phrases);
+}
+
+fn no_spectrum_of_light(value: f32) {
+    let directory = TempDir::new().unwrap();
+    let bands = BandGrid::visible(8).unwrap();
+    write_spectra(&directory.path().join("a.exr"), [4, 2], bands, value);
+    let phrases = ["a.exr", "column 1 of row 1", "it must be a number"];
+    let read = surrounded_by(directory.path(), "a.exr");
+    assert_reported(read, "environment.image", &phrases);
+}
+
+// Pixels that are no light are reported by their place.
+cases! { no_light:
+    a_pixel_that_is_no_number(f32::NAN, "a value of NaN");
+    an_infinite_pixel(f32::INFINITY, "a value of inf");
+    a_pixel_of_minus_infinity(f32::NEG_INFINITY, "a value of -inf");
+    a_pixel_that_is_too_bright(2e9, "a value of 2e9");
+}
+
+cases! { no_spectrum_of_light:
+    a_spectrum_that_is_no_number(f32::NAN);
+    an_infinite_spectrum(f32::INFINITY);
 }
 
 /// Colors outside of sRGB have components below 0, and so does the ringing of filters: they are clipped.
@@ -339,34 +341,25 @@ fn the_primaries_of_a_file_are_honored() {
     );
 }
 
-#[test]
-fn textures_that_cannot_be_used_are_reported() {
+fn bad_texture(name: &str, phrase: &str) {
     let directory = TempDir::new().unwrap();
     let folder = directory.path();
     let png = include_bytes!("../../../../tests/data/colors.png");
     fs::write(folder.join("cut.png"), &png[..png.len() / 2]).unwrap();
-    fs::write(
-        folder.join("other.png"),
-        include_bytes!("../../../../tests/data/environment.hdr"),
-    )
-    .unwrap();
-    let texture = |name: &str| {
-        checked(
-            folder,
-            &format!(
-                "[materials.wall]\ntype = 'diffuse'\nreflectance = {{ texture = '{name}' }}\n\
-                 [[objects]]\ntype = 'sphere'\nmaterial = 'wall'\ncenter = [0, 0, 0]\nradius = 1"
-            ),
-        )
-    };
-    for (name, phrase) in [
-        ("none.png", "cannot be opened"),
-        ("cut.png", "is not a PNG picture that can be read"),
-        ("other.png", "is not a PNG picture that can be read"),
-    ] {
-        let field = "materials.wall.reflectance.texture";
-        assert_reported(texture(name), field, &[name, phrase]);
-    }
+    let hdr = include_bytes!("../../../../tests/data/environment.hdr");
+    fs::write(folder.join("other.png"), hdr).unwrap();
+    let texture = format!(
+        "[materials.wall]\ntype = 'diffuse'\nreflectance = {{ texture = '{name}' }}\n\
+         [[objects]]\ntype = 'sphere'\nmaterial = 'wall'\ncenter = [0, 0, 0]\nradius = 1"
+    );
+    let field = "materials.wall.reflectance.texture";
+    assert_reported(checked(folder, &texture), field, &[name, phrase]);
+}
+
+cases! { bad_texture:
+    a_missing_texture("none.png", "cannot be opened");
+    half_a_texture("cut.png", "is not a PNG picture that can be read");
+    a_radiance_file_as_texture("other.png", "is not a PNG picture that can be read");
 }
 
 fn sky(says: &str) -> Result<Scene, Problems> {
@@ -426,27 +419,18 @@ fn the_sun_is_there_unless_it_is_left_out() {
     }
 }
 
-#[test]
-fn what_a_sky_cannot_be_is_reported() {
-    for (says, field, phrase) in [
-        (", sun = 1", "environment.sun", "true or false"),
-        (
-            ", sun_light_group = 'a b'",
-            "environment.sun_light_group",
-            "cannot be the name",
-        ),
-        (", turbidity = 1", "environment.turbidity", "2 to 10"),
-        (", scale = -1", "environment.scale", "0 to 1e9"),
-        (", scale = 1e8", "environment.scale", "at most 1e9"),
-    ] {
-        let problems = sky(says).expect_err(says);
-        let said = format!("{problems:#}");
-        assert_eq!(problems.iter().count(), 1, "{said}");
-        assert_eq!(
-            problems.iter().next().unwrap().field.to_string(),
-            field,
-            "{said}"
-        );
-        assert!(said.contains(phrase), "{said}");
-    }
+fn bad_sky(says: &str, field: &str, phrase: &str) {
+    let problems = sky(says).expect_err(says);
+    assert_eq!(problems.iter().count(), 1, "{problems:#}");
+    let problem = problems.iter().next().unwrap();
+    assert_eq!(problem.field.to_string(), field, "{problems:#}");
+    assert!(format!("{problems:#}").contains(phrase), "{problems:#}");
+}
+
+cases! { bad_sky:
+    a_number_as_sun(", sun = 1", "environment.sun", "true or false");
+    a_sun_with_a_bad_name(", sun_light_group = 'a b'", "environment.sun_light_group", "cannot be the name");
+    a_sky_that_is_too_clear(", turbidity = 1", "environment.turbidity", "2 to 10");
+    a_sky_below_0(", scale = -1", "environment.scale", "0 to 1e9");
+    a_sky_that_is_too_bright(", scale = 1e8", "environment.scale", "at most 1e9");
 }

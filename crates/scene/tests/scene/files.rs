@@ -24,8 +24,8 @@ fn with_csv(directory: &Path, name: &str) -> Result<pellicle_scene::Scene, Probl
     file::load(directory.join("scene.toml"))
 }
 
-#[test]
-fn scene_files_that_cannot_be_read_say_why() {
+/// A scene file that cannot be read says why.
+fn unreadable(name: &str, expected: &str) {
     let directory = TempDir::new().unwrap();
     let path = |name: &str| directory.path().join(name);
     fs::write(path("binary.toml"), b"a = 1\n\xff\xfe\x00").unwrap();
@@ -33,25 +33,18 @@ fn scene_files_that_cannot_be_read_say_why() {
         .unwrap()
         .set_len((16 << 20) + 1)
         .unwrap();
-    let cases = [
-        ("missing.toml", "missing.toml: cannot be opened"),
-        ("", "is a directory"),
-        (
-            "binary.toml",
-            "binary.toml: is not text: line 2 has a zero byte",
-        ),
-        ("huge.toml", "huge.toml: is larger than 16 MiB"),
-    ];
-    for (name, expected) in cases {
-        let problems = SceneFile::read(path(name)).unwrap_err();
-        assert!(
-            reported(&problems).contains(expected),
-            "{}",
-            reported(&problems)
-        );
-        let kinds: Vec<_> = problems.iter().map(|problem| problem.kind).collect();
-        assert_eq!(kinds, [ProblemKind::File]);
-    }
+    let problems = SceneFile::read(path(name)).unwrap_err();
+    let said = reported(&problems);
+    assert!(said.contains(expected), "{said}");
+    let kinds: Vec<_> = problems.iter().map(|problem| problem.kind).collect();
+    assert_eq!(kinds, [ProblemKind::File]);
+}
+
+cases! { unreadable:
+    a_missing_scene("missing.toml", "missing.toml: cannot be opened");
+    a_folder_as_scene("", "is a directory");
+    a_binary_scene("binary.toml", "binary.toml: is not text: line 2 has a zero byte");
+    a_scene_that_is_too_long("huge.toml", "huge.toml: is larger than 16 MiB");
 }
 
 #[test]
@@ -73,79 +66,49 @@ fn a_table_file_is_read_beside_the_scene() {
     assert_eq!(scene.spectra()[1].extent(), (0.0, 0.0));
 }
 
-#[test]
-fn table_files_that_cannot_be_used_name_the_field_and_the_line() {
+/// A table file that cannot be used is reported with its field and its line.
+fn bad_table(content: &[u8], expected: &str) {
     let directory = TempDir::new().unwrap();
-    let cases: &[(&str, &[u8], &str)] = &[
-        ("empty.csv", b"", "empty.csv: the table has no points"),
-        (
-            "heading.csv",
-            b"nm,n,k\n",
-            "heading.csv: the table has no points",
-        ),
-        (
-            "words.csv",
-            b"nm,n,k\n380,1,2\n780,x,2\n",
-            "words.csv: line 3: \"x\" is not a number",
-        ),
-        (
-            "narrow.csv",
-            b"380,1.0,2\n780\n",
-            "narrow.csv: line 2: found 1 columns, expected 3",
-        ),
-        (
-            "wide.csv",
-            b"380,1,2,3\n",
-            "wide.csv: line 1: found 4 columns",
-        ),
-        (
-            "twice.csv",
-            b"780,1.0,2\n780,1,2\n",
-            "twice.csv: lines 1 and 2 are both at 780",
-        ),
-        (
-            "commas.csv",
-            b"380,1,2\n780,1,2\n",
-            "commas.csv: line 1: \"380,1,2\" is ambiguous",
-        ),
-        (
-            "nan.csv",
-            b"380,nan,2\n780,1,2\n",
-            "nan.csv: line 1: \"nan\" is not a number",
-        ),
-        (
-            "short.csv",
-            b"400,1.0,2\n700,1,2\n",
-            "the data cover 400 to 700 nm",
-        ),
-        (
-            "binary.csv",
-            b"380,1\n\xff\xff",
-            "binary.csv: is not text: line 2",
-        ),
-    ];
-    for (name, content, expected) in cases {
-        fs::write(directory.path().join(name), content).unwrap();
-        let problems = with_csv(directory.path(), name).unwrap_err();
-        let text = reported(&problems);
-        assert!(text.contains(expected), "{text}");
-        assert!(text.contains("scene.toml:8:"), "{text}");
-        assert!(text.contains("materials.metal.index"), "{text}");
-        assert_eq!(problems.iter().len(), 1, "{text}");
+    fs::write(directory.path().join("t.csv"), content).unwrap();
+    let problems = with_csv(directory.path(), "t.csv").unwrap_err();
+    let text = reported(&problems);
+    for words in [expected, "scene.toml:8:", "materials.metal.index"] {
+        assert!(text.contains(words), "{words:?} is not in {text}");
     }
+    assert_eq!(problems.iter().len(), 1, "{text}");
+}
+
+cases! { bad_table:
+    an_empty_table(b"", "t.csv: the table has no points");
+    a_table_of_a_heading(b"nm,n,k\n", "t.csv: the table has no points");
+    a_word_in_a_table(b"nm,n,k\n380,1,2\n780,x,2\n", "t.csv: line 3: \"x\" is not a number");
+    a_table_with_a_short_row(b"380,1.0,2\n780\n", "t.csv: line 2: found 1 columns, expected 3");
+    a_table_with_too_many_columns(b"380,1,2,3\n", "t.csv: line 1: found 4 columns");
+    a_wavelength_that_is_there_twice(b"780,1.0,2\n780,1,2\n", "t.csv: lines 1 and 2 are both at 780");
+    a_table_whose_commas_are_ambiguous(b"380,1,2\n780,1,2\n", "t.csv: line 1: \"380,1,2\" is ambiguous");
+    a_table_with_a_nan(b"380,nan,2\n780,1,2\n", "t.csv: line 1: \"nan\" is not a number");
+    a_table_that_is_too_short(b"400,1.0,2\n700,1,2\n", "the data cover 400 to 700 nm");
+    a_binary_table(b"380,1\n\xff\xff", "t.csv: is not text: line 2");
+}
+
+#[test]
+fn a_table_that_is_too_long() {
     let long: Vec<String> = (0..100_001)
         .map(|i| format!("{},1,1\n", 380.0 + f64::from(i) * 0.01))
         .collect();
-    fs::write(directory.path().join("long.csv"), long.concat()).unwrap();
-    let text = reported(&with_csv(directory.path(), "long.csv").unwrap_err());
-    assert!(text.contains("has more than 100000 points"), "{text}");
-    for (name, expected) in [("none.csv", "cannot be opened"), ("", "is a directory")] {
-        let text = reported(&with_csv(directory.path(), name).unwrap_err());
-        assert!(
-            text.contains(expected) && text.contains("materials.metal.index.csv"),
-            "{text}"
-        );
-    }
+    bad_table(long.concat().as_bytes(), "has more than 100000 points");
+}
+
+fn no_table(name: &str, expected: &str) {
+    let directory = TempDir::new().unwrap();
+    let text = reported(&with_csv(directory.path(), name).unwrap_err());
+    assert!(text.contains(expected), "{text}");
+    assert!(text.contains("materials.metal.index.csv"), "{text}");
+}
+
+cases! { no_table:
+    a_missing_table("none.csv", "cannot be opened");
+    a_folder_as_table("", "is a directory");
 }
 
 #[cfg(unix)]
@@ -298,60 +261,43 @@ fn with_reflectance(csv: &str, more: &str) -> Result<(f64, Vec<String>), Problem
     Ok((table.unwrap().at(20, 0.0), scene.notes()))
 }
 
-#[test]
-fn tables_say_what_was_assumed_and_take_columns_and_units() {
-    // 580 nm is halfway between 380 and 780.
-    for (csv, more, said) in [
-        ("380,0.25\n780,0.75\n", "", ""),
-        (
-            "nm,%R\n380,25\n780,75\n",
-            "",
-            "read with values in percent, as the file says",
-        ),
-        (
-            "780;0,75\n380;0,25\n",
-            "",
-            "semicolons between columns; decimal commas; rows reversed",
-        ),
-        ("nm,R,T\n380,0.25,1\n780,0.75,1\n", ", column = 'R'", ""),
-        ("nm,R,T\n380,0.25,1\n780,0.75,1\n", ", column = 2", ""),
-        ("0.38,25\n0.78,75\n", ", unit = 'um percent'", ""),
-    ] {
-        let (value, notes) =
-            with_reflectance(csv, more).unwrap_or_else(|p| panic!("{}", reported(&p)));
-        assert!((value - 0.5).abs() < 1e-12, "{csv}: {value}");
-        let notes: Vec<_> = notes
-            .iter()
-            .filter(|note| note.contains("tile.txt"))
-            .collect();
-        assert_eq!(notes.len(), usize::from(!said.is_empty()), "{notes:?}");
-        assert!(
-            notes
-                .iter()
-                .all(|note| note.contains(said) && note.contains("materials.tile.reflectance.csv")),
-            "{notes:?}"
-        );
+/// A table gives a reflectance of 1/2 and a note on what was assumed, if anything was. 580 nm is halfway between 380 and 780.
+fn half_reflectance(csv: &str, more: &str, said: &str) {
+    let (value, notes) = with_reflectance(csv, more).unwrap_or_else(|p| panic!("{}", reported(&p)));
+    assert!((value - 0.5).abs() < 1e-12, "{value}");
+    let notes: Vec<_> = notes
+        .iter()
+        .filter(|note| note.contains("tile.txt"))
+        .collect();
+    assert_eq!(notes.len(), usize::from(!said.is_empty()), "{notes:?}");
+    for note in notes {
+        assert!(note.contains(said), "{note}");
+        assert!(note.contains("materials.tile.reflectance.csv"), "{note}");
     }
-    for (csv, more, said) in [
-        ("380,25\n", "", "unit = \"percent\""),
-        ("0.38,0.5\n", "", "unit = \"um\""),
-        (
-            "380,0.5\n",
-            ", unit = 'mile'",
-            "reflectance.unit: found \"mile\"",
-        ),
-        (
-            "nm,R,T\n380,0.5,1\n",
-            "",
-            "the columns are 1 \"nm\", 2 \"R\", 3 \"T\"",
-        ),
-        (
-            "nm,R,T\n380,0.5,1\n",
-            ", column = 'X'",
-            "there is no column \"X\"",
-        ),
-    ] {
-        let problems = reported(&with_reflectance(csv, more).unwrap_err());
-        assert!(problems.contains(said), "{problems}");
-    }
+}
+
+cases! { half_reflectance:
+    a_table_of_fractions("380,0.25\n780,0.75\n", "", "");
+    a_table_of_percents("nm,%R\n380,25\n780,75\n", "", "read with values in percent, as the file says");
+    a_table_with_decimal_commas_and_reversed_rows(
+        "780;0,75\n380;0,25\n",
+        "",
+        "semicolons between columns; decimal commas; rows reversed",
+    );
+    a_column_by_its_name("nm,R,T\n380,0.25,1\n780,0.75,1\n", ", column = 'R'", "");
+    a_column_by_its_number("nm,R,T\n380,0.25,1\n780,0.75,1\n", ", column = 2", "");
+    a_table_with_a_unit("0.38,25\n0.78,75\n", ", unit = 'um percent'", "");
+}
+
+fn no_reflectance(csv: &str, more: &str, said: &str) {
+    let problems = reported(&with_reflectance(csv, more).unwrap_err());
+    assert!(problems.contains(said), "{problems}");
+}
+
+cases! { no_reflectance:
+    percents_without_a_unit("380,25\n", "", "unit = \"percent\"");
+    micrometers_without_a_unit("0.38,0.5\n", "", "unit = \"um\"");
+    an_unknown_unit("380,0.5\n", ", unit = 'mile'", "reflectance.unit: found \"mile\"");
+    a_table_of_several_columns("nm,R,T\n380,0.5,1\n", "", "the columns are 1 \"nm\", 2 \"R\", 3 \"T\"");
+    an_unknown_column("nm,R,T\n380,0.5,1\n", ", column = 'X'", "there is no column \"X\"");
 }

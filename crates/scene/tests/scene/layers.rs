@@ -72,70 +72,57 @@ fn two_beams_take_either_path_difference() {
     assert_eq!(with("path_difference = 'as_printed'"), printed);
 }
 
-#[test]
-fn what_is_wrong_with_layers_is_reported() {
-    let many = vec!["{ index = 1.5, thickness_nm = 1 }"; limits::MAX_LAYERS + 1].join(", ");
-    for (body, field, phrases) in [
-        (
-            "type = 'film'",
-            "materials.x",
-            &["`index` and `thickness_nm`", "`layers`"][..],
-        ),
-        (
-            "type = 'film'\nindex = 1.5",
-            "materials.x",
-            &["found `index`;", "`thickness_nm`"],
-        ),
-        (
-            "type = 'film'\nindex = 1.5\nlayers = []",
-            "materials.x",
-            &["found `index` and `layers`"],
-        ),
-        (
-            "type = 'film'\nlayers = []",
-            "materials.x.layers",
-            &["found 0 layers", "from 1 to 64"],
-        ),
-        (
-            &format!("type = 'film'\nlayers = [{many}]"),
-            "materials.x.layers",
-            &["found 65 layers", "from 1 to 64"],
-        ),
-        (
-            "type = 'coated'\nindex = 1.5\nthickness_nm = 100",
-            "materials.x.substrate",
-            &["missing"],
-        ),
-        (
-            "type = 'coated'\nsubstrate = 'gold'\nlayers = [{ index = 1.5, thickness_nm = -1 }]",
-            "materials.x.layers[0].thickness_nm",
-            &["found -1", "from 0"],
-        ),
-        (
-            "type = 'film'\nindex = 1.5\nthickness_nm = 100\npath_difference = 'optical'",
-            "materials.x.path_difference",
-            &["only to the two_beam model", "two_beam"],
-        ),
-        (
-            "type = 'film'\nindex = [1.5, 0.1]\nthickness_nm = 100\nmodel = 'two_beam'",
-            "materials.x.model",
-            &["does not absorb", "exact"],
-        ),
-        (
-            "type = 'film'\nindex = 0.9\nthickness_nm = 100\nmodel = 'two_beam'",
-            "materials.x.model",
-            &["n ≥ 1"],
-        ),
-        (
-            &format!("type = 'film'\nmodel = 'two_beam'\n{TWO}"),
-            "materials.x.model",
-            &["single layer"],
-        ),
-    ] {
-        let (found, said) = problem(body);
-        assert_eq!(found, field, "{body}: {said}");
-        for phrase in phrases {
-            assert!(said.contains(phrase), "{body}: {said:?} lacks {phrase:?}");
-        }
+fn refused(body: &str, field: &str, phrases: &[&str]) {
+    let (found, said) = problem(body);
+    assert_eq!(found, format!("materials.x{field}"), "{said}");
+    for phrase in phrases {
+        assert!(said.contains(phrase), "{said:?} lacks {phrase:?}");
     }
+}
+
+/// More layers than are allowed.
+fn many() -> String {
+    vec!["{ index = 1.5, thickness_nm = 1 }"; limits::MAX_LAYERS + 1].join(", ")
+}
+
+cases! { refused:
+    a_film_without_layers("type = 'film'", "", &["`index` and `thickness_nm`", "`layers`"]);
+    an_index_without_a_thickness("type = 'film'\nindex = 1.5", "", &["found `index`;", "`thickness_nm`"]);
+    an_index_and_layers("type = 'film'\nindex = 1.5\nlayers = []", "", &["found `index` and `layers`"]);
+    no_layers("type = 'film'\nlayers = []", ".layers", &["found 0 layers", "from 1 to 64"]);
+    too_many_layers(
+        &format!("type = 'film'\nlayers = [{}]", many()),
+        ".layers",
+        &["found 65 layers", "from 1 to 64"],
+    );
+    a_coating_without_a_substrate(
+        "type = 'coated'\nindex = 1.5\nthickness_nm = 100",
+        ".substrate",
+        &["missing"],
+    );
+    a_thickness_below_0(
+        "type = 'coated'\nsubstrate = 'gold'\nlayers = [{ index = 1.5, thickness_nm = -1 }]",
+        ".layers[0].thickness_nm",
+        &["found -1", "from 0"],
+    );
+    a_path_difference_without_two_beams(
+        "type = 'film'\nindex = 1.5\nthickness_nm = 100\npath_difference = 'optical'",
+        ".path_difference",
+        &["only to the two_beam model", "two_beam"],
+    );
+    two_beams_in_a_layer_that_absorbs(
+        "type = 'film'\nindex = [1.5, 0.1]\nthickness_nm = 100\nmodel = 'two_beam'",
+        ".model",
+        &["does not absorb", "exact"],
+    );
+    two_beams_in_a_layer_below_1(
+        "type = 'film'\nindex = 0.9\nthickness_nm = 100\nmodel = 'two_beam'",
+        ".model",
+        &["n ≥ 1"],
+    );
+    two_beams_in_two_layers(
+        &format!("type = 'film'\nmodel = 'two_beam'\n{TWO}"),
+        ".model",
+        &["single layer"],
+    );
 }

@@ -74,70 +74,64 @@ fn a_plane_has_no_power() {
     );
 }
 
-#[test]
-fn a_light_has_one_unit_and_one_that_fits() {
-    refused(
-        &emitter("constant = 1, scale = 2, radiance = 3", SPHERE),
-        "materials.lamp.emission",
-        &["`scale` and `radiance`", "one of them", "`power_lm`"],
-    );
-    refused(
-        &emitter("constant = 1, illuminance_lux = 3", SPHERE),
-        "materials.lamp.emission.illuminance_lux",
-        &["an emitter has no", "`luminance_cd_m2`", "`power_w`"],
-    );
-    let point = "[[lights]]\ntype = 'point'\nposition = [0, 1, 0]\nemission = { constant = 1, radiance = 1 }\n";
-    refused(
-        point,
-        "lights[0].emission.radiance",
-        &["`intensity_cd`", "`power_w`"],
-    );
-    let laser = "[[lights]]\ntype = 'distant'\ndirection = [0, 1, 0]\ndiameter_deg = 0\nemission = { constant = 1, luminance_cd_m2 = 1 }\n";
-    refused(
-        laser,
-        "lights[0].emission.luminance_cd_m2",
-        &["without a diameter", "`illuminance_lux`"],
-    );
-    refused(
-        &emitter("constant = 1, radiance = -1", SPHERE),
-        "materials.lamp.emission.radiance",
-        &["found -1"],
-    );
-    refused(
-        &emitter("constant = 0, radiance = 1", SPHERE),
-        "materials.lamp.emission.radiance",
-        &["0 over the scene"],
-    );
-    refused(
-        &emitter("constant = 1, radiance = 1e12", SPHERE),
-        "materials.lamp.emission.radiance",
+fn refused_emission(emission: &str, field: &str, phrases: &[&str]) {
+    let field = format!("materials.lamp.emission{field}");
+    refused(&emitter(emission, SPHERE), &field, phrases);
+}
+
+cases! { refused_emission:
+    two_units("constant = 1, scale = 2, radiance = 3", "", &["`scale` and `radiance`", "one of them", "`power_lm`"]);
+    a_unit_of_another_light("constant = 1, illuminance_lux = 3", ".illuminance_lux", &["an emitter has no", "`luminance_cd_m2`", "`power_w`"]);
+    a_radiance_below_0("constant = 1, radiance = -1", ".radiance", &["found -1"]);
+    a_radiance_without_a_spectrum("constant = 0, radiance = 1", ".radiance", &["0 over the scene"]);
+    a_radiance_that_is_too_large(
+        "constant = 1, radiance = 1e12",
+        ".radiance",
         &[
             "found 1e12",
             "a radiance of 2.500e9",
             "at most 1e9 is possible, which is `radiance` = 4.000e11",
         ],
     );
-    let distant =
-        |rest: &str| format!("[[lights]]\ntype = 'distant'\ndirection = [0, 1, 0]\n{rest}\n");
-    refused(
-        &distant("diameter_deg = 0\nemission = { constant = 1e3, scale = 1e7 }"),
-        "lights[0].emission.scale",
+}
+
+fn refused_light(light: &str, field: &str, phrases: &[&str]) {
+    let text = format!("[[lights]]\n{light}\n");
+    refused(&text, &format!("lights[0]{field}"), phrases);
+}
+
+cases! { refused_light:
+    a_point_with_a_radiance(
+        "type = 'point'\nposition = [0, 1, 0]\nemission = { constant = 1, radiance = 1 }",
+        ".emission.radiance",
+        &["`intensity_cd`", "`power_w`"],
+    );
+    a_laser_with_a_luminance(
+        "type = 'distant'\ndirection = [0, 1, 0]\ndiameter_deg = 0\nemission = { constant = 1, luminance_cd_m2 = 1 }",
+        ".emission.luminance_cd_m2",
+        &["without a diameter", "`illuminance_lux`"],
+    );
+    a_laser_that_is_too_bright(
+        "type = 'distant'\ndirection = [0, 1, 0]\ndiameter_deg = 0\nemission = { constant = 1e3, scale = 1e7 }",
+        ".emission.scale",
         &["an irradiance of 1.000e10 W m⁻² nm⁻¹", "`scale` = 1.000e6"],
     );
-    refused(
-        &distant("diameter_deg = 0.01\nemission = { constant = 1, illuminance_lux = 1e9 }"),
-        "lights[0].emission.illuminance_lux",
+    a_disk_that_is_too_bright(
+        "type = 'distant'\ndirection = [0, 1, 0]\ndiameter_deg = 0.01\nemission = { constant = 1, illuminance_lux = 1e9 }",
+        ".emission.illuminance_lux",
         &["a radiance of", "a larger `diameter_deg`"],
     );
-    refused(
-        "[[lights]]\ntype = 'point'\nposition = [0, 1, 0]\nemission = { constant = 1, intensity_w_sr = 1e12 }\n",
-        "lights[0].emission.intensity_w_sr",
+    a_point_that_is_too_bright(
+        "type = 'point'\nposition = [0, 1, 0]\nemission = { constant = 1, intensity_w_sr = 1e12 }",
+        ".emission.intensity_w_sr",
         &["an intensity of 2.500e9 W sr⁻¹ nm⁻¹"],
     );
-    let sky =
-        |emission: &str| format!("[environment]\ntype = 'constant'\nemission = {{ {emission} }}\n");
+}
+
+#[test]
+fn an_environment_has_no_power() {
     refused(
-        &sky("constant = 1, power_w = 1"),
+        "[environment]\ntype = 'constant'\nemission = { constant = 1, power_w = 1 }\n",
         "environment.emission.power_w",
         &["a constant environment has no `power_w`"],
     );
@@ -297,41 +291,27 @@ fn a_scene_that_may_not_be_meant_is_noted() {
     }
 }
 
-#[test]
-fn bad_shapes_of_lights_are_reported() {
-    let spot = |angles: &str| {
-        format!(
-            "[[lights]]\ntype = 'spot'\nposition = [0, 1, 0]\ndirection = [0, -1, 0]\nemission = {{ constant = 1 }}\n{angles}\n"
-        )
-    };
-    refused(
-        &spot("angle_deg = 40\nfull_angle_deg = 45"),
-        "lights[0].full_angle_deg",
-        &["0 to 39.6"],
+fn refused_spot(angles: &str, field: &str, phrases: &[&str]) {
+    let light = format!(
+        "type = 'spot'\nposition = [0, 1, 0]\ndirection = [0, -1, 0]\nemission = {{ constant = 1 }}\n{angles}"
     );
-    refused(
-        &spot("angle_deg = 200"),
-        "lights[0].angle_deg",
-        &["0.1 to 180"],
-    );
-    let distant = |rest: &str| {
-        format!("[[lights]]\ntype = 'distant'\nemission = {{ constant = 1 }}\n{rest}\n")
-    };
-    refused(
-        &distant("direction = [0, 0, 0]"),
-        "lights[0].direction",
-        &["no direction"],
-    );
-    refused(
-        &distant("direction = [0, 1, 0]\ndiameter_deg = 0.001"),
-        "lights[0].diameter_deg",
-        &["0 or at least 0.01"],
-    );
-    refused(
-        &distant("direction = [0, 1, 0]\nlight_group = 'a b'"),
-        "lights[0].light_group",
-        &["cannot be the name"],
-    );
+    refused_light(&light, field, phrases);
+}
+
+cases! { refused_spot:
+    a_spot_with_an_edge_too_narrow("angle_deg = 40\nfull_angle_deg = 45", ".full_angle_deg", &["0 to 39.6"]);
+    a_spot_that_is_too_wide("angle_deg = 200", ".angle_deg", &["0.1 to 180"]);
+}
+
+fn refused_distant(rest: &str, field: &str, phrases: &[&str]) {
+    let light = format!("type = 'distant'\nemission = {{ constant = 1 }}\n{rest}");
+    refused_light(&light, field, phrases);
+}
+
+cases! { refused_distant:
+    a_distant_light_from_nowhere("direction = [0, 0, 0]", ".direction", &["no direction"]);
+    a_distant_light_that_is_too_narrow("direction = [0, 1, 0]\ndiameter_deg = 0.001", ".diameter_deg", &["0 or at least 0.01"]);
+    a_light_group_with_a_bad_name("direction = [0, 1, 0]\nlight_group = 'a b'", ".light_group", &["cannot be the name"]);
 }
 
 #[test]

@@ -70,17 +70,19 @@ fn radiance_files_are_read_with_their_headers() {
     // XYZ (1, 1, 1) has R = 3.2406 − 1.5372 − 0.4986 by the matrix of IEC 61966-2-1.
     assert!((scales(&xyz)[0] / 2.0 - 1.2048).abs() < 2e-4);
     assert!(notes[0].contains("XYZE"), "{notes:?}");
+}
 
-    for (size, problem) in [
-        ("-Y 0 +X 2", "sky.hdr: has 2 × 0 pixels: it is empty"),
-        ("-Y 4 +X 4", "4 × 4 pixels; a picture of all directions"),
-        ("-Y 2 +X 4", "cut short: it ends in scanline 1 of 2"),
-        ("-Y 8200 +X 16400", "at most 16384 per side"),
-        ("-Y 1", "-Y HEIGHT +X WIDTH would be right"),
-    ] {
-        let said = surrounded(format, size).unwrap_err();
-        assert!(said.contains(problem), "{said:?} lacks {problem:?}");
-    }
+fn bad_radiance_file(size: &str, problem: &str) {
+    let said = surrounded("FORMAT=32-bit_rle_rgbe", size).unwrap_err();
+    assert!(said.contains(problem), "{said:?} lacks {problem:?}");
+}
+
+cases! { bad_radiance_file:
+    an_empty_radiance_file("-Y 0 +X 2", "sky.hdr: has 2 × 0 pixels: it is empty");
+    a_square_radiance_file("-Y 4 +X 4", "4 × 4 pixels; a picture of all directions");
+    half_a_radiance_file("-Y 2 +X 4", "cut short: it ends in scanline 1 of 2");
+    a_radiance_file_that_is_too_large("-Y 8200 +X 16400", "at most 16384 per side");
+    a_radiance_file_of_half_a_size("-Y 1", "-Y HEIGHT +X WIDTH would be right");
 }
 
 /// Adds a chunk to a PNG file, after the first.

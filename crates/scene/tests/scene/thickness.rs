@@ -6,7 +6,7 @@
 
 use crate::{CAMERA, checksum};
 use glam::DVec3;
-use pellicle_scene::{BlackFilm, Coordinate, Problems, Profile, Scene, Swirls, Thickness};
+use pellicle_scene::{BlackFilm, Coordinate, Problem, Problems, Profile, Scene, Swirls, Thickness};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -44,13 +44,14 @@ fn assert_refused(written: &str, column: usize, field: &str, said: &[&str]) {
 fn assert_refused_in(written: &str, directory: &Path, column: usize, field: &str, said: &[&str]) {
     let problems = read(written, directory).expect_err(written);
     assert_eq!(problems.iter().len(), 1, "{written}: {problems:#}");
-    let problem = problems.iter().next().unwrap();
+    assert_problem(problems.iter().next().unwrap(), column, field, said);
+}
+
+fn assert_problem(problem: &Problem, column: usize, field: &str, said: &[&str]) {
     let place = problem.location.as_ref().expect("a place in the file");
     assert_eq!((place.line, place.column), (5, column), "{problem}");
-    assert_eq!(
-        problem.field.to_string(),
-        format!("materials.x.thickness_nm{field}")
-    );
+    let expected = format!("materials.x.thickness_nm{field}");
+    assert_eq!(problem.field.to_string(), expected, "{problem}");
     for words in said {
         assert!(
             problem.message.contains(words),
@@ -217,62 +218,57 @@ fn every_number_of_a_thickness_is_rounded() {
     );
 }
 
-#[test]
-fn values_out_of_range_are_reported_where_they_stand() {
-    let cases: &[(&str, usize, &str, &[&str])] = &[
-        ("{ sum = [] }", 24, ".sum", &["at least one part"]),
-        (
-            "{ sum = [1, { pole = 1, equator = -1 }] }",
-            50,
-            ".sum[1].equator",
-            &["found -1", "0 to 100000 nm"],
-        ),
-        (
-            "{ product = [1e5, 1e5] }",
-            28,
-            ".product",
-            &["1.0e10", "first 2 parts", "at most 1e9"],
-        ),
-        (
-            "{ steps = { values = [], from = [0, 0, 0], to = [1, 0, 0] } }",
-            37,
-            ".steps.values",
-            &["found 0 steps", "from 1 to 4096"],
-        ),
-        (
-            "{ steps = { values = [1, nan], from = [0, 0, 0], to = [1, 0, 0] } }",
-            41,
-            ".steps.values[1]",
-            &["found nan"],
-        ),
-        (
-            "{ drainage = { initial = 500, radius_m = 0 } }",
-            57,
-            ".drainage.radius_m",
-            &["1e-6 to 1000 m"],
-        ),
-        (
-            "{ swirls = { amplitude = 5, scale = 1, octaves = 7 } }",
-            65,
-            ".swirls.octaves",
-            &["found 7", "1 to 6"],
-        ),
-        (
-            "{ anodizing = { metal = 'titanium', volts = 200 } }",
-            60,
-            ".anodizing.volts",
-            &["0 to 150 V"],
-        ),
-        (
-            "{ heat_tint = { temperature_c = 900, minutes = 1 } }",
-            48,
-            ".heat_tint.temperature_c",
-            &["150 to 400 °C"],
-        ),
-    ];
-    for (written, column, field, said) in cases {
-        assert_refused(written, *column, field, said);
-    }
+// Values out of range are reported where they stand.
+cases! { assert_refused:
+    a_sum_of_nothing("{ sum = [] }", 24, ".sum", &["at least one part"]);
+    an_equator_below_0(
+        "{ sum = [1, { pole = 1, equator = -1 }] }",
+        50,
+        ".sum[1].equator",
+        &["found -1", "0 to 100000 nm"],
+    );
+    a_product_that_is_too_large(
+        "{ product = [1e5, 1e5] }",
+        28,
+        ".product",
+        &["1.0e10", "first 2 parts", "at most 1e9"],
+    );
+    no_steps(
+        "{ steps = { values = [], from = [0, 0, 0], to = [1, 0, 0] } }",
+        37,
+        ".steps.values",
+        &["found 0 steps", "from 1 to 4096"],
+    );
+    a_step_that_is_no_number(
+        "{ steps = { values = [1, nan], from = [0, 0, 0], to = [1, 0, 0] } }",
+        41,
+        ".steps.values[1]",
+        &["found nan"],
+    );
+    a_bubble_without_a_radius(
+        "{ drainage = { initial = 500, radius_m = 0 } }",
+        57,
+        ".drainage.radius_m",
+        &["1e-6 to 1000 m"],
+    );
+    too_many_octaves(
+        "{ swirls = { amplitude = 5, scale = 1, octaves = 7 } }",
+        65,
+        ".swirls.octaves",
+        &["found 7", "1 to 6"],
+    );
+    too_many_volts(
+        "{ anodizing = { metal = 'titanium', volts = 200 } }",
+        60,
+        ".anodizing.volts",
+        &["0 to 150 V"],
+    );
+    too_much_heat(
+        "{ heat_tint = { temperature_c = 900, minutes = 1 } }",
+        48,
+        ".heat_tint.temperature_c",
+        &["150 to 400 °C"],
+    );
 }
 
 /// Infinity times 0 is NaN, and a product that overflows `f32` on the way differs on the GPU.
@@ -290,52 +286,32 @@ fn a_factor_of_nought_hides_no_overflow() {
     assert!(read("{ product = [1e5, 1e4, 0] }", Path::new("")).is_ok());
 }
 
-#[test]
-fn what_does_not_fit_the_format_is_reported_at_any_depth() {
-    let cases: &[(&str, usize, &str, &[&str])] = &[
-        (
-            "{ sum = [1, { product = [2, { swirl = 3 }] }] }",
-            46,
-            ".sum[1].product[1].swirl",
-            &["did you mean `swirls`"],
-        ),
-        (
-            "{ sum = [1, 'thick'] }",
-            28,
-            ".sum[1]",
-            &["the string 'thick'", "a number"],
-        ),
-        (
-            "{ drainage = { initial = 500 } }",
-            29,
-            ".drainage.radius_m",
-            &["is missing"],
-        ),
-        (
-            "{ anodizing = { metal = 'tin', volts = 3 } }",
-            40,
-            ".anodizing.metal",
-            &["\"tin\"", "\"titanium\""],
-        ),
-    ];
-    for (written, column, field, said) in cases {
-        let problems = read(written, Path::new("")).expect_err(written);
-        let problem = problems.iter().next().unwrap();
-        let place = problem.location.as_ref().expect("a place in the file");
-        assert_eq!((place.line, place.column), (5, *column), "{problem}");
-        assert_eq!(
-            problem.field.to_string(),
-            format!("materials.x.thickness_nm{field}"),
-            "{problem}"
-        );
-        for words in *said {
-            assert!(
-                problem.message.contains(words),
-                "{:?} lacks {words:?}",
-                problem.message
-            );
-        }
-    }
+/// The first problem is at this column on the line of the thickness, with this field and these words.
+fn misfit(written: &str, column: usize, field: &str, said: &[&str]) {
+    let problems = read(written, Path::new("")).expect_err(written);
+    assert_problem(problems.iter().next().unwrap(), column, field, said);
+}
+
+cases! { misfit:
+    a_misspelled_pattern_at_any_depth(
+        "{ sum = [1, { product = [2, { swirl = 3 }] }] }",
+        46,
+        ".sum[1].product[1].swirl",
+        &["did you mean `swirls`"],
+    );
+    a_word_in_a_sum("{ sum = [1, 'thick'] }", 28, ".sum[1]", &["the string 'thick'", "a number"]);
+    a_drainage_without_a_radius(
+        "{ drainage = { initial = 500 } }",
+        29,
+        ".drainage.radius_m",
+        &["is missing"],
+    );
+    an_unknown_metal(
+        "{ anodizing = { metal = 'tin', volts = 3 } }",
+        40,
+        ".anodizing.metal",
+        &["\"tin\"", "\"titanium\""],
+    );
 }
 
 #[test]
@@ -382,8 +358,7 @@ fn a_picture_is_read_as_numbers() {
     assert_eq!(values("gray.png"), (1, 2, vec![0.2, 1.0]));
 }
 
-#[test]
-fn pictures_that_cannot_be_used_are_reported() {
+fn bad_picture(name: &str, said: &str) {
     let directory = TempDir::new().unwrap();
     let path = |name: &str| directory.path().join(name);
     write_picture(&path("whole.png"));
@@ -394,17 +369,17 @@ fn pictures_that_cannot_be_used_are_reported() {
     let mut huge = whole.clone();
     huge[16..20].copy_from_slice(&17_000_u32.to_be_bytes());
     fs::write(path("huge.png"), with_checksum(huge)).unwrap();
-    for (name, said) in [
-        ("none.png", "none.png: cannot be opened"),
-        ("cut.png", "cut.png: is not a PNG picture"),
-        ("text.png", "text.png: is not a PNG picture"),
-        ("empty.png", "empty.png: is not a PNG picture"),
-        ("huge.png", "has 17000 × 2 pixels; at most 16384"),
-        ("", "is a directory"),
-    ] {
-        let written = format!("{{ image = '{name}', min = 0, max = 9 }}");
-        assert_refused_in(&written, directory.path(), 26, ".image", &[said]);
-    }
+    let written = format!("{{ image = '{name}', min = 0, max = 9 }}");
+    assert_refused_in(&written, directory.path(), 26, ".image", &[said]);
+}
+
+cases! { bad_picture:
+    a_missing_picture("none.png", "none.png: cannot be opened");
+    half_a_picture("cut.png", "cut.png: is not a PNG picture");
+    a_text_as_picture("text.png", "text.png: is not a PNG picture");
+    an_empty_picture("empty.png", "empty.png: is not a PNG picture");
+    a_picture_that_is_too_large("huge.png", "has 17000 × 2 pixels; at most 16384");
+    a_folder_as_picture("", "is a directory");
 }
 
 /// Returns the file with the checksum of its first chunk corrected.
