@@ -1,4 +1,6 @@
-// Generated from crates/gpu/src/layout.rs: edit there, then run
+// Constants and structs of host and shader.
+//
+// Generated from crates/gpu/src/layout: edit there, then run
 //     PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test layout
 
 /// Width and height of a workgroup, in invocations.

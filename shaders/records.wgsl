@@ -1,4 +1,6 @@
-// The records of a scene, and how they are read. Generated from crates/gpu/src/layout.rs: edit there, then run
+// The records of a scene, and how they are read.
+//
+// Generated from crates/gpu/src/layout/records.rs: edit there, then run
 //     PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test layout
 
 /// An object that rays meet: a shape with a material.
