@@ -96,6 +96,9 @@ var<private> pending_thickness: u32;
 /// Whether it contributes anything and has to be written.
 var<private> is_pending: bool;
 
+/// Whether any thickness can be in the record.
+const RECORDS_THICKNESSES: bool = MAX_THICKNESSES > 1u;
+/// Whether any surface has facets: their light has a part that met several of them.
 const HAS_MULTIPLE_SCATTERING: bool = HAS_ROUGH_CONDUCTORS || HAS_ROUGH_COATS;
 
 fn factor_of(tag: u32, number: u32) -> u32 {

@@ -1,5 +1,5 @@
 // How surfaces scatter light: one file per BSDF, with its geometry (`eval`, `sample`, a specular part) and its value over the
-// spectrum (`spectrum`). This file dispatches on the tags of materials.
+// spectrum (`value`). This file dispatches on the tags of materials.
 //
 // `wo` points to the camera's side of a path and `wi` to the light's. They are unit vectors of the surface's local frame, whose z is the
 // normal on the side of `wo` and whose x runs along the grain of a brushed surface. Values are those of the BSDF times |cos θi|.

@@ -1,8 +1,5 @@
 // A diffuse body below a clear coat, smooth or rough.
 
-override HAS_COATED_BODIES: bool = true;
-override HAS_ROUGH_COATS: bool = true;
-
 fn coated_of(material: u32) -> Coated {
     return load_coated(material_at(material).record);
 }

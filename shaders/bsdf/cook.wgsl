@@ -1,8 +1,6 @@
 // The model of Cook and Torrance for metals, as printed by Suzuki, Yokoi and Toriwaki (section 3-1). Directions are unit vectors in
 // a local frame whose z is the cosine with the macroscopic normal.
 
-override HAS_COOK: bool = true;
-
 struct CookFacets {
     /// G Σ wⱼ Dⱼ / (cos θi cos θo): the reflection function without its Fresnel factor, sr⁻¹.
     reflection: f32,

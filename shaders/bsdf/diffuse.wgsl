@@ -1,8 +1,5 @@
 // Lambertian reflection: ρ / π.
 
-override HAS_CHECKERS: bool = true;
-override HAS_TEXTURES: bool = true;
-
 fn diffuse_eval(wi: vec3f) -> BsdfEval {
     let lambert = max(wi.z, 0.0) / PI;
     return BsdfEval(Lobes(lambert, 0.0, 0.0, 1.0, wi.z), lambert);

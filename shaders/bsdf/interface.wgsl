@@ -1,10 +1,5 @@
 // The boundary of a conductor, bare or below thin layers: smooth, or made of specular facets.
 
-override HAS_INTERFACES: bool = true;
-override HAS_MIRRORS: bool = true;
-override HAS_ROUGH_CONDUCTORS: bool = true;
-override HAS_COATINGS: bool = true;
-
 fn interface_specular_probability(head: Material) -> f32 {
     return select(0.0, 1.0, head.facets == NONE);
 }

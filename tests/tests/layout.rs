@@ -5,10 +5,7 @@ use std::collections::BTreeMap;
 
 #[test]
 fn the_generated_files_are_fresh() {
-    for (name, expected) in [
-        ("layout", gpu::layout::wgsl()),
-        ("records", gpu::layout::records_wgsl()),
-    ] {
+    for (name, expected) in gpu::modules::generated() {
         let path = root().join(format!("shaders/{name}.wgsl"));
         if std::env::var_os("PELLICLE_BLESS").is_some() {
             std::fs::write(&path, &expected).expect("the file can be written");
@@ -19,6 +16,33 @@ fn the_generated_files_are_fresh() {
             "shaders/{name}.wgsl is stale; regenerate it with PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test layout"
         );
     }
+}
+
+/// Constants that a scene decides are declared in one file: `true` in another would hold for every scene.
+#[test]
+fn other_files_declare_no_features() {
+    let is_feature = |line: &str| {
+        line.starts_with("override ")
+            || line.starts_with("const ")
+                && [": bool = true;", ": bool = false;"]
+                    .iter()
+                    .any(|end| line.ends_with(end))
+    };
+    let mut files = 0;
+    for module in gpu::modules::MODULES {
+        let found: Vec<_> = module
+            .source
+            .lines()
+            .filter(|line| is_feature(line))
+            .collect();
+        files += usize::from(!found.is_empty());
+        assert!(
+            module.name == "features" || found.is_empty(),
+            "{}: {found:?}",
+            module.name
+        );
+    }
+    assert_eq!(files, 1, "shaders/features.wgsl has them");
 }
 
 /// Size and offset of every member of every struct, as naga lays them out.

@@ -5,6 +5,7 @@
 //! reads back a [`spectra::SpectralImage`].
 
 mod bindings;
+mod counts;
 mod device;
 mod error;
 mod features;
@@ -24,7 +25,7 @@ pub use device::{
     AdapterChoice, AdapterDescription, DeviceError, Gpu, INSTALL_HINT, OpenError, adapters,
 };
 pub use error::RenderError;
-pub use features::Features;
+pub use features::{Feature, Features};
 pub use layout::RunStack;
 pub use lists::ListForm;
 pub use pack::PackedScene;

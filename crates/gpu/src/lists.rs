@@ -54,6 +54,7 @@ impl PackedScene {
         let forms = lists.iter().map(|list| (list.name, list.form(is_software)));
         Specialization {
             limits: self.limits,
+            counts: self.counts,
             features: self.features.clone(),
             forms: forms.collect(),
         }

@@ -3,9 +3,13 @@
 //! Declarations of WGSL may come in any order, so a shader is the concatenation of all modules, with the parts that depend on the
 //! scene filled in. Everything that its entry point does not reach is removed before a driver sees it.
 
+use crate::DeviceError;
+pub use crate::counts::{Counts, RecordLimits};
+use crate::features::Features;
+use crate::layout;
 use crate::lists::ListForm;
 use crate::specialize::specialize;
-use crate::{DeviceError, Features};
+use std::borrow::Cow;
 
 /// One file of `shaders/`.
 #[derive(Clone, Copy, Debug)]
@@ -16,82 +20,71 @@ pub struct Module {
     pub source: &'static str,
 }
 
-/// Name of the module that is generated for each scene: sizes of the arrays that hold a path and its radiance.
-pub const LIMITS: &str = "limits";
-
 /// All modules, by name.
 pub const MODULES: &[Module] = include!(concat!(env!("OUT_DIR"), "/modules.rs"));
-
-/// The maximum length of a path's record, and the number of light groups.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct RecordLimits {
-    /// Vertices of a path.
-    pub vertices: u32,
-    /// Films that all emitter samples of a path cross together.
-    pub crossings: u32,
-    /// Thicknesses of layers that vary over a surface, for all vertices and crossings together.
-    pub thicknesses: u32,
-    /// Light groups.
-    pub light_groups: u32,
-    /// Films at which a path is split, 1 where it is never split.
-    pub splits: u32,
-}
-
-impl RecordLimits {
-    /// The smallest value of each.
-    pub const MIN: Self = Self {
-        vertices: 1,
-        crossings: 1,
-        thicknesses: 1,
-        light_groups: 1,
-        splits: 1,
-    };
-
-    fn wgsl(self) -> String {
-        format!(
-            "const MAX_VERTICES: u32 = {}u;\nconst MAX_CROSSINGS: u32 = {}u;\nconst MAX_THICKNESSES: u32 = {}u;\n\
-             const LIGHT_GROUPS: u32 = {}u;\nconst MAX_SPLITS: u32 = {}u;\nconst RECORDS_THICKNESSES: bool = {};\n",
-            self.vertices,
-            self.crossings,
-            self.thicknesses,
-            self.light_groups,
-            self.splits,
-            self.thicknesses > 1
-        )
-    }
-}
 
 /// The specialization of a shader for a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Specialization {
     /// Sizes of the record.
     pub limits: RecordLimits,
-    /// The features of the scene; constants that are not named keep their declared values.
+    /// Numbers of things in the scene.
+    pub counts: Counts,
+    /// The features of the scene.
     pub features: Features,
     /// The forms of the lists of `shaders/bindings.wgsl`; lists that are not named are in storage buffers.
     pub forms: Vec<(&'static str, ListForm)>,
 }
 
 impl Specialization {
-    /// Returns the specialization for any scene whose record fits these limits.
+    /// Returns the specialization with all features, for tests and for shaders that render no scene.
     pub fn general(limits: RecordLimits) -> Self {
         Self {
             limits,
-            features: Features::default(),
+            counts: Counts::MIN,
+            features: Features::all(),
             forms: Vec::new(),
         }
     }
 
-    /// Returns the text of a module with its values filled in. No line is added or removed.
-    fn fill_in(&self, module: &Module) -> String {
-        let line = |line: &str| match module.name {
-            "bindings" => ListForm::fill_in(&self.forms, line),
-            _ => self.features.fill_in(line),
-        };
-        let lines = module.source.lines();
-        let filled = lines.map(|text| line(text).unwrap_or_else(|| text.to_owned()));
+    /// Returns the text of a module with its values filled in. It has as many lines as the module's file.
+    fn fill_in(&self, module: &Module) -> Cow<'static, str> {
+        match module.name {
+            "features" => self.constants().into(),
+            "bindings" => self.bindings(module.source).into(),
+            _ => module.source.into(),
+        }
+    }
+
+    /// Returns the module of constants that depend on the scene.
+    fn constants(&self) -> String {
+        let heading = layout::heading(
+            "What a scene has. This file says that it has one of everything; a scene's own shader has the scene's values.\n//\n\
+             // Code for features that the scene lacks is removed: a processor that runs eight or more paths in lockstep pays for every\n\
+             // branch that any of them might take. Conditions depend on these constants, never on a constant element of a uniform\n\
+             // buffer: llvmpipe treats the value that it finds there as a constant and recompiles the pipeline for each dispatch.",
+            "features.rs and counts.rs",
+        );
+        let (features, counts) = (self.features.wgsl(), self.counts.wgsl());
+        format!("{heading}\n{features}\n{counts}\n{}", self.limits.wgsl())
+    }
+
+    fn bindings(&self, source: &str) -> String {
+        let filled = source
+            .lines()
+            .map(|line| ListForm::fill_in(&self.forms, line).unwrap_or_else(|| line.to_owned()));
         filled.map(|text| text + "\n").collect()
     }
+}
+
+/// Returns the names and texts of the modules whose files are generated.
+pub fn generated() -> [(&'static str, String); 3] {
+    let general = Specialization::general(RecordLimits::MIN);
+    [
+        ("features", general.constants()),
+        ("layout", layout::wgsl()),
+        ("records", layout::records_wgsl()),
+    ]
 }
 
 /// A shader assembled from modules, with the origin of each line.
@@ -109,7 +102,6 @@ impl Shader {
             text: String::new(),
             parts: Vec::new(),
         };
-        shader.push(LIMITS, &made_for.limits.wgsl());
         for module in MODULES {
             let text = made_for.fill_in(module);
             shader.push(&format!("shaders/{}.wgsl", module.name), &text);

@@ -13,9 +13,9 @@ mod texels;
 mod thickness;
 mod trees;
 
+use crate::counts::{Counts, RecordLimits};
 use crate::features::Features;
 use crate::layout::{self, Frame, Record};
-use crate::modules::RecordLimits;
 use glam::DVec3;
 use scene::limits::{MAX_LAYERS, MAX_LIGHT_GROUPS, MAX_MATERIALS};
 use scene::{Emission, Projection, Scene, SpectrumId, WavelengthSampling};
@@ -46,6 +46,8 @@ pub struct PackedScene {
     pub spectra: Vec<[f32; 4]>,
     /// The maximum length of a path's record.
     pub limits: RecordLimits,
+    /// Numbers of things in the scene.
+    pub counts: Counts,
     /// The maximum number of passes of loops in a sample.
     pub passes_per_sample: u64,
     /// The features of the scene.
@@ -77,7 +79,6 @@ impl PackedScene {
         for (emitter, &node) in emitters.iter_mut().zip(&trees.emitter_nodes) {
             emitter.node = node;
         }
-        features.set_trees(scene, trees.hierarchy_rows);
         let mut frame = Frame {
             first_environment,
             first_emitter_node: trees.first_emitter_node,
@@ -105,6 +106,7 @@ impl PackedScene {
             texels: tables.pictures.texels,
             spectra: spectra.chain(observer).collect(),
             limits,
+            counts: limits::counts(scene, trees.hierarchy_rows),
             passes_per_sample: passes::of_sample(scene, limits, passes),
             features,
         }

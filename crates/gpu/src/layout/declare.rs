@@ -124,16 +124,22 @@ macro_rules! constants {
 
 pub(super) fn declare(declaration: &Declaration) -> String {
     let (name, doc) = (declaration.name, declaration.doc.replace(['[', ']'], ""));
-    let mut text = format!("\n///{doc}\n");
+    let head = format!("\n///{doc}\n");
     match declaration.body {
-        Body::Constant(value) => text += &format!("const {name}: u32 = {value}u;\n"),
-        Body::Struct(members) => text += &declare_struct(name, members),
+        Body::Constant(value) => {
+            let value = format!("{value}u");
+            "\n".to_owned() + &constant(&doc, name, "u32", &value)
+        }
+        Body::Struct(members) => head + &declare_struct(name, members),
         Body::Record(members) => {
-            text += &declare_struct(name, members);
-            text += &declare_loader(name, members);
+            head + &declare_struct(name, members) + &declare_loader(name, members)
         }
     }
-    text
+}
+
+/// Returns a documented constant of WGSL.
+pub(crate) fn constant(doc: &str, name: &str, kind: &str, value: &str) -> String {
+    format!("///{doc}\nconst {name}: {kind} = {value};\n")
 }
 
 fn declare_struct(name: &str, members: &[Member]) -> String {

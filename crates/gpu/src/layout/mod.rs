@@ -11,6 +11,7 @@ mod records;
 mod structs;
 
 pub use constants::*;
+pub(crate) use declare::constant;
 use declare::declare;
 pub use records::*;
 pub use structs::*;

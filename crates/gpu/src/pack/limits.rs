@@ -1,7 +1,7 @@
-//! The maximum length of a path's record.
+//! The maximum length of a path's record, and other numbers that its shader is made for.
 
 use super::thickness;
-use crate::modules::RecordLimits;
+use crate::counts::{Counts, RecordLimits};
 use scene::{EnvironmentPart, EnvironmentShape, Material, Object, Scene, Shape};
 
 /// Returns the maximum length of a path's record.
@@ -31,6 +31,21 @@ pub(super) fn of(scene: &Scene) -> RecordLimits {
         ),
         light_groups: scene.light_groups().len() as u32,
         splits: u32::max(splits, 1),
+    }
+}
+
+/// Returns the numbers of passes of the loops over all things of a kind.
+pub(super) fn counts(scene: &Scene, hierarchy_rows: u32) -> Counts {
+    let settings = scene.settings();
+    Counts {
+        objects: scene.objects().len() as u32,
+        // There is no hierarchy where this is not read.
+        hierarchy_rows: hierarchy_rows.max(1),
+        emitters: scene.emitters().len() as u32,
+        environment_parts: scene.environment_parts().len() as u32,
+        groups: settings.bands.count().div_ceil(4),
+        max_path_segments: settings.max_path_segments,
+        roulette_after: settings.roulette_after,
     }
 }
 

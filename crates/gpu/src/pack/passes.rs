@@ -1,7 +1,7 @@
 //! The maximum number of passes of loops in a sample.
 
 use super::surface::Passes;
-use crate::modules::RecordLimits;
+use crate::counts::RecordLimits;
 use scene::Scene;
 
 /// Passes of the two binary searches that sample a direction toward a picture of the environment, among 1024 and 512.

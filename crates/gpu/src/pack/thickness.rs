@@ -2,6 +2,7 @@
 
 use super::tables::Tables;
 use super::{id, vec3};
+use crate::features::Feature;
 use crate::layout::{self, Field, NONE};
 use glam::DVec3;
 use scene::{Coordinate, Layer, Picture, Profile, Swirls, Thickness};
@@ -33,24 +34,30 @@ pub(super) fn passes(layers: &[Layer]) -> u64 {
 }
 
 /// Returns the features that the thicknesses of layers need.
-pub(super) fn features(layers: &[Layer]) -> Vec<&'static str> {
+pub(super) fn features(layers: &[Layer]) -> Vec<Feature> {
     let parts = layers.iter().flat_map(|layer| layer.thickness.parts());
     parts.flat_map(features_of_part).copied().collect()
 }
 
-fn features_of_part(part: &Thickness) -> &'static [&'static str] {
+fn features_of_part(part: &Thickness) -> &'static [Feature] {
     match part {
         Thickness::Constant { .. } => &[],
-        Thickness::Polar { .. } => &["HAS_FIELDS", "HAS_POLAR_FIELDS"],
-        Thickness::Linear { .. } => &["HAS_FIELDS", "HAS_LINE_FIELDS"],
-        Thickness::Steps { .. } => &["HAS_FIELDS", "HAS_SAMPLED_FIELDS", "HAS_LINE_FIELDS"],
+        Thickness::Polar { .. } => &[Feature::Fields, Feature::PolarFields],
+        Thickness::Linear { .. } => &[Feature::Fields, Feature::LineFields],
+        Thickness::Steps { .. } => &[Feature::Fields, Feature::SampledFields, Feature::LineFields],
         Thickness::Profile(Profile { coordinate, .. }) => match coordinate {
-            Coordinate::Polar { .. } => &["HAS_FIELDS", "HAS_SAMPLED_FIELDS", "HAS_POLAR_FIELDS"],
-            Coordinate::Line { .. } => &["HAS_FIELDS", "HAS_SAMPLED_FIELDS", "HAS_LINE_FIELDS"],
+            Coordinate::Polar { .. } => &[
+                Feature::Fields,
+                Feature::SampledFields,
+                Feature::PolarFields,
+            ],
+            Coordinate::Line { .. } => {
+                &[Feature::Fields, Feature::SampledFields, Feature::LineFields]
+            }
         },
-        Thickness::Swirls(_) => &["HAS_FIELDS", "HAS_SWIRLS"],
-        Thickness::Picture(_) => &["HAS_FIELDS", "HAS_PICTURES"],
-        Thickness::Sum(_) | Thickness::Product(_) => &["HAS_FIELDS", "HAS_COMBINED_FIELDS"],
+        Thickness::Swirls(_) => &[Feature::Fields, Feature::Swirls],
+        Thickness::Picture(_) => &[Feature::Fields, Feature::Pictures],
+        Thickness::Sum(_) | Thickness::Product(_) => &[Feature::Fields, Feature::CombinedFields],
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::{PackedSurface, Passes};
 use super::{diffuse, facets};
+use crate::features::Feature;
 use crate::layout::{self, NONE};
 use crate::pack::id;
 use crate::pack::tables::Tables;
@@ -9,17 +10,17 @@ use scene::CoatedBody;
 
 pub(super) fn pack(tables: &mut Tables, body: &CoatedBody) -> PackedSurface {
     let (base, mut features) = diffuse::pattern(tables, &body.base);
-    features.extend(["HAS_BSDFS", "HAS_BASES", "HAS_SCATTERING"]);
+    features.extend([Feature::Bsdfs, Feature::Bases, Feature::Scattering]);
     let mut facets_row = NONE;
     let mut passes = Passes::default();
     match &body.microsurface {
-        None => features.extend(["HAS_COATED_BODIES", "HAS_SPECULAR"]),
+        None => features.extend([Feature::CoatedBodies, Feature::Specular]),
         Some(microsurface) => {
             let (row, needed) =
                 facets::pack(tables, microsurface, body.transmittance_scale.as_ref());
             facets_row = row;
             features.extend(needed);
-            features.push("HAS_ROUGH_COATS");
+            features.push(Feature::RoughCoats);
             passes.shading = facets::SHADING;
         }
     }

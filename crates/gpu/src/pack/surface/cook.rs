@@ -1,6 +1,7 @@
 //! The model of Cook and Torrance.
 
 use super::{PackedSurface, Passes};
+use crate::features::Feature;
 use crate::layout::{self, NONE};
 use crate::pack::id;
 use crate::pack::tables::Tables;
@@ -9,7 +10,7 @@ use scene::{Cook1981, CookDistribution};
 pub(super) fn pack(tables: &mut Tables, cook: &Cook1981) -> PackedSurface {
     let slopes = cook.facets.iter();
     let numbers: Vec<_> = slopes.flat_map(|f| [f.slope, f.weight, f.part]).collect();
-    let mut features = vec!["HAS_COOK", "HAS_BSDFS", "HAS_SCATTERING"];
+    let mut features = vec![Feature::Cook, Feature::Bsdfs, Feature::Scattering];
     let mut packed = layout::Cook {
         spectrum: id(cook.n),
         distribution: match cook.distribution {
@@ -24,7 +25,7 @@ pub(super) fn pack(tables: &mut Tables, cook: &Cook1981) -> PackedSurface {
         packed.base = id(diffuse.reflectance);
         packed.base_fraction = diffuse.fraction as f32;
         packed.base_probability = diffuse.probability as f32;
-        features.push("HAS_BASES");
+        features.push(Feature::Bases);
     }
     PackedSurface {
         surface: layout::SURFACE_COOK,

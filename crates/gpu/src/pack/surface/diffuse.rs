@@ -1,6 +1,7 @@
 //! Lambertian surfaces, and the bases below coats.
 
 use super::{PackedSurface, Passes};
+use crate::features::Feature;
 use crate::layout::{self, NONE};
 use crate::pack::id;
 use crate::pack::tables::Tables;
@@ -8,7 +9,7 @@ use scene::Pattern;
 
 pub(super) fn pack(tables: &mut Tables, reflectance: &Pattern) -> PackedSurface {
     let (record, mut features) = pattern(tables, reflectance);
-    features.extend(["HAS_BSDFS", "HAS_SCATTERING"]);
+    features.extend([Feature::Bsdfs, Feature::Scattering]);
     PackedSurface {
         surface: layout::SURFACE_DIFFUSE,
         record,
@@ -19,7 +20,7 @@ pub(super) fn pack(tables: &mut Tables, reflectance: &Pattern) -> PackedSurface 
 }
 
 /// Returns the row of a reflectance that may vary, and the features that it needs.
-pub(super) fn pattern(tables: &mut Tables, reflectance: &Pattern) -> (u32, Vec<&'static str>) {
+pub(super) fn pattern(tables: &mut Tables, reflectance: &Pattern) -> (u32, Vec<Feature>) {
     let plain = layout::Diffuse {
         checker_size: 1.0,
         picture: NONE,
@@ -42,12 +43,15 @@ pub(super) fn pattern(tables: &mut Tables, reflectance: &Pattern) -> (u32, Vec<&
                 checker_size: size as f32,
                 ..plain
             };
-            (checker, vec!["HAS_CHECKERS"])
+            (checker, vec![Feature::Checkers])
         }
         Pattern::Texture { ref texels, size } => {
             let size = size.unwrap_or_default().map(|side| side as f32);
             let picture = tables.pictures.add(texels, size);
-            (layout::Diffuse { picture, ..plain }, vec!["HAS_TEXTURES"])
+            (
+                layout::Diffuse { picture, ..plain },
+                vec![Feature::Textures],
+            )
         }
     };
     (tables.push(&packed), features)

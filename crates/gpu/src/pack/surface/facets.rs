@@ -1,5 +1,6 @@
 //! The roughness of a surface.
 
+use crate::features::Feature;
 use crate::layout;
 use crate::pack::tables::Tables;
 use crate::pack::vec3;
@@ -15,19 +16,19 @@ pub(super) fn pack(
     tables: &mut Tables,
     microsurface: &Microsurface,
     transmittance_scale: Option<&FacetTable>,
-) -> (u32, Vec<&'static str>) {
+) -> (u32, Vec<Feature>) {
     let (grain_kind, grain) = match microsurface.grain {
         Grain::None => (layout::GRAIN_NONE, DVec3::ZERO),
         Grain::Along(direction) => (layout::GRAIN_ALONG, direction),
         Grain::Around(axis) => (layout::GRAIN_AROUND, axis),
     };
     let (distribution, feature) = match microsurface.distribution {
-        Distribution::Beckmann => (layout::FACETS_BECKMANN, "HAS_BECKMANN"),
-        Distribution::Ggx => (layout::FACETS_GGX, "HAS_GGX"),
+        Distribution::Beckmann => (layout::FACETS_BECKMANN, Feature::Beckmann),
+        Distribution::Ggx => (layout::FACETS_GGX, Feature::Ggx),
     };
     let mut features = vec![feature];
     if microsurface.is_brushed() {
-        features.push("HAS_GRAIN");
+        features.push(Feature::Grain);
     }
     let facets = layout::Facets {
         grain: vec3(grain),

@@ -1,6 +1,7 @@
 //! Free films.
 
 use super::{PackedSurface, Passes};
+use crate::features::Feature;
 use crate::layout::{self, NONE};
 use crate::pack::tables::Tables;
 use crate::pack::thickness;
@@ -18,18 +19,18 @@ pub(super) fn pack(
 ) -> PackedSurface {
     let (factor, feature) = match interference {
         Interference::TwoBeam(PathDifference::Optical) => {
-            (layout::FACTOR_TWO_BEAM, Some("HAS_TWO_BEAM_FILMS"))
+            (layout::FACTOR_TWO_BEAM, Some(Feature::TwoBeamFilms))
         }
         Interference::TwoBeam(PathDifference::AsPrinted) => (
             layout::FACTOR_TWO_BEAM_AS_PRINTED,
-            Some("HAS_TWO_BEAM_FILMS"),
+            Some(Feature::TwoBeamFilms),
         ),
-        Interference::Exact if layers.len() > 1 => (layout::FACTOR_STACK, Some("HAS_STACKS")),
+        Interference::Exact if layers.len() > 1 => (layout::FACTOR_STACK, Some(Feature::Stacks)),
         Interference::Exact if is_clear => (layout::FACTOR_FILM, None),
-        Interference::Exact => (layout::FACTOR_LOSSY_FILM, Some("HAS_LOSSY_FILMS")),
+        Interference::Exact => (layout::FACTOR_LOSSY_FILM, Some(Feature::LossyFilms)),
     };
     let mut features = thickness::features(layers);
-    features.push("HAS_FILMS");
+    features.push(Feature::Films);
     features.extend(feature);
     let stacked = match factor {
         layout::FACTOR_STACK => 1 + LAYER * layers.len() as u64,

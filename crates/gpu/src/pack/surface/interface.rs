@@ -2,6 +2,7 @@
 
 use super::{PackedSurface, Passes};
 use super::{facets, film};
+use crate::features::Feature;
 use crate::layout::{self, NONE};
 use crate::pack::tables::Tables;
 use crate::pack::thickness;
@@ -14,7 +15,7 @@ pub(super) fn pack(
     microsurface: Option<&Microsurface>,
 ) -> PackedSurface {
     let mut features = thickness::features(layers);
-    features.extend(["HAS_BSDFS", "HAS_INTERFACES"]);
+    features.extend([Feature::Bsdfs, Feature::Interfaces]);
     let mut facets_row = NONE;
     let mut passes = Passes {
         shading: thickness::passes(layers),
@@ -23,17 +24,17 @@ pub(super) fn pack(
         crossing: 0,
     };
     match microsurface {
-        None => features.extend(["HAS_MIRRORS", "HAS_SPECULAR"]),
+        None => features.extend([Feature::Mirrors, Feature::Specular]),
         Some(microsurface) => {
             let (row, needed) = facets::pack(tables, microsurface, None);
             facets_row = row;
             features.extend(needed);
-            features.extend(["HAS_ROUGH_CONDUCTORS", "HAS_SCATTERING"]);
+            features.extend([Feature::RoughConductors, Feature::Scattering]);
             passes.shading += facets::SHADING;
         }
     }
     if !layers.is_empty() {
-        features.push("HAS_COATINGS");
+        features.push(Feature::Coatings);
     }
     let boundary = layout::Interface {
         spectrum,

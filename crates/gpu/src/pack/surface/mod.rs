@@ -10,6 +10,7 @@ mod interface;
 
 use super::tables::Tables;
 use super::{emission_ref, id};
+use crate::features::Feature;
 use crate::layout;
 use scene::{Estimate, Material, Pattern, Scene};
 
@@ -22,8 +23,8 @@ pub(super) struct PackedSurface {
     pub(super) record: u32,
     /// The row of its facets, NONE where it is smooth.
     pub(super) facets: u32,
-    /// The features of `shaders/features.wgsl` that it needs.
-    pub(super) features: Vec<&'static str>,
+    /// The features that it needs.
+    pub(super) features: Vec<Feature>,
     /// Number of passes of its loops.
     pub(super) passes: Passes,
 }
@@ -85,7 +86,7 @@ pub(super) fn pack(
         _ => material.emission(),
     };
     if emission.is_some() && packed.surface != layout::SURFACE_BLACK {
-        packed.features.push("HAS_GLOW");
+        packed.features.push(Feature::Glow);
     }
     let head = layout::Material {
         surface: packed.surface,
