@@ -6,6 +6,12 @@
 /// Width and height of a workgroup, in invocations.
 const WORKGROUP_SIDE: u32 = 8u;
 
+/// Invocations of a workgroup that evaluates stacks.
+const STACK_WORKGROUP: u32 = 64u;
+
+/// Number of copies of a dispatch's batch.
+const BATCH_COPIES: u32 = 2u;
+
 /// No object or emitter.
 const NONE: u32 = 4294967295u;
 

@@ -1,16 +1,6 @@
 // The renderer: one invocation per pixel of a tile takes a run of samples, one after another, so that a pixel's bits do not depend
 // on how the samples were divided among dispatches.
 
-/// The batch, twice. An invocation reads the one at its own layer, which is always the first, at an index that is not a constant.
-/// At a constant index, llvmpipe treats values on which conditions depend as constants too, and recompiles the pipeline for each
-/// batch.
-@group(1) @binding(0) var<uniform> batches: array<Batch, 2>;
-/// Running statistics of each pixel, one after the other:
-/// mean radiance, [light group][group of four bands][pixel of the tile];
-/// sum of squared deviations of the light of all groups from its mean, [group of four bands][pixel of the tile];
-/// mean X, Y, Z, and in w of the first light group the number of samples, [light group][pixel of the tile].
-@group(1) @binding(1) var<storage, read_write> sums: array<vec4f>;
-
 /// The first of the deviations and of the colors, in sets of all pixels.
 const FIRST_DEVIATION: u32 = LIGHT_GROUPS * GROUPS;
 const FIRST_COLOR: u32 = FIRST_DEVIATION + GROUPS;
@@ -60,7 +50,7 @@ fn loops_run(wanted: u32) -> bool {
 
 @compute @workgroup_size(WORKGROUP_SIDE, WORKGROUP_SIDE)
 fn render(@builtin(global_invocation_id) id: vec3u) {
-    let batch = batches[min(id.z, 1u)];
+    let batch = batches[min(id.z, BATCH_COPIES - 1u)];
     if (id.x >= batch.tile_size.x || id.y >= batch.tile_size.y) {
         return;
     }

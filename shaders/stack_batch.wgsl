@@ -1,17 +1,5 @@
 // Many stacks at many angles and wavelengths: each invocation evaluates one stack at one angle and four wavelengths.
 
-@group(0) @binding(0) var<uniform> stack_run: StackRun;
-/// Wavelengths, four at a time, nm; the last group is padded.
-@group(0) @binding(1) var<storage, read> run_wavelengths: array<vec4f>;
-/// Cosines in the incident medium.
-@group(0) @binding(2) var<storage, read> run_cosines: array<f32>;
-/// Indices: n of a medium for each group of wavelengths, then k in the same way; a single group where they are constant.
-@group(0) @binding(3) var<storage, read> run_media: array<vec4f>;
-@group(0) @binding(4) var<storage, read> run_layers: array<RunLayer>;
-@group(0) @binding(5) var<storage, read> run_stacks: array<RunStack>;
-/// R_s, R_p, T_s, T_p: [stack of this run][angle][wavelength].
-@group(0) @binding(6) var<storage, read_write> run_powers: array<vec4f>;
-
 /// Returns the index of a medium in a group of wavelengths.
 fn run_index(medium: u32, group: u32) -> Complex4 {
     let groups = stack_run.media_groups;
@@ -35,9 +23,9 @@ fn run_stack(stack: RunStack, cosine: f32, group: u32) -> StackPowers {
     return stack_powers(built, substrate, incident);
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(STACK_WORKGROUP)
 fn evaluate_stacks(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) size: vec3u) {
-    let item = id.x + id.y * size.x * 64u;
+    let item = id.x + id.y * size.x * STACK_WORKGROUP;
     let groups = arrayLength(&run_wavelengths);
     let angles = arrayLength(&run_cosines);
     if (item >= stack_run.stack_count * angles * groups) {

@@ -1,14 +1,15 @@
 //! A scene's buffers and textures on the device.
 
+use crate::layout::bindings::{Binding, FRAME, NUMBERS, SCENE_GROUP, TEXELS};
 use crate::layout::{LIST_WIDTH, NUMBERS_WIDTH, TEXELS_WIDTH};
 use crate::lists::{List, ListForm, UNIFORM_BYTES};
 use crate::pipelines::Pipeline;
 use crate::{Gpu, PackedScene, RenderError};
 use wgpu::util::DeviceExt;
 
-/// A scene in the device's memory: the resource for each binding.
+/// A scene in the device's memory: its bindings, each with its resource.
 #[derive(Debug)]
-pub struct SceneBindings(Vec<Resource>);
+pub struct SceneBindings(Vec<(Binding, Resource)>);
 
 #[derive(Debug)]
 enum Resource {
@@ -26,18 +27,16 @@ impl Resource {
 }
 
 impl SceneBindings {
-    /// Returns bind group 0 of a pipeline.
+    /// Returns the bind group of the scene's data, as far as a pipeline reads them.
     pub fn group(&self, gpu: &Gpu, pipeline: &Pipeline) -> wgpu::BindGroup {
-        let used = pipeline.bindings.iter();
+        let used = self.0.iter();
+        let used = used.filter(|(binding, _)| pipeline.bindings.contains(&binding.number));
         let entries: Vec<_> = used
-            .map(|&binding| wgpu::BindGroupEntry {
-                binding,
-                resource: self.0[binding as usize].binding(),
-            })
+            .map(|(binding, resource)| binding.entry(resource.binding()))
             .collect();
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("scene"),
-            layout: &pipeline.compute.get_bind_group_layout(0),
+            layout: &pipeline.compute.get_bind_group_layout(SCENE_GROUP),
             entries: &entries,
         })
     }
@@ -50,9 +49,9 @@ impl SceneBindings {
 pub fn bind_scene(gpu: &Gpu, packed: &PackedScene) -> Result<SceneBindings, RenderError> {
     let frame = bytemuck::bytes_of(&packed.frame);
     let frame = buffer(gpu, "frame", frame, wgpu::BufferUsages::UNIFORM);
-    let mut resources = vec![Resource::Buffer(frame)];
+    let mut resources = vec![(FRAME, Resource::Buffer(frame))];
     for list in packed.lists() {
-        resources.push(list.upload(gpu)?);
+        resources.push((list.binding, list.upload(gpu)?));
     }
     let numbers = Table {
         what: "tables of numbers",
@@ -68,8 +67,8 @@ pub fn bind_scene(gpu: &Gpu, packed: &PackedScene) -> Result<SceneBindings, Rend
         bytes: bytemuck::cast_slice(&packed.texels),
         advice: "use fewer or smaller pictures",
     };
-    for table in [numbers, texels] {
-        resources.push(Resource::Texture(table.upload(gpu)?));
+    for (binding, table) in [(NUMBERS, numbers), (TEXELS, texels)] {
+        resources.push((binding, Resource::Texture(table.upload(gpu)?)));
     }
     gpu.check()?;
     Ok(SceneBindings(resources))

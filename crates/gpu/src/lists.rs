@@ -1,13 +1,12 @@
 //! The lists of a scene, and the forms in which they are bound.
 
 use crate::PackedScene;
-use crate::layout::LIST_WIDTH;
+use crate::layout::bindings::{Binding, EMITTERS, RECORDS, SHAPES, SPECTRA, TREES};
 use crate::modules::Specialization;
 
-/// A list of a scene, as `shaders/bindings.wgsl` declares it.
+/// A list of a scene.
 pub(crate) struct List<'a> {
-    /// Name of the variable.
-    name: &'static str,
+    pub(crate) binding: Binding,
     /// Name in messages.
     pub(crate) what: &'static str,
     pub(crate) bytes: &'a [u8],
@@ -16,42 +15,37 @@ pub(crate) struct List<'a> {
 }
 
 impl PackedScene {
-    /// Returns the lists in the order of their bindings, from 1 on.
+    /// Returns the lists.
     pub(crate) fn lists(&self) -> [List<'_>; 5] {
         fn list<'a, T: bytemuck::Pod>(
-            [name, what]: [&'static str; 2],
+            (binding, what): (Binding, &'static str),
             elements: &'a [T],
             advice: &'static str,
         ) -> List<'a> {
             List {
-                name,
+                binding,
                 what,
                 bytes: bytemuck::cast_slice(elements),
                 advice,
             }
         }
         let fewer = "use fewer of them";
+        let layers = "use fewer of them, with fewer layers";
+        let spectra = "use fewer materials and emitters";
         [
-            list(["shapes", "objects"], &self.shapes, fewer),
-            list(["emitters", "emitters"], &self.emitters, fewer),
-            list(
-                ["records", "materials"],
-                &self.records,
-                "use fewer of them, with fewer layers",
-            ),
-            list(["trees", "objects and emitters"], &self.trees, fewer),
-            list(
-                ["spectra", "spectra"],
-                &self.spectra,
-                "use fewer materials and emitters",
-            ),
+            list((SHAPES, "objects"), &self.shapes, fewer),
+            list((EMITTERS, "emitters"), &self.emitters, fewer),
+            list((RECORDS, "materials"), &self.records, layers),
+            list((TREES, "objects and emitters"), &self.trees, fewer),
+            list((SPECTRA, "spectra"), &self.spectra, spectra),
         ]
     }
 
     /// Returns the specialization of a shader for this scene, on a device that is a software driver or not.
     pub fn specialization(&self, is_software: bool) -> Specialization {
         let lists = self.lists();
-        let forms = lists.iter().map(|list| (list.name, list.form(is_software)));
+        let forms = lists.iter();
+        let forms = forms.map(|list| (list.binding.name, list.form(is_software)));
         Specialization {
             limits: self.limits,
             counts: self.counts,
@@ -76,30 +70,29 @@ pub enum ListForm {
 pub(crate) const UNIFORM_BYTES: usize = 65_536;
 
 impl ListForm {
-    /// Returns a line of `shaders/bindings.wgsl` that declares or reads one of the lists, rewritten for its form; `None` for other lines.
-    pub(crate) fn fill_in(forms: &[(&'static str, Self)], line: &str) -> Option<String> {
-        let form_of = |name| forms.iter().find(|(known, _)| *known == name);
-        if let Some((place, declared)) = line.split_once("var<storage, read> ") {
-            let (name, rows) = declared.split_once(": array<")?;
-            let row = rows.strip_suffix(">;")?;
-            return match form_of(name)?.1 {
-                Self::Storage => None,
-                Self::Uniform => {
-                    let count = UNIFORM_BYTES / 16;
-                    Some(format!(
-                        "{place}var<uniform> {name}: array<{row}, {count}>;"
-                    ))
-                }
-                Self::Texture => {
-                    let word = if row == "vec4u" { "u32" } else { "f32" };
-                    Some(format!("{place}var {name}: texture_2d<{word}>;"))
-                }
-            };
+    /// Returns the declaration of a list's variable in WGSL.
+    pub(crate) fn variable(self, name: &str, row: &str) -> String {
+        match self {
+            Self::Storage => format!("var<storage, read> {name}: array<{row}>"),
+            Self::Uniform => {
+                let count = UNIFORM_BYTES / 16;
+                format!("var<uniform> {name}: array<{row}, {count}>")
+            }
+            Self::Texture => {
+                let word = if row == "vec4u" { "u32" } else { "f32" };
+                format!("var {name}: texture_2d<{word}>")
+            }
         }
-        let name = line.strip_prefix("    return ")?.strip_suffix("[row];")?;
-        (form_of(name)?.1 == Self::Texture).then(|| {
-            format!("    return textureLoad({name}, vec2u(row % {LIST_WIDTH}u, row / {LIST_WIDTH}u), 0);")
-        })
+    }
+
+    /// Returns the value of the list's row `row` in WGSL.
+    pub(crate) fn row(self, name: &str) -> String {
+        match self {
+            Self::Storage | Self::Uniform => format!("{name}[row]"),
+            Self::Texture => {
+                format!("textureLoad({name}, vec2u(row % LIST_WIDTH, row / LIST_WIDTH), 0)")
+            }
+        }
     }
 }
 
@@ -116,9 +109,10 @@ impl List<'_> {
 
     /// Returns the format of its rows in a texture.
     pub(crate) fn texture_format(&self) -> wgpu::TextureFormat {
-        match self.name {
-            "spectra" => wgpu::TextureFormat::Rgba32Float,
-            _ => wgpu::TextureFormat::Rgba32Uint,
+        if self.binding.is_float() {
+            wgpu::TextureFormat::Rgba32Float
+        } else {
+            wgpu::TextureFormat::Rgba32Uint
         }
     }
 }

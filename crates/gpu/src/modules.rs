@@ -32,7 +32,7 @@ pub struct Specialization {
     pub counts: Counts,
     /// The features of the scene.
     pub features: Features,
-    /// The forms of the lists of `shaders/bindings.wgsl`; lists that are not named are in storage buffers.
+    /// The forms of the lists; lists that are not named are in storage buffers.
     pub forms: Vec<(&'static str, ListForm)>,
 }
 
@@ -51,7 +51,7 @@ impl Specialization {
     fn fill_in(&self, module: &Module) -> Cow<'static, str> {
         match module.name {
             "features" => self.constants().into(),
-            "bindings" => self.bindings(module.source).into(),
+            "bindings" => layout::bindings_wgsl(&self.forms).into(),
             _ => module.source.into(),
         }
     }
@@ -68,19 +68,13 @@ impl Specialization {
         let (features, counts) = (self.features.wgsl(), self.counts.wgsl());
         format!("{heading}\n{features}\n{counts}\n{}", self.limits.wgsl())
     }
-
-    fn bindings(&self, source: &str) -> String {
-        let filled = source
-            .lines()
-            .map(|line| ListForm::fill_in(&self.forms, line).unwrap_or_else(|| line.to_owned()));
-        filled.map(|text| text + "\n").collect()
-    }
 }
 
 /// Returns the names and texts of the modules whose files are generated.
-pub fn generated() -> [(&'static str, String); 3] {
+pub fn generated() -> [(&'static str, String); 4] {
     let general = Specialization::general(RecordLimits::MIN);
     [
+        ("bindings", layout::bindings_wgsl(&[])),
         ("features", general.constants()),
         ("layout", layout::wgsl()),
         ("records", layout::records_wgsl()),

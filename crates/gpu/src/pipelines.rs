@@ -1,5 +1,6 @@
 //! Compiles shaders into pipelines and keeps the most recent ones; the driver's compiled code is kept on disk.
 
+use crate::layout::bindings::SCENE_GROUP;
 use crate::modules::Shader;
 use crate::{DeviceError, Gpu};
 use std::borrow::Cow;
@@ -20,7 +21,7 @@ const KEPT: usize = 8;
 pub struct Pipeline {
     /// The pipeline, with a layout deduced from the shader.
     pub(crate) compute: wgpu::ComputePipeline,
-    /// The numbers of the bindings in group 0 that it reads.
+    /// The numbers of the bindings in the group of a scene's data that it reads.
     pub(crate) bindings: Vec<u32>,
 }
 
@@ -119,11 +120,11 @@ fn compile_anew(gpu: &Gpu, shader: &Shader, entry_point: &str) -> Result<Pipelin
     Ok(Pipeline { compute, bindings })
 }
 
-/// Returns the bindings of group 0.
+/// Returns the bindings of the group of a scene's data.
 fn bindings_of(module: &naga::Module) -> Vec<u32> {
     let variables = module.global_variables.iter();
     let bindings = variables.filter_map(|(_, variable)| variable.binding);
-    let scene = bindings.filter(|binding| binding.group == 0);
+    let scene = bindings.filter(|binding| binding.group == SCENE_GROUP);
     scene.map(|binding| binding.binding).collect()
 }
 

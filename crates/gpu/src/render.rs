@@ -69,7 +69,12 @@ pub fn render_divided(
         packed.passes_per_sample,
         division,
     );
-    let tile_buffers = TileBuffers::new(gpu, &pipeline, u64::from(planner.max_pixels()), shape)?;
+    let tile_buffers = TileBuffers::new(
+        gpu,
+        (&pipeline, &bindings),
+        u64::from(planner.max_pixels()),
+        shape,
+    )?;
 
     let light_groups = scene.light_groups().to_vec();
     let mut image = SpectralImage::with_light_groups(
@@ -85,7 +90,7 @@ pub fn render_divided(
         while taken < settings.samples {
             let samples = planner.batch(tile, settings.samples - taken);
             let started = Instant::now();
-            tile_buffers.dispatch(gpu, (&pipeline, &bindings), tile, (taken, samples));
+            tile_buffers.dispatch(gpu, &pipeline, tile, (taken, samples));
             gpu.wait()?;
             planner.learn(tile, samples, started.elapsed());
             taken += samples;

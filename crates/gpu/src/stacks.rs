@@ -1,6 +1,10 @@
 //! Evaluation of many film stacks at many angles and wavelengths on a device, in `f32`.
 
-use crate::layout::{RunLayer, RunStack, StackRun};
+use crate::layout::bindings::{
+    RUN_COSINES, RUN_LAYERS, RUN_MEDIA, RUN_POWERS, RUN_STACKS, RUN_WAVELENGTHS, STACK_GROUP,
+    STACK_RUN,
+};
+use crate::layout::{RunLayer, RunStack, STACK_WORKGROUP, StackRun};
 use crate::modules::{RecordLimits, Shader, Specialization};
 use crate::{DeviceError, Gpu, compile};
 use std::time::{Duration, Instant};
@@ -217,12 +221,23 @@ impl Evaluator {
                     usage: wgpu::BufferUsages::STORAGE,
                 }))
         };
+        let wavelengths = in_fours(&wavelengths);
+        let media = batch.packed_media();
         let tables = [
-            table("wavelengths", bytemuck::cast_slice(&in_fours(&wavelengths)))?,
-            table("angles", bytemuck::cast_slice(&cosines))?,
-            table("media", bytemuck::cast_slice(&batch.packed_media()))?,
-            table("layers", bytemuck::cast_slice(&layers))?,
-            table("stacks", bytemuck::cast_slice(batch.stacks))?,
+            (
+                RUN_WAVELENGTHS,
+                table("wavelengths", bytemuck::cast_slice(&wavelengths))?,
+            ),
+            (
+                RUN_COSINES,
+                table("angles", bytemuck::cast_slice(&cosines))?,
+            ),
+            (RUN_MEDIA, table("media", bytemuck::cast_slice(&media))?),
+            (RUN_LAYERS, table("layers", bytemuck::cast_slice(&layers))?),
+            (
+                RUN_STACKS,
+                table("stacks", bytemuck::cast_slice(batch.stacks))?,
+            ),
         ];
         let buffer = |label, size, usage| {
             gpu.device().0.create_buffer(&wgpu::BufferDescriptor {
@@ -249,21 +264,18 @@ impl Evaluator {
             size,
             wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
         );
-        let entries: Vec<_> = std::iter::once(&run)
-            .chain(&tables)
-            .chain([&powers])
-            .zip(0..)
-            .map(|(buffer, binding)| wgpu::BindGroupEntry {
-                binding,
-                resource: buffer.as_entire_binding(),
-            })
+        let tables = tables.iter().map(|(binding, table)| (*binding, table));
+        let entries: Vec<_> = [(STACK_RUN, &run), (RUN_POWERS, &powers)]
+            .into_iter()
+            .chain(tables)
+            .map(|(binding, buffer)| binding.entry(buffer.as_entire_binding()))
             .collect();
         let group = gpu
             .device()
             .0
             .create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("stacks"),
-                layout: &pipeline.get_bind_group_layout(0),
+                layout: &pipeline.get_bind_group_layout(STACK_GROUP),
                 entries: &entries,
             });
         gpu.check()?;
@@ -305,8 +317,8 @@ impl Evaluator {
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(0, &self.group, &[]);
-            let workgroups = items.div_ceil(64) as u32;
+            pass.set_bind_group(STACK_GROUP, &self.group, &[]);
+            let workgroups = items.div_ceil(u64::from(STACK_WORKGROUP)) as u32;
             let wide = workgroups.min(65_535);
             pass.dispatch_workgroups(wide, workgroups.div_ceil(wide), 1);
         }

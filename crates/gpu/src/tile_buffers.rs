@@ -1,6 +1,7 @@
 //! The running means of a tile: accumulated on the device, and copied into the picture.
 
-use crate::layout::{Batch, WORKGROUP_SIDE};
+use crate::layout::bindings::{BATCHES, SCENE_GROUP, SUMS, TILE_GROUP};
+use crate::layout::{BATCH_COPIES, Batch, WORKGROUP_SIDE};
 use crate::tiles::Tile;
 use crate::{DeviceError, Gpu, Pipeline, RenderError, SceneBindings};
 use spectra::{KM_LUMENS_PER_WATT, SpectralImage};
@@ -35,14 +36,15 @@ pub(crate) struct TileBuffers {
     /// Means, deviations, colors, each of all pixels.
     sums: wgpu::Buffer,
     staging: wgpu::Buffer,
-    bind_group: wgpu::BindGroup,
+    scene_group: wgpu::BindGroup,
+    tile_group: wgpu::BindGroup,
     shape: PixelShape,
 }
 
 impl TileBuffers {
     pub(crate) fn new(
         gpu: &Gpu,
-        pipeline: &Pipeline,
+        (pipeline, scene): (&Pipeline, &SceneBindings),
         pixels: u64,
         shape: PixelShape,
     ) -> Result<Self, DeviceError> {
@@ -56,7 +58,7 @@ impl TileBuffers {
         };
         let batch = buffer(
             "batch",
-            2 * size_of::<Batch>() as u64,
+            u64::from(BATCH_COPIES) * size_of::<Batch>() as u64,
             wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         );
         let size = shape.bytes() * pixels;
@@ -66,21 +68,21 @@ impl TileBuffers {
         let on_host = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
         let sums = buffer("sums", size, on_device);
         let staging = buffer("staging", size, on_host);
-        let resources = [&batch, &sums].map(wgpu::Buffer::as_entire_binding);
-        let entries: Vec<_> = std::iter::zip(0.., resources)
-            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
-            .collect();
-        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        let tile_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("tile"),
-            layout: &pipeline.compute.get_bind_group_layout(1),
-            entries: &entries,
+            layout: &pipeline.compute.get_bind_group_layout(TILE_GROUP),
+            entries: &[
+                BATCHES.entry(batch.as_entire_binding()),
+                SUMS.entry(sums.as_entire_binding()),
+            ],
         });
         gpu.check()?;
         Ok(Self {
             batch,
             sums,
             staging,
-            bind_group,
+            scene_group: scene.group(gpu, pipeline),
+            tile_group,
             shape,
         })
     }
@@ -99,7 +101,7 @@ impl TileBuffers {
     pub(crate) fn dispatch(
         &self,
         gpu: &Gpu,
-        (pipeline, scene): (&Pipeline, &SceneBindings),
+        pipeline: &Pipeline,
         tile: Tile,
         (first_sample, sample_count): (u32, u32),
     ) {
@@ -111,15 +113,15 @@ impl TileBuffers {
             passes: 2,
             ..Default::default()
         };
+        let batches = [batch; BATCH_COPIES as usize];
         gpu.queue
-            .write_buffer(&self.batch, 0, bytemuck::cast_slice(&[batch; 2]));
-        let scene = scene.group(gpu, pipeline);
+            .write_buffer(&self.batch, 0, bytemuck::cast_slice(&batches));
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             pass.set_pipeline(&pipeline.compute);
-            pass.set_bind_group(0, &scene, &[]);
-            pass.set_bind_group(1, &self.bind_group, &[]);
+            pass.set_bind_group(SCENE_GROUP, &self.scene_group, &[]);
+            pass.set_bind_group(TILE_GROUP, &self.tile_group, &[]);
             let [x, y] = tile.size.map(|side| side.div_ceil(WORKGROUP_SIDE));
             pass.dispatch_workgroups(x, y, 1);
         }

@@ -7,6 +7,10 @@ use scene::{CoatedBody, Estimate, FacetTable, PixelFilter};
 constants! { CONSTANTS;
     /// Width and height of a workgroup, in invocations.
     pub const WORKGROUP_SIDE = 8;
+    /// Invocations of a workgroup that evaluates stacks.
+    pub const STACK_WORKGROUP = 64;
+    /// Number of copies of a dispatch's batch.
+    pub const BATCH_COPIES = 2;
     /// No object or emitter.
     pub const NONE = 0xffff_ffff;
 

@@ -1,15 +1,17 @@
 //! What host and shader share, defined once.
 //!
-//! Macros take documented Rust types and constants, prove at compile time that Rust places every field where WGSL expects it, and
-//! generate the text of `shaders/layout.wgsl` and `shaders/records.wgsl`. Those files are committed, and a test checks that they
-//! are up to date.
+//! Macros take documented Rust types, constants and bindings, prove at compile time that Rust places every field where WGSL expects
+//! it, and generate the text of `layout.wgsl`, `records.wgsl` and `bindings.wgsl` in `shaders/`. Those files are committed, and a test
+//! checks that they are up to date, as it does for `features.wgsl`.
 
 #[macro_use]
 mod declare;
+pub(crate) mod bindings;
 mod constants;
 mod records;
 mod structs;
 
+pub(crate) use bindings::bindings_wgsl;
 pub use constants::*;
 pub(crate) use declare::constant;
 use declare::declare;
