@@ -156,6 +156,21 @@ const TEXELS_WIDTH: u32 = 4096u;
 /// Maximum thickness of a layer, nm.
 const MAX_THICKNESS_NM: u32 = 100000u;
 
+/// Steps of the flow that carries the streaks of swirls.
+const WARP_STEPS: u32 = 3u;
+
+/// Points of the integer lattice around a point, by which noise is computed.
+const LATTICE_CORNERS: u32 = 8u;
+
+/// Steps of Halley's method for a facet's slope.
+const SLOPE_STEPS: u32 = 4u;
+
+/// Terms of the series for thin layers.
+const EXPONENTIAL_TERMS: u32 = 7u;
+
+/// Most cosines at which layers on a conductor are evaluated for a vertex: the path's, the emission's, and three for a mean.
+const COATING_COSINES: u32 = 5u;
+
 /// Size of the table that distributes a pixel's samples by its filter.
 const FILTER_KNOTS: u32 = 257u;
 

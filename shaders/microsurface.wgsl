@@ -110,9 +110,6 @@ fn sample_visible_beckmann(wo: vec3f, u: f32, v: f32) -> vec3f {
     return vec3f(-along * toward - vec2f(-along.y, along.x) * aside, 1.0);
 }
 
-/// Steps of Halley's method for a slope.
-const SLOPE_STEPS: u32 = 4u;
-
 /// Returns the slope x below which the fraction u of the area visible from θ lies: the density of x is proportional to exp(−x²)
 /// (cos θ − x sin θ) up to x = cot θ, so the fraction is F(x) / F(cot θ) with F(x) = cos θ erfc(−x) + sin θ exp(−x²) / √π.
 ///

@@ -1,7 +1,5 @@
 // Gradient noise, and the streaks that a flow makes of it.
 
-/// Number of steps of the flow that carries the streaks.
-const WARP_STEPS: u32 = 3u;
 /// Gain before the noise is bounded: the root mean square of the noise is about a fifth.
 const NOISE_GAIN: f32 = 5.0;
 /// Offset of the seed that separates the noise of the stream function from the noise of the streaks.
@@ -14,7 +12,7 @@ fn gradient_noise(place: vec3f, cells: u32, seed: u32) -> vec4f {
     let corner = bitcast<vec3u>(vec3i(floor(place))) + vec3u(0u, 0u, cells);
     let within = place - floor(place);
     var sum = vec4f(0.0);
-    for (var index = 0u; index < 8u; index++) {
+    for (var index = 0u; index < LATTICE_CORNERS; index++) {
         let step = vec3u(index & 1u, (index >> 1u) & 1u, index >> 2u);
         let slope = 2.0 * unit_interval(pcg4d(vec4u(corner + step, seed))).xyz - 1.0;
         let distance = within - vec3f(step);

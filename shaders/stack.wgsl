@@ -100,7 +100,7 @@ fn layer_phase(q: Complex4, thickness: vec4f) -> LayerPhase {
 /// Returns (exp(z) − 1) / z = Σ zⁿ / (n + 1)! for |z| < 1/2; the remainder after z⁷ is below 2e-8.
 fn exponential_quotient(z: Complex4) -> Complex4 {
     var sum = Complex4(vec4f(1.0 / 40320.0), vec4f(0.0));
-    for (var divisor = 7.0; divisor > 0.0; divisor -= 1.0) {
+    for (var divisor = f32(EXPONENTIAL_TERMS); divisor > 0.0; divisor -= 1.0) {
         sum = complex_mul(sum, z);
         sum.re += INVERSE_FACTORIALS[u32(divisor) - 1u];
     }
@@ -108,7 +108,7 @@ fn exponential_quotient(z: Complex4) -> Complex4 {
 }
 
 /// 1/n! from n = 1 on.
-const INVERSE_FACTORIALS = array<f32, 7>(1.0, 0.5, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0, 1.0 / 5040.0);
+const INVERSE_FACTORIALS = array<f32, EXPONENTIAL_TERMS>(1.0, 0.5, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0, 1.0 / 5040.0);
 
 /// Returns the fields of one polarization at the upper end of a layer, scaled to a size near 1.
 fn fields_above(below: TangentialFields, phase: LayerPhase, a: Complex4, b: Complex4) -> TangentialFields {

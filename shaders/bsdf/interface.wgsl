@@ -67,7 +67,7 @@ fn coating_value(at: At, vertex: Vertex) -> Values {
     var mean = vec4f(0.0);
     var count = select(1u, 2u, HAS_SCATTERING);
     if (HAS_MULTIPLE_SCATTERING && multiples[at.vertex].weight + multiples[at.vertex].emission_weight > 0.0) {
-        count = 5u;
+        count = COATING_COSINES;
     }
     var i = 0u;
     loop {

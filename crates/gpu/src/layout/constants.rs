@@ -115,6 +115,17 @@ constants! { CONSTANTS;
     /// Maximum thickness of a layer, nm.
     pub const MAX_THICKNESS_NM = THICKNESS_NM.high as u32;
 
+    /// Steps of the flow that carries the streaks of swirls.
+    pub const WARP_STEPS = 3;
+    /// Points of the integer lattice around a point, by which noise is computed.
+    pub const LATTICE_CORNERS = 8;
+    /// Steps of Halley's method for a facet's slope.
+    pub const SLOPE_STEPS = 4;
+    /// Terms of the series for thin layers.
+    pub const EXPONENTIAL_TERMS = 7;
+    /// Most cosines at which layers on a conductor are evaluated for a vertex: the path's, the emission's, and three for a mean.
+    pub const COATING_COSINES = 5;
+
     /// Size of the table that distributes a pixel's samples by its filter.
     pub const FILTER_KNOTS = PixelFilter::KNOTS as u32;
     /// Size of a film's table of its reflected fraction, over the cosine.

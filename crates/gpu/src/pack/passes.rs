@@ -2,10 +2,7 @@
 
 use super::surface::Passes;
 use crate::counts::RecordLimits;
-use scene::Scene;
-
-/// Passes of the two binary searches that sample a direction toward a picture of the environment, among 1024 and 512.
-const SEARCHES: u64 = 1 + 10 + 1 + 9;
+use scene::{Environment, Scene};
 
 /// Returns a bound on the passes of all loops of one sample: those of tracing it (every segment and every film on the way to an
 /// emitter tests every object and computes thicknesses), and those of its spectrum (every group of four bands visits every vertex
@@ -26,8 +23,18 @@ pub(super) fn of_sample(scene: &Scene, limits: RecordLimits, surfaces: Passes) -
     // The clamp evaluates the whole spectrum before it is added.
     let times = 1 + u64::from(scene.settings().clamp.is_some());
     let spectrum = times * groups * (1 + 2 * segments + factors + 2 * light_groups);
-    let environment = scene.environment_parts().len() as u64 + 1 + segments * SEARCHES;
+    let environment = scene.environment_parts().len() as u64 + 1 + segments * searches(scene);
     // The sum of the emitters' weights, the choice among them, and the probability of an emitter that a path hits.
     let choices = segments * 3 * (2 + scene.emitter_tree().nodes.len() as u64);
     1 + trace + choices + environment + spectrum + 3 * light_groups
+}
+
+/// Returns the passes of the two binary searches that sample a direction toward a picture of the environment.
+fn searches(scene: &Scene) -> u64 {
+    let Environment::Picture { picture, .. } = scene.environment() else {
+        return 0;
+    };
+    let table = &picture.table;
+    let among = |count: u32| 1 + u64::from(count.next_power_of_two().ilog2());
+    among(table.rows) + among(table.columns)
 }

@@ -5,10 +5,12 @@ use super::{id, vec3};
 use crate::features::Feature;
 use crate::layout::{self, Field, NONE};
 use glam::DVec3;
+use scene::limits::OCTAVES;
 use scene::{Coordinate, Layer, Picture, Profile, Swirls, Thickness};
 
-/// Maximum number of passes of `gradient_noise` (eight corners) for each of the flow's steps and the streaks' octaves.
-const SWIRLS: u64 = 9 * (3 + 6);
+/// Maximum number of passes of `gradient_noise` for each of the flow's steps and the streaks' octaves.
+const SWIRLS: u64 =
+    (1 + layout::LATTICE_CORNERS as u64) * (layout::WARP_STEPS as u64 + OCTAVES.high as u64);
 
 /// Adds layers to the records, one after the other, and returns the row of the first.
 pub(super) fn layers(tables: &mut Tables, layers: &[Layer]) -> u32 {

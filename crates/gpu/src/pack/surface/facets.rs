@@ -8,7 +8,7 @@ use glam::DVec3;
 use scene::{Distribution, FacetTable, Grain, Microsurface};
 
 /// Passes of sampling a facet: two slopes.
-pub(super) const SHADING: u64 = 2 * (1 + 4);
+pub(super) const SHADING: u64 = 2 * (1 + layout::SLOPE_STEPS as u64);
 
 /// Packs facets and returns their row and the features that they need; `transmittance_scale` is the table of the transmittance
 /// scale of a brushed coat.

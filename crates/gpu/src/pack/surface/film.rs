@@ -8,7 +8,7 @@ use crate::pack::thickness;
 use scene::{Estimate, Interference, Layer, PathDifference};
 
 /// Passes for a layer of a stack: its own, and those of the series for small thicknesses.
-pub(super) const LAYER: u64 = 1 + 8;
+pub(super) const LAYER: u64 = 2 + layout::EXPONENTIAL_TERMS as u64;
 
 /// Packs a film; `is_clear` for a single non-absorbing layer with n ≥ 1.
 pub(super) fn pack(

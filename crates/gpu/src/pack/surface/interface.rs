@@ -8,6 +8,9 @@ use crate::pack::tables::Tables;
 use crate::pack::thickness;
 use scene::{Layer, Microsurface};
 
+/// Passes over the cosines of a vertex.
+const COSINES: u64 = layout::COATING_COSINES as u64;
+
 pub(super) fn pack(
     tables: &mut Tables,
     spectrum: u32,
@@ -19,8 +22,7 @@ pub(super) fn pack(
     let mut facets_row = NONE;
     let mut passes = Passes {
         shading: thickness::passes(layers),
-        // At most five cosines.
-        spectrum: 6 + 5 * film::LAYER * layers.len() as u64,
+        spectrum: 1 + COSINES * (1 + film::LAYER * layers.len() as u64),
         crossing: 0,
     };
     match microsurface {
