@@ -10,7 +10,8 @@ pub(crate) struct Binding {
     pub(crate) number: u32,
     /// Name of the variable.
     pub(crate) name: &'static str,
-    docs: &'static [&'static str],
+    /// Its comment in WGSL.
+    comment: &'static str,
     kind: Kind,
 }
 
@@ -40,7 +41,7 @@ macro_rules! bindings {
             group: $group,
             number: $number,
             name: $name,
-            docs: &[$($doc),+],
+            comment: concat!($("///", $doc, "\n"),+),
             kind: $kind,
         };)*
         const BINDINGS: &[Binding] = &[$($constant,)*];
@@ -110,22 +111,22 @@ impl Binding {
 
     /// Returns the declaration in WGSL; a list has a function that reads a row.
     fn declare(&self, form: ListForm) -> String {
-        let docs: String = self.docs.iter().map(|doc| format!("///{doc}\n")).collect();
         let Self {
             group,
             number,
             name,
-            ..
-        } = self;
-        let variable = match self.kind {
-            Kind::Uniform(kind) => format!("var<uniform> {name}: {kind}"),
+            comment,
+            kind,
+        } = *self;
+        let variable = match kind {
+            Kind::Uniform(whole) => format!("var<uniform> {name}: {whole}"),
             Kind::List(row) => form.variable(name, row),
             Kind::Input(element) => format!("var<storage, read> {name}: array<{element}>"),
             Kind::Output(element) => format!("var<storage, read_write> {name}: array<{element}>"),
             Kind::Texture => format!("var {name}: texture_2d<f32>"),
         };
-        let declared = format!("\n{docs}@group({group}) @binding({number}) {variable};\n");
-        let Kind::List(row) = self.kind else {
+        let declared = format!("\n{comment}@group({group}) @binding({number}) {variable};\n");
+        let Kind::List(row) = kind else {
             return declared;
         };
         let value = form.row(name);
