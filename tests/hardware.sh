@@ -54,7 +54,7 @@ compared="scenes/bench/bubble.toml scenes/bench/metals.toml scenes/bench/wedge.t
 if $short; then
     size=64x48
     seconds=0.1
-    suites="--test pipeline_cache"
+    suites="--test shader pipeline_cache::"
     scenes="scenes/film_wedge.toml"
 fi
 

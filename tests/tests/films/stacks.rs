@@ -8,7 +8,7 @@ use pellicle_tests::tables::{number, rows};
 use pellicle_tests::tolerances::{DERIVATIVE, IDENTITY, ORACLE_STACKS};
 use proptest::prelude::*;
 
-const STACKS: &str = include_str!("../data/stacks.csv");
+const STACKS: &str = include_str!("../../data/stacks.csv");
 
 /// A row of `stacks.csv`.
 struct Case {

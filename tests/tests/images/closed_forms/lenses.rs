@@ -1,6 +1,6 @@
 //! The image of a small emitter, as spread by the lens and by the pixel filter.
 
-use crate::comparison::{LAMBERT, pictures, scene};
+use super::comparison::{LAMBERT, pictures, scene};
 use pellicle_tests::device::open;
 use pellicle_tests::tolerances::{OUT_OF_FOCUS, PIXEL_FILTER};
 use spectra::SpectralImage;

@@ -1,7 +1,7 @@
 //! Rough surfaces: sampled directions against their density, over roughness, angle, grain and distribution; the energy
 //! that they return; reciprocity.
 
-use crate::chi_square::{Experiment, direction, numbers, turns};
+use super::chi_square::{Experiment, direction, numbers, turns};
 use glam::DVec3;
 use rayon::prelude::*;
 use reference::{Facets, random4, sample_cosine_hemisphere};

@@ -1,6 +1,6 @@
 //! Wavelengths sampled at random within their bands, or fixed at the centers.
 
-use crate::comparison::{
+use super::comparison::{
     BANDS, DOWN, Estimate, WHITE, band_mean, check, film, pictures, render, scene,
 };
 use pellicle_tests::device::open;

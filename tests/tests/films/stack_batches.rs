@@ -7,8 +7,8 @@ use pellicle_tests::agreement::{Tolerance, compare};
 use pellicle_tests::tolerances::{FILM, FILM_GRAZING, FILM_LONG, FILM_THICK};
 use std::collections::BTreeMap;
 
-const FILMS: &str = include_str!("../data/films.csv");
-const FILMS_MEDIA: &str = include_str!("../data/films_media.csv");
+const FILMS: &str = include_str!("../../data/films.csv");
+const FILMS_MEDIA: &str = include_str!("../../data/films_media.csv");
 
 fn rows(table: &'static str) -> impl Iterator<Item = Vec<&'static str>> {
     let lines = table.lines().filter(|line| !line.starts_with('#'));

@@ -14,8 +14,8 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-const FILMS: &str = include_str!("../data/films.csv");
-const FILMS_MEDIA: &str = include_str!("../data/films_media.csv");
+const FILMS: &str = include_str!("../../data/films.csv");
+const FILMS_MEDIA: &str = include_str!("../../data/films_media.csv");
 /// Number of wavelengths in the tables, which are the centers of bands of 10 nm.
 const BANDS: usize = 41;
 

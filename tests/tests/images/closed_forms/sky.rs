@@ -1,6 +1,6 @@
 //! The clear sky and its sun: the radiance of flat ground and of the sun, against spectral sums of the model itself.
 
-use crate::comparison::{ALBEDO, BANDS, DOWN, FLOOR, LAMBERT, band_mean, check, render, scene};
+use super::comparison::{ALBEDO, BANDS, DOWN, FLOOR, LAMBERT, band_mean, check, render, scene};
 use pellicle_tests::device::open;
 use pellicle_tests::tolerances::{CLOSED_FORM, SKY_PICTURE};
 use spectra::Spectrum;
@@ -110,7 +110,7 @@ fn a_plane_looks_like_the_ground_beyond_it() {
     };
     let bare = reference::render(&lit(""), &mut |_| std::ops::ControlFlow::Continue(()));
     let bare = bare.expect("nothing stops the render");
-    let of_ground = |band| crate::Estimate::of(&bare, band).mean;
+    let of_ground = |band| super::Estimate::of(&bare, band).mean;
     assert!((0..BANDS).all(|band| of_ground(band) > 0.0));
     check(&gpu, "a plane", &lit(FLOOR), SKY_PICTURE, of_ground);
 }

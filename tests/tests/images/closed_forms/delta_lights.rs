@@ -1,6 +1,6 @@
 //! Lights without extent: the radiance of a surface that they light directly or through a film, and Cook's model as printed.
 
-use crate::comparison::{ALBEDO, DOWN, LAMBERT, band_mean, check, film, render, scene};
+use super::comparison::{ALBEDO, DOWN, LAMBERT, band_mean, check, film, render, scene};
 use optics::Complex64;
 use pellicle_tests::device::open;
 use pellicle_tests::tolerances::{CLOSED_FORM, CLOSED_FORM_EXACT};

@@ -1,6 +1,6 @@
 //! White furnace for rough surfaces, bare and under films: a surface that absorbs nothing is invisible against white, from any angle.
 
-use crate::comparison::{WHITE, pictures, scene};
+use super::comparison::{WHITE, pictures, scene};
 use pellicle_tests::device::open;
 use pellicle_tests::tolerances::{CLOSED_FORM_EXACT, FURNACE_ROUGH, PROVING_ERROR, Z_MEAN};
 use scene::Scene;

@@ -1,6 +1,6 @@
 //! Smooth and rough metals.
 
-use crate::comparison::{DOWN, WHITE, check, render, scene};
+use super::comparison::{DOWN, WHITE, check, render, scene};
 use optics::Complex64;
 use pellicle_tests::device::open;
 use pellicle_tests::tolerances::{CLOSED_FORM, CLOSED_FORM_EXACT, ROUGH_FORM};

@@ -1,6 +1,6 @@
 //! Samplers of emitters and environments.
 
-use crate::chi_square::{Experiment, direction, turns};
+use super::chi_square::{Experiment, direction, turns};
 use glam::DVec3;
 use reference::{
     cone_height, environment_pdf, frame_of, sample_environment, sample_shape, shape_pdf,

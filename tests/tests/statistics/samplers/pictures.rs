@@ -1,7 +1,7 @@
 //! Environments from pictures: by the angle from the top in half turns and the longitude in turns, in which the cells of the
 //! table are uniform.
 
-use crate::chi_square::Experiment;
+use super::chi_square::Experiment;
 use glam::DVec3;
 use image::{ImageBuffer, Rgb};
 use pellicle_tests::scenes::file;

@@ -6,8 +6,8 @@ use pellicle_tests::colorimetry::xyz;
 use pellicle_tests::tables::{number, rows};
 use pellicle_tests::tolerances::{ORACLE, ORACLE_RGB, ORACLE_TWO_BEAM, ORACLE_XYZ};
 
-const TWO_BEAM: &str = include_str!("../data/two_beam.csv");
-const NEWTON: &str = include_str!("../data/newton_series.csv");
+const TWO_BEAM: &str = include_str!("../../data/two_beam.csv");
+const NEWTON: &str = include_str!("../../data/newton_series.csv");
 const WATER: f64 = 4.0 / 3.0;
 
 fn path(name: &str) -> PathDifference {

@@ -1,6 +1,6 @@
 //! Surfaces that coincide: rays hit them in the order of their names, on both renderers.
 
-use crate::comparison::{BANDS, film, pictures, scene};
+use super::comparison::{BANDS, film, pictures, scene};
 use optics::{Complex64, Layer};
 use pellicle_tests::device::open;
 use pellicle_tests::frames::{Values, same_numbers};

@@ -13,7 +13,7 @@ fn the_generated_files_are_fresh() {
         let found = std::fs::read_to_string(&path).expect("the file exists");
         assert!(
             found == expected,
-            "shaders/{name}.wgsl is stale; regenerate it with PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test layout"
+            "shaders/{name}.wgsl is stale; regenerate it with PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test shader layout::"
         );
     }
 }

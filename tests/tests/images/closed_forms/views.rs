@@ -1,6 +1,6 @@
 //! Directions and pixels: checks where things appear in a picture.
 
-use crate::comparison::{LAMBERT, check, pictures, render, scene};
+use super::comparison::{LAMBERT, check, pictures, render, scene};
 use pellicle_tests::device::open;
 use pellicle_tests::tolerances::CLOSED_FORM_EXACT;
 use std::f64::consts::PI;

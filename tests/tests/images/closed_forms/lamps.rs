@@ -1,6 +1,6 @@
 //! Area emitters above a floor, directly and through films.
 
-use crate::comparison::{
+use super::comparison::{
     ALBEDO, DOWN, FLOOR, LAMBERT, band_mean, check, film, lamp, render, scene,
 };
 use optics::Complex64;

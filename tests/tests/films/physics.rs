@@ -11,9 +11,9 @@ use pellicle_tests::tolerances::{IDENTITY, ORACLE, ORACLE_XYZ};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 
-const FILMS: &str = include_str!("../data/films.csv");
-const FILMS_MEDIA: &str = include_str!("../data/films_media.csv");
-const FILM_COLORS: &str = include_str!("../data/film_colors.csv");
+const FILMS: &str = include_str!("../../data/films.csv");
+const FILMS_MEDIA: &str = include_str!("../../data/films_media.csv");
+const FILM_COLORS: &str = include_str!("../../data/film_colors.csv");
 
 fn close(a: f64, b: f64, tolerance: f64) -> bool {
     (a - b).abs() <= tolerance

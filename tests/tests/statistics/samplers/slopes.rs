@@ -1,6 +1,6 @@
 //! Facet normals as Cook's model of 1981 samples them.
 
-use crate::chi_square::{Experiment, turns};
+use super::chi_square::{Experiment, turns};
 use glam::DVec3;
 use optics::{gaussian_fraction, gaussian_pdf, half_vector_pdf, sample_beckmann, sample_gaussian};
 use std::f64::consts::TAU;

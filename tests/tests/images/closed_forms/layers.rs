@@ -1,6 +1,6 @@
 //! Films and coatings of several layers, and films with the two-beam model.
 
-use crate::comparison::{DOWN, WHITE, band_mean, check, render, scene};
+use super::comparison::{DOWN, WHITE, band_mean, check, render, scene};
 use optics::{Complex64, Layer, PathDifference};
 use pellicle_tests::device::open;
 use pellicle_tests::tolerances::CLOSED_FORM;

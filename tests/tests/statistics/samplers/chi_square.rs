@@ -1,6 +1,6 @@
 //! Tests samplers against their densities: counts in cells, and the probability of such counts.
 
-use crate::{FALSE_ALARM, TESTS};
+use super::{FALSE_ALARM, TESTS};
 use glam::DVec3;
 use reference::random4;
 use std::f64::consts::TAU;

@@ -1,5 +1,5 @@
 //! Developed pictures against goldens, by FLIP. A missing golden fails. After looking at the pictures, bless them again with
-//! `PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test pictures`.
+//! `PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test images pictures::`.
 
 use color::compare::{Picture, flip};
 use color::{DevelopSettings, RgbImage8};
@@ -13,7 +13,7 @@ use spectra::SpectralImage;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-const BLESS: &str = "PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test pictures";
+const BLESS: &str = "PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test images pictures::";
 const SCENES: [(&str, [u32; 2]); 20] = [
     ("soap_bubble", [160, 120]),
     ("film_wedge", [160, 40]),

@@ -1,0 +1,8 @@
+//! The shader as a whole: its text, its layout, what is left of it for a scene, its lists, and its compiled form.
+
+mod layout;
+mod lists;
+mod modules;
+mod paths;
+mod pipeline_cache;
+mod specialization;
