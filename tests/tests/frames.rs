@@ -2,7 +2,7 @@
 //! known results.
 
 use gpu::Gpu;
-use pellicle_tests::device::{is_short, open};
+use pellicle_tests::device::{is_short, lend};
 use pellicle_tests::frames::{Values, same_expectation, same_numbers, same_variances};
 use pellicle_tests::scenes::{BANDS, MADE, all, file, small};
 use pellicle_tests::tolerances::{FRAMES, SAME_COLOR, SUMS, VARIANCES, Z_FURNACE, Z_MEAN};
@@ -136,7 +136,7 @@ fn each_technique_of_direct_lighting_gives_the_same_pictures() {
 /// depends on the grouping.
 #[test]
 fn light_groups_add_up_to_the_picture() {
-    let gpu = open();
+    let gpu = lend();
     let mut file = file("everything");
     let render = &mut file.description.render;
     (render.size, render.samples, render.bands, render.seed) = ([64, 48], 16, BANDS, 7);
@@ -169,7 +169,7 @@ fn light_groups_add_up_to_the_picture() {
 /// A film whose index is one percent off, or whose bands are swapped, gives another picture.
 #[test]
 fn a_wrong_picture_is_noticed() {
-    let gpu = open();
+    let gpu = lend();
     let right = small("film_wedge", [96, 24], 16, 10, 1);
     let mut off = file("film_wedge");
     let render = &mut off.description.render;
@@ -190,7 +190,7 @@ fn a_wrong_picture_is_noticed() {
 /// Albedo 0.5 inside emission 0.5: the radiance is 1 everywhere, in every band.
 #[test]
 fn the_furnace_is_white() {
-    let gpu = open();
+    let gpu = lend();
     let scene = small("furnace", [32, 32], 64, 7, 5);
     for (who, image) in [("gpu", on_gpu(&gpu, &scene)), ("cpu", on_cpu(&scene))] {
         let bands = image.bands().count() as usize;
@@ -226,7 +226,7 @@ fn the_wedge_shows_the_reflectance_of_its_film() {
     (render.size, render.samples, render.bands, render.seed) = (SIZE, 128, 8, 9);
     (render.sampler, render.film_splits) = (scene::description::Sampler::Independent, 0);
     let scene = file.validate().expect("valid").rounded_to_f32();
-    let image = on_gpu(&open(), &scene);
+    let image = on_gpu(&lend(), &scene);
     let (film, ends_nm) = wedge_of(&scene);
     let mut largest = 0.0_f64;
     for x in 0..SIZE[0] {
@@ -314,7 +314,7 @@ fn mean_over_band(
 /// this; if it happens nevertheless, it must be an error.
 #[test]
 fn long_runs_of_samples_are_complete_or_refused() {
-    let gpu = open();
+    let gpu = lend();
     let scene = small("film_wedge", [4, 4], 20_000, 8, 1);
     let divided = |samples: Option<u32>| {
         let division = samples.map(|samples| gpu::Division { rows: 4, samples });
@@ -335,7 +335,7 @@ fn long_runs_of_samples_are_complete_or_refused() {
 /// A pixel has the same bits however the samples are divided, and whichever tile it is in.
 #[test]
 fn the_bits_do_not_depend_on_the_division_of_the_work() {
-    let gpu = open();
+    let gpu = lend();
     let scene = small("soap_bubble", [600, 40], 6, 5, 3);
     let divided = |rows, samples| {
         let division = gpu::Division { rows, samples };

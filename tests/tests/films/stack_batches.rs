@@ -107,7 +107,7 @@ impl Case {
 /// Films, coatings and metals against tmm 0.2.0 (S. J. Byrnes, arXiv:1603.02720), 0 to 80°.
 #[test]
 fn published_stacks_are_reproduced_on_the_device() {
-    let gpu = pellicle_tests::device::open();
+    let gpu = pellicle_tests::device::lend();
     let cases = cases();
     assert_eq!(cases.len(), 14);
     for (name, case) in &cases {
@@ -233,7 +233,7 @@ impl RandomStacks {
 
 #[test]
 fn random_stacks_agree_with_f64() {
-    let gpu = pellicle_tests::device::open();
+    let gpu = pellicle_tests::device::lend();
     for (what, count, depth, sizes, degrees, tolerance) in [
         (
             "ordinary",
@@ -280,7 +280,7 @@ fn random_stacks_agree_with_f64() {
 /// A layer between two prisms at and near its critical angle: R and T are as smooth there as elsewhere.
 #[test]
 fn a_layer_at_its_critical_angle_is_like_any_other() {
-    let gpu = pellicle_tests::device::open();
+    let gpu = pellicle_tests::device::lend();
     for (prism, layer) in [
         (2.0, 1.0),
         (1.5, 1.0),
@@ -305,7 +305,7 @@ fn a_layer_at_its_critical_angle_is_like_any_other() {
 
 #[test]
 fn layers_in_the_wrong_order_are_noticed() {
-    let gpu = pellicle_tests::device::open();
+    let gpu = pellicle_tests::device::lend();
     let mut stacks = RandomStacks::new(100, 5, (300.0, 3.0), &[0.0, 50.0]);
     let right = evaluate_stacks(&gpu, &stacks.batch()).unwrap();
     stacks.layers.chunks_mut(5).for_each(<[_]>::reverse);
@@ -319,7 +319,7 @@ fn layers_in_the_wrong_order_are_noticed() {
 #[test]
 fn one_call_evaluates_a_million_stacks() {
     const COUNT: usize = 1_000_000;
-    let gpu = pellicle_tests::device::open();
+    let gpu = pellicle_tests::device::lend();
     let mut stacks = RandomStacks::new(COUNT, 5, (300.0, 3.0), &[30.0]);
     stacks.wavelengths_nm.truncate(1);
     let found = evaluate_stacks(&gpu, &stacks.batch()).unwrap();
@@ -335,7 +335,7 @@ fn one_call_evaluates_a_million_stacks() {
 
 #[test]
 fn invalid_batches_are_reported() {
-    let gpu = pellicle_tests::device::open();
+    let gpu = pellicle_tests::device::lend();
     let with = |change: fn(&mut RandomStacks)| {
         let mut stacks = RandomStacks::new(3, 2, (100.0, 3.0), &[0.0]);
         change(&mut stacks);
@@ -364,7 +364,7 @@ fn invalid_batches_are_reported() {
 /// A path cannot store arbitrarily many thicknesses: a scene that would need it is reported before anything is compiled.
 #[test]
 fn a_record_that_is_too_long_is_reported() {
-    let gpu = pellicle_tests::device::open();
+    let gpu = pellicle_tests::device::lend();
     let layer =
         "{ index = 1.5, thickness_nm = { start = 1, end = 9, from = [0, 0, 0], to = [1, 0, 0] } }";
     let scene = |layers: usize, segments: u32| {

@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 fn rendered(scene: &Scene) -> [(&'static str, SpectralImage); 2] {
-    let gpu = pellicle_tests::device::open();
+    let gpu = pellicle_tests::device::lend();
     let on_gpu = gpu::render(&gpu, scene, &mut |_| ControlFlow::Continue(()));
     let on_cpu = reference::render(scene, &mut |_| ControlFlow::Continue(()));
     [

@@ -13,14 +13,14 @@ mod views;
 mod wavelengths;
 
 use comparison::{ALBEDO, DOWN, Estimate, FLOOR, LAMBERT, lamp, pictures, render, scene};
-use pellicle_tests::device::open;
+use pellicle_tests::device::lend;
 use pellicle_tests::tolerances::CLOSED_FORM;
 use std::f64::consts::PI;
 
 /// A value two percent off, a missing cosine and too much noise are all refused.
 #[test]
 fn a_wrong_formula_is_noticed() {
-    let gpu = open();
+    let gpu = lend();
     let (height, radius) = (3.0_f64, 1.0_f64);
     let lit = |samples| {
         let lamp = lamp(height, radius);

@@ -5,7 +5,7 @@ use color::xyz::exposure_scale;
 use colorimetry::srgb;
 use glam::DVec3;
 use image::{ImageBuffer, Rgb};
-use pellicle_tests::device::open;
+use pellicle_tests::device::lend;
 use pellicle_tests::frames::{Values, same_numbers};
 use pellicle_tests::tolerances::FRAMES;
 use scene::{Scene, SceneFile};
@@ -122,7 +122,7 @@ fn spectral_environments_light_both_renderers_equally() {
         .and_then(|file| file.validate())
         .unwrap_or_else(|e| panic!("{e:#}"))
         .rounded_to_f32();
-    let on_gpu = gpu::render(&open(), &scene, &mut |_| ControlFlow::Continue(())).unwrap();
+    let on_gpu = gpu::render(&lend(), &scene, &mut |_| ControlFlow::Continue(())).unwrap();
     let report = same_numbers(Values::of(&on_gpu), Values::of(&on_cpu(&scene)), &FRAMES);
     println!("{}", report.unwrap_or_else(|report| panic!("{report}")));
 }
@@ -131,7 +131,7 @@ fn spectral_environments_light_both_renderers_equally() {
 fn spectra_come_back_unchanged() {
     let size = [16, 8];
     let folder = folder_of_spectra(size);
-    let gpu = open();
+    let gpu = lend();
     for (pixel, rotation_deg) in [([3, 1], 0.0), ([8, 4], 90.0), ([15, 6], -35.0)] {
         let environment = format!(
             "type = \"image\"\nimage = \"a.exr\"\nscale = 0.5\nrotation_deg = {rotation_deg:?}"

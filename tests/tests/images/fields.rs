@@ -31,7 +31,7 @@ fn scene(thickness: &str) -> Scene {
 }
 
 fn compared(actual: &Scene, expected: &Scene) -> Result<String, String> {
-    let gpu = pellicle_tests::device::open();
+    let gpu = pellicle_tests::device::lend();
     let mut go_on = |_| ControlFlow::Continue(());
     let actual = gpu::render(&gpu, actual, &mut go_on).unwrap_or_else(|error| panic!("{error}"));
     let expected = reference::render(expected, &mut go_on).expect("nothing stops the render");

@@ -1,6 +1,6 @@
 //! Lights in physical units: compares the values of a picture with closed forms. Km is 683 lm/W.
 
-use pellicle_tests::device::open;
+use pellicle_tests::device::lend;
 use pellicle_tests::wgsl::root;
 use reference::Emitter;
 use scene::{LightShape, Scene, SceneFile};
@@ -26,7 +26,7 @@ fn scene(light: &str) -> Scene {
 const FLOOR: &str = "[[objects]]\ntype = \"rectangle\"\nmaterial = \"white\"\ncenter = [0, 0, 0]\nnormal = [0, 1, 0]\nsize = [1, 1]\n";
 
 fn rendered(scene: &Scene) -> SpectralImage {
-    gpu::render(&open(), scene, &mut |_| ControlFlow::Continue(()))
+    gpu::render(&lend(), scene, &mut |_| ControlFlow::Continue(()))
         .unwrap_or_else(|e| panic!("{e}"))
 }
 

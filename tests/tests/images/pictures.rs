@@ -13,7 +13,8 @@ use spectra::SpectralImage;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-const BLESS: &str = "PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test images pictures::";
+const BLESS: &str =
+    "PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test images pictures::";
 const SCENES: [(&str, [u32; 2]); 20] = [
     ("soap_bubble", [160, 120]),
     ("film_wedge", [160, 40]),
@@ -84,7 +85,7 @@ fn compare(actual: &Picture, path: &Path) -> Result<f64, String> {
 
 #[test]
 fn pictures_look_like_their_goldens() {
-    let gpu = device::open();
+    let gpu = device::lend();
     let bless = std::env::var("PELLICLE_BLESS").is_ok_and(|value| value == "1");
     let mut wrong = Vec::new();
     for (name, size) in SCENES {
@@ -137,7 +138,7 @@ fn water(factor: f64) -> Index {
 
 #[test]
 fn a_film_with_a_wrong_index_is_noticed() {
-    let gpu = device::open();
+    let gpu = device::lend();
     for (name, size) in &SCENES[..2] {
         let with = |factor: f64| {
             let mut file = file(name);

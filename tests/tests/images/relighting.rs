@@ -4,7 +4,7 @@ use color::xyz::exposure_scale;
 use color::{Relight, relight};
 use colorimetry::lab::{Lab, delta_e_2000};
 use gpu::Gpu;
-use pellicle_tests::device::open;
+use pellicle_tests::device::lend;
 use pellicle_tests::scenes::file;
 use pellicle_tests::tolerances::{BANDS_DELTA_E, METAMERS_DELTA_E, RELIT_DELTA_E};
 use scene::SceneFile;
@@ -116,7 +116,7 @@ fn relit(from: &SpectralImage, lamp: &str) -> SpectralImage {
 
 #[test]
 fn a_relit_bubble_is_the_bubble_rendered_under_that_lamp() {
-    let gpu = open();
+    let gpu = lend();
     let rendered = |bands| on_gpu(&gpu, &sized(file("soap_bubble"), SIZE, SAMPLES, bands));
     let (of_40, of_80) = (rendered(40), rendered(80));
     let exposure_ev = file("soap_bubble").description.render.exposure_ev;
@@ -151,7 +151,7 @@ fn a_relit_bubble_is_the_bubble_rendered_under_that_lamp() {
 #[test]
 fn the_color_of_a_film_does_not_depend_on_the_number_of_bands() {
     const COLUMNS: [u32; 2] = [8, 8];
-    let gpu = open();
+    let gpu = lend();
     let columns = |bands| {
         let image = on_gpu(
             &gpu,
@@ -183,7 +183,7 @@ fn the_color_of_a_film_does_not_depend_on_the_number_of_bands() {
 #[test]
 fn metamers_differ_under_another_lamp() {
     const UNDER_FL11: [[f64; 3]; 2] = [[60.404, 45.959, -20.816], [62.834, 48.951, -2.624]];
-    let gpu = open();
+    let gpu = lend();
     let daylight = on_gpu(&gpu, &sized(file("metamers"), [8, 4], 4096, 80));
     let mut under_fl11 = daylight.clone();
     let lamp = Some(spectra::illuminant("FL11").expect("carried").data);

@@ -2,7 +2,7 @@
 //! rare combinations agree with the reference.
 
 use gpu::{Gpu, PackedScene};
-use pellicle_tests::device::open;
+use pellicle_tests::device::{lend, open};
 use pellicle_tests::frames::{Values, same_numbers};
 use pellicle_tests::scenes::small;
 use pellicle_tests::tolerances::FRAMES;
@@ -125,7 +125,7 @@ fn lists_give_the_same_bits_in_all_forms() {
 
 #[test]
 fn long_lists_agree_with_the_reference() {
-    let gpu = open();
+    let gpu = lend();
     for (what, scene) in [
         ("1200 spheres, 400 lamps, 320 spectra", many(1200, 320)),
         ("two stacks of 64 layers", layered()),

@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 
 #[test]
 fn a_compile_is_reported_as_zero_samples() {
+    // A device that has not compiled anything.
     let gpu = open();
     let scene = small("film_wedge", [16, 8], 2, 4, 0);
     let stopped = gpu::render(&gpu, &scene, &mut |_| ControlFlow::Break(()));

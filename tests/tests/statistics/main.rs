@@ -3,5 +3,5 @@
 
 mod direct_light;
 mod facet_energy;
-mod sampling;
 mod samplers;
+mod sampling;

@@ -2,7 +2,7 @@
 
 use gpu::Gpu;
 use pellicle::pick::{Picked, pick};
-use pellicle_tests::device::open;
+use pellicle_tests::device::lend;
 use pellicle_tests::frames::same_expectation;
 use pellicle_tests::scenes::file;
 use pellicle_tests::wgsl::root;
@@ -62,7 +62,7 @@ fn all_sampling_options_have_the_same_expectation() {
             (render.film_splits, render.roulette_after) = (2, 2);
         }),
     ];
-    let gpu = open();
+    let gpu = lend();
     let mut wrong = Vec::new();
     for name in ["floating_bubble", "everything"] {
         let expected = rendered(&gpu, name, 256, 5, plain);
@@ -157,7 +157,7 @@ fn a_split_reduces_variance_where_a_film_is_visible() {
 /// Requires half of what `pellicle bench --variance` reports, so that chance cannot fail the test.
 #[test]
 fn sobol_points_halve_the_variance() {
-    let gpu = open();
+    let gpu = lend();
     for name in ["soap_bubble", "metal_spheres"] {
         let independent = variance(&gpu, name, plain);
         let sobol = variance(&gpu, name, |render| {
@@ -172,7 +172,7 @@ fn sobol_points_halve_the_variance() {
 /// No sample is brighter than the clamp, and darker ones are unchanged.
 #[test]
 fn the_clamp_bounds_every_sample() {
-    let gpu = open();
+    let gpu = lend();
     let single = |clamp| rendered(&gpu, "everything", 1, 3, |render| render.clamp = clamp);
     let (free, bounded) = (single(None), single(Some(0.3)));
     let bands = BANDS as usize;
@@ -204,7 +204,7 @@ fn the_clamp_bounds_every_sample() {
 /// mean of the picture stays the same.
 #[test]
 fn lens_and_filter_keep_the_light() {
-    let gpu = open();
+    let gpu = lend();
     let mean = |lens: Option<scene::description::Lens>, filter: Filter| {
         let mut file = file("floating_bubble");
         let render = &mut file.description.render;

@@ -2,7 +2,7 @@
 
 use super::comparison::{BANDS, film, pictures, scene};
 use optics::{Complex64, Layer};
-use pellicle_tests::device::open;
+use pellicle_tests::device::lend;
 use pellicle_tests::frames::{Values, same_numbers};
 use pellicle_tests::tolerances::{CLOSED_FORM_EXACT, FRAMES};
 use spectra::SpectralImage;
@@ -58,7 +58,7 @@ fn furthest(image: &SpectralImage, expected: f64) -> f64 {
 
 #[track_caller]
 fn assert_everywhere(what: &str, parts: &[&str], expected: f64, allowance: f64) {
-    let gpu = open();
+    let gpu = lend();
     for (who, image) in pictures(&gpu, &scene(parts)) {
         let off = furthest(&image, expected);
         assert!(
@@ -96,7 +96,7 @@ fn the_first_of_two_coplanar_rectangles_is_visible_from_its_front() {
 /// The decal is visible within its edges, and the wall everywhere else.
 #[test]
 fn a_decal_covers_its_own_area_only() {
-    let gpu = open();
+    let gpu = lend();
     let wall = rectangle("gray", [0.0; 3], 9.0, "normal = [0, 0, 1]");
     let decal = "[[objects]]\ntype = \"disk\"\nmaterial = \"white\"\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 0.25\n";
     for (who, image) in pictures(&gpu, &scene(&[FURNACE, RENDER, decal, &wall])) {
@@ -142,7 +142,7 @@ height = 1e-3
     };
     let body = ball("black", 0.9);
     let soap = on(0.9);
-    let gpu = open();
+    let gpu = lend();
     for (what, first, second, is_seen) in [
         ("film first", &soap, &body, true),
         ("ball first", &body, &soap, false),
@@ -187,7 +187,7 @@ fn a_film_in_the_plane_of_a_white_wall_loses_nothing() {
     let way = "type = \"rectangle\"\ncenter = [0.123, 0.4, 0.037]\nsize = [9, 9]\nnormal = [0.31, 0.52, 1.07]\nup = [0.1, 1, 0.2]";
     let wall = rectangle("white", [0.123, 0.4, 0.037], 9.0, TILTED);
     let render = RENDER.replace("light_groups", "max_path_segments = 32\nlight_groups");
-    let gpu = open();
+    let gpu = lend();
     let seen = scene(&[FURNACE, &render, &film("1.5", 400.0, way), &wall]);
     for (who, image) in pictures(&gpu, &seen) {
         let mean =
@@ -232,7 +232,7 @@ material = "lamp"
 center = [2, 2, 1]
 radius = 0.3
 "#;
-    let gpu = open();
+    let gpu = lend();
     for (center, radius) in [
         ("[0, -1e5, 0]", 1e5),
         ("[3e3, -4e3, 0]", 5e3),

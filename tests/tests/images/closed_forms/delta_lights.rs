@@ -2,7 +2,7 @@
 
 use super::comparison::{ALBEDO, DOWN, LAMBERT, band_mean, check, film, render, scene};
 use optics::Complex64;
-use pellicle_tests::device::open;
+use pellicle_tests::device::lend;
 use pellicle_tests::tolerances::{CLOSED_FORM, CLOSED_FORM_EXACT};
 use std::f64::consts::PI;
 
@@ -26,7 +26,7 @@ fn small_floor(material: &str) -> String {
 fn a_film_dims_a_light_without_extent() {
     const SHEET: &str =
         "type = \"rectangle\"\ncenter = [0, 2, 0]\nnormal = [0, 1, 0]\nsize = [9, 9]";
-    let gpu = open();
+    let gpu = lend();
     for (what, index, thickness_nm, degrees) in [
         ("glass", Complex64::new(1.5, 0.0), 400.0, 0.0),
         ("glass aslant", Complex64::new(1.5, 0.0), 400.0, 50.0),
@@ -78,7 +78,7 @@ impl Printed {
 /// specular part.
 #[test]
 fn cooks_model_is_lit_as_printed() {
-    let gpu = open();
+    let gpu = lend();
     let surface = Printed { n: 1.8, slope: 0.3 };
     for (normalization, factor) in [("printed", 1.0), ("normalized", 0.25)] {
         for degrees in [10.0_f64, 40.0, 70.0] {

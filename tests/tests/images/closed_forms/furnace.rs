@@ -1,7 +1,7 @@
 //! White furnace for rough surfaces, bare and under films: a surface that absorbs nothing is invisible against white, from any angle.
 
 use super::comparison::{WHITE, pictures, scene};
-use pellicle_tests::device::open;
+use pellicle_tests::device::lend;
 use pellicle_tests::tolerances::{CLOSED_FORM_EXACT, FURNACE_ROUGH, PROVING_ERROR, Z_MEAN};
 use scene::Scene;
 use spectra::SpectralImage;
@@ -98,7 +98,7 @@ fn means(image: &SpectralImage) -> Vec<(String, f64, f64)> {
 /// that of independent samples; the means of Sobol points lie far closer.
 #[test]
 fn lossless_rough_surfaces_are_white() {
-    for (who, image) in pictures(&open(), &panels("[0.001, 1000]", 1024)) {
+    for (who, image) in pictures(&lend(), &panels("[0.001, 1000]", 1024)) {
         for (panel, mean, error) in means(&image) {
             println!("{who}, {panel}: {mean:.5} ± {error:.5}");
             assert!(
@@ -112,7 +112,7 @@ fn lossless_rough_surfaces_are_white() {
 /// Every panel is visible: a metal that absorbs is noticed, with or without a film.
 #[test]
 fn absorbing_rough_surfaces_are_noticed() {
-    let image = &pictures(&open(), &panels("[0.3, 1.5]", 32))[0].1;
+    let image = &pictures(&lend(), &panels("[0.3, 1.5]", 32))[0].1;
     for (panel, mean, error) in means(image) {
         let noticed = mean + FURNACE_ROUGH + Z_MEAN * error < 1.0;
         assert!(noticed, "{panel}: {mean} ± {error}");
@@ -138,7 +138,7 @@ fn a_film_without_thickness_has_no_effect() {
             &film("center = [0.1, 0, 0]\nradius = 0.7"),
             &film("center = [0, 0.1, 0]\nradius = 0.5"),
         ]);
-        for (who, image) in pictures(&open(), &seen) {
+        for (who, image) in pictures(&lend(), &seen) {
             let furthest = image.radiance().iter().map(|v| (v - 1.0).abs());
             let furthest = furthest.fold(0.0, f32::max);
             assert!(f64::from(furthest) < CLOSED_FORM_EXACT, "{who}: {furthest}");

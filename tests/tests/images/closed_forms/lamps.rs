@@ -4,14 +4,14 @@ use super::comparison::{
     ALBEDO, DOWN, FLOOR, LAMBERT, band_mean, check, film, lamp, render, scene,
 };
 use optics::Complex64;
-use pellicle_tests::device::open;
+use pellicle_tests::device::lend;
 use pellicle_tests::tolerances::{CLOSED_FORM, NEARLY_NORMAL};
 use std::f64::consts::TAU;
 
 /// A sphere of radiance 1, fully visible: ρ r² / h² (Lambert).
 #[test]
 fn a_sphere_light_over_a_floor() {
-    let gpu = open();
+    let gpu = lend();
     for (height, radius) in [(3.0, 1.0), (2.5, 0.2), (4.0, 0.01)] {
         let scene = scene(&[
             DOWN,
@@ -44,7 +44,7 @@ type = "rectangle"
 material = "lamp"
 normal = [0, -1, 0]
 "#;
-    let gpu = open();
+    let gpu = lend();
     // Width is along x and height along z; the emitter is straight above or to the side.
     for ([width, depth], height, [x, z]) in [
         ([2.0, 0.6], 1.5, [0.0, 0.0]),
@@ -82,7 +82,7 @@ fn light_through_an_absent_film_keeps_its_strength() {
     const AROUND: &str = "type = \"sphere\"\ncenter = [0, 4, 0]\nradius = 1.5";
     const SHEET: &str =
         "type = \"rectangle\"\ncenter = [0, 2, 0]\nnormal = [0, 1, 0]\nsize = [5, 5]";
-    let gpu = open();
+    let gpu = lend();
     let expected = ALBEDO * (0.5_f64 / 4.0).powi(2);
     for (what, film, segments) in [
         (
@@ -126,7 +126,7 @@ center = [0, 0, 0]
 normal = [0, 1, 0]
 size = [0.02, 0.02]
 "#;
-    let gpu = open();
+    let gpu = lend();
     let bare = ALBEDO * (0.02_f64 / 4.0).powi(2);
     let glass = Complex64::new(1.5, 0.0);
     let smoke = Complex64::new(1.7, 0.2);

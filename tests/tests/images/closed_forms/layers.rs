@@ -2,7 +2,7 @@
 
 use super::comparison::{DOWN, WHITE, band_mean, check, render, scene};
 use optics::{Complex64, Layer, PathDifference};
-use pellicle_tests::device::open;
+use pellicle_tests::device::lend;
 use pellicle_tests::tolerances::CLOSED_FORM;
 
 const GLASS: Layer = Layer {
@@ -37,7 +37,7 @@ fn sheet(up: i32) -> String {
 /// Under uniform illumination a film shows R + T. The two sides of an absorbing film differ in R, not in T.
 #[test]
 fn a_film_of_two_layers_has_two_faces() {
-    let gpu = open();
+    let gpu = lend();
     let layers = [GLASS, METAL];
     let shown = |layers: &[Layer], nm: f64| {
         let film = optics::stack(1.0, layers, Complex64::ONE, nm, 1.0);
@@ -63,7 +63,7 @@ fn a_film_of_two_layers_has_two_faces() {
 /// A coating looks the same from both sides of its sheet.
 #[test]
 fn a_coating_reflects_as_its_stack() {
-    let gpu = open();
+    let gpu = lend();
     let substrate = Complex64::new(0.6, 3.0);
     let layers = [GLASS, METAL, GLASS];
     for up in [1, -1] {
@@ -84,7 +84,7 @@ fn a_coating_reflects_as_its_stack() {
 /// With two beams R + T is not 1: the picture shows the sum that the formula gives.
 #[test]
 fn two_beams_show_the_sum_of_their_formulas() {
-    let gpu = open();
+    let gpu = lend();
     let (index, thickness_nm) = (1.9, 300.0);
     for (name, path) in [
         ("optical", PathDifference::Optical),

@@ -1,7 +1,7 @@
 //! The image of a small emitter, as spread by the lens and by the pixel filter.
 
 use super::comparison::{LAMBERT, pictures, scene};
-use pellicle_tests::device::open;
+use pellicle_tests::device::lend;
 use pellicle_tests::tolerances::{OUT_OF_FOCUS, PIXEL_FILTER};
 use spectra::SpectralImage;
 use std::f64::consts::{PI, TAU};
@@ -40,7 +40,7 @@ fn lit(image: &SpectralImage) -> impl Iterator<Item = ([f64; 2], f64)> {
 #[test]
 fn a_lamp_out_of_focus_becomes_the_disk_of_the_lens() {
     const LENS: f64 = 0.1;
-    let gpu = open();
+    let gpu = lend();
     // Radius of the emitter's own disk there, in pixels.
     let own = 1.0_f64;
     for distance in [2.0, 2.5, 20.0] {
@@ -77,7 +77,7 @@ fn a_lamp_out_of_focus_becomes_the_disk_of_the_lens() {
 
 #[test]
 fn a_lamp_in_focus_is_a_point() {
-    let gpu = open();
+    let gpu = lend();
     let lens = format!("lens = {{ radius = 0.5, focus_distance = {FOCUS} }}");
     // Such a wide lens sees the emitter's front from the side, where it extends slightly beyond the plane.
     let sharp = lamp_on_the_axis(&lens, 256, FOCUS, 0.2 * PIXEL);
@@ -101,7 +101,7 @@ fn a_lamp_is_weighted_by_the_pixel_filter() {
             + 0.141_28 * (2.0 * turn).cos()
             + 0.011_68 * (3.0 * turn).cos()
     };
-    let gpu = open();
+    let gpu = lend();
     for (name, filter) in [
         ("gaussian", &gaussian as &dyn Fn(f64) -> f64),
         ("blackman_harris", &window),

@@ -2,7 +2,7 @@
 
 use super::comparison::{DOWN, WHITE, check, render, scene};
 use optics::Complex64;
-use pellicle_tests::device::open;
+use pellicle_tests::device::lend;
 use pellicle_tests::tolerances::{CLOSED_FORM, CLOSED_FORM_EXACT, ROUGH_FORM};
 use scene::Scene;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -51,7 +51,7 @@ position = [1.7320508075688772, 1, 0]
 look_at = [0, 0, 0]
 height = 0.01
 "#;
-    let gpu = open();
+    let gpu = lend();
     for (what, camera, cosine) in [("from above", DOWN, 1.0), ("aslant", ASLANT, 0.5)] {
         let reflectance = |index| optics::reflectance_unpolarized(index, cosine);
         let drawn = scene(&[camera, &render(64, 2, "random"), GOLD, METAL_FLOOR, WHITE]);
@@ -81,7 +81,7 @@ material = "lamp"
 center = [0, 0.5, 0]
 radius = 10
 "#;
-    let gpu = open();
+    let gpu = lend();
     for roughness in [0.1, 0.3, 0.8] {
         let rough = format!("{GOLD}roughness = {roughness}\n");
         let surface = optics::Microsurface {

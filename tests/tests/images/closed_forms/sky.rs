@@ -1,7 +1,7 @@
 //! The clear sky and its sun: the radiance of flat ground and of the sun, against spectral sums of the model itself.
 
 use super::comparison::{ALBEDO, BANDS, DOWN, FLOOR, LAMBERT, band_mean, check, render, scene};
-use pellicle_tests::device::open;
+use pellicle_tests::device::lend;
 use pellicle_tests::tolerances::{CLOSED_FORM, SKY_PICTURE};
 use spectra::Spectrum;
 use spectra::sky::{ClearSky, SUN_DIAMETER_DEG, daylight_basis};
@@ -59,7 +59,7 @@ fn by_sun(elevation_deg: f64, nm: f64) -> f64 {
 /// ρ E / π.
 #[test]
 fn ground_under_the_sky_and_its_sun() {
-    let (gpu, components) = (open(), daylight_basis());
+    let (gpu, components) = (lend(), daylight_basis());
     for (elevation_deg, sun) in [(12.0, false), (60.0, true)] {
         let amounts = amounts_on_the_ground(elevation_deg);
         let sky = sky(elevation_deg, sun);
@@ -78,7 +78,7 @@ fn ground_under_the_sky_and_its_sun() {
 /// A view into the middle of the disk shows its radiance; the sky in front of it adds some 1e-5.
 #[test]
 fn the_sun_has_its_radiance_at_its_position() {
-    let gpu = open();
+    let gpu = lend();
     let elevation_deg: f64 = 35.0;
     let (sin_h, cos_h) = elevation_deg.to_radians().sin_cos();
     let (sin_a, cos_a) = AZIMUTH_DEG.to_radians().sin_cos();
@@ -96,7 +96,7 @@ fn the_sun_has_its_radiance_at_its_position() {
 /// The ground of the sky model, below the horizon, and a plane of the same reflectance under the same sky have equal radiance.
 #[test]
 fn a_plane_looks_like_the_ground_beyond_it() {
-    let gpu = open();
+    let gpu = lend();
     let lit = |floor: &str| {
         let material =
             format!("[materials.lambert]\ntype = \"diffuse\"\nreflectance = {GROUND:?}\n");

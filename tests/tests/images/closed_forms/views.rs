@@ -1,7 +1,7 @@
 //! Directions and pixels: checks where things appear in a picture.
 
 use super::comparison::{LAMBERT, check, pictures, render, scene};
-use pellicle_tests::device::open;
+use pellicle_tests::device::lend;
 use pellicle_tests::tolerances::CLOSED_FORM_EXACT;
 use std::f64::consts::PI;
 
@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 fn the_picture_is_neither_mirrored_nor_rotated() {
     const PIXEL: f64 = 0.05;
     const RADIUS: f64 = 0.02;
-    let gpu = open();
+    let gpu = lend();
     let (right, up) = (15.5 * PIXEL, 11.5 * PIXEL); // pixel (45, 8) of 60 × 40
     let looks = [
         ("along −z", "[0, 0, 5]", "[0, 1, 0]", [right, up, 0.0]),
@@ -57,7 +57,7 @@ zenith = { constant = 3 }
 horizon = { constant = 1 }
 ground = { constant = 0.25 }
 "#;
-    let gpu = open();
+    let gpu = lend();
     for (toward, up, expected) in [
         ("[0, 1, 0]", "[0, 0, 1]", 3.0),
         ("[0, 0, -1]", "[0, 1, 0]", 1.0),

@@ -3,7 +3,7 @@
 use super::comparison::{
     BANDS, DOWN, Estimate, WHITE, band_mean, check, film, pictures, render, scene,
 };
-use pellicle_tests::device::open;
+use pellicle_tests::device::lend;
 use pellicle_tests::tolerances::CLOSED_FORM_FILM;
 use scene::Scene;
 use spectra::SpectralImage;
@@ -49,7 +49,7 @@ fn has_ratios_of_centers(image: &SpectralImage) -> bool {
 
 #[test]
 fn fixed_wavelengths_are_the_centers_of_the_bands() {
-    let gpu = open();
+    let gpu = lend();
     let fixed = fringes("center");
     check(&gpu, "centers", &fixed, CLOSED_FORM_FILM, |band| {
         fringe(fixed.settings().bands.center_nm(band))
