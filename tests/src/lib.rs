@@ -1,6 +1,7 @@
 //! The harness of the suites in `tests/`.
 
 pub mod agreement;
+pub mod cases;
 pub mod colorimetry;
 pub mod device;
 pub mod frames;

@@ -1,7 +1,7 @@
 //! Functions of gaussian.wgsl, and of Cook's model and coats in bsdf/.
 
-use crate::world::{World, direction, pick, rows};
-use crate::{Check, pure, table};
+use crate::world::{World, direction, pick, rows, within};
+use crate::{Check, lazy, pure, table};
 use pellicle_tests::tolerances::{
     ARITHMETIC, BECKMANN, DIRECTION, FACET, FACET_ENERGY, FRESNEL, TRIGONOMETRY,
 };
@@ -27,15 +27,17 @@ fn gaussian() -> Vec<Check> {
     let of_facet = |proves, body, twin, tolerance| Check {
         probe: pure((2, 1), body),
         proves,
-        inputs: table(
-            &[(0.02, 1.0), slopes],
-            &[
-                &[1.0, 0.05],
-                &[0.0, 0.1],
-                &[-1.0, 0.1],
-                &[0.999_999_9, 0.02],
-            ],
-        ),
+        inputs: lazy(move || {
+            table(
+                &[(0.02, 1.0), slopes],
+                &[
+                    &[1.0, 0.05],
+                    &[0.0, 0.1],
+                    &[-1.0, 0.1],
+                    &[0.999_999_9, 0.02],
+                ],
+            )
+        }),
         twin,
         tolerance,
     };
@@ -55,24 +57,26 @@ fn gaussian() -> Vec<Check> {
         Check {
             probe: pure((1, 1), "put(0u, facet_angle(a(0u)));"),
             proves: &["facet_angle"],
-            inputs: table(&[(0.0, 1.0)], &[&[0.0], &[1.0], &[0.999_999_9]]),
+            inputs: lazy(move || table(&[(0.0, 1.0)], &[&[0.0], &[1.0], &[0.999_999_9]])),
             twin: |a| vec![((1.0 - a[0]) * (1.0 + a[0])).sqrt().atan2(a[0])],
             tolerance: TRIGONOMETRY,
         },
         Check {
             probe: pure((1, 1), "put(0u, gaussian_fraction(a(0u)));"),
             proves: &["gaussian_fraction"],
-            inputs: table(&[slopes], &[&[0.02], &[1.0]]),
+            inputs: lazy(move || table(&[slopes], &[&[0.02], &[1.0]])),
             twin: |a| vec![optics::gaussian_fraction(a[0])],
             tolerance: ARITHMETIC,
         },
         Check {
             probe: pure((3, 3), "put3(0u, sample_gaussian(a(0u), a(1u), a(2u)));"),
             proves: &["sample_gaussian"],
-            inputs: table(
-                &[(0.0, 0.999_999), (0.0, 0.999_999), slopes],
-                &[&[0.0, 0.0, 0.1], &[0.999_999_9, 0.5, 1.0]],
-            ),
+            inputs: lazy(move || {
+                table(
+                    &[(0.0, 0.999_999), (0.0, 0.999_999), slopes],
+                    &[&[0.0, 0.0, 0.1], &[0.999_999_9, 0.5, 1.0]],
+                )
+            }),
             twin: |a| optics::sample_gaussian(a[0], a[1], a[2]).to_vec(),
             tolerance: DIRECTION,
         },
@@ -105,9 +109,9 @@ fn between(a: &[f64]) -> Vec<f64> {
 }
 
 fn between_directions() -> Check {
-    let materials = materials();
     Check {
-        probe: world().probe(
+        probe: within(
+            world,
             (4, 3),
             "let wo = vec3f(sqrt(1.0 - a(1u) * a(1u)), 0.0, a(1u));
              let wi = direction_at(2u);
@@ -115,10 +119,13 @@ fn between_directions() -> Check {
              put(0u, f.reflection); put(1u, f.pdf); put(2u, f.cosine);",
         ),
         proves: &["cook_facets", "cook_of"],
-        inputs: rows(4, |u| {
-            let cosine = |u: f64| if u < 0.02 { -u } else { 0.03 + 0.97 * u };
-            let material = pick(&materials, u[0]) as f64;
-            Some(vec![material, cosine(u[1]), cosine(u[2]), u[3]])
+        inputs: lazy(|| {
+            let materials = materials();
+            rows(4, |u| {
+                let cosine = |u: f64| if u < 0.02 { -u } else { 0.03 + 0.97 * u };
+                let material = pick(&materials, u[0]) as f64;
+                Some(vec![material, cosine(u[1]), cosine(u[2]), u[3]])
+            })
         }),
         twin: between,
         tolerance: FACET,
@@ -126,22 +133,25 @@ fn between_directions() -> Check {
 }
 
 fn facets() -> Check {
-    let materials = materials();
     Check {
-        probe: world().probe(
+        probe: within(
+            world,
             (4, 3),
             "put3(0u, sample_cook_facet(u32(a(0u)), a(1u), a(2u), a(3u)));",
         ),
         proves: &["sample_cook_facet"],
-        inputs: rows(4, |u| {
-            let material = pick(&materials, u[0]);
-            // Away from the values at which the choice changes.
-            let mut below = 0.0;
-            let is_clear = cook(material as f64).facets.iter().all(|facets| {
-                below += facets.part;
-                (below - u[3]).abs() > 1e-5
-            });
-            is_clear.then(|| vec![material as f64, u[1], u[2], u[3]])
+        inputs: lazy(|| {
+            let materials = materials();
+            rows(4, |u| {
+                let material = pick(&materials, u[0]);
+                // Away from the values at which the choice changes.
+                let mut below = 0.0;
+                let is_clear = cook(material as f64).facets.iter().all(|facets| {
+                    below += facets.part;
+                    (below - u[3]).abs() > 1e-5
+                });
+                is_clear.then(|| vec![material as f64, u[1], u[2], u[3]])
+            })
         }),
         twin: |a| {
             sample_cook_facet(cook(a[0]), [a[1], a[2], a[3]])
@@ -165,18 +175,27 @@ fn rough_coat(a: &[f64]) -> Vec<f64> {
     vec![1.0 - (at(knot) + (at(knot + 1) - at(knot)) * (place - knot as f64))]
 }
 
-fn rough_coats() -> Check {
-    let bodies: Vec<usize> = indices_of(
+/// Bases below rough coats.
+fn rough_bodies() -> Vec<usize> {
+    indices_of(
         |material| matches!(material, Material::CoatedBody(body) if body.microsurface.is_some()),
-    );
+    )
+}
+
+fn rough_coats() -> Check {
     Check {
-        probe: world().probe((4, 1),
+        probe: within(
+            world,
+            (4, 1),
             "put(0u, rough_coat_transmittance(coated_of(u32(a(0u))).coat_reflectances, a(1u), 1u, wavelengths_at(a(3u)))[u32(a(2u))]);",
         ),
         proves: &["coated_of", "rough_coat_transmittance"],
-        inputs: rows(4, |u| {
-            let lane = (4.0 * u[2]).floor();
-            Some(vec![pick(&bodies, u[0]) as f64, u[1], lane, u[3]])
+        inputs: lazy(|| {
+            let coats = rough_bodies();
+            rows(4, |u| {
+                let lane = (4.0 * u[2]).floor();
+                Some(vec![pick(&coats, u[0]) as f64, u[1], lane, u[3]])
+            })
         }),
         twin: rough_coat,
         tolerance: FRESNEL,
@@ -185,17 +204,18 @@ fn rough_coats() -> Check {
 
 /// Factors by which rough coats transmit more in a direction; one of the coats is brushed.
 fn transmittance_scales() -> Check {
-    let bodies: Vec<usize> = indices_of(
-        |material| matches!(material, Material::CoatedBody(body) if body.microsurface.is_some()),
-    );
     Check {
-        probe: world().probe(
+        probe: within(
+            world,
             (3, 1),
             "put(0u, coat_transmittance_scale(load_facets(material_at(u32(a(0u))).facets), direction_at(1u)));",
         ),
         proves: &["coat_transmittance_scale", "over_facets"],
-        inputs: rows(3, |u| {
-            Some(vec![pick(&bodies, u[0]) as f64, 0.02 + 0.98 * u[1], u[2]])
+        inputs: lazy(|| {
+            let coats = rough_bodies();
+            rows(3, |u| {
+                Some(vec![pick(&coats, u[0]) as f64, 0.02 + 0.98 * u[1], u[2]])
+            })
         }),
         twin: |a| match &world().scene.materials()[a[0] as usize] {
             Material::CoatedBody(body) => vec![body.transmittance_scale_at(direction(a[1], a[2]))],
@@ -206,12 +226,18 @@ fn transmittance_scales() -> Check {
 }
 
 fn coats() -> [Check; 3] {
-    let bodies: Vec<usize> = indices_of(|material| matches!(material, Material::CoatedBody(_)));
     [
         Check {
-            probe: world().probe((2, 1), "put(0u, coat_probability(u32(a(0u)), a(1u)));"),
+            probe: within(
+                world,
+                (2, 1),
+                "put(0u, coat_probability(u32(a(0u)), a(1u)));",
+            ),
             proves: &["coat_probability"],
-            inputs: rows(2, |u| Some(vec![pick(&bodies, u[0]) as f64, u[1]])),
+            inputs: lazy(|| {
+                let bodies = indices_of(|material| matches!(material, Material::CoatedBody(_)));
+                rows(2, |u| Some(vec![pick(&bodies, u[0]) as f64, u[1]]))
+            }),
             twin: |a| match &world().scene.materials()[a[0] as usize] {
                 Material::CoatedBody(body) => vec![coat_probability(body, a[1])],
                 other => panic!("{other:?}"),
@@ -224,10 +250,12 @@ fn coats() -> [Check; 3] {
                 "put(0u, coat_transmittance(vec4f(a(0u)), a(1u)).x);",
             ),
             proves: &["coat_transmittance"],
-            inputs: table(
-                &[(1.0, 3.0), (0.0, 1.0)],
-                &[&[1.5, 0.0], &[1.0, 0.0], &[1.0, 1.0]],
-            ),
+            inputs: lazy(move || {
+                table(
+                    &[(1.0, 3.0), (0.0, 1.0)],
+                    &[&[1.5, 0.0], &[1.0, 0.0], &[1.0, 1.0]],
+                )
+            }),
             twin: |a| vec![1.0 - optics::reflectance_unpolarized(a[0].into(), a[1].max(1e-6))],
             tolerance: FRESNEL,
         },
@@ -237,10 +265,12 @@ fn coats() -> [Check; 3] {
                 "put(0u, coated_albedo_factor(vec4f(a(0u)), vec4f(a(1u)), vec4f(a(2u))).x);",
             ),
             proves: &["coated_albedo_factor"],
-            inputs: table(
-                &[(0.0, 1.0), (0.8, 3.0), (0.0, 0.6)],
-                &[&[1.0, 3.0, 0.6], &[0.0, 1.0, 0.0]],
-            ),
+            inputs: lazy(move || {
+                table(
+                    &[(0.0, 1.0), (0.8, 3.0), (0.0, 0.6)],
+                    &[&[1.0, 3.0, 0.6], &[0.0, 1.0, 0.0]],
+                )
+            }),
             twin: |a| vec![optics::coated_albedo_factor(a[0], a[1], a[2])],
             // n² − ρ (n² − 1) cancels, up to 9 against 8.6.
             tolerance: BECKMANN,

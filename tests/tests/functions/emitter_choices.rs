@@ -1,7 +1,7 @@
 //! Functions of emitter_choice.wgsl, and those of emitter.wgsl for emitters that are not objects.
 
-use crate::world::{everything, pictured, rounded, rows, unit, vector};
-use crate::{Check, pure, table};
+use crate::world::{everything, pictured, rounded, rows, unit, vector, within};
+use crate::{Check, lazy, pure, table};
 use pellicle_tests::tolerances::{ARITHMETIC, EMITTER_WEIGHT};
 use reference::{Emitter, PreparedScene, choose_emitter, mis_weight_bsdf, mis_weight_emitter};
 use scene::EmitterSource;
@@ -28,10 +28,11 @@ fn places() -> Vec<f32> {
 }
 
 pub(crate) fn checks() -> Vec<Check> {
-    let world = everything();
     vec![
         Check {
-            probe: world.probe((7, 1),
+            probe: within(
+                everything,
+                (7, 1),
                 "put(0u, emitter_strength(u32(a(0u)), a3(1u), a3(4u)));",
             ),
             proves: &[
@@ -43,12 +44,14 @@ pub(crate) fn checks() -> Vec<Check> {
                 "load_emitter",
                 "spot_falloff",
             ],
-            inputs: places(),
+            inputs: lazy(places),
             twin: |a| vec![emitter_of(a[0]).strength(vector(&a[1..]), vector(&a[4..]))],
             tolerance: EMITTER_WEIGHT,
         },
         Check {
-            probe: world.probe((7, 1),
+            probe: within(
+                everything,
+                (7, 1),
                 "let l = u32(a(0u)); put(0u, emitter_weight(l, a3(1u), a3(4u)) / emitter_at(l).brightness);",
             ),
             proves: &[
@@ -58,47 +61,56 @@ pub(crate) fn checks() -> Vec<Check> {
                 "environment_weight",
                 "most_cosine",
             ],
-            inputs: places(),
+            inputs: lazy(places),
             twin: |a| vec![emitter_of(a[0]).weight(vector(&a[1..]), vector(&a[4..]))],
             tolerance: EMITTER_WEIGHT,
         },
         Check {
-            probe: world.probe((7, 1),
+            probe: within(
+                everything,
+                (7, 1),
                 "put(0u, emitter_pmf(u32(a(0u)), a3(1u), a3(4u), weigh_emitters(a3(1u), a3(4u))));",
             ),
             proves: &["emitter_pmf", "weigh_emitters"],
-            inputs: places(),
+            inputs: lazy(places),
             twin: |a| vec![chances(a)[a[0] as usize]],
             tolerance: EMITTER_WEIGHT,
         },
         Check {
-            probe: world.probe((7, 2),
+            probe: within(
+                everything,
+                (7, 2),
                 "let c = choose_emitter(a3(1u), a3(4u), a(0u)); put(0u, f32(c.emitter)); put(1u, c.pmf);",
             ),
             proves: &["choose_emitter"],
-            inputs: choices(),
+            inputs: lazy(choices),
             twin: |a| {
-                let chosen = choose_emitter(chances(a).into_iter(), a[0]).expect("one of them emits");
+                let chosen =
+                    choose_emitter(chances(a).into_iter(), a[0]).expect("one of them emits");
                 vec![chosen.emitter as f64, chosen.pmf]
             },
             tolerance: EMITTER_WEIGHT,
         },
         Check {
-            probe: pure_mis(),
+            probe: pure((2, 1), "put(0u, mis_weight_bsdf(a(0u), a(1u)));"),
             proves: &["mis_weight_bsdf"],
-            inputs: table(&[(0.01, 10.0), (0.0, 10.0)], &[&[1e-3, 1e3], &[5.0, 0.0]]),
+            inputs: lazy(move || table(&[(0.01, 10.0), (0.0, 10.0)], &[&[1e-3, 1e3], &[5.0, 0.0]])),
             twin: |a| vec![mis_weight_bsdf(a[0], a[1])],
             tolerance: ARITHMETIC,
         },
         Check {
-            probe: pictured().probe((4, 1),
+            probe: within(
+                pictured,
+                (4, 1),
                 "put(0u, mis_weight_emitter(u32(a(0u)), a(1u), a(2u), a(3u)));",
             ),
             proves: &["mis_weight_emitter"],
-            inputs: rows(4, |u| {
-                let number = (u[0] * pictured().scene.emitters().len() as f64).floor();
-                let [scattered, density] = [u[1], u[3]].map(|u| 10.0_f64.powf(6.0 * u - 3.0));
-                Some(vec![number, scattered, u[2], density])
+            inputs: lazy(move || {
+                rows(4, |u| {
+                    let number = (u[0] * pictured().scene.emitters().len() as f64).floor();
+                    let [scattered, density] = [u[1], u[3]].map(|u| 10.0_f64.powf(6.0 * u - 3.0));
+                    Some(vec![number, scattered, u[2], density])
+                })
             }),
             twin: |a| {
                 let scene = &pictured().scene;
@@ -108,10 +120,6 @@ pub(crate) fn checks() -> Vec<Check> {
             tolerance: ARITHMETIC,
         },
     ]
-}
-
-fn pure_mis() -> pellicle_tests::probe::Probe<'static> {
-    pure((2, 1), "put(0u, mis_weight_bsdf(a(0u), a(1u)));")
 }
 
 fn chances(a: &[f64]) -> Vec<f64> {

@@ -1,7 +1,7 @@
 //! Functions of emitter.wgsl: directions toward emitters that are objects, and their densities.
 
-use crate::Check;
-use crate::world::{center_of, everything, pick, rounded, rows, unit, vector};
+use crate::world::{center_of, everything, pick, rounded, rows, unit, vector, within};
+use crate::{Check, lazy};
 use glam::DVec3;
 use pellicle_tests::tolerances::{DIRECTION, EMITTER_PDF, EXACT, NEAR_LIGHT};
 use scene::{EmitterKind, Shape};
@@ -118,9 +118,9 @@ fn density(a: &[f64]) -> Vec<f64> {
 const INSIDE: f64 = 1.000_01;
 
 pub(crate) fn checks() -> Vec<Check> {
-    let world = everything();
     let sample = |inputs, tolerance| Check {
-        probe: world.probe(
+        probe: within(
+            everything,
             (6, 3),
             "put3(0u, emitter_sample(shape_at(u32(a(0u))).emitter, a3(1u), a(4u), a(5u)));",
         ),
@@ -129,28 +129,30 @@ pub(crate) fn checks() -> Vec<Check> {
         twin: sampled,
         tolerance,
     };
-    let pdf = |points: &[f32], tolerance| Check {
-        probe: world.probe(
+    let pdf = |points: fn() -> Vec<f32>, tolerance| Check {
+        probe: within(
+            everything,
             (7, 1),
             "put(0u, emitter_pdf(shape_at(u32(a(0u))).emitter, a3(1u), a3(4u)));",
         ),
         proves: &["emitter_pdf"],
-        inputs: pdf_rows(points),
+        inputs: lazy(move || pdf_rows(&points())),
         twin: density,
         tolerance,
     };
     vec![
-        sample(emitter_rows(true), DIRECTION),
-        sample(close_points(), NEAR_LIGHT),
-        pdf(&emitter_rows(false), EMITTER_PDF),
-        pdf(&close_points(), NEAR_LIGHT),
+        sample(lazy(|| emitter_rows(true)), DIRECTION),
+        sample(lazy(close_points), NEAR_LIGHT),
+        pdf(|| emitter_rows(false), EMITTER_PDF),
+        pdf(close_points, NEAR_LIGHT),
         Check {
-            probe: world.probe(
+            probe: within(
+                everything,
                 (2, 1),
                 "put(0u, select(0.0, 1.0, sphere_surrounds(shape_at(u32(a(0u))).emitter, a(1u))));",
             ),
             proves: &["sphere_surrounds"],
-            inputs: squared_distances(),
+            inputs: lazy(squared_distances),
             twin: |a| {
                 let Shape::Sphere { radius, .. } = *everything().shape(a[0] as usize) else {
                     return vec![f64::NAN];
@@ -190,8 +192,7 @@ fn squared_distances() -> Vec<f32> {
 }
 
 /// The comparison can fail: an area that is one part in a thousand off.
-#[test]
-fn a_wrong_density_of_a_light_is_noticed() {
+pub(crate) fn a_wrong_density_of_a_light_is_noticed() {
     let mut check = checks()
         .into_iter()
         .find(|check| check.proves.contains(&"emitter_pdf"))

@@ -1,7 +1,7 @@
 //! Functions of microsurface.wgsl where f32 is weakest: the smoothest facets, grazing directions and the largest random numbers.
 
-use crate::Check;
 use crate::facets::{densities, facet_draws, lambdas, reflections, slopes};
+use crate::{Check, lazy};
 use pellicle_tests::tolerances::{FACET_TAIL, FACETS, LAMBDA, NARROW_FACETS, SLOPE_TAIL};
 
 /// The largest random number.
@@ -63,12 +63,12 @@ pub(crate) fn checks() -> Vec<Check> {
     let cosines = [1e-3, 0.1, 0.7, LAST, 1.0];
     let of_cosine = |cosine| [[cosine, LAST], [cosine, 0.5], [cosine, 0.0]].concat();
     vec![
-        densities(on_all(&DIRECTIONS), FACETS),
-        lambdas(on_all(&DIRECTIONS), LAMBDA),
-        reflections(on_all(&BETWEEN), NARROW_FACETS),
-        facet_draws(on_all(&DRAWS), FACET_TAIL),
+        densities(lazy(|| on_all(&DIRECTIONS)), FACETS),
+        lambdas(lazy(|| on_all(&DIRECTIONS)), LAMBDA),
+        reflections(lazy(|| on_all(&BETWEEN)), NARROW_FACETS),
+        facet_draws(lazy(|| on_all(&DRAWS)), FACET_TAIL),
         slopes(
-            cosines.into_iter().flat_map(of_cosine).collect(),
+            lazy(move || cosines.into_iter().flat_map(of_cosine).collect()),
             SLOPE_TAIL,
         ),
     ]

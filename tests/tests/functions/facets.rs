@@ -1,9 +1,9 @@
 //! Functions of microsurface.wgsl, and of the facets in bsdf/.
 
 use crate::world::{
-    center_of, direction, everything, objects_where, pick, point_on, rounded, rows, vector,
+    center_of, direction, everything, objects_where, pick, point_on, rounded, rows, vector, within,
 };
-use crate::{Check, pure, table};
+use crate::{Check, Lazy, lazy, pure, table};
 use optics::{Distribution, Microsurface};
 use pellicle_tests::agreement::Tolerance;
 use pellicle_tests::tolerances::{
@@ -36,8 +36,8 @@ fn surface_of(a: &[f64]) -> Microsurface {
 const SURFACE: [(f32, f32); 3] = [(0.0, 1.999_999), (0.1, 1.0), (0.1, 1.0)];
 
 /// Rows with the columns of a surface and others.
-fn with_surface(others: &[(f32, f32)], edges: &[&[f32]]) -> Vec<f32> {
-    table(&[&SURFACE, others].concat(), edges)
+fn with_surface(others: &'static [(f32, f32)], edges: &'static [&'static [f32]]) -> Lazy<Vec<f32>> {
+    lazy(move || table(&[&SURFACE, others].concat(), edges))
 }
 
 fn special_functions() -> Vec<Check> {
@@ -45,7 +45,7 @@ fn special_functions() -> Vec<Check> {
         Check {
             probe: pure((1, 1), "put(0u, scaled_erfc(a(0u)));"),
             proves: &["scaled_erfc"],
-            inputs: table(&[(0.0, 6.0)], &[&[0.0], &[6.0]]),
+            inputs: lazy(move || table(&[(0.0, 6.0)], &[&[0.0], &[6.0]])),
             twin: |a| vec![(a[0] * a[0]).exp() * libm::erfc(a[0])],
             tolerance: SCALED_ERFC,
         },
@@ -55,7 +55,7 @@ fn special_functions() -> Vec<Check> {
                 "put(0u, visible_cdf(a(0u), sqrt(1.0 - a(0u) * a(0u)), a(1u)) * exp(a(1u) * a(1u)));",
             ),
             proves: &["visible_cdf"],
-            inputs: table(&[(0.0, 1.0), (-4.0, 1.0)], &[&[1.0, 0.0], &[0.0, 0.0]]),
+            inputs: lazy(move || table(&[(0.0, 1.0), (-4.0, 1.0)], &[&[1.0, 0.0], &[0.0, 0.0]])),
             twin: |a| {
                 let (cosine, sine) = (a[0], (1.0 - a[0] * a[0]).sqrt());
                 vec![cosine * libm::erfc(-a[1]) * (a[1] * a[1]).exp() + sine / PI.sqrt()]
@@ -66,7 +66,7 @@ fn special_functions() -> Vec<Check> {
             // Winitzki's formula itself is off by 2e-3.
             probe: pure((1, 1), "put(0u, rough_inverse_erf(a(0u)));"),
             proves: &["rough_inverse_erf"],
-            inputs: table(&[(0.001, 1.999)], &[&[1.0], &[0.5], &[1e-4]]),
+            inputs: lazy(move || table(&[(0.001, 1.999)], &[&[1.0], &[0.5], &[1e-4]])),
             twin: |a| vec![inverse_erf(a[0])],
             tolerance: ROUGH_INVERSE,
         },
@@ -88,7 +88,7 @@ fn inverse_erf(share: f64) -> f64 {
 }
 
 /// Checks densities of a facet, from a surface and the facet's cosine and turn.
-pub(crate) fn densities(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
+pub(crate) fn densities(inputs: Lazy<Vec<f32>>, tolerance: Tolerance) -> Check {
     Check {
         probe: pure(
             (5, 1),
@@ -103,7 +103,7 @@ pub(crate) fn densities(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
 }
 
 /// Checks Smith's Λ, from a surface and a direction's cosine and turn.
-pub(crate) fn lambdas(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
+pub(crate) fn lambdas(inputs: Lazy<Vec<f32>>, tolerance: Tolerance) -> Check {
     Check {
         probe: pure(
             (5, 1),
@@ -118,7 +118,7 @@ pub(crate) fn lambdas(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
 }
 
 /// Checks the reflection of facets, from a surface, the cosine of `wo`, and the cosine and turn of `wi`.
-pub(crate) fn reflections(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
+pub(crate) fn reflections(inputs: Lazy<Vec<f32>>, tolerance: Tolerance) -> Check {
     Check {
         probe: pure(
             (6, 3),
@@ -185,7 +185,7 @@ fn sampled(a: &[f64]) -> Vec<f64> {
 const SAMPLED: [(f32, f32); 4] = [(0.001, 1.0), (0.0, 1.0), (1e-6, 0.999), (1e-6, 0.999)];
 
 /// Checks sampled facets, from a surface, the cosine and turn of `wo`, and two numbers.
-pub(crate) fn facet_draws(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
+pub(crate) fn facet_draws(inputs: Lazy<Vec<f32>>, tolerance: Tolerance) -> Check {
     Check {
         probe: pure((7, 3),
             "let wo = direction_at(3u);
@@ -199,7 +199,7 @@ pub(crate) fn facet_draws(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
 }
 
 /// Checks sampled slopes, from a cosine and a number.
-pub(crate) fn slopes(inputs: Vec<f32>, tolerance: Tolerance) -> Check {
+pub(crate) fn slopes(inputs: Lazy<Vec<f32>>, tolerance: Tolerance) -> Check {
     Check {
         // The slope across is 0 where its number is a half.
         probe: pure(
@@ -240,7 +240,7 @@ fn samplers() -> Vec<Check> {
                  put3(0u, normalize(sample_visible_beckmann(wo, a(3u), a(4u))));",
             ),
             proves: &["sample_visible_beckmann"],
-            inputs: of_unit_width(0.0),
+            inputs: lazy(move || of_unit_width(0.0)),
             twin: upright,
             tolerance: FACET_DIRECTION,
         },
@@ -252,15 +252,17 @@ fn samplers() -> Vec<Check> {
                  put3(0u, facet);",
             ),
             proves: &["sample_visible_ggx"],
-            inputs: of_unit_width(1.0),
+            inputs: lazy(move || of_unit_width(1.0)),
             twin: upright,
             tolerance: FACET_DIRECTION,
         },
         slopes(
-            table(
-                &[(0.0, 1.0), (1e-6, 0.999)],
-                &[&[1.0, 0.5], &[0.0, 0.1], &[1.0, 1e-7], &[0.0, 0.0]],
-            ),
+            lazy(|| {
+                table(
+                    &[(0.0, 1.0), (1e-6, 0.999)],
+                    &[&[1.0, 0.5], &[0.0, 0.1], &[1.0, 1e-7], &[0.0, 0.0]],
+                )
+            }),
             FACET_DIRECTION,
         ),
     ]
@@ -301,15 +303,14 @@ fn rough_rows() -> Vec<f32> {
 }
 
 fn of_materials() -> Vec<Check> {
-    let world = everything();
     vec![
         Check {
-            probe: world.probe((8, 1),
+            probe: within(everything, (8, 1),
                 "let wo = direction_at(1u);
                  put(0u, facets_albedo(load_facets(material_at(shape_at(u32(a(0u))).material).facets), wo));",
             ),
             proves: &["facets_albedo"],
-            inputs: rough_rows(),
+            inputs: lazy(rough_rows),
             twin: |a| {
                 let material = everything().material(a[0] as usize);
                 let facets = material.microsurface().expect("chosen to be rough");
@@ -318,14 +319,14 @@ fn of_materials() -> Vec<Check> {
             tolerance: FACET_ENERGY,
         },
         Check {
-            probe: world.probe((8, 4),
+            probe: within(everything, (8, 4),
                 "let wo = direction_at(1u);
                  let wi = direction_at(3u);
                  let s = facets_eval(load_facets(material_at(shape_at(u32(a(0u))).material).facets), wo, wi);
                  put(0u, s.lobes.single); put(1u, s.lobes.multiple); put(2u, s.lobes.cosine); put(3u, s.pdf);",
             ),
             proves: &["facets_eval", "load_facets", "load_material", "material_at", "microsurface_of", "records_row"],
-            inputs: rough_rows(),
+            inputs: lazy(rough_rows),
             twin: |a| {
                 let (wo, wi) = (direction(a[1], a[2]), direction(a[3], a[4]));
                 let found = facets_of(a[0]).eval(wo, wi).expect("both are above");
@@ -334,13 +335,13 @@ fn of_materials() -> Vec<Check> {
             tolerance: FACETS,
         },
         Check {
-            probe: world.probe((8, 3),
+            probe: within(everything, (8, 3),
                 "let wo = direction_at(1u);
                  let random = vec4f(a(5u), a(6u), a(7u), 0.0);
                  put3(0u, facets_sample(load_facets(material_at(shape_at(u32(a(0u))).material).facets), wo, random));",
             ),
             proves: &["facets_sample"],
-            inputs: rough_rows(),
+            inputs: lazy(rough_rows),
             twin: |a| {
                 let wo = direction(a[1], a[2]);
                 facets_of(a[0]).sample(wo, [a[5], a[6], a[7]]).to_array().to_vec()
@@ -351,41 +352,47 @@ fn of_materials() -> Vec<Check> {
     ]
 }
 
-/// Checks frames of rough objects, brushed or not, and of a diffuse one.
-fn surface_frames() -> Check {
+/// Rows of an object, a point on it and the normal there, away from points where its grain has no direction.
+fn framed_points() -> Vec<f32> {
     let world = everything();
     let mut objects = objects_where(|_, material| material.microsurface().is_some());
     objects.push(0);
+    rows(3, |u| {
+        let object = pick(&objects, u[0]);
+        let shape = world.shape(object);
+        let position = rounded(point_on(shape, u[1], u[2]));
+        let normal = match *shape {
+            Shape::Sphere { center, .. } => rounded((position - center).normalize()),
+            Shape::Plane { normal, .. }
+            | Shape::Rectangle { normal, .. }
+            | Shape::Disk { normal, .. } => normal,
+        };
+        let is_clear = match world.material(object).microsurface().map(|m| m.grain) {
+            Some(Grain::Along(grain)) => grain.cross(normal).length() > 0.1,
+            Some(Grain::Around(axis)) => axis.cross(position - center_of(shape)).length() > 0.1,
+            _ => normal.z.abs() > 1e-3,
+        };
+        let row = [
+            &[object as f64][..],
+            &position.to_array(),
+            &normal.to_array(),
+        ]
+        .concat();
+        is_clear.then_some(row)
+    })
+}
+
+/// Checks frames of rough objects, brushed or not, and of a diffuse one.
+fn surface_frames() -> Check {
     Check {
-        probe: world.probe(
+        probe: within(
+            everything,
             (7, 9),
             "let p = SurfacePoint(a3(1u), a3(4u), 1.0, true);
              let f = surface_frame(u32(a(0u)), p); put3(0u, f[0]); put3(3u, f[1]); put3(6u, f[2]);",
         ),
         proves: &["surface_frame"],
-        inputs: rows(3, move |u| {
-            let object = pick(&objects, u[0]);
-            let shape = world.shape(object);
-            let position = rounded(point_on(shape, u[1], u[2]));
-            let normal = match *shape {
-                Shape::Sphere { center, .. } => rounded((position - center).normalize()),
-                Shape::Plane { normal, .. }
-                | Shape::Rectangle { normal, .. }
-                | Shape::Disk { normal, .. } => normal,
-            };
-            let is_clear = match world.material(object).microsurface().map(|m| m.grain) {
-                Some(Grain::Along(grain)) => grain.cross(normal).length() > 0.1,
-                Some(Grain::Around(axis)) => axis.cross(position - center_of(shape)).length() > 0.1,
-                _ => normal.z.abs() > 1e-3,
-            };
-            let row = [
-                &[object as f64][..],
-                &position.to_array(),
-                &normal.to_array(),
-            ]
-            .concat();
-            is_clear.then_some(row)
-        }),
+        inputs: lazy(framed_points),
         twin: |a| {
             let (world, object) = (everything(), a[0] as usize);
             let point = reference::SurfacePoint {

@@ -1,10 +1,10 @@
 //! Factors by which surfaces and films change light: bsdf/diffuse.wgsl, bsdf/interface.wgsl and layers.wgsl.
 
-use crate::Check;
 use crate::world::{
     GROUPS, bands_of, center_of, everything, first_numbers, objects_where, pick, point_on, rounded,
-    rows, value_of, vector,
+    rows, value_of, vector, within,
 };
+use crate::{Check, lazy};
 use glam::DVec3;
 use num_complex::Complex64;
 use pellicle_tests::tolerances::{EXACT, FILM, FRESNEL};
@@ -36,10 +36,11 @@ fn is_off_the_edges(shape: &Shape, size: f64, point: DVec3) -> bool {
     axes.iter().all(|x| (x - x.round()).abs() > 1e-4)
 }
 
-fn diffuse_factor() -> Check {
+/// Rows of a diffuse object, a point on it and a random number, away from values at which the color changes.
+fn patterned_points() -> Vec<f32> {
     let world = everything();
     let diffuse = objects_where(|_, material| matches!(material, Material::Diffuse { .. }));
-    let inputs = rows(4, |u| {
+    rows(4, |u| {
         let object = pick(&diffuse, u[0]);
         let shape = world.shape(object);
         let point = rounded(point_on(shape, u[1], u[2]));
@@ -56,9 +57,13 @@ fn diffuse_factor() -> Check {
             }),
         };
         is_clear.then_some(row)
-    });
+    })
+}
+
+fn diffuse_factor() -> Check {
     Check {
-        probe: world.probe(
+        probe: within(
+            everything,
             (5, 1),
             "let o = u32(a(0u));
              let f = diffuse_factor(material_at(shape_at(o).material).record, o, a3(1u), a(4u));
@@ -75,7 +80,7 @@ fn diffuse_factor() -> Check {
             "reflectance_spectrum",
             "texel_at",
         ],
-        inputs,
+        inputs: lazy(patterned_points),
         twin: factor_of_pattern,
         tolerance: EXACT,
     }
@@ -157,7 +162,8 @@ fn factor_rows(choices: &[(u32, usize)]) -> Vec<f32> {
     })
 }
 
-fn factors() -> Vec<Check> {
+/// The factors of surfaces and those of films, each with its spectra.
+fn factor_choices() -> [Vec<(u32, usize)>; 2] {
     use gpu::layout::{FACTOR_DIFFUSE, FACTOR_FILM, FACTOR_INTERFACE, FACTOR_LOSSY_FILM};
     let world = everything();
     let (mut surfaces, mut films) = (Vec::new(), Vec::new());
@@ -186,10 +192,14 @@ fn factors() -> Vec<Check> {
             } => {}
         }
     }
-    let check = |proves, body, choices: &[(u32, usize)], tolerance| Check {
-        probe: world.probe((6, 8), body),
+    [surfaces, films]
+}
+
+fn factors() -> Vec<Check> {
+    let check = |proves, body, which: usize, tolerance| Check {
+        probe: within(everything, (6, 8), body),
         proves,
-        inputs: factor_rows(choices),
+        inputs: lazy(move || factor_rows(&factor_choices()[which])),
         twin: factor_twin,
         tolerance,
     };
@@ -204,16 +214,15 @@ fn factors() -> Vec<Check> {
                 "reflectance_at",
             ],
             OF_SURFACE,
-            &surfaces,
+            0,
             FRESNEL,
         ),
-        check(&["film_value"], OF_FILM, &films, FILM),
+        check(&["film_value"], OF_FILM, 1, FILM),
     ]
 }
 
 /// The tables serve their purpose: they contain each color of a pattern and each kind of factor.
-#[test]
-fn every_factor_occurs() {
+pub(crate) fn every_factor_occurs() {
     assert_eq!(
         // A spectrum and a texel may have the same number.
         first_numbers(&diffuse_factor(), factor_of_pattern).len(),
@@ -229,8 +238,7 @@ fn every_factor_occurs() {
 }
 
 /// The comparison can fail: a checker with its colors exchanged.
-#[test]
-fn a_pattern_with_exchanged_colors_is_noticed() {
+pub(crate) fn a_pattern_with_exchanged_colors_is_noticed() {
     let mut check = diffuse_factor();
     check.twin = |a| factor_of_pattern(&[a[0], a[1] + 0.01, a[2], a[3], a[4]]);
     assert!(check.run().is_err());

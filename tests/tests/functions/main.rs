@@ -20,53 +20,65 @@ mod surface_functions;
 mod thicknesses;
 mod world;
 
-use gpu::Gpu;
 use gpu::modules::MODULES;
+use libtest_mimic::Trial;
 use pellicle_tests::agreement::{Tolerance, compare};
+use pellicle_tests::device::lend;
 use pellicle_tests::probe::Probe;
 use pellicle_tests::scenes::{PROVED_ON_FRAMES, PROVED_ON_PATHS, PROVED_ON_STACKS};
-use pellicle_tests::workers::is_asked_for;
-use std::collections::BTreeSet;
-use std::sync::OnceLock;
+use pellicle_tests::{cases, cases::comparisons};
+use std::collections::{BTreeMap, BTreeSet};
+use std::process::ExitCode;
+use std::sync::LazyLock;
 
 /// Number of rows in a table of inputs.
 const ROWS: usize = 100_000;
 
-fn device() -> &'static Gpu {
-    static GPU: OnceLock<Gpu> = OnceLock::new();
-    GPU.get_or_init(pellicle_tests::device::open)
+/// What a case makes when it runs, so that the cases are listed at once.
+type Lazy<T> = LazyLock<T, Box<dyn FnOnce() -> T + Send>>;
+
+fn lazy<T>(make: impl FnOnce() -> T + Send + 'static) -> Lazy<T> {
+    LazyLock::new(Box::new(make))
 }
 
 /// A check of one function, or of a few related ones.
 struct Check {
-    probe: Probe<'static>,
+    probe: Lazy<Probe<'static>>,
     /// Functions that the check proves; the probe must really call them.
     proves: &'static [&'static str],
-    inputs: Vec<f32>,
+    inputs: Lazy<Vec<f32>>,
     twin: fn(&[f64]) -> Vec<f64>,
     tolerance: Tolerance,
 }
 
 /// A probe without a scene.
-const fn pure(shape: (usize, usize), body: &'static str) -> Probe<'static> {
-    Probe {
+fn pure(shape: (usize, usize), body: &'static str) -> Lazy<Probe<'static>> {
+    lazy(move || Probe {
         body,
         shape,
         scene: None,
-    }
+    })
 }
 
 impl Check {
+    /// Compares the functions with their twin on all inputs.
     fn run(&self) -> Result<String, String> {
-        let found = self.probe.run(device(), &self.inputs);
+        let found = self.probe.run(&lend(), &self.inputs);
         let actual: Vec<f64> = found.iter().map(|&x| f64::from(x)).collect();
         let rows = self.inputs.chunks(self.probe.shape.0);
         let expected: Vec<f64> = rows
             .flat_map(|row| (self.twin)(&row.iter().map(|&x| f64::from(x)).collect::<Vec<_>>()))
             .collect();
         compare(&actual, &expected, self.tolerance)
-            .map(|report| format!("{:?}: {report}", self.proves))
-            .map_err(|report| format!("{:?}: {report}", self.proves))
+    }
+
+    /// Requires that the probe calls all functions that the check proves.
+    fn reaches(&self) -> Result<String, String> {
+        let called = self.probe.reach();
+        match self.proves.iter().find(|&&name| !called.contains(name)) {
+            Some(name) => Err(format!("{name} is not called by the probe that proves it")),
+            None => Ok(format!("{} functions are called", called.len())),
+        }
     }
 }
 
@@ -112,40 +124,51 @@ fn checks() -> Vec<Check> {
     .collect()
 }
 
-#[test]
-fn every_function_agrees_with_its_twin() {
-    let is_asked_for = |check: &&Check| check.proves.iter().any(|name| is_asked_for(name));
-    let checks = checks();
-    let results: Vec<_> = checks.iter().filter(is_asked_for).map(Check::run).collect();
-    assert!(
-        !results.is_empty(),
-        "PELLICLE_ONLY does not name a function that a probe proves"
-    );
-    for report in results.iter().flatten() {
-        println!("{report}");
-    }
-    let wrong: Vec<_> = results.into_iter().filter_map(Result::err).collect();
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+/// The checks as cases, each with the names of its functions; those of several checks are numbered.
+fn comparisons_of_checks() -> Vec<Trial> {
+    let mut seen = BTreeMap::<String, u32>::new();
+    let case = |check: Check| {
+        let functions = check.proves.join(", ");
+        let times = seen.entry(functions.clone()).or_default();
+        *times += 1;
+        let name = match times {
+            1 => functions,
+            _ => format!("{functions} ({times})"),
+        };
+        comparisons(name, move || vec![check.reaches(), check.run()])
+    };
+    checks().into_iter().map(case).collect()
 }
 
-#[test]
+fn main() -> ExitCode {
+    let mut all = comparisons_of_checks();
+    all.extend(cases![
+        every_function_of_the_shaders_is_proved,
+        a_wrong_twin_is_noticed,
+        a_function_that_is_not_called_is_noticed,
+        emitters::a_wrong_density_of_a_light_is_noticed,
+        factors::every_factor_occurs,
+        factors::a_pattern_with_exchanged_colors_is_noticed,
+        many_emitters::the_choice_among_many_is_covered,
+        rays::every_object_is_hit,
+        stacks::a_wrong_twin_of_a_stack_is_noticed,
+        surface_functions::surfaces_are_reciprocal,
+        thicknesses::the_scene_has_every_kind_of_thickness_on_spheres_and_elsewhere,
+        thicknesses::a_wrong_twin_of_a_thickness_is_noticed,
+    ]);
+    cases::run(all)
+}
+
 fn every_function_of_the_shaders_is_proved() {
-    let mut proved: BTreeSet<String> = PROVED_ON_PATHS
+    let checks = checks();
+    let proved: BTreeSet<String> = checks
         .iter()
+        .flat_map(|check| check.proves)
+        .chain(PROVED_ON_PATHS)
         .chain(PROVED_ON_FRAMES)
         .chain(PROVED_ON_STACKS)
         .map(|&name| name.to_owned())
         .collect();
-    for check in checks() {
-        let called = check.probe.reach();
-        for &name in check.proves {
-            assert!(
-                called.contains(name),
-                "{name} is not called by the probe that proves it"
-            );
-            proved.insert(name.to_owned());
-        }
-    }
     let declared: BTreeSet<String> = MODULES
         .iter()
         .flat_map(|m| pellicle_tests::wgsl::functions(m.source))
@@ -154,8 +177,16 @@ fn every_function_of_the_shaders_is_proved() {
     assert_eq!(declared, proved);
 }
 
+/// A check that claims to prove a function, without a call of it, proves nothing.
+fn a_function_that_is_not_called_is_noticed() {
+    let mut checks = splits::checks();
+    checks[0].proves = &["reflected_at"];
+    assert!(checks[0].reaches().is_ok());
+    checks[0].proves = &["reflected_at", "pcg4d"];
+    assert!(checks[0].reaches().is_err());
+}
+
 /// The comparison above can fail: an index one percent off, a sine instead of a cosine.
-#[test]
 fn a_wrong_twin_is_noticed() {
     let mut checks = optics_functions::checks();
     let check = checks

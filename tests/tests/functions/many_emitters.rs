@@ -1,7 +1,7 @@
 //! Functions of the emitter tree in emitter_choice.wgsl: the choice among many emitters.
 
-use crate::Check;
-use crate::world::{World, rounded, rows, unit, vector};
+use crate::world::{World, rounded, rows, unit, vector, within};
+use crate::{Check, lazy};
 use glam::DVec3;
 use gpu::PackedScene;
 use pellicle_tests::tolerances::EMITTER_TREE;
@@ -73,7 +73,7 @@ fn is_clear(row: &[f64]) -> bool {
 
 pub(crate) fn checks() -> Vec<Check> {
     vec![Check {
-        probe: world().probe((7, 3),
+        probe: within(world, (7, 3),
             "let c = choose_emitter(a3(1u), a3(4u), a(0u));
              put(0u, f32(c.emitter)); put(1u, c.pmf); put(2u, emitter_pmf(c.emitter, a3(1u), a3(4u), c.weight_sum));",
         ),
@@ -90,21 +90,20 @@ pub(crate) fn checks() -> Vec<Check> {
             "weigh_tree",
             "trees_row",
         ],
-        inputs: rows(6, |u| {
+        inputs: lazy(move || rows(6, |u| {
             let point = rounded(12.0 * (DVec3::new(u[1], u[2], u[3]) - 0.5));
             let normal = rounded(unit(u[4], u[5]));
             let random = f64::from((0.0001 + 0.9998 * u[0]) as f32);
             let row = [&[random][..], &point.to_array(), &normal.to_array()].concat();
             is_clear(&row).then_some(row)
-        }),
+        })),
         twin: |a| choice(a).map_or(vec![-1.0; 3], |(emitter, pmf)| vec![emitter as f64, pmf, pmf]),
         tolerance: EMITTER_TREE,
     }]
 }
 
 /// The tree is deep, most rows are clear, and many emitters are chosen.
-#[test]
-fn the_choice_among_many_is_covered() {
+pub(crate) fn the_choice_among_many_is_covered() {
     let nodes = world().scene.emitter_tree().nodes.len();
     assert!(nodes > 200, "{nodes}");
     let check = &checks()[0];

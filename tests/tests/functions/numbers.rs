@@ -1,6 +1,6 @@
 //! Functions of trig.wgsl, random.wgsl and complex.wgsl.
 
-use crate::{Check, pure, table};
+use crate::{Check, lazy, pure, table};
 use num_complex::Complex64;
 use pellicle_tests::tolerances::{ARITHMETIC, EXACT, TRIGONOMETRY};
 use std::f64::consts::{PI, TAU};
@@ -17,14 +17,14 @@ fn trig() -> Vec<Check> {
         Check {
             probe: pure((1, 1), "put(0u, sin_pi4(vec4f(a(0u))).x);"),
             proves: &["sin_pi4"],
-            inputs: table(&[(-0.5, 0.5)], &[&[0.0], &[0.5], &[-0.5], &[1e-20]]),
+            inputs: lazy(move || table(&[(-0.5, 0.5)], &[&[0.0], &[0.5], &[-0.5], &[1e-20]])),
             twin: |a| vec![(PI * a[0]).sin()],
             tolerance: TRIGONOMETRY,
         },
         Check {
             probe: pure((1, 1), "put(0u, sine_of_half_turns(a(0u)));"),
             proves: &["sine_of_half_turns"],
-            inputs: table(&[(-8.0, 8.0)], &[&[0.0], &[0.5], &[1.0], &[-3.0], &[2.5]]),
+            inputs: lazy(move || table(&[(-8.0, 8.0)], &[&[0.0], &[0.5], &[1.0], &[-3.0], &[2.5]])),
             twin: |a| vec![(PI * a[0]).sin()],
             tolerance: TRIGONOMETRY,
         },
@@ -34,27 +34,31 @@ fn trig() -> Vec<Check> {
                 "let d = direction_of_turn(a(0u)); put(0u, d.x); put(1u, d.y);",
             ),
             proves: &["direction_of_turn"],
-            inputs: table(
-                &[(-1.0, 1.0)],
-                &[&[0.0], &[0.25], &[0.5], &[0.75], &[1.0], &[-1.0]],
-            ),
+            inputs: lazy(move || {
+                table(
+                    &[(-1.0, 1.0)],
+                    &[&[0.0], &[0.25], &[0.5], &[0.75], &[1.0], &[-1.0]],
+                )
+            }),
             twin: |a| vec![(TAU * a[0]).cos(), (TAU * a[0]).sin()],
             tolerance: TRIGONOMETRY,
         },
         Check {
             probe: pure((2, 1), "put(0u, polar_angle(a(0u), a(1u)));"),
             proves: &["polar_angle"],
-            inputs: table(
-                &[(-1.0, 1.0), (0.0, 1.0)],
-                &[
-                    &[1.0, 0.0],
-                    &[-1.0, 0.0],
-                    &[0.0, 1.0],
-                    &[1.0, 1.0],
-                    &[-1.0, 1.0],
-                    &[1.0, 1e-6],
-                ],
-            ),
+            inputs: lazy(move || {
+                table(
+                    &[(-1.0, 1.0), (0.0, 1.0)],
+                    &[
+                        &[1.0, 0.0],
+                        &[-1.0, 0.0],
+                        &[0.0, 1.0],
+                        &[1.0, 1.0],
+                        &[-1.0, 1.0],
+                        &[1.0, 1e-6],
+                    ],
+                )
+            }),
             twin: |a| vec![a[1].atan2(a[0])],
             tolerance: TRIGONOMETRY,
         },
@@ -96,7 +100,7 @@ fn random() -> Vec<Check> {
                  put_integer(0u, r.x); put_integer(2u, r.y); put_integer(4u, r.z); put_integer(6u, r.w);",
             ),
             proves: &["pcg4d"],
-            inputs: integer_table(),
+            inputs: lazy(integer_table),
             twin: |a| reference::pcg4d(integers(a)).into_iter().flat_map(halves).collect(),
             tolerance: EXACT,
         },
@@ -105,7 +109,7 @@ fn random() -> Vec<Check> {
                 "put4(0u, unit_interval(vec4u(integer(0u), integer(2u), integer(4u), integer(6u))));",
             ),
             proves: &["unit_interval"],
-            inputs: integer_table(),
+            inputs: lazy(integer_table),
             twin: |a| reference::unit_interval(integers(a)).to_vec(),
             tolerance: EXACT,
         },
@@ -114,7 +118,7 @@ fn random() -> Vec<Check> {
                 "put4(0u, random4(vec2u(integer(0u) & 0xffffu, integer(2u) & 0xffffu), integer(4u), integer(6u), 5u));",
             ),
             proves: &["random4"],
-            inputs: integer_table(),
+            inputs: lazy(integer_table),
             twin: |a| {
                 let [x, y, sample, dimension] = integers(a);
                 reference::random4([x & 0xffff, y & 0xffff], sample, dimension, 5).to_vec()
@@ -131,7 +135,7 @@ fn sobol() -> Vec<Check> {
                 "put_integer(0u, scrambled(vec4u(integer(0u)), vec4u(integer(2u))).z);",
             ),
             proves: &["scrambled"],
-            inputs: integer_table_of(4),
+            inputs: lazy(move || integer_table_of(4)),
             twin: |a| halves(reference::scrambled_reversed(integer(a, 0), integer(a, 2))).to_vec(),
             tolerance: EXACT,
         },
@@ -141,7 +145,7 @@ fn sobol() -> Vec<Check> {
                  put_integer(0u, p.x); put_integer(2u, p.y); put_integer(4u, p.z); put_integer(6u, p.w);",
             ),
             proves: &["bit_of", "sobol_point"],
-            inputs: integer_table_of(2),
+            inputs: lazy(move || integer_table_of(2)),
             twin: |a| {
                 let point = reference::sobol_point(integer(a, 0).reverse_bits());
                 point.iter().flat_map(|x| halves(x.reverse_bits())).collect()
@@ -153,7 +157,7 @@ fn sobol() -> Vec<Check> {
                 "put4(0u, sobol4(vec2u(integer(0u) & 0xffffu, integer(2u) & 0xffffu), integer(4u), integer(6u), 5u));",
             ),
             proves: &["sobol4"],
-            inputs: integer_table(),
+            inputs: lazy(integer_table),
             twin: |a| {
                 let [x, y, sample, dimension] = integers(a);
                 reference::sobol4([x & 0xffff, y & 0xffff], sample, dimension, 5).to_vec()
@@ -208,24 +212,24 @@ fn complex() -> Vec<Check> {
                     ),
                 ),
                 proves: &[$name],
-                inputs: $inputs,
+                inputs: lazy($inputs),
                 twin: $twin,
                 tolerance: ARITHMETIC_OF_TENS,
             }
         };
     }
     vec![
-        binary!("complex_add", numbers(), |a| parts(pair(a).0 + pair(a).1)),
-        binary!("complex_sub", numbers(), |a| parts(pair(a).0 - pair(a).1)),
-        binary!("complex_mul", numbers(), |a| parts(pair(a).0 * pair(a).1)),
-        binary!("complex_div", divisors(), |a| parts(pair(a).0 / pair(a).1)),
+        binary!("complex_add", numbers, |a| parts(pair(a).0 + pair(a).1)),
+        binary!("complex_sub", numbers, |a| parts(pair(a).0 - pair(a).1)),
+        binary!("complex_mul", numbers, |a| parts(pair(a).0 * pair(a).1)),
+        binary!("complex_div", divisors, |a| parts(pair(a).0 / pair(a).1)),
         Check {
             probe: pure(
                 (2, 1),
                 "put(0u, complex_norm_sqr(Complex4(vec4f(a(0u)), vec4f(a(1u)))).w);",
             ),
             proves: &["complex_norm_sqr"],
-            inputs: roots(),
+            inputs: lazy(roots),
             twin: |a| vec![a[0] * a[0] + a[1] * a[1]],
             tolerance: ARITHMETIC,
         },
@@ -235,7 +239,7 @@ fn complex() -> Vec<Check> {
                 "let z = complex_sqrt(Complex4(vec4f(a(0u)), vec4f(a(1u)))); put(0u, z.re.x); put(1u, z.im.x);",
             ),
             proves: &["complex_sqrt"],
-            inputs: roots(),
+            inputs: lazy(roots),
             twin: |a| parts(Complex64::new(a[0], a[1]).sqrt()),
             tolerance: ARITHMETIC,
         },

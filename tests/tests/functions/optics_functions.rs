@@ -1,6 +1,6 @@
 //! Functions of fresnel.wgsl, film.wgsl and microfacet.wgsl.
 
-use crate::{Check, pure, table};
+use crate::{Check, lazy, pure, table};
 use num_complex::Complex64;
 use pellicle_tests::tolerances::{DIRECTION, FILM, FILM_GRAZING, FILM_THICK, FRESNEL, PHASE};
 use std::f64::consts::PI;
@@ -24,18 +24,20 @@ fn surfaces() -> Vec<Check> {
             "put(0u, reflectance_unpolarized(vec4f(a(0u)), vec4f(a(1u)), a(2u)).x);",
         ),
         proves: &["reflectance_unpolarized"],
-        inputs: table(
-            &[(0.02, 5.0), (0.0, 8.0), (SHALLOW, 1.0)],
-            &[
-                &[1.5, 0.0, 1.0],
-                &[0.05, 3.4, 1.0],
-                &[1.0, 0.0, 0.5],
-                &[1.0, 0.0, 1e-4],
-                &[1.0, 0.0, 1e-6],
-                &[0.05, 0.0, 0.3],
-                &[4.0, 8.0, 1e-6],
-            ],
-        ),
+        inputs: lazy(move || {
+            table(
+                &[(0.02, 5.0), (0.0, 8.0), (SHALLOW, 1.0)],
+                &[
+                    &[1.5, 0.0, 1.0],
+                    &[0.05, 3.4, 1.0],
+                    &[1.0, 0.0, 0.5],
+                    &[1.0, 0.0, 1e-4],
+                    &[1.0, 0.0, 1e-6],
+                    &[0.05, 0.0, 0.3],
+                    &[4.0, 8.0, 1e-6],
+                ],
+            )
+        }),
         twin: |a| {
             vec![optics::reflectance_unpolarized(
                 Complex64::new(a[0], a[1]),
@@ -88,10 +90,12 @@ fn transparent_films() -> Vec<Check> {
     let check = |thickest, cosines, tolerance| Check {
         probe: pure((4, 1), TRANSPARENT),
         proves: &["clear_film_reflectance"],
-        inputs: table(
-            &[(1.0, 2.5), (0.0, thickest), (360.0, 830.0), cosines],
-            edges,
-        ),
+        inputs: lazy(move || {
+            table(
+                &[(1.0, 2.5), (0.0, thickest), (360.0, 830.0), cosines],
+                edges,
+            )
+        }),
         twin: transparent_film,
         tolerance,
     };
@@ -112,16 +116,18 @@ fn lossy_films() -> Vec<Check> {
     let check = |cosines, tolerance| Check {
         probe: pure((5, 2), LOSSY),
         proves: &["film_powers"],
-        inputs: table(
-            &[
-                (0.05, 2.5),
-                (0.0, 4.0),
-                (0.0, 2000.0),
-                (360.0, 830.0),
-                cosines,
-            ],
-            edges,
-        ),
+        inputs: lazy(move || {
+            table(
+                &[
+                    (0.05, 2.5),
+                    (0.0, 4.0),
+                    (0.0, 2000.0),
+                    (360.0, 830.0),
+                    cosines,
+                ],
+                edges,
+            )
+        }),
         twin: lossy_film,
         tolerance,
     };
@@ -147,7 +153,7 @@ fn film_parts() -> Vec<Check> {
                  put(0u, f.reflectance.x); put(1u, f.transmittance.x);",
             ),
             proves: &["film_of_boundary"],
-            inputs: table(&[(-0.6, 0.6); 4], &[&[0.0; 4], &[0.6, 0.0, 0.6, 0.6], &[0.3, 0.0, 1.0, 0.0]]),
+            inputs: lazy(move || table(&[(-0.6, 0.6); 4], &[&[0.0; 4], &[0.6, 0.0, 0.6, 0.6], &[0.3, 0.0, 1.0, 0.0]])),
             twin: boundary,
             tolerance: FRESNEL,
         },
@@ -156,7 +162,7 @@ fn film_parts() -> Vec<Check> {
                 "let z = phase_factor(vec4f(a(0u)), vec4f(a(1u))); put(0u, z.re.x); put(1u, z.im.x);",
             ),
             proves: &["phase_factor"],
-            inputs: table(&[(-6.0, 6.0), (0.0, 3.0)], &[&[0.0, 0.0], &[1.0, 0.0], &[0.5, 0.0], &[0.0, 1e4]]),
+            inputs: lazy(move || table(&[(-6.0, 6.0), (0.0, 3.0)], &[&[0.0, 0.0], &[1.0, 0.0], &[0.5, 0.0], &[0.0, 1e4]])),
             twin: |a| {
                 let z = Complex64::new(-PI * a[1], PI * a[0]).exp();
                 vec![z.re, z.im]
@@ -173,40 +179,48 @@ fn facets() -> Vec<Check> {
         Check {
             probe: pure((2, 1), "put(0u, beckmann_d(a(0u), a(1u)));"),
             proves: &["beckmann_d"],
-            inputs: table(
-                &[(0.05, 1.0), slopes],
-                &[&[1.0, 0.05], &[0.0, 0.1], &[-1.0, 0.1], &[1.0, 1.0]],
-            ),
+            inputs: lazy(move || {
+                table(
+                    &[(0.05, 1.0), slopes],
+                    &[&[1.0, 0.05], &[0.0, 0.1], &[-1.0, 0.1], &[1.0, 1.0]],
+                )
+            }),
             twin: |a| vec![optics::beckmann_d(a[0], a[1])],
             tolerance: pellicle_tests::tolerances::BECKMANN,
         },
         Check {
             probe: pure((4, 1), "put(0u, v_groove_g(a(0u), a(1u), a(2u), a(3u)));"),
             proves: &["v_groove_g"],
-            inputs: table(
-                &[(0.0, 1.0), (0.0, 1.0), (0.0, 1.0), (0.05, 1.0)],
-                &[&[0.5, 0.0, 0.5, 0.5], &[0.5, 0.5, -0.5, 0.5]],
-            ),
+            inputs: lazy(move || {
+                table(
+                    &[(0.0, 1.0), (0.0, 1.0), (0.0, 1.0), (0.05, 1.0)],
+                    &[&[0.5, 0.0, 0.5, 0.5], &[0.5, 0.5, -0.5, 0.5]],
+                )
+            }),
             twin: |a| vec![optics::v_groove_g(a[0], a[1], a[2], a[3])],
             tolerance: FRESNEL,
         },
         Check {
             probe: pure((3, 3), "put3(0u, sample_beckmann(a(0u), a(1u), a(2u)));"),
             proves: &["sample_beckmann"],
-            inputs: table(
-                &[(0.0, 0.999_999), (0.0, 0.999_999), slopes],
-                &[&[0.0, 0.0, 0.1], &[0.999_999_9, 0.5, 1.0]],
-            ),
+            inputs: lazy(move || {
+                table(
+                    &[(0.0, 0.999_999), (0.0, 0.999_999), slopes],
+                    &[&[0.0, 0.0, 0.1], &[0.999_999_9, 0.5, 1.0]],
+                )
+            }),
             twin: |a| optics::sample_beckmann(a[0], a[1], a[2]).to_vec(),
             tolerance: DIRECTION,
         },
         Check {
             probe: pure((1, 1), "put(0u, log_one_minus(a(0u)));"),
             proves: &["log_one_minus"],
-            inputs: table(
-                &[(0.0, 0.999_999)],
-                &[&[0.0], &[1e-7], &[0.031_25], &[0.031_26], &[0.999_999_94]],
-            ),
+            inputs: lazy(move || {
+                table(
+                    &[(0.0, 0.999_999)],
+                    &[&[0.0], &[1e-7], &[0.031_25], &[0.031_26], &[0.999_999_94]],
+                )
+            }),
             twin: |a| vec![(-a[0]).ln_1p()],
             tolerance: pellicle_tests::tolerances::LOGARITHM,
         },

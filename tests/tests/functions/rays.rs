@@ -1,10 +1,10 @@
 //! Functions of hit.wgsl and surface.wgsl: the object that a ray hits, and the point.
 
-use crate::Check;
 use crate::world::{
     center_of, everything, first_numbers, objects_where, pick, point_on, rounded, rows, unit,
-    vector,
+    vector, within,
 };
+use crate::{Check, lazy};
 use glam::DVec3;
 use pellicle_tests::tolerances::{DISTANCE, SPHERE_DISTANCE};
 use reference::Ray;
@@ -121,22 +121,23 @@ fn object_of(number: f64) -> Option<usize> {
 }
 
 fn distance_to() -> Check {
-    let world = everything();
-    let all = objects_where(|_, _| true);
     Check {
-        probe: world.probe((8, 1),
+        probe: within(everything, (8, 1),
             "let r = Ray(a3(2u), a3(5u));
              put(0u, max(distance_to(u32(a(0u)), r, select(u32(max(a(1u), 0.0)), NONE, a(1u) < 0.0)), -1.0));",
         ),
         proves: &["covers", "distance_to", "distance_to_shape"],
-        inputs: rows(9, |u| {
+        inputs: lazy(|| {
+            let world = everything();
+            let all = objects_where(|_, _| true);
+            rows(9, |u| {
             let (from, ray) = ray_of(u);
             // The object that the ray is aimed at, or the one that it starts on.
             let starts_here = u[5] < 0.2 && from.is_some();
             let object = from.filter(|_| starts_here).unwrap_or(pick(&all, u[4]));
             let is_clear = is_clear(world.shape(object), &ray, from == Some(object));
             is_clear.then(|| ray_row(&[object as f64, number_of(from)], &ray))
-        }),
+        }) }),
         twin: |a| {
             let object = a[0] as usize;
             let starts_here = object_of(a[1]) == Some(object);
@@ -147,15 +148,16 @@ fn distance_to() -> Check {
 }
 
 fn nearest_hit() -> Check {
-    let world = everything();
     Check {
-        probe: world.probe((7, 2),
+        probe: within(everything, (7, 2),
             "let h = nearest_hit(Ray(a3(1u), a3(4u)), select(u32(max(a(0u), 0.0)), NONE, a(0u) < 0.0));
              let hits = h.object != NONE;
              put(0u, select(-1.0, f32(h.object), hits)); put(1u, select(-1.0, h.distance, hits));",
         ),
         proves: &["is_met", "is_nearer", "load_node", "load_shape", "meets_box", "nearest_hit", "nearest_in_hierarchy", "shape_at", "shapes_row"],
-        inputs: rows(9, |u| {
+        inputs: lazy(|| {
+            let world = everything();
+            rows(9, |u| {
             let (from, ray) = ray_of(u);
             let shapes = || world.scene.objects().iter().map(|object| &object.shape).enumerate();
             let mut distances: Vec<f64> = shapes()
@@ -168,7 +170,7 @@ fn nearest_hit() -> Check {
             let is_kept = is_decided
                 && shapes().all(|(index, shape)| is_clear(shape, &ray, from == Some(index)));
             is_kept.then(|| ray_row(&[number_of(from)], &ray))
-        }),
+        }) }),
         twin: nearest,
         tolerance: SPHERE_DISTANCE,
     }
@@ -182,24 +184,28 @@ fn nearest(a: &[f64]) -> Vec<f64> {
 }
 
 fn surface_point() -> Check {
-    let world = everything();
-    let all = objects_where(|_, _| true);
     Check {
-        probe: world.probe(
+        probe: within(
+            everything,
             (8, 7),
             "let p = surface_point(u32(a(0u)), Ray(a3(1u), a3(4u)), a(7u));
              put3(0u, p.position); put3(3u, p.normal); put(6u, p.cosine);",
         ),
         proves: &["surface_point"],
-        inputs: rows(9, |u| {
-            let (from, ray) = ray_of(u);
-            let object = pick(&all, u[4]);
-            let (shape, starts_here) = (world.shape(object), from == Some(object));
-            let distance = distance(shape, &ray, starts_here);
-            let is_kept = distance > 0.0 && distance < 30.0 && is_clear(shape, &ray, starts_here);
-            let mut row = ray_row(&[object as f64], &ray);
-            row.push(distance);
-            is_kept.then_some(row)
+        inputs: lazy(|| {
+            let world = everything();
+            let all = objects_where(|_, _| true);
+            rows(9, |u| {
+                let (from, ray) = ray_of(u);
+                let object = pick(&all, u[4]);
+                let (shape, starts_here) = (world.shape(object), from == Some(object));
+                let distance = distance(shape, &ray, starts_here);
+                let is_kept =
+                    distance > 0.0 && distance < 30.0 && is_clear(shape, &ray, starts_here);
+                let mut row = ray_row(&[object as f64], &ray);
+                row.push(distance);
+                is_kept.then_some(row)
+            })
         }),
         twin: |a| {
             let shape = everything().shape(a[0] as usize);
@@ -213,8 +219,7 @@ fn surface_point() -> Check {
 }
 
 /// The tables serve their purpose: they contain hits of each object and misses.
-#[test]
-fn every_object_is_hit() {
+pub(crate) fn every_object_is_hit() {
     let objects = everything().scene.objects().len() as i64;
     assert_eq!(
         first_numbers(&nearest_hit(), nearest),

@@ -1,6 +1,6 @@
 //! Functions of sampling.wgsl and intersect.wgsl, and `mirrored_at` of path_state.wgsl.
 
-use crate::{Check, pure, table};
+use crate::{Check, lazy, pure, table};
 use glam::DVec3;
 use pellicle_tests::tolerances::{ARITHMETIC, DIRECTION, DISTANCE};
 
@@ -25,7 +25,7 @@ fn directions() -> Vec<Check> {
                 "let f = frame_of(a3(0u)); put3(0u, f[0]); put3(3u, f[1]); put3(6u, f[2]);",
             ),
             proves: &["frame_of"],
-            inputs: unit_vectors(),
+            inputs: lazy(unit_vectors),
             twin: |a| {
                 reference::frame_of(DVec3::from_slice(a))
                     .to_cols_array()
@@ -36,10 +36,12 @@ fn directions() -> Vec<Check> {
         Check {
             probe: pure((2, 3), "put3(0u, sample_cosine_hemisphere(a(0u), a(1u)));"),
             proves: &["sample_cosine_hemisphere"],
-            inputs: table(
-                &[(0.0, 1.0), (0.0, 1.0)],
-                &[&[0.0, 0.0], &[0.999_999_94, 0.5]],
-            ),
+            inputs: lazy(move || {
+                table(
+                    &[(0.0, 1.0), (0.0, 1.0)],
+                    &[&[0.0, 0.0], &[0.999_999_94, 0.5]],
+                )
+            }),
             twin: |a| {
                 reference::sample_cosine_hemisphere(a[0], a[1])
                     .to_array()
@@ -50,24 +52,26 @@ fn directions() -> Vec<Check> {
         Check {
             probe: pure((3, 3), "put3(0u, sample_cone(a(0u), a(1u), a(2u)));"),
             proves: &["sample_cone"],
-            inputs: table(
-                &[(0.0, 1.0), (0.0, 1.0), (0.001, 2.0)],
-                &[&[0.0, 0.0, 1e-6], &[0.999_999_94, 0.25, 2.0]],
-            ),
+            inputs: lazy(move || {
+                table(
+                    &[(0.0, 1.0), (0.0, 1.0), (0.001, 2.0)],
+                    &[&[0.0, 0.0, 1e-6], &[0.999_999_94, 0.25, 2.0]],
+                )
+            }),
             twin: |a| reference::sample_cone(a[0], a[1], a[2]).to_array().to_vec(),
             tolerance: DIRECTION,
         },
         Check {
             probe: pure((2, 1), "put(0u, cone_height(a(0u), a(1u)));"),
             proves: &["cone_height"],
-            inputs: table(&[(0.1, 1.0), (1.1, 50.0)], &[&[1.0, 1.0001], &[0.5, 0.5]]),
+            inputs: lazy(move || table(&[(0.1, 1.0), (1.1, 50.0)], &[&[1.0, 1.0001], &[0.5, 0.5]])),
             twin: |a| vec![reference::cone_height(a[0], a[1])],
             tolerance: pellicle_tests::tolerances::CONE,
         },
         Check {
             probe: pure((6, 3), "put3(0u, mirrored_at(a3(0u), a3(3u)));"),
             proves: &["mirrored_at"],
-            inputs: pairs_of_unit_vectors(),
+            inputs: lazy(pairs_of_unit_vectors),
             twin: |a| {
                 let (d, n) = (DVec3::from_slice(a), DVec3::from_slice(&a[3..]));
                 (d - 2.0 * d.dot(n) * n).normalize().to_array().to_vec()
@@ -164,7 +168,7 @@ fn distances() -> Vec<Check> {
                 "put(0u, intersect_sphere(a3(0u), a3(3u), 1.5, false));",
             ),
             proves: &["intersect_sphere"],
-            inputs: rays(sphere_is_clear),
+            inputs: lazy(move || rays(sphere_is_clear)),
             twin: |a| {
                 vec![
                     reference::intersect_sphere(&ray(a), DVec3::ZERO, RADIUS, false)
@@ -179,7 +183,7 @@ fn distances() -> Vec<Check> {
                 "put(0u, intersect_sphere(1.5 * a3(0u), a3(3u), 1.5, true));",
             ),
             proves: &["intersect_sphere"],
-            inputs: pairs_of_unit_vectors(),
+            inputs: lazy(pairs_of_unit_vectors),
             twin: |a| {
                 let mut ray = ray(a);
                 ray.origin *= RADIUS;
@@ -198,7 +202,7 @@ fn distances() -> Vec<Check> {
                 "let d = intersect_large_sphere(a3(0u), a3(3u), vec3f(0.0, 0.6, 0.8), 0.001, false); put(0u, select(-1.0, d, d > 0.0));",
             ),
             proves: &["intersect_large_sphere"],
-            inputs: rays(|a| large_sphere_is_clear(&ray(a))),
+            inputs: lazy(move || rays(|a| large_sphere_is_clear(&ray(a)))),
             twin: |a| {
                 let (center, radius) = large_sphere();
                 vec![reference::intersect_sphere(&ray(a), center, radius, false).unwrap_or(MISS)]
@@ -211,7 +215,7 @@ fn distances() -> Vec<Check> {
                 "let d = intersect_large_sphere(vec3f(0.0), a3(3u), vec3f(0.0, 0.6, 0.8), 0.001, true); put(0u, select(-1.0, d, d > 0.0));",
             ),
             proves: &["intersect_large_sphere"],
-            inputs: rays(|a| large_sphere_is_clear(&ray(a))),
+            inputs: lazy(move || rays(|a| large_sphere_is_clear(&ray(a)))),
             twin: |a| {
                 let (center, radius) = large_sphere();
                 let mut ray = ray(a);
@@ -226,10 +230,12 @@ fn distances() -> Vec<Check> {
                 "put(0u, intersect_plane(a3(0u), a3(3u), vec3f(0.0, 0.6, 0.8)));",
             ),
             proves: &["intersect_plane"],
-            inputs: rays(|a| {
-                let normal = DVec3::new(0.0, 0.6, 0.8);
-                let (height, speed) = (ray(a).origin.dot(normal), ray(a).direction.dot(normal));
-                height.abs() > 1e-3 && speed.abs() > 0.05
+            inputs: lazy(move || {
+                rays(|a| {
+                    let normal = DVec3::new(0.0, 0.6, 0.8);
+                    let (height, speed) = (ray(a).origin.dot(normal), ray(a).direction.dot(normal));
+                    height.abs() > 1e-3 && speed.abs() > 0.05
+                })
             }),
             twin: |a| {
                 let normal = DVec3::new(f64::from(0.0_f32), f64::from(0.6_f32), f64::from(0.8_f32));

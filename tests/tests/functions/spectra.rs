@@ -1,7 +1,7 @@
 //! Functions of spectrum.wgsl and lifting.wgsl: spectra at the wavelengths of a sample.
 
-use crate::Check;
-use crate::world::{BANDS, GROUPS, bands_of, everything, rows, value_of};
+use crate::world::{BANDS, GROUPS, bands_of, everything, rows, value_of, within};
+use crate::{Check, lazy};
 use pellicle_tests::tolerances::{ARITHMETIC, KNOT, SMOOTH, SPECTRUM};
 
 fn steps() -> u32 {
@@ -23,21 +23,26 @@ fn world_bands() -> &'static spectra::BandGrid {
     &everything().scene.settings().bands
 }
 
-pub(crate) fn checks() -> Vec<Check> {
-    let world = everything();
-    let count = (world.scene.spectra().len() + 3) as f64;
+/// Offsets away from knots of the spectra.
+fn offsets() -> Vec<f32> {
     let mut offsets = rows(1, |u| {
         let position = u[0] * f64::from(steps());
         ((position - position.round()).abs() > 1e-5).then(|| u.to_vec())
     });
     offsets.extend([0.0, 0.5, 0.999_999_94]);
+    offsets
+}
+
+pub(crate) fn checks() -> Vec<Check> {
     vec![
         Check {
-            probe: world.probe((1, 3),
+            probe: within(
+                everything,
+                (1, 3),
                 "let w = wavelengths_at(a(0u)); put(0u, w.offset); put(1u, f32(w.knot)); put(2u, w.fraction);",
             ),
             proves: &["wavelengths_at"],
-            inputs: offsets,
+            inputs: lazy(offsets),
             twin: |a| {
                 let position = a[0] * f64::from(steps());
                 vec![a[0], position.floor(), position - position.floor()]
@@ -45,26 +50,35 @@ pub(crate) fn checks() -> Vec<Check> {
             tolerance: KNOT,
         },
         Check {
-            probe: world.probe((3, 4),
+            probe: within(
+                everything,
+                (3, 4),
                 "put4(0u, spectrum_at(u32(a(0u)), u32(a(1u)), wavelengths_at(a(2u))));",
             ),
             proves: &["spectra_row", "spectrum_at"],
-            inputs: rows(3, |u| {
-                let group = (u[1] * f64::from(GROUPS)).floor();
-                Some(vec![(u[0] * count).floor(), group, u[2]])
+            inputs: lazy(|| {
+                let count = (everything().scene.spectra().len() + 3) as f64;
+                rows(3, |u| {
+                    let group = (u[1] * f64::from(GROUPS)).floor();
+                    Some(vec![(u[0] * count).floor(), group, u[2]])
+                })
             }),
             twin: spectrum_twin,
             tolerance: SPECTRUM,
         },
         Check {
-            probe: world.probe((5, 4),
+            probe: within(
+                everything,
+                (5, 4),
                 "put4(0u, smooth_value(a3(0u), u32(a(3u)), wavelengths_at(a(4u))));",
             ),
             proves: &["smooth_value"],
-            inputs: rows(5, |u| {
-                let spread = |u: f64| 20.0 * (2.0 * u - 1.0).powi(3);
-                let group = (u[3] * f64::from(GROUPS)).floor();
-                Some(vec![spread(u[0]), spread(u[1]), spread(u[2]), group, u[4]])
+            inputs: lazy(move || {
+                rows(5, |u| {
+                    let spread = |u: f64| 20.0 * (2.0 * u - 1.0).powi(3);
+                    let group = (u[3] * f64::from(GROUPS)).floor();
+                    Some(vec![spread(u[0]), spread(u[1]), spread(u[2]), group, u[4]])
+                })
             }),
             twin: |a| {
                 let bands = world_bands();
@@ -78,14 +92,18 @@ pub(crate) fn checks() -> Vec<Check> {
         },
         Check {
             // In 1/µm, so that the numbers are of order one.
-            probe: world.probe((2, 4),
+            probe: within(
+                everything,
+                (2, 4),
                 "put4(0u, 1000.0 * inverse_wavelengths(u32(a(0u)), wavelengths_at(a(1u))));",
             ),
             proves: &["inverse_wavelengths"],
-            inputs: rows(2, |u| Some(vec![(u[0] * f64::from(GROUPS)).floor(), u[1]])),
+            inputs: lazy(move || rows(2, |u| Some(vec![(u[0] * f64::from(GROUPS)).floor(), u[1]]))),
             twin: |a| {
                 let grid = &everything().scene.settings().bands;
-                bands_of(a[0]).map(|band| 1000.0 / grid.wavelength_nm(band, a[1])).to_vec()
+                bands_of(a[0])
+                    .map(|band| 1000.0 / grid.wavelength_nm(band, a[1]))
+                    .to_vec()
             },
             tolerance: ARITHMETIC,
         },

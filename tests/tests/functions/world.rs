@@ -1,6 +1,6 @@
 //! Scenes for both sides, and rows of numbers that fit them.
 
-use crate::{Check, table};
+use crate::{Check, Lazy, lazy, table};
 use glam::DVec3;
 use gpu::PackedScene;
 use pellicle_tests::probe::Probe;
@@ -32,18 +32,19 @@ impl World {
     pub(crate) fn material(&self, object: usize) -> &Material {
         self.scene.material(self.scene.objects()[object].material)
     }
+}
 
-    pub(crate) fn probe(
-        &'static self,
-        shape: (usize, usize),
-        body: &'static str,
-    ) -> Probe<'static> {
-        Probe {
-            body,
-            shape,
-            scene: Some(&self.packed),
-        }
-    }
+/// A probe within a world.
+pub(crate) fn within(
+    world: fn() -> &'static World,
+    shape: (usize, usize),
+    body: &'static str,
+) -> Lazy<Probe<'static>> {
+    lazy(move || Probe {
+        body,
+        shape,
+        scene: Some(&world().packed),
+    })
 }
 
 pub(crate) fn everything() -> &'static World {
