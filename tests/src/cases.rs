@@ -16,7 +16,14 @@ pub fn case(name: impl Into<String>, run: impl FnOnce() + Send + 'static) -> Tri
     })
 }
 
-/// A case of several comparisons, which fails if any of them does. What was measured is printed if the harness got `--nocapture`.
+/// Prints what was measured if the harness got `--nocapture`, because it captures nothing itself.
+pub fn report(measured: &str) {
+    if std::env::args().any(|argument| argument == "--nocapture") {
+        println!("{measured}");
+    }
+}
+
+/// A case of several comparisons, which fails if any of them does.
 pub fn comparisons(
     name: impl Into<String>,
     run: impl FnOnce() -> Vec<Result<String, String>> + Send + 'static,
@@ -27,10 +34,8 @@ pub fn comparisons(
         if compared.is_empty() {
             return Err("nothing was compared".into());
         }
-        if std::env::args().any(|argument| argument == "--nocapture") {
-            for report in compared.iter().flatten() {
-                println!("{name}: {report}");
-            }
+        for found in compared.iter().flatten() {
+            report(&format!("{name}: {found}"));
         }
         let wrong: Vec<String> = compared.into_iter().filter_map(Result::err).collect();
         if wrong.is_empty() {

@@ -11,4 +11,3 @@ pub mod sources;
 pub mod tables;
 pub mod tolerances;
 pub mod wgsl;
-pub mod workers;

@@ -81,7 +81,7 @@ pub fn small(name: &str, size: [u32; 2], samples: u32, bands: u32, seed: u32) ->
         .rounded_to_f32()
 }
 
-/// WGSL functions that make sense only within a path; the suite `paths` proves them.
+/// WGSL functions that make sense only within a path; the single paths of the suite `frames` prove them.
 pub const PROVED_ON_PATHS: &[&str] = &[
     "add_emission",
     "air_above",
@@ -131,9 +131,9 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "with_emission",
 ];
 
-/// WGSL functions that the suite `stack_batches` proves: batches of film stacks.
+/// WGSL functions that `stack_batches` of the suite `films` proves: batches of film stacks.
 pub const PROVED_ON_STACKS: &[&str] = &["evaluate_stacks", "run_index", "run_stack"];
 
 /// WGSL functions that whole pictures prove: the accumulation of samples in the suite `frames`, the order of coincident surfaces in
-/// `closed_forms`.
+/// the closed forms of `images`.
 pub const PROVED_ON_FRAMES: &[&str] = &["accumulate", "is_outward", "loops_run", "render"];

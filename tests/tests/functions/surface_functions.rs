@@ -5,6 +5,7 @@ use crate::world::{BANDS, World, direction, pick, rows, within};
 use crate::{Check, lazy};
 use glam::DVec3;
 use gpu::PackedScene;
+use pellicle_tests::cases::report;
 use pellicle_tests::device::lend;
 use pellicle_tests::tolerances::{RECIPROCITY, SURFACE_FUNCTIONS};
 use reference::{PreparedScene, SurfaceFunction, SurfacePoint};
@@ -194,7 +195,7 @@ pub(crate) fn surfaces_are_reciprocal() {
     let on_cpu: Vec<f64> = rows.iter().flat_map(|row| both_ways(row)).collect();
     for (who, values) in [("gpu", on_gpu), ("cpu", on_cpu)] {
         let off = asymmetry(&values, |_| 1.0);
-        println!("{who}: {off:.1e}");
+        report(&format!("{who}: {off:.1e}"));
         assert!(off < RECIPROCITY.relative, "{who}: {off}");
         let with_cosines = asymmetry(&values, |row| rows[row][8] / rows[row][5]);
         assert!(with_cosines > 0.1, "{who}: {with_cosines}");

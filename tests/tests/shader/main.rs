@@ -3,6 +3,5 @@
 mod layout;
 mod lists;
 mod modules;
-mod paths;
 mod pipeline_cache;
 mod specialization;

@@ -1,16 +1,20 @@
-//! Whole pictures: the GPU renderer against the reference, with the same random numbers and with different ones, and against
-//! known results.
+//! Whole pictures of every scene: the GPU renderer against the reference, path by path, with the same random numbers and with different
+//! ones; and against known results.
+
+mod paths;
 
 use gpu::Gpu;
+use libtest_mimic::Trial;
+use pellicle_tests::cases::{self, comparisons, report};
 use pellicle_tests::device::{is_short, lend};
 use pellicle_tests::frames::{Values, same_expectation, same_numbers, same_variances};
 use pellicle_tests::scenes::{BANDS, MADE, all, file, small};
 use pellicle_tests::tolerances::{FRAMES, SAME_COLOR, SUMS, VARIANCES, Z_FURNACE, Z_MEAN};
-use pellicle_tests::workers::failures_of;
-use scene::Scene;
 use scene::description::Sampler;
+use scene::{DirectLight, Scene};
 use spectra::SpectralImage;
 use std::ops::ControlFlow;
+use std::process::ExitCode;
 
 fn on_gpu(gpu: &Gpu, scene: &Scene) -> SpectralImage {
     gpu::render(gpu, scene, &mut |_| ControlFlow::Continue(()))
@@ -21,17 +25,38 @@ fn on_cpu(scene: &Scene) -> SpectralImage {
     reference::render(scene, &mut |_| ControlFlow::Continue(())).expect("nothing stops the render")
 }
 
-/// With the same random numbers and with different ones, by the same pipeline, which is compiled once.
-#[test]
-fn both_renderers_give_the_same_pictures() {
-    let wrong = failures_of(&all(), |gpu, name| {
-        let mut compared = by_the_same_numbers(gpu, name);
-        if !is_short() {
-            compared.push(by_different_numbers(gpu, name));
+fn main() -> ExitCode {
+    let mut all: Vec<Trial> = all()
+        .into_iter()
+        .map(|name| comparisons(name, || compared(name)))
+        .collect();
+    for name in ["everything_bodies", "everything_pictured"] {
+        for way in [DirectLight::Emitters, DirectLight::Bsdf] {
+            let what = format!("{name}, direct light by {way:?} alone");
+            all.push(comparisons(what, move || vec![by_one_technique(name, way)]));
         }
-        compared
-    });
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    }
+    all.extend(pellicle_tests::cases![
+        paths::the_probe_reaches_the_whole_path_tracer,
+        light_groups_add_up_to_the_picture,
+        a_wrong_picture_is_noticed,
+        the_furnace_is_white,
+        the_wedge_shows_the_reflectance_of_its_film,
+        long_runs_of_samples_are_complete_or_refused,
+        the_bits_do_not_depend_on_the_division_of_the_work,
+    ]);
+    cases::run(all)
+}
+
+/// Single paths, pictures with the same random numbers and with different ones, all by the same pipeline, which is compiled once.
+fn compared(name: &str) -> Vec<Result<String, String>> {
+    let gpu = lend();
+    let mut compared = paths::compared(&gpu, name);
+    compared.extend(by_the_same_numbers(&gpu, name));
+    if !is_short() {
+        compared.push(by_different_numbers(&gpu, name));
+    }
+    compared
 }
 
 fn by_the_same_numbers(gpu: &Gpu, name: &str) -> Vec<Result<String, String>> {
@@ -109,32 +134,18 @@ fn same_colors(actual: &SpectralImage, expected: &SpectralImage) -> Result<Strin
 }
 
 /// Emitters found by only one of the two techniques.
-#[test]
-fn each_technique_of_direct_lighting_gives_the_same_pictures() {
-    use scene::DirectLight::{Bsdf, Emitters};
-    let wrong = failures_of(
-        &["everything_bodies", "everything_pictured"],
-        |gpu, name| {
-            let by_the_way = |way| {
-                let mut file = file(name);
-                let render = &mut file.description.render;
-                (render.size, render.samples, render.bands, render.seed) = ([96, 72], 4, BANDS, 5);
-                render.direct_light = way;
-                let scene = file.validate().expect("valid").rounded_to_f32();
-                let actual = on_gpu(gpu, &scene);
-                let expected = on_cpu(&scene);
-                same_numbers(Values::of(&actual), Values::of(&expected), &FRAMES)
-                    .map_err(|report| format!("{way:?}: {report}"))
-            };
-            vec![by_the_way(Emitters), by_the_way(Bsdf)]
-        },
-    );
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+fn by_one_technique(name: &str, way: DirectLight) -> Result<String, String> {
+    let mut file = file(name);
+    let render = &mut file.description.render;
+    (render.size, render.samples, render.bands, render.seed) = ([96, 72], 4, BANDS, 5);
+    render.direct_light = way;
+    let scene = file.validate().expect("valid").rounded_to_f32();
+    let (actual, expected) = (on_gpu(&lend(), &scene), on_cpu(&scene));
+    same_numbers(Values::of(&actual), Values::of(&expected), &FRAMES)
 }
 
 /// The same picture in several light groups and in one: the sum of the groups is the total, and neither the total nor the variance
 /// depends on the grouping.
-#[test]
 fn light_groups_add_up_to_the_picture() {
     let gpu = lend();
     let mut file = file("everything");
@@ -155,10 +166,10 @@ fn light_groups_add_up_to_the_picture() {
         let colors = same_numbers(Values::of_xyz(&apart), Values::of_xyz(&together), &SUMS);
         let variances = same_variances(&apart, &together, &VARIANCES);
         for compared in [radiance, colors, variances] {
-            println!(
+            report(&format!(
                 "{who}: {}",
                 compared.unwrap_or_else(|report| panic!("{who}: {report}"))
-            );
+            ));
         }
         // A light group that is left out or counted twice is noticed.
         let without = Values::of_light(&apart, 0);
@@ -167,7 +178,6 @@ fn light_groups_add_up_to_the_picture() {
 }
 
 /// A film whose index is one percent off, or whose bands are swapped, gives another picture.
-#[test]
 fn a_wrong_picture_is_noticed() {
     let gpu = lend();
     let right = small("film_wedge", [96, 24], 16, 10, 1);
@@ -188,7 +198,6 @@ fn a_wrong_picture_is_noticed() {
 }
 
 /// Albedo 0.5 inside emission 0.5: the radiance is 1 everywhere, in every band.
-#[test]
 fn the_furnace_is_white() {
     let gpu = lend();
     let scene = small("furnace", [32, 32], 64, 7, 5);
@@ -206,7 +215,7 @@ fn the_furnace_is_white() {
             let (radiance, variance) = (of_band(image.radiance()), of_band(image.variance()));
             let mean = radiance.iter().sum::<f64>() / radiance.len() as f64;
             let error = variance.iter().sum::<f64>().sqrt() / radiance.len() as f64;
-            println!("{who}, band {band}: {mean} ± {error}");
+            report(&format!("{who}, band {band}: {mean} ± {error}"));
             // 32 segments leave out 2⁻³² of the light; f32 rounds by 6e-8 per bounce.
             assert!(
                 (mean - 1.0).abs() <= Z_FURNACE * error + 1e-6,
@@ -217,7 +226,6 @@ fn the_furnace_is_white() {
 }
 
 /// In front of a constant light the wedge shows R(λ) L(λ): compares the picture with optics alone, without a renderer.
-#[test]
 fn the_wedge_shows_the_reflectance_of_its_film() {
     const SIZE: [u32; 2] = [200, 50];
     // Independent samples, whose reported standard errors are exact.
@@ -251,7 +259,9 @@ fn the_wedge_shows_the_reflectance_of_its_film() {
             };
         }
     }
-    println!("largest of 1600 deviations: {largest:.2} standard errors");
+    report(&format!(
+        "largest of 1600 deviations: {largest:.2} standard errors"
+    ));
     assert!(largest < Z_MEAN, "{largest}");
     assert!(
         largest > 1.0,
@@ -312,7 +322,6 @@ fn mean_over_band(
 
 /// Some drivers silently end the loops of an invocation that runs for long. Runs of many samples in few pixels are divided to avoid
 /// this; if it happens nevertheless, it must be an error.
-#[test]
 fn long_runs_of_samples_are_complete_or_refused() {
     let gpu = lend();
     let scene = small("film_wedge", [4, 4], 20_000, 8, 1);
@@ -325,7 +334,9 @@ fn long_runs_of_samples_are_complete_or_refused() {
     match divided(Some(20_000)) {
         Ok(image) => assert_eq!(image, whole),
         Err(gpu::RenderError::CutShort { counted, samples }) => {
-            println!("the driver completed {counted} of {samples} samples in one run");
+            report(&format!(
+                "the driver completed {counted} of {samples} samples in one run"
+            ));
             assert!(counted < samples, "{counted} of {samples}");
         }
         Err(other) => panic!("{other}"),
@@ -333,7 +344,6 @@ fn long_runs_of_samples_are_complete_or_refused() {
 }
 
 /// A pixel has the same bits however the samples are divided, and whichever tile it is in.
-#[test]
 fn the_bits_do_not_depend_on_the_division_of_the_work() {
     let gpu = lend();
     let scene = small("soap_bubble", [600, 40], 6, 5, 3);
