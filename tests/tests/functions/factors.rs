@@ -233,7 +233,7 @@ pub(crate) fn every_factor_occurs() {
         .iter()
         .flat_map(|check| first_numbers(check, <[f64]>::to_vec))
         .collect();
-    // Factors of several layers read the record of a path, and are proved by the suite `paths`.
+    // Factors of several layers read the record of a path, and are proved by the single paths of `frames`.
     assert_eq!(kinds, [1, 3, 7, 8].into());
 }
 

@@ -15,28 +15,44 @@ use std::path::{Path, PathBuf};
 
 const BLESS: &str =
     "PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test images pictures::";
-const SCENES: [(&str, [u32; 2]); 20] = [
-    ("soap_bubble", [160, 120]),
-    ("film_wedge", [160, 40]),
-    ("metal_spheres", [160, 120]),
-    ("draining_bubble", [90, 90]),
-    ("paper_wedge", [140, 54]),
-    ("oil_on_water", [120, 90]),
-    ("silicon_steps", [140, 28]),
-    ("metamers", [80, 40]),
-    ("anodized_titanium", [120, 90]),
-    ("tempered_steel", [120, 75]),
-    ("dichroic_ball", [80, 60]),
-    ("gold_visor", [100, 75]),
-    ("paper_figure_5", [80, 40]),
-    ("figure_5_exact", [80, 40]),
-    ("metals", [80, 60]),
-    ("brushed_disk", [80, 60]),
-    ("bubble_in_room", [80, 60]),
-    ("bubble_under_sky", [80, 60]),
-    ("room", [80, 40]),
-    ("studio", [96, 54]),
-];
+
+/// Tests both renderers on each of these scenes at a size.
+macro_rules! goldens {
+    ($($scene:ident: $size:expr,)*) => {
+        const SCENES: &[(&str, [u32; 2])] = &[$((stringify!($scene), $size)),*];
+
+        mod pictures_look_like_their_goldens {
+            $(#[test] fn $scene() { super::looks_like_its_golden(stringify!($scene), $size); })*
+        }
+
+        mod the_reference_renders_the_same_pictures {
+            $(#[test] fn $scene() { super::reference_renders_the_same(stringify!($scene), $size); })*
+        }
+    };
+}
+
+goldens! {
+    soap_bubble: [160, 120],
+    film_wedge: [160, 40],
+    metal_spheres: [160, 120],
+    draining_bubble: [90, 90],
+    paper_wedge: [140, 54],
+    oil_on_water: [120, 90],
+    silicon_steps: [140, 28],
+    metamers: [80, 40],
+    anodized_titanium: [120, 90],
+    tempered_steel: [120, 75],
+    dichroic_ball: [80, 60],
+    gold_visor: [100, 75],
+    paper_figure_5: [80, 40],
+    figure_5_exact: [80, 40],
+    metals: [80, 60],
+    brushed_disk: [80, 60],
+    bubble_in_room: [80, 60],
+    bubble_under_sky: [80, 60],
+    room: [80, 40],
+    studio: [96, 54],
+}
 
 /// A scene rendered small on the device and developed at its own exposure.
 fn rendered(gpu: &gpu::Gpu, mut file: SceneFile, size: [u32; 2]) -> RgbImage8 {
@@ -83,41 +99,31 @@ fn compare(actual: &Picture, path: &Path) -> Result<f64, String> {
     }
 }
 
-#[test]
-fn pictures_look_like_their_goldens() {
-    let gpu = device::lend();
-    let bless = std::env::var("PELLICLE_BLESS").is_ok_and(|value| value == "1");
-    let mut wrong = Vec::new();
-    for (name, size) in SCENES {
-        let picture = rendered(&gpu, file(name), size);
-        let path = golden_path(name);
-        if bless {
-            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-            color::png::write(&path, &picture).unwrap();
-        }
-        match compare(&Picture::of_codes(&picture), &path) {
-            Ok(mean) => println!("{name}: mean FLIP {mean:.5}"),
-            Err(report) => {
-                let folder = root().join("target/pictures");
-                std::fs::create_dir_all(&folder).unwrap();
-                let saved = folder.join(format!("{name}.png"));
-                color::png::write(&saved, &picture).unwrap();
-                wrong.push(format!("{name}: {report}; see {}", saved.display()));
-            }
+fn looks_like_its_golden(name: &str, size: [u32; 2]) {
+    let picture = rendered(&device::lend(), file(name), size);
+    let path = golden_path(name);
+    if std::env::var("PELLICLE_BLESS").is_ok_and(|value| value == "1") {
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        color::png::write(&path, &picture).unwrap();
+    }
+    match compare(&Picture::of_codes(&picture), &path) {
+        Ok(mean) => println!("mean FLIP {mean:.5}"),
+        Err(report) => {
+            let folder = root().join("target/pictures");
+            std::fs::create_dir_all(&folder).unwrap();
+            let saved = folder.join(format!("{name}.png"));
+            color::png::write(&saved, &picture).unwrap();
+            panic!("{report}; see {}", saved.display());
         }
     }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// The reference differs from the goldens as another driver does: in rounding.
-#[test]
-fn the_reference_renders_the_same_pictures() {
-    for (name, size) in SCENES {
-        let picture = rendered_by_reference(file(name), size);
-        let found = compare(&Picture::of_codes(&picture), &golden_path(name));
-        println!("{name}: reference against golden: {found:?}");
-        assert!(found.is_ok(), "{name}: {found:?}");
-    }
+fn reference_renders_the_same(name: &str, size: [u32; 2]) {
+    let picture = rendered_by_reference(file(name), size);
+    let found = compare(&Picture::of_codes(&picture), &golden_path(name));
+    println!("reference against golden: {found:?}");
+    assert!(found.is_ok(), "{found:?}");
 }
 
 /// The index of water in the project's data, times a factor.
@@ -177,7 +183,10 @@ fn every_golden_has_its_scene() {
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();
     found.sort();
-    let mut expected = SCENES.map(|(name, _)| format!("{name}.png"));
+    let mut expected: Vec<_> = SCENES
+        .iter()
+        .map(|(name, _)| format!("{name}.png"))
+        .collect();
     expected.sort();
     assert_eq!(found, expected);
 }

@@ -51,8 +51,7 @@ type Way = (&'static str, fn(&mut Render));
 
 /// Every option against the plain one, on a bubble and on everything; the reported variances are those of independent samples, or (for
 /// Sobol) larger than the true ones.
-#[test]
-fn all_sampling_options_have_the_same_expectation() {
+fn all_options_agree(name: &str) {
     let options: [Way; 4] = [
         ("one split", |render| render.film_splits = 1),
         ("three splits", |render| render.film_splits = 3),
@@ -64,23 +63,31 @@ fn all_sampling_options_have_the_same_expectation() {
     ];
     let gpu = lend();
     let mut wrong = Vec::new();
-    for name in ["floating_bubble", "everything"] {
-        let expected = rendered(&gpu, name, 256, 5, plain);
-        for (what, set) in options {
-            let found = rendered(&gpu, name, 192, 6, |render| {
-                plain(render);
-                set(render);
-            });
-            match same_expectation(&found, &expected) {
-                Ok(report) => println!("{name}, {what}: {report}"),
-                Err(report) => wrong.push(format!("{name}, {what}: {report}")),
-            }
+    let expected = rendered(&gpu, name, 256, 5, plain);
+    for (what, set) in options {
+        let found = rendered(&gpu, name, 192, 6, |render| {
+            plain(render);
+            set(render);
+        });
+        match same_expectation(&found, &expected) {
+            Ok(report) => println!("{name}, {what}: {report}"),
+            Err(report) => wrong.push(format!("{name}, {what}: {report}")),
         }
-        // The comparison can fail: the clamp removes light.
-        let dimmed = rendered(&gpu, name, 192, 6, |render| render.clamp = Some(0.2));
-        assert!(same_expectation(&dimmed, &expected).is_err(), "{name}");
     }
+    // The comparison can fail: the clamp removes light.
+    let dimmed = rendered(&gpu, name, 192, 6, |render| render.clamp = Some(0.2));
+    assert!(same_expectation(&dimmed, &expected).is_err(), "{name}");
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn all_sampling_options_have_the_same_expectation_on_a_bubble() {
+    all_options_agree("floating_bubble");
+}
+
+#[test]
+fn all_sampling_options_have_the_same_expectation_on_everything() {
+    all_options_agree("everything");
 }
 
 /// Number of renders of each kind.
