@@ -214,7 +214,7 @@ failed_tests() {
     awk '
         /^ +Running / { suite = $2 == "unittests" ? $3 : $2 }
         /^failures:$/ { list = "" }
-        /^    [^ ]+$/ { list = list "  " suite ": " $1 "\n" }
+        /^    [^ ]/ { list = list "  " suite ": " substr($0, 5) "\n" }
         /^test result: FAILED/ { printf "%s", list }
         /^test result: / { list = "" }
     ' "$folder/output"
