@@ -11,11 +11,7 @@ use pellicle_tests::tolerances::ORACLE_TWO_BEAM;
 #[test]
 fn two_beams_agree_with_an_independent_computation() {
     let (mut found, mut expected) = (Vec::new(), Vec::new());
-<<<<<<<< HEAD:crates/cli/tests/commands/film_models.rs
     let table: Vec<_> = rows(include_str!("../../../../tests/data/two_beam.csv")).collect();
-========
-    let table: Vec<_> = rows(include_str!("../../data/two_beam.csv")).collect();
->>>>>>>> 3b0ccea (test: suites in few binaries, by subject):tests/tests/films/film_models.rs
     for chunk in table.iter().step_by(23) {
         let [nm, angle, wavelength, path] = [0, 1, 2, 3].map(|cell| chunk[cell]);
         let asked = format!(
