@@ -1,7 +1,8 @@
 //! The scenes that the suites render.
 
 use crate::wgsl::root;
-use scene::{Scene, SceneFile};
+use scene::Scene;
+use scene_file::SceneFile;
 
 /// Scenes in `scenes/`.
 pub const SHIPPED: &[&str] = &[

@@ -1,7 +1,7 @@
 //! `pellicle check`.
 
 use crate::{memory, print};
-use pellicle::scene::SceneFile;
+use pellicle::scene_file::SceneFile;
 use std::path::Path;
 
 /// Validates a scene and prints a summary in one line.

@@ -80,7 +80,7 @@ fn main() -> ExitCode {
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Devices => devices::print(),
         Command::Materials(arguments) => materials::run(&arguments),
-        Command::Schema => print::result(format_args!("{:#}", pellicle::scene::schema())),
+        Command::Schema => print::result(format_args!("{:#}", pellicle::scene_file::schema())),
         Command::Bench(arguments) => bench::run(&arguments),
     };
     match result {

@@ -6,7 +6,7 @@ use miette::miette;
 use pellicle::color::{BandWeights, xyz};
 use pellicle::colorimetry::srgb;
 use pellicle::optics::reflectance_unpolarized;
-use pellicle::scene::description::Index;
+use pellicle::scene_file::description::Index;
 use pellicle::spectra::{self, BandGrid, MaterialInfo, Observer, OpticalConstants};
 use serde_json::{Value, json};
 use std::io::IsTerminal;

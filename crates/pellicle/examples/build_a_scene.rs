@@ -3,8 +3,7 @@
 //! `cargo run --release --example build_a_scene [FOLDER]`
 
 use pellicle::color::{self, DevelopSettings};
-use pellicle::scene::Scene;
-use pellicle::scene::description::{
+use pellicle::scene_file::description::{
     Camera, Description, Emission, Environment, Filter, Index, Material, Object, Render, Strength,
     Thickness,
 };
@@ -62,7 +61,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 
     // Validation reports all errors at once; files would be looked up in the folder given here.
-    let scene = Scene::new(&description, Path::new("."))?;
+    let scene = scene_file::validate(&description, Path::new("."))?;
     let renderer = Renderer::open(&Backend::Auto)?;
     let image = renderer.render(&scene, &mut |_samples| ControlFlow::Continue(()))?;
 

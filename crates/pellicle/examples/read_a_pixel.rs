@@ -3,7 +3,7 @@
 //! `cargo run --release --example read_a_pixel [FILE.exr [X Y]]`; without a file a small picture is rendered.
 
 use pellicle::color::{spectral_exr, xyz};
-use pellicle::scene::SceneFile;
+use pellicle::scene_file::SceneFile;
 use pellicle::spectra::SpectralImage;
 use pellicle::{Backend, Renderer};
 use std::error::Error;

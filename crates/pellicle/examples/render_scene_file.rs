@@ -4,7 +4,7 @@
 
 use pellicle::color::spectral_exr::{self, Metadata, WriteOptions};
 use pellicle::color::{self, DevelopSettings};
-use pellicle::scene::SceneFile;
+use pellicle::scene_file::SceneFile;
 use pellicle::{Backend, Renderer};
 use std::error::Error;
 use std::ops::ControlFlow;

@@ -4,14 +4,14 @@
 //!
 //! ```text
 //! scenes/soap_bubble.toml
-//!   -> scene::SceneFile       TOML as written             all errors at once, each with line and column
+//!   -> scene_file::SceneFile       TOML as written             all errors at once, each with line and column
 //!   -> scene::Scene           validated: spectra as tables over the bands, nothing left to look up
 //!   -> Renderer::render       paths traced on a GPU (or on the CPU in f64), spectra evaluated along them
 //!   -> spectra::SpectralImage radiance per pixel and band, its variance, its XYZ
 //!   -> color::develop         codes of a display -> color::png   |   color::spectral_exr
 //! ```
 //!
-//! A [`scene::Scene`] comes from a file ([`scene::SceneFile`]) or from a [`scene::description::Description`] that a
+//! A [`scene::Scene`] comes from a file ([`scene_file::SceneFile`]) or from a [`scene_file::description::Description`] that a
 //! program fills in. [`Renderer::open`] finds an adapter, [`Renderer::render`] returns a
 //! [`spectra::SpectralImage`]: radiance per pixel and band, in W m⁻² sr⁻¹ nm⁻¹ up to the scene's scale. Color is computed last
 //! and only in [`color`], so that a picture can be developed again without rendering again.
@@ -20,7 +20,7 @@
 //! use pellicle::{Backend, Renderer, color, scene};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let scene = scene::SceneFile::read("scenes/soap_bubble.toml")?.validate()?;
+//! let scene = scene_file::SceneFile::read("scenes/soap_bubble.toml")?.validate()?;
 //! let renderer = Renderer::open(&Backend::Auto)?;
 //! let image = renderer.render(&scene, &mut |_samples_done| std::ops::ControlFlow::Continue(()))?;
 //! let spectrum: &[f32] = image.pixel(320, 240); // one value per band
@@ -49,4 +49,5 @@ pub use optics;
 pub use reference;
 pub use renderer::{Backend, OpenError, RenderError, Renderer};
 pub use scene;
+pub use scene_file;
 pub use spectra;

@@ -2,8 +2,9 @@
 
 use coating::{Angle, LayerDescription, Stack, StackDescription};
 use reference::{Ray, camera_ray, layer_thickness, nearest_hit, surface_point};
-use scene::description::{Description, Index, Layer, Material};
-use scene::{Problem, Scene};
+use scene::Scene;
+use scene_file::Problem;
+use scene_file::description::{Description, Index, Layer, Material};
 use std::path::Path;
 
 mod lamps;
@@ -111,7 +112,7 @@ fn media(index: Option<&Index>, layers: Option<&[Layer]>) -> Vec<Index> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scene::SceneFile;
+    use scene_file::SceneFile;
     use std::ops::ControlFlow;
 
     const BUBBLE: &str = r#"

@@ -5,7 +5,8 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use pellicle_reference::{SimdLevel, random4, render_at};
-use scene::{Scene, SceneFile};
+use scene::Scene;
+use scene_file::SceneFile;
 use std::fmt::Write as _;
 use std::hint::black_box;
 use std::ops::ControlFlow;

@@ -254,7 +254,8 @@ impl PreparedScene<'_> {
 mod tests {
     use super::*;
     use crate::{Emitter, random4, sample_cone};
-    use scene::{Scene, SceneFile};
+    use scene::Scene;
+    use scene_file::SceneFile;
     use std::fmt::Write;
     use std::path::Path;
 

@@ -194,7 +194,7 @@ fn distance_to_shape(shape: &Shape, ray: &Ray, starts_here: bool) -> Option<f64>
 mod tests {
     use super::*;
     use crate::{random4, sample_cone};
-    use scene::SceneFile;
+    use scene_file::SceneFile;
     use std::fmt::Write as _;
     use std::path::Path;
 

@@ -235,7 +235,7 @@ mod tests {
         let text = "camera = { type = 'orthographic', position = [0, 0, 9], look_at = [0, 0, 0], height = 9 }\n\
              environment = { type = 'constant', emission = { constant = 1 } }\n\
              render = { bands = 1, size = [8, 8], samples = 1 }\n";
-        let file = scene::SceneFile::parse("empty.toml", text, std::path::Path::new(""));
+        let file = scene_file::SceneFile::parse("empty.toml", text, std::path::Path::new(""));
         let scene = file
             .and_then(|file| file.validate())
             .unwrap_or_else(|e| panic!("{e}"));

@@ -1,6 +1,5 @@
 //! A diffuse body below a clear coat, in a validated scene.
 
-use crate::prepared::coats;
 use crate::{FacetTable, Microsurface, Pattern, SpectrumId};
 use glam::DVec3;
 
@@ -30,8 +29,8 @@ pub struct CoatedBody {
 }
 
 impl CoatedBody {
-    /// Number of cosines at which the reflectance of a rough coat is tabulated.
-    pub const COSINES: usize = coats::COSINES;
+    /// Number of cosines at which the reflectance of a rough coat is tabulated: they are close near grazing, where it changes fast.
+    pub const COSINES: usize = 32;
 
     /// The value of [`Self::transmittance_scale`] in a direction; 1 if there is no table.
     pub fn transmittance_scale_at(&self, direction: DVec3) -> f64 {

@@ -1,7 +1,6 @@
 //! Cook's model of a validated scene.
 
 use crate::{Emission, SpectrumId};
-use std::f64::consts::PI;
 
 /// A surface by Cook's model (Cook and Torrance 1981; Suzuki, Yokoi and Toriwaki, section 3-1): the specular term F(E·H) G / ((N·L) (N·E))
 /// Σ wⱼ Dⱼ plus the Lambertian term `diffuse`.
@@ -19,21 +18,9 @@ pub struct Cook1981 {
     pub diffuse: Option<DiffuseTerm>,
     /// Ia Ra: the reflected ambient light, the same in every direction.
     pub ambient: Option<Emission>,
-}
-
-impl Cook1981 {
     /// The ratio of reflected to incident light at normal incidence for the facets of a white metal, without masking and shadowing: s with
     /// the normalized constants, 4 s with the printed π and D₂.
-    pub fn gain(&self) -> f64 {
-        let gain = |facets: &CookFacets| {
-            let normalized = match self.distribution {
-                CookDistribution::Gaussian => optics::gaussian_constant(facets.slope),
-                CookDistribution::Beckmann => PI.recip(),
-            };
-            4.0 * facets.weight / normalized
-        };
-        self.facets.iter().map(gain).sum()
-    }
+    pub gain: f64,
 }
 
 /// The form of a distribution of facets.

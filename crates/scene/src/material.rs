@@ -1,8 +1,9 @@
 //! Materials of a validated scene.
 
-use crate::description::PathDifference;
 use crate::rounding::RoundToF32;
 use crate::{CoatedBody, Cook1981, LightGroupId, Microsurface, SpectrumId, Texels, Thickness};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// What a surface is made of. Every surface has two sides, which behave alike, except those of an absorbing film of several layers: from
@@ -74,7 +75,7 @@ impl Material {
     }
 
     /// Whether it scatters light only in single directions, as smooth metals and films do.
-    pub(crate) fn is_mirror(&self) -> bool {
+    pub fn is_mirror(&self) -> bool {
         match self {
             Self::Film { .. } => true,
             Self::Interface { microsurface, .. } => microsurface.is_none(),
@@ -90,7 +91,7 @@ impl Material {
 
 impl Material {
     /// A mutable reference to its emission, or to the ambient light that it reflects.
-    pub(crate) fn emission_mut(&mut self) -> Option<&mut Emission> {
+    pub fn emission_mut(&mut self) -> Option<&mut Emission> {
         match self {
             Self::Emitter { emission, .. } => Some(emission),
             Self::Cook(Cook1981 { ambient, .. }) => ambient.as_mut(),
@@ -194,4 +195,14 @@ pub enum Pattern {
         /// on a plane.
         size: Option<[f64; 2]>,
     },
+}
+
+/// The path difference l between the two beams of a film of thickness d and index n, refracted to the angle θ₂.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PathDifference {
+    /// l = 2 n d cos θ₂, the physical path difference.
+    Optical,
+    /// l = 2 d cos θ₂, as the paper prints it, without the index.
+    AsPrinted,
 }

@@ -1,8 +1,9 @@
 //! Rough surfaces of a validated scene.
 
 use crate::Energy;
-use crate::description::Distribution;
 use glam::DVec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// The facets of a rough surface.
@@ -34,4 +35,15 @@ impl Microsurface {
     pub fn is_brushed(&self) -> bool {
         self.grain != Grain::None
     }
+}
+
+/// The distribution of the slopes of a rough surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Distribution {
+    /// A normal distribution of slopes (Beckmann and Spizzichino 1963).
+    #[default]
+    Beckmann,
+    /// The distribution of Trowbridge and Reitz (1975), which Walter et al. (2007) call GGX: its highlights have long tails.
+    Ggx,
 }

@@ -7,7 +7,7 @@ impl Scene {
     pub fn notes(&self) -> Vec<String> {
         let dark = (self.lamps() == 0 && !self.is_lit_by_environment())
             .then(|| "nothing emits light: the picture will be black".to_owned());
-        let assumed = self.assumptions.iter().cloned();
+        let assumed = self.assumptions().iter().cloned();
         assumed
             .chain(dark)
             .chain(self.note_on_mirrors())
@@ -98,7 +98,7 @@ impl Scene {
             self.objects()
                 .iter()
                 .filter_map(|object| match self.material(object.material) {
-                    Material::Cook(cook) => Some(cook.gain()),
+                    Material::Cook(cook) => Some(cook.gain),
                     _ => None,
                 });
         let gain = gains.fold(0.0, f64::max);

@@ -3,8 +3,8 @@
 use crate::EnvironmentPicture;
 use crate::{
     Camera, CoatEstimate, CoatedBody, Cook1981, CookFacets, DiffuseTerm, Emission, EmitterNode,
-    EmitterTree, Environment, Grain, Hierarchy, Layer, Lens, Light, LightShape, Microsurface,
-    Object, Pattern, Projection, RenderSettings, Scene, Shape,
+    EmitterTree, Environment, Grain, Layer, Lens, Light, LightShape, Microsurface, Object, Pattern,
+    Projection, RenderSettings, SceneParts, Shape,
 };
 use glam::DVec3;
 use std::sync::Arc;
@@ -38,27 +38,21 @@ impl RoundToF32 for spectra::BandTable {
     }
 }
 
-impl RoundToF32 for Scene {
+impl RoundToF32 for SceneParts {
     fn rounded(&self) -> Self {
-        let objects = self.objects.rounded();
-        let mut scene = Self {
+        Self {
             settings: self.settings.rounded(),
             camera: self.camera.rounded(),
             spectra: self.spectra.rounded(),
             observer: self.observer.each_ref().map(RoundToF32::rounded),
             light_groups: self.light_groups.clone(),
             materials: self.materials.rounded(),
-            hierarchy: Hierarchy::new(&objects),
-            objects,
-            sheets: self.sheets.clone(),
+            estimates: self.estimates.rounded(),
+            objects: self.objects.rounded(),
             lights: self.lights.rounded(),
             environment: self.environment.rounded(),
-            estimates: self.estimates.rounded(),
-            emitter_tree: EmitterTree::default(),
             assumptions: self.assumptions.clone(),
-        };
-        scene.emitter_tree = EmitterTree::new(&scene).rounded();
-        scene
+        }
     }
 }
 

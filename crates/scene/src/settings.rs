@@ -1,6 +1,5 @@
 //! How to render a validated scene.
 
-use crate::Sampler;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use spectra::BandGrid;
@@ -49,12 +48,26 @@ impl RenderSettings {
 }
 
 /// Where the wavelengths of a sample lie in their bands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum WavelengthSampling {
     /// One random offset per sample for all bands: the value of a band is the mean over its width.
+    #[default]
     Random,
     /// Always the center of the band: fixed wavelengths.
     Center,
+}
+
+/// The source of the random numbers that paths are sampled with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Sampler {
+    /// The Owen-scrambled Sobol sequence: it spreads a pixel's samples evenly, which reduces noise. It works best when the number of
+    /// samples is a power of two.
+    #[default]
+    Sobol,
+    /// Independent random numbers.
+    Independent,
 }
 
 /// How the light that reaches a surface directly from an emitter is sampled.

@@ -1,12 +1,10 @@
 //! The validated scene.
 
-use crate::description::Description;
 use crate::rounding::RoundToF32;
 use crate::{
     Camera, EmitterTree, Environment, Estimate, Hierarchy, Light, Material, Object, RenderSettings,
-    Sheet, validate,
+    Sheet, prepared,
 };
-use document::{Folder, Problems};
 use spectra::{BandTable, LightGroup, SpectralImage};
 
 /// Index of a spectrum in [`Scene::spectra`].
@@ -14,6 +12,11 @@ use spectra::{BandTable, LightGroup, SpectralImage};
 pub struct SpectrumId(pub(crate) u32);
 
 impl SpectrumId {
+    /// The spectrum at this position in the list.
+    pub fn new(index: usize) -> Self {
+        Self(index as u32)
+    }
+
     /// The position in the list.
     pub fn index(self) -> usize {
         self.0 as usize
@@ -31,6 +34,11 @@ impl SpectrumId {
 pub struct LightGroupId(pub(crate) u32);
 
 impl LightGroupId {
+    /// The light group at this position in the list.
+    pub fn new(index: usize) -> Self {
+        Self(index as u32)
+    }
+
     /// The position in the list.
     pub fn index(self) -> usize {
         self.0 as usize
@@ -42,6 +50,11 @@ impl LightGroupId {
 pub struct MaterialId(pub(crate) u32);
 
 impl MaterialId {
+    /// The material at this position in the list.
+    pub fn new(index: usize) -> Self {
+        Self(index as u32)
+    }
+
     /// The position in the list.
     pub fn index(self) -> usize {
         self.0 as usize
@@ -53,64 +66,89 @@ impl MaterialId {
 /// Spectra are tables on the band grid of [`RenderSettings::bands`]; nothing refers to a name or a file anymore.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
-    pub(crate) settings: RenderSettings,
-    pub(crate) camera: Camera,
-    pub(crate) spectra: Vec<BandTable>,
-    pub(crate) observer: [BandTable; 3],
-    pub(crate) light_groups: Vec<LightGroup>,
-    pub(crate) materials: Vec<Material>,
-    pub(crate) objects: Vec<Object>,
+    parts: SceneParts,
     /// One for each object, or empty.
-    pub(crate) sheets: Vec<Option<Sheet>>,
-    pub(crate) lights: Vec<Light>,
-    pub(crate) environment: Environment,
+    sheets: Vec<Option<Sheet>>,
+    hierarchy: Hierarchy,
+    emitter_tree: EmitterTree,
+}
+
+/// What a scene consists of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneParts {
+    /// The render settings.
+    pub settings: RenderSettings,
+    /// The camera.
+    pub camera: Camera,
+    /// All spectra that materials and lights refer to.
+    pub spectra: Vec<BandTable>,
+    /// The CIE 1931 2° color-matching functions x̄, ȳ, z̄.
+    pub observer: [BandTable; 3],
+    /// The light groups of the emitters, at least one.
+    pub light_groups: Vec<LightGroup>,
+    /// All materials.
+    pub materials: Vec<Material>,
     /// One for each material.
-    pub(crate) estimates: Vec<Estimate>,
-    pub(crate) hierarchy: Hierarchy,
-    pub(crate) emitter_tree: EmitterTree,
+    pub estimates: Vec<Estimate>,
+    /// All objects.
+    pub objects: Vec<Object>,
+    /// Lights that are not objects, disks first.
+    pub lights: Vec<Light>,
+    /// The environment.
+    pub environment: Environment,
     /// Assumptions about its files, one line each.
-    pub(crate) assumptions: Vec<String>,
+    pub assumptions: Vec<String>,
 }
 
 impl Scene {
-    /// Validates `description` and builds its scene. Paths of files are relative to `folder`, and the files must be in it.
-    ///
-    /// # Errors
-    /// All problems of the description. For a description from a file, [`SceneFile::validate`](crate::SceneFile::validate) also knows the
-    /// lines.
-    pub fn new(description: &Description, folder: impl Into<Folder>) -> Result<Self, Problems> {
-        validate::scene(description, &folder.into())
-            .map_err(|list| Problems::of_program("the scene", list))
+    /// The scene of these parts, with its trees. The parts must be valid, as the crate `scene_file` makes them: numbers within their
+    /// [limits](crate::limits), indices within their lists, spectra on the grid of the settings.
+    pub fn new(parts: SceneParts) -> Self {
+        let sheets = prepared::sheets(&parts.objects);
+        Self::with_sheets(parts, sheets)
+    }
+
+    /// The scene of parts that were rounded after their coincident surfaces were found.
+    fn with_sheets(parts: SceneParts, sheets: Vec<Option<Sheet>>) -> Self {
+        let hierarchy = Hierarchy::new(&parts.objects);
+        let mut scene = Self {
+            parts,
+            sheets,
+            hierarchy,
+            emitter_tree: EmitterTree::default(),
+        };
+        scene.emitter_tree = EmitterTree::new(&scene);
+        scene
     }
 
     /// The render settings.
     pub fn settings(&self) -> &RenderSettings {
-        &self.settings
+        &self.parts.settings
     }
 
     /// The camera.
     pub fn camera(&self) -> &Camera {
-        &self.camera
+        &self.parts.camera
     }
 
     /// All spectra that materials and lights refer to.
     pub fn spectra(&self) -> &[BandTable] {
-        &self.spectra
+        &self.parts.spectra
     }
 
     /// The spectrum with this index.
     pub fn spectrum(&self, id: SpectrumId) -> &BandTable {
-        &self.spectra[id.index()]
+        &self.parts.spectra[id.index()]
     }
 
     /// The CIE 1931 2° color-matching functions x̄, ȳ, z̄.
     pub fn observer(&self) -> &[BandTable; 3] {
-        &self.observer
+        &self.parts.observer
     }
 
     /// The light groups of the emitters. There is at least one, even in a scene without emitters.
     pub fn light_groups(&self) -> &[LightGroup] {
-        &self.light_groups
+        &self.parts.light_groups
     }
 
     /// Size of the spectral image in memory, in bytes.
@@ -121,33 +159,33 @@ impl Scene {
             settings.width,
             settings.height,
             bands,
-            self.light_groups.len(),
+            self.parts.light_groups.len(),
         )
     }
 
     /// All materials.
     pub fn materials(&self) -> &[Material] {
-        &self.materials
+        &self.parts.materials
     }
 
     /// The material with this index.
     pub fn material(&self, id: MaterialId) -> &Material {
-        &self.materials[id.index()]
+        &self.parts.materials[id.index()]
     }
 
     /// An estimate, for each material, of how much light it reflects and transmits.
     pub fn estimates(&self) -> &[Estimate] {
-        &self.estimates
+        &self.parts.estimates
     }
 
     /// An estimate of how much light a material reflects and transmits.
     pub fn estimate(&self, id: MaterialId) -> &Estimate {
-        &self.estimates[id.index()]
+        &self.parts.estimates[id.index()]
     }
 
     /// All objects.
     pub fn objects(&self) -> &[Object] {
-        &self.objects
+        &self.parts.objects
     }
 
     /// The position of each object in a stack of coincident surfaces; empty if no two surfaces coincide.
@@ -167,12 +205,12 @@ impl Scene {
 
     /// Lights that are not objects, disks first. See [`Scene::emitters`] for all emitters that are sampled.
     pub fn lights(&self) -> &[Light] {
-        &self.lights
+        &self.parts.lights
     }
 
     /// The environment.
     pub fn environment(&self) -> &Environment {
-        &self.environment
+        &self.parts.environment
     }
 
     /// The same scene with every number rounded to the nearest `f32`, as a GPU receives it.
@@ -181,6 +219,14 @@ impl Scene {
     /// rounding error.
     #[must_use]
     pub fn rounded_to_f32(&self) -> Self {
-        self.rounded()
+        let parts = self.parts.rounded();
+        let mut scene = Self::with_sheets(parts, self.sheets.clone());
+        scene.emitter_tree = scene.emitter_tree.rounded();
+        scene
+    }
+
+    /// Assumptions about its files, one line each.
+    pub(crate) fn assumptions(&self) -> &[String] {
+        &self.parts.assumptions
     }
 }

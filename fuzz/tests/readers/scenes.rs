@@ -3,7 +3,8 @@
 use crate::bombs;
 use crate::support::{files, root, text};
 use pellicle_fuzz::{Campaign, Outcome};
-use scene::{Scene, SceneFile, Shape};
+use scene::{Scene, Shape};
+use scene_file::SceneFile;
 use std::fs;
 use std::path::Path;
 

@@ -3,7 +3,7 @@
 use crate::bombs;
 use crate::support::text;
 use pellicle_fuzz::{Campaign, Outcome};
-use scene::description::{Extrapolate, Index};
+use scene_file::description::{Extrapolate, Index};
 use spectra::table_file::{Options, Quantity, Table, Unit, parse, parse_rows};
 use std::fs;
 

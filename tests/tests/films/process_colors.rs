@@ -4,7 +4,8 @@
 use color::BandWeights;
 use colorimetry::lab::Lab;
 use optics::{Complex64, Layer, stack};
-use scene::{Material, Scene, SceneFile, SpectrumId, Thickness};
+use scene::{Material, Scene, SpectrumId, Thickness};
+use scene_file::SceneFile;
 use std::path::Path;
 
 /// A scene with an oxide that a process grows on a metal.

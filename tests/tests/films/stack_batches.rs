@@ -375,7 +375,7 @@ fn a_record_that_is_too_long_is_reported() {
              [[objects]]\ntype = 'sphere'\nmaterial = 'x'\ncenter = [0, 0, 0]\nradius = 1\n",
             vec![layer; layers].join(", ")
         );
-        let file = scene::SceneFile::parse("x.toml", &text, std::path::Path::new(""));
+        let file = scene_file::SceneFile::parse("x.toml", &text, std::path::Path::new(""));
         file.and_then(|file| file.validate())
             .unwrap_or_else(|problems| panic!("{problems:#}"))
     };

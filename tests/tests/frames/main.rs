@@ -10,8 +10,8 @@ use pellicle_tests::device::{is_short, lend};
 use pellicle_tests::frames::{Values, same_expectation, same_numbers, same_variances};
 use pellicle_tests::scenes::{BANDS, MADE, all, file, small};
 use pellicle_tests::tolerances::{FRAMES, SAME_COLOR, SUMS, VARIANCES, Z_FURNACE, Z_MEAN};
-use scene::description::Sampler;
 use scene::{DirectLight, Scene};
+use scene_file::description::Sampler;
 use spectra::SpectralImage;
 use std::ops::ControlFlow;
 use std::process::ExitCode;
@@ -152,7 +152,7 @@ fn light_groups_add_up_to_the_picture() {
     let render = &mut file.description.render;
     (render.size, render.samples, render.bands, render.seed) = ([64, 48], 16, BANDS, 7);
     let apart = file.validate().expect("valid").rounded_to_f32();
-    file.description.render.light_groups = scene::description::LightGroups::Single;
+    file.description.render.light_groups = scene_file::description::LightGroups::Single;
     let together = file.validate().expect("valid").rounded_to_f32();
     assert_eq!(
         (apart.light_groups().len(), together.light_groups().len()),
@@ -185,8 +185,8 @@ fn a_wrong_picture_is_noticed() {
     let render = &mut off.description.render;
     (render.size, render.samples, render.bands, render.seed) = ([96, 24], 16, 10, 1);
     for material in off.description.materials.values_mut() {
-        if let scene::description::Material::Film { index, .. } = material {
-            *index = Some(scene::description::Index::Real(1.333 * 1.01));
+        if let scene_file::description::Material::Film { index, .. } = material {
+            *index = Some(scene_file::description::Index::Real(1.333 * 1.01));
         }
     }
     let off = off.validate().expect("valid").rounded_to_f32();
@@ -232,7 +232,7 @@ fn the_wedge_shows_the_reflectance_of_its_film() {
     let mut file = file("film_wedge");
     let render = &mut file.description.render;
     (render.size, render.samples, render.bands, render.seed) = (SIZE, 128, 8, 9);
-    (render.sampler, render.film_splits) = (scene::description::Sampler::Independent, 0);
+    (render.sampler, render.film_splits) = (scene_file::description::Sampler::Independent, 0);
     let scene = file.validate().expect("valid").rounded_to_f32();
     let image = on_gpu(&lend(), &scene);
     let (film, ends_nm) = wedge_of(&scene);

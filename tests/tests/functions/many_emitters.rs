@@ -6,7 +6,7 @@ use glam::DVec3;
 use gpu::PackedScene;
 use pellicle_tests::tolerances::EMITTER_TREE;
 use reference::PreparedScene;
-use scene::SceneFile;
+use scene_file::SceneFile;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::OnceLock;

@@ -9,7 +9,8 @@ use pellicle_tests::cases::report;
 use pellicle_tests::device::lend;
 use pellicle_tests::tolerances::{RECIPROCITY, SURFACE_FUNCTIONS};
 use reference::{PreparedScene, SurfaceFunction, SurfacePoint};
-use scene::{SceneFile, Shape};
+use scene::Shape;
+use scene_file::SceneFile;
 use std::path::Path;
 use std::sync::OnceLock;
 

@@ -2,7 +2,8 @@
 
 use colorimetry::lab::Lab;
 use pellicle_tests::tolerances::{FURNACE_ERROR, FURNACE_ROUGH, Z_FURNACE};
-use scene::{Scene, SceneFile};
+use scene::Scene;
+use scene_file::SceneFile;
 use spectra::SpectralImage;
 use std::ops::ControlFlow;
 use std::path::Path;

@@ -3,7 +3,8 @@
 use pellicle_tests::frames::{Values, same_numbers};
 use pellicle_tests::tolerances::FRAMES;
 use pellicle_tests::wgsl::root;
-use scene::{Scene, SceneFile};
+use scene::Scene;
+use scene_file::SceneFile;
 use std::ops::ControlFlow;
 
 const ALONG: &str = "from = [-0.5, 0.4, 0], to = [0.6, -0.5, 0.2]";

@@ -3,7 +3,8 @@
 use pellicle_tests::device::lend;
 use pellicle_tests::wgsl::root;
 use reference::Emitter;
-use scene::{LightShape, Scene, SceneFile};
+use scene::{LightShape, Scene};
+use scene_file::SceneFile;
 use spectra::{KM_LUMENS_PER_WATT, SpectralImage, observer_1931};
 use std::f64::consts::PI;
 use std::ops::ControlFlow;

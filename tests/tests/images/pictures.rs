@@ -7,8 +7,8 @@ use pellicle_tests::device;
 use pellicle_tests::scenes::file;
 use pellicle_tests::tolerances::PICTURES;
 use pellicle_tests::wgsl::root;
-use scene::SceneFile;
-use scene::description::{Index, Material};
+use scene_file::SceneFile;
+use scene_file::description::{Index, Material};
 use spectra::SpectralImage;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -138,7 +138,7 @@ fn water(factor: f64) -> Index {
         nm,
         n,
         k: None,
-        extrapolate: scene::description::Extrapolate::Error,
+        extrapolate: scene_file::description::Extrapolate::Error,
     }
 }
 

@@ -7,8 +7,8 @@ use gpu::Gpu;
 use pellicle_tests::device::lend;
 use pellicle_tests::scenes::file;
 use pellicle_tests::tolerances::{BANDS_DELTA_E, METAMERS_DELTA_E, RELIT_DELTA_E};
-use scene::SceneFile;
-use scene::description::{
+use scene_file::SceneFile;
+use scene_file::description::{
     Emission, EmissionSpectrum, Environment, LightGroups, Material, WavelengthSampling,
 };
 use spectra::{Observer, SpectralImage};

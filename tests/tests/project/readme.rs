@@ -2,7 +2,7 @@
 
 use pellicle_tests::sources::{Source, sources};
 use pellicle_tests::wgsl::root;
-use scene::SceneFile;
+use scene_file::SceneFile;
 
 fn readme() -> String {
     std::fs::read_to_string(root().join("README.md")).expect("the README exists")

@@ -3,7 +3,8 @@
 
 use pellicle_tests::wgsl::root;
 use rayon::prelude::*;
-use scene::{DirectLight, Problems, Scene, SceneFile};
+use scene::{DirectLight, Scene};
+use scene_file::{Problems, SceneFile};
 
 const SIDE: u32 = 20;
 const SAMPLES: u32 = 200;

@@ -5,7 +5,7 @@ mod walk;
 use colorimetry::lab::{Lab, delta_e_2000};
 use optics::{Complex64, Distribution, Layer, Microsurface};
 use rayon::prelude::*;
-use scene::SceneFile;
+use scene_file::SceneFile;
 use std::path::Path;
 use walk::{Walk, direction};
 

@@ -6,8 +6,9 @@ use pellicle_tests::device::lend;
 use pellicle_tests::frames::same_expectation;
 use pellicle_tests::scenes::file;
 use pellicle_tests::wgsl::root;
-use scene::description::{Camera, Filter, Render, Sampler};
-use scene::{Scene, SceneFile};
+use scene::Scene;
+use scene_file::SceneFile;
+use scene_file::description::{Camera, Filter, Render, Sampler};
 use spectra::SpectralImage;
 use std::ops::ControlFlow;
 
@@ -212,7 +213,7 @@ fn the_clamp_bounds_every_sample() {
 #[test]
 fn lens_and_filter_keep_the_light() {
     let gpu = lend();
-    let mean = |lens: Option<scene::description::Lens>, filter: Filter| {
+    let mean = |lens: Option<scene_file::description::Lens>, filter: Filter| {
         let mut file = file("floating_bubble");
         let render = &mut file.description.render;
         (render.size, render.bands, render.samples) = (SIZE, BANDS, 256);
@@ -239,13 +240,13 @@ fn lens_and_filter_keep_the_light() {
             "{filter:?}: {found} {sharp}"
         );
     }
-    let lens = scene::description::Lens {
+    let lens = scene_file::description::Lens {
         radius: 0.02,
         focus_distance: None,
     };
     let found = mean(Some(lens), Filter::Box);
     assert!((found / sharp - 1.0).abs() < 0.02, "lens: {found} {sharp}");
-    let wide = scene::description::Lens {
+    let wide = scene_file::description::Lens {
         radius: 3.0,
         ..lens
     };

@@ -5,7 +5,7 @@ use miette::IntoDiagnostic;
 use pellicle::Renderer;
 use pellicle::convergence::{self, error_between_seeds};
 use pellicle::reference::SimdLevel;
-use pellicle::scene::SceneFile;
+use pellicle::scene_file::SceneFile;
 use pellicle::spectra::SpectralImage;
 use serde_json::json;
 use std::ops::ControlFlow;

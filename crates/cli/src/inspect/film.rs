@@ -8,7 +8,8 @@ use pellicle::coating::{Angle, FilmFits, FilmFitting, Measured, Stack, View};
 use pellicle::color::Probe;
 use pellicle::color::xyz::exposure_scale;
 use pellicle::pick::{self, Picked, SceneLamp, SceneLamps};
-use pellicle::scene::{Scene, SceneFile};
+use pellicle::scene::Scene;
+use pellicle::scene_file::SceneFile;
 use pellicle::spectra::{LightGroup, SpectralImage};
 use std::path::{Path, PathBuf};
 

@@ -65,7 +65,8 @@ fn panorama(picture: &EnvironmentPicture, head: usize, first_number: usize) -> P
 mod tests {
     use super::*;
     use crate::PackedScene;
-    use scene::{Environment, SceneFile};
+    use scene::Environment;
+    use scene_file::SceneFile;
     use std::path::Path;
 
     const SKY: &str = r#"

@@ -5,11 +5,11 @@ use coating::FilmFitting;
 use reference::{
     environment_pdf, environment_pixel, environment_strength, sample_environment, smooth_value,
 };
-use scene::description::{self, Description};
 use scene::{
     Emission, Environment, EnvironmentPart, EnvironmentPicture, EnvironmentShape, PictureSpectra,
     Scene,
 };
+use scene_file::description::{self, Description};
 use spectra::BandGrid;
 use std::f64::consts::PI;
 
@@ -252,7 +252,7 @@ mod tests {
     use super::super::{Picked, pick};
     use super::*;
     use coating::{Measured, View};
-    use scene::SceneFile;
+    use scene_file::SceneFile;
     use std::ops::ControlFlow;
     use std::path::Path;
 

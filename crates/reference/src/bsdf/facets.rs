@@ -31,7 +31,10 @@ impl<'a> Facets<'a> {
     pub fn new(microsurface: &'a Microsurface) -> Self {
         Self {
             surface: optics::Microsurface {
-                distribution: microsurface.distribution.into(),
+                distribution: match microsurface.distribution {
+                    scene::Distribution::Beckmann => optics::Distribution::Beckmann,
+                    scene::Distribution::Ggx => optics::Distribution::Ggx,
+                },
                 alpha: microsurface.roughness,
             },
             energy: &microsurface.energy,

@@ -31,7 +31,7 @@ pub struct DirectionTable {
 
 /// The part of a picture's light that is importance-sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Sampled {
+pub enum Sampled {
     /// All of it.
     All,
     /// What exceeds the mean: BSDF sampling finds the rest with less noise (Karlík, Šik, Vévoda, Skřivan and Křivánek, MIS Compensation,
@@ -42,11 +42,7 @@ pub(crate) enum Sampled {
 impl DirectionTable {
     /// The table of a picture by longitude and latitude, with a number ≥ 0 in `brightness` for each pixel, row by row; and the mean over
     /// all directions of the brightness that is importance-sampled.
-    pub(crate) fn new(
-        [width, height]: [u32; 2],
-        brightness: &[f32],
-        sampled: Sampled,
-    ) -> (Self, f64) {
+    pub fn new([width, height]: [u32; 2], brightness: &[f32], sampled: Sampled) -> (Self, f64) {
         let (columns, rows) = (width.min(MAX[0]), height.min(MAX[1]));
         let picture = Brightness {
             size: [width as usize, height as usize],

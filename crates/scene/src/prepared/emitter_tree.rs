@@ -478,42 +478,107 @@ fn best_cut(lamps: &[Lamp]) -> Option<(usize, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::SceneFile;
-    use std::fmt::Write;
-    use std::path::Path;
+    use crate::{
+        Camera, DirectLight, Emission, Environment, Filter, Light, LightGroupId, Material,
+        MaterialId, Object, PixelFilter, Projection, RenderSettings, Sampler, SceneParts,
+        SpectrumId, WavelengthSampling,
+    };
+    use spectra::{BandGrid, BandTable, LightGroup, Spectrum};
 
     /// A scene with rectangles, spheres, points and spots, and a single direction.
     fn lamps(count: u32) -> Scene {
-        let mut text = String::from(
-            "camera = { type = 'orthographic', position = [0, 0, 9], look_at = [0, 0, 0], height = 9 }\n\
-             render = { bands = 1 }\n[materials.m]\ntype = 'emitter'\nemission = { constant = 1 }\n\
-             [[lights]]\ntype = 'distant'\ndirection = [0, 1, 0]\ndiameter_deg = 0\nemission = { constant = 1 }\n",
+        let emission = |scale| Emission {
+            spectrum: SpectrumId::new(0),
+            scale,
+            light_group: LightGroupId::new(0),
+        };
+        let (mut objects, mut shapes) = (
+            Vec::new(),
+            vec![LightShape::Direction { toward: -DVec3::Y }],
         );
         for i in 0..count {
             let of = |k: u32| f64::from(i.wrapping_mul(k) >> 8 & 0xffff) / 6553.6 - 5.0;
-            let (place, axis) = (
-                [of(0x9e37_79b9), of(0x85eb_ca6b), of(0xc2b2_ae35)],
-                [1.0, of(0x27d4_eb2f), 0.1 * of(0x1656_67b1)],
-            );
-            let object = format!("[[objects]]\nmaterial = 'm'\ncenter = {place:?}");
-            let light = format!("[[lights]]\nemission = {{ constant = 1 }}\nposition = {place:?}");
+            let center = DVec3::new(of(0x9e37_79b9), of(0x85eb_ca6b), of(0xc2b2_ae35));
+            let axis = DVec3::new(1.0, of(0x27d4_eb2f), 0.1 * of(0x1656_67b1)).normalize();
+            let (tangent, bitangent) = axis.any_orthonormal_pair();
             match i % 4 {
-                0 => writeln!(text, "{object}\ntype = 'sphere'\nradius = 0.1"),
-                1 => writeln!(
-                    text,
-                    "{object}\ntype = 'rectangle'\nnormal = {axis:?}\nsize = [0.3, 0.2]"
-                ),
-                2 => writeln!(text, "{light}\ntype = 'point'"),
-                _ => writeln!(
-                    text,
-                    "{light}\ntype = 'spot'\ndirection = {axis:?}\nangle_deg = 40"
-                ),
+                0 => objects.push(Shape::Sphere {
+                    center,
+                    radius: 0.1,
+                }),
+                1 => objects.push(Shape::Rectangle {
+                    center,
+                    normal: axis,
+                    tangent,
+                    bitangent,
+                    half_width: 0.15,
+                    half_height: 0.1,
+                }),
+                2 => shapes.push(LightShape::Point { position: center }),
+                _ => shapes.push(LightShape::Spot {
+                    position: center,
+                    axis,
+                    full_height: 1.0 - 16_f64.to_radians().cos(),
+                    edge_height: 1.0 - 20_f64.to_radians().cos(),
+                }),
             }
-            .unwrap();
         }
-        SceneFile::parse("lamps.toml", &text, Path::new(""))
-            .and_then(|file| file.validate())
-            .unwrap_or_else(|problems| panic!("{problems}"))
+        let object = |shape| Object {
+            shape,
+            material: MaterialId::new(0),
+        };
+        let light = |shape| Light {
+            shape,
+            emission: emission(1.0),
+        };
+        let bands = BandGrid::visible(1).unwrap();
+        let one = BandTable::new(&bands, &Spectrum::Constant(1.0)).unwrap();
+        Scene::new(SceneParts {
+            settings: settings(bands),
+            camera: Camera {
+                origin: DVec3::ZERO,
+                right: DVec3::X,
+                up: DVec3::Y,
+                back: DVec3::Z,
+                projection: Projection::Panorama,
+                lens: None,
+                filter: PixelFilter::new(Filter::Box),
+            },
+            observer: [one.clone(), one.clone(), one.clone()],
+            spectra: vec![one],
+            light_groups: vec![LightGroup {
+                name: "constant".to_owned(),
+                lamp: None,
+            }],
+            materials: vec![Material::Emitter {
+                emission: emission(1.0),
+                reflectance: None,
+            }],
+            estimates: Vec::new(),
+            objects: objects.into_iter().map(object).collect(),
+            lights: shapes.into_iter().map(light).collect(),
+            environment: Environment::Constant(emission(0.0)),
+            assumptions: Vec::new(),
+        })
+    }
+
+    fn settings(bands: BandGrid) -> RenderSettings {
+        RenderSettings {
+            width: 1,
+            height: 1,
+            samples: 1,
+            sampler: Sampler::Sobol,
+            seed: 0,
+            bands,
+            sampling: WavelengthSampling::Random,
+            max_path_segments: 2,
+            direct_light: DirectLight::Both,
+            film_splits: 0,
+            roulette_after: 2,
+            clamp: None,
+            exposure_ev: 0.0,
+            time_s: 0.0,
+        }
     }
 
     fn lamp(scene: &Scene, source: u32) -> Option<Lamp> {

@@ -38,7 +38,8 @@ impl FacetTable {
     /// Tabulates `of` in the directions of the knots, unit vectors, on facets of these widths along and across the grain.
     ///
     /// Widths that round to the same `f32` count as equal: the shader could not distinguish them.
-    pub(crate) fn new(roughness: [f64; 2], mut of: impl FnMut([f64; 3]) -> f64) -> Self {
+    /// The table of a function of the direction, for widths of the slopes along and across the grain.
+    pub fn new(roughness: [f64; 2], mut of: impl FnMut([f64; 3]) -> f64) -> Self {
         let [along, across] = roughness.map(|alpha| alpha.rounded());
         let columns = if along == across { 1 } else { WIDTHS };
         let mut values = Vec::with_capacity(columns * COSINES);
@@ -49,7 +50,7 @@ impl FacetTable {
             };
             for row in 0..COSINES {
                 let cosine = (row as f64 / (COSINES - 1) as f64).powi(2).max(1e-4);
-                values.push(of(direction(cosine, azimuth)).rounded());
+                values.push(of(facet_direction(cosine, azimuth)).rounded());
             }
         }
         Self { roughness, values }
@@ -84,18 +85,18 @@ impl FacetTable {
     }
 
     /// The mean of the values over azimuth.
-    pub(crate) fn around(&self, cosine: f64) -> f64 {
+    pub fn around(&self, cosine: f64) -> f64 {
         let azimuths = if self.widths() == 1 { 1 } else { AZIMUTHS };
         let of_azimuth = |i| {
             let azimuth = FRAC_PI_2 * (f64::from(i) + 0.5) / f64::from(azimuths);
-            self.at(direction(cosine, azimuth))
+            self.at(facet_direction(cosine, azimuth))
         };
         (0..azimuths).map(of_azimuth).sum::<f64>() / f64::from(azimuths)
     }
 }
 
 /// The unit vector of a cosine and an azimuth.
-pub(crate) fn direction(cosine: f64, azimuth: f64) -> [f64; 3] {
+pub fn facet_direction(cosine: f64, azimuth: f64) -> [f64; 3] {
     let sine = (1.0 - cosine * cosine).sqrt();
     [sine * azimuth.cos(), sine * azimuth.sin(), cosine]
 }
@@ -134,7 +135,7 @@ mod tests {
             for table in [&table, &table.rounded()] {
                 for i in 0..=100 {
                     let cosine = f64::from(i) / 100.0;
-                    let seen = direction(cosine, 0.37 * f64::from(i));
+                    let seen = facet_direction(cosine, 0.37 * f64::from(i));
                     let off = (table.at(seen) - even.at(seen)).abs();
                     assert!(off < 1e-12, "{roughness:?} {seen:?}: {off}");
                 }
@@ -152,7 +153,7 @@ mod tests {
         let of = |seen: [f64; 3]| width(seen) + (1.0 + width(seen)) * seen[2].sqrt();
         let table = FacetTable::new(roughness, of);
         for i in 0..100 {
-            let seen = direction(0.02 + 0.009 * f64::from(i), 0.37 * f64::from(i));
+            let seen = facet_direction(0.02 + 0.009 * f64::from(i), 0.37 * f64::from(i));
             assert!((table.at(seen) - of(seen)).abs() < 1e-6, "{seen:?}");
         }
     }

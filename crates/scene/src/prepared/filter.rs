@@ -1,8 +1,22 @@
 //! Pixel filters, as tables for importance sampling: every sample then has the weight 1, wherever it is.
 
-use crate::description::Filter;
 use crate::rounding::RoundToF32;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
+
+/// The reconstruction filter of the pixels: the same profile in x and in y, centered on the pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Filter {
+    /// Constant over the pixel's own square.
+    #[default]
+    Box,
+    /// A Gaussian with a standard deviation of half a pixel, truncated at 1.5 pixels.
+    Gaussian,
+    /// The Blackman–Harris window, 3 pixels wide (Harris, Proc. IEEE 66, 1978, four terms, −92 dB).
+    BlackmanHarris,
+}
 
 /// The distribution of a pixel's samples about its center, the same in x and in y.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +33,8 @@ impl PixelFilter {
     /// Number of knots.
     pub const KNOTS: usize = 257;
 
-    pub(crate) fn new(filter: Filter) -> Self {
+    /// The table of a filter.
+    pub fn new(filter: Filter) -> Self {
         match filter {
             Filter::Box => Self(None),
             Filter::Gaussian => Self(Some(offsets(|x| (-0.5 * (x / SIGMA).powi(2)).exp()))),

@@ -1,6 +1,5 @@
-//! Data that both renderers look up and neither should compute itself, prepared once from a validated scene.
+//! What both renderers look up and neither should compute itself: trees over objects and emitters, and tables.
 
-pub(crate) mod coats;
 mod coincidence;
 mod direction_table;
 mod emitter_tree;
@@ -12,12 +11,10 @@ mod hierarchy;
 
 pub use coincidence::Sheet;
 pub(crate) use coincidence::{overlap, sheets};
-pub use direction_table::DirectionTable;
-pub(crate) use direction_table::Sampled;
+pub use direction_table::{DirectionTable, Sampled};
 pub use emitter_tree::{EmitterNode, EmitterTree};
 pub use energy::Energy;
 pub use estimate::Estimate;
-pub(crate) use estimate::estimates;
-pub use facet_table::FacetTable;
-pub use filter::PixelFilter;
+pub use facet_table::{FacetTable, facet_direction};
+pub use filter::{Filter, PixelFilter};
 pub use hierarchy::{Hierarchy, Node};

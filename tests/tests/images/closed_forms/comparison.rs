@@ -2,7 +2,8 @@
 
 use gpu::Gpu;
 use pellicle_tests::tolerances::{PROVING_ERROR, Z_MEAN};
-use scene::{Scene, SceneFile};
+use scene::Scene;
+use scene_file::SceneFile;
 use spectra::SpectralImage;
 use std::ops::ControlFlow;
 use std::path::Path;

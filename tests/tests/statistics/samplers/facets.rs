@@ -5,7 +5,8 @@ use super::chi_square::{Experiment, direction, numbers, turns};
 use glam::DVec3;
 use rayon::prelude::*;
 use reference::{Facets, random4, sample_cosine_hemisphere};
-use scene::{Microsurface, SceneFile};
+use scene::Microsurface;
+use scene_file::SceneFile;
 use std::f64::consts::TAU;
 use std::path::Path;
 

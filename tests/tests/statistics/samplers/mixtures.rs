@@ -5,7 +5,8 @@ use super::chi_square::{Experiment, direction, turns};
 use glam::DVec3;
 use rayon::prelude::*;
 use reference::{PreparedScene, SurfaceFunction, SurfacePoint, random4};
-use scene::{Scene, SceneFile};
+use scene::Scene;
+use scene_file::SceneFile;
 use std::f64::consts::TAU;
 use std::path::Path;
 

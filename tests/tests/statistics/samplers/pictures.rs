@@ -6,7 +6,8 @@ use glam::DVec3;
 use image::{ImageBuffer, Rgb};
 use pellicle_tests::scenes::file;
 use reference::{environment_pdf, sample_environment};
-use scene::{Environment, EnvironmentPicture, EnvironmentShape, Scene, SceneFile};
+use scene::{Environment, EnvironmentPicture, EnvironmentShape, Scene};
+use scene_file::SceneFile;
 use std::f64::consts::{PI, TAU};
 
 pub(crate) const TESTS: usize = 3;
