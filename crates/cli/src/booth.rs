@@ -6,8 +6,9 @@ use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::coating::{SheetColors, contact_sheet};
 use pellicle::color::develop::SceneWhite;
-use pellicle::color::{Relight, png, relight};
 use pellicle::colorimetry::Display;
+use pellicle::picture_file::png;
+use pellicle::relight::{Relight, relight};
 use pellicle::spectra::SpectralImage;
 use std::path::{Path, PathBuf};
 

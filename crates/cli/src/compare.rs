@@ -5,7 +5,7 @@ use crate::{output, print};
 use clap::ValueEnum;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::color::compare::{self, BandDifference, Noise, Picture, Summary};
-use pellicle::color::png;
+use pellicle::picture_file::png;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

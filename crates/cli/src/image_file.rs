@@ -3,8 +3,8 @@
 use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::color::compare::Picture;
-use pellicle::color::spectral_exr::{self, Metadata};
 use pellicle::document::text_file::STANDARD_INPUT;
+use pellicle::picture_file::spectral_exr::{self, Metadata};
 use pellicle::scene::limits;
 use pellicle::spectra::SpectralImage;
 use std::ffi::OsStr;

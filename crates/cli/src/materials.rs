@@ -3,9 +3,9 @@
 use crate::{plot, print};
 use clap::ValueEnum;
 use miette::miette;
-use pellicle::color::{BandWeights, xyz};
 use pellicle::colorimetry::srgb;
 use pellicle::optics::reflectance_unpolarized;
+use pellicle::relight::{BandWeights, xyz};
 use pellicle::scene_file::description::Index;
 use pellicle::spectra::{self, BandGrid, MaterialInfo, Observer, OpticalConstants};
 use serde_json::{Value, json};

@@ -2,13 +2,12 @@
 
 use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
-use pellicle::color::spectral_exr::{Metadata, WriteOptions};
-use pellicle::color::{self, Destination};
+
+use pellicle::picture_file::Destination;
+use pellicle::picture_file::spectral_exr::{Metadata, WriteOptions};
 use pellicle::spectra::SpectralImage;
 use std::ffi::OsStr;
-use std::fs::OpenOptions;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
 
 /// The files that a render writes.
 #[derive(Debug, Default, PartialEq, Eq)]
@@ -115,9 +114,14 @@ impl Outputs {
         metadata: &Metadata,
     ) -> miette::Result<()> {
         for path in &self.spectral {
-            color::spectral_exr::write(path, image, metadata, WriteOptions::default())
-                .into_diagnostic()
-                .wrap_err_with(|| format!("{} was not written", path.display()))?;
+            pellicle::picture_file::spectral_exr::write(
+                path,
+                image,
+                metadata,
+                WriteOptions::default(),
+            )
+            .into_diagnostic()
+            .wrap_err_with(|| format!("{} was not written", path.display()))?;
             print::note(format_args!("wrote {}", path.display()));
         }
         Ok(())
@@ -201,14 +205,10 @@ pub(crate) fn check_place(option: &str, path: &Path, read: &Path) -> miette::Res
 
 /// Creates an empty file and removes it: permissions alone do not reveal read-only and virtual file systems.
 fn can_create_in(folder: &Path) -> std::io::Result<()> {
-    static COUNTER: AtomicU32 = AtomicU32::new(0);
-    let turn = COUNTER.fetch_add(1, Ordering::Relaxed);
-    let probe = folder.join(format!(".pellicle-{}-{turn}.probe", std::process::id()));
-    OpenOptions::new()
-        .write(true)
-        .create_new(true)
-        .open(&probe)?;
-    std::fs::remove_file(&probe)
+    tempfile::Builder::new()
+        .prefix(".pellicle-")
+        .tempfile_in(folder)?
+        .close()
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use crate::lamp::{self, Lamp};
 use miette::IntoDiagnostic;
-use pellicle::color::{Relight, relight};
+use pellicle::relight::{Relight, relight};
 use pellicle::spectra::{Observer, SpectralImage};
 
 /// The lamps of light groups, and the observer.

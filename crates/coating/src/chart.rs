@@ -4,8 +4,8 @@ use crate::picture::{self, Drawing, Drawn, INK, Scale, decimals, draw_title, exp
 use crate::plot::polarization;
 use crate::response::Angle;
 use crate::stack_color::{Side, StackColor};
-use color::RgbImage8;
 use colorimetry::srgb;
+use picture_file::RgbImage8;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};

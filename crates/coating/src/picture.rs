@@ -1,6 +1,6 @@
 //! Drawing of pictures, identically as SVG and as pixels, with a bundled font.
 
-use color::RgbImage8;
+use picture_file::RgbImage8;
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{BoldPoints, Ranged};
 use plotters::coord::types::RangedCoordf64;

@@ -5,9 +5,9 @@ use crate::picture::{
 };
 use crate::response::{Angle, absorptance};
 use crate::stack_color::{Color, Polarization, Side, View};
-use color::RgbImage8;
 use colorimetry::srgb;
 use optics::batch::Powers;
+use picture_file::RgbImage8;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::Color as _;

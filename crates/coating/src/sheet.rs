@@ -1,7 +1,7 @@
 //! Contact sheets: pictures side by side, each with a label above it.
 
 use crate::picture::{self, Drawing, Drawn, Scale};
-use color::RgbImage8;
+use picture_file::RgbImage8;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};

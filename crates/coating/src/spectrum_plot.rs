@@ -2,7 +2,7 @@
 
 use crate::picture::{self, Drawing, Drawn, FAINT, INK, Scale, decimals, draw_title, round_range};
 use crate::plot::{draw_spectrum, ink};
-use color::RgbImage8;
+use picture_file::RgbImage8;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};

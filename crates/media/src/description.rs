@@ -57,7 +57,7 @@ pub enum Reflectance {
     /// A table in a file.
     File {
         /// A text file with columns for wavelength and reflectance, or a file written by a measuring instrument. The path is relative to
-        /// the document.
+        /// this file.
         csv: PathBuf,
         /// The column of the file, by its name in the header or its number from 1; needed if there are several.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -105,7 +105,7 @@ pub enum Index {
     },
     /// A table in a file.
     File {
-        /// A text file with columns for wavelength, n and, unless it is 0, k. The path is relative to the document.
+        /// A text file with columns for wavelength, n and, unless it is 0, k. The path is relative to this file.
         csv: PathBuf,
         /// The columns of n and k, as in `["n_o", "k_o"]`, or the column of n alone, by their names in the header or their numbers from 1;
         /// needed if the header does not identify them.
@@ -120,7 +120,7 @@ pub enum Index {
     },
     /// A file of the refractiveindex.info database, or one like it.
     Database {
-        /// A YAML file with `DATA` blocks: tables of n, k or both, and the formulas 1 to 9; relative to the document.
+        /// A YAML file with `DATA` blocks: tables of n, k or both, and the formulas 1 to 9; relative to this file.
         yaml: PathBuf,
         /// How the data extend outside their wavelengths.
         #[serde(default)]

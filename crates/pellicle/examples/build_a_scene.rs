@@ -67,7 +67,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let path = folder.join("build_a_scene.png");
     let picture = color::develop(&image, &DevelopSettings::srgb(scene.settings().exposure_ev))?;
-    color::png::write(&path, &picture)?;
+    picture_file::png::write(&path, &picture)?;
     for i in 0..COUNT {
         let thickness = 120 + 60 * i;
         println!("{thickness} nm: sRGB {:?}", picture.pixel(8 * i + 4, 4));

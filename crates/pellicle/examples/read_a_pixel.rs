@@ -2,7 +2,8 @@
 //!
 //! `cargo run --release --example read_a_pixel [FILE.exr [X Y]]`; without a file a small picture is rendered.
 
-use pellicle::color::{spectral_exr, xyz};
+use pellicle::picture_file::spectral_exr;
+use pellicle::relight::xyz;
 use pellicle::scene_file::SceneFile;
 use pellicle::spectra::SpectralImage;
 use pellicle::{Backend, Renderer};

@@ -2,8 +2,8 @@
 //!
 //! `cargo run --release --example render_scene_file [SCENE [FOLDER]]`
 
-use pellicle::color::spectral_exr::{self, Metadata, WriteOptions};
 use pellicle::color::{self, DevelopSettings};
+use pellicle::picture_file::spectral_exr::{self, Metadata, WriteOptions};
 use pellicle::scene_file::SceneFile;
 use pellicle::{Backend, Renderer};
 use std::error::Error;
@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     spectral_exr::write(&exr, &image, &metadata, WriteOptions::default())?;
     let png = folder.join("render_scene_file.png");
     let picture = color::develop(&image, &DevelopSettings::srgb(exposure_ev))?;
-    color::png::write(&png, &picture)?;
+    picture_file::png::write(&png, &picture)?;
     println!("wrote {} and {}", exr.display(), png.display());
     Ok(())
 }

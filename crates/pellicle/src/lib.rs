@@ -8,7 +8,7 @@
 //!   -> scene::Scene           validated: spectra as tables over the bands, nothing left to look up
 //!   -> Renderer::render       paths traced on a GPU (or on the CPU in f64), spectra evaluated along them
 //!   -> spectra::SpectralImage radiance per pixel and band, its variance, its XYZ
-//!   -> color::develop         codes of a display -> color::png   |   color::spectral_exr
+//!   -> color::develop         codes of a display -> picture_file::png   |   picture_file::spectral_exr
 //! ```
 //!
 //! A [`scene::Scene`] comes from a file ([`scene_file::SceneFile`]) or from a [`scene_file::description::Description`] that a
@@ -26,7 +26,7 @@
 //! let spectrum: &[f32] = image.pixel(320, 240); // one value per band
 //! # let _ = spectrum;
 //! let picture = color::develop(&image, &color::DevelopSettings::srgb(scene.settings().exposure_ev))?;
-//! color::png::write("soap_bubble.png".as_ref(), &picture)?;
+//! picture_file::png::write("soap_bubble.png".as_ref(), &picture)?;
 //! # Ok(())
 //! # }
 //! ```
@@ -46,7 +46,9 @@ pub use document;
 pub use gpu;
 pub use media;
 pub use optics;
+pub use picture_file;
 pub use reference;
+pub use relight;
 pub use renderer::{Backend, OpenError, RenderError, Renderer};
 pub use scene;
 pub use scene_file;

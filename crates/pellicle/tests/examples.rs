@@ -1,6 +1,6 @@
 //! The examples run, as programs. `cargo test -p pellicle` builds them first.
 
-use pellicle::color::spectral_exr;
+use pellicle::picture_file::spectral_exr;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;

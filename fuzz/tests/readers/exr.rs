@@ -3,10 +3,10 @@
 use crate::radiance::surrounded;
 use crate::scenes;
 use crate::support::refused;
-use color::rgb_exr::{self, RgbFile, Samples};
-use color::spectral_exr::{self, Metadata, WriteOptions};
 use colorimetry::Display;
 use pellicle_fuzz::{Campaign, Outcome};
+use picture_file::rgb_exr::{self, RgbFile, Samples};
+use picture_file::spectral_exr::{self, Metadata, WriteOptions};
 use spectra::{BandGrid, SpectralImage};
 use std::fs;
 use std::path::Path;

@@ -3,10 +3,10 @@
 use crate::scenes;
 use crate::support::{expect, files, refused};
 use color::compare::Picture;
-use color::icc;
-use color::png_colors::CodeColors;
 use colorimetry::Display;
 use pellicle_fuzz::{Campaign, Outcome};
+use picture_file::icc;
+use picture_file::png_colors::CodeColors;
 use png::{BitDepth, ColorType, Encoder};
 use std::fs;
 

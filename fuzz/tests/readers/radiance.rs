@@ -2,8 +2,8 @@
 
 use crate::scenes;
 use crate::support::{expect, root};
-use color::radiance::RadiancePicture;
 use pellicle_fuzz::{Campaign, Outcome};
+use picture_file::radiance::RadiancePicture;
 use std::fs;
 
 /// A scene with the picture as its environment.

@@ -1,9 +1,9 @@
 //! Colors that processes are known to give: heat tints of steel and anodized titanium, from the parameters of the process in a
 //! scene to a hue.
 
-use color::BandWeights;
 use colorimetry::lab::Lab;
 use optics::{Complex64, Layer, stack};
+use relight::BandWeights;
 use scene::{Material, Scene, SpectrumId, Thickness};
 use scene_file::SceneFile;
 use std::path::Path;

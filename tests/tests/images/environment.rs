@@ -1,13 +1,13 @@
 //! Pictures of all directions, absolutely: an escaped ray gets the radiance that the file has in its direction.
 
-use color::spectral_exr::{Metadata, WriteOptions};
-use color::xyz::exposure_scale;
 use colorimetry::srgb;
 use glam::DVec3;
 use image::{ImageBuffer, Rgb};
 use pellicle_tests::device::lend;
 use pellicle_tests::frames::{Values, same_numbers};
 use pellicle_tests::tolerances::FRAMES;
+use picture_file::spectral_exr::{Metadata, WriteOptions};
+use relight::xyz::exposure_scale;
 use scene::Scene;
 use scene_file::SceneFile;
 use spectra::{BandGrid, SpectralImage};
@@ -102,7 +102,8 @@ fn folder_of_spectra(size: [u32; 2]) -> TempDir {
         }
     }
     let (metadata, options) = (Metadata::default(), WriteOptions::default());
-    color::spectral_exr::write(&folder.path().join("a.exr"), &picture, &metadata, options).unwrap();
+    picture_file::spectral_exr::write(&folder.path().join("a.exr"), &picture, &metadata, options)
+        .unwrap();
     folder
 }
 
@@ -253,7 +254,8 @@ fn a_panorama_is_the_environment_that_it_saw() {
         .unwrap_or_else(|e| panic!("{e:#}"));
     let seen = on_cpu(&scene);
     let (metadata, options) = (Metadata::default(), WriteOptions::default());
-    color::spectral_exr::write(&folder.path().join("room.exr"), &seen, &metadata, options).unwrap();
+    picture_file::spectral_exr::write(&folder.path().join("room.exr"), &seen, &metadata, options)
+        .unwrap();
     let environment = "type = \"image\"\nimage = \"room.exr\"";
     // On the panel toward +X, beside it, straight up and straight down.
     for pixel in [[48, 14], [47, 16], [16, 10], [30, 1], [5, 30]] {

@@ -1,12 +1,13 @@
 //! Developed pictures against goldens, by FLIP. A missing golden fails. After looking at the pictures, bless them again with
 //! `PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test images pictures::`.
 
+use color::DevelopSettings;
 use color::compare::{Picture, flip};
-use color::{DevelopSettings, RgbImage8};
 use pellicle_tests::device;
 use pellicle_tests::scenes::file;
 use pellicle_tests::tolerances::PICTURES;
 use pellicle_tests::wgsl::root;
+use picture_file::RgbImage8;
 use scene_file::SceneFile;
 use scene_file::description::{Index, Material};
 use spectra::SpectralImage;
@@ -104,7 +105,7 @@ fn looks_like_its_golden(name: &str, size: [u32; 2]) {
     let path = golden_path(name);
     if std::env::var("PELLICLE_BLESS").is_ok_and(|value| value == "1") {
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        color::png::write(&path, &picture).unwrap();
+        picture_file::png::write(&path, &picture).unwrap();
     }
     match compare(&Picture::of_codes(&picture), &path) {
         Ok(mean) => println!("mean FLIP {mean:.5}"),
@@ -112,7 +113,7 @@ fn looks_like_its_golden(name: &str, size: [u32; 2]) {
             let folder = root().join("target/pictures");
             std::fs::create_dir_all(&folder).unwrap();
             let saved = folder.join(format!("{name}.png"));
-            color::png::write(&saved, &picture).unwrap();
+            picture_file::png::write(&saved, &picture).unwrap();
             panic!("{report}; see {}", saved.display());
         }
     }

@@ -1,12 +1,12 @@
 //! Pictures under other lamps: relit from bands against newly rendered, and color against the number of bands.
 
-use color::xyz::exposure_scale;
-use color::{Relight, relight};
 use colorimetry::lab::{Lab, delta_e_2000};
 use gpu::Gpu;
 use pellicle_tests::device::lend;
 use pellicle_tests::scenes::file;
 use pellicle_tests::tolerances::{BANDS_DELTA_E, METAMERS_DELTA_E, RELIT_DELTA_E};
+use relight::xyz::exposure_scale;
+use relight::{Relight, relight};
 use scene_file::SceneFile;
 use scene_file::description::{
     Emission, EmissionSpectrum, Environment, LightGroups, Material, WavelengthSampling,

@@ -22,8 +22,25 @@ const ARROWS: &[(&str, &[&str])] = &[
         ],
     ),
     (
-        "pellicle-color",
+        "pellicle-relight",
         &["pellicle-colorimetry", "pellicle-spectra"],
+    ),
+    (
+        "pellicle-picture-file",
+        &[
+            "pellicle-colorimetry",
+            "pellicle-relight",
+            "pellicle-spectra",
+        ],
+    ),
+    (
+        "pellicle-color",
+        &[
+            "pellicle-colorimetry",
+            "pellicle-picture-file",
+            "pellicle-relight",
+            "pellicle-spectra",
+        ],
     ),
     ("pellicle-scene", &["pellicle-document", "pellicle-spectra"]),
     (
@@ -33,11 +50,11 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "pellicle-scene-file",
         &[
-            "pellicle-color",
             "pellicle-colorimetry",
             "pellicle-document",
             "pellicle-media",
             "pellicle-optics",
+            "pellicle-picture-file",
             "pellicle-prepare",
             "pellicle-scene",
             "pellicle-spectra",
@@ -51,11 +68,12 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "pellicle-coating",
         &[
-            "pellicle-color",
             "pellicle-colorimetry",
             "pellicle-document",
             "pellicle-media",
             "pellicle-optics",
+            "pellicle-picture-file",
+            "pellicle-relight",
             "pellicle-spectra",
         ],
     ),
@@ -69,7 +87,9 @@ const ARROWS: &[(&str, &[&str])] = &[
             "pellicle-gpu",
             "pellicle-media",
             "pellicle-optics",
+            "pellicle-picture-file",
             "pellicle-reference",
+            "pellicle-relight",
             "pellicle-scene",
             "pellicle-scene-file",
             "pellicle-spectra",

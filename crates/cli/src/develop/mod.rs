@@ -11,7 +11,7 @@ use crate::image_file;
 use crate::output::check_place;
 use miette::IntoDiagnostic;
 use pellicle::color::develop::{Latent, SceneWhite};
-use pellicle::color::spectral_exr::{self, Metadata};
+use pellicle::picture_file::spectral_exr::{self, Metadata};
 use std::path::PathBuf;
 use values::{FOV_DEG, number};
 

@@ -7,11 +7,12 @@ use super::values::{
 use crate::print;
 use crate::relight::RelightArguments;
 use miette::{IntoDiagnostic, WrapErr, miette};
+use pellicle::color::develop;
 use pellicle::color::develop::{
     DevelopSettings, Exposure, EyeGlare, Glare, Latent, SceneWhite, StarGlare, WhiteAdaptation,
 };
-use pellicle::color::{RgbImage8, develop};
 use pellicle::colorimetry::{Adaptation, Display};
+use pellicle::picture_file::RgbImage8;
 use pellicle::spectra::{LightGroup, Observer, SpectralImage};
 use std::path::PathBuf;
 

@@ -5,10 +5,11 @@ use crate::output::is_stream;
 use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::color::develop::{
-    DevelopSettings, GamutMapping, GamutReport, Latent, LinearImage, expose, gamut, quantize,
+    DevelopSettings, GamutMapping, GamutReport, Latent, expose, gamut, quantize,
 };
-use pellicle::color::rgb_exr::Samples;
-use pellicle::color::{png, rgb_exr};
+use pellicle::picture_file::LinearImage;
+use pellicle::picture_file::rgb_exr::Samples;
+use pellicle::picture_file::{png, rgb_exr};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 

@@ -4,7 +4,7 @@ use super::{Film, Vary, model};
 use crate::{output, print};
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::coating::{Angle, Chart, ChartOf, Curve, Plot};
-use pellicle::color::{PendingFile, RgbImage8, png};
+use pellicle::picture_file::{PendingFile, RgbImage8, png};
 use std::ffi::OsStr;
 use std::io::Write;
 use std::path::{Path, PathBuf};

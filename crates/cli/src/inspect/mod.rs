@@ -9,8 +9,8 @@ use crate::image_file;
 use clap::ValueEnum;
 use film::FilmFinding;
 use miette::IntoDiagnostic;
-use pellicle::color::spectral_exr::Metadata;
 use pellicle::color::{Probe, Region, probe};
+use pellicle::picture_file::spectral_exr::Metadata;
 use pellicle::spectra::SpectralImage;
 use std::path::PathBuf;
 

@@ -5,7 +5,7 @@ use super::{Arguments, Inspection};
 use crate::{output, print};
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::coating::{Series, SpectrumPlot};
-use pellicle::color::{PendingFile, png};
+use pellicle::picture_file::{PendingFile, png};
 use std::io::Write;
 use std::path::Path;
 

@@ -5,8 +5,8 @@ use super::{Inspection, Position};
 use crate::film::swatch::swatch;
 use crate::print;
 use pellicle::coating::{FilmFit, FilmFits, MatchPlace, Verdict};
-use pellicle::color::xyz::exposure_scale;
 use pellicle::colorimetry::{Lab, chromaticity, srgb};
+use pellicle::relight::xyz::exposure_scale;
 use serde_json::{Value, json};
 use std::fmt::Write;
 

@@ -3,7 +3,8 @@
 use crate::images::{gray, write};
 use crate::place::Place;
 use crate::{assert_says, json};
-use color::{DevelopSettings, RgbImage8};
+use color::DevelopSettings;
+use picture_file::RgbImage8;
 
 #[test]
 fn equal_images_do_not_differ() {
@@ -76,8 +77,8 @@ fn pictures_compare_with_each_other_and_with_spectral_images() {
         codes[30] = odd;
         RgbImage8::new(6, 4, codes).unwrap()
     };
-    color::png::write(&place.path("a.png"), &codes(120)).unwrap();
-    color::png::write(&place.path("b.png"), &codes(160)).unwrap();
+    picture_file::png::write(&place.path("a.png"), &codes(120)).unwrap();
+    picture_file::png::write(&place.path("b.png"), &codes(160)).unwrap();
     let found = json(place.run("compare a.png b.png --format json"));
     assert_eq!(found["delta_e_2000"]["max_at"], serde_json::json!([4, 1]));
     assert_eq!(found["bands"], serde_json::json!([]));
@@ -89,7 +90,7 @@ fn pictures_compare_with_each_other_and_with_spectral_images() {
     write(&place.path("c.exr"), &gray([6, 4], 8, None));
     let settings = DevelopSettings::srgb(1.0);
     let developed = color::develop(&gray([6, 4], 8, None), &settings).unwrap();
-    color::png::write(&place.path("c.png"), &developed).unwrap();
+    picture_file::png::write(&place.path("c.png"), &developed).unwrap();
     // sRGB clips the red of equal energy; the rest is rounding of the codes.
     let alike = json(place.run("compare c.exr c.png --exposure 1 --format json"));
     assert!(alike["delta_e_2000"]["max"].as_f64().unwrap() < 1.0);
@@ -104,7 +105,7 @@ fn refused(arguments: &str, words: &[&str]) {
     write(&place.path("wide.exr"), &gray([7, 4], 8, None));
     write(&place.path("bands.exr"), &gray([6, 4], 9, None));
     let picture = RgbImage8::new(2, 1, vec![9; 6]).unwrap();
-    color::png::write(&place.path("small.png"), &picture).unwrap();
+    picture_file::png::write(&place.path("small.png"), &picture).unwrap();
     std::fs::write(place.path("text.png"), "no picture").unwrap();
     std::fs::write(place.path("text.exr"), "no image").unwrap();
     let before = place.names();

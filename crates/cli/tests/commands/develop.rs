@@ -2,10 +2,10 @@
 
 use crate::assert_says;
 use crate::place::Place;
-use color::BandWeights;
-use color::spectral_exr::{self, Metadata, WriteOptions};
-use color::xyz::equal_energy_luminance;
 use image::{ImageReader, RgbImage};
+use picture_file::spectral_exr::{self, Metadata, WriteOptions};
+use relight::BandWeights;
+use relight::xyz::equal_energy_luminance;
 use spectra::{BandGrid, SpectralImage};
 use std::collections::BTreeMap;
 

@@ -3,9 +3,9 @@
 use crate::film::{figures, film};
 use crate::place::Place;
 use crate::{assert_says, json, number, rows};
-use color::spectral_exr::read;
 use pellicle_tests::agreement::compare;
 use pellicle_tests::tolerances::ORACLE_TWO_BEAM;
+use picture_file::spectral_exr::read;
 
 /// Rs and Rp of `two_beam.csv`, which another program computed.
 #[test]

@@ -1,7 +1,7 @@
 //! Spectral images that the tests make.
 
-use color::BandWeights;
-use color::spectral_exr::{self, Metadata, WriteOptions};
+use picture_file::spectral_exr::{self, Metadata, WriteOptions};
+use relight::BandWeights;
 use spectra::{BandGrid, Observer, SpectralImage};
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 
 use crate::place::{Place, Ran};
 use crate::{assert_says, scene};
-use color::spectral_exr::{Metadata, read};
+use picture_file::spectral_exr::{Metadata, read};
 use spectra::SpectralImage;
 use std::process::Stdio;
 

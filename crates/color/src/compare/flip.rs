@@ -226,7 +226,7 @@ mod tests {
 
     fn picture(size: [u32; 2], code: impl Fn(usize) -> [u8; 3]) -> Picture {
         let codes = (0..(size[0] * size[1]) as usize).flat_map(code).collect();
-        Picture::of_codes(&crate::RgbImage8::new(size[0], size[1], codes).unwrap())
+        Picture::of_codes(&picture_file::RgbImage8::new(size[0], size[1], codes).unwrap())
     }
 
     fn filled(code: [u8; 3]) -> Picture {

@@ -1,6 +1,6 @@
 //! Heat maps: differences as a picture.
 
-use crate::RgbImage8;
+use picture_file::RgbImage8;
 
 /// The colormap magma, from black over purple and orange to pale yellow, at 17 equal steps. Its lightness rises evenly, also for
 /// color-blind viewers (S. van der Walt and N. Smith, 2015, for matplotlib; CC0 1.0).

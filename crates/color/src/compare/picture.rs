@@ -12,9 +12,9 @@ use spectra::SpectralImage;
 use thiserror::Error;
 
 use super::CompareError;
-use crate::RgbImage8;
-use crate::icc;
-use crate::xyz::exposure_scale;
+use picture_file::RgbImage8;
+use picture_file::icc;
+use relight::xyz::exposure_scale;
 
 /// A picture in linear sRGB, not clipped, with row 0 at the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -292,7 +292,7 @@ mod tests {
     fn png_files_of_any_depth_are_read() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("picture.png");
-        crate::png::write(&path, &RgbImage8::new(4, 3, (0..36).collect()).unwrap()).unwrap();
+        picture_file::png::write(&path, &RgbImage8::new(4, 3, (0..36).collect()).unwrap()).unwrap();
         let found = Picture::read_png(&path).unwrap();
         assert_eq!(found.linear()[1], [3, 4, 5].map(srgb::from_u8));
         assert_eq!((found.size(), found.tag()), ([4, 3], None));

@@ -1,7 +1,7 @@
 //! Exposure: which luminance becomes the display's white.
 
 use super::DevelopError;
-use crate::xyz::exposure_scale;
+use relight::xyz::exposure_scale;
 
 /// Which luminance becomes the display's white.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -29,9 +29,9 @@ pub use adaptation::{SceneWhite, WhiteAdaptation};
 pub use exposure::Exposure;
 pub use gamut::{Gamut, GamutMapping, GamutReport};
 pub use glare::{EyeGlare, Glare, StarGlare, Vision};
-pub use quantize::Code;
 
-use crate::{RgbImage8, XyzImage};
+use picture_file::{LinearImage, RgbImage8};
+use relight::XyzImage;
 
 /// How a picture is developed. The default is the sRGB display at 0 EV with gamut mapping and everything else off.
 #[derive(Clone, Debug, PartialEq)]
@@ -128,56 +128,6 @@ impl<'a> From<&'a XyzImage> for Latent<'a> {
     }
 }
 
-/// Linear red, green and blue of a display per pixel, 1 for its white; values may be below 0 and above 1. Row 0 is at the top.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LinearImage {
-    width: u32,
-    height: u32,
-    rgb: Vec<[f32; 3]>,
-    white_cd_m2: f64,
-}
-
-impl LinearImage {
-    /// Width in pixels.
-    pub fn width(&self) -> u32 {
-        self.width
-    }
-
-    /// Height in pixels.
-    pub fn height(&self) -> u32 {
-        self.height
-    }
-
-    /// The amounts of each pixel, row by row.
-    pub fn rgb(&self) -> &[[f32; 3]] {
-        &self.rgb
-    }
-
-    /// Number of pixels that are not finite.
-    pub fn not_finite(&self) -> usize {
-        let pixels = self.rgb.par_iter();
-        pixels
-            .filter(|rgb| !rgb.iter().all(|v| v.is_finite()))
-            .count()
-    }
-
-    /// The luminance in the scene that becomes the display's white, cd/m² up to the scene's scale.
-    pub fn white_cd_m2(&self) -> f64 {
-        self.white_cd_m2
-    }
-
-    /// Replaces each pixel, given its position, on all cores.
-    fn map(&mut self, change: impl Fn([usize; 2], [f64; 3]) -> [f64; 3] + Sync) {
-        let width = (self.width as usize).max(1);
-        let rows = self.rgb.par_chunks_mut(width).enumerate();
-        rows.for_each(|(y, row)| {
-            for (x, pixel) in row.iter_mut().enumerate() {
-                *pixel = change([x, y], pixel.map(f64::from)).map(|v| v as f32);
-            }
-        });
-    }
-}
-
 /// Develops an image into 8-bit codes: [`expose`], [`gamut::map`], [`quantize::codes`].
 ///
 /// # Errors
@@ -213,12 +163,9 @@ pub fn expose<'a>(
         .with_min_len(4096)
         .map(|xyz| times(&rgb_from_xyz, xyz.map(f64::from)).map(|v| v as f32))
         .collect();
-    let mut linear = LinearImage {
-        width: image.size[0],
-        height: image.size[1],
-        rgb,
-        white_cd_m2: 1.0 / scale,
-    };
+    let [width, height] = image.size;
+    let mut linear = LinearImage::new(width, height, rgb, 1.0 / scale)
+        .expect("an image has as many colors as pixels");
     glare::add(&mut linear, &image, &rgb_from_xyz, settings)?;
     Ok(linear)
 }

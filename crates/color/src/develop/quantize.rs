@@ -8,33 +8,7 @@ use colorimetry::Display;
 use colorimetry::matrix::times;
 use rayon::prelude::*;
 
-use super::LinearImage;
-use crate::rgb_image::RgbImage;
-
-/// The type of a picture's codes: `u8` or `u16`.
-pub trait Code: Copy + Default + Send + Sync {
-    /// The largest code.
-    const MAX: f64;
-
-    /// The code of a whole number from 0 to [`Self::MAX`].
-    fn of(value: f64) -> Self;
-}
-
-impl Code for u8 {
-    const MAX: f64 = u8::MAX as f64;
-
-    fn of(value: f64) -> Self {
-        value as Self
-    }
-}
-
-impl Code for u16 {
-    const MAX: f64 = u16::MAX as f64;
-
-    fn of(value: f64) -> Self {
-        value as Self
-    }
-}
+use picture_file::{Code, LinearImage, RgbImage};
 
 /// Returns a display's black level and flare as amounts of red, green and blue.
 pub(super) fn black_rgb(display: &Display) -> [f64; 3] {
@@ -50,10 +24,10 @@ pub(super) fn black_rgb(display: &Display) -> [f64; 3] {
 pub fn codes<C: Code>(image: &LinearImage, display: &Display, dither: bool) -> RgbImage<C> {
     let black = black_rgb(display);
     let (peak, responses) = (display.peak(), display.responses());
-    let width = (image.width as usize).max(1);
-    let mut data = vec![C::default(); 3 * image.rgb.len()];
+    let width = (image.width() as usize).max(1);
+    let mut data = vec![C::default(); 3 * image.rgb().len()];
     data.par_chunks_mut(3 * width)
-        .zip(image.rgb.par_chunks(width))
+        .zip(image.rgb().par_chunks(width))
         .enumerate()
         .for_each(|(y, (codes, row))| {
             for (x, (codes, rgb)) in codes.chunks_exact_mut(3).zip(row).enumerate() {
@@ -72,11 +46,7 @@ pub fn codes<C: Code>(image: &LinearImage, display: &Display, dither: bool) -> R
                 }
             }
         });
-    RgbImage {
-        width: image.width,
-        height: image.height,
-        data,
-    }
+    RgbImage::new(image.width(), image.height(), data).expect("each pixel has three codes")
 }
 
 /// Returns the fractional part from which a value is rounded up at this position. It is evenly distributed over (0.01, 0.99), so

@@ -1,7 +1,7 @@
 use super::*;
-use crate::xyz::equal_energy_luminance;
 use colorimetry::display::Response;
 use colorimetry::srgb;
+use relight::xyz::equal_energy_luminance;
 
 /// An image of one row with these colors, as XYZ relative to Y = 1 of the white.
 pub(crate) fn row(colors: &[[f64; 3]]) -> XyzImage {

@@ -2,9 +2,9 @@
 
 use super::checks::Checks;
 use super::picture_file::read_colors;
-use color::png_colors::CodeColors;
 use colorimetry::lifting::SigmoidReflectance;
 use document::{FieldPath, Problem, ProblemKind};
+use picture_file::png_colors::CodeColors;
 use rayon::prelude::*;
 use scene::Texels;
 use std::collections::HashMap;

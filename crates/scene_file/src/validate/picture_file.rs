@@ -1,12 +1,12 @@
 //! Reads picture files as numbers or colors.
 
 use crate::description::PictureChannel;
-use color::png_colors::{CodeColors, PngColorsError};
-use color::radiance::{RadianceError, RadiancePicture, is_radiance};
-use color::rgb_exr::RgbFile;
-use color::spectral_exr::ReadExrError;
 use document::text_file::{TextFileError, read_bytes, read_start};
 use image::{DynamicImage, ImageBuffer, ImageFormat, ImageReader, Limits, Rgb, Rgba};
+use picture_file::png_colors::{CodeColors, PngColorsError};
+use picture_file::radiance::{RadianceError, RadiancePicture, is_radiance};
+use picture_file::rgb_exr::RgbFile;
+use picture_file::spectral_exr::ReadExrError;
 use scene::PictureFile;
 use scene::limits::{
     MAX_PICTURE_BYTES, MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE, MAX_PICTURE_VALUES, PANORAMA_TOLERANCE,
@@ -162,7 +162,7 @@ pub(crate) fn read_panorama(
     }
     match image::guess_format(&start).ok() {
         Some(ImageFormat::OpenExr) if layer.is_some() => read_exr_colors(path, layer, notes),
-        Some(ImageFormat::OpenExr) => match color::spectral_exr::read_size(path) {
+        Some(ImageFormat::OpenExr) => match picture_file::spectral_exr::read_size(path) {
             Ok(found) => read_spectra(path, found, grid, notes),
             Err(ReadExrError::NoSpectrum { .. }) => read_exr_colors(path, None, notes),
             Err(error) => Err(PictureFileError::Exr(chain(&error))),
@@ -220,7 +220,7 @@ fn read_spectra(
             bands: (grid.min_nm(), grid.max_nm()),
         });
     }
-    let read = color::spectral_exr::read(path);
+    let read = picture_file::spectral_exr::read(path);
     let (image, metadata) = read.map_err(|error| PictureFileError::Exr(chain(&error)))?;
     notes.extend(metadata.notes);
     Ok(PanoramaFile::Spectra(Box::new(image)))

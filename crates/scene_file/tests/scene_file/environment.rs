@@ -2,7 +2,6 @@
 //! would be right.
 
 use crate::{CAMERA, read, said};
-use color::spectral_exr::{Metadata, WriteOptions};
 use exr::math::Vec2;
 use exr::meta::attribute::Chromaticities;
 use exr::prelude::{
@@ -10,6 +9,7 @@ use exr::prelude::{
 };
 use image::{ImageBuffer, Rgb};
 use pellicle_scene_file::Problems;
+use picture_file::spectral_exr::{Metadata, WriteOptions};
 use scene::{Environment, EnvironmentPicture, LightShape, PictureSpectra, Scene};
 use spectra::{BandGrid, SpectralImage};
 use std::fs;
@@ -73,7 +73,7 @@ fn write_spectra(path: &Path, [width, height]: [u32; 2], bands: BandGrid, value:
             image.set_pixel((x, y), &spectrum, &spectrum, [1.0; 3], 1);
         }
     }
-    color::spectral_exr::write(path, &image, &Metadata::default(), WriteOptions::default())
+    picture_file::spectral_exr::write(path, &image, &Metadata::default(), WriteOptions::default())
         .unwrap();
 }
 

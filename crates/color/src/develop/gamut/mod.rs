@@ -32,9 +32,10 @@ mod report;
 use colorimetry::Display;
 use colorimetry::matrix::times;
 
-use super::{DevelopSettings, LinearImage};
+use super::DevelopSettings;
 use crate::develop::quantize::black_rgb;
 use perceptual::Perceptual;
+use picture_file::LinearImage;
 
 pub use report::GamutReport;
 

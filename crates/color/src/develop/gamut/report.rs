@@ -5,7 +5,8 @@ use colorimetry::lab::delta_e_2000;
 use rayon::prelude::*;
 
 use super::{Gamut, xyz_of};
-use crate::develop::{DevelopSettings, LinearImage};
+use crate::develop::DevelopSettings;
+use picture_file::LinearImage;
 
 /// The pixels of a picture that lie outside the gamut of its display, and how far the mapping moves them: ΔE₀₀ between the
 /// wanted color and the color shown, under the display's white.

@@ -8,8 +8,9 @@ use rayon::prelude::*;
 use spectra::{BandGrid, Observer};
 
 use super::mirror::{Mirror, Spectrum};
-use super::{DevelopError, Latent, LinearImage};
-use crate::BandWeights;
+use super::{DevelopError, Latent};
+use picture_file::LinearImage;
+use relight::BandWeights;
 
 /// The adaptation state of the eye, which determines its pupil.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -95,11 +96,15 @@ pub(super) fn add(
         kernels.of_colors(image)
     };
     let planes = spectra.map(|spectrum| kernels.mirror.picture(spectrum));
-    image.rgb.par_iter_mut().enumerate().for_each(|(i, rgb)| {
-        if rgb.iter().all(|v| v.is_finite()) {
-            *rgb = planes.each_ref().map(|plane| plane[i] as f32);
-        }
-    });
+    image
+        .rgb_mut()
+        .par_iter_mut()
+        .enumerate()
+        .for_each(|(i, rgb)| {
+            if rgb.iter().all(|v| v.is_finite()) {
+                *rgb = planes.each_ref().map(|plane| plane[i] as f32);
+            }
+        });
     Ok(())
 }
 
@@ -114,7 +119,7 @@ struct Kernels {
 
 impl Kernels {
     fn new(image: &LinearImage, eye: EyeGlare) -> Self {
-        let mirror = Mirror::new(image.width as usize, image.height as usize);
+        let mirror = Mirror::new(image.width() as usize, image.height() as usize);
         let (shares, pixel) = (eye.vision.shares(), eye.degrees_per_pixel);
         let common = mirror.of_kernel(|x, y| {
             over_pixel([x, y], pixel, core_parts([x, y], pixel), |theta| {
@@ -156,7 +161,7 @@ impl Kernels {
     fn of_colors(&self, image: &LinearImage) -> [Spectrum; 3] {
         let (kernel, sum) = &self.common;
         std::array::from_fn(|channel| {
-            let plane = image.rgb.iter().map(|&rgb| finite(rgb)[channel] / sum);
+            let plane = image.rgb().iter().map(|&rgb| finite(rgb)[channel] / sum);
             let mut spectrum = self.mirror.of_picture(plane.collect());
             add_product(None, &mut spectrum, kernel);
             spectrum
@@ -171,8 +176,8 @@ impl Kernels {
         let scales: Vec<f64> = bands.centers_nm.iter().map(|&nm| self.scale(nm)).collect();
 
         let mut sums: [Spectrum; 3] = std::array::from_fn(|channel| {
-            let rest = |i: usize| finite(image.rgb[i])[channel] - bands.color(i, channel, None);
-            let pixels = 0..image.rgb.len();
+            let rest = |i: usize| finite(image.rgb()[i])[channel] - bands.color(i, channel, None);
+            let pixels = 0..image.rgb().len();
             let rest: Vec<f64> = pixels
                 .clone()
                 .into_par_iter()

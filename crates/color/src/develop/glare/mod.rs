@@ -9,7 +9,8 @@ mod star;
 
 use colorimetry::Matrix3;
 
-use super::{DevelopError, DevelopSettings, Latent, LinearImage};
+use super::{DevelopError, DevelopSettings, Latent};
+use picture_file::LinearImage;
 
 pub use eye::{EyeGlare, Vision, point_spread};
 pub use star::StarGlare;
@@ -33,7 +34,7 @@ pub(super) fn add(
     rgb_from_xyz: &Matrix3,
     settings: &DevelopSettings,
 ) -> Result<(), DevelopError> {
-    if image.rgb.is_empty() {
+    if image.rgb().is_empty() {
         return Ok(());
     }
     match settings.glare {

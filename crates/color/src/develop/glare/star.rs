@@ -7,7 +7,7 @@
 
 use colorimetry::Display;
 
-use super::LinearImage;
+use picture_file::LinearImage;
 
 /// A star with four arms around each pixel whose luminance is above the display's brightest white. Saturated colors that are no
 /// brighter are left to gamut mapping.
@@ -26,10 +26,10 @@ impl Default for StarGlare {
 /// Removes from each pixel the light above the luminance of `display`'s peak, keeping its chromaticity, and smears it.
 pub(super) fn add(image: &mut LinearImage, star: StarGlare, display: &Display) {
     let (luminance, peak) = (display.xyz_from_rgb()[1], display.peak());
-    let (width, height) = (image.width as usize, image.height as usize);
+    let (width, height) = (image.width() as usize, image.height() as usize);
     let falloff = (-1.0 / (star.length * height as f64).max(1e-3)).exp();
     let excess: Vec<[f64; 3]> = image
-        .rgb
+        .rgb_mut()
         .iter_mut()
         .map(|rgb| excess(rgb, luminance, peak))
         .collect();
@@ -40,7 +40,7 @@ pub(super) fn add(image: &mut LinearImage, star: StarGlare, display: &Display) {
         // The light carried along this arm so far, including the pixel's own; the fraction `falloff` continues at each step.
         let mut carried = [0.0; 3];
         for at in line {
-            let pixel = &mut image.rgb[at];
+            let pixel = &mut image.rgb_mut()[at];
             for channel in 0..3 {
                 carried[channel] = falloff * carried[channel] + excess[at][channel];
                 pixel[channel] += (0.25 * (1.0 - falloff) * carried[channel]) as f32;
@@ -76,16 +76,11 @@ mod tests {
     fn point(value: [f32; 3]) -> LinearImage {
         let mut rgb = vec![[0.25; 3]; 201 * 101];
         rgb[50 * 201 + 100] = value;
-        LinearImage {
-            width: 201,
-            height: 101,
-            rgb,
-            white_cd_m2: 1.0,
-        }
+        LinearImage::new(201, 101, rgb, 1.0).unwrap()
     }
 
     fn sum(image: &LinearImage) -> [f64; 3] {
-        std::array::from_fn(|i| image.rgb.iter().map(|rgb| f64::from(rgb[i])).sum())
+        std::array::from_fn(|i| image.rgb().iter().map(|rgb| f64::from(rgb[i])).sum())
     }
 
     fn srgb() -> Display {
@@ -102,7 +97,7 @@ mod tests {
         for (before, after) in sum(&before).into_iter().zip(sum(&after)) {
             assert!((after / before - 1.0).abs() < 1e-6, "{before} {after}");
         }
-        let at = |x: usize, y: usize| after.rgb[y * 201 + x];
+        let at = |x: usize, y: usize| after.rgb()[y * 201 + x];
         // The center has the luminance of the white and its part of each arm.
         let share = f64::from(at(101, 50)[0] - 0.25) / (-1.0 / (0.02 * 101.0_f64)).exp();
         let y = 0.212_639 * 40.0 + 0.715_169 * 20.0 + 0.072_192 * 4.0;

@@ -131,7 +131,7 @@ fn mirrored(at: isize, size: usize) -> usize {
 /// Direct sum: every pixel spreads the light of every band over every other pixel.
 fn direct(image: &SpectralImage, eye: EyeGlare, observer: Observer) -> Vec<[f64; 3]> {
     let plain = exposed(image, Glare::Off);
-    let scale = crate::xyz::exposure_scale(0.0);
+    let scale = relight::xyz::exposure_scale(0.0);
     let display = Display::named("srgb").unwrap();
     let observer = BandWeights::observed(image.bands(), observer);
     let shares = eye.vision.shares();
@@ -265,7 +265,7 @@ fn an_even_picture_stays_even_and_what_is_no_number_stays_alone() {
     let mut image = SpectralImage::new(SIZE[0] as u32, SIZE[1] as u32, grid);
     for y in 0..SIZE[1] as u32 {
         for x in 0..SIZE[0] as u32 {
-            let luminance = crate::xyz::equal_energy_luminance() as f32;
+            let luminance = relight::xyz::equal_energy_luminance() as f32;
             image.set_pixel((x, y), &[1.0; 5], &[0.0; 5], [luminance; 3], 1);
         }
     }
@@ -284,7 +284,7 @@ fn an_even_picture_stays_even_and_what_is_no_number_stays_alone() {
 
 #[test]
 fn colors_without_spectra_have_no_halo() {
-    let image = crate::XyzImage::from(&image(50.0, 3));
+    let image = relight::XyzImage::from(&image(50.0, 3));
     let with = |vision| DevelopSettings {
         glare: Glare::Eye(eye(vision)),
         ..DevelopSettings::srgb(0.0)

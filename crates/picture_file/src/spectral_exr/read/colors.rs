@@ -4,9 +4,9 @@ use exr::block::UncompressedBlock;
 use exr::meta::attribute::ChannelList;
 
 use super::Plan;
-use crate::XyzImage;
 use crate::exr_file::each_sample;
 use crate::spectral_exr::channels::Content;
+use relight::XyzImage;
 
 /// The colors of an image that is being read.
 pub(super) struct Colors {

@@ -3,9 +3,34 @@
 /// A picture of display codes, with row 0 at the top.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub struct RgbImage<Code> {
-    pub(crate) width: u32,
-    pub(crate) height: u32,
-    pub(crate) data: Vec<Code>,
+    width: u32,
+    height: u32,
+    data: Vec<Code>,
+}
+
+/// The type of a picture's codes: `u8` or `u16`.
+pub trait Code: Copy + Default + Send + Sync {
+    /// The largest code.
+    const MAX: f64;
+
+    /// The code of a whole number from 0 to [`Self::MAX`].
+    fn of(value: f64) -> Self;
+}
+
+impl Code for u8 {
+    const MAX: f64 = u8::MAX as f64;
+
+    fn of(value: f64) -> Self {
+        value as Self
+    }
+}
+
+impl Code for u16 {
+    const MAX: f64 = u16::MAX as f64;
+
+    fn of(value: f64) -> Self {
+        value as Self
+    }
 }
 
 /// A picture of 8-bit codes.

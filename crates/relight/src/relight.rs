@@ -1,10 +1,6 @@
 //! Relighting: changing the lamps of an image without rendering again.
 
-mod knots;
-mod weights;
-
-pub use weights::{BandWeights, DarkBand};
-
+use crate::weights::{BandWeights, DarkBand};
 use rayon::prelude::*;
 use spectra::{BandGrid, Observer, OutOfRange, RowMut, SpectralImage, Spectrum, Tabulated};
 use thiserror::Error;
@@ -209,7 +205,10 @@ impl Change {
 }
 
 /// Tabulates a lamp over the bands.
-pub(crate) fn over(grid: &BandGrid, lamp: &Spectrum) -> Result<Tabulated, OutOfRange> {
+///
+/// # Errors
+/// When the lamp has no value at an end of the bands.
+pub fn over(grid: &BandGrid, lamp: &Spectrum) -> Result<Tabulated, OutOfRange> {
     let ends = [grid.min_nm(), grid.max_nm()];
     for nm in ends {
         lamp.at(nm)?;

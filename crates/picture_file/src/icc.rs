@@ -30,7 +30,7 @@ const CURVE_POINTS: u16 = 4096;
 const DESCRIPTION_CHARACTERS: usize = 60;
 
 /// Returns a profile's description; `None` if it has none or is not a profile.
-pub(crate) fn description(profile: &[u8]) -> Option<String> {
+pub fn description(profile: &[u8]) -> Option<String> {
     let text = match ColorProfile::new_from_slice(profile).ok()?.description? {
         ProfileText::PlainString(text) => text,
         ProfileText::Localizable(texts) => texts.into_iter().next()?.value,

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use pellicle_color::BandWeights;
-use pellicle_color::spectral_exr::{self, Metadata, ReadExrError};
+use pellicle_picture_file::spectral_exr::{self, Metadata, ReadExrError};
+use relight::BandWeights;
 use spectra::{BandGrid, SpectralImage};
 
 /// Writes a file with these channels, as another program might.

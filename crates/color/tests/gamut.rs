@@ -1,14 +1,13 @@
 //! Which space keeps hue, compared with the judgment of observers and for interference colors outside the gamut.
 
-use color::BandWeights;
-use color::develop::{Gamut, GamutMapping};
-use color::xyz::exposure_scale;
 use colorimetry::adaptation::Adaptation;
 use colorimetry::ciecam16::{Surround, Ucs, ViewingConditions};
 use colorimetry::lab::delta_e_2000;
 use colorimetry::matrix::{inverse, times};
 use colorimetry::{Display, Lab, Oklab};
-use pellicle_color as color;
+use pellicle_color::develop::{Gamut, GamutMapping};
+use relight::BandWeights;
+use relight::xyz::exposure_scale;
 use spectra::BandGrid;
 use std::collections::BTreeMap;
 

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use pellicle_color::spectral_exr::{self, ReadExrError};
+use pellicle_picture_file::spectral_exr::{self, ReadExrError};
 
 use super::support::{noise, write_noisy};
 

@@ -20,8 +20,8 @@ use super::channels::{Channels, Content, LightContent};
 use super::lights;
 use super::metadata::Metadata;
 use crate::pending_file::PendingFile;
-use crate::xyz::exposure_scale;
 use colorimetry::srgb;
+use relight::xyz::exposure_scale;
 
 /// Options for writing a file.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]

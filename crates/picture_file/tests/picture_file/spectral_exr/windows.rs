@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use exr::prelude::*;
-use pellicle_color::spectral_exr;
+use pellicle_picture_file::spectral_exr;
 
 const NAMES: [&str; 2] = ["S0.450nm", "S0.460nm"];
 

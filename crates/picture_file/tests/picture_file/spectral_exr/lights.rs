@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use exr::meta::MetaData;
-use pellicle_color::spectral_exr::{self, ReadExrError, WriteExrError, WriteOptions};
+use pellicle_picture_file::spectral_exr::{self, ReadExrError, WriteExrError, WriteOptions};
 use spectra::{BandGrid, LightGroup, SpectralImage};
 
 use super::support::{metadata, noise};

@@ -10,8 +10,8 @@ use thiserror::Error;
 
 use super::bands::BandLayoutError;
 use super::metadata::Metadata;
-use crate::XyzImage;
 use crate::exr_file::{self, Context, each_block, guard};
+use relight::XyzImage;
 
 mod colors;
 mod pixels;

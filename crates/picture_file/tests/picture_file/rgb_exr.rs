@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use exr::prelude::*;
-use pellicle_color::rgb_exr::{ReadRgbError, RgbFile};
+use pellicle_picture_file::rgb_exr::{ReadRgbError, RgbFile};
 
 type Named<'a> = (&'a str, FlatSamples);
 

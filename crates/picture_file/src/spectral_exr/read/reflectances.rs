@@ -6,10 +6,10 @@ use spectra::{
     illuminant_names, observer_1931,
 };
 
-use crate::relight::{BandWeights, Relight, RelightError, over, relight};
 use crate::spectral_exr::metadata::attribute_text;
 use crate::spectral_exr::wavelength::{number, wavelength_nm};
-use crate::xyz::equal_energy_luminance;
+use relight::xyz::equal_energy_luminance;
+use relight::{BandWeights, Relight, RelightError, over, relight};
 
 /// The light group of an image of reflectances.
 const GROUP: &str = "illuminant";

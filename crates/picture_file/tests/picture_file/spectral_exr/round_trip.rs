@@ -5,8 +5,8 @@ use std::fs;
 use colorimetry::srgb;
 use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, SampleType, Text};
-use pellicle_color::spectral_exr::{self, Metadata, WriteExrError, WriteOptions};
-use pellicle_color::xyz::exposure_scale;
+use pellicle_picture_file::spectral_exr::{self, Metadata, WriteExrError, WriteOptions};
+use relight::xyz::exposure_scale;
 use spectra::{BandGrid, SpectralImage};
 
 use super::support::{metadata, noisy, write_noisy};

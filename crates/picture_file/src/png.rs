@@ -9,10 +9,9 @@ use ::png::Compression;
 use colorimetry::Display;
 use thiserror::Error;
 
-use crate::develop::Code;
 use crate::icc::{self, IccError};
 use crate::pending_file::PendingFile;
-use crate::{RgbImage, RgbImage8, cicp};
+use crate::{Code, RgbImage, RgbImage8, cicp};
 
 /// Why a PNG file could not be written. No file is left behind.
 #[derive(Debug, Error)]
@@ -182,15 +181,11 @@ fn encode<C: PngCode>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::xyz::equal_energy_luminance;
-    use crate::{DevelopSettings, XyzImage, develop};
 
     fn picture(width: u32, height: u32) -> RgbImage8 {
-        let luminance = equal_energy_luminance() as f32;
-        let color = |i: u32| [(i % width) as f32 / 20.0, (i / width) as f32 / 10.0, 0.2];
-        let xyz = (0..width * height).map(|i| color(i).map(|v| v * luminance));
-        let image = XyzImage::new(width, height, xyz.collect()).unwrap();
-        develop(&image, &DevelopSettings::srgb(0.0)).unwrap()
+        let color = |i: u32| [(15 * (i % width)) as u8, (28 * (i / width)) as u8, 120];
+        let codes = (0..width * height).flat_map(color).collect();
+        RgbImage8::new(width, height, codes).unwrap()
     }
 
     /// The types of a PNG file's chunks, in order.

@@ -6,9 +6,9 @@ use exr::meta::attribute::{ChannelList, SampleType};
 use spectra::{Observer, SpectralImage};
 
 use super::Plan;
-use crate::BandWeights;
 use crate::exr_file::{Run, each_sample, words};
 use crate::spectral_exr::channels::{Content, LightContent};
+use relight::BandWeights;
 
 /// An image that is being read.
 pub(super) struct Pixels {

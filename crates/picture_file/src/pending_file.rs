@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
+use tempfile::{Builder, NamedTempFile};
 
 /// Where a path leads.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -58,8 +58,7 @@ impl Destination {
 #[derive(Debug)]
 pub struct PendingFile {
     target: Destination,
-    temporary: PathBuf,
-    file: Option<File>,
+    file: NamedTempFile,
 }
 
 impl PendingFile {
@@ -68,30 +67,17 @@ impl PendingFile {
     /// # Errors
     /// As [`Destination::of`], and when the folder cannot be written to.
     pub fn create(target: &Path) -> io::Result<Self> {
-        static COUNTER: AtomicU32 = AtomicU32::new(0);
         let target = Destination::of(target)?;
-        let turn = COUNTER.fetch_add(1, Ordering::Relaxed);
-        let ending = format!(".{}-{turn}.tmp", std::process::id());
-        let hidden = |path: &Path| {
-            let mut hidden = OsString::from(".");
-            hidden.push(path.file_name().unwrap_or_default());
-            hidden.push(&ending);
-            hidden
+        let file = match &target {
+            Destination::File(path) => {
+                let folder = path
+                    .parent()
+                    .filter(|folder| !folder.as_os_str().is_empty());
+                temporary(path, folder.unwrap_or(Path::new(".")))?
+            }
+            Destination::Stream(path) => temporary(path, &std::env::temp_dir())?,
         };
-        let temporary = match &target {
-            Destination::File(path) => path.with_file_name(hidden(path)),
-            Destination::Stream(path) => std::env::temp_dir().join(hidden(path)),
-        };
-        let file = OpenOptions::new()
-            .read(true)
-            .write(true)
-            .create_new(true)
-            .open(&temporary)?;
-        Ok(Self {
-            target,
-            temporary,
-            file: Some(file),
-        })
+        Ok(Self { target, file })
     }
 
     /// Returns a handle to write with. Dropping the handle does not close the file.
@@ -99,41 +85,37 @@ impl PendingFile {
     /// # Errors
     /// When the system provides no second handle.
     pub fn handle(&self) -> io::Result<File> {
-        match &self.file {
-            Some(file) => file.try_clone(),
-            None => Err(io::ErrorKind::NotFound.into()),
-        }
+        self.file.as_file().try_clone()
     }
 
     /// Renames the file to its target, replacing any file there, or writes it to the pipe or device.
     ///
     /// # Errors
     /// When the file cannot be flushed to disk, renamed or written; it is then removed.
-    pub fn commit(mut self) -> io::Result<()> {
+    pub fn commit(self) -> io::Result<()> {
         match &self.target {
             Destination::File(target) => {
-                if let Some(file) = &self.file {
-                    file.sync_all()?;
-                }
-                fs::rename(&self.temporary, target)?;
-                self.file = None;
+                self.file.as_file().sync_all()?;
+                self.file.persist(target)?;
             }
             Destination::Stream(target) => {
                 let mut stream = OpenOptions::new().append(true).open(target)?;
-                io::copy(&mut File::open(&self.temporary)?, &mut stream)?;
+                io::copy(&mut self.file.reopen()?, &mut stream)?;
             }
         }
         Ok(())
     }
 }
 
-impl Drop for PendingFile {
-    fn drop(&mut self) {
-        if self.file.take().is_some() {
-            // The caller already gets another error; this one cannot be reported.
-            let _ = fs::remove_file(&self.temporary);
-        }
-    }
+/// A temporary file for a target, whose name starts with a dot, with the permissions of any new file.
+fn temporary(target: &Path, folder: &Path) -> io::Result<NamedTempFile> {
+    let mut prefix = OsString::from(".");
+    prefix.push(target.file_name().unwrap_or_default());
+    let mut builder = Builder::new();
+    builder.prefix(&prefix).suffix(".tmp");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder)
 }
 
 #[cfg(test)]

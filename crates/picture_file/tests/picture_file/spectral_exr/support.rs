@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use pellicle_color::spectral_exr::{self, Metadata, WriteOptions};
+use pellicle_picture_file::spectral_exr::{self, Metadata, WriteOptions};
 use spectra::{BandGrid, SpectralImage};
 
 /// A pseudorandom number in [0, 1) from an index.

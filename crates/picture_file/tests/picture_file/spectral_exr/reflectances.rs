@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use exr::prelude::*;
-use pellicle_color::spectral_exr::{self, Metadata};
-use pellicle_color::xyz::equal_energy_luminance;
-use pellicle_color::{Relight, relight};
+use pellicle_picture_file::spectral_exr::{self, Metadata};
+use relight::xyz::equal_energy_luminance;
+use relight::{Relight, relight};
 use spectra::{Observer, SpectralImage, illuminant};
 
 /// D65 at a few wavelengths (CIE 15), in the form that other programs write.

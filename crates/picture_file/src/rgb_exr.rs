@@ -13,7 +13,7 @@ use exr::prelude::{
 };
 use thiserror::Error;
 
-use crate::develop::LinearImage;
+use crate::LinearImage;
 use crate::pending_file::PendingFile;
 use crate::spectral_exr::software;
 
@@ -140,20 +140,12 @@ fn chromaticities(display: &Display) -> Chromaticities {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::XyzImage;
-    use crate::develop::{DevelopSettings, Exposure, GamutMapping, expose};
 
     fn image(width: u32, height: u32) -> (LinearImage, Display) {
         let color = |i: u32| [0.3 * i as f32, 0.2, 20.0 / (1 + i) as f32];
-        let xyz = (0..width * height).map(color).collect();
-        let image = XyzImage::new(width, height, xyz).unwrap();
-        let display = Display::named("display_p3").unwrap();
-        let settings = DevelopSettings {
-            exposure: Exposure::White(8.0),
-            gamut: GamutMapping::Keep,
-            ..DevelopSettings::new(display.clone())
-        };
-        (expose(&image, &settings).unwrap(), display)
+        let rgb = (0..width * height).map(color).collect();
+        let image = LinearImage::new(width, height, rgb, 8.0).unwrap();
+        (image, Display::named("display_p3").unwrap())
     }
 
     #[test]

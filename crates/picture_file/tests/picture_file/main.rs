@@ -1,0 +1,4 @@
+//! Files of colors and of spectra.
+
+mod rgb_exr;
+mod spectral_exr;
