@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! scenes/soap_bubble.toml
-//!   -> scene_file::SceneFile       TOML as written             all errors at once, each with line and column
+//!   -> scene_file::SceneFile  TOML as written             all errors at once, each with line and column
 //!   -> scene::Scene           validated: spectra as tables over the bands, nothing left to look up
 //!   -> Renderer::render       paths traced on a GPU (or on the CPU in f64), spectra evaluated along them
 //!   -> spectra::SpectralImage radiance per pixel and band, its variance, its XYZ
@@ -17,7 +17,7 @@
 //! and only in [`color`], so that a picture can be developed again without rendering again.
 //!
 //! ```no_run
-//! use pellicle::{Backend, Renderer, color, scene};
+//! use pellicle::{Backend, Renderer, color, picture_file, scene_file};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let scene = scene_file::SceneFile::read("scenes/soap_bubble.toml")?.validate()?;
