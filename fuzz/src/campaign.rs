@@ -44,6 +44,8 @@ pub struct Campaign<'a> {
     pub name: &'a str,
     /// Inputs in addition to those of the folder.
     pub seeds: Vec<Vec<u8>>,
+    /// Inputs that are read but not mutated, because they take too long to be read often.
+    pub unchanged: Vec<Vec<u8>>,
     /// Words that mean something to a reader of text; empty for other files.
     pub words: &'a [&'a str],
     /// Corrects the checksums of a mutated file, so that the code behind their checks is reached too.
@@ -70,6 +72,7 @@ impl<'a> Campaign<'a> {
         Self {
             name,
             seeds: Vec::new(),
+            unchanged: Vec::new(),
             words: &[],
             repair: <[u8]>::to_vec,
             executions,
@@ -87,7 +90,7 @@ impl<'a> Campaign<'a> {
         let mut tally = Tally::default();
         let mut inputs = self.seeds.clone();
         inputs.extend(of_folder(&corpus(self.name)));
-        for input in &inputs {
+        for input in self.unchanged.iter().chain(&inputs) {
             self.execute(&folder, &mut tally, &read, input);
         }
         // Mutating a broken corpus would say nothing new.

@@ -28,7 +28,7 @@ const POWERS: [[f64; 6]; 6] = [
 ///
 /// With this interpolation, colors of metals and films of some 100 nm from values every 10 nm are within ΔE₀₀ 0.03 of those from values
 /// at every nm, and from values every 20 nm within 0.25; with linear interpolation, within 0.11 and 0.55
-/// (`coating/tests/coarse_tables.rs`).
+/// (`tests/tests/colors/coarse_tables.rs`).
 pub fn sprague(table: &Tabulated, range: (f64, f64)) -> Option<(Tabulated, f64)> {
     let (first_nm, _) = table.range_nm();
     let values: Vec<f64> = table.points().map(|(_, value)| value).collect();

@@ -97,7 +97,7 @@ fn display_files() {
         }
     };
     Campaign {
-        seeds: bombs::toml(),
+        unchanged: bombs::toml(),
         words: &WORDS,
         ..Campaign::new("display_files", 3000)
     }

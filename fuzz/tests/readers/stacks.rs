@@ -88,7 +88,7 @@ fn stack_files() {
         Err(problems) => Outcome::Refused(format!("{problems:#}")),
     };
     Campaign {
-        seeds: bombs::toml(),
+        unchanged: bombs::toml(),
         words: &FILE_WORDS,
         ..Campaign::new("stack_files", 3000)
     }

@@ -8,10 +8,9 @@ use serde_json::Value;
 use std::fmt::Write as _;
 
 /// Colors of stacks by an independent computation, which the head of the file describes.
-const STACK_COLORS: &str = include_str!("../../../coating/tests/coating/data/stack_colors.csv");
+const STACK_COLORS: &str = include_str!("../../../../tests/tests/colors/data/stack_colors.csv");
 /// White points by an independent computation.
-const WHITE_POINTS: &str =
-    include_str!("../../../colorimetry/tests/colorimetry/data/white_points.csv");
+const WHITE_POINTS: &str = include_str!("../../../../tests/tests/colors/data/white_points.csv");
 
 /// A table as users write it, with all digits.
 pub(crate) fn csv(values: impl IntoIterator<Item = (f64, f64)>) -> String {

@@ -73,5 +73,11 @@ response = { curve = 'gamma', gamma = [2.1, 2.2, 2.3], alpha = 0.05 }
     }
     std::fs::write(place.path("bad.toml"), file.replace("alpha", "alfa")).unwrap();
     let stderr = place.run("display bad.toml").failed();
-    assert_says(&stderr, &["bad.toml:5:", "response.alfa: unknown field; did you mean `alpha`?"]);
+    assert_says(
+        &stderr,
+        &[
+            "bad.toml:5:",
+            "response.alfa: unknown field; did you mean `alpha`?",
+        ],
+    );
 }

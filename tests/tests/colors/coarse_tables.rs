@@ -1,10 +1,10 @@
 //! Color errors of tables at coarse steps: reflectances every 10 and 20 nm, as instruments measure them, by Sprague's interpolation and by
 //! straight lines, compared with the reflectances themselves at every nm.
 
+use coating::{Angle, Stack};
 use colorimetry::Lab;
 use colorimetry::lab::delta_e_2000;
 use colorimetry::tristimulus::{Rule, Weights};
-use pellicle_coating::{Angle, Stack};
 use spectra::{Observer, Spectrum, Tabulated, find_illuminant, sprague};
 
 const SMOOTH: [&str; 6] = [

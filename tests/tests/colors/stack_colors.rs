@@ -1,9 +1,9 @@
 //! Colors of stacks compared with an independent computation, from the one-line stack to linear sRGB.
 
+use coating::{Angle, Color, Light, Stack, StackColor, View};
 use colorimetry::lab::delta_e_2000;
 use colorimetry::tristimulus::Rule;
 use colorimetry::{Adaptation, matrix::times, srgb};
-use pellicle_coating::{Angle, Color, Light, Stack, StackColor, View};
 use spectra::Observer;
 
 const TABLE: &str = include_str!("data/stack_colors.csv");

@@ -1,7 +1,7 @@
 //! Display files: their contents, and how errors in them are reported.
 
-use pellicle_colorimetry::Display;
-use pellicle_colorimetry::display::{DisplayError, Response};
+use colorimetry::Display;
+use colorimetry::display::{DisplayError, Response};
 use std::fs;
 
 fn assert_near(found: &[f64], expected: &[f64], tolerance: f64, case: &str) {

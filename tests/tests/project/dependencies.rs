@@ -3,10 +3,10 @@
 //! `cargo deny check` checks the same and looks for known faults; this test needs only Cargo.
 
 use cargo_metadata::{Metadata, MetadataCommand, Package};
+use pellicle_tests::wgsl::root;
 use serde::Deserialize;
 use spdx::{Expression, LicenseReq, ParseMode};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 
 #[derive(Deserialize)]
 struct Policy {
@@ -30,10 +30,6 @@ struct Skip {
     #[serde(rename = "crate")]
     package: String,
     reason: String,
-}
-
-fn root() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
 fn policy() -> Policy {

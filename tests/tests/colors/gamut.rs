@@ -1,11 +1,11 @@
 //! Which space keeps hue, compared with the judgment of observers and for interference colors outside the gamut.
 
+use color::develop::{Gamut, GamutMapping};
 use colorimetry::adaptation::Adaptation;
 use colorimetry::ciecam16::{Surround, Ucs, ViewingConditions};
 use colorimetry::lab::delta_e_2000;
 use colorimetry::matrix::{inverse, times};
 use colorimetry::{Display, Lab, Oklab};
-use pellicle_color::develop::{Gamut, GamutMapping};
 use relight::BandWeights;
 use relight::xyz::exposure_scale;
 use spectra::BandGrid;
@@ -33,12 +33,12 @@ impl Loci {
     fn hung_berns() -> Self {
         let (x, y) = (0.3101, 0.3163);
         let white = [x / y, 1.0, (1.0 - x - y) / y];
-        Self::read(include_str!("gamut/hung_berns_1995.csv"), white)
+        Self::read(include_str!("data/hung_berns_1995.csv"), white)
     }
 
     fn ebner_fairchild() -> Self {
         let white = [0.9501, 1.0, 1.0881];
-        Self::read(include_str!("gamut/ebner_fairchild_1998.csv"), white)
+        Self::read(include_str!("data/ebner_fairchild_1998.csv"), white)
     }
 }
 

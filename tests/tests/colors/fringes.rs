@@ -1,8 +1,8 @@
 //! Colors of films whose fringes are finer than the steps of the sums, compared with sums over a sufficiently fine grid.
 
+use coating::{Angle, Light, Side, Stack, StackColor, View, sensitivity};
 use colorimetry::Lab;
 use colorimetry::lab::delta_e_2000;
-use pellicle_coating::{Angle, Light, Side, Stack, StackColor, View, sensitivity};
 use proptest::prelude::*;
 
 /// Largest ΔE₀₀ that the properties allow.

@@ -1,7 +1,7 @@
 //! Compares the white points of the illuminants with an independent computation and with the values published by the CIE.
 
-use pellicle_colorimetry::chromaticity::xy_of_xyz;
-use pellicle_colorimetry::tristimulus::{Rule, Weights, xyz_of_emission};
+use colorimetry::chromaticity::xy_of_xyz;
+use colorimetry::tristimulus::{Rule, Weights, xyz_of_emission};
 use spectra::{KM_LUMENS_PER_WATT, Observer, Spectrum, Tabulated, find_illuminant};
 
 const COMPUTED: &str = include_str!("data/white_points.csv");

@@ -1,6 +1,6 @@
 //! Compares the materials with an independent reading of the same publications, and with values from other sources.
 
-use pellicle_spectra::{material_info, material_names, optical_constants};
+use spectra::{material_info, material_names, optical_constants};
 use std::collections::HashSet;
 
 const INDICES: &str = include_str!("data/indices.csv");

@@ -1,4 +1,0 @@
-//! White points and displays.
-
-mod display_files;
-mod white_points;
