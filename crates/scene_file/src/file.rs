@@ -27,7 +27,7 @@ pub fn validate(description: &Description, folder: impl Into<Folder>) -> Result<
 /// A scene file that has been read and can still be changed before it is validated.
 ///
 /// ```no_run
-/// # fn main() -> Result<(), pellicle_document::Problems> {
+/// # fn main() -> Result<(), pellicle_scene_file::Problems> {
 /// let mut file = pellicle_scene_file::SceneFile::read("scenes/soap_bubble.toml")?;
 /// file.description.render.samples = 4;
 /// let scene = file.validate()?;
