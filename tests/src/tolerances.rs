@@ -237,7 +237,7 @@ pub const SPECTRUM: Tolerance = of(2e-6, 2e-6);
 /// Mean ΔE2000 between a picture relit from its bands and one rendered under the lamp. The promise is 0.5, half a just noticeable
 /// difference, with 40 bands for smooth lamps and 80 for lamps with lines; observed: 0.03 to 0.08.
 pub const RELIT_DELTA_E: f64 = 0.15;
-/// ΔE2000 of a film's color between 16 and 160 bands, in every one of the eight columns of a wedge. The rest is noise: in a
+/// ΔE2000 of a film's color between 16 and 80 bands, in every one of the eight columns of a wedge. The rest is noise: in a
 /// band of 25 nm the lines of a lamp vary by twice their mean, which the 262 144 samples of a column reduce to 0.4 %; observed: mean
 /// 0.05, largest 0.10.
 pub const BANDS_DELTA_E: f64 = 0.3;

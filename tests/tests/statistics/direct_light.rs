@@ -7,7 +7,7 @@ use scene::{DirectLight, Scene};
 use scene_file::{Problems, SceneFile};
 
 const SIDE: u32 = 20;
-const SAMPLES: u32 = 200;
+const SAMPLES: u32 = 100;
 
 /// Standard errors by which two means may differ. A single comparison would exceed 3 once in 370 times; here all comparisons
 /// of the suite together, at most 500, should fail as rarely, so each has 0.0027 / 500 = 5.4e-6: 4.55 (Bonferroni).

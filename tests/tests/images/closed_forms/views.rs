@@ -28,7 +28,7 @@ fn the_picture_is_neither_mirrored_nor_rotated() {
         for lens in &lenses {
             let text = format!(
                 "[camera]\n{lens}\nposition = {position}\nlook_at = [0, 0, 0]\nup = {upwards}\n\
-                 [render]\nsize = [60, 40]\nsamples = 4096\nbands = 1\nmax_path_segments = 1\n\
+                 [render]\nsize = [60, 40]\nsamples = 1024\nbands = 1\nmax_path_segments = 1\n\
                  [[objects]]\ntype = \"sphere\"\nmaterial = \"lamp\"\ncenter = {center:?}\nradius = {RADIUS}\n"
             );
             let seen = scene(&[&text, LAMBERT]);
