@@ -28,13 +28,13 @@ fn crossings_transmittance(vertex: Vertex, at: At) -> vec4f {
         if (RECORDS_THICKNESSES) {
             film.first_thickness = crossing_thicknesses[i];
         }
-        transmittance *= film_value(film, factor_spectrum(crossing.factor, at), at).transmittance;
+        transmittance *= film_value(film, factor_value(crossing.factor, at), at).transmittance;
     }
     return transmittance;
 }
 
 /// Returns the spectrum with a factor's index, where it is a spectrum.
-fn factor_spectrum(factor: u32, at: At) -> vec4f {
+fn factor_value(factor: u32, at: At) -> vec4f {
     var number = factor_number(factor);
     let tag = factor_tag(factor);
     if ((HAS_STACKS && tag >= FACTOR_STACK) || (HAS_COATINGS && tag == FACTOR_COATING) || (HAS_TEXTURES && tag == FACTOR_TEXTURE)) {
@@ -87,7 +87,7 @@ fn path_radiance(group: u32, wavelengths: Wavelengths) -> array<vec4f, LIGHT_GRO
     loop {
         let vertex = vertices[i];
         let at = At(i, group, wavelengths);
-        let first = factor_spectrum(vertex.factor, at);
+        let first = factor_value(vertex.factor, at);
         let tag = factor_tag(vertex.factor);
         if (HAS_SPLITS) {
             let resumes = (vertex.marks >> RESUMES_FROM) & 0xffu;

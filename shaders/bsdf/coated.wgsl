@@ -88,7 +88,7 @@ fn coated_value(at: At, vertex: Vertex, n: vec4f) -> Values {
     let body = bodies[at.vertex];
     let coated = coated_of(body.material);
     let k = spectrum_at(coated.spectrum + 1u, at.group, at.wavelengths);
-    let base = reflectance_at(at, body.base, factor_spectrum(body.base, at));
+    let base = reflectance_at(at, body.base, factor_value(body.base, at));
     let outer = spectrum_at(coated.mean_reflectance, at.group, at.wavelengths);
     let inside = base * coated_albedo_factor(base, n, outer);
     var values: Values;

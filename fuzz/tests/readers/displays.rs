@@ -99,7 +99,7 @@ fn display_files() {
     Campaign {
         unchanged: bombs::toml(),
         words: &WORDS,
-        ..Campaign::new("display_files", 3000)
+        ..Campaign::new("display_files", 1000)
     }
     .run(read);
 }

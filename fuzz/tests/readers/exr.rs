@@ -131,7 +131,7 @@ fn spectral_exr_files() {
     let path = folder.path().join("a.exr");
     let campaign = Campaign {
         seeds,
-        ..Campaign::new("spectral_exr", 2000)
+        ..Campaign::new("spectral_exr", 1000)
     };
     campaign.run(|bytes| {
         fs::write(&path, bytes).unwrap();
@@ -148,7 +148,7 @@ fn rgb_exr_files() {
     let path = folder.path().join("a.exr");
     let campaign = Campaign {
         seeds,
-        ..Campaign::new("rgb_exr", 2000)
+        ..Campaign::new("rgb_exr", 1000)
     };
     campaign.run(|bytes| {
         fs::write(&path, bytes).unwrap();

@@ -152,7 +152,7 @@ fn icc_profiles() {
     seeds.push(vec![0; 1 << 20]);
     let campaign = Campaign {
         seeds,
-        ..Campaign::new("icc", 3000)
+        ..Campaign::new("icc", 1000)
     };
     campaign.run(|profile| {
         let file = png(ColorType::Rgb, BitDepth::Eight, Some(profile));

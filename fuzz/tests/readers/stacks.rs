@@ -90,7 +90,7 @@ fn stack_files() {
     Campaign {
         unchanged: bombs::toml(),
         words: &FILE_WORDS,
-        ..Campaign::new("stack_files", 3000)
+        ..Campaign::new("stack_files", 1000)
     }
     .run(read);
 }
@@ -104,7 +104,7 @@ fn stack_lines() {
     Campaign {
         seeds: bombs::lines(),
         words: &LINE_WORDS,
-        ..Campaign::new("stack_lines", 3000)
+        ..Campaign::new("stack_lines", 1000)
     }
     .run(read);
 }

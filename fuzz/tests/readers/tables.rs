@@ -127,7 +127,7 @@ fn tables_over_wavelength() {
     Campaign {
         seeds: [bombs::tables(), bombs::xml()].concat(),
         words: &WORDS,
-        ..Campaign::new("tables", 3000)
+        ..Campaign::new("tables", 1000)
     }
     .run(read_all);
 }
@@ -201,7 +201,7 @@ fn database_files() {
     Campaign {
         seeds: bombs::yaml(),
         words: &YAML_WORDS,
-        ..Campaign::new("database_files", 3000)
+        ..Campaign::new("database_files", 1000)
     }
     .run(read);
 }

@@ -114,12 +114,12 @@ const OF_SURFACE: &str = "
     let at = At(0u, u32(a(4u)), wavelengths_at(a(5u)));
     begin_record();
     let v = Vertex(f, 1.0, a(2u), 0.0, 0u, 1.0, a(3u) / 2000.0, 0u, 0u);
-    let found = bsdf_value(at, v, factor_spectrum(f, at));
+    let found = bsdf_value(at, v, factor_value(f, at));
     put4(0u, found.onward); put4(4u, found.lit);";
 const OF_FILM: &str = "
     let f = factor_of(u32(a(0u)), u32(a(1u)));
     let at = At(0u, u32(a(4u)), wavelengths_at(a(5u)));
-    let found = film_value(FilmAt(f, a(2u), a(3u), 0u), factor_spectrum(f, at), at);
+    let found = film_value(FilmAt(f, a(2u), a(3u), 0u), factor_value(f, at), at);
     put4(0u, found.reflectance); put4(4u, found.transmittance);";
 
 fn factor_twin(a: &[f64]) -> Vec<f64> {
@@ -210,7 +210,7 @@ fn factors() -> Vec<Check> {
                 "bare_value",
                 "diffuse_value",
                 "interface_value",
-                "factor_spectrum",
+                "factor_value",
                 "reflectance_at",
             ],
             OF_SURFACE,

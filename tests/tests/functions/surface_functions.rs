@@ -85,7 +85,7 @@ const BODY: &str = "
         record_lit(eval.lobes, 2.0);
         is_pending = true;
         write_vertex();
-        let found = bsdf_value(at, vertices[0], factor_spectrum(vertices[0].factor, at));
+        let found = bsdf_value(at, vertices[0], factor_value(vertices[0].factor, at));
         // Both ways in which a vertex uses it.
         put4(4u * i, 0.5 * (found.onward + 0.5 * found.lit) / wi.z);
     }";

@@ -10,8 +10,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Modules that have no twin, with the reason.
 const ALONE: &[(&str, &str)] = &[
-    ("bindings", "data that the host uploads"),
-    ("features", "features of a scene"),
+    ("bindings", "generated: data that the host uploads"),
+    ("features", "generated: features of a scene"),
     ("layout", "generated from the structs of the host"),
     ("records", "generated from the structs of the host"),
     ("table_data", "textures of the host"),
@@ -173,7 +173,7 @@ const WITHOUT_TWIN: &[(&str, &[&str], &str)] = &[
     ),
     (
         "spectral_path",
-        &["factor_spectrum", "with_emission", "dimming"],
+        &["factor_value", "with_emission", "dimming"],
         "the record; `SpectralPath::dim`",
     ),
     (
