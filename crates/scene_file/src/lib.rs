@@ -1,4 +1,4 @@
-//! From a scene file to a validated [`Scene`].
+//! From a scene file to a validated [`Scene`](scene::Scene).
 //!
 //! ```text
 //! scenes/soap_bubble.toml

@@ -145,6 +145,9 @@ pub fn develop<'a>(
 ///
 /// # Errors
 /// When a step needs data that the image lacks.
+///
+/// # Panics
+/// Never: an image has as many colors as pixels.
 pub fn expose<'a>(
     image: impl Into<Latent<'a>>,
     settings: &DevelopSettings,

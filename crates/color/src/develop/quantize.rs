@@ -21,6 +21,9 @@ pub(super) fn black_rgb(display: &Display) -> [f64; 3] {
 /// the pixels of a small neighborhood that equals its distance from the lower code, so means are kept and gradients show no steps.
 /// A value within 1 % of a step of a code becomes that code. The pattern depends only on the position: the same picture always
 /// gives the same file.
+///
+/// # Panics
+/// Never: a linear image has three amounts for each pixel.
 pub fn codes<C: Code>(image: &LinearImage, display: &Display, dither: bool) -> RgbImage<C> {
     let black = black_rgb(display);
     let (peak, responses) = (display.peak(), display.responses());

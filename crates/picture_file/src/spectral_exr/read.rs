@@ -96,7 +96,7 @@ pub enum ReadExrError {
 /// visible range (380 to 780 nm) is cut there.
 ///
 /// Data that a file of another program lacks is filled in: XYZ by summing the bands
-/// ([`BandWeights::observed`](crate::BandWeights::observed)), variance and sample count as 0.
+/// ([`BandWeights::observed`](relight::BandWeights::observed)), variance and sample count as 0.
 ///
 /// Reflectances, if the file has no radiance, are shown under an illuminant: the one that the file's attribute `illuminant` names or
 /// tabulates, otherwise D65. It is as bright as a radiance of 1 at every wavelength, so a perfect white is a display's white at 0 EV.

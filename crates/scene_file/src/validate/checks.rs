@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// The checks of a scene, and what all of them need to know. A check returns the value if it is valid.
 #[derive(Debug)]
 pub(crate) struct Checks {
-    checks: document::Checks,
+    document: document::Checks,
     /// Time of the picture, s.
     pub(crate) time_s: f64,
     /// Energy tables of the rough surfaces so far: surfaces with equal parameters share one.
@@ -20,20 +20,20 @@ impl Deref for Checks {
     type Target = document::Checks;
 
     fn deref(&self) -> &document::Checks {
-        &self.checks
+        &self.document
     }
 }
 
 impl DerefMut for Checks {
     fn deref_mut(&mut self) -> &mut document::Checks {
-        &mut self.checks
+        &mut self.document
     }
 }
 
 impl Checks {
     pub(crate) fn new(folder: &Folder) -> Self {
         Self {
-            checks: document::Checks::new(folder),
+            document: document::Checks::new(folder),
             time_s: 0.0,
             energies: Vec::new(),
         }
@@ -41,7 +41,7 @@ impl Checks {
 
     /// As [`document::Checks::finish`].
     pub(crate) fn finish<T>(self, value: Option<T>) -> Result<(T, Vec<String>), Vec<Problem>> {
-        self.checks.finish(value)
+        self.document.finish(value)
     }
 
     /// The energy table of a rough surface.
