@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 /// A type that TOML files are read as.
 pub trait Document: DeserializeOwned + JsonSchema + 'static {
-    /// What such a file must contain, for the error about an empty one: "a scene needs at least a [camera]".
+    /// What such a file must contain, for the error about an empty one: `"a scene needs at least a [camera]"`.
     const NEEDS: &'static str;
     /// Fields and words that were renamed: the old and the new name.
     const RENAMED: &'static [(&'static str, &'static str)] = &[];

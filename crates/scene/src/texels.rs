@@ -5,7 +5,7 @@ use std::fmt;
 /// A grid of texels that both renderers look up.
 ///
 /// A pixel has one or several texels. The texel of an RGB color is `[c₀, c₁, c₂, scale]`: a smooth spectrum
-/// ([`SigmoidReflectance`](colorimetry::lifting::SigmoidReflectance)) and a factor.
+/// (`colorimetry::lifting::SigmoidReflectance`) and a factor.
 #[derive(Clone, PartialEq)]
 pub struct Texels {
     /// Number of pixels per row.

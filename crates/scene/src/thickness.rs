@@ -165,7 +165,7 @@ pub struct BlackFilm {
     pub nm: f64,
 }
 
-/// Noise advected by a flow: see [`description::Swirls`](crate::description::Swirls).
+/// Noise advected by a flow: see `description::Swirls`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Swirls {
     /// The mean value.
@@ -186,7 +186,7 @@ pub struct Swirls {
     pub phase: f64,
 }
 
-/// A picture over a surface: see [`description::Thickness::Image`](crate::description::Thickness::Image).
+/// A picture over a surface: see `description::Thickness::Image`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     /// The picture.
