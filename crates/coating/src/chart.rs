@@ -1,14 +1,11 @@
 //! Charts of the color of a stack over the thickness of one layer and the angle, like Newton's chart, for any stack.
 
-use crate::picture::{self, Drawing, Drawn, INK, Scale, decimals, draw_title, exposure};
-use crate::plot::polarization;
+use crate::plot::{exposure, polarization};
 use crate::response::Angle;
 use crate::stack_color::{Side, StackColor};
 use colorimetry::srgb;
 use picture_file::RgbImage8;
-use plotters::coord::Shift;
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plot::{ColorMap, MapAxis};
 
 /// A chart of the color of a stack over the thickness of one layer and the angle of incidence.
 #[derive(Clone, Debug)]
@@ -90,21 +87,34 @@ impl Chart {
 
     /// Draws the chart as pixels.
     pub fn pixels(&self) -> RgbImage8 {
-        picture::pixels(self)
+        let map = ColorMap {
+            title: &self.title,
+            x: MapAxis {
+                name: &self.axis,
+                range: self.range_nm,
+            },
+            y: MapAxis {
+                name: "angle of incidence / °",
+                range: self.range_deg,
+            },
+            marked: self.nominal_nm,
+            footer: &self.footer,
+            color: &|x, y| self.codes(x, y),
+        };
+        map.pixels()
     }
 
     /// Codes at a position between 0 and 1 from the left and from the bottom.
-    fn codes(&self, x: f64, y: f64) -> RGBColor {
+    fn codes(&self, x: f64, y: f64) -> [u8; 3] {
         let (column, u) = place(x, COLUMNS);
         let (row, v) = place(y, ROWS);
         let cell = |r: usize, c: usize| self.cells[(column + c) * ROWS + row + r];
         let (c00, c01, c10, c11) = (cell(0, 0), cell(0, 1), cell(1, 0), cell(1, 1));
-        let [r, g, b] = std::array::from_fn(|i| {
+        std::array::from_fn(|i| {
             let low = c00[i] + u * (c01[i] - c00[i]);
             let high = c10[i] + u * (c11[i] - c10[i]);
             srgb::to_u8(low + v * (high - low))
-        });
-        RGBColor(r, g, b)
+        })
     }
 }
 
@@ -122,87 +132,6 @@ fn place(t: f64, points: usize) -> (usize, f64) {
     let at = t.clamp(0.0, 1.0) * (points - 1) as f64;
     let cell = (at as usize).min(points - 2);
     (cell, at - cell as f64)
-}
-
-/// Maximum number of labels on the axes.
-const X_LABELS: usize = 11;
-const Y_LABELS: usize = 10;
-
-impl Drawing for Chart {
-    fn size(&self) -> (u32, u32) {
-        (900, 520)
-    }
-
-    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: Scale) -> Drawn<B> {
-        area.fill(&WHITE)?;
-        let (head, rest) = area.split_vertically(scale.px(38.0));
-        draw_title(&head, scale, &self.title)?;
-        let (body, foot) = rest.split_vertically(scale.px(446.0));
-        let mut chart = ChartBuilder::on(&body)
-            .margin_top(scale.px(14.0))
-            .margin_left(scale.px(14.0))
-            .margin_right(scale.px(24.0))
-            .set_label_area_size(LabelAreaPosition::Left, scale.px(66.0))
-            .set_label_area_size(LabelAreaPosition::Bottom, scale.px(48.0))
-            .build_cartesian_2d(
-                self.range_nm.0..self.range_nm.1,
-                self.range_deg.0..self.range_deg.1,
-            )?;
-        let (nm, deg) = (self.range_nm, self.range_deg);
-        let x_decimals = decimals(nm.0, nm.1, X_LABELS, 0);
-        let y_decimals = decimals(deg.0, deg.1, Y_LABELS, 0);
-        self.paint(&chart.plotting_area().strip_coord_spec(), scale)?;
-        chart
-            .configure_mesh()
-            .disable_mesh()
-            .axis_style(scale.line(INK, 1.0))
-            .set_all_tick_mark_size(scale.px(4.0))
-            .label_style(scale.text(13.0))
-            .axis_desc_style(scale.text(14.0))
-            .x_desc(self.axis.as_str())
-            .y_desc("angle of incidence / °")
-            .x_labels(X_LABELS)
-            .y_labels(Y_LABELS)
-            .x_label_formatter(&|nm| format!("{nm:.x_decimals$}"))
-            .y_label_formatter(&|deg| format!("{deg:.y_decimals$}"))
-            .draw()?;
-        if (self.range_nm.0..=self.range_nm.1).contains(&self.nominal_nm) {
-            let (x, y) = chart.backend_coord(&(self.nominal_nm, self.range_deg.1));
-            mark(area, scale, (x, y))?;
-        }
-        let style = scale.text(12.0).pos(Pos::new(HPos::Left, VPos::Center));
-        let place = (scale.px(80.0), scale.px(16.0));
-        foot.draw(&Text::new(self.footer.as_str(), place, style))
-    }
-}
-
-impl Chart {
-    /// Paints the colors in squares of half a unit, which are the pixels of a PNG.
-    fn paint<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: Scale) -> Drawn<B> {
-        let (width, height) = area.dim_in_pixel();
-        let side = scale.px(0.5).max(1);
-        let middle = |at: i32, size: u32| (f64::from(at) + 0.5 * f64::from(side)) / f64::from(size);
-        for y in (0..height as i32).step_by(side as usize) {
-            for x in (0..width as i32).step_by(side as usize) {
-                let color = self.codes(middle(x, width), 1.0 - middle(y, height));
-                let corner = |at: i32, size: u32| (at + side).min(size as i32);
-                let square = [(x, y), (corner(x, width), corner(y, height))];
-                area.draw(&Rectangle::new(square, color.filled()))?;
-            }
-        }
-        Ok(())
-    }
-}
-
-/// Draws a small triangle above the chart at the thickness in the stack.
-fn mark<B: DrawingBackend>(
-    area: &DrawingArea<B, Shift>,
-    scale: Scale,
-    (x, y): (i32, i32),
-) -> Drawn<B> {
-    let (half, high) = (scale.px(5.0), scale.px(8.0));
-    let corners = vec![(x, y), (x - half, y - high), (x + half, y - high)];
-    area.draw(&Polygon::new(corners, INK.filled()))
 }
 
 #[cfg(test)]
@@ -239,7 +168,7 @@ mod tests {
         ] {
             let angle = Angle::from_degrees(deg).unwrap();
             let expected = color.at(&[nm], angle).srgb8(3.0);
-            let RGBColor(r, g, b) = chart.codes(nm / 1200.0, deg / 85.0);
+            let [r, g, b] = chart.codes(nm / 1200.0, deg / 85.0);
             for (found, expected) in [r, g, b].into_iter().zip(expected) {
                 assert!(
                     found.abs_diff(expected) <= 1,
@@ -256,7 +185,7 @@ mod tests {
         let picture = chart.pixels();
         assert_eq!((picture.width(), picture.height()), (1800, 1040));
         assert_eq!(picture, chart.pixels());
-        let RGBColor(r, g, b) = chart.codes(0.5, 0.5);
+        let [r, g, b] = chart.codes(0.5, 0.5);
         let near = |pixel: &[u8]| pixel.iter().zip([r, g, b]).all(|(a, b)| a.abs_diff(b) <= 2);
         assert!(picture.data().chunks(3).any(near));
         assert_eq!(picture.pixel(0, 0), Some([255; 3]));

@@ -47,6 +47,7 @@ pub use gpu;
 pub use media;
 pub use optics;
 pub use picture_file;
+pub use plot;
 pub use reference;
 pub use relight;
 pub use renderer::{Backend, OpenError, RenderError, Renderer};

@@ -34,6 +34,14 @@ const ARROWS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "pellicle-plot",
+        &[
+            "pellicle-colorimetry",
+            "pellicle-picture-file",
+            "pellicle-spectra",
+        ],
+    ),
+    (
         "pellicle-color",
         &[
             "pellicle-colorimetry",
@@ -73,6 +81,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "pellicle-media",
             "pellicle-optics",
             "pellicle-picture-file",
+            "pellicle-plot",
             "pellicle-relight",
             "pellicle-spectra",
         ],
@@ -88,6 +97,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "pellicle-media",
             "pellicle-optics",
             "pellicle-picture-file",
+            "pellicle-plot",
             "pellicle-reference",
             "pellicle-relight",
             "pellicle-scene",

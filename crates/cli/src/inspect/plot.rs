@@ -4,8 +4,8 @@ use super::film::FilmFinding;
 use super::{Arguments, Inspection};
 use crate::{output, print};
 use miette::{IntoDiagnostic, WrapErr, miette};
-use pellicle::coating::{Series, SpectrumPlot};
 use pellicle::picture_file::{PendingFile, png};
+use pellicle::plot::{Series, SpectrumPlot};
 use std::io::Write;
 use std::path::Path;
 

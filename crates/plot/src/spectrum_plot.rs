@@ -1,11 +1,13 @@
 //! Plots of the spectra of pixels.
 
-use crate::picture::{self, Drawing, Drawn, FAINT, INK, Scale, decimals, draw_title, round_range};
-use crate::plot::{draw_spectrum, ink};
+use crate::axes::{Axes, Axis, Labels, Plane, round_range};
+use crate::legend::{Columns, Row, ink};
+use crate::picture::{self, Drawing, Drawn, Scale};
+use crate::title::draw_title;
+use crate::wavelengths::{self, draw_colors};
 use picture_file::RgbImage8;
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
 use spectra::BandGrid;
 
 /// A plot of radiance over wavelength: each band's mean as a step, with its noise around it.
@@ -78,25 +80,57 @@ impl SpectrumPlot {
         area: &DrawingArea<B, Shift>,
         scale: Scale,
     ) -> Drawn<B> {
-        let at = |x: f64, y: f64| (scale.px(x), scale.px(y));
-        let style = scale.text(13.0).pos(Pos::new(HPos::Left, VPos::Center));
         for (index, series) in self.series.iter().enumerate() {
-            let y = 22.0 + 26.0 * index as f64;
-            let stroke = scale.line(ink(index, self.series.len()), 2.5);
-            area.draw(&PathElement::new(vec![at(0.0, y), at(20.0, y)], stroke))?;
-            if let Some([r, g, b]) = series.codes {
-                let swatch = [at(27.0, y - 9.0), at(55.0, y + 9.0)];
-                area.draw(&Rectangle::new(swatch, RGBColor(r, g, b).filled()))?;
-            }
-            area.draw(&Text::new(series.label.clone(), at(62.0, y), style.clone()))?;
+            let row = Row {
+                ink: ink(index, self.series.len()),
+                name: None,
+                codes: series.codes,
+                text: Some(&series.label),
+            };
+            COLUMNS.draw(area, scale, 22.0 + 26.0 * index as f64, &row)?;
         }
+        Ok(())
+    }
+
+    /// Draws a spectrum and its noise in parts of `unit`.
+    fn draw_series<B: DrawingBackend>(
+        &self,
+        chart: &mut ChartContext<'_, B, Plane>,
+        scale: Scale,
+        unit: f64,
+        index: usize,
+    ) -> Drawn<B> {
+        let series = &self.series[index];
+        let color = ink(index, self.series.len());
+        let shown = |(nm, value): (f64, f64)| (nm, value / unit);
+        let deviations = series.deviation.iter().flatten();
+        for (band, (value, half)) in (0..).zip(series.values.iter().zip(deviations)) {
+            let nm = self.bands.center_nm(band);
+            let bar = [(nm, value - half), (nm, value + half)].map(shown);
+            chart.draw_series(LineSeries::new(bar, scale.line(color, 0.8)))?;
+        }
+        let points = self.steps(&series.values).into_iter().map(shown);
+        chart.draw_series(LineSeries::new(points, scale.line(color, 1.8)))?;
         Ok(())
     }
 }
 
-/// Maximum number of labels on the axes.
-const X_LABELS: usize = 9;
-const Y_LABELS: usize = 7;
+/// The legend.
+const COLUMNS: Columns = Columns {
+    line: 20.0,
+    name: 0.0,
+    swatch: (27.0, 55.0),
+    half: 9.0,
+    text: 62.0,
+};
+
+/// The power of ten in an axis title that keeps the labels short.
+fn exponent((low, high): (f64, f64)) -> i32 {
+    match high.max(-low) {
+        size if size > 0.0 => (3.0 * (size.log10() / 3.0).floor()) as i32,
+        _ => 0,
+    }
+}
 
 impl Drawing for SpectrumPlot {
     fn size(&self) -> (u32, u32) {
@@ -109,60 +143,34 @@ impl Drawing for SpectrumPlot {
         draw_title(&head, scale, &self.title)?;
         let (panel, legend) = body.split_horizontally(scale.px(740.0));
         let (low, high) = self.extent();
-        // A power of ten in the axis title keeps the labels short.
-        let exponent = match high.max(-low) {
-            size if size > 0.0 => (3.0 * (size.log10() / 3.0).floor()) as i32,
-            _ => 0,
-        };
+        let exponent = exponent((low, high));
         let unit = 10.0_f64.powi(exponent);
-        let (bottom, top) = round_range(low / unit, high / unit);
-        let (first, last) = (self.bands.min_nm(), self.bands.max_nm());
         let name = match exponent {
             0 => self.quantity.clone(),
             _ => format!("{} × 1e{exponent}", self.quantity),
         };
-        let mut chart = ChartBuilder::on(&panel)
-            .margin_top(scale.px(8.0))
-            .margin_left(scale.px(14.0))
-            .margin_right(scale.px(12.0))
-            .set_label_area_size(LabelAreaPosition::Left, scale.px(66.0))
-            .set_label_area_size(LabelAreaPosition::Bottom, scale.px(44.0))
-            .build_cartesian_2d(first..last, bottom..top)?;
-        let x_decimals = decimals(first, last, X_LABELS, 0);
-        let y_decimals = decimals(bottom, top, Y_LABELS, 0);
-        chart
-            .configure_mesh()
-            .axis_style(scale.line(INK, 1.0))
-            .bold_line_style(scale.line(FAINT, 0.8))
-            .light_line_style(TRANSPARENT)
-            .set_all_tick_mark_size(scale.px(4.0))
-            .label_style(scale.text(13.0))
-            .axis_desc_style(scale.text(14.0))
-            .x_desc("wavelength in vacuum / nm")
-            .y_desc(name)
-            .x_labels(X_LABELS)
-            .y_labels(Y_LABELS)
-            .x_label_formatter(&|nm| format!("{nm:.x_decimals$}"))
-            .y_label_formatter(&|value| format!("{value:.y_decimals$}"))
-            .draw()?;
-        draw_spectrum(
-            &chart.plotting_area().strip_coord_spec(),
-            scale,
-            (first, last),
-        )?;
-        for (index, series) in self.series.iter().enumerate() {
-            let color = ink(index, self.series.len());
-            let shown = |(nm, value): (f64, f64)| (nm, value / unit);
-            if let Some(deviation) = &series.deviation {
-                for (band, (value, half)) in (0..).zip(series.values.iter().zip(deviation)) {
-                    let nm = self.bands.center_nm(band);
-                    let bar = [(nm, value - half), (nm, value + half)].map(shown);
-                    let style = scale.line(color, 0.8);
-                    chart.draw_series(LineSeries::new(bar, style))?;
-                }
-            }
-            let points = self.steps(&series.values).into_iter().map(shown);
-            chart.draw_series(LineSeries::new(points, scale.line(color, 1.8)))?;
+        let ends_nm = (self.bands.min_nm(), self.bands.max_nm());
+        let axes = Axes {
+            x: wavelengths::axis(ends_nm),
+            y: Axis {
+                range: round_range(low / unit, high / unit),
+                name: &name,
+                labels: Labels {
+                    most: 7,
+                    decimals: 0,
+                },
+            },
+            names_x: true,
+            grid: true,
+            above: 8.0,
+            right: 12.0,
+            below: 44.0,
+        };
+        let mut chart = axes.on(&panel, scale)?;
+        axes.draw(&mut chart, scale)?;
+        draw_colors(&chart.plotting_area().strip_coord_spec(), scale, ends_nm)?;
+        for index in 0..self.series.len() {
+            self.draw_series(&mut chart, scale, unit, index)?;
         }
         self.draw_legend(&legend, scale)
     }

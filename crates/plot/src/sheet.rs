@@ -4,7 +4,6 @@ use crate::picture::{self, Drawing, Drawn, Scale};
 use picture_file::RgbImage8;
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// Pixels around and between pictures.
 const GAP: u32 = 12;
@@ -35,8 +34,7 @@ impl Drawing for Label<'_> {
         let rgb = |[r, g, b]: [u8; 3]| RGBColor(r, g, b);
         area.fill(&rgb(self.colors.ground))?;
         let ink = rgb(self.colors.text);
-        let style = scale.text(13.0).color(&ink);
-        let style = style.pos(Pos::new(HPos::Left, VPos::Center));
+        let style = scale.text_from(13.0).color(&ink);
         let middle = scale.px(0.5 * f64::from(LABEL_UNITS));
         area.draw(&Text::new(self.text, (0, middle), style))
     }

@@ -1,0 +1,27 @@
+//! Plots, color maps and contact sheets.
+//!
+//! A caller describes what to draw; nothing here computes optics. Every picture is drawn identically as SVG and as pixels, with a font
+//! that comes with the program.
+//!
+//! ```text
+//! PanelPlot       curves over wavelength, in panels one above another, with a legend
+//! SpectrumPlot    spectra of pixels: each band's mean as a step, with its noise
+//! ColorMap        a color at each place of two axes
+//! contact_sheet   pictures side by side, each with a label above it
+//! ```
+
+mod axes;
+mod color_map;
+mod legend;
+mod panel_plot;
+mod picture;
+mod sheet;
+mod spectrum_plot;
+mod title;
+mod wavelengths;
+
+pub use color_map::{ColorMap, MapAxis};
+pub use legend::Swatch;
+pub use panel_plot::{CurveName, Panel, PanelPlot};
+pub use sheet::{SheetColors, contact_sheet};
+pub use spectrum_plot::{Series, SpectrumPlot};
