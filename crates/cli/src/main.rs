@@ -15,7 +15,6 @@ mod lamp;
 mod materials;
 mod memory;
 mod output;
-mod plot;
 mod print;
 mod progress;
 mod relight;

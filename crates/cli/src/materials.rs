@@ -1,10 +1,11 @@
 //! `pellicle materials`.
 
-use crate::{plot, print};
+use crate::print;
 use clap::ValueEnum;
 use miette::miette;
 use pellicle::colorimetry::srgb;
 use pellicle::optics::reflectance_unpolarized;
+use pellicle::plot::braille;
 use pellicle::relight::{BandWeights, xyz};
 use pellicle::scene_file::description::Index;
 use pellicle::spectra::{self, BandGrid, MaterialInfo, Observer, OpticalConstants};
@@ -136,8 +137,8 @@ fn show(info: &MaterialInfo, constants: &OpticalConstants) -> miette::Result<()>
     for (nm, n, k) in figures(constants, 50) {
         print::result(format_args!(
             "{nm:>6}{:>14}{:>14}",
-            plot::number(n),
-            plot::number(k)
+            braille::number(n),
+            braille::number(k)
         ))?;
     }
     for (name, part) in [("n", &constants.n), ("k", &constants.k)] {
@@ -145,15 +146,15 @@ fn show(info: &MaterialInfo, constants: &OpticalConstants) -> miette::Result<()>
             continue;
         }
         let (from, to) = PLOT_NM;
-        let step = (to - from) / (plot::DOTS_WIDE - 1) as f64;
-        let curve = plot::curve(&std::array::from_fn(|dot| {
+        let step = (to - from) / (braille::DOTS_WIDE - 1) as f64;
+        let curve = braille::curve(&std::array::from_fn(|dot| {
             part.at(from + step * dot as f64).ok()
         }));
         print::result(format_args!("\n{name:>10}"))?;
         for line in curve {
             print::result(line)?;
         }
-        print::result(plot::axis(from, to))?;
+        print::result(braille::axis(from, to))?;
     }
     Ok(())
 }

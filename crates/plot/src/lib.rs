@@ -8,9 +8,11 @@
 //! SpectrumPlot    spectra of pixels: each band's mean as a step, with its noise
 //! ColorMap        a color at each place of two axes
 //! contact_sheet   pictures side by side, each with a label above it
+//! braille         a curve as text, for a terminal
 //! ```
 
 mod axes;
+pub mod braille;
 mod color_map;
 mod legend;
 mod panel_plot;

@@ -1,7 +1,7 @@
-//! Curves drawn with braille: each character is two dots wide and four high.
+//! Curves drawn as text with braille: each character is two dots wide and four high.
 
 /// Width of a curve in dots; it has one value for each.
-pub(crate) const DOTS_WIDE: usize = 2 * CELLS_WIDE;
+pub const DOTS_WIDE: usize = 2 * CELLS_WIDE;
 const CELLS_WIDE: usize = 64;
 const CELLS_HIGH: usize = 10;
 const DOTS_HIGH: usize = 4 * CELLS_HIGH;
@@ -11,7 +11,7 @@ const BITS: [[u32; 4]; 2] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]]
 
 /// The lines of text that draw a curve, from the top, each with the vertical axis before it; none if the curve has no
 /// values.
-pub(crate) fn curve(values: &[Option<f64>; DOTS_WIDE]) -> Vec<String> {
+pub fn curve(values: &[Option<f64>; DOTS_WIDE]) -> Vec<String> {
     let known = || values.iter().flatten().copied();
     let (Some(low), Some(high)) = (known().reduce(f64::min), known().reduce(f64::max)) else {
         return Vec::new();
@@ -58,7 +58,7 @@ fn cells(rows: &[Option<usize>]) -> Vec<String> {
 }
 
 /// The axis below a curve, with five wavelengths on it.
-pub(crate) fn axis(from_nm: f64, to_nm: f64) -> String {
+pub fn axis(from_nm: f64, to_nm: f64) -> String {
     let step = CELLS_WIDE / 4;
     let mut line = " ".repeat(10);
     for mark in 0..=4 {
@@ -72,7 +72,7 @@ pub(crate) fn axis(from_nm: f64, to_nm: f64) -> String {
 }
 
 /// A number with a few digits.
-pub(crate) fn number(value: f64) -> String {
+pub fn number(value: f64) -> String {
     if value == 0.0 {
         "0".to_owned()
     } else if value.abs() < 1e-3 {
