@@ -1,15 +1,11 @@
 //! `pellicle develop --booth`: the same image under one lamp after another, on one sheet.
 
-use crate::develop::{ImageProperties, Options};
 use crate::lamp::Lamp;
-use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
-use pellicle::color::develop::SceneWhite;
-use pellicle::colorimetry::Display;
-use pellicle::picture_file::png;
-use pellicle::plot::{SheetColors, contact_sheet};
-use pellicle::relight::{Relight, relight};
-use pellicle::spectra::SpectralImage;
+use pellicle::picture_file::RgbImage8;
+use pellicle::plot::{MAX_PICTURES, SheetColors, contact_sheet};
+use pellicle::relight::{Relight, RelightError, relight};
+use pellicle::spectra::{Observer, SpectralImage};
 use std::path::{Path, PathBuf};
 
 /// A lamp of the booth and its label.
@@ -18,9 +14,6 @@ pub(crate) struct BoothLamp {
     label: String,
     lamp: Lamp,
 }
-
-/// The largest number of pictures on a sheet.
-const MAX: usize = 36;
 
 /// Parses one lamp of `A,D65,F11,LED-B3`, with or without a factor.
 pub(crate) fn lamp(text: &str) -> Result<BoothLamp, String> {
@@ -46,61 +39,48 @@ pub(crate) fn check(lamps: &[BoothLamp], outputs: &[PathBuf]) -> miette::Result<
             path.display()
         ));
     }
-    if lamps.len() > MAX {
+    if lamps.len() > MAX_PICTURES {
         let found = lamps.len();
         return Err(miette!(
-            "--booth: {found} lamps; a sheet has room for {MAX}"
+            "--booth: {found} lamps; a sheet has room for {MAX_PICTURES}"
         ));
     }
     Ok(())
 }
 
-/// Sets all lights to each lamp in turn, develops, and writes the sheet.
-pub(crate) fn write(
+/// Sets all lights to each lamp in turn, develops, and returns the sheet. `develop` gets the image under a lamp.
+pub(crate) fn sheet(
     image: &SpectralImage,
-    of_image: ImageProperties,
     lamps: &[BoothLamp],
-    options: &Options,
-    outputs: &[PathBuf],
-) -> miette::Result<()> {
+    observer: Observer,
+    colors: SheetColors,
+    develop: impl Fn(&SpectralImage) -> miette::Result<RgbImage8>,
+) -> miette::Result<RgbImage8> {
     let mut pictures = Vec::with_capacity(lamps.len());
     for BoothLamp { label, lamp } in lamps {
-        let mut relit = image.clone();
-        let burns = Relight {
-            lamp: Some(lamp.spectrum.clone()),
-            factor: lamp.factor,
-        };
-        let groups = image.light_groups().iter();
-        let lights: Vec<(String, Relight)> = groups
-            .map(|group| (group.name.clone(), burns.clone()))
-            .collect();
-        relight(&mut relit, &lights, options.observer())
+        let relit = under(image, lamp, observer)
             .into_diagnostic()
             .wrap_err_with(|| format!("--booth {label}"))?;
-        let of_image = ImageProperties {
-            lamp: SceneWhite::of_lamps(&relit, options.observer()),
-            ..of_image
-        };
-        let height = relit.height();
-        pictures.push((label.clone(), options.codes(&relit, of_image, height)?));
+        pictures.push((label.clone(), develop(&relit)?));
     }
-    let colors = SheetColors {
-        ground: shade(options.display(), 0.02),
-        text: shade(options.display(), 1.0),
-    };
-    let sheet =
-        contact_sheet(&pictures, colors).ok_or_else(|| miette!("--booth: there is no lamp"))?;
-    for path in outputs {
-        png::write_for_display(path, &sheet, options.display())
-            .into_diagnostic()
-            .wrap_err_with(|| format!("{} was not written", path.display()))?;
-        print::note(format_args!("wrote {}", path.display()));
-    }
-    Ok(())
+    contact_sheet(&pictures, colors).ok_or_else(|| miette!("--booth: there is no lamp"))
 }
 
-/// The codes of a fraction of a display's white.
-fn shade(display: &Display, share: f64) -> [u8; 3] {
-    let responses = display.responses().each_ref();
-    responses.map(|response| (255.0 * response.code(share).clamp(0.0, 1.0)).round() as u8)
+/// An image with all its lights set to a lamp.
+fn under(
+    image: &SpectralImage,
+    lamp: &Lamp,
+    observer: Observer,
+) -> Result<SpectralImage, RelightError> {
+    let mut relit = image.clone();
+    let burns = Relight {
+        lamp: Some(lamp.spectrum.clone()),
+        factor: lamp.factor,
+    };
+    let groups = image.light_groups().iter();
+    let lights: Vec<(String, Relight)> = groups
+        .map(|group| (group.name.clone(), burns.clone()))
+        .collect();
+    relight(&mut relit, &lights, observer)?;
+    Ok(relit)
 }

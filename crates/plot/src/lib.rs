@@ -25,5 +25,5 @@ mod wavelengths;
 pub use color_map::{ColorMap, MapAxis};
 pub use legend::Swatch;
 pub use panel_plot::{CurveName, Panel, PanelPlot};
-pub use sheet::{SheetColors, contact_sheet};
+pub use sheet::{MAX_PICTURES, SheetColors, contact_sheet};
 pub use spectrum_plot::{Series, SpectrumPlot};

@@ -1,10 +1,13 @@
 //! Contact sheets: pictures side by side, each with a label above it.
 
 use crate::picture::{self, Drawing, Drawn, Scale};
+use colorimetry::Display;
 use picture_file::RgbImage8;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
+/// The largest number of pictures on a sheet on which each can still be seen.
+pub const MAX_PICTURES: usize = 36;
 /// Pixels around and between pictures.
 const GAP: u32 = 12;
 /// Height of a label in units; a unit is two pixels.
@@ -17,6 +20,22 @@ pub struct SheetColors {
     pub ground: [u8; 3],
     /// Text of the labels.
     pub text: [u8; 3],
+}
+
+impl SheetColors {
+    /// Returns the colors for pictures on a display: white text on a dark ground.
+    pub fn on(display: &Display) -> Self {
+        Self {
+            ground: shade(display, 0.02),
+            text: shade(display, 1.0),
+        }
+    }
+}
+
+/// Returns the codes of a fraction of a display's white.
+fn shade(display: &Display, share: f64) -> [u8; 3] {
+    let responses = display.responses().each_ref();
+    responses.map(|response| (255.0 * response.code(share).clamp(0.0, 1.0)).round() as u8)
 }
 
 struct Label<'a> {
@@ -142,6 +161,15 @@ mod tests {
             Some([GROUND; 3]),
             "an empty position"
         );
+    }
+
+    #[test]
+    fn the_ground_is_dark_and_the_text_is_white() {
+        for name in ["srgb", "crt_1997"] {
+            let colors = SheetColors::on(&Display::open(name).unwrap());
+            assert_eq!(colors.text, [255; 3]);
+            assert!(colors.ground.iter().all(|&code| 0 < code && code < 64));
+        }
     }
 
     #[test]

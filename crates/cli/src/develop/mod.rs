@@ -7,11 +7,14 @@ mod values;
 pub(crate) use options::Options;
 
 use crate::booth::{self, BoothLamp};
-use crate::image_file;
 use crate::output::check_place;
-use miette::IntoDiagnostic;
+use crate::{image_file, print};
+use miette::{IntoDiagnostic, WrapErr};
 use pellicle::color::develop::{Latent, SceneWhite};
+use pellicle::picture_file::png;
 use pellicle::picture_file::spectral_exr::{self, Metadata};
+use pellicle::plot::SheetColors;
+use pellicle::spectra::SpectralImage;
 use std::path::PathBuf;
 use values::{FOV_DEG, number};
 
@@ -63,18 +66,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
         check_place("-o", output, path)?;
     }
     if !arguments.booth.is_empty() {
-        booth::check(&arguments.booth, &arguments.output)?;
-        options.check_booth()?;
-        let (image, metadata) = image_file::spectral(path)?;
-        let of_image = ImageProperties::said_by(&metadata);
-        options.check(&arguments.output, of_image)?;
-        return booth::write(
-            &image,
-            of_image,
-            &arguments.booth,
-            options,
-            &arguments.output,
-        );
+        return write_booth(arguments);
     }
     if options.needs_spectra() {
         let (mut image, metadata) = spectral_exr::read(path).into_diagnostic()?;
@@ -92,6 +84,33 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
             ImageProperties::said_by(&metadata),
         )
     }
+}
+
+/// Develops the image under each lamp of the booth, and writes the sheet.
+fn write_booth(arguments: &Arguments) -> miette::Result<()> {
+    let (lamps, options, outputs) = (&arguments.booth, &arguments.options, &arguments.output);
+    booth::check(lamps, outputs)?;
+    options.check_booth()?;
+    let (image, metadata) = image_file::spectral(&arguments.image)?;
+    let of_image = ImageProperties::said_by(&metadata);
+    options.check(outputs, of_image)?;
+    let observer = options.observer();
+    let develop = |relit: &SpectralImage| {
+        let of_image = ImageProperties {
+            lamp: SceneWhite::of_lamps(relit, observer),
+            ..of_image
+        };
+        options.codes(relit, of_image, relit.height())
+    };
+    let colors = SheetColors::on(options.display());
+    let sheet = booth::sheet(&image, lamps, observer, colors, develop)?;
+    for path in outputs {
+        png::write_for_display(path, &sheet, options.display())
+            .into_diagnostic()
+            .wrap_err_with(|| format!("{} was not written", path.display()))?;
+        print::note(format_args!("wrote {}", path.display()));
+    }
+    Ok(())
 }
 
 fn write<'a>(
