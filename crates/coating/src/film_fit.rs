@@ -90,10 +90,7 @@ impl FilmFits {
     /// Returns whether the best thickness is an answer: its residual is at most 8 %, and less than half of that of the lamp's own
     /// spectrum. That is not a proof: some pigment may have the shape of some film.
     pub fn verdict(&self) -> Verdict {
-        let best = self
-            .by_shape
-            .first()
-            .map_or(f64::INFINITY, |fit| fit.residual);
+        let best = self.residual();
         if best <= SAME_SHAPE && best < 0.5 * self.of_lamp {
             Verdict::Film
         } else if self.of_lamp <= SAME_SHAPE {
@@ -102,6 +99,40 @@ impl FilmFits {
             Verdict::Nothing
         }
     }
+}
+
+impl FilmFits {
+    /// The residual of the best fit by shape.
+    fn residual(&self) -> f64 {
+        self.by_shape
+            .first()
+            .map_or(f64::INFINITY, |fit| fit.residual)
+    }
+}
+
+/// Fits several candidates, such as one film under each lamp that may light it. Returns the index of the candidate whose best fit by shape has
+/// the smallest residual, the first of equal ones, with its fits; `None` where the measured light is black or not finite, or without candidates.
+///
+/// # Errors
+/// If a stack has no data at some wavelength.
+///
+/// # Panics
+/// As [`FilmFitting::fit`].
+pub fn nearest_fit(
+    candidates: &[FilmFitting<'_>],
+    measured: &Measured<'_>,
+) -> Result<Option<(usize, FilmFits)>, SampleError> {
+    let mut nearest: Option<(usize, FilmFits)> = None;
+    for (index, candidate) in candidates.iter().enumerate() {
+        let Some(fits) = candidate.fit(measured)? else {
+            continue;
+        };
+        let is_nearer = |(_, known): &(usize, FilmFits)| fits.residual() < known.residual();
+        if nearest.as_ref().is_none_or(is_nearer) {
+            nearest = Some((index, fits));
+        }
+    }
+    Ok(nearest)
 }
 
 /// The spectrum of a film under the lamp: its mean over each band, and its XYZ in any unit.
@@ -410,6 +441,43 @@ mod tests {
                 fits.by_color
             );
         }
+    }
+
+    #[test]
+    fn the_lamp_of_a_known_film_is_found() {
+        let stack = Stack::parse("1 | water 0nm | 1").unwrap();
+        let bands = BandGrid::visible(40).unwrap();
+        let nm = FilmFitting::wavelengths_nm(&bands);
+        let lamps = ["A", "D65", "FL11"].map(|name| {
+            let table = spectra::illuminant(name).unwrap().data;
+            nm.iter()
+                .map(|&nm| table.at(nm).unwrap())
+                .collect::<Vec<_>>()
+        });
+        let fittings = lamps.each_ref().map(|lamp| fitting(&stack, lamp, 20.0));
+        for (right, lit) in fittings.iter().enumerate() {
+            let radiance = lit.spectrum(&bands, 412.3).unwrap();
+            let measured = Measured {
+                bands: &bands,
+                radiance: &radiance,
+                deviation: None,
+                xyz: xyz(&bands, &radiance),
+            };
+            let (lamp, fits) = nearest_fit(&fittings, &measured).unwrap().unwrap();
+            assert_eq!(lamp, right);
+            assert!((fits.by_shape[0].thickness_nm - 412.3).abs() < 1e-2);
+            // The first of equal ones.
+            let twice = [fittings[right], fittings[right]];
+            assert_eq!(nearest_fit(&twice, &measured).unwrap(), Some((0, fits)));
+        }
+        let black = Measured {
+            bands: &bands,
+            radiance: &[0.0; 40],
+            deviation: None,
+            xyz: [0.0; 3],
+        };
+        assert_eq!(nearest_fit(&fittings, &black).unwrap(), None);
+        assert_eq!(nearest_fit(&[], &black).unwrap(), None);
     }
 
     #[test]

@@ -46,7 +46,7 @@ mod tolerance;
 pub use self::plot::{Curve, Plot};
 pub use chart::{Chart, ChartOf};
 pub use file::{LayerDescription, OpticalThickness, StackDescription};
-pub use film_fit::{FilmFit, FilmFits, FilmFitting, Measured, Verdict};
+pub use film_fit::{FilmFit, FilmFits, FilmFitting, Measured, Verdict, nearest_fit};
 pub use light::Light;
 pub use line::LineError;
 pub use matching::{Match, MatchBy, MatchPlace, Matching, matches};

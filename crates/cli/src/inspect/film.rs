@@ -4,7 +4,7 @@ use super::{FilmArguments, Inspection};
 use crate::film::numbers::Vary;
 use crate::{lamp, print};
 use miette::{IntoDiagnostic, WrapErr, miette};
-use pellicle::coating::{Angle, FilmFits, FilmFitting, Measured, Stack, View};
+use pellicle::coating::{Angle, FilmFits, FilmFitting, Measured, Stack, View, nearest_fit};
 use pellicle::color::Probe;
 use pellicle::pick::{self, Picked, SceneLamp, SceneLamps};
 use pellicle::relight::xyz::exposure_scale;
@@ -226,23 +226,13 @@ fn fitted(
         view: View::default(),
         lamp,
     };
-    let mut best: Option<(&SceneLamp, FilmFits)> = None;
-    for lamp in lamps {
-        let Some(fits) = fitting(&lamp.power).fit(&measured)? else {
-            continue;
-        };
-        let is_nearer = |(_, known): &(&SceneLamp, FilmFits)| {
-            fits.by_shape[0].residual < known.by_shape[0].residual
-        };
-        if best.as_ref().is_none_or(is_nearer) {
-            best = Some((lamp, fits));
-        }
-    }
-    let lamp = best.as_ref().map_or(&lamps[0], |(lamp, _)| lamp);
-    let fits = best.map(|(_, fits)| fits);
+    let candidates: Vec<FilmFitting> = lamps.iter().map(|lamp| fitting(&lamp.power)).collect();
+    let nearest = nearest_fit(&candidates, &measured)?;
+    let index = nearest.as_ref().map_or(0, |(index, _)| *index);
+    let fits = nearest.map(|(_, fits)| fits);
     let model = fits.as_ref().map(|fits| {
         let nearest = fits.by_shape[0];
-        let spectrum = fitting(&lamp.power).spectrum(bands, nearest.thickness_nm)?;
+        let spectrum = candidates[index].spectrum(bands, nearest.thickness_nm)?;
         Ok::<_, pellicle::coating::SampleError>(
             spectrum.iter().map(|v| v * nearest.scale).collect(),
         )
@@ -253,7 +243,7 @@ fn fitted(
         layer: vary.layer - 1,
         range_nm: (vary.from_nm, vary.to_nm),
         angle,
-        lamp: lamp.name.clone(),
+        lamp: lamps[index].name.clone(),
         model: model.transpose()?,
         fits,
     })
