@@ -9,7 +9,7 @@ use std::path::Path;
 
 mod lamps;
 
-pub use lamps::{SceneLamp, SceneLamps};
+pub use lamps::{SceneLamp, SceneLamps, lamps_of_groups};
 
 /// What is seen at a position in a picture.
 #[derive(Clone, Debug, PartialEq)]

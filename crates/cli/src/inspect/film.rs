@@ -10,7 +10,7 @@ use pellicle::pick::{self, Picked, SceneLamp, SceneLamps};
 use pellicle::relight::xyz::exposure_scale;
 use pellicle::scene::Scene;
 use pellicle::scene_file::SceneFile;
-use pellicle::spectra::{LightGroup, SpectralImage};
+use pellicle::spectra::SpectralImage;
 use std::path::{Path, PathBuf};
 
 /// What is known about films.
@@ -166,7 +166,7 @@ impl KnownScene {
 fn lamps(asked: &FilmArguments, image: &SpectralImage) -> miette::Result<Vec<SceneLamp>> {
     let nm = FilmFitting::wavelengths_nm(image.bands());
     if asked.lamp.is_none() {
-        let known = lamps_of_groups(image.light_groups(), &nm);
+        let known = pick::lamps_of_groups(image.light_groups(), &nm);
         if !known.is_empty() {
             return Ok(known);
         }
@@ -181,23 +181,6 @@ fn lamps(asked: &FilmArguments, image: &SpectralImage) -> miette::Result<Vec<Sce
     let power =
         power.wrap_err_with(|| format!("--lamp {text} does not cover the image's bands"))?;
     Ok(vec![SceneLamp { name, power }])
-}
-
-/// The distinct lamps of light groups, named after the groups that use them.
-fn lamps_of_groups(groups: &[LightGroup], nm: &[f64]) -> Vec<SceneLamp> {
-    let mut known: Vec<SceneLamp> = Vec::new();
-    for group in groups {
-        let Some(lamp) = &group.lamp else { continue };
-        let power: Vec<f64> = nm.iter().map(|&nm| lamp.clamped_at(nm)).collect();
-        match known.iter_mut().find(|lamp| lamp.power == power) {
-            Some(same) => same.name += &format!(" and {:?}", group.name),
-            None => known.push(SceneLamp {
-                name: format!("the lights {:?}", group.name),
-                power,
-            }),
-        }
-    }
-    known
 }
 
 /// The closest thicknesses, under the lamp for which they are closest.

@@ -10,7 +10,7 @@ use scene::{
     Scene,
 };
 use scene_file::description::{self, Description};
-use spectra::BandGrid;
+use spectra::{BandGrid, LightGroup};
 use std::f64::consts::PI;
 
 /// The emission spectrum of emitters of the scene.
@@ -98,6 +98,23 @@ impl SceneLamps {
             add(&mut self.lights, name, power);
         }
     }
+}
+
+/// The distinct lamps of light groups at these wavelengths, named after the groups that use them. Groups without a known lamp are left out.
+pub fn lamps_of_groups(groups: &[LightGroup], nm: &[f64]) -> Vec<SceneLamp> {
+    let mut known: Vec<SceneLamp> = Vec::new();
+    for group in groups {
+        let Some(lamp) = &group.lamp else { continue };
+        let power: Vec<f64> = nm.iter().map(|&nm| lamp.clamped_at(nm)).collect();
+        match known.iter_mut().find(|lamp| lamp.power == power) {
+            Some(same) => same.name += &format!(" and {:?}", group.name),
+            None => known.push(SceneLamp {
+                name: format!("the lights {:?}", group.name),
+                power,
+            }),
+        }
+    }
+    known
 }
 
 /// Adds a spectrum unless it is already there or dark.
@@ -345,6 +362,31 @@ mod tests {
         normal = [0, 0, -1]
         size = [4, 4]
     "#;
+
+    #[test]
+    fn groups_with_one_lamp_share_it() {
+        let bands = BandGrid::visible(40).unwrap();
+        let group = |name: &str, lamp: Option<&str>| LightGroup {
+            name: name.to_owned(),
+            lamp: lamp.map(|lamp| {
+                bands
+                    .lamp(&spectra::illuminant(lamp).unwrap().data)
+                    .unwrap()
+            }),
+        };
+        let groups = [
+            group("key", Some("D65")),
+            group("fire", Some("A")),
+            group("mixed", None),
+            group("fill", Some("D65")),
+        ];
+        let nm = FilmFitting::wavelengths_nm(&bands);
+        let lamps = lamps_of_groups(&groups, &nm);
+        let names: Vec<&str> = lamps.iter().map(|lamp| lamp.name.as_str()).collect();
+        let expected = ["the lights \"key\" and \"fill\"", "the lights \"fire\""];
+        assert_eq!(names, expected);
+        assert!(lamps.iter().all(|lamp| lamp.power.len() == nm.len()));
+    }
 
     #[test]
     fn a_film_is_known_again_in_each_kind_of_light() {
