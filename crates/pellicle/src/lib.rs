@@ -38,6 +38,7 @@ pub mod convergence;
 pub mod pick;
 mod renderer;
 pub mod stacks;
+pub mod variance;
 
 pub use coating;
 pub use color;

@@ -6,7 +6,7 @@ use pellicle::Renderer;
 use pellicle::pick::{Picked, pick};
 use pellicle::scene_file::SceneFile;
 use pellicle::scene_file::description::{Render, Sampler};
-use pellicle::spectra::SpectralImage;
+use pellicle::variance::{Gain, SeedVariance, median};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
@@ -131,17 +131,17 @@ fn scene(path: &Path, renderer: &Renderer, wanted: &Wanted) -> miette::Result<()
     for change in changes() {
         let (before, after) = (&spreads[change.before], &spreads[change.after]);
         let time = after.time() / before.time();
-        let all = gains(before, after, &vec![true; shows_film.len()]);
+        let all = before.gain(after, &vec![true; shows_film.len()]);
         let mut line = format!(
             "{:<16}{:<26}{:>8.2}{:>9.2}",
             path.file_stem().unwrap_or_default().to_string_lossy(),
             change.name,
-            all.0,
-            all.1,
+            all.of_mean,
+            all.median,
         );
         if has_film {
-            let film = gains(before, after, &shows_film);
-            line += &format!("{:>8.2}{:>9.2}", film.0, film.1);
+            let film = before.gain(after, &shows_film);
+            line += &format!("{:>8.2}{:>9.2}", film.of_mean, film.median);
         } else {
             line += &format!("{:>8}{:>9}", "", "");
         }
@@ -152,7 +152,7 @@ fn scene(path: &Path, renderer: &Renderer, wanted: &Wanted) -> miette::Result<()
             for seed in 1..=seeds {
                 longer.add(renderer, &more, WAYS[change.before], seed)?;
             }
-            let gain = gains(&longer, after, &shows_film).0;
+            let gain = longer.gain(after, &shows_film).of_mean;
             line += &format!("{:>9}{gain:>18.2}", more.description.render.samples);
         }
         print::result(format_args!("{line}"))?;
@@ -183,35 +183,11 @@ fn film_pixels(file: &SceneFile, directory: &Path) -> miette::Result<Vec<bool>> 
     Ok(found)
 }
 
-/// The mean variance before divided by that after, and the median of the ratios per pixel, over the pixels that count; NaN if
-/// there are none.
-fn gains(before: &Spread, after: &Spread, counts: &[bool]) -> (f64, f64) {
-    let pairs = before.variances().into_iter().zip(after.variances());
-    let counted: Vec<(f64, f64)> = pairs
-        .zip(counts)
-        .filter_map(|(pair, &counts)| counts.then_some(pair))
-        .collect();
-    let (a, b) = counted
-        .iter()
-        .fold((0.0, 0.0), |sum, pair| (sum.0 + pair.0, sum.1 + pair.1));
-    let noisy = counted.iter().filter(|pair| pair.1 > 0.0);
-    (
-        a / b,
-        median(&mut noisy.map(|(a, b)| a / b).collect::<Vec<_>>()),
-    )
-}
-
-fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
-}
-
-/// Sums over renders with different seeds.
+/// The noise and the time of renders with different seeds.
 #[derive(Default)]
 struct Spread {
-    /// For each value of the picture, the mean and the sum of squared differences from it (Welford 1962).
-    values: Vec<(f64, f64)>,
-    bands: usize,
+    variance: SeedVariance,
+    /// The seconds of a sample of each render.
     seconds: Vec<f64>,
 }
 
@@ -243,34 +219,17 @@ impl Spread {
         let (start, before) = started.filter(|first| first.1 < last).unwrap_or((begun, 0));
         self.seconds
             .push(start.elapsed().as_secs_f64() / (last - before) as f64);
-        self.add_values(&image);
+        self.variance.add(&image);
         Ok(())
     }
 
-    fn add_values(&mut self, image: &SpectralImage) {
-        self.bands = image.bands().count() as usize;
-        self.values.resize(image.radiance().len(), (0.0, 0.0));
-        let count = self.seconds.len() as f64;
-        for ((mean, squares), &value) in self.values.iter_mut().zip(image.radiance()) {
-            let before = f64::from(value) - *mean;
-            *mean += before / count;
-            *squares += before * (f64::from(value) - *mean);
-        }
+    /// What a change from this to another gains over the pixels that count.
+    fn gain(&self, after: &Self, counts: &[bool]) -> Gain {
+        Gain::new(&self.variance, &after.variance, counts)
     }
 
     /// The median of the seconds per sample.
     fn time(&self) -> f64 {
-        median(&mut self.seconds.clone())
-    }
-
-    /// The mean variance of the bands of each pixel.
-    fn variances(&self) -> Vec<f64> {
-        let pixels = self.values.chunks(self.bands.max(1));
-        let degrees = (self.seconds.len().max(2) - 1) as f64;
-        let of_pixel = |values: &[(f64, f64)]| {
-            let sum: f64 = values.iter().map(|(_, squares)| squares).sum();
-            sum / (degrees * values.len() as f64)
-        };
-        pixels.map(of_pixel).collect()
+        median(&self.seconds)
     }
 }
