@@ -2,7 +2,9 @@
 
 use crate::weights::{BandWeights, DarkBand};
 use rayon::prelude::*;
-use spectra::{BandGrid, Observer, OutOfRange, RowMut, SpectralImage, Spectrum, Tabulated};
+use spectra::{
+    BandGrid, LayerKey, Observer, OutOfRange, Quantity, RowMut, SpectralImage, Spectrum, Tabulated,
+};
 use thiserror::Error;
 
 /// The change of a light group.
@@ -226,29 +228,35 @@ pub fn over(grid: &BandGrid, lamp: &Spectrum) -> Result<Tabulated, OutOfRange> {
     })
 }
 
-fn relight_row(row: RowMut<'_>, changes: &[Change], bands: usize) {
-    let before = row.radiance.to_vec();
-    if row.shares.is_empty() {
-        changes[0].apply(row.radiance, row.xyz, bands);
+fn relight_row(mut row: RowMut<'_>, changes: &[Change], bands: usize) {
+    let [radiance, variance, xyz] =
+        [LayerKey::RADIANCE, LayerKey::VARIANCE, LayerKey::XYZ].map(|key| row.take(key));
+    let before = radiance.to_vec();
+    if let [change] = changes {
+        change.apply(radiance, xyz.as_chunks_mut().0, bands);
     } else {
-        row.radiance.fill(0.0);
-        row.xyz.fill([0.0; 3]);
-        for ((radiance, xyz), change) in row.shares.into_iter().zip(changes) {
-            change.apply(radiance, xyz, bands);
-            for (sum, value) in row.radiance.iter_mut().zip(radiance) {
-                *sum += *value;
-            }
-            for (sum, value) in row.xyz.iter_mut().zip(xyz) {
-                *sum = std::array::from_fn(|axis| sum[axis] + value[axis]);
-            }
+        radiance.fill(0.0);
+        xyz.fill(0.0);
+        for (group, change) in changes.iter().enumerate() {
+            let [own_radiance, own_xyz] = [Quantity::Radiance, Quantity::Xyz]
+                .map(|quantity| row.take(LayerKey::of_light(quantity, group)));
+            change.apply(own_radiance, own_xyz.as_chunks_mut().0, bands);
+            add(radiance, own_radiance);
+            add(xyz, own_xyz);
         }
     }
-    let changed = before.iter().zip(row.radiance.iter());
-    for (variance, (&before, &after)) in row.variance.iter_mut().zip(changed) {
+    let changed = before.iter().zip(radiance.iter());
+    for (variance, (&before, &after)) in variance.iter_mut().zip(changed) {
         let ratio = after / before;
         if before != after && ratio.is_finite() {
             *variance *= ratio * ratio;
         }
+    }
+}
+
+fn add(sums: &mut [f32], values: &[f32]) {
+    for (sum, value) in sums.iter_mut().zip(values) {
+        *sum += value;
     }
 }
 

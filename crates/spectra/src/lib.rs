@@ -10,7 +10,7 @@
 //! * [`BandGrid`] divides the rendered range into N uniform bands.
 //! * [`BandTable`] is a spectrum resampled onto a grid, fine enough for any wavelength sampled within a band.
 //! * [`table_file`] reads users' tables.
-//! * [`SpectralImage`] is the output of a renderer: radiance per pixel and band, by [`LightGroup`].
+//! * [`SpectralImage`] is the output of a renderer: radiance per pixel and band, by [`LightGroup`], as a list of [`ImageLayer`]s.
 //! * [`find_illuminant`], [`Observer`], [`optical_constants()`] and [`reflectance`] give access to the built-in data;
 //!   [`material_info`] gives the source of a material's data.
 
@@ -41,6 +41,8 @@ pub use fault::Fault;
 pub use formula::{DispersionFormula, FormulaError, FormulaKind};
 pub use light_group::LightGroup;
 pub use optical_constants::OpticalConstants;
-pub use spectral_image::{RowMut, SpectralImage};
+pub use spectral_image::{
+    ImageLayer, LayerError, LayerKey, Quantity, RowMut, SpectralImage, Values,
+};
 pub use spectrum::{OutOfRange, Spectrum, Tabulated, TabulatedError};
 pub use sprague::sprague;

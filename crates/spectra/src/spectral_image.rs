@@ -1,43 +1,56 @@
 //! The output of a renderer: radiance per pixel and band.
 
 use crate::{BandGrid, LightGroup};
+use thiserror::Error;
 
-/// Radiance per pixel and band, with variance and XYZ, in total and by light group.
+mod layer;
+
+pub use layer::{ImageLayer, LayerKey, Quantity, Values};
+
+/// Radiance per pixel and band, with variance and XYZ, in total and by light group: a list of layers.
 ///
-/// Row 0 is at the top. Per-band data is pixel-major: the value of band `b` at (x, y) has the index
-/// `(y·width + x)·bands + b`.
+/// The layers of [`LayerKey::all`] are always there; others may follow. Row 0 is at the top. Per-band data is pixel-major: the value
+/// of band `b` at (x, y) has the index `(y·width + x)·bands + b`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpectralImage {
     width: u32,
     height: u32,
     bands: BandGrid,
-    radiance: Vec<f32>,
-    variance: Vec<f32>,
-    xyz: Vec<[f32; 3]>,
-    samples: Vec<u32>,
     light_groups: Vec<LightGroup>,
-    /// The contribution of each light group; empty if there is only one, which equals the total.
-    shares: Vec<Share>,
+    layers: Vec<ImageLayer>,
 }
 
-/// The contribution of one of several light groups.
-#[derive(Clone, Debug, PartialEq)]
-struct Share {
-    radiance: Vec<f32>,
-    xyz: Vec<[f32; 3]>,
+/// Why layers do not make an image.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+pub enum LayerError {
+    /// Every image has this layer.
+    #[error("the image lacks the layer {0:?}")]
+    Missing(LayerKey),
+    /// A layer is there twice.
+    #[error("the image has the layer {0:?} twice")]
+    Repeated(LayerKey),
+    /// A layer is of a light group that the image does not have, or of the only one, which is the total.
+    #[error("the layer {0:?} is of no light group that the image keeps apart")]
+    LightGroup(LayerKey),
+    /// A layer has another number or kind of values than its pixels need.
+    #[error("the values of the layer {0:?} do not fit the size and bands of the image")]
+    Shape(LayerKey),
 }
 
 /// One row of an image, mutably borrowed.
 #[derive(Debug)]
 pub struct RowMut<'a> {
-    /// As [`SpectralImage::radiance`].
-    pub radiance: &'a mut [f32],
-    /// As [`SpectralImage::variance`].
-    pub variance: &'a mut [f32],
-    /// As [`SpectralImage::xyz`].
-    pub xyz: &'a mut [[f32; 3]],
-    /// Radiance and XYZ of each light group; empty if there is only one, which equals the total.
-    pub shares: Vec<(&'a mut [f32], &'a mut [[f32; 3]])>,
+    /// What each layer of the image holds, and its values in this row. Counts are not among them.
+    pub layers: Vec<(LayerKey, &'a mut [f32])>,
+}
+
+impl<'a> RowMut<'a> {
+    /// Takes the values of a layer out of the row; none if it has no such layer.
+    pub fn take(&mut self, key: LayerKey) -> &'a mut [f32] {
+        let mut layers = self.layers.iter_mut();
+        let found = layers.find(|(own, _)| *own == key);
+        found.map_or(&mut [], |(_, values)| std::mem::take(values))
+    }
 }
 
 impl SpectralImage {
@@ -58,31 +71,66 @@ impl SpectralImage {
     ) -> Self {
         assert!(!light_groups.is_empty(), "an image has a light group");
         let pixels = width as usize * height as usize;
-        let values = pixels * bands.count() as usize;
-        let kept = kept_shares(light_groups.len());
-        let share = || Share {
-            radiance: vec![0.0; values],
-            xyz: vec![[0.0; 3]; pixels],
-        };
+        let zeros = |key| ImageLayer::zeros(key, bands.count() as usize, pixels);
         Self {
             width,
             height,
             bands,
-            radiance: vec![0.0; values],
-            variance: vec![0.0; values],
-            xyz: vec![[0.0; 3]; pixels],
-            samples: vec![0; pixels],
-            shares: (0..kept).map(|_| share()).collect(),
+            layers: LayerKey::all(light_groups.len()).map(zeros).collect(),
             light_groups,
         }
     }
 
+    /// Creates an image from its layers: those of [`LayerKey::all`], and any others, in any order.
+    ///
+    /// # Errors
+    /// When a layer is missing or there twice, is of an unknown light group, or does not fit the size and the bands.
+    ///
+    /// # Panics
+    /// When `light_groups` is empty.
+    pub fn from_layers(
+        [width, height]: [u32; 2],
+        bands: BandGrid,
+        light_groups: Vec<LightGroup>,
+        layers: Vec<ImageLayer>,
+    ) -> Result<Self, LayerError> {
+        assert!(!light_groups.is_empty(), "an image has a light group");
+        let pixels = width as usize * height as usize;
+        let kept = if light_groups.len() > 1 {
+            light_groups.len()
+        } else {
+            0
+        };
+        for (i, layer) in layers.iter().enumerate() {
+            let key = layer.key();
+            if layers[..i].iter().any(|other| other.key() == key) {
+                return Err(LayerError::Repeated(key));
+            }
+            if key.light_group.is_some_and(|group| group >= kept) {
+                return Err(LayerError::LightGroup(key));
+            }
+            if !layer.fits(bands.count() as usize, pixels) {
+                return Err(LayerError::Shape(key));
+            }
+        }
+        let lacks = |key: &LayerKey| layers.iter().all(|layer| layer.key() != *key);
+        if let Some(key) = LayerKey::all(light_groups.len()).find(lacks) {
+            return Err(LayerError::Missing(key));
+        }
+        Ok(Self {
+            width,
+            height,
+            bands,
+            light_groups,
+            layers,
+        })
+    }
+
     /// Bytes of memory that an image of this size takes.
     pub fn bytes(width: u32, height: u32, bands: u32, light_groups: usize) -> u128 {
-        let radiance_and_xyz = u128::from(bands) * 4 + 12;
-        let variance_and_samples = u128::from(bands) * 4 + 4;
-        let kept = 1 + kept_shares(light_groups) as u128;
-        u128::from(width) * u128::from(height) * (kept * radiance_and_xyz + variance_and_samples)
+        let values = |key: LayerKey| key.quantity.values_per_pixel(bands as usize) as u128;
+        let per_pixel: u128 = LayerKey::all(light_groups).map(values).sum();
+        u128::from(width) * u128::from(height) * 4 * per_pixel
     }
 
     /// Width in pixels.
@@ -100,24 +148,35 @@ impl SpectralImage {
         &self.bands
     }
 
+    /// All layers.
+    pub fn layers(&self) -> &[ImageLayer] {
+        &self.layers
+    }
+
+    /// The layer that holds this, if there is one.
+    pub fn layer(&self, key: LayerKey) -> Option<&ImageLayer> {
+        self.layers.iter().find(|layer| layer.key() == key)
+    }
+
     /// Mean radiance over each band, W m⁻² sr⁻¹ nm⁻¹ up to the scale of the scene; pixel-major.
     pub fn radiance(&self) -> &[f32] {
-        &self.radiance
+        self.floats(LayerKey::RADIANCE)
     }
 
     /// Variance of the mean for each value of [`Self::radiance`]; 0 if fewer than two samples were taken.
     pub fn variance(&self) -> &[f32] {
-        &self.variance
+        self.floats(LayerKey::VARIANCE)
     }
 
     /// CIE 1931 2° XYZ of each pixel, summed at the exact wavelengths sampled: Y in cd/m² up to the scale of the scene.
     pub fn xyz(&self) -> &[[f32; 3]] {
-        &self.xyz
+        self.floats(LayerKey::XYZ).as_chunks().0
     }
 
     /// Number of samples of each pixel.
     pub fn samples(&self) -> &[u32] {
-        &self.samples
+        let layer = self.layer(LayerKey::SAMPLES);
+        layer.map_or(&[], ImageLayer::counts)
     }
 
     /// The spectrum of pixel (x, y), one value per band.
@@ -125,7 +184,9 @@ impl SpectralImage {
     /// # Panics
     /// When the pixel lies outside the image.
     pub fn pixel(&self, x: u32, y: u32) -> &[f32] {
-        &self.radiance[self.values_of(x, y)]
+        let bands = self.bands.count() as usize;
+        let start = self.pixel_index(x, y) * bands;
+        &self.radiance()[start..start + bands]
     }
 
     /// The light groups, at least one. Their radiances add up to the total.
@@ -138,10 +199,7 @@ impl SpectralImage {
     /// # Panics
     /// When there is no such light group.
     pub fn group_radiance(&self, light_group: usize) -> &[f32] {
-        match &self.shares[..] {
-            [] if light_group == 0 => &self.radiance,
-            shares => &shares[light_group].radiance,
-        }
+        self.floats(self.key_of(Quantity::Radiance, light_group))
     }
 
     /// XYZ due to the emitters of a group; otherwise as [`Self::xyz`].
@@ -149,10 +207,8 @@ impl SpectralImage {
     /// # Panics
     /// When there is no such light group.
     pub fn group_xyz(&self, light_group: usize) -> &[[f32; 3]] {
-        match &self.shares[..] {
-            [] if light_group == 0 => &self.xyz,
-            shares => &shares[light_group].xyz,
-        }
+        let key = self.key_of(Quantity::Xyz, light_group);
+        self.floats(key).as_chunks().0
     }
 
     /// Writes pixel (x, y) of an image with one light group: the mean and the variance of the mean per band, XYZ and
@@ -172,7 +228,8 @@ impl SpectralImage {
     }
 
     /// Writes pixel (x, y): the mean radiance as `[light group][band]`, the variance of the mean of the total per band, XYZ
-    /// of each light group, and the sample count. The totals are the sums over the light groups in their order.
+    /// of each light group, and the sample count. The totals are the sums over the light groups in their order. Layers that only some images have keep
+    /// their values.
     ///
     /// # Panics
     /// When the pixel lies outside the image, or a slice has the wrong length.
@@ -187,25 +244,26 @@ impl SpectralImage {
         let groups = self.light_groups.len();
         let bands = self.bands.count() as usize;
         assert_eq!(radiance.len(), groups * bands, "one value per band");
+        assert_eq!(variance.len(), bands, "one variance per band");
         assert_eq!(xyz.len(), groups, "one color per light group");
-        let (values, pixel) = (self.values_of(x, y), self.pixel_index(x, y));
-        let total = &mut self.radiance[values.clone()];
-        total.copy_from_slice(&radiance[..bands]);
-        for more in radiance[bands..].chunks_exact(bands) {
-            for (sum, value) in total.iter_mut().zip(more) {
-                *sum += value;
+        let pixel = self.pixel_index(x, y);
+        for layer in &mut self.layers {
+            let (key, values) = (layer.key(), layer.values_of(pixel));
+            let given = match (key.quantity, key.light_group) {
+                (Quantity::Radiance, _) => radiance,
+                (Quantity::Xyz, _) => xyz.as_flattened(),
+                (Quantity::Variance, None) => variance,
+                (Quantity::Samples, None) => {
+                    layer.counts_mut()[pixel] = samples;
+                    continue;
+                }
+                _ => continue,
+            };
+            let own = &mut layer.floats_mut()[values];
+            match key.light_group {
+                None => sum(own, given),
+                Some(group) => own.copy_from_slice(&given[group * own.len()..][..own.len()]),
             }
-        }
-        let more = xyz[1..].iter();
-        self.xyz[pixel] = more.fold(xyz[0], |sum, more| {
-            std::array::from_fn(|i| sum[i] + more[i])
-        });
-        self.variance[values.clone()].copy_from_slice(variance);
-        self.samples[pixel] = samples;
-        for (group, share) in self.shares.iter_mut().enumerate() {
-            let own = &radiance[group * bands..(group + 1) * bands];
-            share.radiance[values.clone()].copy_from_slice(own);
-            share.xyz[pixel] = xyz[group];
         }
     }
 
@@ -217,32 +275,35 @@ impl SpectralImage {
         &mut self.light_groups[light_group]
     }
 
-    /// All rows from the top, to be changed independently. A caller that changes `shares` must keep their sum equal to the total.
+    /// All rows from the top, to be changed independently. A caller that changes layers of light groups must keep their sum equal to
+    /// the total.
     pub fn rows_mut(&mut self) -> Vec<RowMut<'_>> {
         let width = (self.width as usize).max(1);
-        let values = width * self.bands.count() as usize;
-        let radiance = self.radiance.chunks_mut(values);
-        let others = self
-            .variance
-            .chunks_mut(values)
-            .zip(self.xyz.chunks_mut(width));
-        let mut rows: Vec<_> = radiance
-            .zip(others)
-            .map(|(radiance, (variance, xyz))| RowMut {
-                radiance,
-                variance,
-                xyz,
-                shares: Vec::new(),
-            })
-            .collect();
-        for share in &mut self.shares {
-            let radiance = share.radiance.chunks_mut(values);
-            let own = radiance.zip(share.xyz.chunks_mut(width));
-            for (row, own) in rows.iter_mut().zip(own) {
-                row.shares.push(own);
+        let row = || RowMut { layers: Vec::new() };
+        let mut rows: Vec<_> = (0..self.height).map(|_| row()).collect();
+        for layer in &mut self.layers {
+            let (key, values) = (layer.key(), width * layer.values_per_pixel());
+            for (row, own) in rows.iter_mut().zip(layer.floats_mut().chunks_mut(values)) {
+                row.layers.push((key, own));
             }
         }
         rows
+    }
+
+    /// The values of a layer that every image has.
+    fn floats(&self, key: LayerKey) -> &[f32] {
+        self.layer(key).map_or(&[], ImageLayer::floats)
+    }
+
+    /// The layer of a light group, which is the total if there is only one.
+    fn key_of(&self, quantity: Quantity, light_group: usize) -> LayerKey {
+        let groups = self.light_groups.len();
+        assert!(light_group < groups, "one of the {groups} light groups");
+        if groups > 1 {
+            LayerKey::of_light(quantity, light_group)
+        } else {
+            LayerKey::total(quantity)
+        }
     }
 
     fn pixel_index(&self, x: u32, y: u32) -> usize {
@@ -254,17 +315,17 @@ impl SpectralImage {
         );
         y as usize * self.width as usize + x as usize
     }
-
-    fn values_of(&self, x: u32, y: u32) -> std::ops::Range<usize> {
-        let bands = self.bands.count() as usize;
-        let start = self.pixel_index(x, y) * bands;
-        start..start + bands
-    }
 }
 
-/// Number of light groups that are stored in addition to the total: 0 if there is only one.
-fn kept_shares(light_groups: usize) -> usize {
-    if light_groups > 1 { light_groups } else { 0 }
+/// Adds up values of one or several light groups, one group after the other.
+fn sum(total: &mut [f32], groups: &[f32]) {
+    let (first, more) = groups.split_at(total.len());
+    total.copy_from_slice(first);
+    for group in more.chunks_exact(total.len()) {
+        for (sum, value) in total.iter_mut().zip(group) {
+            *sum += value;
+        }
+    }
 }
 
 #[cfg(test)]
@@ -292,7 +353,9 @@ mod tests {
         assert_eq!((image.variance()[11], image.samples()[5]), (0.2, 7));
         let rows = image.rows_mut();
         assert_eq!(rows.len(), 2);
-        assert_eq!(rows[1].shares[1].0, [0.0, 0.0, 0.0, 0.0, 0.5, 4.0]);
+        let (key, values) = &rows[1].layers[5];
+        assert_eq!(*key, LayerKey::of_light(Quantity::Radiance, 1));
+        assert_eq!(**values, [0.0, 0.0, 0.0, 0.0, 0.5, 4.0]);
     }
 
     #[test]
@@ -301,7 +364,10 @@ mod tests {
         image.set_pixel((0, 0), &[1.0, -0.0], &[0.0; 2], [1.0; 3], 1);
         assert_eq!(image.group_radiance(0).as_ptr(), image.radiance().as_ptr());
         assert_eq!(image.group_xyz(0), image.xyz());
-        assert!(image.shares.is_empty() && image.rows_mut()[0].shares.is_empty());
+        assert_eq!(
+            (image.layers().len(), image.rows_mut()[0].layers.len()),
+            (4, 3)
+        );
         assert_eq!(image.pixel(0, 0)[1].to_bits(), (-0.0_f32).to_bits());
     }
 
@@ -309,11 +375,84 @@ mod tests {
     fn the_bytes_are_those_of_the_lists() {
         for names in [&["a"][..], &["a", "b", "c"]] {
             let image = image(names);
-            let of_share = |s: &Share| 4 * s.radiance.len() + 12 * s.xyz.len();
-            let lists = 4 * (image.radiance.len() + image.variance.len() + image.samples.len())
-                + 12 * image.xyz.len()
-                + image.shares.iter().map(of_share).sum::<usize>();
+            let lists: usize = image.layers.iter().map(|l| 4 * l.values().len()).sum();
             assert_eq!(SpectralImage::bytes(3, 2, 2, names.len()), lists as u128);
         }
+    }
+
+    /// The layers of a black image of 3×2 pixels, two bands and two light groups, after a change.
+    fn made(change: impl Fn(&mut Vec<ImageLayer>)) -> Result<SpectralImage, LayerError> {
+        let image = image(&["key", "sky"]);
+        let mut layers = image.layers;
+        change(&mut layers);
+        SpectralImage::from_layers([3, 2], image.bands, image.light_groups, layers)
+    }
+
+    #[test]
+    fn a_list_of_layers_describes_an_image() {
+        assert_eq!(made(|_| {}), Ok(image(&["key", "sky"])));
+        let of_sky = LayerKey::of_light(Quantity::Variance, 1);
+        let mut more = made(|layers| {
+            layers.reverse();
+            layers.push(ImageLayer::zeros(of_sky, 2, 6));
+        })
+        .unwrap();
+        let xyz = [[1.0; 3], [2.0; 3]];
+        more.set_pixel_by_light((1, 0), &[1.0, 2.0, 4.0, 8.0], &[0.5; 2], &xyz, 3);
+        assert_eq!(more.pixel(1, 0), [5.0, 10.0]);
+        assert_eq!((more.xyz()[1], more.samples()[1]), ([3.0; 3], 3));
+        assert_eq!(more.layer(of_sky).unwrap().floats(), [0.0; 12]);
+        assert_eq!(more.layers().len(), 9);
+        let units: Vec<_> = more
+            .layers()
+            .iter()
+            .map(|l| l.key().quantity.unit())
+            .collect();
+        assert_eq!(units[8], "W^2.m^-4.sr^-2.nm^-2");
+        let mut row = more.rows_mut().remove(1);
+        assert_eq!(row.take(of_sky).len(), 6);
+        assert!(row.take(of_sky).is_empty());
+    }
+
+    #[test]
+    fn layers_that_do_not_fit_are_refused() {
+        let radiance = LayerKey::RADIANCE;
+        let variance = LayerKey::VARIANCE;
+        let with = |key, bands, values| {
+            move |layers: &mut Vec<ImageLayer>| {
+                layers[1] = ImageLayer::new(key, bands, values_of(values));
+            }
+        };
+        fn values_of(count: usize) -> Values {
+            Values::Floats(vec![0.0; count])
+        }
+        assert_eq!(
+            made(with(radiance, 2, 12)),
+            Err(LayerError::Repeated(radiance))
+        );
+        assert_eq!(
+            made(with(variance, 2, 11)),
+            Err(LayerError::Shape(variance))
+        );
+        assert_eq!(
+            made(with(variance, 3, 18)),
+            Err(LayerError::Shape(variance))
+        );
+        let third = LayerKey::of_light(Quantity::Radiance, 2);
+        assert_eq!(made(with(third, 2, 12)), Err(LayerError::LightGroup(third)));
+        let missing = made(|layers| drop(layers.remove(6)));
+        let sky = LayerKey::of_light(Quantity::Radiance, 1);
+        assert_eq!(missing, Err(LayerError::Missing(sky)));
+        let counts = |layers: &mut Vec<ImageLayer>| {
+            layers[1] = ImageLayer::new(variance, 2, Values::Counts(vec![0; 12]));
+        };
+        assert_eq!(made(counts), Err(LayerError::Shape(variance)));
+        // The only light group is the total.
+        let one = image(&["key"]);
+        let mut layers = one.layers;
+        let own = LayerKey::of_light(Quantity::Xyz, 0);
+        layers.push(ImageLayer::zeros(own, 2, 6));
+        let found = SpectralImage::from_layers([3, 2], one.bands, one.light_groups, layers);
+        assert_eq!(found, Err(LayerError::LightGroup(own)));
     }
 }
