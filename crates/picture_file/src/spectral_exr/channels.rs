@@ -2,7 +2,7 @@
 
 use exr::meta::attribute::{ChannelDescription, SampleType, Text};
 use exr::prelude::SmallVec;
-use spectra::{BandGrid, LightGroup};
+use spectra::{BandGrid, LayerKey, LightGroup, Quantity, SpectralImage};
 
 use super::bands::{band_of_text, radiance_name, wavelength_text};
 use super::lights;
@@ -11,70 +11,82 @@ use super::lights;
 const OWN: &str = "pellicle.";
 /// What follows [`OWN`] in the names of variances.
 const VARIANCE: &str = "variance.";
+/// What follows [`OWN`] in the name of the number of samples.
+const SAMPLES: &str = "samples";
+/// What follows [`OWN`] or the prefix of a light group in the names of X, Y and Z. Many readers would take a name that ends in `.Z` for
+/// a depth.
+const XYZ: [&str; 3] = ["cieX", "cieY", "cieZ"];
 
 /// The content of a channel.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(super) enum Content {
-    /// Radiance of this band.
-    Radiance(usize),
-    /// Variance of the mean of this band.
-    Variance(usize),
-    /// X, Y or Z.
-    Xyz(usize),
-    /// Linear red, green or blue.
-    Rgb(usize),
-    /// Number of samples.
-    Samples,
-    /// Content of the light group with this index.
-    Light(usize, LightContent),
-}
-
-/// The content of a channel of a light group.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub(super) enum LightContent {
-    /// Radiance of this band.
-    Radiance(usize),
-    /// X, Y or Z.
-    Xyz(usize),
-    /// Linear red, green or blue.
-    Rgb(usize),
+    /// The value with this index of each pixel of a layer.
+    Value(LayerKey, usize),
+    /// Linear red, green or blue, developed from the XYZ of all light or of a light group.
+    Rgb(Option<usize>, usize),
 }
 
 impl Content {
+    /// The light group whose light alone the channel holds.
+    pub(super) fn light_group(self) -> Option<usize> {
+        match self {
+            Self::Value(key, _) => key.light_group,
+            Self::Rgb(light_group, _) => light_group,
+        }
+    }
+
     fn sample_type(self) -> SampleType {
         match self {
-            Self::Samples => SampleType::U32,
+            Self::Value(key, _) if key.quantity == Quantity::Samples => SampleType::U32,
             _ => SampleType::F32,
         }
     }
 }
 
-/// Returns the name of the variance channel of the band with center `nm`.
-fn variance_name(nm: f64) -> String {
-    format!("{OWN}{VARIANCE}{}", wavelength_text(nm))
+/// Returns the name of the channel with a value of a layer.
+fn value_name(key: LayerKey, index: usize, grid: &BandGrid, light_groups: &[LightGroup]) -> String {
+    let own = key.light_group.map_or(OWN.to_owned(), |group| {
+        lights::prefix(&light_groups[group].name)
+    });
+    let center_nm = || grid.center_nm(index as u32);
+    match (key.quantity, key.light_group) {
+        (Quantity::Radiance, None) => radiance_name(center_nm()),
+        (Quantity::Radiance, Some(_)) => own + &wavelength_text(center_nm()),
+        (Quantity::Variance, _) => own + VARIANCE + &wavelength_text(center_nm()),
+        (Quantity::Xyz, _) => own + XYZ[index],
+        (Quantity::Samples, _) => own + SAMPLES,
+    }
 }
 
-/// Returns the channels other than the spectrum, by name.
-fn plain() -> impl Iterator<Item = (String, Content)> {
-    let rgb = ["R", "G", "B"].into_iter().enumerate();
-    // Many readers would take a name that ends in `.Z` for a depth.
-    let xyz = ["cieX", "cieY", "cieZ"].into_iter().enumerate();
-    rgb.map(|(i, name)| (name.to_owned(), Content::Rgb(i)))
-        .chain(xyz.map(|(i, name)| (format!("{OWN}{name}"), Content::Xyz(i))))
-        .chain([(format!("{OWN}samples"), Content::Samples)])
+/// Returns the names of the channels with developed color of all light or of a light group.
+fn rgb_names(light_group: Option<&LightGroup>) -> [String; 3] {
+    let layer = light_group.map_or(String::new(), |group| format!("{}.", group.name));
+    ["R", "G", "B"].map(|name| layer.clone() + name)
 }
 
-/// Returns the content of a channel other than the spectrum by its name; `None` for channels that are not ours.
-pub(super) fn plain_content(name: &str) -> Option<Content> {
-    let mut channels = plain();
-    channels
-        .find(|(own, _)| own == name)
-        .map(|(_, content)| content)
-}
-
-/// Returns the band whose variance a channel of this name holds.
-pub(super) fn variance_band(name: &str, grid: &BandGrid) -> Option<usize> {
-    band_of_text(name.strip_prefix(OWN)?.strip_prefix(VARIANCE)?, grid)
+/// Returns the content of a channel by its name, if it is a value of one of the layers of an image with these bands and light groups;
+/// `None` for the spectrum of all light, whose channels other programs name too, and for red, green and blue, which are developed
+/// again from XYZ.
+pub(super) fn content(name: &str, grid: &BandGrid, light_groups: &[LightGroup]) -> Option<Content> {
+    let (light_group, rest) = match lights::split(name, light_groups) {
+        Some((group, rest)) => (Some(group), rest),
+        None => (None, name.strip_prefix(OWN)?),
+    };
+    let (quantity, index) = if let Some(axis) = XYZ.iter().position(|xyz| *xyz == rest) {
+        (Quantity::Xyz, axis)
+    } else if light_group.is_some() {
+        (Quantity::Radiance, band_of_text(rest, grid)?)
+    } else if rest == SAMPLES {
+        (Quantity::Samples, 0)
+    } else {
+        let band = rest.strip_prefix(VARIANCE)?;
+        (Quantity::Variance, band_of_text(band, grid)?)
+    };
+    let key = LayerKey {
+        quantity,
+        light_group,
+    };
+    Some(Content::Value(key, index))
 }
 
 /// The channels of an image to write, in the order of their names, which the format requires.
@@ -87,15 +99,23 @@ pub(super) struct Channels {
 }
 
 impl Channels {
-    /// The channels of an image with these bands.
-    pub(super) fn new(grid: &BandGrid, light_groups: &[LightGroup], variance: bool) -> Self {
-        let mut named: Vec<(String, Content)> = plain().collect();
-        named.extend(lights::channels(light_groups, grid));
-        for band in 0..grid.count() {
-            let (nm, index) = (grid.center_nm(band), band as usize);
-            named.push((radiance_name(nm), Content::Radiance(index)));
-            if variance {
-                named.push((variance_name(nm), Content::Variance(index)));
+    /// The channels of an image: those of each of its layers, and developed colors.
+    pub(super) fn new(image: &SpectralImage, variance: bool) -> Self {
+        let (grid, groups) = (image.bands(), image.light_groups());
+        let mut named = Vec::new();
+        for layer in image.layers() {
+            let key = layer.key();
+            if key.quantity == Quantity::Variance && !variance {
+                continue;
+            }
+            for index in 0..layer.values_per_pixel() {
+                let name = value_name(key, index, grid, groups);
+                named.push((name, Content::Value(key, index)));
+            }
+            if key.quantity == Quantity::Xyz {
+                let names = rgb_names(key.light_group.map(|group| &groups[group]));
+                let contents = (0..).map(|channel| Content::Rgb(key.light_group, channel));
+                named.extend(names.into_iter().zip(contents));
             }
         }
         named.sort_by(|a, b| a.0.cmp(&b.0));
@@ -127,25 +147,32 @@ mod tests {
             lamp: None,
         };
         let groups = ["key", "S0_sky"].map(group);
-        let channels = Channels::new(&grid, &groups, true);
+        let image =
+            |groups: &[LightGroup]| SpectralImage::with_light_groups(1, 1, grid, groups.to_vec());
+        let channels = Channels::new(&image(&groups), true);
         assert_eq!(channels.contents.len(), 2 * 48 + 7 + 2 * (48 + 6));
-        for (description, &content) in channels.descriptions.iter().zip(&channels.contents) {
+        let spectrum = LayerKey::RADIANCE;
+        for (description, &own) in channels.descriptions.iter().zip(&channels.contents) {
             let name = description.name.to_string();
-            let found =
-                plain_content(&name).or_else(|| variance_band(&name, &grid).map(Content::Variance));
-            let found = found.or_else(|| lights::content(&name, &groups, &grid));
-            match content {
-                Content::Radiance(_) | Content::Light(_, LightContent::Rgb(_)) => {
-                    assert_eq!(found, None);
-                }
-                other => assert_eq!(found, Some(other), "{name}"),
+            let found = content(&name, &grid, &groups);
+            match own {
+                Content::Value(key, _) if key != spectrum => assert_eq!(found, Some(own), "{name}"),
+                _ => assert_eq!(found, None),
             }
         }
-        assert_eq!(
-            Channels::new(&grid, &groups[..1], true).contents.len(),
-            2 * 48 + 7
-        );
-        assert_eq!(plain_content("A"), None);
-        assert_eq!(variance_band("variance.385,000000nm", &grid), None);
+        let of = |groups, variance| Channels::new(&image(groups), variance).contents.len();
+        assert_eq!(of(&groups[..1], true), 2 * 48 + 7);
+        assert_eq!(of(&groups[..1], false), 48 + 7);
+        for other in [
+            "A",
+            "R",
+            "variance.384,166667nm",
+            "pellicle.384,166667nm",
+            "pellicle.light.key.samples",
+            "pellicle.light.fill.cieX",
+        ] {
+            assert_eq!(content(other, &grid, &groups), None, "{other}");
+        }
+        assert!(content("pellicle.light.key.384,166667nm", &grid, &groups).is_some());
     }
 }

@@ -4,10 +4,9 @@ use std::fmt::Write;
 
 use exr::meta::attribute::AttributeValue;
 use exr::meta::header::Header;
-use spectra::{BandGrid, LightGroup, Tabulated};
+use spectra::{BandGrid, LayerKey, LightGroup, Tabulated};
 
-use super::bands::{band_of_text, wavelength_text};
-use super::channels::{Content, LightContent};
+use super::channels::Content;
 use super::metadata::{text, unicode};
 
 /// Prefix of the names of the channels, followed by the light group's name.
@@ -18,42 +17,17 @@ const NAMES: &str = "pellicle.lightGroups";
 const MAX: usize = 256;
 /// The largest power of a lamp: products of larger powers with other numbers would not be finite in `f32`.
 const MAX_POWER: f64 = 1e30;
-/// The names of X, Y and Z after the name of the light group.
-const XYZ: [&str; 3] = ["cieX", "cieY", "cieZ"];
 
-/// Returns the channels of an image with several light groups, by name; none if there is only one, which is the total.
-pub(super) fn channels(groups: &[LightGroup], grid: &BandGrid) -> Vec<(String, Content)> {
-    let mut named = Vec::new();
-    for (index, LightGroup { name, .. }) in groups.iter().enumerate() {
-        let mut add = |name, content| named.push((name, Content::Light(index, content)));
-        for (i, rgb) in ["R", "G", "B"].iter().enumerate() {
-            add(format!("{name}.{rgb}"), LightContent::Rgb(i));
-        }
-        for (i, xyz) in XYZ.iter().enumerate() {
-            add(format!("{LAYER}{name}.{xyz}"), LightContent::Xyz(i));
-        }
-        for band in 0..grid.count() {
-            let wavelength = wavelength_text(grid.center_nm(band));
-            let content = LightContent::Radiance(band as usize);
-            add(format!("{LAYER}{name}.{wavelength}"), content);
-        }
-    }
-    if groups.len() > 1 { named } else { Vec::new() }
+/// Returns the prefix of the names of a light group's channels.
+pub(super) fn prefix(name: &str) -> String {
+    format!("{LAYER}{name}.")
 }
 
-/// Returns the content of a channel of one of several light groups by its name; `None` for other channels and for red, green and
-/// blue, which are developed again from XYZ.
-pub(super) fn content(name: &str, groups: &[LightGroup], grid: &BandGrid) -> Option<Content> {
+/// Splits the name of a channel of one of several light groups: the index of the light group, and what follows its prefix.
+pub(super) fn split<'a>(name: &'a str, groups: &[LightGroup]) -> Option<(usize, &'a str)> {
     let (group, rest) = name.strip_prefix(LAYER)?.split_once('.')?;
     let index = groups.iter().position(|known| known.name == group)?;
-    if groups.len() < 2 {
-        return None;
-    }
-    if let Some(axis) = XYZ.iter().position(|xyz| *xyz == rest) {
-        return Some(Content::Light(index, LightContent::Xyz(axis)));
-    }
-    let band = band_of_text(rest, grid)?;
-    Some(Content::Light(index, LightContent::Radiance(band)))
+    (groups.len() > 1).then_some((index, rest))
 }
 
 /// Returns the first light group that lacks some of its channels.
@@ -67,11 +41,13 @@ pub(super) fn incomplete<'a>(
     }
     let mut counts = vec![0; groups.len()];
     for content in contents.iter().flatten() {
-        if let Content::Light(group, _) = content {
-            counts[*group] += 1;
+        if let Some(group) = content.light_group() {
+            counts[group] += 1;
         }
     }
-    let whole = grid.count() as usize + XYZ.len();
+    let of_group = LayerKey::all(groups.len()).filter(|key| key.light_group == Some(0));
+    let values = |key: LayerKey| key.quantity.values_per_pixel(grid.count() as usize);
+    let whole: usize = of_group.map(values).sum();
     let short = counts.iter().position(|&count| count != whole)?;
     Some(&groups[short].name)
 }

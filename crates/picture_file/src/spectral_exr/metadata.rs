@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use exr::meta::attribute::{AttributeValue, Chromaticities, Text};
 use exr::meta::header::{Header, ImageAttributes, LayerAttributes};
-use spectra::BandGrid;
+use spectra::{BandGrid, Quantity};
 
 use super::wavelength::radiance_scale;
 use colorimetry::srgb;
 
 const LAYOUT_VERSION: (&str, &str) = ("spectralLayoutVersion", "1.0");
 const UNITS_KEY: &str = "emissiveUnits";
-const UNITS: &str = "W.m^-2.sr^-1.nm^-1";
+const UNITS: &str = Quantity::Radiance.unit();
 const LAMBDA_MIN: &str = "pellicle.lambdaMin";
 const LAMBDA_MAX: &str = "pellicle.lambdaMax";
 const EXPOSURE: &str = "pellicle.exposureEv";

@@ -12,11 +12,11 @@ use exr::meta::header::Header;
 use exr::meta::{BlockDescription, MetaData};
 use exr::prelude::Compression;
 use rayon::prelude::*;
-use spectra::SpectralImage;
+use spectra::{SpectralImage, Values};
 use thiserror::Error;
 
 use super::attribute_order::finish_header;
-use super::channels::{Channels, Content, LightContent};
+use super::channels::{Channels, Content};
 use super::lights;
 use super::metadata::Metadata;
 use crate::pending_file::PendingFile;
@@ -155,7 +155,7 @@ fn encode(
     metadata: &Metadata,
     options: WriteOptions,
 ) -> exr::error::UnitResult {
-    let channels = Channels::new(image.bands(), image.light_groups(), options.variance);
+    let channels = Channels::new(image, options.variance);
     let size = (image.width() as usize, image.height() as usize);
     let mut header = Header::new(Text::default(), size, channels.descriptions.clone())
         .with_encoding(
@@ -216,39 +216,33 @@ impl Source<'_> {
 
     /// Fills in the samples of one channel in one row of pixels.
     fn fill(&self, location: LineIndex, out: &mut [u8]) {
-        let bands = self.image.bands().count() as usize;
         let start = location.position.y() * self.image.width() as usize;
         let pixels = start..start + location.sample_count;
-        let every_band = |values: &[f32], band: usize, out: &mut [u8]| {
-            let row = &values[pixels.start * bands..pixels.end * bands];
-            fill_with(
-                out,
-                row.iter()
-                    .skip(band)
-                    .step_by(bands)
-                    .map(|v| v.to_ne_bytes()),
-            );
-        };
-        let xyz = match self.contents[location.channel] {
-            Content::Light(group, _) => &self.image.group_xyz(group)[pixels.clone()],
-            _ => &self.image.xyz()[pixels.clone()],
-        };
         match self.contents[location.channel] {
-            Content::Radiance(band) => every_band(self.image.radiance(), band, out),
-            Content::Variance(band) => every_band(self.image.variance(), band, out),
-            Content::Light(group, LightContent::Radiance(band)) => {
-                every_band(self.image.group_radiance(group), band, out);
+            Content::Value(key, index) => {
+                if let Some(layer) = self.image.layer(key) {
+                    let count = layer.values_per_pixel();
+                    let row = pixels.start * count..pixels.end * count;
+                    match layer.values() {
+                        Values::Floats(values) => {
+                            let values = values[row].iter().skip(index).step_by(count);
+                            fill_with(out, values.map(|v| v.to_ne_bytes()));
+                        }
+                        Values::Counts(values) => {
+                            let values = values[row].iter().skip(index).step_by(count);
+                            fill_with(out, values.map(|v| v.to_ne_bytes()));
+                        }
+                    }
+                }
             }
-            Content::Xyz(axis) | Content::Light(_, LightContent::Xyz(axis)) => {
-                fill_with(out, xyz.iter().map(|v| v[axis].to_ne_bytes()));
-            }
-            Content::Rgb(channel) | Content::Light(_, LightContent::Rgb(channel)) => {
-                let values = xyz.iter().map(|&v| self.linear_rgb(v)[channel] as f32);
+            Content::Rgb(light_group, channel) => {
+                let xyz = match light_group {
+                    Some(group) => self.image.group_xyz(group),
+                    None => self.image.xyz(),
+                };
+                let values = xyz[pixels].iter();
+                let values = values.map(|&v| self.linear_rgb(v)[channel] as f32);
                 fill_with(out, values.map(f32::to_ne_bytes));
-            }
-            Content::Samples => {
-                let samples = &self.image.samples()[pixels];
-                fill_with(out, samples.iter().map(|v| v.to_ne_bytes()));
             }
         }
     }

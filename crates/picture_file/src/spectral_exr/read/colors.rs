@@ -7,6 +7,7 @@ use super::Plan;
 use crate::exr_file::each_sample;
 use crate::spectral_exr::channels::Content;
 use relight::XyzImage;
+use spectra::LayerKey;
 
 /// The colors of an image that is being read.
 pub(super) struct Colors {
@@ -35,8 +36,9 @@ impl Colors {
     ) -> Option<()> {
         for line in block.lines(channels) {
             let at = line.location;
-            let Some(Content::Xyz(axis)) = plan.contents[at.channel] else {
-                continue;
+            let axis = match plan.contents[at.channel] {
+                Some(Content::Value(key, axis)) if key == LayerKey::XYZ => axis,
+                _ => continue,
             };
             let (x, y) = (at.position.x(), at.position.y());
             if !plan.window.holds((x, y), at.sample_count) {

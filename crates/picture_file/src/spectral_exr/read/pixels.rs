@@ -3,11 +3,11 @@
 use exr::block::UncompressedBlock;
 use exr::block::lines::LineRef;
 use exr::meta::attribute::{ChannelList, SampleType};
-use spectra::{Observer, SpectralImage};
+use spectra::{ImageLayer, LayerKey, Observer, Quantity, SpectralImage};
 
 use super::Plan;
 use crate::exr_file::{Run, each_sample, words};
-use crate::spectral_exr::channels::{Content, LightContent};
+use crate::spectral_exr::channels::Content;
 use relight::BandWeights;
 
 /// An image that is being read.
@@ -20,18 +20,10 @@ pub(super) struct Pixels {
     observer: Option<BandWeights>,
 }
 
-/// The pixels of one row of a block.
+/// The pixels of one row of a block: a layer for each of the image. That of the radiance of all light has a value for each spectral
+/// channel of the file.
 struct Row {
-    radiance: Vec<f32>,
-    variance: Vec<f32>,
-    xyz: Vec<[f32; 3]>,
-    samples: Vec<u32>,
-    /// Number of radiances of each pixel.
-    channels: usize,
-    /// Number of variances of each pixel.
-    bands: usize,
-    /// Radiance and XYZ of each of several light groups.
-    lights: Vec<(Vec<f32>, Vec<[f32; 3]>)>,
+    layers: Vec<ImageLayer>,
 }
 
 impl Pixels {
@@ -93,12 +85,11 @@ impl Pixels {
     }
 
     fn put(&mut self, row: &Row, run: Run) {
-        let bands = self.plan.grid.count() as usize;
-        let mut even = vec![0.0; bands];
+        let mut even = vec![0.0; self.plan.grid.count() as usize];
         let mut lights = (Vec::new(), Vec::new());
-        for (x, &xyz) in row.xyz.iter().enumerate().skip(run.skip).take(run.count) {
-            let values = x * bands..(x + 1) * bands;
-            let radiance = &row.radiance[x * row.channels..(x + 1) * row.channels];
+        let totals = [LayerKey::RADIANCE, LayerKey::VARIANCE, LayerKey::XYZ];
+        for x in run.skip..run.skip + run.count {
+            let [radiance, variance, xyz] = totals.map(|key| row.pixel(key, x));
             let radiance = match &self.plan.shares {
                 None => radiance,
                 Some(shares) => {
@@ -110,18 +101,18 @@ impl Pixels {
             };
             let xyz = match &self.observer {
                 Some(observer) => observer.xyz(radiance).map(|v| v as f32),
-                None => xyz,
+                None => [xyz[0], xyz[1], xyz[2]],
             };
             let place = ((run.x + x - run.skip) as u32, run.y as u32);
-            let variance = &row.variance[values];
-            if row.lights.is_empty() {
+            let samples = row.samples(x);
+            if self.plan.light_groups.len() == 1 {
                 self.image
-                    .set_pixel(place, radiance, variance, xyz, row.samples[x]);
+                    .set_pixel(place, radiance, variance, xyz, samples);
             } else {
                 row.by_light(x, &mut lights);
                 let (radiance, xyz) = &lights;
                 self.image
-                    .set_pixel_by_light(place, radiance, variance, xyz, row.samples[x]);
+                    .set_pixel_by_light(place, radiance, variance, xyz, samples);
             }
         }
         self.filled[run.y] += run.count;
@@ -138,57 +129,76 @@ impl Pixels {
 
 impl Row {
     fn new(width: usize, plan: &Plan) -> Self {
-        let (channels, bands) = (plan.spectral_channels, plan.grid.count() as usize);
-        let light_groups = plan.light_groups.len();
-        let kept = if light_groups > 1 { light_groups } else { 0 };
+        let layer = |key| {
+            let bands = if key == LayerKey::RADIANCE {
+                plan.spectral_channels
+            } else {
+                plan.grid.count() as usize
+            };
+            ImageLayer::zeros(key, bands, width)
+        };
         Self {
-            channels,
-            bands,
-            radiance: vec![0.0; width * channels],
-            variance: vec![0.0; width * bands],
-            xyz: vec![[0.0; 3]; width],
-            samples: vec![0; width],
-            lights: vec![(vec![0.0; width * bands], vec![[0.0; 3]; width]); kept],
+            layers: LayerKey::all(plan.light_groups.len()).map(layer).collect(),
         }
+    }
+
+    /// The values of pixel `x` in a layer.
+    fn pixel(&self, key: LayerKey, x: usize) -> &[f32] {
+        let layer = self.layers.iter().find(|layer| layer.key() == key);
+        layer.map_or(&[], |layer| &layer.floats()[layer.values_of(x)])
+    }
+
+    /// The number of samples of pixel `x`.
+    fn samples(&self, x: usize) -> u32 {
+        let mut counts = self.layers.iter().map(ImageLayer::counts);
+        let counts = counts.find(|counts| !counts.is_empty());
+        counts.map_or(0, |counts| counts[x])
     }
 
     /// Collects the light groups of a pixel: radiance as `[light group][band]`, and XYZ.
     fn by_light(&self, x: usize, (radiance, xyz): &mut (Vec<f32>, Vec<[f32; 3]>)) {
-        let bands = self.bands;
         radiance.clear();
         xyz.clear();
-        for (radiances, colors) in &self.lights {
-            radiance.extend(&radiances[x * bands..(x + 1) * bands]);
-            xyz.push(colors[x]);
+        let of_groups = |layer: &&ImageLayer| layer.key().light_group.is_some();
+        for layer in self.layers.iter().filter(of_groups) {
+            let values = &layer.floats()[layer.values_of(x)];
+            match layer.key().quantity {
+                Quantity::Radiance => radiance.extend(values),
+                Quantity::Xyz => xyz.extend(values.as_chunks::<3>().0),
+                Quantity::Variance | Quantity::Samples => {}
+            }
         }
     }
 
     /// Stores the samples of one channel. The scale of the file's unit applies to all light in the file.
     fn take(&mut self, line: LineRef<'_>, kind: SampleType, content: Content, scale: f32) {
-        let (channels, bands) = (self.channels, self.bands);
-        match content {
-            Content::Radiance(band) => each(line, kind, |x, v| {
-                self.radiance[x * channels + band] = scale * v;
-            }),
-            Content::Variance(band) => each(line, kind, |x, v| {
-                self.variance[x * bands + band] = scale * (scale * v);
-            }),
-            Content::Xyz(axis) => each(line, kind, |x, v| self.xyz[x][axis] = scale * v),
-            Content::Samples if kind == SampleType::U32 => {
-                for (samples, bytes) in self.samples.iter_mut().zip(words(line.value)) {
+        let Content::Value(key, index) = content else {
+            return;
+        };
+        let Some(layer) = self.layers.iter_mut().find(|layer| layer.key() == key) else {
+            return;
+        };
+        let count = layer.values_per_pixel();
+        match key.quantity {
+            Quantity::Radiance | Quantity::Xyz => {
+                let values = layer.floats_mut();
+                each(line, kind, |x, v| values[x * count + index] = scale * v);
+            }
+            Quantity::Variance => {
+                let values = layer.floats_mut();
+                each(line, kind, |x, v| {
+                    values[x * count + index] = scale * (scale * v);
+                });
+            }
+            Quantity::Samples if kind == SampleType::U32 => {
+                for (samples, bytes) in layer.counts_mut().iter_mut().zip(words(line.value)) {
                     *samples = u32::from_ne_bytes(bytes);
                 }
             }
-            Content::Samples => each(line, kind, |x, v| self.samples[x] = v as u32),
-            Content::Light(group, LightContent::Radiance(band)) => {
-                let radiance = &mut self.lights[group].0;
-                each(line, kind, |x, v| radiance[x * bands + band] = scale * v);
+            Quantity::Samples => {
+                let samples = layer.counts_mut();
+                each(line, kind, |x, v| samples[x] = v as u32);
             }
-            Content::Light(group, LightContent::Xyz(axis)) => {
-                let xyz = &mut self.lights[group].1;
-                each(line, kind, |x, v| xyz[x][axis] = scale * v);
-            }
-            Content::Rgb(_) | Content::Light(_, LightContent::Rgb(_)) => {}
         }
     }
 }

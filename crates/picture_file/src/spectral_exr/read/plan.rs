@@ -1,13 +1,13 @@
 //! The plan for reading a file: which layer and which of its channels.
 
 use exr::meta::header::Header;
-use spectra::{BandGrid, LightGroup, Spectrum};
+use spectra::{BandGrid, LayerKey, LightGroup, Spectrum};
 
 use super::{ReadExrError, reflectances};
 use crate::exr_file::{Context, Window, name_of};
 use crate::spectral_exr::BandLayoutError;
 use crate::spectral_exr::bands::{BandMix, Bands};
-use crate::spectral_exr::channels::{Content, plain_content, variance_band};
+use crate::spectral_exr::channels::{Content, content};
 use crate::spectral_exr::lights;
 use crate::spectral_exr::metadata::{Metadata, range_nm};
 use crate::spectral_exr::wavelength::{Quantity, SpectralPosition, spectral_channel};
@@ -23,7 +23,7 @@ pub(super) struct Plan {
     pub(super) grid: BandGrid,
     /// The content of each channel of the layer; `None` for channels that are ignored.
     pub(super) contents: Vec<Option<Content>>,
-    /// Number of channels with [`Content::Radiance`].
+    /// Number of channels with radiance of all light.
     pub(super) spectral_channels: usize,
     /// How the grid's bands are computed from the spectral channels; `None` if the channels are the grid's bands.
     pub(super) shares: Option<BandMix>,
@@ -105,7 +105,10 @@ impl Plan {
     /// Whether the file has X, Y and Z.
     pub(super) fn has_xyz(&self) -> bool {
         self.illuminant.is_none()
-            && (0..3).all(|axis| self.contents.contains(&Some(Content::Xyz(axis))))
+            && (0..3).all(|axis| {
+                let content = Content::Value(LayerKey::XYZ, axis);
+                self.contents.contains(&Some(content))
+            })
     }
 }
 
@@ -153,17 +156,10 @@ fn contents(
     bands: &Bands,
     light_groups: &[LightGroup],
 ) -> Vec<Option<Content>> {
-    let content = |name: &String| match plain_content(name) {
-        // R, G and B are developed again from XYZ when needed.
-        Some(Content::Rgb(_)) => None,
-        Some(content) => Some(content),
-        None => variance_band(name, &bands.grid)
-            .map(Content::Variance)
-            .or_else(|| lights::content(name, light_groups, &bands.grid)),
-    };
+    let content = |name: &String| content(name, &bands.grid, light_groups);
     let mut contents: Vec<Option<Content>> = names(header).iter().map(content).collect();
     for (band, &(_, channel)) in spectrum.channels[bands.used.clone()].iter().enumerate() {
-        contents[channel] = Some(Content::Radiance(band));
+        contents[channel] = Some(Content::Value(LayerKey::RADIANCE, band));
     }
     contents
 }
