@@ -1,6 +1,6 @@
 //! The mean values of a pixel or a region of a spectral image.
 
-use spectra::SpectralImage;
+use spectra::{ImageLayer, LayerKey, Quantity, SpectralImage, Values};
 use thiserror::Error;
 
 /// A rectangle of pixels.
@@ -123,89 +123,85 @@ pub fn probe(image: &SpectralImage, region: Region) -> Result<Probe, RegionError
             height,
         });
     }
-    let bands = image.bands().count() as usize;
-    let share = GroupProbe {
-        radiance: vec![0.0; bands],
-        xyz: [0.0; 3],
-    };
-    let mut sums = Sums {
-        radiance: vec![0.0; bands],
-        variance: vec![0.0; bands],
-        light_groups: vec![share; image.light_groups().len()],
-        ..Sums::default()
-    };
+    let mut sums = Sums::new(image);
     for y in region.y..region.y + region.height {
         for x in region.x..region.x + region.width {
             sums.add(image, y as usize * width as usize + x as usize);
         }
     }
-    Ok(sums.means(region))
+    Ok(sums.means(image, region))
 }
 
-#[derive(Default)]
+/// Sums over pixels of the values of each layer of an image.
 struct Sums {
-    radiance: Vec<f64>,
-    variance: Vec<f64>,
-    xyz: [f64; 3],
-    light_groups: Vec<GroupProbe>,
-    samples: u64,
+    layers: Vec<(LayerKey, Vec<f64>)>,
     count: u64,
     left_out: u64,
 }
 
 impl Sums {
+    fn new(image: &SpectralImage) -> Self {
+        let zeros = |layer: &ImageLayer| (layer.key(), vec![0.0; layer.values_per_pixel()]);
+        Self {
+            layers: image.layers().iter().map(zeros).collect(),
+            count: 0,
+            left_out: 0,
+        }
+    }
+
     fn add(&mut self, image: &SpectralImage, pixel: usize) {
-        let bands = self.radiance.len();
-        let values = pixel * bands..(pixel + 1) * bands;
-        let radiance = &image.radiance()[values.clone()];
-        let xyz = image.xyz()[pixel];
-        if !radiance.iter().chain(&xyz).all(|v| v.is_finite()) {
+        let bands = image.bands().count() as usize;
+        let radiance = &image.radiance()[pixel * bands..(pixel + 1) * bands];
+        let xyz = &image.xyz()[pixel];
+        if !radiance.iter().chain(xyz).all(|v| v.is_finite()) {
             self.left_out += 1;
             return;
         }
         self.count += 1;
-        self.samples += u64::from(image.samples()[pixel]);
-        for (group, share) in self.light_groups.iter_mut().enumerate() {
-            add(
-                &mut share.radiance,
-                &image.group_radiance(group)[values.clone()],
-            );
-            add(&mut share.xyz, &image.group_xyz(group)[pixel]);
-        }
-        add(&mut self.xyz, &xyz);
-        let variance = &image.variance()[values];
-        for (band, (&value, &variance)) in radiance.iter().zip(variance).enumerate() {
-            self.radiance[band] += f64::from(value);
-            self.variance[band] += f64::from(variance);
+        for ((_, sums), layer) in self.layers.iter_mut().zip(image.layers()) {
+            let own = layer.values_of(pixel);
+            match layer.values() {
+                Values::Floats(values) => add(sums, &values[own]),
+                Values::Counts(values) => add(sums, &values[own]),
+            }
         }
     }
 
-    fn means(self, region: Region) -> Probe {
+    fn of(&self, key: LayerKey) -> &[f64] {
+        let found = self.layers.iter().find(|(own, _)| *own == key);
+        found.map_or(&[], |(_, sums)| sums)
+    }
+
+    fn means(&self, image: &SpectralImage, region: Region) -> Probe {
         let count = self.count as f64;
-        let knows_noise = self.variance.iter().any(|&v| v > 0.0);
+        let mean = |key| self.of(key).iter().map(|sum| sum / count);
+        let mean_xyz = |key| {
+            let mut mean = mean(key);
+            std::array::from_fn(|_| mean.next().unwrap_or(0.0))
+        };
+        let variance = self.of(LayerKey::VARIANCE);
+        let knows_noise = variance.iter().any(|&v| v > 0.0);
         let deviation = |variance: &f64| variance.sqrt() / count;
+        let of_light = |group| GroupProbe {
+            radiance: mean(image.key_of(Quantity::Radiance, group)).collect(),
+            xyz: mean_xyz(image.key_of(Quantity::Xyz, group)),
+        };
         Probe {
             region,
-            deviation: knows_noise.then(|| self.variance.iter().map(deviation).collect()),
-            radiance: self.radiance.iter().map(|sum| sum / count).collect(),
-            xyz: self.xyz.map(|sum| sum / count),
-            light_groups: self
-                .light_groups
-                .iter()
-                .map(|share| GroupProbe {
-                    radiance: share.radiance.iter().map(|sum| sum / count).collect(),
-                    xyz: share.xyz.map(|sum| sum / count),
-                })
-                .collect(),
-            samples: self.samples,
+            deviation: knows_noise.then(|| variance.iter().map(deviation).collect()),
+            radiance: mean(LayerKey::RADIANCE).collect(),
+            xyz: mean_xyz(LayerKey::XYZ),
+            light_groups: (0..image.light_groups().len()).map(of_light).collect(),
+            // Sums of counts are exact up to 2⁵³.
+            samples: self.of(LayerKey::SAMPLES).iter().sum::<f64>() as u64,
             left_out: self.left_out,
         }
     }
 }
 
-fn add(sums: &mut [f64], values: &[f32]) {
-    for (sum, value) in sums.iter_mut().zip(values) {
-        *sum += f64::from(*value);
+fn add<T: Copy + Into<f64>>(sums: &mut [f64], values: &[T]) {
+    for (sum, &value) in sums.iter_mut().zip(values) {
+        *sum += value.into();
     }
 }
 

@@ -194,6 +194,20 @@ impl SpectralImage {
         &self.light_groups
     }
 
+    /// What holds a quantity of a light group: the total if there is only one group.
+    ///
+    /// # Panics
+    /// When there is no such light group.
+    pub fn key_of(&self, quantity: Quantity, light_group: usize) -> LayerKey {
+        let groups = self.light_groups.len();
+        assert!(light_group < groups, "one of the {groups} light groups");
+        if groups > 1 {
+            LayerKey::of_light(quantity, light_group)
+        } else {
+            LayerKey::total(quantity)
+        }
+    }
+
     /// Radiance due to the emitters of a group; otherwise as [`Self::radiance`].
     ///
     /// # Panics
@@ -293,17 +307,6 @@ impl SpectralImage {
     /// The values of a layer that every image has.
     fn floats(&self, key: LayerKey) -> &[f32] {
         self.layer(key).map_or(&[], ImageLayer::floats)
-    }
-
-    /// The layer of a light group, which is the total if there is only one.
-    fn key_of(&self, quantity: Quantity, light_group: usize) -> LayerKey {
-        let groups = self.light_groups.len();
-        assert!(light_group < groups, "one of the {groups} light groups");
-        if groups > 1 {
-            LayerKey::of_light(quantity, light_group)
-        } else {
-            LayerKey::total(quantity)
-        }
     }
 
     fn pixel_index(&self, x: u32, y: u32) -> usize {
