@@ -4,7 +4,7 @@ use crate::layout::bindings::{BATCHES, SCENE_GROUP, SUMS, TILE_GROUP};
 use crate::layout::{BATCH_COPIES, Batch, WORKGROUP_SIDE};
 use crate::tiles::Tile;
 use crate::{DeviceError, Gpu, Pipeline, RenderError, SceneBindings};
-use spectra::{KM_LUMENS_PER_WATT, SpectralImage};
+use spectra::{KM_LUMENS_PER_WATT, Quantity, SpectralImage};
 
 /// The sizes of a pixel's running means.
 #[derive(Clone, Copy)]
@@ -15,18 +15,19 @@ pub(crate) struct PixelShape {
 }
 
 impl PixelShape {
-    /// Returns the numbers of sets of four: of means, deviations and colors, in this order.
-    fn counts(self) -> [u64; 3] {
+    /// Returns the lists of running means in the order of the buffer: what a list is for, and its number of sets of four. The means
+    /// and colors are of each light group, the deviations of all light.
+    fn lists(self) -> [(Quantity, u64); 3] {
         [
-            self.groups * self.light_groups,
-            self.groups,
-            self.light_groups,
+            (Quantity::Radiance, self.groups * self.light_groups),
+            (Quantity::Variance, self.groups),
+            (Quantity::Xyz, self.light_groups),
         ]
     }
 
     /// Returns the bytes of all of them.
     pub(crate) fn bytes(self) -> u64 {
-        16 * self.counts().iter().sum::<u64>()
+        16 * self.lists().iter().map(|(_, sets)| sets).sum::<u64>()
     }
 }
 
@@ -149,15 +150,32 @@ impl TileBuffers {
                 .get_mapped_range()
                 .map_err(|error| DeviceError::Refused(error.to_string()))?;
             let sums: &[[f32; 4]] = bytemuck::cast_slice(&mapped);
-            let [means, deviations, _] = self.shape.counts();
-            let of = |count: u64| (count * u64::from(tile.pixels())) as usize;
-            let (means, rest) = sums.split_at(of(means));
-            let (deviations, colors) = rest.split_at(of(deviations));
-            check_count(tile, colors, samples)?;
-            store(tile, (means, deviations), colors, samples, image);
+            let sums = Sums::new(self.shape, tile, sums);
+            check_count(tile, sums.of(Quantity::Xyz), samples)?;
+            store(tile, &sums, samples, image);
         }
         self.staging.unmap();
         Ok(())
+    }
+}
+
+/// The running means of a tile, list by list.
+struct Sums<'a>(Vec<(Quantity, &'a [[f32; 4]])>);
+
+impl<'a> Sums<'a> {
+    fn new(shape: PixelShape, tile: Tile, mut rest: &'a [[f32; 4]]) -> Self {
+        let lists = shape.lists().into_iter().map(|(quantity, sets)| {
+            let own;
+            (own, rest) = rest.split_at((sets * u64::from(tile.pixels())) as usize);
+            (quantity, own)
+        });
+        Self(lists.collect())
+    }
+
+    /// Returns the list for a quantity.
+    fn of(&self, quantity: Quantity) -> &'a [[f32; 4]] {
+        let found = self.0.iter().find(|(own, _)| *own == quantity);
+        found.map_or(&[], |(_, sums)| sums)
     }
 }
 
@@ -174,13 +192,9 @@ fn check_count(tile: Tile, colors: &[[f32; 4]], samples: u32) -> Result<(), Rend
 }
 
 /// Reorders a tile from `[light group][group][pixel]` to the picture's `[light group][pixel][band]`.
-fn store(
-    tile: Tile,
-    (means, deviations): (&[[f32; 4]], &[[f32; 4]]),
-    colors: &[[f32; 4]],
-    samples: u32,
-    image: &mut SpectralImage,
-) {
+fn store(tile: Tile, sums: &Sums<'_>, samples: u32, image: &mut SpectralImage) {
+    let [means, deviations, colors] =
+        [Quantity::Radiance, Quantity::Variance, Quantity::Xyz].map(|quantity| sums.of(quantity));
     let bands = image.bands().count() as usize;
     let light_groups = image.light_groups().len();
     let pixels = tile.pixels() as usize;
