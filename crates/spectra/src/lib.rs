@@ -22,6 +22,7 @@ mod fault;
 mod formula;
 mod light_group;
 mod optical_constants;
+mod out_of_range;
 pub mod sky;
 mod spectral_image;
 mod spectrum;
@@ -41,8 +42,9 @@ pub use fault::Fault;
 pub use formula::{DispersionFormula, FormulaError, FormulaKind};
 pub use light_group::LightGroup;
 pub use optical_constants::OpticalConstants;
+pub use out_of_range::OutOfRange;
 pub use spectral_image::{
     ImageLayer, LayerError, LayerKey, Quantity, RowMut, SpectralImage, Values,
 };
-pub use spectrum::{OutOfRange, Spectrum, Tabulated, TabulatedError};
+pub use spectrum::{Spectrum, Tabulated, TabulatedError};
 pub use sprague::sprague;

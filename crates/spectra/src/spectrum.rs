@@ -1,8 +1,7 @@
 //! A quantity over wavelength: a constant, a table or a formula.
 
 use crate::fault::Faults;
-use crate::{DispersionFormula, Fault};
-use std::fmt;
+use crate::{DispersionFormula, Fault, OutOfRange};
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -35,34 +34,6 @@ pub enum TabulatedError {
         /// Its wavelength.
         nm: f64,
     },
-}
-
-/// A spectrum was evaluated where its table or formula has no value.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub struct OutOfRange {
-    /// The wavelength, nm.
-    pub nm: f64,
-    /// First wavelength of the table or formula, nm.
-    pub min_nm: f64,
-    /// Last wavelength of the table or formula, nm.
-    pub max_nm: f64,
-    /// What is wrong with the data at that wavelength, if there are data that cannot be used.
-    pub fault: Option<Arc<str>>,
-}
-
-impl fmt::Display for OutOfRange {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            nm, min_nm, max_nm, ..
-        } = self;
-        match &self.fault {
-            Some(fault) => write!(f, "no value at {nm} nm: {fault}"),
-            None => write!(
-                f,
-                "no value at {nm} nm: the data cover {min_nm} to {max_nm} nm"
-            ),
-        }
-    }
 }
 
 impl Tabulated {

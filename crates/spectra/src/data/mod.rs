@@ -6,6 +6,7 @@
 use std::borrow::Cow;
 
 mod aliases;
+mod illuminant_error;
 mod illuminants;
 mod materials;
 mod observer;
@@ -13,9 +14,8 @@ mod radiators;
 mod reflectances;
 mod table;
 
-pub use illuminants::{
-    IlluminantError, find_illuminant, illuminant, illuminant_names, is_line_lamp,
-};
+pub use illuminant_error::IlluminantError;
+pub use illuminants::{find_illuminant, illuminant, illuminant_names, is_line_lamp};
 pub use materials::{
     MaterialInfo, material_aliases, material_info, material_names, material_sets, optical_constants,
 };

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use super::DataSet;
-use super::illuminants::IlluminantError;
+use super::illuminant_error::IlluminantError;
 use super::table::{Table, TableError, embedded};
 use crate::Tabulated;
 

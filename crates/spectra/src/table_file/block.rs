@@ -1,8 +1,8 @@
 //! Finds the rows of numbers in a text and the header above them.
 
 use super::MAX_ROWS;
+use super::axis::{axis_word, is_axis};
 use super::error::TableFileError;
-use super::head::{axis_word, is_axis};
 use super::line::{Line, lines, number};
 
 /// A line above the rows.

@@ -1,5 +1,6 @@
 //! Headers of tables: the names of columns and their units.
 
+use super::axis::{axis_word, is_axis, words};
 use super::block::{Block, HeadLine};
 use super::error::{TableFileError, cell_text};
 use super::line::{Separator, number, split};
@@ -20,28 +21,6 @@ pub(super) struct Head {
     pub(super) prose: Option<String>,
 }
 
-/// Words that name the axis of a table over wavelength.
-const AXIS_WORDS: [&str; 9] = [
-    "wl",
-    "wlen",
-    "wave",
-    "λ",
-    "energy",
-    "photon",
-    "wavenumber",
-    "wavenumbers",
-    "frequency",
-];
-/// Prefixes of words for wavelength, in the languages of instruments.
-const AXIS_STARTS: [&str; 7] = [
-    "wavel",
-    "lambda",
-    "wellenl",
-    "longueur",
-    "longitud",
-    "lunghezza",
-    "golflengte",
-];
 /// Axes and units that are not supported.
 const OTHER_UNITS: [&str; 10] = [
     "wavenumber",
@@ -55,24 +34,6 @@ const OTHER_UNITS: [&str; 10] = [
     "m",
     "pm",
 ];
-
-fn words(cell: &str) -> impl Iterator<Item = String> + '_ {
-    let words = cell.split(|c: char| !c.is_alphanumeric() && c != '\u{30a}');
-    words.filter(|word| !word.is_empty()).map(str::to_lowercase)
-}
-
-/// Whether a cell contains a word for an axis.
-pub(super) fn axis_word(cell: &str) -> bool {
-    words(cell).any(|word| {
-        AXIS_WORDS.contains(&word.as_str())
-            || AXIS_STARTS.iter().any(|start| word.starts_with(start))
-    })
-}
-
-/// Whether a cell consists only of a unit of wavelength.
-pub(super) fn is_axis(cell: &str) -> bool {
-    words(cell).next().is_some() && words(cell).all(|word| Unit::from_word(&word).is_some())
-}
 
 /// Returns the unit of wavelength that a cell names.
 fn unit(cell: &str) -> Option<Unit> {

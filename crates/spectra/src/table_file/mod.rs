@@ -10,6 +10,7 @@
 //!
 //! [`Table::note`] reports in one line what was assumed. Ambiguous files are refused.
 
+mod axis;
 mod block;
 mod cgats;
 mod choice;
