@@ -1,4 +1,6 @@
-//! Chromaticity coordinates x, y and u′, v′.
+//! Chromaticity coordinates x, y and u′, v′, and mixtures of primaries that they define.
+
+use crate::matrix::{Matrix3, inverse, of_columns, times};
 
 /// Returns the chromaticity x, y of XYZ (CIE 015:2018, equation 7.5); not finite for black.
 pub fn xy_of_xyz([x, y, z]: [f64; 3]) -> [f64; 2] {
@@ -27,6 +29,19 @@ pub fn uv_of_xy([x, y]: [f64; 2]) -> [f64; 2] {
 pub fn xy_of_uv([u, v]: [f64; 2]) -> [f64; 2] {
     let sum = 6.0 * u - 16.0 * v + 12.0;
     [9.0 * u / sum, 4.0 * v / sum]
+}
+
+/// Returns M, the matrix from linear RGB to XYZ, from the chromaticities of the primaries and the white, with Y = 1 for the white (SMPTE RP 177:1993). If the points are not
+/// primaries of that white, the numbers are not finite.
+pub fn xyz_from_rgb_of(primaries: [[f64; 2]; 3], white: [f64; 2]) -> Matrix3 {
+    let columns = of_columns(primaries.map(xyz_of_xy));
+    mixed(&columns, times(&inverse(&columns), xyz_of_xy(white)))
+}
+
+/// Returns M: the columns times the amounts, scaled to Y = 1 for the white.
+pub(crate) fn mixed(columns: &Matrix3, amounts: [f64; 3]) -> Matrix3 {
+    let luminance: f64 = (0..3).map(|i| columns[1][i] * amounts[i]).sum();
+    columns.map(|row| std::array::from_fn(|i| row[i] * amounts[i] / luminance))
 }
 
 #[cfg(test)]

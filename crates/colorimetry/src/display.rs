@@ -18,7 +18,7 @@ pub use response::Response;
 
 use spectra::{Observer, Spectrum, Tabulated};
 
-use crate::chromaticity::{uv_of_xy, xy_of_xyz, xyz_of_xy};
+use crate::chromaticity::{mixed, uv_of_xy, xy_of_xyz, xyz_of_xy};
 use crate::matrix::{Matrix3, determinant, inverse, of_columns, times};
 use crate::tristimulus::{Rule, Weights, xyz_of_emission};
 
@@ -108,19 +108,6 @@ impl Primaries {
             Err(MixtureError::White)
         }
     }
-}
-
-/// Returns M from the chromaticities of the primaries and the white, with Y = 1 for the white (SMPTE RP 177:1993). If the points are not
-/// primaries of that white, the numbers are not finite.
-pub fn xyz_from_rgb_of(primaries: [[f64; 2]; 3], white: [f64; 2]) -> Matrix3 {
-    let columns = of_columns(primaries.map(xyz_of_xy));
-    mixed(&columns, times(&inverse(&columns), xyz_of_xy(white)))
-}
-
-/// Returns M: the columns times the amounts, scaled to Y = 1 for the white.
-fn mixed(columns: &Matrix3, amounts: [f64; 3]) -> Matrix3 {
-    let luminance: f64 = (0..3).map(|i| columns[1][i] * amounts[i]).sum();
-    columns.map(|row| std::array::from_fn(|i| row[i] * amounts[i] / luminance))
 }
 
 impl Display {

@@ -6,8 +6,7 @@
 
 use std::sync::OnceLock;
 
-use crate::chromaticity::xyz_of_xy;
-use crate::display::xyz_from_rgb_of;
+use crate::chromaticity::{xyz_from_rgb_of, xyz_of_xy};
 use crate::matrix::{Matrix3, inverse, times};
 
 /// Chromaticities x, y of the red, green and blue primaries.

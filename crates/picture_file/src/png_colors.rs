@@ -11,8 +11,7 @@ mod tests;
 use std::io::Cursor;
 
 use colorimetry::adaptation::Adaptation;
-use colorimetry::chromaticity::xyz_of_xy;
-use colorimetry::display::xyz_from_rgb_of;
+use colorimetry::chromaticity::{xyz_from_rgb_of, xyz_of_xy};
 use colorimetry::matrix::{product, times};
 use colorimetry::{Matrix3, srgb};
 use thiserror::Error;

@@ -1,8 +1,7 @@
 //! Fits the coefficients of a reflectance to a color.
 
 use super::{SigmoidReflectance, place};
-use crate::chromaticity::xy_of_xyz;
-use crate::display::xyz_from_rgb_of;
+use crate::chromaticity::{xy_of_xyz, xyz_from_rgb_of};
 use crate::matrix::{Matrix3, inverse, times};
 use crate::srgb::PRIMARIES;
 use crate::tristimulus::{Rule, Weights};

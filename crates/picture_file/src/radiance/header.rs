@@ -1,7 +1,7 @@
 //! The header of a Radiance picture: lines of text, an empty line, and a line with the size and orientation.
 
 use colorimetry::Matrix3;
-use colorimetry::display::xyz_from_rgb_of;
+use colorimetry::chromaticity::xyz_from_rgb_of;
 use colorimetry::matrix::{IDENTITY, product};
 use colorimetry::srgb;
 

@@ -1,7 +1,7 @@
 //! The primaries of an `OpenEXR` file's red, green and blue.
 
 use colorimetry::Matrix3;
-use colorimetry::display::xyz_from_rgb_of;
+use colorimetry::chromaticity::xyz_from_rgb_of;
 use colorimetry::matrix::product;
 use colorimetry::srgb;
 use exr::math::Vec2;
