@@ -7,8 +7,7 @@ use exr::meta::BlockDescription;
 use exr::meta::header::Header;
 use exr::prelude::Compression;
 
-use super::{Context, Window};
-use crate::spectral_exr::ReadExrError;
+use super::{Context, ReadExrError, Window};
 
 /// The most memory that an image read from a file may take, bytes (64 GiB).
 pub const MAX_BYTES: u128 = 64 << 30;

@@ -1,4 +1,4 @@
-//! Shared code for reading spectral files and color files: opening, checks of header claims, blocks, windows.
+//! Shared code for spectral files and color files: opening, errors, checks of header claims, blocks, windows.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek};
@@ -16,11 +16,12 @@ use exr::meta::header::Header;
 use exr::prelude::{Compression, f16};
 use rayon::prelude::*;
 
-use crate::spectral_exr::{ReadExrError, blocks_at_a_time};
-
+mod error;
 pub(crate) mod guard;
 mod window;
 
+pub use error::{BandLayoutError, ReadExrError};
+pub use guard::MAX_BYTES;
 pub(crate) use window::{Run, Window};
 
 /// The most names that a message lists.
@@ -99,6 +100,18 @@ pub(crate) fn listed(names: &[String]) -> String {
         0 => shown.join(", "),
         more => format!("{} and {more} more", shown.join(", ")),
     }
+}
+
+/// The most bytes of uncompressed blocks in memory at a time (a single block may be larger).
+pub const BATCH_BYTES: usize = 256 << 20;
+
+/// Number of blocks to process in parallel before the next are read or these are written: two for each core, more if they are
+/// small.
+pub(crate) fn blocks_at_a_time(block_bytes: usize) -> usize {
+    const SMALL: usize = 16 << 20;
+    let block_bytes = block_bytes.max(1);
+    let enough = (2 * rayon::current_num_threads()).max(SMALL / block_bytes);
+    (BATCH_BYTES / block_bytes).clamp(1, enough)
 }
 
 /// Decompresses the blocks of a part, several at a time on all cores, and passes those of full size to `insert` in order.

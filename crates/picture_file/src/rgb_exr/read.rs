@@ -13,8 +13,9 @@ use thiserror::Error;
 
 use super::layers::{ColorLayer, Kind, NotChosen, choose, names, of_headers};
 use super::primaries::{BadPrimaries, srgb_from};
-use crate::exr_file::{self, Context, Window, each_block, each_sample, guard, listed};
-use crate::spectral_exr::ReadExrError;
+use crate::exr_file::{
+    self, Context, ReadExrError, Window, each_block, each_sample, guard, listed,
+};
 
 /// Why the colors of a file could not be read.
 #[derive(Debug, Error)]

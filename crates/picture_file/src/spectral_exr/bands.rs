@@ -1,54 +1,9 @@
 //! The bands of a file's channels, and the band grid onto which they are read.
 
-use spectra::{BandGrid, BandGridError};
-use thiserror::Error;
+use spectra::BandGrid;
 
 use super::wavelength::SpectralPosition;
-
-/// Why the spectral channels of a file do not form a band grid.
-#[derive(Clone, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum BandLayoutError {
-    /// A channel's name starts like a spectral one but does not end in a wavelength or a frequency.
-    #[error(
-        "channel {0:?} does not name a wavelength or a frequency, such as `S0.550,000000nm`, `S0.0,55um` or `S0.545THz`"
-    )]
-    NotAWavelength(String),
-    /// Two channels have the same wavelength.
-    #[error("two channels have the wavelength {0} nm")]
-    Duplicate(f64),
-    /// There is a single band of unknown width.
-    #[error("there is a single band, at {0} nm, and no attribute that gives its width")]
-    SingleBand(f64),
-    /// The file gives the ends of a uniform grid, and a channel is not on it.
-    #[error("the file's bands should be evenly spaced, but the band at {nm} nm is {off_nm} nm off")]
-    NotUniform {
-        /// The channel's wavelength.
-        nm: f64,
-        /// Its distance from its position with even spacing.
-        off_nm: f64,
-    },
-    /// Two bands overlap, or there is a gap between them.
-    #[error("the band that ends at {end_nm} nm is followed by one that starts at {start_nm} nm")]
-    NotConnected {
-        /// The end of one band.
-        end_nm: f64,
-        /// The start of the next one.
-        start_nm: f64,
-    },
-    /// No band is visible.
-    #[error("the bands lie from {first_nm} to {last_nm} nm, none of them within {low} to {high} nm",
-        low = BandGrid::LIMITS_NM.0, high = BandGrid::LIMITS_NM.1)]
-    OutOfRange {
-        /// The shortest wavelength.
-        first_nm: f64,
-        /// The longest wavelength.
-        last_nm: f64,
-    },
-    /// The bands form a grid that is not supported.
-    #[error(transparent)]
-    Grid(#[from] BandGridError),
-}
+use crate::exr_file::BandLayoutError;
 
 /// How far a band may be from its position, as a fraction of the band width: names have few decimals.
 const UNIFORM_WITHIN: f64 = 1e-3;

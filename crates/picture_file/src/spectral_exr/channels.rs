@@ -1,10 +1,11 @@
 //! The channels of files written here, and their contents.
 
-use exr::meta::attribute::{ChannelDescription, SampleType, Text};
+use exr::meta::attribute::{ChannelDescription, Text};
 use exr::prelude::SmallVec;
 use spectra::{BandGrid, LayerKey, LightGroup, Quantity, SpectralImage};
 
 use super::bands::{band_of_text, radiance_name, wavelength_text};
+use super::content::Content;
 use super::lights;
 
 /// Prefix of the names of our own channels.
@@ -16,32 +17,6 @@ const SAMPLES: &str = "samples";
 /// What follows [`OWN`] or the prefix of a light group in the names of X, Y and Z. Many readers would take a name that ends in `.Z` for
 /// a depth.
 const XYZ: [&str; 3] = ["cieX", "cieY", "cieZ"];
-
-/// The content of a channel.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub(super) enum Content {
-    /// The value with this index of each pixel of a layer.
-    Value(LayerKey, usize),
-    /// Linear red, green or blue, developed from the XYZ of all light or of a light group.
-    Rgb(Option<usize>, usize),
-}
-
-impl Content {
-    /// The light group whose light alone the channel holds.
-    pub(super) fn light_group(self) -> Option<usize> {
-        match self {
-            Self::Value(key, _) => key.light_group,
-            Self::Rgb(light_group, _) => light_group,
-        }
-    }
-
-    fn sample_type(self) -> SampleType {
-        match self {
-            Self::Value(key, _) if key.quantity == Quantity::Samples => SampleType::U32,
-            _ => SampleType::F32,
-        }
-    }
-}
 
 /// Returns the name of the channel with a value of a layer.
 fn value_name(key: LayerKey, index: usize, grid: &BandGrid, light_groups: &[LightGroup]) -> String {
@@ -137,6 +112,7 @@ fn description(name: &str, content: Content) -> ChannelDescription {
 
 #[cfg(test)]
 mod tests {
+    use super::super::content::LightContent;
     use super::*;
 
     #[test]

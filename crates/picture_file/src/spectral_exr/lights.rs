@@ -6,7 +6,7 @@ use exr::meta::attribute::AttributeValue;
 use exr::meta::header::Header;
 use spectra::{BandGrid, LayerKey, LightGroup, Tabulated};
 
-use super::channels::Content;
+use super::content::Content;
 use super::metadata::{text, unicode};
 
 /// Prefix of the names of the channels, followed by the light group's name.

@@ -39,14 +39,14 @@
 mod attribute_order;
 mod bands;
 mod channels;
+mod content;
 mod lights;
 mod metadata;
 mod read;
 mod wavelength;
 mod write;
 
-pub use bands::BandLayoutError;
+pub use crate::exr_file::{BATCH_BYTES, BandLayoutError, MAX_BYTES, ReadExrError};
 pub use metadata::{Metadata, software};
-pub use read::{MAX_BYTES, ReadExrError, read, read_size, read_xyz};
-pub(crate) use write::blocks_at_a_time;
-pub use write::{BATCH_BYTES, WriteExrError, WriteOptions, write};
+pub use read::{read, read_size, read_xyz};
+pub use write::{WriteExrError, WriteOptions, write};

@@ -1,16 +1,14 @@
 //! Reading a spectral image.
 
 use std::fs::File;
-use std::io::{self, BufReader};
-use std::path::{Path, PathBuf};
+use std::io::BufReader;
+use std::path::Path;
 
 use exr::block::reader::Reader;
 use spectra::{BandGrid, SpectralImage};
-use thiserror::Error;
 
-use super::bands::BandLayoutError;
 use super::metadata::Metadata;
-use crate::exr_file::{self, Context, each_block, guard};
+use crate::exr_file::{self, Context, ReadExrError, each_block, guard};
 use relight::XyzImage;
 
 mod colors;
@@ -18,75 +16,9 @@ mod pixels;
 mod plan;
 mod reflectances;
 
-pub use crate::exr_file::guard::MAX_BYTES;
-
 use colors::Colors;
 use pixels::Pixels;
 use plan::Plan;
-
-/// Why a spectral file could not be read.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum ReadExrError {
-    /// The file cannot be opened or read.
-    #[error("cannot read {path}")]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// The error of the operating system.
-        source: io::Error,
-    },
-    /// The file does not begin like an `OpenEXR` file.
-    #[error("{path} is not an OpenEXR file")]
-    NotExr {
-        /// The file.
-        path: PathBuf,
-    },
-    /// The file is cut short or contradicts itself.
-    #[error("{path} is damaged or cut short: {reason}")]
-    Damaged {
-        /// The file.
-        path: PathBuf,
-        /// The fault that was found.
-        reason: String,
-    },
-    /// The file may be valid, but has a form that is not supported here.
-    #[error("{path} has a form that is not supported: {reason}")]
-    Unsupported {
-        /// The file.
-        path: PathBuf,
-        /// The form.
-        reason: String,
-    },
-    /// No channel is spectral.
-    #[error("{path} is an OpenEXR file without spectral channels (`S0.550,000000nm`)")]
-    NoSpectrum {
-        /// The file.
-        path: PathBuf,
-    },
-    /// The spectral channels do not form a band grid.
-    #[error("the spectral channels of {path} cannot be used")]
-    Bands {
-        /// The file.
-        path: PathBuf,
-        /// The reason.
-        source: BandLayoutError,
-    },
-    /// The image would take more memory than [`MAX_BYTES`] or than is available.
-    #[error(
-        "{path} holds an image of {width}×{height} pixels and {bands} bands, too large to read"
-    )]
-    TooLarge {
-        /// The file.
-        path: PathBuf,
-        /// Width in pixels.
-        width: usize,
-        /// Height in pixels.
-        height: usize,
-        /// Number of bands.
-        bands: usize,
-    },
-}
 
 /// Reads a spectral file written by [`write`](super::write()), or by another program in the same layout.
 ///

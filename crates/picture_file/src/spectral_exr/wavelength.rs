@@ -1,6 +1,6 @@
 //! Wavelengths in channel names, as in the layout and as other programs write them.
 
-use super::bands::BandLayoutError;
+use crate::exr_file::BandLayoutError;
 
 /// Speed of light in vacuum, m/s (exact in the SI).
 const LIGHT_M_PER_S: f64 = 299_792_458.0;

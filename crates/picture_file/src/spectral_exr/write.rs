@@ -16,9 +16,11 @@ use spectra::{SpectralImage, Values};
 use thiserror::Error;
 
 use super::attribute_order::finish_header;
-use super::channels::{Channels, Content};
+use super::channels::Channels;
+use super::content::Content;
 use super::lights;
 use super::metadata::Metadata;
+use crate::exr_file::blocks_at_a_time;
 use crate::pending_file::PendingFile;
 use colorimetry::srgb;
 use relight::xyz::exposure_scale;
@@ -34,18 +36,6 @@ impl Default for WriteOptions {
     fn default() -> Self {
         Self { variance: true }
     }
-}
-
-/// The most bytes of uncompressed blocks in memory at a time (a single block may be larger).
-pub const BATCH_BYTES: usize = 256 << 20;
-
-/// Number of blocks to process in parallel before the next are read or these are written: two for each core, more if they are
-/// small.
-pub(crate) fn blocks_at_a_time(block_bytes: usize) -> usize {
-    const SMALL: usize = 16 << 20;
-    let block_bytes = block_bytes.max(1);
-    let enough = (2 * rayon::current_num_threads()).max(SMALL / block_bytes);
-    (BATCH_BYTES / block_bytes).clamp(1, enough)
 }
 
 /// Why a spectral file could not be written. No file is left behind.

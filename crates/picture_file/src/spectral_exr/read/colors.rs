@@ -5,7 +5,7 @@ use exr::meta::attribute::ChannelList;
 
 use super::Plan;
 use crate::exr_file::each_sample;
-use crate::spectral_exr::channels::Content;
+use crate::spectral_exr::content::Content;
 use relight::XyzImage;
 use spectra::LayerKey;
 

@@ -7,7 +7,7 @@ use spectra::{ImageLayer, LayerKey, Observer, Quantity, SpectralImage};
 
 use super::Plan;
 use crate::exr_file::{Run, each_sample, words};
-use crate::spectral_exr::channels::Content;
+use crate::spectral_exr::content::Content;
 use relight::BandWeights;
 
 /// An image that is being read.

@@ -3,11 +3,11 @@
 use exr::meta::header::Header;
 use spectra::{BandGrid, LayerKey, LightGroup, Spectrum};
 
-use super::{ReadExrError, reflectances};
-use crate::exr_file::{Context, Window, name_of};
-use crate::spectral_exr::BandLayoutError;
+use super::reflectances;
+use crate::exr_file::{BandLayoutError, Context, ReadExrError, Window, name_of};
 use crate::spectral_exr::bands::{BandMix, Bands};
-use crate::spectral_exr::channels::{Content, content};
+use crate::spectral_exr::channels::content;
+use crate::spectral_exr::content::Content;
 use crate::spectral_exr::lights;
 use crate::spectral_exr::metadata::{Metadata, range_nm};
 use crate::spectral_exr::wavelength::{Quantity, SpectralPosition, spectral_channel};

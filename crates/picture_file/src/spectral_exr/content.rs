@@ -1,0 +1,30 @@
+//! What channels hold.
+
+use exr::meta::attribute::SampleType;
+use spectra::{LayerKey, Quantity};
+
+/// The content of a channel.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum Content {
+    /// The value with this index of each pixel of a layer.
+    Value(LayerKey, usize),
+    /// Linear red, green or blue, developed from the XYZ of all light or of a light group.
+    Rgb(Option<usize>, usize),
+}
+
+impl Content {
+    /// The light group whose light alone the channel holds.
+    pub(super) fn light_group(self) -> Option<usize> {
+        match self {
+            Self::Value(key, _) => key.light_group,
+            Self::Rgb(light_group, _) => light_group,
+        }
+    }
+
+    pub(super) fn sample_type(self) -> SampleType {
+        match self {
+            Self::Value(key, _) if key.quantity == Quantity::Samples => SampleType::U32,
+            _ => SampleType::F32,
+        }
+    }
+}
