@@ -1,6 +1,7 @@
 //! Reading of stack files.
 
-use crate::stack::{Layer, Medium, Stack};
+use crate::medium::{Layer, Medium};
+use crate::stack::Stack;
 use crate::thickness::optical_nm;
 use document::{Checks, Document, FieldPath, Folder, Problem, ProblemKind, Problems, SourceFile};
 use media::Index;

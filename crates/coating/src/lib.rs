@@ -26,6 +26,7 @@
 //! Wavelengths are vacuum wavelengths. Wavelengths and thicknesses are in nanometers. Angles are in degrees, in the incident
 //! medium. Light is unpolarized unless stated otherwise. The sign convention is n + ik, where k ≥ 0 absorbs.
 
+mod angle;
 mod chart;
 mod file;
 mod film_fit;
@@ -34,7 +35,9 @@ mod label;
 mod light;
 mod line;
 mod matching;
+mod medium;
 mod model;
+mod open;
 mod plot;
 mod response;
 mod sensitivity;
@@ -42,19 +45,24 @@ mod stack;
 mod stack_color;
 mod thickness;
 mod tolerance;
+mod view;
 
 pub use self::plot::{Curve, Plot};
+pub use angle::{Angle, AngleError};
 pub use chart::{Chart, ChartOf};
 pub use file::{LayerDescription, OpticalThickness, StackDescription};
 pub use film_fit::{FilmFit, FilmFits, FilmFitting, Measured, Verdict, nearest_fit};
 pub use light::Light;
 pub use line::LineError;
 pub use matching::{Match, MatchBy, MatchPlace, Matching, matches};
+pub use medium::{Layer, Medium};
 pub use model::Model;
+pub use open::StackError;
 pub use optics::PathDifference;
 pub use optics::batch::Powers;
-pub use response::{Angle, AngleError, Batch, Sampled, absorptance};
+pub use response::{Batch, Sampled, absorptance};
 pub use sensitivity::{LayerSensitivity, Sensitivity, sensitivity};
-pub use stack::{Layer, Medium, SampleError, Stack, StackError};
-pub use stack_color::{Color, ParseColorError, Polarization, Side, StackColor, View, parse_srgb};
+pub use stack::{SampleError, Stack};
+pub use stack_color::{Color, ParseColorError, StackColor, parse_srgb};
 pub use tolerance::{Quantiles, Spread, Tolerance, ToleranceError, tolerance};
+pub use view::{Polarization, Side, View};

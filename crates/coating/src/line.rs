@@ -14,7 +14,8 @@ mod tests;
 
 use crate::file;
 use crate::label;
-use crate::stack::{Layer, Medium, Stack};
+use crate::medium::{Layer, Medium};
+use crate::stack::Stack;
 use crate::thickness;
 use document::wording::{shortened, visible};
 use document::{Folder, Snippet};

@@ -1,6 +1,6 @@
 //! The formula for R and T of a stack.
 
-use crate::response::Angle;
+use crate::angle::Angle;
 use optics::batch::Powers;
 use optics::{Complex64, PathDifference, Polarized, ThicknessDerivative, two_beam};
 use std::f64::consts::TAU;

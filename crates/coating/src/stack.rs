@@ -1,133 +1,15 @@
 //! Stacks: two half spaces and the layers between them.
 
-use crate::file::{self, StackDescription};
 use crate::label;
-use crate::line::{self, EXAMPLE, LineError};
+use crate::medium::{INCIDENT_K, Layer, Medium};
 use crate::model::{self, Model};
 use crate::response::Sampled;
 use crate::thickness::THICKNESS_NM;
-use document::text_file::STANDARD_INPUT;
-use document::wording::visible;
-use document::{Folder, Problems, Range};
-use media::{Extrapolate, Index};
+use document::Range;
 use miette::Diagnostic;
 use optics::Complex64;
-use spectra::{OpticalConstants, OutOfRange};
-use std::path::Path;
-use std::sync::Arc;
+use spectra::OutOfRange;
 use thiserror::Error;
-
-/// A material as the user wrote it, with its optical constants.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Medium {
-    written: Index,
-    /// Shared, since hundreds of layers may have the same medium.
-    constants: Arc<OpticalConstants>,
-    notes: Vec<String>,
-}
-
-impl Medium {
-    pub(crate) fn new(written: Index, constants: OpticalConstants, notes: Vec<String>) -> Self {
-        Self {
-            written,
-            constants: Arc::new(constants),
-            notes,
-        }
-    }
-
-    /// The index as it was written.
-    pub fn written(&self) -> &Index {
-        &self.written
-    }
-
-    /// Returns n and k over wavelength.
-    pub fn constants(&self) -> &OpticalConstants {
-        &self.constants
-    }
-
-    /// Returns a short readable name: `silica`, `1.5+0.1i`, `mine.csv`, `table`.
-    pub fn label(&self) -> String {
-        let label = match &self.written {
-            Index::Real(n) => n.to_string(),
-            Index::Complex([n, k]) => format!("{n}+{k}i"),
-            Index::Name(name) | Index::Named { name, .. } => name.clone(),
-            Index::File { csv: path, .. } | Index::Database { yaml: path, .. } => {
-                path.display().to_string()
-            }
-            Index::Table { .. } => "table".to_owned(),
-            Index::Cauchy { .. } => "Cauchy".to_owned(),
-            Index::Sellmeier { .. } => "Sellmeier".to_owned(),
-            Index::Reflecting { .. } => "normal reflectance".to_owned(),
-            Index::Mixture { .. } => "mixture".to_owned(),
-        };
-        visible(&label).into_owned()
-    }
-
-    /// Describes the data as `rutile beyond 430 to 1530 nm`, if they do not cover these wavelengths.
-    fn shortfall(&self, (from_nm, to_nm): (f64, f64)) -> Option<String> {
-        let (low, high) = self.constants.range_nm()?;
-        let is_short = from_nm < low || high < to_nm;
-        is_short.then(|| format!("{} beyond {low} to {high} nm", self.label()))
-    }
-
-    /// Returns the same medium with end values outside its data. The written index changes too where it can: not for mixtures and
-    /// reflectances, whose parts have their own data ranges.
-    fn clamped(mut self) -> Self {
-        if self.constants.range_nm().is_none() {
-            return self;
-        }
-        let OpticalConstants { n, k } = OpticalConstants::clone(&self.constants);
-        self.constants = Arc::new(OpticalConstants {
-            n: n.clamped(),
-            k: k.clamped(),
-        });
-        match &mut self.written {
-            Index::Name(name) => {
-                self.written = Index::Named {
-                    name: std::mem::take(name),
-                    extrapolate: Extrapolate::Clamp,
-                };
-            }
-            Index::Named { extrapolate, .. }
-            | Index::Table { extrapolate, .. }
-            | Index::File { extrapolate, .. }
-            | Index::Database { extrapolate, .. }
-            | Index::Cauchy { extrapolate, .. }
-            | Index::Sellmeier { extrapolate, .. } => *extrapolate = Extrapolate::Clamp,
-            Index::Real(_)
-            | Index::Complex(_)
-            | Index::Reflecting { .. }
-            | Index::Mixture { .. } => {}
-        }
-        self
-    }
-
-    /// Returns whether it absorbs visible light, as far as its data say.
-    fn absorbs(&self) -> bool {
-        let k = |nm| self.constants.k.at(f64::from(nm)).unwrap_or(0.0);
-        (380..=780).any(|nm| k(nm) > Stack::INCIDENT_K)
-    }
-}
-
-/// A layer of a stack.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Layer {
-    /// Its material.
-    pub medium: Medium,
-    /// Thickness, nm, ≥ 0.
-    pub thickness_nm: f64,
-}
-
-impl Layer {
-    /// Returns a short readable name with a rounded thickness: `TiO2 56.45 nm`.
-    pub fn label(&self) -> String {
-        format!(
-            "{} {} nm",
-            self.medium.label(),
-            label::rounded(self.thickness_nm)
-        )
-    }
-}
 
 /// A stack: the incident medium, the layers in order from there, and the substrate.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,24 +22,6 @@ pub struct Stack {
     is_line: bool,
     model: Model,
     notes: Vec<String>,
-}
-
-/// Why a stack cannot be read.
-#[derive(Debug, Error, Diagnostic)]
-#[non_exhaustive]
-pub enum StackError {
-    /// A stack file is invalid.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    File(#[from] Problems),
-    /// The text is neither the name of a file nor a one-line stack.
-    #[error("there is no stack file {0:?}")]
-    #[diagnostic(help("a stack in one line has | between its media, like {EXAMPLE:?}"))]
-    Nothing(String),
-    /// A one-line stack is invalid.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Line(#[from] LineError),
 }
 
 /// Why a stack cannot be evaluated at a wavelength.
@@ -220,68 +84,11 @@ pub enum SampleError {
 impl Stack {
     /// Largest extinction coefficient of an incident medium, which must be transparent: at 1e-6, light of 500 nm travels 40 mm. Up to
     /// this, k is taken as 0.
-    pub const INCIDENT_K: f64 = 1e-6;
+    pub const INCIDENT_K: f64 = INCIDENT_K;
     /// Maximum number of layers.
     pub const MAX_LAYERS: usize = 1000;
     /// Thickness of a layer.
     pub const THICKNESS_NM: Range = THICKNESS_NM;
-
-    /// Opens a stack file if `text` is a path, reads one from standard input if it is `-`, or parses a one-line stack if it contains `|`.
-    ///
-    /// # Errors
-    /// Reports everything that is wrong, and where.
-    pub fn open(text: &str) -> Result<Self, StackError> {
-        if text.contains('|') {
-            Ok(Self::parse(text)?)
-        } else if text != STANDARD_INPUT && !Path::new(text).exists() {
-            Err(StackError::Nothing(text.chars().take(200).collect()))
-        } else {
-            Ok(Self::read(text)?)
-        }
-    }
-
-    /// Like [`Self::open`], for a trusted stack file: the files that it names may be outside of its folder.
-    ///
-    /// # Errors
-    /// Reports everything that is wrong, and where.
-    pub fn open_trusted(text: &str) -> Result<Self, StackError> {
-        if text.contains('|') || !Path::new(text).exists() {
-            return Self::open(text);
-        }
-        Ok(file::read(text.as_ref(), true)?)
-    }
-
-    /// Parses a one-line stack: `air | silica 300nm | silicon`.
-    ///
-    /// The first medium is the incident medium and the last is the substrate. Between them are layers with their thickness in nm,
-    /// µm (um), mm or Å (angstrom), or in waves at a wavelength in nm: `TiO2 0.25@550` is a quarter-wave layer at normal incidence.
-    /// A power repeats layers in brackets: `air | (TiO2 60nm | SiO2 90nm)^8 | BK7`. Definitions before the stack name media and
-    /// layers: `H=TiO2 0.25@550; L=SiO2 0.25@550; air | (HL)^8 2H | BK7`, where `2H` is twice as thick as `H`.
-    ///
-    /// A medium is a material's name, a number `1.5` or `1.5+0.1i`, or a file `.csv` or `.yml`. `air` is the material of the library,
-    /// n = 1.0003; `vacuum` is n = 1.
-    ///
-    /// # Errors
-    /// Reports the first part that is wrong.
-    pub fn parse(line: &str) -> Result<Self, LineError> {
-        line::parse(line)
-    }
-
-    /// Reads a stack file: see [`StackDescription`]. The files that it names must be in its folder.
-    ///
-    /// # Errors
-    /// Reports everything that is wrong.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, Problems> {
-        file::read(path.as_ref(), false)
-    }
-
-    /// Reads the text of a stack file. Errors call it `name`; files are relative to `folder` and must be inside it.
-    ///
-    /// # Errors
-    /// Reports everything that is wrong.
-    pub fn from_toml(name: &str, text: &str, folder: impl Into<Folder>) -> Result<Self, Problems> {
-        file::parse(name, text, &folder.into())
-    }
 
     /// Makes a stack. `line` and `file` have checked that the incident medium is transparent and thicknesses are finite and not negative.
     pub(crate) fn new(incident: Medium, layers: Vec<Layer>, substrate: Medium) -> Self {
@@ -349,7 +156,7 @@ impl Stack {
     /// Assumptions about the files of its media, and where data end, one line each, without duplicates.
     pub fn notes(&self) -> Vec<&str> {
         let mut notes: Vec<&str> = Vec::new();
-        let of_media = self.media().flat_map(|medium| &medium.notes);
+        let of_media = self.media().flat_map(|medium| medium.notes());
         for note in of_media.chain(&self.notes) {
             if !notes.contains(&note.as_str()) {
                 notes.push(note);
@@ -384,11 +191,6 @@ impl Stack {
     /// Thicknesses of the layers in order, nm.
     pub fn thicknesses_nm(&self) -> &[f64] {
         &self.thicknesses_nm
-    }
-
-    /// Returns the stack as a stack file describes it.
-    pub fn description(&self) -> StackDescription {
-        StackDescription::of(self)
     }
 
     /// Returns a readable label of the stack in one line.
@@ -457,7 +259,7 @@ impl Stack {
         medium: &Medium,
         nm: &[f64],
     ) -> Result<Vec<Complex64>, SampleError> {
-        let at = |&nm: &f64| medium.constants.at(nm);
+        let at = |&nm: &f64| medium.constants().at(nm);
         let found: Result<_, OutOfRange> = nm.iter().map(at).collect();
         found.map_err(|gap| {
             let (place, label, asked_nm) = (place.to_owned(), medium.label(), gap.nm);
@@ -506,6 +308,7 @@ fn has_two_beams(sampled: &Sampled) -> Result<(), SampleError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::path::Path;
 
     #[test]
     fn what_is_too_short_is_reported_in_the_form_of_the_stack_and_can_be_clamped() {

@@ -2,65 +2,14 @@
 
 use crate::fringes::{Fringes, Places};
 use crate::response::{Angle, Sampled};
+pub(crate) use crate::view::{Polarization, Side, View};
 use crate::{Light, SampleError, Stack};
 use colorimetry::lab::delta_e_2000;
 use colorimetry::{Lab, srgb};
 use optics::batch::Powers;
-use optics::{Complex64, Polarized};
+use optics::Complex64;
 use rayon::prelude::*;
 use thiserror::Error;
-
-/// The side from which a stack is seen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Side {
-    /// The reflected light.
-    #[default]
-    Reflected,
-    /// The transmitted light.
-    Transmitted,
-}
-
-/// Polarization of the light.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Polarization {
-    /// Unpolarized: the mean of both.
-    #[default]
-    Unpolarized,
-    /// s: the electric field is perpendicular to the plane of incidence.
-    S,
-    /// p: the electric field is in that plane.
-    P,
-}
-
-impl Polarization {
-    /// Returns the power in light of this polarization.
-    pub fn of(self, power: Polarized) -> f64 {
-        match self {
-            Self::Unpolarized => power.unpolarized(),
-            Self::S => power.s,
-            Self::P => power.p,
-        }
-    }
-}
-
-/// How a stack is seen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct View {
-    /// The side.
-    pub side: Side,
-    /// The polarization of the light.
-    pub polarization: Polarization,
-}
-
-impl View {
-    /// Selects from a reflected and a transmitted power, or from their derivatives, what is seen.
-    pub fn of(self, reflected: Polarized, transmitted: Polarized) -> f64 {
-        self.polarization.of(match self.side {
-            Side::Reflected => reflected,
-            Side::Transmitted => transmitted,
-        })
-    }
-}
 
 /// A color under an illuminant: XYZ, relative to the illuminant's Y = 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
