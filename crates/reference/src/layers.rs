@@ -1,6 +1,6 @@
 //! Thin layers, free or on a surface, at a point of a path.
 
-use crate::spectral::{At, BandPowers, Bands, Knots, Row, Tables, Through};
+use crate::bands::{At, BandPowers, Bands, Knots, Row, Tables, Through};
 use crate::{SurfacePoint, layer_thickness};
 use glam::DVec3;
 use optics::wide::{

@@ -18,6 +18,7 @@
     reason = "code that works on lanes must be inlined into the caller that was compiled for them"
 )]
 
+mod bands;
 mod bsdf;
 mod camera;
 mod emitter;

@@ -1,9 +1,18 @@
 //! How pictures are mapped to surfaces, and which of their pixels a path uses.
 
-use crate::surface::center_of;
 use glam::DVec3;
 use scene::{Shape, Texels};
 use std::f64::consts::{PI, TAU};
+
+/// Returns a shape's center, or the origin of a plane's axes.
+pub(crate) fn center_of(shape: &Shape) -> DVec3 {
+    match *shape {
+        Shape::Sphere { center, .. }
+        | Shape::Rectangle { center, .. }
+        | Shape::Disk { center, .. } => center,
+        Shape::Plane { point, .. } => point,
+    }
+}
 
 /// Returns the angle between two directions over π. The arc cosine of their product would lose half the digits near 0.
 pub(crate) fn half_turns(a: DVec3, b: DVec3) -> f64 {

@@ -1,8 +1,8 @@
 //! A scene in the form that paths need: spectra in chunks, materials by how paths use them, emitters by index.
 
 use crate::Emitter;
+use crate::bands::Tables;
 use crate::bsdf::Surface;
-use crate::spectral::Tables;
 use scene::{EmitterKind, EmitterSource, EnvironmentPart, MaterialId, Scene};
 
 /// A scene prepared for tracing paths.

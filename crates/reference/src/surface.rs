@@ -1,6 +1,6 @@
 //! Geometry and reflectance of a surface at a point.
 
-use crate::picture::{chosen_pixel, picture_uv};
+use crate::picture::{center_of, chosen_pixel, picture_uv};
 use crate::{Ray, frame_of};
 use glam::{DMat3, DVec3};
 use scene::{Grain, Material, Pattern, Shape, SpectrumId};
@@ -54,16 +54,6 @@ pub fn surface_frame(material: &Material, shape: &Shape, point: &SurfacePoint) -
     }
     let tangent = along.normalize();
     DMat3::from_cols(tangent, normal.cross(tangent), normal)
-}
-
-/// Returns a shape's center, or the origin of a plane's axes.
-pub(crate) fn center_of(shape: &Shape) -> DVec3 {
-    match *shape {
-        Shape::Sphere { center, .. }
-        | Shape::Rectangle { center, .. }
-        | Shape::Disk { center, .. } => center,
-        Shape::Plane { point, .. } => point,
-    }
 }
 
 /// A reflectance over wavelength.

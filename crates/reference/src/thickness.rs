@@ -1,8 +1,7 @@
 //! The thickness of a layer at a point of its surface.
 
 use crate::noise::swirls;
-use crate::picture::{half_turns, picture_uv};
-use crate::surface::center_of;
+use crate::picture::{center_of, half_turns, picture_uv};
 use glam::DVec3;
 use scene::limits::THICKNESS_NM;
 use scene::{Coordinate, Picture, Profile, Shape, Thickness};

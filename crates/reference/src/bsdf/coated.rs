@@ -1,9 +1,9 @@
 //! A diffuse body below a clear coat, smooth or rough.
 
 use super::{BsdfEval, Lobes, Rough};
+use crate::bands::{At, BandValue, Bands, Row, Tables};
 use crate::layers::{Coating, GRAZING, Layers, Medium};
 use crate::sample_cosine_hemisphere;
-use crate::spectral::{At, BandValue, Bands, Row, Tables};
 use crate::surface::Reflectance;
 use glam::DVec3;
 use optics::wide::{Lanes, Real, interface_reflectance};

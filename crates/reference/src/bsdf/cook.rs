@@ -1,9 +1,9 @@
 //! The model of Cook and Torrance (1982), with a Lambertian fraction.
 
 use super::{BsdfEval, Lobes, mirrored};
+use crate::bands::{At, BandValue, Bands, Tables};
 use crate::layers::Medium;
 use crate::sample_cosine_hemisphere;
-use crate::spectral::{At, BandValue, Bands, Tables};
 use glam::DVec3;
 use optics::wide::{Lanes, Real};
 use pulp::Simd;

@@ -1,9 +1,9 @@
 //! Lambertian reflection.
 
 use super::{BsdfEval, Lobes};
+use crate::bands::{At, BandValue, Bands, Spectrum};
 use crate::lifting::smooth_value;
 use crate::sample_cosine_hemisphere;
-use crate::spectral::{At, BandValue, Bands, Spectrum};
 use crate::surface::Reflectance;
 use glam::DVec3;
 use optics::wide::{Lanes, Real};

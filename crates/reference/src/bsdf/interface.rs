@@ -1,8 +1,8 @@
 //! The boundary of an opaque medium, bare or below thin layers: smooth, or made of specular facets.
 
 use super::{BsdfEval, Lobes, Rough};
+use crate::bands::{At, BandValue, Bands, Tables};
 use crate::layers::{Coating, Layers, Medium, Nanometers, SurfaceAt};
-use crate::spectral::{At, BandValue, Bands, Tables};
 use glam::DVec3;
 use optics::wide::{Lanes, Real};
 use pulp::Simd;

@@ -22,8 +22,8 @@ pub(crate) use lobes::{BsdfEval, Lobes};
 use rough::Rough;
 
 use crate::SurfacePoint;
+use crate::bands::{Bands, Spectrum, Tables};
 use crate::layers::{Film, Nanometers, SurfaceAt};
-use crate::spectral::{Bands, Spectrum, Tables};
 use crate::surface::{Reflectance, pattern_reflectance};
 use glam::DVec3;
 use pulp::Simd;

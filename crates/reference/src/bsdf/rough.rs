@@ -1,8 +1,8 @@
 //! The roughness of a boundary: its facets, and the color of multiple scattering between them.
 
 use super::Facets;
+use crate::bands::{At, Bands, Row, Tables};
 use crate::layers::Coating;
-use crate::spectral::{At, Bands, Row, Tables};
 use optics::MEAN_COSINES;
 use optics::wide::{Lanes, Real};
 use pulp::{Scalar, Simd};

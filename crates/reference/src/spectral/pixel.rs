@@ -1,6 +1,7 @@
 //! Statistics of the samples of a pixel.
 
-use super::{At, SpectralPath, Spectrum, Tables};
+use super::SpectralPath;
+use crate::bands::{At, Spectrum, Tables};
 use optics::wide::Real;
 use pulp::{Arch, Simd, WithSimd};
 use spectra::KM_LUMENS_PER_WATT;

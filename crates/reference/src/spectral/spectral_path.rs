@@ -1,6 +1,6 @@
 //! The spectrum of a path, updated as the path is traced.
 
-use super::{At, BandValue, Bands, Spectrum, Tables, Through};
+use crate::bands::{At, BandValue, Bands, Spectrum, Tables, Through};
 use crate::bsdf::{Bsdf, Lobes};
 use crate::layers::{FilmAt, Nanometers};
 use crate::lifting::smooth_value;

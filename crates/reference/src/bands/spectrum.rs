@@ -90,12 +90,12 @@ impl Tables {
     }
 
     /// Returns the observer's color-matching functions.
-    pub(super) fn observer(&self) -> [Row; 3] {
+    pub(crate) fn observer(&self) -> [Row; 3] {
         self.observer
     }
 
     /// Returns the bands.
-    pub(super) fn grid(&self) -> &BandGrid {
+    pub(crate) fn grid(&self) -> &BandGrid {
         &self.grid
     }
 
@@ -105,7 +105,7 @@ impl Tables {
     }
 
     /// Returns the number of chunks of a value for each band.
-    pub(super) fn chunks(&self) -> usize {
+    pub(crate) fn chunks(&self) -> usize {
         self.chunks_of_knot
     }
 
@@ -119,7 +119,7 @@ impl Tables {
     }
 
     /// Returns the knot before an offset in [0, 1], and the fraction of the distance to the next knot.
-    pub(super) fn place(&self, offset: f64) -> (usize, f64) {
+    pub(crate) fn place(&self, offset: f64) -> (usize, f64) {
         let position = offset * (self.knots - 1) as f64;
         let knot = (position as usize).min(self.knots - 2);
         (knot, position - knot as f64)
