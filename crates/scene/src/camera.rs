@@ -1,6 +1,7 @@
 //! The camera of a validated scene.
 
 use crate::PixelFilter;
+use crate::rounding::RoundToF32;
 use glam::DVec3;
 
 /// A camera, whose rays start at one point, start on a lens, or are parallel.
@@ -57,6 +58,37 @@ impl Camera {
         match self.projection {
             Projection::Perspective { half_height } => Some(2.0 * half_height.atan().to_degrees()),
             Projection::Orthographic { .. } | Projection::Panorama => None,
+        }
+    }
+}
+
+impl RoundToF32 for Camera {
+    fn rounded(&self) -> Self {
+        Self {
+            origin: self.origin.rounded(),
+            right: self.right.rounded(),
+            up: self.up.rounded(),
+            back: self.back.rounded(),
+            projection: self.projection.rounded(),
+            lens: self.lens.map(|lens| Lens {
+                radius: lens.radius.rounded(),
+                focus_distance: lens.focus_distance.rounded(),
+            }),
+            filter: self.filter.rounded(),
+        }
+    }
+}
+
+impl RoundToF32 for Projection {
+    fn rounded(&self) -> Self {
+        match self {
+            Self::Perspective { half_height } => Self::Perspective {
+                half_height: half_height.rounded(),
+            },
+            Self::Panorama => Self::Panorama,
+            Self::Orthographic { half_height } => Self::Orthographic {
+                half_height: half_height.rounded(),
+            },
         }
     }
 }

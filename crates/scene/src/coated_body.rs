@@ -1,5 +1,6 @@
 //! A diffuse body below a clear coat, in a validated scene.
 
+use crate::rounding::RoundToF32;
 use crate::{FacetTable, Microsurface, Pattern, SpectrumId};
 use glam::DVec3;
 
@@ -46,4 +47,22 @@ pub struct CoatEstimate {
     pub n: f64,
     /// The body's reflectance.
     pub base: f64,
+}
+
+impl RoundToF32 for CoatedBody {
+    fn rounded(&self) -> Self {
+        Self {
+            n: self.n,
+            k: self.k,
+            microsurface: self.microsurface.as_ref().map(RoundToF32::rounded),
+            base: self.base.rounded(),
+            mean_reflectance: self.mean_reflectance,
+            reflectances: self.reflectances,
+            transmittance_scale: self.transmittance_scale.as_ref().map(RoundToF32::rounded),
+            estimate: CoatEstimate {
+                n: self.estimate.n.rounded(),
+                base: self.estimate.base.rounded(),
+            },
+        }
+    }
 }

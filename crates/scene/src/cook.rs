@@ -1,5 +1,6 @@
 //! Cook's model of a validated scene.
 
+use crate::rounding::RoundToF32;
 use crate::{Emission, SpectrumId};
 
 /// A surface by Cook's model (Cook and Torrance 1981; Suzuki, Yokoi and Toriwaki, section 3-1): the specular term F(E·H) G / ((N·L) (N·E))
@@ -52,4 +53,39 @@ pub struct DiffuseTerm {
     pub probability: f64,
     /// Its reflectance.
     pub reflectance: SpectrumId,
+}
+
+impl RoundToF32 for Cook1981 {
+    fn rounded(&self) -> Self {
+        Self {
+            n: self.n,
+            k: self.k,
+            distribution: self.distribution,
+            facets: self.facets.iter().map(RoundToF32::rounded).collect(),
+            diffuse: self.diffuse.as_ref().map(RoundToF32::rounded),
+            ambient: self.ambient.as_ref().map(RoundToF32::rounded),
+            // Only for a note: no renderer uses it.
+            gain: self.gain,
+        }
+    }
+}
+
+impl RoundToF32 for CookFacets {
+    fn rounded(&self) -> Self {
+        Self {
+            slope: self.slope.rounded(),
+            weight: self.weight.rounded(),
+            part: self.part.rounded(),
+        }
+    }
+}
+
+impl RoundToF32 for DiffuseTerm {
+    fn rounded(&self) -> Self {
+        Self {
+            fraction: self.fraction.rounded(),
+            probability: self.probability.rounded(),
+            reflectance: self.reflectance,
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! The environment of a validated scene.
 
-use crate::prepared::DirectionTable;
-use crate::{Emission, Texels};
+use crate::rounding::RoundToF32;
+use crate::{DirectionTable, Emission, Texels};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -109,6 +109,35 @@ impl Environment {
                 part(EnvironmentShape::Pole(DVec3::Y), zenith),
                 part(EnvironmentShape::Pole(DVec3::NEG_Y), ground),
             ],
+        }
+    }
+}
+
+impl RoundToF32 for Environment {
+    fn rounded(&self) -> Self {
+        match self {
+            Self::Constant(emission) => Self::Constant(emission.rounded()),
+            Self::Picture { emission, picture } => Self::Picture {
+                emission: emission.rounded(),
+                picture: Arc::new(EnvironmentPicture {
+                    texels: picture.texels.clone(),
+                    spectra: picture.spectra,
+                    forward: picture.forward.rounded(),
+                    right: picture.right.rounded(),
+                    // A factor of brightnesses, which are rounded themselves.
+                    sampled_mean: picture.sampled_mean,
+                    table: picture.table.clone(),
+                }),
+            },
+            Self::Gradient {
+                zenith,
+                horizon,
+                ground,
+            } => Self::Gradient {
+                zenith: zenith.rounded(),
+                horizon: horizon.rounded(),
+                ground: ground.rounded(),
+            },
         }
     }
 }

@@ -10,16 +10,21 @@
 mod camera;
 mod coated_body;
 mod cook;
+mod emission;
 mod environment;
+mod ids;
 mod light;
 pub mod limits;
 mod material;
 mod microsurface;
 mod notes;
 mod object;
+mod parts;
+mod pattern;
 mod prepared;
 mod rounding;
 mod settings;
+mod tables;
 mod texels;
 mod thickness;
 mod validated;
@@ -27,18 +32,22 @@ mod validated;
 pub use camera::{Camera, Lens, Projection};
 pub use coated_body::{CoatEstimate, CoatedBody};
 pub use cook::{Cook1981, CookDistribution, CookFacets, DiffuseTerm};
+pub use emission::Emission;
 pub use environment::{
     Environment, EnvironmentPart, EnvironmentPicture, EnvironmentShape, PictureSpectra,
 };
+pub use ids::{LightGroupId, MaterialId, SpectrumId};
 pub use light::{EmitterKind, EmitterSource, Light, LightShape};
-pub use material::{Emission, Interference, Layer, Material, PathDifference, Pattern};
+pub use material::{Interference, Layer, Material, PathDifference};
 pub use microsurface::{Distribution, Grain, Microsurface};
 pub use object::{Object, Shape};
-pub use prepared::{
-    DirectionTable, EmitterNode, EmitterTree, Energy, Estimate, FacetTable, Filter, Hierarchy,
-    Node, PixelFilter, Sampled, Sheet, facet_direction,
-};
+pub use parts::SceneParts;
+pub use pattern::Pattern;
+pub use prepared::{EmitterNode, EmitterTree, Hierarchy, Node, Sheet};
 pub use settings::{DirectLight, RenderSettings, Sampler, WavelengthSampling};
+pub use tables::{
+    DirectionTable, Energy, Estimate, FacetTable, Filter, PixelFilter, Sampled, facet_direction,
+};
 pub use texels::Texels;
 pub use thickness::{BlackFilm, Coordinate, Picture, PictureFile, Profile, Swirls, Thickness};
-pub use validated::{LightGroupId, MaterialId, Scene, SceneParts, SpectrumId};
+pub use validated::Scene;

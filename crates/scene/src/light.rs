@@ -1,6 +1,7 @@
 //! Lights that are not objects, and all emitters that are sampled, in a validated scene.
 
-use crate::{DirectLight, Emission, EnvironmentPart, EnvironmentShape, Scene, Shape};
+use crate::Emission;
+use crate::rounding::RoundToF32;
 use glam::DVec3;
 
 /// A light that is not an object. Rays do not hit it.
@@ -68,79 +69,39 @@ pub enum EmitterKind {
     Light(usize),
 }
 
-impl Scene {
-    /// The emitters that are sampled: emitting objects with bounds, parts of the environment, and lights. Dark ones are left out. So are
-    /// constant environments and gradients, unless emitter sampling is the only way to find light: BSDF sampling finds them with less
-    /// noise. (Their density after compensation for BSDF sampling is 0: Karlík et al., MIS Compensation, ACM Transactions on Graphics
-    /// 38(6), 2019.)
-    pub fn emitters(&self) -> Vec<EmitterSource> {
-        let objects = self.objects().iter().enumerate();
-        let objects = objects
-            .filter(|(_, object)| !matches!(object.shape, Shape::Plane { .. }))
-            .filter_map(|(index, object)| {
-                let emission = self.material(object.material).emission()?;
-                Some((EmitterKind::Object(index), emission, 1.0))
-            });
-        let parts = self.environment_parts().into_iter().enumerate();
-        let samples_emitters_alone = self.settings().direct_light == DirectLight::Emitters;
-        let is_uneven = |shape: &EnvironmentShape| {
-            matches!(
-                shape,
-                EnvironmentShape::DistantDisk { .. } | EnvironmentShape::Picture(_)
-            )
-        };
-        let parts = parts.filter(|(_, part)| samples_emitters_alone || is_uneven(&part.shape));
-        let parts = parts.map(|(index, part)| {
-            let mean = match part.shape {
-                EnvironmentShape::Picture(picture) => picture.sampled_mean,
-                _ => 1.0,
-            };
-            (EmitterKind::Environment(index), part.emission, mean)
-        });
-        let lights = self.lights().iter().enumerate();
-        let is_distant_disk = |light: &Light| matches!(light.shape, LightShape::DistantDisk { .. });
-        let lights = lights.filter(|(_, light)| !is_distant_disk(light));
-        let lights = lights.map(|(index, light)| (EmitterKind::Light(index), light.emission, 1.0));
-        objects
-            .chain(parts)
-            .chain(lights)
-            .map(|(kind, emission, mean)| EmitterSource {
-                kind,
-                emission,
-                brightness: mean * self.brightness(emission),
-            })
-            .filter(|source| source.brightness > 0.0)
-            .collect()
+impl RoundToF32 for Light {
+    fn rounded(&self) -> Self {
+        Self {
+            shape: self.shape.rounded(),
+            emission: self.emission.rounded(),
+        }
     }
+}
 
-    /// What rays meet that leave the scene: the parts of the environment, then the disks of distant lights.
-    pub fn environment_parts(&self) -> Vec<EnvironmentPart<'_>> {
-        let disks = self.lights().iter().filter_map(|light| match light.shape {
-            LightShape::DistantDisk { toward, height } => Some(EnvironmentPart {
-                shape: EnvironmentShape::DistantDisk { toward, height },
-                emission: light.emission,
-            }),
-            _ => None,
-        });
-        self.environment()
-            .parts()
-            .into_iter()
-            .chain(disks)
-            .collect()
-    }
-
-    /// Luminance per nanometer of bandwidth, without its unit. Wavelengths that are barely visible count a little too.
-    fn brightness(&self, emission: Emission) -> f64 {
-        /// Weight of all wavelengths, relative to the peak of ȳ.
-        const INVISIBLE: f64 = 0.05;
-        let bands = self.settings().bands.count();
-        let (spectrum, [_, y, _]) = (self.spectrum(emission.spectrum), self.observer());
-        let steps = spectrum.steps();
-        let places = (0..bands).flat_map(|band| (0..=steps).map(move |step| (band, step)));
-        let values = places.map(|(band, step)| {
-            let offset = f64::from(step) / f64::from(steps);
-            spectrum.at(band, offset) * (y.at(band, offset) + INVISIBLE)
-        });
-        emission.scale * values.sum::<f64>() / f64::from(bands * (steps + 1))
+impl RoundToF32 for LightShape {
+    fn rounded(&self) -> Self {
+        match self {
+            Self::DistantDisk { toward, height } => Self::DistantDisk {
+                toward: toward.rounded(),
+                height: height.rounded(),
+            },
+            Self::Direction { toward } => Self::Direction {
+                toward: toward.rounded(),
+            },
+            Self::Point { position } => Self::Point {
+                position: position.rounded(),
+            },
+            Self::Spot {
+                position,
+                axis,
+                full_height,
+                edge_height,
+            } => Self::Spot {
+                position: position.rounded(),
+                axis: axis.rounded(),
+                full_height: full_height.rounded(),
+                edge_height: edge_height.rounded(),
+            },
+        }
     }
 }

@@ -1,10 +1,9 @@
 //! Materials of a validated scene.
 
 use crate::rounding::RoundToF32;
-use crate::{CoatedBody, Cook1981, LightGroupId, Microsurface, SpectrumId, Texels, Thickness};
+use crate::{CoatedBody, Cook1981, Emission, Microsurface, Pattern, SpectrumId, Thickness};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
 
 /// What a surface is made of. Every surface has two sides, which behave alike, except those of an absorbing film of several layers: from
 /// behind, light meets its layers in the reverse order.
@@ -160,43 +159,6 @@ pub enum Interference {
     TwoBeam(PathDifference),
 }
 
-/// A spectrum and its scale. Their product is a radiance in W m⁻² sr⁻¹ nm⁻¹; for a point or a spot it is an intensity in W sr⁻¹ nm⁻¹, and
-/// for light from a single direction an irradiance in W m⁻² nm⁻¹.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Emission {
-    /// Spectrum at scale 1, ≥ 0.
-    pub spectrum: SpectrumId,
-    /// Factor, ≥ 0.
-    pub scale: f64,
-    /// The light group that its light belongs to.
-    pub light_group: LightGroupId,
-}
-
-/// A reflectance that may vary over a surface.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Pattern {
-    /// The same everywhere.
-    Uniform(SpectrumId),
-    /// A checkerboard of squares (on planes, rectangles and disks, along the surface's two axes from its center) or cubes (on spheres, from
-    /// the center): `even` where the sum of ⌊coordinate / size⌋ is even.
-    Checker {
-        /// Reflectance of the square whose corner is the center.
-        even: SpectrumId,
-        /// Reflectance of its neighbors.
-        odd: SpectrumId,
-        /// Side of a square, > 0.
-        size: f64,
-    },
-    /// A picture whose texels are the coefficients of smooth reflectances.
-    Texture {
-        /// The picture.
-        texels: Arc<Texels>,
-        /// Width and height on planes, rectangles and disks; `None` is the whole rectangle, the square around a disk, or a square of side 1
-        /// on a plane.
-        size: Option<[f64; 2]>,
-    },
-}
-
 /// The path difference l between the two beams of a film of thickness d and index n, refracted to the angle θ₂.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -205,4 +167,14 @@ pub enum PathDifference {
     Optical,
     /// l = 2 d cos θ₂, as the paper prints it, without the index.
     AsPrinted,
+}
+
+impl RoundToF32 for Layer {
+    fn rounded(&self) -> Self {
+        Self {
+            n: self.n,
+            k: self.k,
+            thickness: self.thickness.rounded(),
+        }
+    }
 }

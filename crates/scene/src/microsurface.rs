@@ -1,6 +1,7 @@
 //! Rough surfaces of a validated scene.
 
 use crate::Energy;
+use crate::rounding::RoundToF32;
 use glam::DVec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -46,4 +47,19 @@ pub enum Distribution {
     Beckmann,
     /// The distribution of Trowbridge and Reitz (1975), which Walter et al. (2007) call GGX: its highlights have long tails.
     Ggx,
+}
+
+impl RoundToF32 for Microsurface {
+    fn rounded(&self) -> Self {
+        Self {
+            distribution: self.distribution,
+            roughness: self.roughness.map(|alpha| alpha.rounded()),
+            grain: match self.grain {
+                Grain::None => Grain::None,
+                Grain::Along(direction) => Grain::Along(direction.rounded()),
+                Grain::Around(axis) => Grain::Around(axis.rounded()),
+            },
+            energy: Arc::new(self.energy.rounded()),
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! Objects of a validated scene.
 
 use crate::MaterialId;
+use crate::rounding::RoundToF32;
 use glam::DVec3;
 
 /// A shape made of a material.
@@ -62,4 +63,63 @@ pub enum Shape {
         /// Radius, > 0.
         radius: f64,
     },
+}
+
+impl RoundToF32 for Object {
+    fn rounded(&self) -> Self {
+        Self {
+            shape: self.shape.rounded(),
+            material: self.material,
+        }
+    }
+}
+
+impl RoundToF32 for Shape {
+    fn rounded(&self) -> Self {
+        match self {
+            Self::Sphere { center, radius } => Self::Sphere {
+                center: center.rounded(),
+                radius: radius.rounded(),
+            },
+            Self::Plane {
+                point,
+                normal,
+                tangent,
+                bitangent,
+            } => Self::Plane {
+                point: point.rounded(),
+                normal: normal.rounded(),
+                tangent: tangent.rounded(),
+                bitangent: bitangent.rounded(),
+            },
+            Self::Rectangle {
+                center,
+                normal,
+                tangent,
+                bitangent,
+                half_width,
+                half_height,
+            } => Self::Rectangle {
+                center: center.rounded(),
+                normal: normal.rounded(),
+                tangent: tangent.rounded(),
+                bitangent: bitangent.rounded(),
+                half_width: half_width.rounded(),
+                half_height: half_height.rounded(),
+            },
+            Self::Disk {
+                center,
+                normal,
+                tangent,
+                bitangent,
+                radius,
+            } => Self::Disk {
+                center: center.rounded(),
+                normal: normal.rounded(),
+                tangent: tangent.rounded(),
+                bitangent: bitangent.rounded(),
+                radius: radius.rounded(),
+            },
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! How to render a validated scene.
 
+use crate::rounding::RoundToF32;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use spectra::BandGrid;
@@ -81,4 +82,27 @@ pub enum DirectLight {
     Emitters,
     /// By BSDF sampling alone, which never finds light from a point, a spot or a single direction.
     Bsdf,
+}
+
+impl RoundToF32 for RenderSettings {
+    fn rounded(&self) -> Self {
+        Self {
+            width: self.width,
+            height: self.height,
+            samples: self.samples,
+            sampler: self.sampler,
+            seed: self.seed,
+            // Validation has already rounded the ends of the bands.
+            bands: self.bands.clone(),
+            sampling: self.sampling,
+            max_path_segments: self.max_path_segments,
+            direct_light: self.direct_light,
+            film_splits: self.film_splits,
+            roulette_after: self.roulette_after,
+            clamp: self.clamp.map(|clamp| clamp.rounded()),
+            exposure_ev: self.exposure_ev.rounded(),
+            // Thicknesses are already evaluated at this time, and no renderer uses it.
+            time_s: self.time_s,
+        }
+    }
 }

@@ -288,9 +288,11 @@ impl RoundToF32 for Swirls {
             mean: self.mean.rounded(),
             amplitude: self.amplitude.rounded(),
             cells_per_unit: self.cells_per_unit.rounded(),
+            seed: self.seed,
+            octaves: self.octaves,
             warp: self.warp.rounded(),
+            cells: self.cells,
             phase: self.phase.rounded(),
-            ..*self
         }
     }
 }

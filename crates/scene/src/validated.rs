@@ -2,64 +2,10 @@
 
 use crate::rounding::RoundToF32;
 use crate::{
-    Camera, EmitterTree, Environment, Estimate, Hierarchy, Light, Material, Object, RenderSettings,
-    Sheet, prepared,
+    Camera, EmitterSource, EmitterTree, Environment, EnvironmentPart, Estimate, Hierarchy, Light,
+    Material, MaterialId, Object, RenderSettings, SceneParts, Sheet, SpectrumId, prepared,
 };
 use spectra::{BandTable, LightGroup, SpectralImage};
-
-/// Index of a spectrum in [`Scene::spectra`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct SpectrumId(pub(crate) u32);
-
-impl SpectrumId {
-    /// The spectrum at this position in the list.
-    pub fn new(index: usize) -> Self {
-        Self(index as u32)
-    }
-
-    /// The position in the list.
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-
-    /// The spectrum this many positions after this one.
-    #[must_use]
-    pub fn after(self, places: usize) -> Self {
-        Self(self.0 + places as u32)
-    }
-}
-
-/// Index of a light group in [`Scene::light_groups`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct LightGroupId(pub(crate) u32);
-
-impl LightGroupId {
-    /// The light group at this position in the list.
-    pub fn new(index: usize) -> Self {
-        Self(index as u32)
-    }
-
-    /// The position in the list.
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
-
-/// Index of a material in [`Scene::materials`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct MaterialId(pub(crate) u32);
-
-impl MaterialId {
-    /// The material at this position in the list.
-    pub fn new(index: usize) -> Self {
-        Self(index as u32)
-    }
-
-    /// The position in the list.
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
 
 /// A scene that can be rendered.
 ///
@@ -71,33 +17,6 @@ pub struct Scene {
     sheets: Vec<Option<Sheet>>,
     hierarchy: Hierarchy,
     emitter_tree: EmitterTree,
-}
-
-/// What a scene consists of.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SceneParts {
-    /// The render settings.
-    pub settings: RenderSettings,
-    /// The camera.
-    pub camera: Camera,
-    /// All spectra that materials and lights refer to.
-    pub spectra: Vec<BandTable>,
-    /// The CIE 1931 2° color-matching functions x̄, ȳ, z̄.
-    pub observer: [BandTable; 3],
-    /// The light groups of the emitters, at least one.
-    pub light_groups: Vec<LightGroup>,
-    /// All materials.
-    pub materials: Vec<Material>,
-    /// One for each material.
-    pub estimates: Vec<Estimate>,
-    /// All objects.
-    pub objects: Vec<Object>,
-    /// Lights that are not objects, disks first.
-    pub lights: Vec<Light>,
-    /// The environment.
-    pub environment: Environment,
-    /// Assumptions about its files, one line each.
-    pub assumptions: Vec<String>,
 }
 
 impl Scene {
@@ -117,7 +36,8 @@ impl Scene {
             hierarchy,
             emitter_tree: EmitterTree::default(),
         };
-        scene.emitter_tree = EmitterTree::new(&scene);
+        scene.emitter_tree =
+            EmitterTree::new(&scene.emitters(), &scene.parts.objects, &scene.parts.lights);
         scene
     }
 
@@ -211,6 +131,19 @@ impl Scene {
     /// The environment.
     pub fn environment(&self) -> &Environment {
         &self.parts.environment
+    }
+
+    /// The emitters that are sampled: emitting objects with bounds, parts of the environment, and lights. Dark ones are left out. So are
+    /// constant environments and gradients, unless emitter sampling is the only way to find light: BSDF sampling finds them with less
+    /// noise. (Their density after compensation for BSDF sampling is 0: Karlík et al., MIS Compensation, ACM Transactions on Graphics
+    /// 38(6), 2019.)
+    pub fn emitters(&self) -> Vec<EmitterSource> {
+        self.parts.emitters()
+    }
+
+    /// What rays meet that leave the scene: the parts of the environment, then the disks of distant lights.
+    pub fn environment_parts(&self) -> Vec<EnvironmentPart<'_>> {
+        self.parts.environment_parts()
     }
 
     /// The same scene with every number rounded to the nearest `f32`, as a GPU receives it.

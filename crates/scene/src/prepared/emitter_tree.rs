@@ -1,6 +1,7 @@
 //! A tree of the emitters, so that only a few of many need weights at a point.
 
-use crate::{EmitterKind, EmitterSource, LightShape, Scene, Shape};
+use crate::rounding::RoundToF32;
+use crate::{EmitterKind, EmitterSource, Light, LightShape, Object, Shape};
 use glam::{DMat3, DVec3};
 use std::f64::consts::PI;
 
@@ -14,7 +15,7 @@ use std::f64::consts::PI;
 pub struct EmitterTree {
     /// The nodes, depth first.
     pub nodes: Vec<EmitterNode>,
-    /// The node of each of [`Scene::emitters`].
+    /// The node of each of [`Scene::emitters`](crate::Scene::emitters).
     pub leaves: Vec<u32>,
 }
 
@@ -46,7 +47,7 @@ pub struct EmitterNode {
     pub next: u32,
     /// The group that contains it, or [`EmitterTree::NONE`].
     pub parent: u32,
-    /// The emitter's index in [`Scene::emitters`], or [`EmitterTree::NONE`] for a group.
+    /// The emitter's index in [`Scene::emitters`](crate::Scene::emitters), or [`EmitterTree::NONE`] for a group.
     pub source: u32,
 }
 
@@ -130,7 +131,11 @@ impl Cone {
 
 impl Lamp {
     /// The lamp of an emitter; `None` if it has no position.
-    fn of(scene: &Scene, number: usize, source: &EmitterSource) -> Option<Self> {
+    fn of(
+        number: usize,
+        source: &EmitterSource,
+        (objects, lights): (&[Object], &[Light]),
+    ) -> Option<Self> {
         let lamp = Self {
             source: number as u32,
             center: DVec3::ZERO,
@@ -142,9 +147,9 @@ impl Lamp {
             cone: Cone::ALL,
         };
         match source.kind {
-            EmitterKind::Object(index) => lamp.with_shape(&scene.objects()[index].shape),
+            EmitterKind::Object(index) => lamp.with_shape(&objects[index].shape),
             EmitterKind::Environment(_) => None,
-            EmitterKind::Light(index) => lamp.with_emission(scene.lights()[index].shape),
+            EmitterKind::Light(index) => lamp.with_emission(lights[index].shape),
         }
     }
 
@@ -312,12 +317,11 @@ impl EmitterTree {
     /// No node, or no emitter.
     pub const NONE: u32 = u32::MAX;
 
-    /// The tree of a scene's emitters.
-    pub(crate) fn new(scene: &Scene) -> Self {
-        let sources = scene.emitters();
+    /// The tree of a scene's emitters: some of its objects and lights.
+    pub(crate) fn new(sources: &[EmitterSource], objects: &[Object], lights: &[Light]) -> Self {
         let lamps = sources.iter().enumerate();
         let mut lamps: Vec<Lamp> = lamps
-            .filter_map(|(number, source)| Lamp::of(scene, number, source))
+            .filter_map(|(number, source)| Lamp::of(number, source, (objects, lights)))
             .collect();
         if sources.len() <= FEW {
             lamps.clear();
@@ -475,13 +479,41 @@ fn best_cut(lamps: &[Lamp]) -> Option<(usize, f64)> {
     best.map(|(_, axis, place)| (axis, place))
 }
 
+impl RoundToF32 for EmitterTree {
+    fn rounded(&self) -> Self {
+        Self {
+            nodes: self.nodes.rounded(),
+            leaves: self.leaves.clone(),
+        }
+    }
+}
+
+impl RoundToF32 for EmitterNode {
+    fn rounded(&self) -> Self {
+        Self {
+            center: self.center.rounded(),
+            reach: self.reach.rounded(),
+            axis: self.axis.rounded(),
+            cone: self.cone.rounded(),
+            power: self.power.rounded(),
+            variance: self.variance.rounded(),
+            even: self.even.rounded(),
+            along: self.along.rounded(),
+            near: self.near.rounded(),
+            next: self.next,
+            parent: self.parent,
+            source: self.source,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::{
-        Camera, DirectLight, Emission, Environment, Filter, Light, LightGroupId, Material,
-        MaterialId, Object, PixelFilter, Projection, RenderSettings, Sampler, SceneParts,
-        SpectrumId, WavelengthSampling,
+        Camera, DirectLight, Emission, Environment, Filter, LightGroupId, Material, MaterialId,
+        PixelFilter, Projection, RenderSettings, Sampler, Scene, SceneParts, SpectrumId,
+        WavelengthSampling,
     };
     use spectra::{BandGrid, BandTable, LightGroup, Spectrum};
 
@@ -582,7 +614,11 @@ mod tests {
     }
 
     fn lamp(scene: &Scene, source: u32) -> Option<Lamp> {
-        Lamp::of(scene, source as usize, &scene.emitters()[source as usize])
+        Lamp::of(
+            source as usize,
+            &scene.emitters()[source as usize],
+            (scene.objects(), scene.lights()),
+        )
     }
 
     /// Every emitter occurs once, in groups whose spheres and cones contain it, also with the numbers that a GPU receives.
