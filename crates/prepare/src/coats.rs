@@ -2,7 +2,7 @@
 
 use crate::distribution_of;
 use scene::{CoatedBody, FacetTable, Microsurface, facet_direction};
-use spectra::BandTable;
+use spectra::{BandTable, knot_before};
 use std::f64::consts::FRAC_PI_2;
 
 /// Number of knots over the square root of the cosine.
@@ -84,9 +84,7 @@ impl VisibleFacets {
         };
         let mut weights = [0.0; FACET_COSINES];
         surface.each_reflection(wo, STEPS, |at_facet, weight| {
-            let place = at_facet.clamp(0.0, 1.0).sqrt() * (FACET_COSINES - 1) as f64;
-            let knot = (place as usize).min(FACET_COSINES - 2);
-            let part = place - knot as f64;
+            let (knot, part) = knot_before(at_facet.clamp(0.0, 1.0).sqrt(), FACET_COSINES);
             weights[knot] += weight * (1.0 - part);
             weights[knot + 1] += weight * part;
         });
@@ -259,9 +257,8 @@ mod tests {
 
     /// 1 − E₀ between the knots.
     fn transmittance_about(coat: &RoughCoat, cosine: f64) -> f64 {
-        let place = cosine.sqrt() * (COSINES - 1) as f64;
-        let knot = (place as usize).min(COSINES - 2);
+        let (knot, part) = knot_before(cosine.sqrt(), COSINES);
         let [here, next] = [knot, knot + 1].map(|knot| coat.reflectances[knot].extent().0);
-        1.0 - here - (next - here) * (place - knot as f64)
+        1.0 - here - (next - here) * part
     }
 }

@@ -5,6 +5,7 @@ use crate::picture::{center_of, half_turns, picture_uv};
 use glam::DVec3;
 use scene::limits::THICKNESS_NM;
 use scene::{Coordinate, Picture, Profile, Shape, Thickness};
+use spectra::linear;
 
 /// Returns the thickness of a layer at a point of its surface, nm.
 pub fn layer_thickness(thickness: &Thickness, shape: &Shape, position: DVec3) -> f64 {
@@ -59,11 +60,7 @@ fn field_coordinate(coordinate: &Coordinate, shape: &Shape, position: DVec3) -> 
 }
 
 fn profile_value(profile: &Profile, along: f64) -> f64 {
-    let squares = &profile.squares_nm2;
-    let place = along * (squares.len() - 1) as f64;
-    let knot = (place as usize).min(squares.len() - 2);
-    let part = place - knot as f64;
-    let square = squares[knot] + (squares[knot + 1] - squares[knot]) * part;
+    let square = linear(&profile.squares_nm2, along);
     let nm = square.sqrt().min(profile.most_nm);
     match profile.black {
         Some(black) if nm < black.below_nm => black.nm,

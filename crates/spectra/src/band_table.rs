@@ -1,5 +1,6 @@
 //! A spectrum resampled onto a band grid, for lookup at any sampled wavelength.
 
+use crate::interpolation::knot_before;
 use crate::{BandGrid, OutOfRange, Spectrum};
 
 /// A spectrum tabulated at `steps + 1` offsets within each band of a grid.
@@ -64,11 +65,9 @@ impl BandTable {
 
     /// The value at `offset` in \[0, 1\] of band `band`.
     pub fn at(&self, band: u32, offset: f64) -> f64 {
-        let position = offset * f64::from(self.steps);
-        let step = (position as u32).min(self.steps - 1);
-        let low = self.row(step)[band as usize];
-        let high = self.row(step + 1)[band as usize];
-        low + (high - low) * (position - f64::from(step))
+        let (step, part) = knot_before(offset, self.steps as usize + 1);
+        let [low, high] = [step, step + 1].map(|step| self.row(step as u32)[band as usize]);
+        low + (high - low) * part
     }
 
     /// Returns the table with `f` applied to each value.

@@ -20,6 +20,7 @@ mod data;
 mod effective_medium;
 mod fault;
 mod formula;
+mod interpolation;
 mod light_group;
 mod optical_constants;
 mod out_of_range;
@@ -40,6 +41,7 @@ pub use data::{
 pub use effective_medium::{MixtureError, MixtureRule, bruggeman, maxwell_garnett};
 pub use fault::Fault;
 pub use formula::{DispersionFormula, FormulaError, FormulaKind};
+pub use interpolation::{knot_before, linear};
 pub use light_group::LightGroup;
 pub use optical_constants::OpticalConstants;
 pub use out_of_range::OutOfRange;

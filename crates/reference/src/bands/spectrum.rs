@@ -4,7 +4,7 @@ use super::{At, Bands, CHUNK, Chunk, Spectrum};
 use optics::wide::Lanes;
 use pulp::Scalar;
 use scene::{Scene, SpectrumId};
-use spectra::{BandGrid, BandTable};
+use spectra::{BandGrid, BandTable, knot_before};
 
 /// A spectrum in the [`Tables`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,9 +120,7 @@ impl Tables {
 
     /// Returns the knot before an offset in [0, 1], and the fraction of the distance to the next knot.
     pub(crate) fn place(&self, offset: f64) -> (usize, f64) {
-        let position = offset * (self.knots - 1) as f64;
-        let knot = (position as usize).min(self.knots - 2);
-        (knot, position - knot as f64)
+        knot_before(offset, self.knots)
     }
 
     /// Returns all numbers from a knot of the first spectrum on.

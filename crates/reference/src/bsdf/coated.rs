@@ -9,6 +9,7 @@ use glam::DVec3;
 use optics::wide::{Lanes, Real, interface_reflectance};
 use pulp::Simd;
 use scene::CoatedBody;
+use spectra::knot_before;
 use std::f64::consts::FRAC_1_PI;
 
 /// A coated body, independent of any point.
@@ -121,11 +122,10 @@ fn rough_coat<S: Simd>(body: &CoatedBody, bands: &Bands<'_, S>, at: At, cosine: 
     let Some(table) = body.reflectances else {
         return bands.splat(0.0);
     };
-    let place = cosine.clamp(0.0, 1.0).sqrt() * (CoatedBody::COSINES - 1) as f64;
-    let knot = (place as usize).min(CoatedBody::COSINES - 2);
+    let (knot, part) = knot_before(cosine.clamp(0.0, 1.0).sqrt(), CoatedBody::COSINES);
     let low = bands.spectrum(Row::from(table.after(knot)), at);
     let high = bands.spectrum(Row::from(table.after(knot + 1)), at);
-    (high - low).mul_add(bands.splat(place - knot as f64), low)
+    (high - low).mul_add(bands.splat(part), low)
 }
 
 /// Returns the probability that a path is reflected by the coat rather than scattered by the body below it, from an estimate of the

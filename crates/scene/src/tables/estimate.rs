@@ -1,6 +1,7 @@
 //! Rough estimates of how much light materials reflect and transmit; they steer sampling and cancel in the result.
 
 use crate::rounding::RoundToF32;
+use spectra::linear;
 
 /// A cheap estimate of how much light a material reflects and transmits, averaged over its thicknesses.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,11 +22,7 @@ impl Estimate {
     /// # Panics
     /// For materials that are not films.
     pub fn reflected_at(&self, cosine: f64) -> f64 {
-        let steps = Self::KNOTS - 1;
-        let place = cosine.clamp(0.0, 1.0) * steps as f64;
-        let knot = (place as usize).min(steps - 1);
-        let part = place - knot as f64;
-        self.reflected[knot] + part * (self.reflected[knot + 1] - self.reflected[knot])
+        linear(&self.reflected, cosine.clamp(0.0, 1.0))
     }
 }
 

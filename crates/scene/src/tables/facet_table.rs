@@ -1,6 +1,7 @@
 //! Tables over the directions above facets.
 
 use crate::rounding::RoundToF32;
+use spectra::knot_before;
 use std::f64::consts::FRAC_PI_2;
 
 /// Number of knots over the square root of the cosine: close near grazing, where masking changes fast.
@@ -69,7 +70,7 @@ impl FacetTable {
 
     /// The value in a direction of the local frame: a unit vector whose z is the cosine with the normal and whose x is along the grain.
     pub fn at(&self, [x, y, cosine]: [f64; 3]) -> f64 {
-        let (row, down) = knot(cosine.clamp(0.0, 1.0).sqrt(), COSINES);
+        let (row, down) = knot_before(cosine.clamp(0.0, 1.0).sqrt(), COSINES);
         let of_column = |column: usize| {
             let first = column * COSINES + row;
             self.values[first] + (self.values[first + 1] - self.values[first]) * down
@@ -80,7 +81,7 @@ impl FacetTable {
         let [along, across] = self.roughness;
         let width = (along * x).hypot(across * y) / x.hypot(y).max(1e-12);
         let part = (width - along) / (across - along);
-        let (column, aside) = knot(part.clamp(0.0, 1.0), WIDTHS);
+        let (column, aside) = knot_before(part.clamp(0.0, 1.0), WIDTHS);
         of_column(column) + (of_column(column + 1) - of_column(column)) * aside
     }
 
@@ -99,13 +100,6 @@ impl FacetTable {
 pub fn facet_direction(cosine: f64, azimuth: f64) -> [f64; 3] {
     let sine = (1.0 - cosine * cosine).sqrt();
     [sine * azimuth.cos(), sine * azimuth.sin(), cosine]
-}
-
-/// The knot before a position in [0, 1], and the fraction of the interval to the next.
-fn knot(place: f64, knots: usize) -> (usize, f64) {
-    let place = place * (knots - 1) as f64;
-    let knot = (place as usize).min(knots - 2);
-    (knot, place - knot as f64)
 }
 
 /// The azimuth from the grain at which the width is this fraction of the way from `along` to `across`, which differ: width² = along² cos² +

@@ -3,6 +3,7 @@
 use crate::rounding::RoundToF32;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use spectra::linear;
 use std::f64::consts::PI;
 
 /// The reconstruction filter of the pixels: the same profile in x and in y, centered on the pixel.
@@ -53,9 +54,7 @@ impl PixelFilter {
         let Some(offsets) = &self.0 else {
             return u - 0.5;
         };
-        let place = warped(u) * (Self::KNOTS - 1) as f64;
-        let knot = (place as usize).min(Self::KNOTS - 2);
-        offsets[knot] + (place - knot as f64) * (offsets[knot + 1] - offsets[knot])
+        linear(offsets, warped(u))
     }
 }
 
