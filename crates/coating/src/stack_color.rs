@@ -6,8 +6,8 @@ pub(crate) use crate::view::{Polarization, Side, View};
 use crate::{Light, SampleError, Stack};
 use colorimetry::lab::delta_e_2000;
 use colorimetry::{Lab, srgb};
-use optics::batch::Powers;
 use optics::Complex64;
+use optics::batch::Powers;
 use rayon::prelude::*;
 use thiserror::Error;
 
