@@ -1,6 +1,6 @@
 //! The scenes that the suites render.
 
-use crate::wgsl::root;
+use crate::sources::root;
 use scene::Scene;
 use scene_file::SceneFile;
 

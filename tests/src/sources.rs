@@ -1,7 +1,12 @@
 //! The project's own texts: sources, scenes, tables and pages.
 
-use crate::wgsl::root;
 use std::path::{Path, PathBuf};
+
+/// The root of the workspace.
+pub fn root() -> PathBuf {
+    let tests = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    tests.parent().map_or(tests.clone(), PathBuf::from)
+}
 
 /// A file of the project.
 #[derive(Clone, Debug)]

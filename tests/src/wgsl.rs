@@ -1,13 +1,6 @@
 //! Reading WGSL text: what it declares and what it uses.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
-
-/// The root of the workspace.
-pub fn root() -> PathBuf {
-    let tests = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
-    tests.parent().map_or(tests.clone(), PathBuf::from)
-}
 
 /// The identifiers of a WGSL text in order, without comments and numbers; a name after a dot keeps the dot.
 pub fn identifiers(source: &str) -> Vec<String> {

@@ -1,8 +1,8 @@
 //! Renders each kind of thickness alone: a pipeline is specialized to its scene, so every kind must render without the others.
 
 use pellicle_tests::frames::{Values, same_numbers};
+use pellicle_tests::sources::root;
 use pellicle_tests::tolerances::FRAMES;
-use pellicle_tests::wgsl::root;
 use scene::Scene;
 use scene_file::SceneFile;
 use std::ops::ControlFlow;

@@ -1,7 +1,7 @@
 //! Lights in physical units: compares the values of a picture with closed forms. Km is 683 lm/W.
 
 use pellicle_tests::device::lend;
-use pellicle_tests::wgsl::root;
+use pellicle_tests::sources::root;
 use reference::Emitter;
 use scene::{LightShape, Scene};
 use scene_file::SceneFile;

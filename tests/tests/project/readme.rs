@@ -1,7 +1,6 @@
 //! Checks that the README and the other pages show what exists.
 
-use pellicle_tests::sources::{Source, sources};
-use pellicle_tests::wgsl::root;
+use pellicle_tests::sources::{Source, root, sources};
 use scene_file::SceneFile;
 
 fn readme() -> String {

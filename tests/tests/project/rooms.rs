@@ -115,7 +115,7 @@ type Arrows = BTreeMap<String, BTreeSet<String>>;
 
 /// The members' dependencies on one another, without those for tests.
 fn declared() -> Arrows {
-    let manifest = pellicle_tests::wgsl::root().join("Cargo.toml");
+    let manifest = pellicle_tests::sources::root().join("Cargo.toml");
     let metadata = MetadataCommand::new()
         .manifest_path(manifest)
         .no_deps()

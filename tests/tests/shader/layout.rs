@@ -1,6 +1,6 @@
 //! Checks the layout that host and shader share: the generated files are fresh, and naga sees the same offsets as Rust.
 
-use pellicle_tests::wgsl::root;
+use pellicle_tests::sources::root;
 use std::collections::BTreeMap;
 
 #[test]

@@ -1,7 +1,7 @@
 //! Tests of the WGSL modules: every file is one, together they are valid, and mistakes are reported with their positions.
 
 use gpu::modules::{MODULES, RecordLimits, Shader, Specialization};
-use pellicle_tests::wgsl::root;
+use pellicle_tests::sources::root;
 use std::collections::BTreeSet;
 use std::path::Path;
 

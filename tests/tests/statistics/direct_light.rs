@@ -1,7 +1,7 @@
 //! Direct light by emitter sampling, by BSDF sampling, and by both: the means agree, and both together are hardly ever noisier
 //! than the better of the two.
 
-use pellicle_tests::wgsl::root;
+use pellicle_tests::sources::root;
 use rayon::prelude::*;
 use scene::{DirectLight, Scene};
 use scene_file::{Problems, SceneFile};

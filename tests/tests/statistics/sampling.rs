@@ -5,7 +5,7 @@ use pellicle::pick::{Picked, pick};
 use pellicle_tests::device::lend;
 use pellicle_tests::frames::same_expectation;
 use pellicle_tests::scenes::file;
-use pellicle_tests::wgsl::root;
+use pellicle_tests::sources::root;
 use scene::Scene;
 use scene_file::SceneFile;
 use scene_file::description::{Camera, Filter, Render, Sampler};
