@@ -1,5 +1,6 @@
-//! The project itself: which crate uses which, names and spelling, and what the documentation claims.
+//! The project itself: which crate and which module uses which, names and spelling, and what the documentation claims.
 
+mod circles;
 mod dependencies;
 mod names;
 mod readme;
