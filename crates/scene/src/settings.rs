@@ -93,7 +93,7 @@ impl RoundToF32 for RenderSettings {
             sampler: self.sampler,
             seed: self.seed,
             // Validation has already rounded the ends of the bands.
-            bands: self.bands.clone(),
+            bands: self.bands,
             sampling: self.sampling,
             max_path_segments: self.max_path_segments,
             direct_light: self.direct_light,
