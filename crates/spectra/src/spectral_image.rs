@@ -423,12 +423,9 @@ mod tests {
         let variance = LayerKey::VARIANCE;
         let with = |key, bands, values| {
             move |layers: &mut Vec<ImageLayer>| {
-                layers[1] = ImageLayer::new(key, bands, values_of(values));
+                layers[1] = ImageLayer::new(key, bands, Values::Floats(vec![0.0; values]));
             }
         };
-        fn values_of(count: usize) -> Values {
-            Values::Floats(vec![0.0; count])
-        }
         assert_eq!(
             made(with(radiance, 2, 12)),
             Err(LayerError::Repeated(radiance))
