@@ -3,7 +3,7 @@
 //! `cargo deny check` checks the same and looks for known faults; this test needs only Cargo.
 
 use cargo_metadata::{Metadata, MetadataCommand, Package};
-use pellicle_tests::wgsl::root;
+use pellicle_tests::sources::root;
 use serde::Deserialize;
 use spdx::{Expression, LicenseReq, ParseMode};
 use std::collections::{BTreeMap, BTreeSet};
