@@ -12,6 +12,7 @@
 //! ```
 
 mod checks;
+mod document;
 mod field_path;
 mod folder;
 mod problem;
@@ -27,10 +28,11 @@ mod tree;
 pub mod wording;
 
 pub use checks::Checks;
+pub use document::Document;
 pub use field_path::{FieldPath, Step};
 pub use folder::{Folder, OutsideError};
 pub use problem::{Location, Problem, ProblemKind, Problems};
 pub use range::{Range, Shown};
 pub use schema::schema_of;
 pub use snippet::Snippet;
-pub use source_file::{Document, SourceFile};
+pub use source_file::SourceFile;

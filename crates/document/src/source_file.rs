@@ -3,29 +3,9 @@
 use crate::reader::{Findings, read};
 use crate::text_file::{STANDARD_INPUT, read_text};
 use crate::tree::{Tree, TreeError};
-use crate::{FieldPath, Folder, Location, Problem, ProblemKind, Problems};
-use schemars::JsonSchema;
-use serde::de::DeserializeOwned;
+use crate::{Document, FieldPath, Folder, Location, Problem, ProblemKind, Problems};
 use std::path::Path;
 use std::sync::Arc;
-
-/// A type that TOML files are read as.
-pub trait Document: DeserializeOwned + JsonSchema + 'static {
-    /// What such a file must contain, for the error about an empty one: `"a scene needs at least a [camera]"`.
-    const NEEDS: &'static str;
-    /// Fields and words that were renamed: the old and the new name.
-    const RENAMED: &'static [(&'static str, &'static str)] = &[];
-
-    /// What to write instead of an unknown `type`, if it is a word from elsewhere.
-    fn advice_on_type(_field: &FieldPath, _word: &str) -> Option<&'static str> {
-        None
-    }
-
-    /// What to write instead of an unknown field, if it is a word from elsewhere.
-    fn advice_on_field(_field: &FieldPath, _name: &str) -> Option<&'static str> {
-        None
-    }
-}
 
 /// A TOML file that has been read as a [`Document`], and the problems found in it.
 ///
