@@ -156,7 +156,7 @@ impl Stack {
     /// Assumptions about the files of its media, and where data end, one line each, without duplicates.
     pub fn notes(&self) -> Vec<&str> {
         let mut notes: Vec<&str> = Vec::new();
-        let of_media = self.media().flat_map(|medium| medium.notes());
+        let of_media = self.media().flat_map(Medium::notes);
         for note in of_media.chain(&self.notes) {
             if !notes.contains(&note.as_str()) {
                 notes.push(note);
