@@ -1,7 +1,7 @@
 //! `pellicle color`.
 
-use crate::film::swatch::swatch;
 use crate::lamp::Lamp;
+use crate::swatch::swatch;
 use crate::{display, print};
 use clap::ValueEnum;
 use miette::miette;

@@ -19,6 +19,7 @@ mod print;
 mod progress;
 mod relight;
 mod render;
+mod swatch;
 
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;

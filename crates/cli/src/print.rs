@@ -2,7 +2,7 @@
 //!
 //! Names of files, keys and arguments may contain anything, so control characters are escaped before they reach a terminal.
 
-use crate::film::swatch;
+use crate::swatch;
 use miette::{
     Diagnostic, IntoDiagnostic, LabeledSpan, MietteHandler, ReportHandler, Severity, SourceCode,
     WrapErr,

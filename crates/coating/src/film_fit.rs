@@ -372,6 +372,9 @@ impl Search<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
+    use rand_distr::{Distribution, StandardNormal};
 
     fn lamp(bands: &BandGrid) -> Vec<f64> {
         let d65 = spectra::illuminant("D65").unwrap().data;
@@ -544,15 +547,8 @@ mod tests {
         };
         let clean = fitting.spectrum(&bands, 400.0).unwrap();
         let deviation: Vec<f64> = clean.iter().map(|v| 0.01 * v + 1e-4).collect();
-        let mut state = 1_u32;
-        let mut normal = || {
-            // The sum of twelve uniform numbers is nearly normal.
-            let even = |_| {
-                state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-                f64::from(state >> 8) / 16_777_216.0
-            };
-            (0..12).map(even).sum::<f64>() - 6.0
-        };
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
         let (mut squares, mut foretold) = (0.0, 0.0);
         for _ in 0..40 {
             let noisy: Vec<f64> = clean

@@ -3,7 +3,7 @@
 use crate::layout::bindings::{Binding, FRAME, NUMBERS, SCENE_GROUP, TEXELS};
 use crate::layout::{LIST_WIDTH, NUMBERS_WIDTH, TEXELS_WIDTH};
 use crate::lists::{List, ListForm, UNIFORM_BYTES};
-use crate::pipelines::Pipeline;
+use crate::recent_pipelines::Pipeline;
 use crate::{Gpu, PackedScene, RenderError};
 use wgpu::util::DeviceExt;
 

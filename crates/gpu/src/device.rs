@@ -1,6 +1,7 @@
 //! Finding an adapter and opening it.
 
-use crate::pipelines::{DriverCache, RecentPipelines};
+use crate::driver_cache::DriverCache;
+use crate::recent_pipelines::RecentPipelines;
 use std::sync::{Arc, Mutex};
 use thiserror::Error;
 

@@ -6,7 +6,6 @@ pub(crate) mod numbers;
 mod pictures;
 mod report;
 mod spectra;
-pub(crate) mod swatch;
 mod uses;
 
 use crate::print;

@@ -1,9 +1,9 @@
 //! How the color depends on thicknesses: matches, tolerances, sensitivities.
 
 use super::spectra::{described, side};
-use super::swatch::swatch;
 use super::{Film, Vary, Wanted};
 use crate::print;
+use crate::swatch::swatch;
 use miette::miette;
 use pellicle::coating::{
     self, Angle, Match, MatchBy, MatchPlace, Matching, Quantiles, StackColor, Tolerance,

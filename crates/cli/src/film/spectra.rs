@@ -1,8 +1,8 @@
 //! R and T over wavelength and angle, as a table, as CSV or as JSON.
 
-use super::swatch::swatch;
 use super::{Film, Format};
 use crate::print;
+use crate::swatch::swatch;
 use pellicle::coating::{Angle, Color, Model, Powers, Sampled, Side, absorptance};
 use pellicle::optics::{Complex64, Polarized};
 use serde_json::{Value, json};

@@ -2,8 +2,8 @@
 
 use super::film::{FilmFinding, Fitted};
 use super::{Inspection, Position};
-use crate::film::swatch::swatch;
 use crate::print;
+use crate::swatch::swatch;
 use pellicle::coating::{FilmFit, FilmFits, MatchPlace, Verdict};
 use pellicle::colorimetry::{Lab, chromaticity, srgb};
 use pellicle::relight::xyz::exposure_scale;

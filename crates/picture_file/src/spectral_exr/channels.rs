@@ -112,7 +112,6 @@ fn description(name: &str, content: Content) -> ChannelDescription {
 
 #[cfg(test)]
 mod tests {
-    use super::super::content::LightContent;
     use super::*;
 
     #[test]
