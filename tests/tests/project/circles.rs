@@ -155,7 +155,10 @@ impl Modules {
         let folders: BTreeSet<&[String]> = folders.map(|(_, folder)| folder).collect();
         let circle = |folder: &[String]| {
             let circle = circle(self.arrows(folder))?;
-            let folder: String = folder.iter().flat_map(|name| [name.as_str(), "/"]).collect();
+            let folder: String = folder
+                .iter()
+                .flat_map(|name| [name.as_str(), "/"])
+                .collect();
             Some(format!("{folder}{{{}}}", circle.join(" -> ")))
         };
         folders.into_iter().filter_map(circle).collect()
