@@ -21,12 +21,12 @@ mod notes;
 mod object;
 mod parts;
 mod pattern;
-mod prepared;
 mod rounding;
 mod settings;
 mod tables;
 mod texels;
 mod thickness;
+mod trees;
 mod validated;
 
 pub use camera::{Camera, Lens, Projection};
@@ -43,11 +43,11 @@ pub use microsurface::{Distribution, Grain, Microsurface};
 pub use object::{Object, Shape};
 pub use parts::SceneParts;
 pub use pattern::Pattern;
-pub use prepared::{EmitterNode, EmitterTree, Hierarchy, Node, Sheet};
 pub use settings::{DirectLight, RenderSettings, Sampler, WavelengthSampling};
 pub use tables::{
     DirectionTable, Energy, Estimate, FacetTable, Filter, PixelFilter, Sampled, facet_direction,
 };
 pub use texels::Texels;
 pub use thickness::{BlackFilm, Coordinate, Picture, PictureFile, Profile, Swirls, Thickness};
+pub use trees::{EmitterNode, EmitterTree, Hierarchy, Node, Sheet};
 pub use validated::Scene;

@@ -1,6 +1,6 @@
 //! Notes on a valid scene.
 
-use crate::{Emission, LightShape, Material, Scene, prepared};
+use crate::{Emission, LightShape, Material, Scene, trees};
 
 impl Scene {
     /// Assumptions about files, and anything that can be rendered but may be unintended, one line each.
@@ -50,7 +50,7 @@ impl Scene {
                 .filter(|(_, other)| other.is_some_and(|other| other.stack == sheet.stack))
                 .find(|(other, _)| {
                     let shape = |object: usize| &self.objects()[object].shape;
-                    prepared::overlap(shape(object), shape(*other))
+                    trees::overlap(shape(object), shape(*other))
                 });
             let Some((other, _)) = over else { continue };
             if notes.iter().all(|(stack, _)| *stack != sheet.stack) {

@@ -3,7 +3,7 @@
 use crate::rounding::RoundToF32;
 use crate::{
     Camera, EmitterSource, EmitterTree, Environment, EnvironmentPart, Estimate, Hierarchy, Light,
-    Material, MaterialId, Object, RenderSettings, SceneParts, Sheet, SpectrumId, prepared,
+    Material, MaterialId, Object, RenderSettings, SceneParts, Sheet, SpectrumId, trees,
 };
 use spectra::{BandTable, LightGroup, SpectralImage};
 
@@ -23,7 +23,7 @@ impl Scene {
     /// The scene of these parts, with its trees. The parts must be valid, as the crate `scene_file` makes them: numbers within their
     /// [limits](crate::limits), indices within their lists, spectra on the grid of the settings.
     pub fn new(parts: SceneParts) -> Self {
-        let sheets = prepared::sheets(&parts.objects);
+        let sheets = trees::sheets(&parts.objects);
         Self::with_sheets(parts, sheets)
     }
 

@@ -3,6 +3,7 @@
 mod coincidence;
 mod emitter_tree;
 mod hierarchy;
+mod lamp;
 
 pub use coincidence::Sheet;
 pub(crate) use coincidence::{overlap, sheets};
