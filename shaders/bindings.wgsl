@@ -4,7 +4,7 @@
 // or in a uniform buffer or a texture, as a scene's own shader has it.
 //
 // Generated from crates/gpu/src/layout/bindings.rs: edit there, then run
-//     PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test layout
+//     PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test shader layout::
 
 /// Values for the whole render.
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -5,7 +5,7 @@
 // buffer: llvmpipe treats the value that it finds there as a constant and recompiles the pipeline for each dispatch.
 //
 // Generated from crates/gpu/src/features.rs and counts.rs: edit there, then run
-//     PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test layout
+//     PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test shader layout::
 
 /// A sphere among the objects.
 const HAS_SPHERES: bool = true;

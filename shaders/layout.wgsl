@@ -1,7 +1,7 @@
 // Constants and structs of host and shader.
 //
 // Generated from crates/gpu/src/layout: edit there, then run
-//     PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test layout
+//     PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test shader layout::
 
 /// Width and height of a workgroup, in invocations.
 const WORKGROUP_SIDE: u32 = 8u;

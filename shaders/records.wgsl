@@ -1,7 +1,7 @@
 // The records of a scene, and how they are read.
 //
 // Generated from crates/gpu/src/layout/records.rs: edit there, then run
-//     PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test layout
+//     PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test shader layout::
 
 /// An object that rays meet: a shape with a material.
 struct Shape {

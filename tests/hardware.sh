@@ -226,8 +226,7 @@ said_by_failed_tests() {
 }
 
 echo "building; this does not count" >&2
-# Built first with the options that the suites use, so that they find it built.
-cargo build --workspace --release --bin pellicle --examples >&2 || exit 2
+cargo build --workspace --release --bin pellicle >&2 || exit 2
 # shellcheck disable=SC2086 # Words, on purpose.
 cargo test --release -p pellicle-tests -p pellicle-cli ${suites:---lib --tests} --no-run >&2 || exit 2
 

@@ -2,7 +2,6 @@
 
 use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
-
 use pellicle::picture_file::Destination;
 use pellicle::picture_file::spectral_exr::{Metadata, WriteOptions};
 use pellicle::spectra::SpectralImage;

@@ -26,16 +26,21 @@ impl Checks {
     /// Returns `value`, and the assumptions, one line each, without duplicates.
     ///
     /// # Errors
-    /// All problems, if there are any.
-    ///
-    /// # Panics
-    /// When there is neither a value nor a problem: a check that returns nothing must report why.
+    /// All problems, if there are any. A check that returns nothing reports why; if none did, a general problem says so.
     pub fn finish<T>(self, value: Option<T>) -> Result<(T, Vec<String>), Vec<Problem>> {
-        if !self.problems.is_empty() {
-            return Err(self.problems);
+        match value {
+            Some(value) if self.problems.is_empty() => Ok((value, self.notes)),
+            None if self.problems.is_empty() => {
+                let message = "cannot be used, and no check says why: please report this file";
+                let root = FieldPath::root();
+                Err(vec![Problem::new(
+                    ProblemKind::Inconsistent,
+                    &root,
+                    message,
+                )])
+            }
+            _ => Err(self.problems),
         }
-        let value = value.expect("a check without a value reports a problem");
-        Ok((value, self.notes))
     }
 
     /// The folder that paths of files are relative to.

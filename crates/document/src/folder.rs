@@ -1,4 +1,4 @@
-//! The folder of the files that a scene or a stack names.
+//! The folder of the files that a document names.
 
 use std::path::{Component, Path, PathBuf};
 use thiserror::Error;

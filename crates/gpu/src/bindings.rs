@@ -1,8 +1,9 @@
 //! A scene's buffers and textures on the device.
 
 use crate::layout::bindings::{Binding, FRAME, NUMBERS, SCENE_GROUP, TEXELS};
+use crate::layout::list_form::{ListForm, UNIFORM_BYTES};
 use crate::layout::{LIST_WIDTH, NUMBERS_WIDTH, TEXELS_WIDTH};
-use crate::lists::{List, ListForm, UNIFORM_BYTES};
+use crate::lists::List;
 use crate::recent_pipelines::Pipeline;
 use crate::{Gpu, PackedScene, RenderError};
 use wgpu::util::DeviceExt;

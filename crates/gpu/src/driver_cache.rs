@@ -160,7 +160,8 @@ fn read_at_most(file: &Path, bytes: usize) -> Option<Vec<u8>> {
     fs::read(file).ok()
 }
 
-/// Writes a temporary file beside the file and renames it: a reader sees either the old or the new file, no matter who else writes.
+/// Writes a temporary file beside the file and renames it: a reader sees either the old or the new file, no matter who else writes. Only
+/// the user can read it.
 fn replace(file: &Path, parts: &[&[u8]]) -> io::Result<()> {
     let folder = file.parent().unwrap_or(Path::new("."));
     create_private_folder(folder)?;

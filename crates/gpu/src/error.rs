@@ -1,6 +1,6 @@
 //! Errors of a render.
 
-use crate::DeviceError;
+use crate::device_error::DeviceError;
 use thiserror::Error;
 
 /// The most thicknesses that a path can record: 16 KiB of an invocation's private memory.

@@ -4,7 +4,6 @@
 //! everything; a scene's shader has the same lines with the scene's values.
 
 use crate::layout::constant;
-use crate::pack::is_large;
 use scene::{
     DirectLight, EmitterKind, EmitterTree, Environment, EnvironmentShape, Material, PictureSpectra,
     Projection, Sampler, Scene, Shape,
@@ -283,4 +282,19 @@ fn has_roulette(scene: &Scene) -> bool {
 
 fn has_orthographic_camera(scene: &Scene) -> bool {
     matches!(scene.camera().projection, Projection::Orthographic { .. })
+}
+
+/// A sphere is large if its radius is more than this times the distance of its surface from the camera: an `f32` then loses a
+/// hundred thousandth of that distance between the surface and the center.
+const LARGE: f64 = 100.0;
+
+/// Whether a sphere is given by its curvature and its point nearest to the camera, because its center is too far away.
+pub(crate) fn is_large(scene: &Scene, shape: &Shape) -> bool {
+    match *shape {
+        Shape::Sphere { center, radius } => {
+            let height = (scene.camera().origin.distance(center) - radius).abs();
+            radius > LARGE * height.max(scene.camera().origin.length())
+        }
+        _ => false,
+    }
 }

@@ -7,6 +7,7 @@
 mod bindings;
 mod counts;
 mod device;
+mod device_error;
 mod driver_cache;
 mod error;
 mod features;
@@ -23,13 +24,12 @@ mod tile_buffers;
 mod tiles;
 
 pub use bindings::{SceneBindings, bind_scene};
-pub use device::{
-    AdapterChoice, AdapterDescription, DeviceError, Gpu, INSTALL_HINT, OpenError, adapters,
-};
+pub use device::{AdapterChoice, AdapterDescription, Gpu, INSTALL_HINT, OpenError, adapters};
+pub use device_error::DeviceError;
 pub use error::RenderError;
 pub use features::{Feature, Features};
 pub use layout::RunStack;
-pub use lists::ListForm;
+pub use layout::list_form::ListForm;
 pub use pack::PackedScene;
 pub use pipelines::compile;
 pub use recent_pipelines::Pipeline;

@@ -3,11 +3,11 @@
 //! Declarations of WGSL may come in any order, so a shader is the concatenation of all modules, with the parts that depend on the
 //! scene filled in. Everything that its entry point does not reach is removed before a driver sees it.
 
-use crate::DeviceError;
 pub use crate::counts::{Counts, RecordLimits};
+use crate::device_error::DeviceError;
 use crate::features::Features;
 use crate::layout;
-use crate::lists::ListForm;
+use crate::layout::list_form::ListForm;
 use crate::specialize::specialize;
 use std::borrow::Cow;
 

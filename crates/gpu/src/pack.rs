@@ -19,7 +19,6 @@ use crate::layout::{self, Frame, Record};
 use glam::DVec3;
 use scene::limits::{MAX_LAYERS, MAX_LIGHT_GROUPS, MAX_MATERIALS};
 use scene::{Emission, Projection, Scene, SpectrumId, WavelengthSampling};
-pub(crate) use shapes::is_large;
 use spectra::BandTable;
 use surface::Passes;
 use tables::Tables;

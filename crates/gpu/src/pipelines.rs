@@ -1,9 +1,10 @@
 //! Compiles shaders into pipelines.
 
+use crate::Gpu;
+use crate::device_error::DeviceError;
 use crate::layout::bindings::SCENE_GROUP;
 use crate::modules::Shader;
 use crate::recent_pipelines::{Key, Pipeline, RecentPipelines};
-use crate::{DeviceError, Gpu};
 use std::borrow::Cow;
 use std::sync::{MutexGuard, PoisonError};
 

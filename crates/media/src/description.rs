@@ -44,7 +44,7 @@ pub enum Reflectance {
         #[serde(default)]
         extrapolate: Extrapolate,
     },
-    /// A table in the document, interpolated linearly.
+    /// A table written here, interpolated linearly.
     Table {
         /// Wavelengths in nm, in ascending order.
         nm: Vec<f64>,
@@ -90,7 +90,7 @@ pub enum Index {
         #[serde(default)]
         extrapolate: Extrapolate,
     },
-    /// A table in the document, interpolated linearly.
+    /// A table written here, interpolated linearly.
     Table {
         /// Wavelengths in nm, in ascending order.
         nm: Vec<f64>,

@@ -82,7 +82,7 @@ fn choice(column: &TableColumn) -> ColumnChoice {
 /// The maximum number of problems reported for one table; the rest are likely to be the same mistake.
 const MAX_PROBLEMS: usize = 3;
 
-/// The spectra of a table in the scene.
+/// The spectra of a table in the document.
 pub fn inline<const N: usize>(
     checks: &mut Checks,
     field: &FieldPath,

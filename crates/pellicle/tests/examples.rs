@@ -1,4 +1,4 @@
-//! The examples run, as programs. `cargo test -p pellicle` builds them first.
+//! The examples run, as programs. `cargo test -p pellicle` builds them first; with `--test examples` alone, cargo builds none.
 
 use pellicle::picture_file::spectral_exr;
 use std::collections::BTreeSet;

@@ -155,6 +155,7 @@ mod tests {
         assert!(PendingFile::create(Path::new("/")).is_err());
         assert!(PendingFile::create(&directory.path().join("missing/picture")).is_err());
     }
+
     #[test]
     fn a_name_with_a_separator_behind_it_is_no_file() {
         let directory = tempfile::tempdir().unwrap();

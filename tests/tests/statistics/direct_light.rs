@@ -7,6 +7,7 @@ use scene::{DirectLight, Scene};
 use scene_file::{Problems, SceneFile};
 
 const SIDE: u32 = 20;
+/// The means of 400 pixels then have relative errors of 0.05 to 8 %, the largest where one technique hardly finds the light.
 const SAMPLES: u32 = 100;
 
 /// Standard errors by which two means may differ. A single comparison would exceed 3 once in 370 times; here all comparisons

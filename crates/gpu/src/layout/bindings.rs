@@ -1,7 +1,7 @@
 //! Where shaders find their buffers and textures.
 
 use super::heading;
-use crate::lists::ListForm;
+use crate::layout::list_form::ListForm;
 
 /// A buffer or a texture of a shader.
 #[derive(Clone, Copy, Debug)]

@@ -8,6 +8,7 @@
 mod declare;
 pub(crate) mod bindings;
 mod constants;
+pub(crate) mod list_form;
 mod records;
 mod structs;
 
@@ -22,7 +23,7 @@ pub use structs::*;
 pub(crate) fn heading(what: &str, source: &str) -> String {
     format!(
         "// {what}\n//\n// Generated from crates/gpu/src/{source}: edit there, then run\n\
-         //     PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test layout\n"
+         //     PELLICLE_BLESS=1 cargo test --release -p pellicle-tests --test shader layout::\n"
     )
 }
 

@@ -1,24 +1,10 @@
 //! Packing of objects.
 
 use super::vec3;
+use crate::features::is_large;
 use crate::layout;
 use glam::DVec3;
 use scene::{Object, Scene, Shape, Sheet};
-
-/// A sphere is large if its radius is more than this times the distance of its surface from the camera: an `f32` then loses a
-/// hundred thousandth of that distance between the surface and the center.
-const LARGE: f64 = 100.0;
-
-/// Whether a sphere is given by its curvature and its point nearest to the camera, because its center is too far away.
-pub(crate) fn is_large(scene: &Scene, shape: &Shape) -> bool {
-    match *shape {
-        Shape::Sphere { center, radius } => {
-            let height = (scene.camera().origin.distance(center) - radius).abs();
-            radius > LARGE * height.max(scene.camera().origin.length())
-        }
-        _ => false,
-    }
-}
 
 /// Packs the objects; whether they are emitters is set later.
 pub(super) fn pack_all(scene: &Scene) -> Vec<layout::Shape> {

@@ -59,28 +59,23 @@ pub(crate) fn checked(description: &Description, folder: &Folder) -> Result<Scen
         let light_groups = lit.as_ref().map_or(1, |lit| lit.light_groups.len());
         settings::check_memory(&mut checks, &description.render, light_groups);
     }
+    let parts = || Some((settings.settings?, camera?, observer?, lit?));
+    let ((settings, camera, observer, lit), assumptions) = checks.finish(parts())?;
     let spectra = spectra.into_tables();
-    let assemble = || {
-        let lit = lit?;
-        let settings = settings.settings?;
-        let lights = lit.parts.lights.into_iter();
-        Some(SceneParts {
-            estimates: prepare::estimates(&lit.parts.materials, &spectra, &settings.bands),
-            settings,
-            camera: camera?,
-            spectra,
-            observer: observer?,
-            light_groups: lit.light_groups,
-            materials: lit.parts.materials,
-            objects: lit.parts.objects,
-            lights: lights.map(|(light, _)| light).collect(),
-            environment: lit.parts.environment,
-            assumptions: Vec::new(),
-        })
-    };
-    let (mut parts, assumptions) = checks.finish(assemble())?;
-    parts.assumptions = assumptions;
-    Ok(Scene::new(parts))
+    let lights = lit.parts.lights.into_iter();
+    Ok(Scene::new(SceneParts {
+        estimates: prepare::estimates(&lit.parts.materials, &spectra, &settings.bands),
+        settings,
+        camera,
+        spectra,
+        observer,
+        light_groups: lit.light_groups,
+        materials: lit.parts.materials,
+        objects: lit.parts.objects,
+        lights: lights.map(|(light, _)| light).collect(),
+        environment: lit.parts.environment,
+        assumptions,
+    }))
 }
 
 fn check_counts(checks: &mut Checks, description: &Description) {

@@ -19,7 +19,7 @@ fn the_committed_schema_is_fresh() {
     let committed = std::fs::read_to_string(&path).unwrap();
     assert!(
         committed == fresh,
-        "scenes/scene.schema.json is stale; run PELLICLE_BLESS=1 cargo test --release -p pellicle-scene schema"
+        "scenes/scene.schema.json is stale; run PELLICLE_BLESS=1 cargo test --release -p pellicle-scene-file schema"
     );
 }
 

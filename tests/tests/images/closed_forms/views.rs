@@ -36,6 +36,7 @@ fn the_picture_is_neither_mirrored_nor_rotated() {
                 let lit = (0..60 * 40).filter(|i| image.pixel(i % 60, i / 60)[0] != 0.0);
                 let lit: Vec<_> = lit.map(|i| (i % 60, i / 60)).collect();
                 assert_eq!(lit, [(45, 8)], "{what}, {who}: {lens}");
+                // Of 1024 Sobol points about half are on the emitter, far more evenly than at random (0.016).
                 // The emitter covers half of the pixel; the perspective widens it by some ten-thousandths, off the axis by 2 %.
                 let covered = f64::from(image.pixel(45, 8)[0]);
                 let expected = PI * RADIUS * RADIUS / (PIXEL * PIXEL);

@@ -23,7 +23,7 @@
 //!
 //! Interference colors: of 600 free films in D65, of index 4/3 and 2.4 and 5 to 1500 nm thick, 126 lie outside sRGB. Measured by
 //! the hue angle of CIECAM16, on which none of the mappings is based, clipping rotates their hue by 3.7° on average (12° at
-//! most), mixing with white by 1.1° (6.8°), and Oklab by 0.7° (5.6°). The tests `tests/gamut` of this crate recompute both
+//! most), mixing with white by 1.1° (6.8°), and Oklab by 0.7° (5.6°). `tests/tests/colors/gamut.rs` recompute both
 //! results.
 
 mod perceptual;
