@@ -5,7 +5,7 @@ use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::color::compare::Picture;
 use pellicle::document::text_file::STANDARD_INPUT;
 use pellicle::picture_file::spectral_exr::{self, Metadata};
-use pellicle::scene::limits;
+use pellicle::scene_file::limits;
 use pellicle::spectra::SpectralImage;
 use std::ffi::OsStr;
 use std::path::Path;

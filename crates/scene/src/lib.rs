@@ -1,6 +1,6 @@
 //! A validated scene: what a renderer needs to know.
 //!
-//! [`Scene`] is the input of both renderers. Every number in it is finite and within its [domain](limits), every index is within its list,
+//! [`Scene`] is the input of both renderers. Every number in it is finite and within its domain, every index is within its list,
 //! and nothing refers to a name or a file anymore. Scenes come from files, or from descriptions that a program fills in, by way of the
 //! crate `scene_file`, which checks all of this.
 //!

@@ -21,7 +21,7 @@ pub struct Scene {
 
 impl Scene {
     /// The scene of these parts, with its trees. The parts must be valid, as the crate `scene_file` makes them: numbers within their
-    /// [limits](crate::limits), indices within their lists, spectra on the grid of the settings.
+    /// domains, indices within their lists, spectra on the grid of the settings.
     pub fn new(parts: SceneParts) -> Self {
         let sheets = trees::sheets(&parts.objects);
         Self::with_sheets(parts, sheets)

@@ -14,6 +14,7 @@ pub mod description;
 mod drainage;
 mod file;
 mod growth;
+pub mod limits;
 mod validate;
 
 pub use description::schema;

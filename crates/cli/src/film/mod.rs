@@ -170,7 +170,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
 impl<'a> Film<'a> {
     fn new(arguments: &'a Arguments) -> miette::Result<Self> {
         let look = &arguments.look;
-        let exposure = pellicle::scene::limits::EXPOSURE_EV;
+        let exposure = pellicle::scene_file::limits::EXPOSURE_EV;
         if !exposure.contains(look.exposure) {
             return Err(miette!(
                 "--exposure {}: it must be from {exposure}",

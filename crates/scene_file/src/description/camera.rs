@@ -1,6 +1,7 @@
 //! The camera as written in a scene file.
 
-use scene::{Filter, limits};
+use crate::limits;
+use scene::Filter;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,7 @@
 //! The model of Cook and Torrance as the paper prints it, as written in a scene file.
 
 use super::{Emission, Reflectance};
-use scene::limits;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

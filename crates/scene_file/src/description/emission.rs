@@ -1,7 +1,7 @@
 //! What emitters emit, as written in a scene file.
 
 use super::{Extrapolate, TableColumn};
-use scene::limits;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;

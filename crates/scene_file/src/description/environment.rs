@@ -1,7 +1,7 @@
 //! The environment as written in a scene file.
 
 use super::{Emission, Reflectance};
-use scene::limits;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;

@@ -1,7 +1,7 @@
 //! Lights that are not objects, as written in a scene file.
 
 use super::Emission;
-use scene::limits;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

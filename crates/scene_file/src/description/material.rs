@@ -1,7 +1,8 @@
 //! Materials as written in a scene file.
 
 use super::{ConductorModel, Emission, Finish, Index, Reflectance, Thickness};
-use scene::{PathDifference, limits};
+use crate::limits;
+use scene::PathDifference;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;

@@ -1,6 +1,7 @@
 //! Roughness as written in a scene file.
 
-use scene::{Distribution, limits};
+use crate::limits;
+use scene::Distribution;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! Objects as written in a scene file.
 
-use scene::limits;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

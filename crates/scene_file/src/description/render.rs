@@ -1,6 +1,7 @@
 //! How to render, as written in a scene file.
 
-use scene::{DirectLight, RenderSettings, Sampler, WavelengthSampling, limits};
+use crate::limits;
+use scene::{DirectLight, RenderSettings, Sampler, WavelengthSampling};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

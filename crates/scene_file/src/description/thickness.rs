@@ -1,6 +1,6 @@
 //! Thicknesses as written in a scene file.
 
-use scene::limits;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;

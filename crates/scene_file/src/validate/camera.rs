@@ -2,8 +2,8 @@
 
 use super::checks::Checks;
 use crate::description;
+use crate::limits;
 use document::{FieldPath, Problem, ProblemKind};
-use scene::limits;
 use scene::{Camera, Lens, PixelFilter, Projection};
 
 /// Checks `[camera]`.

@@ -1,8 +1,9 @@
 //! Checks that many fields of a scene share.
 
+use crate::limits;
 use document::{FieldPath, Folder, Problem, ProblemKind, Shown};
 use glam::DVec3;
-use scene::{Distribution, Energy, limits};
+use scene::{Distribution, Energy};
 use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
 

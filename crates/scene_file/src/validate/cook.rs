@@ -5,8 +5,8 @@ use super::microsurface::Reported;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
 use crate::description::{self, CookNormalization, Finish, Roughness, Slope};
+use crate::limits;
 use document::{FieldPath, Problem, ProblemKind, Shown};
-use scene::limits;
 use scene::{Cook1981, CookDistribution, CookFacets, DiffuseTerm, Emission, SpectrumId};
 use std::f64::consts::PI;
 

@@ -3,9 +3,9 @@
 use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
 use crate::description::Index;
+use crate::limits::CLEAR_COAT_K;
 use document::{FieldPath, Problem, ProblemKind, Shown};
 use prepare::RoughCoat;
-use scene::limits::CLEAR_COAT_K;
 use scene::{CoatEstimate, CoatedBody, Material, Microsurface, Pattern, SpectrumId};
 
 /// Checks the material at `field` with the index `(n, k)`, written as `index`, and with `base` below it, if any.

@@ -8,9 +8,10 @@ use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
 use crate::description;
 use crate::description::{Description, Emission, EmissionSpectrum, Extrapolate, Strength};
+use crate::limits;
 use document::{FieldPath, Problem, ProblemKind, Shown};
 use scene::Sampled;
-use scene::{DirectLight, Environment, Light, PictureSpectra, limits};
+use scene::{DirectLight, Environment, Light, PictureSpectra};
 use std::path::Path;
 use std::sync::Arc;
 

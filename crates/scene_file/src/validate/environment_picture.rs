@@ -2,11 +2,11 @@
 
 use super::checks::Checks;
 use super::picture_file::{PanoramaFile, PictureFileError, read_panorama};
+use crate::limits;
 use colorimetry::lifting::{Lifting, SigmoidReflectance};
 use document::{FieldPath, Problem, ProblemKind, Shown};
 use glam::DVec3;
 use rayon::prelude::*;
-use scene::limits;
 use scene::{DirectionTable, Sampled};
 use scene::{EnvironmentPicture, PictureSpectra, Texels};
 use spectra::{BandGrid, SpectralImage};

@@ -4,8 +4,8 @@ use super::checks::Checks;
 use super::spectrum_list::SpectrumList;
 use super::thickness;
 use crate::description::{self, FilmModel, PathDifference};
+use crate::limits;
 use document::{FieldPath, Problem, ProblemKind};
-use scene::limits;
 use scene::{Interference, Layer};
 
 /// Layers as written in a material.

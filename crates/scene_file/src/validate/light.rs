@@ -5,8 +5,8 @@ use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
 use crate::description;
 use crate::description::Description;
+use crate::limits;
 use document::{FieldPath, Problem, ProblemKind};
-use scene::limits;
 use scene::{DirectLight, Light, LightShape};
 use std::f64::consts::{PI, TAU};
 

@@ -4,8 +4,8 @@ use super::checks::Checks;
 use super::light::Named;
 use super::spectrum_list::Lamp;
 use crate::description::{self, Description, LightGroups};
+use crate::limits::MAX_LIGHT_GROUPS;
 use document::{FieldPath, Problem, ProblemKind};
-use scene::limits::MAX_LIGHT_GROUPS;
 use scene::{Emission, Environment, LightGroupId, Material, Object};
 use spectra::LightGroup;
 

@@ -9,8 +9,8 @@ use super::lifted;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
 use crate::description::{self, ConductorModel, ConductorModelName, Cook1981, DiffuseReflectance};
+use crate::limits;
 use document::FieldPath;
-use scene::limits;
 use scene::{Material, Pattern};
 use std::collections::BTreeMap;
 

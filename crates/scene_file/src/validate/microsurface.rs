@@ -2,8 +2,8 @@
 
 use super::checks::Checks;
 use crate::description::{Brushed, Finish, Roughness};
+use crate::limits;
 use document::{FieldPath, Problem, ProblemKind};
-use scene::limits;
 use scene::{Grain, Microsurface};
 
 /// A problem has been reported.

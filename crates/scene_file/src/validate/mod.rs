@@ -22,9 +22,9 @@ mod strength;
 mod thickness;
 
 use crate::description::Description;
+use crate::limits::{MAX_LIGHTS, MAX_MATERIALS, MAX_OBJECTS};
 use checks::Checks;
 use document::{FieldPath, Folder, Problem, ProblemKind};
-use scene::limits::{MAX_LIGHTS, MAX_MATERIALS, MAX_OBJECTS};
 use scene::{Scene, SceneParts};
 use spectrum_list::SpectrumList;
 

@@ -2,9 +2,9 @@
 
 use super::checks::Checks;
 use crate::description::{self, Brushed, DiffuseReflectance, Drainage, Material, Thickness};
+use crate::limits;
 use document::{FieldPath, Problem, ProblemKind};
 use glam::DVec3;
-use scene::limits;
 use scene::{MaterialId, Object, Shape};
 use std::collections::BTreeMap;
 

@@ -1,6 +1,9 @@
 //! Reads picture files as numbers or colors.
 
 use crate::description::PictureChannel;
+use crate::limits::{
+    MAX_PICTURE_BYTES, MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE, MAX_PICTURE_VALUES, PANORAMA_TOLERANCE,
+};
 use document::text_file::{TextFileError, read_bytes, read_start};
 use image::{DynamicImage, ImageBuffer, ImageFormat, ImageReader, Limits, Rgb, Rgba};
 use picture_file::png_colors::{CodeColors, PngColorsError};
@@ -8,9 +11,6 @@ use picture_file::radiance::{RadianceError, RadiancePicture, is_radiance};
 use picture_file::rgb_exr::RgbFile;
 use picture_file::spectral_exr::ReadExrError;
 use scene::PictureFile;
-use scene::limits::{
-    MAX_PICTURE_BYTES, MAX_PICTURE_PIXELS, MAX_PICTURE_SIDE, MAX_PICTURE_VALUES, PANORAMA_TOLERANCE,
-};
 use spectra::{BandGrid, SpectralImage};
 use std::io::Cursor;
 use std::path::Path;

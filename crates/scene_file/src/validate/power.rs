@@ -3,8 +3,8 @@
 use super::checks::Checks;
 use super::light_groups::Unlit;
 use crate::description::{self, Description};
+use crate::limits;
 use document::{FieldPath, Problem, ProblemKind, Shown};
-use scene::limits;
 use scene::{Material, MaterialId, Shape, SpectrumId};
 use std::collections::HashMap;
 use std::f64::consts::PI;

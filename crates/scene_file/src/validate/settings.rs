@@ -2,9 +2,9 @@
 
 use super::checks::Checks;
 use crate::description::Render;
+use crate::limits;
 use document::{FieldPath, Problem, ProblemKind, Range};
 use scene::RenderSettings;
-use scene::limits;
 use spectra::{BandGrid, SpectralImage};
 
 /// The result of checking `[render]`.

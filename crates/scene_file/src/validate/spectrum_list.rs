@@ -5,10 +5,10 @@ use super::strength::{self, Amount, Radiator};
 use crate::description::{
     self, EmissionSpectrum, Extrapolate, Index, Reflectance, WavelengthSampling,
 };
+use crate::limits;
 use document::{FieldPath, Problem, ProblemKind, Shown};
 use media::points::{self, Column, FileTable};
 use media::{Advice, extrapolated, read_index, read_reflectance};
-use scene::limits;
 use scene::{Emission, LightGroupId, SpectrumId};
 use spectra::table_file::QuantityKind;
 use spectra::{BandGrid, BandTable, OpticalConstants, Spectrum, Tabulated};

@@ -2,8 +2,8 @@
 
 use super::checks::Checks;
 use crate::description::{self, Strength};
+use crate::limits;
 use document::{FieldPath, Problem, ProblemKind, Range, Shown};
-use scene::limits;
 use spectra::{BandGrid, BandTable, KM_LUMENS_PER_WATT, observer_1931};
 use std::f64::consts::PI;
 

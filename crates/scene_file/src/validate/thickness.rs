@@ -6,10 +6,10 @@ mod texture;
 
 use super::checks::Checks;
 use crate::description;
+use crate::limits;
 use document::{FieldPath, Problem, ProblemKind, Range, Step};
 use glam::DVec3;
 use scene::Thickness;
-use scene::limits;
 
 /// Number of knots of a profile that is not linear. On a draining bubble the relative error between them is below 1e-4 up to 160° from the
 /// top, and below 1e-3 up to 175°.

@@ -81,7 +81,9 @@ fn real_glasses_are_clear_coats() {
         assert_eq!(body.k, body.n.after(1), "{name}");
     }
     // 1 − exp(−8π k d / λ) at the bound: 1 % for 20 µm, 5 % for 0.1 mm.
-    let lost = |d_nm: f64| 1.0 - (-8.0 * PI * scene::limits::CLEAR_COAT_K * d_nm / 500.0).exp();
+    let lost = |d_nm: f64| {
+        1.0 - (-8.0 * PI * pellicle_scene_file::limits::CLEAR_COAT_K * d_nm / 500.0).exp()
+    };
     assert!((lost(20e3) - 0.01).abs() < 2e-4 && (lost(100e3) - 0.049).abs() < 1e-3);
 }
 

@@ -3,10 +3,10 @@
 use super::{KNOTS, line};
 use crate::description::Drainage;
 use crate::drainage::{Liquid, sphere_profile2};
+use crate::limits;
 use crate::validate::checks::Checks;
 use document::{FieldPath, Problem, ProblemKind};
 use glam::DVec3;
-use scene::limits;
 use scene::{BlackFilm, Coordinate, Profile};
 use std::f64::consts::PI;
 

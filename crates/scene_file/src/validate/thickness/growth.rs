@@ -3,9 +3,9 @@
 use super::{KNOTS, Ramp, linear, ramp};
 use crate::description;
 use crate::growth::heat_tint_nm2;
+use crate::limits;
 use crate::validate::checks::Checks;
 use document::{FieldPath, Range};
-use scene::limits;
 use scene::{Coordinate, Profile, Thickness};
 
 /// An anodic oxide: its thickness is linear in the voltage, so it is linear along a line if the voltage is.

@@ -1,10 +1,10 @@
 //! Textured thicknesses: swirls and pictures.
 
 use crate::description;
+use crate::limits;
 use crate::validate::checks::{Checks, placed_size};
 use crate::validate::picture_file;
 use document::{FieldPath, Problem, ProblemKind};
-use scene::limits;
 use scene::{Picture, Swirls, Thickness};
 use std::path::Path;
 use std::sync::Arc;
