@@ -80,7 +80,7 @@ fn by_different_numbers(gpu: &Gpu, name: &str) -> Result<String, String> {
     let seen = |samples, seed| {
         let mut file = file(name);
         let render = &mut file.description.render;
-        (render.size, render.samples, render.bands, render.seed) = ([64, 48], samples, BANDS, seed);
+        (render.size, render.samples, render.bands, render.seed) = ([48, 36], samples, BANDS, seed);
         if MADE.contains(&name) {
             render.sampler = Sampler::Independent;
         }

@@ -43,7 +43,7 @@ goldens! {
     metamers: [80, 40],
     anodized_titanium: [120, 90],
     tempered_steel: [120, 75],
-    dichroic_ball: [80, 60],
+    dichroic_ball: [48, 36],
     gold_visor: [100, 75],
     paper_figure_5: [80, 40],
     figure_5_exact: [80, 40],

@@ -11,6 +11,7 @@ use scene_file::SceneFile;
 use scene_file::description::{Camera, Filter, Render, Sampler};
 use spectra::SpectralImage;
 use std::ops::ControlFlow;
+use std::sync::OnceLock;
 
 const SIZE: [u32; 2] = [32, 24];
 const BANDS: u32 = 6;
@@ -48,47 +49,66 @@ fn plain(render: &mut Render) {
     render.roulette_after = render.max_path_segments;
 }
 
-type Way = (&'static str, fn(&mut Render));
+/// The plain picture of a scene, rendered once.
+fn expected(gpu: &Gpu, name: &'static str) -> &'static SpectralImage {
+    static BUBBLE: OnceLock<SpectralImage> = OnceLock::new();
+    static EVERYTHING: OnceLock<SpectralImage> = OnceLock::new();
+    let picture = match name {
+        "everything" => &EVERYTHING,
+        _ => &BUBBLE,
+    };
+    picture.get_or_init(|| rendered(gpu, name, 256, 5, plain))
+}
 
-/// Every option against the plain one, on a bubble and on everything; the reported variances are those of independent samples, or (for
-/// Sobol) larger than the true ones.
-fn all_options_agree(name: &str) {
-    let options: [Way; 4] = [
-        ("one split", |render| render.film_splits = 1),
-        ("three splits", |render| render.film_splits = 3),
-        ("roulette at once", |render| render.roulette_after = 1),
-        ("Sobol, two splits and roulette", |render| {
-            render.sampler = Sampler::Sobol;
-            (render.film_splits, render.roulette_after) = (2, 2);
-        }),
-    ];
+/// Compares an option with the plain picture; the reported variances are those of independent samples, or (for Sobol) larger than the
+/// true ones.
+fn has_the_same_expectation(
+    name: &'static str,
+    set: impl Fn(&mut Render),
+) -> Result<String, String> {
     let gpu = lend();
-    let mut wrong = Vec::new();
-    let expected = rendered(&gpu, name, 256, 5, plain);
-    for (what, set) in options {
-        let found = rendered(&gpu, name, 192, 6, |render| {
-            plain(render);
-            set(render);
-        });
-        match same_expectation(&found, &expected) {
-            Ok(report) => println!("{name}, {what}: {report}"),
-            Err(report) => wrong.push(format!("{name}, {what}: {report}")),
+    let found = rendered(&gpu, name, 192, 6, |render| {
+        plain(render);
+        set(render);
+    });
+    same_expectation(&found, expected(&gpu, name))
+}
+
+/// Each option against the plain picture, on a bubble and on everything.
+macro_rules! options {
+    ($($option:ident: $set:expr,)*) => {
+        mod all_sampling_options_have_the_same_expectation {
+            mod on_a_bubble {
+                $(#[test] fn $option() {
+                    println!("{}", super::super::has_the_same_expectation("floating_bubble", $set).unwrap());
+                })*
+            }
+            mod on_everything {
+                $(#[test] fn $option() {
+                    println!("{}", super::super::has_the_same_expectation("everything", $set).unwrap());
+                })*
+            }
         }
+    };
+}
+
+options! {
+    one_split: |render| render.film_splits = 1,
+    three_splits: |render| render.film_splits = 3,
+    roulette_at_once: |render| render.roulette_after = 1,
+    sobol_two_splits_and_roulette: |render| {
+        render.sampler = super::super::Sampler::Sobol;
+        (render.film_splits, render.roulette_after) = (2, 2);
+    },
+}
+
+/// The comparison can fail: the clamp removes light.
+#[test]
+fn a_dimmed_picture_is_noticed() {
+    for name in ["floating_bubble", "everything"] {
+        let dimmed = has_the_same_expectation(name, |render| render.clamp = Some(0.2));
+        assert!(dimmed.is_err(), "{name}: {dimmed:?}");
     }
-    // The comparison can fail: the clamp removes light.
-    let dimmed = rendered(&gpu, name, 192, 6, |render| render.clamp = Some(0.2));
-    assert!(same_expectation(&dimmed, &expected).is_err(), "{name}");
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-}
-
-#[test]
-fn all_sampling_options_have_the_same_expectation_on_a_bubble() {
-    all_options_agree("floating_bubble");
-}
-
-#[test]
-fn all_sampling_options_have_the_same_expectation_on_everything() {
-    all_options_agree("everything");
 }
 
 /// Number of renders of each kind.
