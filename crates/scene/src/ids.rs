@@ -1,6 +1,6 @@
 //! Indices into the lists of a validated scene.
 
-/// Index of a spectrum in [`Scene::spectra`].
+/// Index of a spectrum in [`Scene::spectra`](crate::Scene::spectra).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SpectrumId(pub(crate) u32);
 
@@ -22,7 +22,7 @@ impl SpectrumId {
     }
 }
 
-/// Index of a light group in [`Scene::light_groups`].
+/// Index of a light group in [`Scene::light_groups`](crate::Scene::light_groups).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct LightGroupId(pub(crate) u32);
 
@@ -38,7 +38,7 @@ impl LightGroupId {
     }
 }
 
-/// Index of a material in [`Scene::materials`].
+/// Index of a material in [`Scene::materials`](crate::Scene::materials).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct MaterialId(pub(crate) u32);
 

@@ -61,11 +61,11 @@ pub struct EmitterSource {
 /// The kind of an emitter, and its index in the list of this kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EmitterKind {
-    /// One of [`Scene::objects`] with bounds.
+    /// One of [`Scene::objects`](crate::Scene::objects) with bounds.
     Object(usize),
-    /// One of [`Scene::environment_parts`].
+    /// One of [`Scene::environment_parts`](crate::Scene::environment_parts).
     Environment(usize),
-    /// One of [`Scene::lights`] that is not a disk.
+    /// One of [`Scene::lights`](crate::Scene::lights) that is not a disk.
     Light(usize),
 }
 
