@@ -6,6 +6,7 @@ use crate::stack_color::{Side, StackColor};
 use colorimetry::srgb;
 use picture_file::RgbImage8;
 use plot::{ColorMap, MapAxis};
+use spectra::knot_before;
 
 /// A chart of the color of a stack over the thickness of one layer and the angle of incidence.
 #[derive(Clone, Debug)]
@@ -106,8 +107,8 @@ impl Chart {
 
     /// Codes at a position between 0 and 1 from the left and from the bottom.
     fn codes(&self, x: f64, y: f64) -> [u8; 3] {
-        let (column, u) = place(x, COLUMNS);
-        let (row, v) = place(y, ROWS);
+        let (column, u) = knot_before(x.clamp(0.0, 1.0), COLUMNS);
+        let (row, v) = knot_before(y.clamp(0.0, 1.0), ROWS);
         let cell = |r: usize, c: usize| self.cells[(column + c) * ROWS + row + r];
         let (c00, c01, c10, c11) = (cell(0, 0), cell(0, 1), cell(1, 0), cell(1, 1));
         std::array::from_fn(|i| {
@@ -125,13 +126,6 @@ fn share(index: usize, points: usize) -> f64 {
 
 fn along((from, to): (f64, f64), t: f64) -> f64 {
     from + (to - from) * t
-}
-
-/// Returns the cell that contains a position from 0 to 1, and the position within it.
-fn place(t: f64, points: usize) -> (usize, f64) {
-    let at = t.clamp(0.0, 1.0) * (points - 1) as f64;
-    let cell = (at as usize).min(points - 2);
-    (cell, at - cell as f64)
 }
 
 #[cfg(test)]

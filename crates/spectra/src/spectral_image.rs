@@ -96,17 +96,13 @@ impl SpectralImage {
     ) -> Result<Self, LayerError> {
         assert!(!light_groups.is_empty(), "an image has a light group");
         let pixels = width as usize * height as usize;
-        let kept = if light_groups.len() > 1 {
-            light_groups.len()
-        } else {
-            0
-        };
+        let apart = LayerKey::groups_apart(light_groups.len());
         for (i, layer) in layers.iter().enumerate() {
             let key = layer.key();
             if layers[..i].iter().any(|other| other.key() == key) {
                 return Err(LayerError::Repeated(key));
             }
-            if key.light_group.is_some_and(|group| group >= kept) {
+            if key.light_group.is_some_and(|group| group >= apart) {
                 return Err(LayerError::LightGroup(key));
             }
             if !layer.fits(bands.count() as usize, pixels) {
@@ -242,8 +238,8 @@ impl SpectralImage {
     }
 
     /// Writes pixel (x, y): the mean radiance as `[light group][band]`, the variance of the mean of the total per band, XYZ
-    /// of each light group, and the sample count. The totals are the sums over the light groups in their order. Layers that only some images have keep
-    /// their values.
+    /// of each light group, and the sample count. The totals are the sums over the light groups in their order. Layers that only some
+    /// images have keep their values.
     ///
     /// # Panics
     /// When the pixel lies outside the image, or a slice has the wrong length.

@@ -1,6 +1,7 @@
 //! Heat maps: differences as a picture.
 
 use picture_file::RgbImage8;
+use spectra::knot_before;
 
 /// The colormap magma, from black over purple and orange to pale yellow, at 17 equal steps. Its lightness rises evenly, also for
 /// color-blind viewers (S. van der Walt and N. Smith, 2015, for matplotlib; CC0 1.0).
@@ -38,9 +39,7 @@ fn color(share: f64) -> [u8; 3] {
     if share.is_nan() {
         return NOT_A_NUMBER;
     }
-    let at = share.clamp(0.0, 1.0) * (MAGMA.len() - 1) as f64;
-    let below = (at as usize).min(MAGMA.len() - 2);
-    let along = at - below as f64;
+    let (below, along) = knot_before(share.clamp(0.0, 1.0), MAGMA.len());
     std::array::from_fn(|i| {
         let (low, high) = (f64::from(MAGMA[below][i]), f64::from(MAGMA[below + 1][i]));
         (low + along * (high - low)).round() as u8

@@ -69,15 +69,21 @@ impl LayerKey {
         }
     }
 
+    /// The number of light groups with layers of their own.
+    pub(super) fn groups_apart(light_groups: usize) -> usize {
+        if light_groups > 1 { light_groups } else { 0 }
+    }
+
     /// The layers that every image with this number of light groups has, in order. A single light group has none of its own: it is
     /// the total.
     pub fn all(light_groups: usize) -> impl Iterator<Item = Self> {
-        let kept = if light_groups > 1 { light_groups } else { 0 };
         let of_group = |group| {
             [Quantity::Radiance, Quantity::Xyz].map(|quantity| Self::of_light(quantity, group))
         };
         let totals = [Self::RADIANCE, Self::VARIANCE, Self::XYZ, Self::SAMPLES];
-        totals.into_iter().chain((0..kept).flat_map(of_group))
+        totals
+            .into_iter()
+            .chain((0..Self::groups_apart(light_groups)).flat_map(of_group))
     }
 }
 
