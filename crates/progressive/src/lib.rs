@@ -1,0 +1,3 @@
+//! Renders in rounds: when to stop, checkpoints, parts of a picture.
+
+mod noise;

@@ -1,0 +1,1 @@
+//! The noise of a picture, estimated while it is rendered.
