@@ -273,14 +273,14 @@ struct Batch {
     tile_origin: vec2u,
     /// Width and height of the tile.
     tile_size: vec2u,
-    /// Samples that were taken before.
+    /// The number of the first sample to take now.
     first_sample: u32,
     /// Samples to take now.
     sample_count: u32,
     /// Passes of the loop by which an invocation detects whether the driver has ended its loops.
     passes: u32,
-    /// Padding to the size that a uniform buffer requires.
-    padding: u32,
+    /// How many samples the sums hold already.
+    taken: u32,
 }
 
 /// Values for one run over a part of a batch of stacks.

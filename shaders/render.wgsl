@@ -62,7 +62,7 @@ fn render(@builtin(global_invocation_id) id: vec3u) {
     }
     for (var i = 0u; i < batch.sample_count; i++) {
         let index = batch.first_sample + i;
-        let count = f32(index + 1u);
+        let count = f32(batch.taken + i + 1u);
         let at = trace_path(Sample(batch.tile_origin + id.xy, index));
         let xyz = accumulate(pixel, pixels, count, at);
         for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {

@@ -33,6 +33,6 @@ pub use layout::list_form::ListForm;
 pub use pack::PackedScene;
 pub use pipelines::compile;
 pub use recent_pipelines::Pipeline;
-pub use render::{render, render_divided};
+pub use render::{InjectedFault, Session, Work, render, render_divided};
 pub use stacks::{MAX_BATCH_LAYERS, StackBatch, StackError, StackPowers, evaluate_stacks};
 pub use tiles::Division;

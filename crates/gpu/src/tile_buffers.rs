@@ -1,10 +1,10 @@
-//! The running means of a tile: accumulated on the device, and copied into the picture.
+//! The running means of a tile: accumulated on the device, and exchanged with the host.
 
 use crate::layout::bindings::{BATCHES, SCENE_GROUP, SUMS, TILE_GROUP};
 use crate::layout::{BATCH_COPIES, Batch, WORKGROUP_SIDE};
-use crate::tiles::Tile;
 use crate::{DeviceError, Gpu, Pipeline, RenderError, SceneBindings};
-use spectra::{KM_LUMENS_PER_WATT, Quantity, SpectralImage};
+use rayon::prelude::*;
+use spectra::{Accumulation, Quantity, SumLayout, Window};
 
 /// The sizes of a pixel's running means.
 #[derive(Clone, Copy)]
@@ -89,30 +89,38 @@ impl TileBuffers {
     }
 
     /// Returns the bytes of a tile's sums.
-    fn bytes(&self, tile: Tile) -> u64 {
-        self.shape.bytes() * u64::from(tile.pixels())
+    fn bytes(&self, tile: Window) -> u64 {
+        self.shape.bytes() * tile.pixels() as u64
     }
 
-    pub(crate) fn clear(&self, gpu: &Gpu, tile: Tile) {
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        encoder.clear_buffer(&self.sums, 0, Some(self.bytes(tile)));
-        gpu.queue.submit([encoder.finish()]);
+    /// Begins a tile: with nothing, or with the samples that its pixels have.
+    pub(crate) fn upload(&self, gpu: &Gpu, accumulation: &Accumulation, tile: Window, taken: u32) {
+        if taken == 0 {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            encoder.clear_buffer(&self.sums, 0, Some(self.bytes(tile)));
+            gpu.queue.submit([encoder.finish()]);
+        } else {
+            let sums = packed(self.shape, accumulation, tile, taken);
+            gpu.queue
+                .write_buffer(&self.sums, 0, bytemuck::cast_slice(&sums));
+        }
     }
 
+    /// Takes samples: `count` of them from the number `first` on, where the sums hold `taken`.
     pub(crate) fn dispatch(
         &self,
         gpu: &Gpu,
         pipeline: &Pipeline,
-        tile: Tile,
-        (first_sample, sample_count): (u32, u32),
+        tile: Window,
+        (first, count, taken): (u32, u32, u32),
     ) {
         let batch = Batch {
             tile_origin: tile.origin,
             tile_size: tile.size,
-            first_sample,
-            sample_count,
+            first_sample: first,
+            sample_count: count,
             passes: 2,
-            ..Default::default()
+            taken,
         };
         let batches = [batch; BATCH_COPIES as usize];
         gpu.queue
@@ -129,13 +137,13 @@ impl TileBuffers {
         gpu.queue.submit([encoder.finish()]);
     }
 
-    /// Copies the finished tile into the picture.
+    /// Copies the sums of a tile to the host. Nothing is changed there if that fails.
     pub(crate) fn read_back(
         &self,
         gpu: &Gpu,
-        tile: Tile,
+        tile: Window,
         samples: u32,
-        image: &mut SpectralImage,
+        accumulation: &mut Accumulation,
     ) -> Result<(), RenderError> {
         let bytes = self.bytes(tile);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -152,7 +160,8 @@ impl TileBuffers {
             let sums: &[[f32; 4]] = bytemuck::cast_slice(&mapped);
             let sums = Sums::new(self.shape, tile, sums);
             check_count(tile, sums.of(Quantity::Xyz), samples)?;
-            store(tile, &sums, samples, image);
+            let values = unpacked(&sums, accumulation.layout(), tile);
+            accumulation.store(tile, &values, samples);
         }
         self.staging.unmap();
         Ok(())
@@ -163,10 +172,10 @@ impl TileBuffers {
 struct Sums<'a>(Vec<(Quantity, &'a [[f32; 4]])>);
 
 impl<'a> Sums<'a> {
-    fn new(shape: PixelShape, tile: Tile, mut rest: &'a [[f32; 4]]) -> Self {
+    fn new(shape: PixelShape, tile: Window, mut rest: &'a [[f32; 4]]) -> Self {
         let lists = shape.lists().into_iter().map(|(quantity, sets)| {
             let own;
-            (own, rest) = rest.split_at((sets * u64::from(tile.pixels())) as usize);
+            (own, rest) = rest.split_at((sets * tile.pixels() as u64) as usize);
             (quantity, own)
         });
         Self(lists.collect())
@@ -180,8 +189,8 @@ impl<'a> Sums<'a> {
 }
 
 /// Checks that all samples of all pixels were taken, by the count beside the colors of the first light group.
-fn check_count(tile: Tile, colors: &[[f32; 4]], samples: u32) -> Result<(), RenderError> {
-    let counts = colors.iter().take(tile.pixels() as usize);
+fn check_count(tile: Window, colors: &[[f32; 4]], samples: u32) -> Result<(), RenderError> {
+    let counts = colors.iter().take(tile.pixels());
     match counts.map(|color| color[3]).find(|&n| n != samples as f32) {
         None => Ok(()),
         Some(counted) => Err(RenderError::CutShort {
@@ -191,40 +200,73 @@ fn check_count(tile: Tile, colors: &[[f32; 4]], samples: u32) -> Result<(), Rend
     }
 }
 
-/// Reorders a tile from `[light group][group][pixel]` to the picture's `[light group][pixel][band]`.
-fn store(tile: Tile, sums: &Sums<'_>, samples: u32, image: &mut SpectralImage) {
+/// Reorders the sums of a tile from `[list][set of four][pixel]` to `[pixel][value]`.
+fn unpacked(sums: &Sums<'_>, layout: SumLayout, tile: Window) -> Vec<f64> {
     let [means, deviations, colors] =
         [Quantity::Radiance, Quantity::Variance, Quantity::Xyz].map(|quantity| sums.of(quantity));
-    let bands = image.bands().count() as usize;
-    let light_groups = image.light_groups().len();
-    let pixels = tile.pixels() as usize;
-    let n = samples as f32;
-    let to_variance = if samples > 1 {
-        1.0 / (n * (n - 1.0))
-    } else {
-        0.0
-    };
-    let to_xyz = (KM_LUMENS_PER_WATT * image.bands().width_nm()) as f32;
-    let mut radiance = vec![0.0; light_groups * bands];
-    let (mut variance, mut xyz) = (vec![0.0; bands], vec![[0.0; 3]; light_groups]);
+    let (pixels, bands) = (tile.pixels(), layout.mean().len());
+    let light_groups = colors.len() / pixels;
     let value = |values: &[[f32; 4]], first: usize, band: usize, pixel: usize| {
-        values[(first + band / 4) * pixels + pixel][band % 4]
+        f64::from(values[(first + band / 4) * pixels + pixel][band % 4])
     };
-    for y in 0..tile.size[1] {
-        for x in 0..tile.size[0] {
-            let pixel = (y * tile.size[0] + x) as usize;
-            for (light_group, radiance) in radiance.chunks_exact_mut(bands).enumerate() {
-                for (band, radiance) in radiance.iter_mut().enumerate() {
-                    *radiance = value(means, light_group * bands.div_ceil(4), band, pixel);
-                }
-                let [cx, cy, cz, _] = colors[light_group * pixels + pixel];
-                xyz[light_group] = [cx * to_xyz, cy * to_xyz, cz * to_xyz];
+    let mut all = vec![0.0; pixels * layout.len()];
+    let each = all.par_chunks_exact_mut(layout.len()).enumerate();
+    each.with_min_len(1024).for_each(|(pixel, own)| {
+        for light_group in 0..light_groups {
+            let first = light_group * bands.div_ceil(4);
+            let mean = &mut own[layout.group_mean(light_group)];
+            for (band, mean) in mean.iter_mut().enumerate() {
+                *mean = value(means, first, band, pixel);
             }
-            for (band, variance) in variance.iter_mut().enumerate() {
-                *variance = value(deviations, 0, band, pixel) * to_variance;
+            let color = colors[light_group * pixels + pixel];
+            for (to, from) in own[layout.xyz(light_group)].iter_mut().zip(color) {
+                *to = f64::from(from);
             }
-            let at = (tile.origin[0] + x, tile.origin[1] + y);
-            image.set_pixel_by_light(at, &radiance, &variance, &xyz, samples);
         }
+        for (band, deviation) in own[layout.deviation()].iter_mut().enumerate() {
+            *deviation = value(deviations, 0, band, pixel);
+        }
+        if light_groups > 1 {
+            // The device keeps no mean of the total.
+            for band in 0..bands {
+                let of_groups = (0..light_groups).map(|group| own[layout.group_mean(group)][band]);
+                own[layout.mean()][band] = of_groups.sum();
+            }
+        }
+    });
+    all
+}
+
+/// The inverse of [`unpacked`]. A color has the number of samples beside it.
+fn packed(
+    shape: PixelShape,
+    accumulation: &Accumulation,
+    tile: Window,
+    taken: u32,
+) -> Vec<[f32; 4]> {
+    let layout = accumulation.layout();
+    let indices: Vec<usize> = accumulation.row_indices(tile).flatten().collect();
+    let mut sets = Vec::new();
+    let four = |values: &[f64], group: usize| {
+        let value = |i: usize| values.get(4 * group + i).map_or(0.0, |&value| value as f32);
+        std::array::from_fn(value)
+    };
+    let mut push = |range: std::ops::Range<usize>, group: usize| {
+        let of_pixel = |&index: &usize| four(&accumulation.pixel(index)[range.clone()], group);
+        sets.par_extend(indices.par_iter().with_min_len(1024).map(of_pixel));
+    };
+    let (groups, light_groups) = (shape.groups as usize, shape.light_groups as usize);
+    for light_group in 0..light_groups {
+        (0..groups).for_each(|group| push(layout.group_mean(light_group), group));
     }
+    (0..groups).for_each(|group| push(layout.deviation(), group));
+    for light_group in 0..light_groups {
+        push(layout.xyz(light_group), 0);
+    }
+    // The first light group's colors have the count: the others have 0 there.
+    let first = sets.len() - light_groups * indices.len();
+    for color in &mut sets[first..first + indices.len()] {
+        color[3] = taken as f32;
+    }
+    sets
 }

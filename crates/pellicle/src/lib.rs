@@ -37,6 +37,7 @@
 pub mod convergence;
 pub mod pick;
 mod renderer;
+mod session;
 pub mod stacks;
 pub mod variance;
 
@@ -53,5 +54,6 @@ pub use reference;
 pub use relight;
 pub use renderer::{Backend, OpenError, RenderError, Renderer};
 pub use scene;
+pub use session::Session;
 pub use scene_file;
 pub use spectra;

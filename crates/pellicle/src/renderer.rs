@@ -1,9 +1,11 @@
 //! One interface to both renderers.
 
+use crate::Session;
 use gpu::{AdapterChoice, Gpu};
 use scene::Scene;
-use spectra::SpectralImage;
+use spectra::{Accumulation, Round, SpectralImage, Window};
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use thiserror::Error;
 
 /// The device that renders.
@@ -33,12 +35,21 @@ pub enum RenderError {
     Stopped,
 }
 
+impl From<gpu::RenderError> for RenderError {
+    fn from(error: gpu::RenderError) -> Self {
+        match error {
+            gpu::RenderError::Stopped => Self::Stopped,
+            other => Self::Gpu(other),
+        }
+    }
+}
+
 /// A renderer that is ready.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Renderer {
     /// An open adapter.
-    Gpu(Box<Gpu>),
+    Gpu(Arc<Gpu>),
     /// The CPU.
     Cpu {
         /// Why the CPU is used, if a GPU was wanted but there is none.
@@ -56,9 +67,9 @@ impl Renderer {
             Backend::Cpu => Ok(Self::Cpu {
                 instead_of_gpu: None,
             }),
-            Backend::Gpu(choice) => Gpu::open(choice).map(|gpu| Self::Gpu(Box::new(gpu))),
+            Backend::Gpu(choice) => Gpu::open(choice).map(|gpu| Self::Gpu(Arc::new(gpu))),
             Backend::Auto => match Gpu::open(&AdapterChoice::Hardware) {
-                Ok(gpu) => Ok(Self::Gpu(Box::new(gpu))),
+                Ok(gpu) => Ok(Self::Gpu(Arc::new(gpu))),
                 Err(error @ (OpenError::NoAdapter | OpenError::NoHardware { .. })) => {
                     Ok(Self::Cpu {
                         instead_of_gpu: Some(error),
@@ -93,13 +104,16 @@ impl Renderer {
         scene: &Scene,
         on_progress: &mut dyn FnMut(u64) -> ControlFlow<()>,
     ) -> Result<SpectralImage, RenderError> {
-        match self {
-            Self::Gpu(gpu) => gpu::render(gpu, scene, on_progress).map_err(|error| match error {
-                gpu::RenderError::Stopped => RenderError::Stopped,
-                other => RenderError::Gpu(other),
-            }),
-            Self::Cpu { .. } => reference::render(scene, on_progress)
-                .map_err(|reference::Stopped| RenderError::Stopped),
-        }
+        let settings = scene.settings();
+        let window = Window::whole([settings.width, settings.height]);
+        let groups = scene.light_groups().to_vec();
+        let mut accumulation = Accumulation::new(window, 0, settings.bands, groups);
+        let round = Round {
+            window,
+            samples: 0..settings.samples,
+        };
+        let mut session = Session::new(self, scene, on_progress)?;
+        session.advance(&mut accumulation, &[round], on_progress)?;
+        Ok(accumulation.whole_image())
     }
 }

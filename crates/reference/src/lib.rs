@@ -45,6 +45,7 @@ mod split;
 mod surface;
 mod surface_function;
 mod thickness;
+mod tiles;
 mod transport;
 
 pub use bsdf::{CookFacets, FacetEval, Facets, coat_probability, cook_facets, sample_cook_facet};
@@ -62,7 +63,7 @@ pub use noise::{Noise, gradient_noise, swirls};
 
 pub use prepared::PreparedScene;
 pub use random::{pcg4d, random4, unit_interval};
-pub use render::{PathSample, Stopped, render, render_at};
+pub use render::{PathSample, Session, Stopped, render, render_at};
 pub use sampling::{cone_height, frame_of, sample_cone, sample_cosine_hemisphere};
 pub use simd_level::SimdLevel;
 pub use sobol::{scrambled_reversed, sobol_point, sobol4};

@@ -1,13 +1,13 @@
-//! Rendering a whole picture.
+//! Rendering a picture in rounds of samples.
 
 use crate::path::PathTracer;
-use crate::spectral::{Pixel, PixelValues, SpectralPath};
+use crate::spectral::{Pixel, SpectralPath};
+use crate::tiles::Tiles;
 use crate::{PreparedScene, SimdLevel};
 use scene::Scene;
-use spectra::SpectralImage;
+use spectra::{Accumulation, Round, SpectralImage, Window};
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use std::sync::mpsc;
+use std::sync::{Mutex, PoisonError, mpsc};
 use thiserror::Error;
 
 /// The caller asked to stop.
@@ -15,10 +15,8 @@ use thiserror::Error;
 #[error("stopped before the picture was finished")]
 pub struct Stopped;
 
-/// Side of a tile in pixels, a power of two. Tiles keep neighboring pixels together, because they see neighboring parts of the scene.
-const TILE: u32 = 16;
-/// The least number of tiles per thread; tiles of small pictures are made smaller for it.
-const TILES_OF_A_THREAD: u32 = 4;
+/// The number of tiles of each thread that wait for it, so that none waits for a tile.
+const TILES_AHEAD: usize = 2;
 
 /// Renders a scene on all cores, tile by tile.
 ///
@@ -43,47 +41,113 @@ pub fn render_at(
     on_progress: &mut dyn FnMut(u64) -> ControlFlow<()>,
 ) -> Result<SpectralImage, Stopped> {
     let settings = scene.settings();
-    let prepared = PreparedScene::new(scene);
-    let light_groups = scene.light_groups().to_vec();
-    let (width, height) = (settings.width, settings.height);
-    let mut image = SpectralImage::with_light_groups(width, height, settings.bands, light_groups);
-    let (next, is_stopped) = (AtomicU32::new(0), AtomicBool::new(false));
-    let threads = rayon::current_num_threads();
-    let tiles = Tiles::new(width, height, threads as u32);
-    // Our own threads: those of a pool that calls this function may all be waiting for it.
-    std::thread::scope(|scope| {
-        let (sender, finished) = mpsc::channel();
-        for _ in 0..threads {
-            let (sender, prepared, next, is_stopped) =
-                (sender.clone(), &prepared, &next, &is_stopped);
-            scope.spawn(move || {
-                let mut worker = Worker::new(level, prepared);
-                while !is_stopped.load(Ordering::Relaxed) {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    if index >= tiles.count() {
-                        break;
-                    }
-                    let tile = tiles.tile(index);
-                    // The receiver is gone if the caller has panicked.
-                    if sender.send(worker.rendered(tile)).is_err() {
-                        break;
-                    }
-                }
-            });
+    let window = Window::whole([settings.width, settings.height]);
+    let mut accumulation =
+        Accumulation::new(window, 0, settings.bands, scene.light_groups().to_vec());
+    let round = Round {
+        window,
+        samples: 0..settings.samples,
+    };
+    Session::new(level, scene).advance(&mut accumulation, &[round], on_progress)?;
+    Ok(accumulation.whole_image())
+}
+
+/// A scene that is ready to be rendered in rounds.
+pub struct Session<'a> {
+    level: SimdLevel,
+    prepared: PreparedScene<'a>,
+}
+
+/// A tile on its way to a thread and back.
+struct Task {
+    window: Window,
+    /// The number of its samples before, and after.
+    samples: std::ops::Range<u32>,
+    first_sample: u32,
+    values: Vec<f64>,
+}
+
+impl<'a> Session<'a> {
+    /// Prepares a scene.
+    pub fn new(level: SimdLevel, scene: &'a Scene) -> Self {
+        Self {
+            level,
+            prepared: PreparedScene::new(scene),
         }
-        drop(sender);
-        let mut done = 0;
-        for (tile, values) in finished {
-            tile.store(&values, &mut image, settings.samples);
-            done += tile.pixels().count() as u64 * u64::from(settings.samples);
-            if on_progress(done).is_break() {
-                is_stopped.store(true, Ordering::Relaxed);
-                return Err(Stopped);
+    }
+
+    /// Advances pixels on all cores. The rounds must not overlap, and their pixels must have the samples that they say.
+    ///
+    /// `on_progress` receives the number of samples of these rounds that were taken so far, and may stop them. The pixels of finished tiles
+    /// are then advanced, the others not.
+    ///
+    /// # Errors
+    /// [`Stopped`] when the caller stops it.
+    ///
+    /// # Panics
+    /// When a round lies outside the accumulation's window, or that has other bands or light groups than the scene.
+    pub fn advance(
+        &self,
+        accumulation: &mut Accumulation,
+        rounds: &[Round],
+        on_progress: &mut dyn FnMut(u64) -> ControlFlow<()>,
+    ) -> Result<(), Stopped> {
+        let threads = rayon::current_num_threads();
+        let tiles = Tiles::new(rounds, threads as u32);
+        let mut tiles = tiles.iter();
+        let (to_threads, waiting) = mpsc::sync_channel(TILES_AHEAD * threads);
+        let waiting = Mutex::new(waiting);
+        // Our own threads: those of a pool that calls this function may all be waiting for it.
+        std::thread::scope(|scope| {
+            let (sender, finished) = mpsc::channel();
+            for _ in 0..threads {
+                let (sender, waiting) = (sender.clone(), &waiting);
+                scope.spawn(move || self.work(waiting, &sender));
+            }
+            drop(sender);
+            let mut to_threads = Some(to_threads);
+            let mut send_next = |accumulation: &Accumulation| match (tiles.next(), &to_threads) {
+                (Some((window, samples)), Some(to)) => {
+                    let task = Task {
+                        window,
+                        samples,
+                        first_sample: accumulation.first_sample(),
+                        values: accumulation.copied(window),
+                    };
+                    // It fails only if all threads have panicked, and then nothing comes back.
+                    let _ = to.send(task);
+                }
+                _ => to_threads = None,
+            };
+            for _ in 0..TILES_AHEAD * threads {
+                send_next(accumulation);
+            }
+            let mut done = 0;
+            for task in finished {
+                send_next(accumulation);
+                accumulation.store(task.window, &task.values, task.samples.end);
+                done += task.window.pixels() as u64 * task.samples.len() as u64;
+                if on_progress(done).is_break() {
+                    return Err(Stopped);
+                }
+            }
+            Ok(())
+        })
+    }
+
+    /// What a thread does: tiles, until there are no more or nobody wants them.
+    fn work(&self, waiting: &Mutex<mpsc::Receiver<Task>>, finished: &mpsc::Sender<Task>) {
+        let mut worker = Worker::new(self.level, &self.prepared);
+        loop {
+            let next = waiting.lock().unwrap_or_else(PoisonError::into_inner).recv();
+            let Ok(mut task) = next else { return };
+            worker.advance(&mut task);
+            // The receiver is gone if the caller has stopped or panicked.
+            if finished.send(task).is_err() {
+                return;
             }
         }
-        Ok(())
-    })?;
-    Ok(image)
+    }
 }
 
 /// The result of one sample of a pixel.
@@ -112,7 +176,6 @@ impl PreparedScene<'_> {
 struct Worker<'a> {
     tracer: PathTracer<'a, SpectralPath<'a>>,
     pixel: Pixel<'a>,
-    samples: u32,
     clamp: Option<f64>,
 }
 
@@ -124,7 +187,6 @@ impl<'a> Worker<'a> {
         Self {
             tracer: PathTracer::new(prepared, path),
             pixel: Pixel::new(level.0, &prepared.tables, light_groups),
-            samples: settings.samples,
             clamp: settings.clamp,
         }
     }
@@ -136,97 +198,28 @@ impl<'a> Worker<'a> {
         }
     }
 
-    fn rendered(&mut self, tile: Tile) -> (Tile, PixelValues) {
-        let mut values = PixelValues::default();
-        for pixel in tile.pixels() {
-            self.pixel.clear();
-            for sample in 0..self.samples {
-                self.trace_path(pixel, sample);
+    fn advance(&mut self, task: &mut Task) {
+        let values = task.values.chunks_exact_mut(self.pixel.len());
+        for (pixel, values) in pixels(task.window).zip(values) {
+            self.pixel.load(values, task.samples.start);
+            for sample in task.samples.clone() {
+                self.trace_path(pixel, task.first_sample + sample);
                 self.pixel.add(&self.tracer.transport);
             }
-            self.pixel.write(&mut values);
-        }
-        (tile, values)
-    }
-}
-
-/// The tiles of a picture, counted row by row.
-#[derive(Clone, Copy)]
-struct Tiles {
-    size: [u32; 2],
-    side: u32,
-}
-
-impl Tiles {
-    fn new(width: u32, height: u32, threads: u32) -> Self {
-        let size = [width, height];
-        let mut tiles = Self { size, side: TILE };
-        while tiles.side > 1 && tiles.count() < TILES_OF_A_THREAD * threads {
-            tiles.side /= 2;
-        }
-        tiles
-    }
-
-    fn count(&self) -> u32 {
-        let [columns, rows] = self.size.map(|pixels| pixels.div_ceil(self.side));
-        columns * rows
-    }
-
-    fn tile(&self, index: u32) -> Tile {
-        let columns = self.size[0].div_ceil(self.side);
-        let corner = [index % columns, index / columns].map(|place| place * self.side);
-        let end = std::array::from_fn(|i| (corner[i] + self.side).min(self.size[i]));
-        Tile { corner, end }
-    }
-}
-
-/// A tile of the picture.
-#[derive(Clone, Copy)]
-struct Tile {
-    corner: [u32; 2],
-    end: [u32; 2],
-}
-
-impl Tile {
-    fn pixels(self) -> impl Iterator<Item = [u32; 2]> {
-        let rows = self.corner[1]..self.end[1];
-        rows.flat_map(move |y| (self.corner[0]..self.end[0]).map(move |x| [x, y]))
-    }
-
-    fn store(self, values: &PixelValues, image: &mut SpectralImage, samples: u32) {
-        let bands = image.bands().count() as usize;
-        let groups = image.light_groups().len();
-        let radiance = values.radiance.chunks_exact(groups * bands);
-        let variance = values.variance.chunks_exact(bands);
-        let xyz = values.xyz.chunks_exact(groups);
-        for ([x, y], ((radiance, variance), xyz)) in
-            self.pixels().zip(radiance.zip(variance).zip(xyz))
-        {
-            image.set_pixel_by_light((x, y), radiance, variance, xyz, samples);
+            self.pixel.save(values);
         }
     }
+}
+
+/// The pixels of a window, row by row.
+fn pixels(window: Window) -> impl Iterator<Item = [u32; 2]> {
+    let [(left, width), (top, height)] = [0, 1].map(|i| (window.origin[i], window.size[i]));
+    (top..top + height).flat_map(move |y| (left..left + width).map(move |x| [x, y]))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn tiles_hold_every_pixel_once() {
-        for (width, height, threads) in [(1, 1, 8), (33, 17, 2), (640, 480, 2), (5, 300, 64)] {
-            let tiles = Tiles::new(width, height, threads);
-            let mut pixels: Vec<_> = (0..tiles.count())
-                .flat_map(|index| tiles.tile(index).pixels())
-                .collect();
-            pixels.sort_unstable();
-            let all: Vec<_> = (0..width)
-                .flat_map(|x| (0..height).map(move |y| [x, y]))
-                .collect();
-            assert_eq!(pixels, all);
-            assert!(tiles.side == 1 || tiles.count() >= 4 * threads);
-        }
-        assert_eq!(Tiles::new(640, 480, 2).side, TILE);
-    }
 
     /// All threads of a pool may render at once.
     #[test]

@@ -1,6 +1,7 @@
 //! The thickness of a layer over its surface, in a validated scene.
 
 use crate::rounding::RoundToF32;
+use crate::texels::fnv;
 use glam::DVec3;
 use std::fmt;
 use std::sync::Arc;
@@ -210,9 +211,15 @@ pub struct PictureFile {
     pub values: Vec<f32>,
 }
 
+/// The size and a digest: two files with the same description hold the same values.
 impl fmt::Debug for PictureFile {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "PictureFile({} × {})", self.width, self.height)
+        let digest = fnv(self.values.iter().map(|value| value.to_bits()));
+        write!(
+            f,
+            "PictureFile({} × {}, {digest:016x})",
+            self.width, self.height
+        )
     }
 }
 

@@ -11,9 +11,11 @@
 //! * [`BandTable`] is a spectrum resampled onto a grid, fine enough for any wavelength sampled within a band.
 //! * [`table_file`] reads users' tables.
 //! * [`SpectralImage`] is the output of a renderer: radiance per pixel and band, by [`LightGroup`], as a list of [`ImageLayer`]s.
+//! * [`Accumulation`] is a render in progress: running means, advanced in [`Round`]s.
 //! * [`find_illuminant`], [`Observer`], [`optical_constants()`] and [`reflectance`] give access to the built-in data;
 //!   [`material_info`] gives the source of a material's data.
 
+mod accumulation;
 mod band_grid;
 mod band_table;
 mod data;
@@ -29,7 +31,9 @@ mod spectral_image;
 mod spectrum;
 mod sprague;
 pub mod table_file;
+mod window;
 
+pub use accumulation::{Accumulation, Round, SumLayout, variance_of_mean};
 pub use band_grid::{BandGrid, BandGridError};
 pub use band_table::BandTable;
 pub use data::{
@@ -50,3 +54,4 @@ pub use spectral_image::{
 };
 pub use spectrum::{Spectrum, Tabulated, TabulatedError};
 pub use sprague::sprague;
+pub use window::Window;

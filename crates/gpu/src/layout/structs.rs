@@ -57,14 +57,14 @@ structs! { STRUCTS, Struct;
         pub tile_origin: [u32; 2],
         /// Width and height of the tile.
         pub tile_size: [u32; 2],
-        /// Samples that were taken before.
+        /// The number of the first sample to take now.
         pub first_sample: u32,
         /// Samples to take now.
         pub sample_count: u32,
         /// Passes of the loop by which an invocation detects whether the driver has ended its loops.
         pub passes: u32,
-        /// Padding to the size that a uniform buffer requires.
-        pub padding: u32,
+        /// How many samples the sums hold already.
+        pub taken: u32,
     }
 
     /// Values for one run over a part of a batch of stacks.

@@ -15,9 +15,18 @@ use scene::Emission;
 const CHUNK: usize = MAX;
 
 /// Some bands, in one cache line.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C, align(64))]
 pub(crate) struct Chunk([f64; CHUNK]);
+
+impl Chunk {
+    /// Returns the sum of the bands, in pairs.
+    #[inline(always)]
+    pub(crate) fn sum(&self) -> f64 {
+        let [a, b, c, d, e, f, g, h] = self.0;
+        ((a + b) + (c + d)) + ((e + f) + (g + h))
+    }
+}
 
 /// A value for each band, padded to whole chunks.
 #[derive(Clone, Debug)]

@@ -23,7 +23,8 @@ impl From<SpectrumId> for Row {
     }
 }
 
-/// Tables of spectra at the knots within each band, as `[spectrum][knot][band]`. Bands are padded to whole chunks with the last one.
+/// Tables of spectra at the knots within each band, as `[spectrum][knot][band]`. Bands are padded to whole chunks
+/// with the last one; those of an observer with 0.
 pub(crate) struct Tables {
     chunks: Vec<Chunk>,
     /// Number of bands without the padding.
@@ -48,20 +49,28 @@ impl Tables {
             observer: [Row(0); 3],
             grid: *grid,
         };
-        let mut push = |table: &BandTable| tables.push(|knot, band| table.row(knot as u32)[band]);
-        scene.spectra().iter().for_each(|table| {
-            push(table);
+        for table in scene.spectra() {
+            tables.push(|knot, band| table.row(knot as u32)[band]);
+        }
+        // An observer sees nothing in the padding, so that colors are sums over whole chunks.
+        tables.observer = scene.observer().each_ref().map(|table| {
+            let seen = |knot: usize, band: usize| table.row(knot as u32).get(band).copied();
+            tables.push_padded(|knot, band| seen(knot, band).unwrap_or(0.0))
         });
-        tables.observer = scene.observer().each_ref().map(push);
         tables
     }
 
     /// Adds a spectrum by its values at a knot of a band.
     pub(crate) fn push(&mut self, value: impl Fn(usize, usize) -> f64) -> Row {
+        let last = self.bands - 1;
+        self.push_padded(|knot, band| value(knot, band.min(last)))
+    }
+
+    /// Adds a spectrum with its own values in the padding behind the last band.
+    fn push_padded(&mut self, value: impl Fn(usize, usize) -> f64) -> Row {
         for knot in 0..self.knots {
             for first in (0..self.bands).step_by(CHUNK) {
-                let band = |lane: usize| (first + lane).min(self.bands - 1);
-                let values = std::array::from_fn(|lane| value(knot, band(lane)));
+                let values = std::array::from_fn(|lane| value(knot, first + lane));
                 self.chunks.push(Chunk(values));
             }
         }

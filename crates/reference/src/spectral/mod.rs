@@ -3,5 +3,5 @@
 mod pixel;
 mod spectral_path;
 
-pub(crate) use pixel::{Pixel, PixelValues};
+pub(crate) use pixel::Pixel;
 pub(crate) use spectral_path::SpectralPath;

@@ -1,33 +1,23 @@
 //! Statistics of the samples of a pixel.
 
 use super::SpectralPath;
-use crate::bands::{At, Spectrum, Tables};
+use crate::bands::{At, Chunk, Spectrum, Tables};
 use optics::wide::Real;
 use pulp::{Arch, Simd, WithSimd};
-use spectra::KM_LUMENS_PER_WATT;
+use spectra::SumLayout;
 
 /// The running means of a pixel's samples, and the sum of squared deviations of the light of all groups together (Welford 1962).
 pub(crate) struct Pixel<'a> {
     arch: Arch,
     tables: &'a Tables,
+    layout: SumLayout,
     count: u32,
     mean: Spectrum,
     deviation: Spectrum,
     /// Means of each light group; empty where there is only one.
     group_means: Vec<Spectrum>,
-    /// For each light group, the sums of radiance times the observer's functions.
-    xyz: Vec<[Spectrum; 3]>,
-}
-
-/// The values of pixels one after the other, in the layout of a `SpectralImage`.
-#[derive(Default)]
-pub(crate) struct PixelValues {
-    /// Mean radiance, `[pixel][light group][band]`.
-    pub(crate) radiance: Vec<f32>,
-    /// Variance of the mean of the light of all groups, `[pixel][band]`.
-    pub(crate) variance: Vec<f32>,
-    /// Mean XYZ, `[pixel][light group]`.
-    pub(crate) xyz: Vec<[f32; 3]>,
+    /// For each light group, the mean of radiance times the observer's functions, summed over the bands.
+    xyz: Vec<[f64; 3]>,
 }
 
 impl<'a> Pixel<'a> {
@@ -37,55 +27,57 @@ impl<'a> Pixel<'a> {
         Self {
             arch,
             tables,
+            layout: SumLayout::new(tables.bands(), light_groups),
             count: 0,
             mean: zero.clone(),
             deviation: zero.clone(),
-            group_means: vec![zero.clone(); several],
-            xyz: vec![std::array::from_fn(|_| zero.clone()); light_groups],
+            group_means: vec![zero; several],
+            xyz: vec![[0.0; 3]; light_groups],
         }
     }
 
-    /// Begins the next pixel.
-    pub(crate) fn clear(&mut self) {
-        self.count = 0;
-        let own = [&mut self.mean, &mut self.deviation].into_iter();
-        let of_groups = self
-            .group_means
-            .iter_mut()
-            .chain(self.xyz.as_flattened_mut());
-        own.chain(of_groups).for_each(|spectrum| spectrum.fill(0.0));
+    /// Number of values of a pixel.
+    pub(crate) fn len(&self) -> usize {
+        self.layout.len()
+    }
+
+    /// Goes on with a pixel that has this number of samples. The padding of the last chunk begins at 0: nothing reads it.
+    pub(crate) fn load(&mut self, values: &[f64], count: u32) {
+        self.count = count;
+        let (layout, bands) = (self.layout, self.tables.bands());
+        let read = |spectrum: &mut Spectrum, from: &[f64]| {
+            spectrum.values_mut()[..bands].copy_from_slice(from);
+        };
+        read(&mut self.mean, &values[layout.mean()]);
+        read(&mut self.deviation, &values[layout.deviation()]);
+        for (group, mean) in self.group_means.iter_mut().enumerate() {
+            read(mean, &values[layout.group_mean(group)]);
+        }
+        for (group, xyz) in self.xyz.iter_mut().enumerate() {
+            xyz.copy_from_slice(&values[layout.xyz(group)]);
+        }
+    }
+
+    /// Writes the pixel's values.
+    pub(crate) fn save(&self, values: &mut [f64]) {
+        let (layout, bands) = (self.layout, self.tables.bands());
+        let mut write = |range: std::ops::Range<usize>, spectrum: &Spectrum| {
+            values[range].copy_from_slice(&spectrum.values()[..bands]);
+        };
+        write(layout.mean(), &self.mean);
+        write(layout.deviation(), &self.deviation);
+        for (group, mean) in self.group_means.iter().enumerate() {
+            write(layout.group_mean(group), mean);
+        }
+        for (group, xyz) in self.xyz.iter().enumerate() {
+            values[layout.xyz(group)].copy_from_slice(xyz);
+        }
     }
 
     /// Adds a sample.
     pub(crate) fn add(&mut self, path: &SpectralPath<'a>) {
         self.count += 1;
         self.arch.dispatch(Add(self, path));
-    }
-
-    /// Appends the pixel to the values.
-    pub(crate) fn write(&self, values: &mut PixelValues) {
-        let (bands, n) = (self.tables.bands(), f64::from(self.count));
-        let to_variance = if n > 1.0 { 1.0 / (n * (n - 1.0)) } else { 0.0 };
-        let to_xyz = KM_LUMENS_PER_WATT * self.tables.grid().width_nm() / n;
-        let means = if self.group_means.is_empty() {
-            std::slice::from_ref(&self.mean)
-        } else {
-            &self.group_means
-        };
-        for mean in means {
-            let mean = mean.values()[..bands].iter();
-            values.radiance.extend(mean.map(|&v| v as f32));
-        }
-        let deviation = self.deviation.values()[..bands].iter();
-        values
-            .variance
-            .extend(deviation.map(|&v| (v * to_variance) as f32));
-        let sum = |spectrum: &Spectrum| spectrum.values()[..bands].iter().sum::<f64>();
-        let xyz = self
-            .xyz
-            .iter()
-            .map(|xyz| xyz.each_ref().map(|of| (sum(of) * to_xyz) as f32));
-        values.xyz.extend(xyz);
     }
 }
 
@@ -98,7 +90,8 @@ impl WithSimd for Add<'_, '_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self(pixel, path) = self;
         let bands = path.bands(simd);
-        let over = bands.splat(1.0 / f64::from(pixel.count));
+        let part = 1.0 / f64::from(pixel.count);
+        let over = bands.splat(part);
         let count = bands.chunks().len();
         let mean = &mut pixel.mean.0[..count];
         let deviation = &mut pixel.deviation.0[..count];
@@ -124,19 +117,23 @@ impl WithSimd for Add<'_, '_> {
                 }
             }
         }
-        let [x_bar, y_bar, z_bar] = pixel.tables.observer();
-        let (x_bar, y_bar) = (bands.knots(x_bar), bands.knots(y_bar));
-        let z_bar = bands.knots(z_bar);
-        for (radiance, [x, y, z]) in path.radiance.iter().zip(&mut pixel.xyz) {
+        let observer = pixel.tables.observer().map(|row| bands.knots(row));
+        for (radiance, xyz) in path.radiance.iter().zip(&mut pixel.xyz) {
             let radiance = &radiance.0[..count];
-            let (x, y, z) = (&mut x.0[..count], &mut y.0[..count], &mut z.0[..count]);
-            for chunk in bands.chunks() {
-                for at in At::lanes::<S>(chunk) {
-                    let value = at.load(simd, radiance);
-                    at.store(value.mul_add(x_bar.value(&bands, at), at.load(simd, x)), x);
-                    at.store(value.mul_add(y_bar.value(&bands, at), at.load(simd, y)), y);
-                    at.store(value.mul_add(z_bar.value(&bands, at), at.load(simd, z)), z);
+            for (seen_by, mean) in observer.iter().zip(xyz) {
+                // The sums of every eighth band, whatever the width of a register.
+                let mut sums = [Chunk::default()];
+                for chunk in bands.chunks() {
+                    for (at, sum) in At::lanes::<S>(chunk).zip(At::lanes::<S>(0)) {
+                        let product = at.load(simd, radiance);
+                        let so_far = sum.load(simd, &sums);
+                        sum.store(
+                            product.mul_add(seen_by.value(&bands, at), so_far),
+                            &mut sums,
+                        );
+                    }
                 }
+                *mean += (sums[0].sum() - *mean) * part;
             }
         }
     }

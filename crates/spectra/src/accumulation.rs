@@ -1,0 +1,440 @@
+//! The state of a render between two rounds of samples.
+
+use crate::{BandGrid, KM_LUMENS_PER_WATT, LightGroup, SpectralImage, Window};
+use std::ops::Range;
+
+/// Where the running means of a pixel are in its values.
+///
+/// All are means of the samples taken so far, but for the deviations: the sums of squared differences from the mean (Welford, Note on
+/// a method for calculating corrected sums of squares and products, Technometrics 4, 1962).
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct SumLayout {
+    bands: usize,
+    light_groups: usize,
+}
+
+impl SumLayout {
+    /// The layout for this number of bands and of light groups.
+    pub fn new(bands: usize, light_groups: usize) -> Self {
+        Self {
+            bands,
+            light_groups,
+        }
+    }
+
+    /// Number of light groups whose means are kept apart: a single one is the total.
+    fn apart(&self) -> usize {
+        if self.light_groups > 1 {
+            self.light_groups
+        } else {
+            0
+        }
+    }
+
+    /// Number of values of a pixel.
+    pub fn len(&self) -> usize {
+        self.bands * (2 + self.apart()) + 3 * self.light_groups
+    }
+
+    /// Never: a pixel has values.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Mean radiance of all light, by band.
+    pub fn mean(&self) -> Range<usize> {
+        0..self.bands
+    }
+
+    /// Squared deviations of the radiance of all light, by band.
+    pub fn deviation(&self) -> Range<usize> {
+        self.bands..2 * self.bands
+    }
+
+    /// Mean radiance of a light group, by band.
+    pub fn group_mean(&self, light_group: usize) -> Range<usize> {
+        if self.apart() == 0 {
+            return self.mean();
+        }
+        let start = self.bands * (2 + light_group);
+        start..start + self.bands
+    }
+
+    /// Mean X, Y and Z of a light group per nm of band width and without the factor of lm/W.
+    pub fn xyz(&self, light_group: usize) -> Range<usize> {
+        let start = self.bands * (2 + self.apart()) + 3 * light_group;
+        start..start + 3
+    }
+}
+
+/// The unit of work of a render: all pixels of a window are advanced from one number of samples to another.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub struct Round {
+    /// The pixels, in the whole picture.
+    pub window: Window,
+    /// The number of samples before, and after.
+    pub samples: Range<u32>,
+}
+
+impl Round {
+    /// Number of samples of all pixels together.
+    pub fn work(&self) -> u64 {
+        self.window.pixels() as u64 * self.samples.len() as u64
+    }
+}
+
+/// Running means of the samples of each pixel of a window of a picture.
+///
+/// A pixel's samples are added one after the other, in the order of their numbers, to values that are kept exactly as the renderer
+/// computes with them. So the result does not depend on how a render was cut into rounds, nor on whether it was interrupted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Accumulation {
+    window: Window,
+    first_sample: u32,
+    bands: BandGrid,
+    light_groups: Vec<LightGroup>,
+    layout: SumLayout,
+    counts: Vec<u32>,
+    sums: Vec<f64>,
+}
+
+impl Accumulation {
+    /// Begins a render: no samples, all sums 0. Its samples are numbered from `first_sample` on.
+    ///
+    /// # Panics
+    /// When `light_groups` is empty.
+    pub fn new(
+        window: Window,
+        first_sample: u32,
+        bands: BandGrid,
+        light_groups: Vec<LightGroup>,
+    ) -> Self {
+        assert!(!light_groups.is_empty(), "an image has a light group");
+        let layout = SumLayout::new(bands.count() as usize, light_groups.len());
+        let pixels = window.pixels();
+        Self {
+            window,
+            first_sample,
+            bands,
+            light_groups,
+            layout,
+            counts: vec![0; pixels],
+            sums: vec![0.0; pixels * layout.len()],
+        }
+    }
+
+    /// Bytes of memory that a pixel takes.
+    pub fn bytes_per_pixel(bands: u32, light_groups: usize) -> u64 {
+        let values = SumLayout::new(bands as usize, light_groups).len();
+        (size_of::<u32>() + values * size_of::<f64>()) as u64
+    }
+
+    /// The pixels, in the whole picture.
+    pub fn window(&self) -> Window {
+        self.window
+    }
+
+    /// The number of the first sample of each pixel.
+    pub fn first_sample(&self) -> u32 {
+        self.first_sample
+    }
+
+    /// The bands of each pixel.
+    pub fn bands(&self) -> &BandGrid {
+        &self.bands
+    }
+
+    /// The light groups, at least one.
+    pub fn light_groups(&self) -> &[LightGroup] {
+        &self.light_groups
+    }
+
+    /// Where the values of a pixel are.
+    pub fn layout(&self) -> SumLayout {
+        self.layout
+    }
+
+    /// Number of samples of each pixel so far, row by row.
+    pub fn counts(&self) -> &[u32] {
+        &self.counts
+    }
+
+    /// All values, pixel by pixel.
+    pub fn sums(&self) -> &[f64] {
+        &self.sums
+    }
+
+    /// All counts and values, to be filled by whoever has kept them.
+    pub fn state_mut(&mut self) -> (&mut [u32], &mut [f64]) {
+        (&mut self.counts, &mut self.sums)
+    }
+
+    /// The values of a pixel, counted row by row.
+    ///
+    /// # Panics
+    /// When there is no such pixel.
+    pub fn pixel(&self, index: usize) -> &[f64] {
+        &self.sums[index * self.layout.len()..][..self.layout.len()]
+    }
+
+    /// The indices of the pixels of each row of a window.
+    ///
+    /// # Panics
+    /// When a part of it lies outside.
+    pub fn row_indices(&self, window: Window) -> impl Iterator<Item = Range<usize>> + use<> {
+        let own = self.window;
+        assert!(own.contains(&window), "{window} of {own}");
+        let left = (window.origin[0] - own.origin[0]) as usize;
+        let top = window.origin[1] - own.origin[1];
+        let (columns, all) = (window.size[0] as usize, own.size[0] as usize);
+        (top..top + window.size[1]).map(move |row| {
+            let start = row as usize * all + left;
+            start..start + columns
+        })
+    }
+
+    /// The values of the pixels of a window, row by row.
+    ///
+    /// # Panics
+    /// When a part of it lies outside.
+    pub fn copied(&self, window: Window) -> Vec<f64> {
+        let len = self.layout.len();
+        let mut values = Vec::with_capacity(window.pixels() * len);
+        for row in self.row_indices(window) {
+            values.extend_from_slice(&self.sums[row.start * len..row.end * len]);
+        }
+        values
+    }
+
+    /// Puts back the values of the pixels of a window, which have this number of samples now.
+    ///
+    /// # Panics
+    /// When a part of it lies outside, or there are more or fewer values.
+    pub fn store(&mut self, window: Window, values: &[f64], samples: u32) {
+        let len = self.layout.len();
+        assert_eq!(values.len(), window.pixels() * len, "values of {window}");
+        let mut rows = values.chunks_exact((window.size[0] as usize * len).max(1));
+        for row in self.row_indices(window) {
+            self.counts[row.clone()].fill(samples);
+            if let Some(values) = rows.next() {
+                self.sums[row.start * len..row.end * len].copy_from_slice(values);
+            }
+        }
+    }
+
+    /// The rounds that bring all pixels of a window to a number of samples: one for each rectangle of pixels with the same number of
+    /// samples, which has fewer.
+    ///
+    /// # Panics
+    /// When a part of the window lies outside.
+    pub fn rounds_to(&self, window: Window, samples: u32) -> Vec<Round> {
+        let mut rounds: Vec<Round> = Vec::new();
+        // Where the rounds of the row before begin.
+        let mut above = 0;
+        for (row, indices) in self.row_indices(window).enumerate() {
+            let of_row = self.runs(indices, samples);
+            let y = window.origin[1] + row as u32;
+            let made: Vec<Round> = of_row
+                .into_iter()
+                .map(|(run, count)| Round {
+                    window: Window {
+                        origin: [window.origin[0] + run.start, y],
+                        size: [run.end - run.start, 1],
+                    },
+                    samples: count..samples,
+                })
+                .collect();
+            let goes_on = rounds[above..].len() == made.len()
+                && rounds[above..].iter().zip(&made).all(|(a, b)| {
+                    let side = |round: &Round| (round.window.origin[0], round.window.size[0]);
+                    side(a) == side(b)
+                        && a.samples == b.samples
+                        && a.window.end()[1] == u64::from(y)
+                });
+            if goes_on {
+                for round in &mut rounds[above..] {
+                    round.window.size[1] += 1;
+                }
+            } else {
+                above = rounds.len();
+                rounds.extend(made);
+            }
+        }
+        rounds
+    }
+
+    /// Neighbors in a row with the same count below `samples`: their columns and their count.
+    fn runs(&self, row: Range<usize>, samples: u32) -> Vec<(Range<u32>, u32)> {
+        let mut runs: Vec<(Range<u32>, u32)> = Vec::new();
+        for (column, &count) in (0..).zip(&self.counts[row]) {
+            if count >= samples {
+                continue;
+            }
+            match runs.last_mut() {
+                Some((run, last)) if *last == count && run.end == column => run.end += 1,
+                _ => runs.push((column..column + 1, count)),
+            }
+        }
+        runs
+    }
+
+    /// The image of some rows, counted from the window's own first one.
+    ///
+    /// # Panics
+    /// When there are no such rows.
+    pub fn image(&self, rows: Range<u32>) -> SpectralImage {
+        let window = self.window.rows(rows);
+        let ([width, height], groups) = (window.size, self.light_groups.len());
+        let bands = self.bands.count() as usize;
+        let mut image =
+            SpectralImage::with_light_groups(width, height, self.bands, self.light_groups.clone());
+        let mut radiance = vec![0.0; groups * bands];
+        let (mut variance, mut xyz) = (vec![0.0; bands], vec![[0.0; 3]; groups]);
+        let to_xyz = KM_LUMENS_PER_WATT * self.bands.width_nm();
+        for (y, row) in (0..).zip(self.row_indices(window)) {
+            for (x, pixel) in (0..).zip(row) {
+                let (sums, count) = (self.pixel(pixel), self.counts[pixel]);
+                for group in 0..groups {
+                    let of_group = &mut radiance[group * bands..][..bands];
+                    write(of_group, &sums[self.layout.group_mean(group)], 1.0);
+                    write(&mut xyz[group], &sums[self.layout.xyz(group)], to_xyz);
+                }
+                let to_variance = variance_of_mean(count);
+                write(&mut variance, &sums[self.layout.deviation()], to_variance);
+                image.set_pixel_by_light((x, y), &radiance, &variance, &xyz, count);
+            }
+        }
+        image
+    }
+
+    /// The image of all rows.
+    pub fn whole_image(&self) -> SpectralImage {
+        self.image(0..self.window.size[1])
+    }
+}
+
+/// The factor from squared deviations to the variance of the mean, as if samples were independent; 0 below two samples.
+pub fn variance_of_mean(samples: u32) -> f64 {
+    let n = f64::from(samples);
+    if n > 1.0 { 1.0 / (n * (n - 1.0)) } else { 0.0 }
+}
+
+fn write(to: &mut [f32], values: &[f64], factor: f64) {
+    for (to, value) in to.iter_mut().zip(values) {
+        *to = (value * factor) as f32;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn accumulation(light_groups: usize) -> Accumulation {
+        let window = Window {
+            origin: [10, 20],
+            size: [4, 3],
+        };
+        let groups = (0..light_groups).map(|i| LightGroup {
+            name: format!("g{i}"),
+            lamp: None,
+        });
+        Accumulation::new(window, 0, BandGrid::visible(2).unwrap(), groups.collect())
+    }
+
+    fn window(origin: [u32; 2], size: [u32; 2]) -> Window {
+        Window { origin, size }
+    }
+
+    #[test]
+    fn the_values_of_a_pixel_do_not_overlap() {
+        for groups in [1, 2, 3] {
+            let layout = SumLayout::new(5, groups);
+            let mut uses = vec![0; layout.len()];
+            let mut used = vec![layout.mean(), layout.deviation()];
+            if groups > 1 {
+                used.extend((0..groups).map(|group| layout.group_mean(group)));
+            }
+            used.extend((0..groups).map(|group| layout.xyz(group)));
+            used.into_iter().flatten().for_each(|index| uses[index] += 1);
+            assert!(uses.iter().all(|&count| count == 1), "{groups}: {uses:?}");
+        }
+        assert_eq!(SumLayout::new(5, 1).group_mean(0), 0..5);
+    }
+
+    #[test]
+    fn a_window_is_copied_and_put_back() {
+        let mut all = accumulation(2);
+        let len = all.layout().len();
+        let inner = window([11, 21], [2, 2]);
+        let values: Vec<f64> = (0..4 * len).map(|value| value as f64).collect();
+        all.store(inner, &values, 7);
+        assert_eq!(all.copied(inner), values);
+        assert_eq!(all.counts(), [0, 0, 0, 0, 0, 7, 7, 0, 0, 7, 7, 0]);
+        assert_eq!(all.pixel(6), &values[len..2 * len]);
+        assert!(all.pixel(7).iter().all(|&value| value == 0.0));
+    }
+
+    /// Every pixel below the number is in one round, with its own count.
+    #[test]
+    fn rounds_cover_what_is_missing() {
+        let mut all = accumulation(1);
+        let whole = all.window();
+        let one = all.rounds_to(whole, 4);
+        let expected = Round {
+            window: whole,
+            samples: 0..4,
+        };
+        assert_eq!(one, [expected]);
+        assert_eq!(one[0].work(), 48);
+        all.state_mut().0.copy_from_slice(&[4, 4, 1, 1, 4, 4, 1, 1, 0, 0, 9, 2]);
+        let rounds = all.rounds_to(whole, 4);
+        let found: Vec<_> = rounds.iter().map(|r| (r.window, r.samples.clone())).collect();
+        let expected = [
+            (window([12, 20], [2, 2]), 1..4),
+            (window([10, 22], [2, 1]), 0..4),
+            (window([13, 22], [1, 1]), 2..4),
+        ];
+        assert_eq!(found, expected);
+        assert!(all.rounds_to(window([10, 20], [2, 2]), 4).is_empty());
+    }
+
+    /// The same spans in rows that are not neighbors are no rectangle.
+    #[test]
+    fn rounds_leave_out_finished_rows_between() {
+        let mut all = accumulation(1);
+        all.state_mut().0[4..8].fill(4);
+        let rounds = all.rounds_to(all.window(), 4);
+        let rows: Vec<_> = rounds.iter().map(|r| r.window.origin[1]).collect();
+        assert_eq!(rows, [20, 22]);
+    }
+
+    #[test]
+    fn an_image_holds_means_and_variances() {
+        let mut all = accumulation(2);
+        let layout = all.layout();
+        let mut values = vec![0.0; layout.len()];
+        values[layout.deviation()].copy_from_slice(&[12.0, 24.0]);
+        values[layout.group_mean(0)].copy_from_slice(&[1.0, 2.0]);
+        values[layout.group_mean(1)].copy_from_slice(&[0.5, 4.0]);
+        values[layout.xyz(1)].copy_from_slice(&[0.0, 1.0, 0.0]);
+        all.store(window([13, 22], [1, 1]), &values, 4);
+        let image = all.image(2..3);
+        assert_eq!((image.width(), image.height()), (4, 1));
+        assert_eq!(image.pixel(3, 0), [1.5, 6.0]);
+        assert_eq!(image.variance()[6..], [1.0, 2.0]);
+        let y = KM_LUMENS_PER_WATT * image.bands().width_nm();
+        assert_eq!(image.group_xyz(1)[3], [0.0, y as f32, 0.0]);
+        assert_eq!(image.samples(), [0, 0, 0, 4]);
+        assert_eq!(all.whole_image().pixel(3, 2), [1.5, 6.0]);
+        assert_eq!((variance_of_mean(1), variance_of_mean(0)), (0.0, 0.0));
+    }
+
+    #[test]
+    fn the_bytes_are_those_of_the_lists() {
+        for groups in [1, 3] {
+            let all = accumulation(groups);
+            let bytes = 4 * all.counts().len() + 8 * all.sums().len();
+            assert_eq!(12 * Accumulation::bytes_per_pixel(2, groups), bytes as u64);
+        }
+    }
+}
