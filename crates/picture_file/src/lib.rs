@@ -8,7 +8,7 @@
 //! * [`icc`] makes and reads ICC profiles.
 //!
 //! A file is written under another name in the same folder and renamed when it is complete ([`PendingFile`]), so a failure leaves no
-//! partial file.
+//! partial file. [`abandon_all`] removes the unfinished files of a process that a signal ends.
 
 mod cicp;
 mod exr_file;
@@ -23,5 +23,7 @@ mod rgb_image;
 pub mod spectral_exr;
 
 pub use linear_image::LinearImage;
-pub use pending_file::{Destination, PendingFile};
+pub use pending_file::{
+    Abandoned, Destination, PendingFile, STANDARD_OUTPUT, abandon_all, can_create_in,
+};
 pub use rgb_image::{Code, RgbImage, RgbImage8, RgbImage16};

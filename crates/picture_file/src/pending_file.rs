@@ -2,13 +2,23 @@
 
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
-use std::io;
+use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
+
+use list::Listed;
+pub use list::{Abandoned, abandon_all};
+
+mod list;
+
+/// The path that stands for standard output. A file of this name is `./-`.
+pub const STANDARD_OUTPUT: &str = "-";
 
 /// Where a path leads.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Destination {
+    /// Standard output, named by [`STANDARD_OUTPUT`].
+    StandardOutput,
     /// A file that exists or can be created, with symbolic links resolved. The file is replaced as a whole.
     File(PathBuf),
     /// A pipe or a device, which is written to in place.
@@ -24,6 +34,9 @@ impl Destination {
     /// # Errors
     /// When the path is a folder or does not end in a file name, or when its links form a loop.
     pub fn of(path: &Path) -> io::Result<Self> {
+        if path.as_os_str() == STANDARD_OUTPUT {
+            return Ok(Self::StandardOutput);
+        }
         let ends_in_separator = path.to_string_lossy().ends_with(std::path::is_separator);
         if ends_in_separator || path.file_name().is_none() {
             let message = "the path does not end in a file name";
@@ -53,12 +66,33 @@ impl Destination {
     }
 }
 
-/// A file being written under another name in the folder of its target, so that a failure leaves no partial file. Output for a pipe
-/// or a device is collected in the folder for temporary files. A file dropped without [`PendingFile::commit`] is removed.
+/// Checks that a file can be created in a folder: permissions alone do not reveal read-only and virtual file systems. The file that
+/// is created has no name where the system allows that, and is gone afterward.
+///
+/// # Errors
+/// The error of the operating system when no file can be created.
+pub fn can_create_in(folder: &Path) -> io::Result<()> {
+    tempfile::tempfile_in(folder).map(drop)
+}
+
+/// A file being written under another name in the folder of its target, so that a failure leaves no partial file. Output for a pipe,
+/// a device or standard output is collected in a file without a name in the folder for temporary files. A file dropped without
+/// [`PendingFile::commit`] is removed.
+///
+/// Bytes of any kind can be written with it: through [`PendingFile::handle`], then [`PendingFile::commit`].
 #[derive(Debug)]
-pub struct PendingFile {
-    target: Destination,
-    file: NamedTempFile,
+pub struct PendingFile(Output);
+
+#[derive(Debug)]
+enum Output {
+    /// A file that will be renamed. It is removed before it leaves the list.
+    File {
+        target: PathBuf,
+        file: NamedTempFile,
+        listed: Listed,
+    },
+    /// A file without a name, whose bytes will be copied to the pipe or device, or to standard output if there is no path.
+    Copied { target: Option<PathBuf>, file: File },
 }
 
 impl PendingFile {
@@ -67,17 +101,21 @@ impl PendingFile {
     /// # Errors
     /// As [`Destination::of`], and when the folder cannot be written to.
     pub fn create(target: &Path) -> io::Result<Self> {
-        let target = Destination::of(target)?;
-        let file = match &target {
-            Destination::File(path) => {
-                let folder = path
-                    .parent()
-                    .filter(|folder| !folder.as_os_str().is_empty());
-                temporary(path, folder.unwrap_or(Path::new(".")))?
+        let target = match Destination::of(target)? {
+            Destination::File(target) => {
+                let create = || temporary(&target, folder_of(&target));
+                let (file, listed) = Listed::create(create)?;
+                return Ok(Self(Output::File {
+                    target,
+                    file,
+                    listed,
+                }));
             }
-            Destination::Stream(path) => temporary(path, &std::env::temp_dir())?,
+            Destination::Stream(target) => Some(target),
+            Destination::StandardOutput => None,
         };
-        Ok(Self { target, file })
+        let file = tempfile::tempfile()?;
+        Ok(Self(Output::Copied { target, file }))
     }
 
     /// Returns a handle to write with. Dropping the handle does not close the file.
@@ -85,26 +123,69 @@ impl PendingFile {
     /// # Errors
     /// When the system provides no second handle.
     pub fn handle(&self) -> io::Result<File> {
-        self.file.as_file().try_clone()
+        match &self.0 {
+            Output::File { file, .. } => file.as_file().try_clone(),
+            Output::Copied { file, .. } => file.try_clone(),
+        }
     }
 
-    /// Renames the file to its target, replacing any file there, or writes it to the pipe or device.
+    /// Renames the file to its target, replacing any file there, or writes it to the pipe, the device or standard output.
     ///
     /// # Errors
-    /// When the file cannot be flushed to disk, renamed or written; it is then removed.
+    /// When the file cannot be flushed to disk, renamed or written; it is then removed. When only its new name cannot be flushed to
+    /// disk, the file stays.
     pub fn commit(self) -> io::Result<()> {
-        match &self.target {
-            Destination::File(target) => {
-                self.file.as_file().sync_all()?;
-                self.file.persist(target)?;
+        match self.0 {
+            Output::File {
+                target,
+                file,
+                listed,
+            } => {
+                file.as_file().sync_all()?;
+                listed.rename(file, &target)?;
+                sync_folder(folder_of(&target))
             }
-            Destination::Stream(target) => {
-                let mut stream = OpenOptions::new().append(true).open(target)?;
-                io::copy(&mut self.file.reopen()?, &mut stream)?;
-            }
+            Output::Copied { target, file } => copy(file, target.as_deref()),
         }
-        Ok(())
     }
+}
+
+/// Writes a file from its start to the pipe or device, or to standard output.
+fn copy(mut file: File, target: Option<&Path>) -> io::Result<()> {
+    file.rewind()?;
+    if let Some(target) = target {
+        let mut stream = OpenOptions::new().append(true).open(target)?;
+        io::copy(&mut file, &mut stream)?;
+        return Ok(());
+    }
+    let mut output = io::stdout().lock();
+    io::copy(&mut file, &mut output)?;
+    output.flush()
+}
+
+fn folder_of(path: &Path) -> &Path {
+    let folder = path.parent();
+    let folder = folder.filter(|folder| !folder.as_os_str().is_empty());
+    folder.unwrap_or(Path::new("."))
+}
+
+/// Flushes the names in a folder to disk, where the folder may be read and its file system can do so.
+#[cfg(unix)]
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    let opened = match File::open(folder) {
+        Err(error) if error.kind() == io::ErrorKind::PermissionDenied => return Ok(()),
+        opened => opened?,
+    };
+    match opened.sync_all() {
+        // EINVAL: the file system does not flush folders.
+        Err(error) if error.kind() == io::ErrorKind::InvalidInput => Ok(()),
+        flushed => flushed,
+    }
+}
+
+#[cfg(not(unix))]
+fn sync_folder(_: &Path) -> io::Result<()> {
+    Ok(())
 }
 
 /// A temporary file for a target, whose name starts with a dot, with the permissions of any new file.
@@ -230,5 +311,36 @@ mod tests {
         put(null, b"picture");
         let after = fs::symlink_metadata(null).unwrap();
         assert_eq!((before.ino(), before.rdev()), (after.ino(), after.rdev()));
+    }
+
+    #[test]
+    fn a_dash_alone_is_standard_output() {
+        let of = |path: &str| Destination::of(Path::new(path)).unwrap();
+        assert_eq!(of(STANDARD_OUTPUT), Destination::StandardOutput);
+        assert!(matches!(of("./-"), Destination::File(_)));
+        assert!(matches!(of("--"), Destination::File(_)));
+        let pending = PendingFile::create(Path::new("-")).unwrap();
+        assert!(matches!(pending.0, Output::Copied { target: None, .. }));
+    }
+
+    #[test]
+    fn a_folder_is_tried_without_leaving_anything() {
+        let directory = tempfile::tempdir().unwrap();
+        can_create_in(directory.path()).unwrap();
+        assert!(names(directory.path()).is_empty());
+        assert!(can_create_in(&directory.path().join("missing")).is_err());
+    }
+
+    /// Into a folder that may be written to but not listed.
+    #[cfg(unix)]
+    #[test]
+    fn a_folder_that_cannot_be_read_can_hold_files() {
+        use std::os::unix::fs::PermissionsExt;
+        let directory = tempfile::tempdir().unwrap();
+        let mode = |mode| fs::set_permissions(directory.path(), fs::Permissions::from_mode(mode));
+        mode(0o300).unwrap();
+        put(&directory.path().join("picture"), b"picture");
+        mode(0o700).unwrap();
+        assert_eq!(names(directory.path()), ["picture"]);
     }
 }
