@@ -34,12 +34,14 @@
 //! bands of different widths; half floats; several parts; units that differ by a scale; reflectances (`T.550nm`) and bands named
 //! by their ends (`400.00-410.00nm`). [`Metadata::notes`] lists the changes and assumptions made on reading.
 //!
-//! The file has scan lines with lossless compression; see [`write`](write()) for its cost.
+//! The file has scan lines with lossless compression; see [`write`](write()) for its cost. [`write_rows`] writes an image in strips of
+//! rows.
 
 mod attribute_order;
 mod bands;
 mod channels;
 mod content;
+mod frame;
 mod lights;
 mod metadata;
 mod read;
@@ -47,6 +49,7 @@ mod wavelength;
 mod write;
 
 pub use crate::exr_file::{BATCH_BYTES, BandLayoutError, MAX_BYTES, ReadExrError};
+pub use frame::{Frame, Window};
 pub use metadata::{Metadata, software};
 pub use read::{read, read_size, read_xyz};
-pub use write::{WriteExrError, WriteOptions, write};
+pub use write::{WriteExrError, WriteOptions, WriteRowsError, write, write_rows};

@@ -1,29 +1,31 @@
 //! Writing a spectral image.
 
+use std::borrow::Borrow;
+use std::convert::Infallible;
 use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
-use exr::block::lines::LineIndex;
-use exr::block::writer::ChunksWriter;
-use exr::block::{BlockIndex, UncompressedBlock, chunk::Chunk};
-use exr::meta::attribute::{LineOrder, Text};
-use exr::meta::header::Header;
-use exr::meta::{BlockDescription, MetaData};
+use exr::math::Vec2;
+use exr::meta::BlockDescription;
+use exr::meta::attribute::{IntegerBounds, LineOrder, Text};
+use exr::meta::header::{Header, ImageAttributes};
 use exr::prelude::Compression;
-use rayon::prelude::*;
-use spectra::{SpectralImage, Values};
+use spectra::SpectralImage;
 use thiserror::Error;
 
 use super::attribute_order::finish_header;
 use super::channels::Channels;
-use super::content::Content;
+use super::frame::{Frame, Window};
 use super::lights;
 use super::metadata::Metadata;
-use crate::exr_file::blocks_at_a_time;
 use crate::pending_file::PendingFile;
-use colorimetry::srgb;
+use lines::Lines;
 use relight::xyz::exposure_scale;
+use strips::Strips;
+
+mod lines;
+mod strips;
 
 /// Options for writing a file.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -74,6 +76,24 @@ pub enum WriteExrError {
         /// The name.
         name: String,
     },
+    /// The window reaches beyond the picture, or a side is longer than a file can have.
+    #[error("cannot write {path}: the window {window} is not within the picture of {width}×{height} pixels", width = picture[0], height = picture[1])]
+    Window {
+        /// The requested file.
+        path: PathBuf,
+        /// The window.
+        window: Window,
+        /// Width and height of the picture.
+        picture: [u32; 2],
+    },
+    /// The strips of rows do not make up the window.
+    #[error("cannot write {path}: {reason}")]
+    Rows {
+        /// The requested file.
+        path: PathBuf,
+        /// What is wrong with them.
+        reason: String,
+    },
     /// The image cannot be put into an `OpenEXR` file.
     #[error("cannot encode {path} as OpenEXR")]
     Encode {
@@ -82,6 +102,18 @@ pub enum WriteExrError {
         /// The error of the encoder.
         source: exr::error::Error,
     },
+}
+
+/// Why a spectral file could not be written from rows. No file is left behind.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum WriteRowsError<E> {
+    /// The file could not be written.
+    #[error(transparent)]
+    Write(#[from] WriteExrError),
+    /// The error of the source of the rows.
+    #[error(transparent)]
+    Source(E),
 }
 
 /// Writes a spectral file.
@@ -104,142 +136,141 @@ pub fn write(
     metadata: &Metadata,
     options: WriteOptions,
 ) -> Result<(), WriteExrError> {
+    let frame = Frame::whole([image.width(), image.height()]);
+    let mut strip = Some(image);
+    let mut next = || Ok::<_, Infallible>(strip.take());
+    match write_strips(path, frame, metadata, options, &mut next) {
+        Ok(()) => Ok(()),
+        Err(WriteRowsError::Write(error)) => Err(error),
+        Err(WriteRowsError::Source(never)) => match never {},
+    }
+}
+
+/// Writes a spectral file whose rows are supplied while it is written, so that the whole image is never in memory.
+///
+/// `next` returns the next rows from the top, any number of them at a time and as wide as the frame's window, and `None` after the
+/// last. The bands, light groups and layers of the file are those of the first strip, and all strips must have the same. The metadata
+/// precedes the pixels in the file and is needed at once. The bytes of the file do not depend on how the rows are divided into strips:
+/// those of a whole frame are the bytes that [`write`] writes.
+///
+/// One strip is in memory at a time, with up to three times the bytes of the lines being compressed; strips of a few lines for each
+/// core keep all cores busy.
+///
+/// # Errors
+/// As [`write`], when the window is not within the picture, and when the strips do not make up the window. An error of `next` is
+/// returned as it is.
+pub fn write_rows<E>(
+    path: &Path,
+    frame: Frame,
+    metadata: &Metadata,
+    options: WriteOptions,
+    next: &mut dyn FnMut() -> Result<Option<SpectralImage>, E>,
+) -> Result<(), WriteRowsError<E>> {
+    write_strips(path, frame, metadata, options, next)
+}
+
+fn write_strips<E, S: Borrow<SpectralImage>>(
+    path: &Path,
+    frame: Frame,
+    metadata: &Metadata,
+    options: WriteOptions,
+    next: &mut dyn FnMut() -> Result<Option<S>, E>,
+) -> Result<(), WriteRowsError<E>> {
     let file_error = |source| WriteExrError::File {
         path: path.to_owned(),
         source,
     };
-    if image.width() == 0 || image.height() == 0 {
+    check(path, frame, metadata)?;
+    let pending = PendingFile::create(path).map_err(file_error)?;
+    let file = pending.handle().map_err(file_error)?;
+    let (first, strips) = Strips::start(path, frame.window, next)?;
+    encode(file, frame, metadata, options, first, strips)?;
+    let written = pending.handle().map_err(file_error)?;
+    finish_header(written).map_err(file_error)?;
+    Ok(pending.commit().map_err(file_error)?)
+}
+
+/// Checks what is known before the first row.
+fn check(path: &Path, frame: Frame, metadata: &Metadata) -> Result<(), WriteExrError> {
+    if frame.window.size.contains(&0) {
         return Err(WriteExrError::Empty {
             path: path.to_owned(),
         });
     }
-    if let Some(name) = metadata.bad_setting() {
-        return Err(WriteExrError::SettingName {
+    if !frame.is_sound() {
+        return Err(WriteExrError::Window {
             path: path.to_owned(),
-            name: name.to_owned(),
+            window: frame.window,
+            picture: frame.picture,
         });
     }
-    if let Some(name) = lights::bad_name(image.light_groups()) {
-        return Err(WriteExrError::LightGroup {
+    match metadata.bad_setting() {
+        None => Ok(()),
+        Some(name) => Err(WriteExrError::SettingName {
             path: path.to_owned(),
             name: name.to_owned(),
-        });
+        }),
     }
-    let pending = PendingFile::create(path).map_err(file_error)?;
-    let file = pending.handle().map_err(file_error)?;
-    encode(file, image, metadata, options).map_err(|error| match error {
-        exr::error::Error::Io(source) => file_error(source),
-        source => WriteExrError::Encode {
-            path: path.to_owned(),
-            source,
-        },
-    })?;
-    let written = pending.handle().map_err(file_error)?;
-    finish_header(written).map_err(file_error)?;
-    pending.commit().map_err(file_error)
 }
 
-fn encode(
+/// Writes the header and the lines of all strips.
+fn encode<E, S: Borrow<SpectralImage>>(
     file: File,
-    image: &SpectralImage,
+    frame: Frame,
     metadata: &Metadata,
     options: WriteOptions,
-) -> exr::error::UnitResult {
-    let channels = Channels::new(image, options.variance);
-    let size = (image.width() as usize, image.height() as usize);
-    let mut header = Header::new(Text::default(), size, channels.descriptions.clone())
-        .with_encoding(
-            Compression::RLE,
-            BlockDescription::ScanLines,
-            LineOrder::Increasing,
-        );
-    metadata.clone().into_header(image.bands(), &mut header);
-    lights::into_header(image.light_groups(), &mut header);
-    let source = Source {
-        image,
-        contents: &channels.contents,
-        scale: exposure_scale(metadata.exposure_ev),
-    };
-    let headers = std::iter::once(header).collect();
-    exr::block::write(BufWriter::new(file), headers, true, |meta, writer| {
-        source.write_blocks(&meta, writer)
-    })
-}
-
-/// The source of a file's samples.
-struct Source<'a> {
-    image: &'a SpectralImage,
-    contents: &'a [Content],
-    scale: f64,
-}
-
-impl Source<'_> {
-    fn write_blocks(
-        &self,
-        meta: &MetaData,
-        writer: &mut impl ChunksWriter,
-    ) -> exr::error::UnitResult {
-        let blocks: Vec<(usize, BlockIndex)> =
-            exr::block::enumerate_ordered_header_block_indices(&meta.headers).collect();
-        let block_bytes = meta.headers[0].max_block_byte_size();
-        for batch in blocks.chunks(blocks_at_a_time(block_bytes)) {
-            let chunks: Vec<exr::error::Result<Chunk>> = batch
-                .par_iter()
-                .map(|&(_, block)| self.block(meta, block).compress_to_chunk(&meta.headers))
-                .collect();
-            for (&(index, _), chunk) in batch.iter().zip(chunks) {
-                writer.write_chunk(index, chunk?)?;
-            }
+    first: S,
+    mut strips: Strips<'_, S, E>,
+) -> Result<(), WriteRowsError<E>> {
+    let channels = Channels::new(first.borrow(), options.variance);
+    let headers = std::iter::once(header(frame, metadata, first.borrow(), &channels)).collect();
+    let mut lines = Lines::new(&channels.contents, exposure_scale(metadata.exposure_ev));
+    let mut failure = None;
+    let path = strips.path();
+    let written = exr::block::write(BufWriter::new(file), headers, true, |meta, writer| {
+        let mut strip = Some(first);
+        while let Some(image) = strip {
+            lines.write(image.borrow(), &meta, writer)?;
+            drop(image);
+            strip = strips.next().map_err(|error| {
+                failure = Some(error);
+                exr::error::Error::Aborted
+            })?;
         }
         Ok(())
-    }
-
-    /// Converts to linear sRGB, not clipped.
-    fn linear_rgb(&self, xyz: [f32; 3]) -> [f64; 3] {
-        srgb::linear_from_xyz(xyz.map(|value| f64::from(value) * self.scale))
-    }
-
-    fn block(&self, meta: &MetaData, index: BlockIndex) -> UncompressedBlock {
-        let channels = &meta.headers[index.layer].channels;
-        UncompressedBlock::from_lines(channels, index, |line| self.fill(line.location, line.value))
-    }
-
-    /// Fills in the samples of one channel in one row of pixels.
-    fn fill(&self, location: LineIndex, out: &mut [u8]) {
-        let start = location.position.y() * self.image.width() as usize;
-        let pixels = start..start + location.sample_count;
-        match self.contents[location.channel] {
-            Content::Value(key, index) => {
-                if let Some(layer) = self.image.layer(key) {
-                    let count = layer.values_per_pixel();
-                    let row = pixels.start * count..pixels.end * count;
-                    match layer.values() {
-                        Values::Floats(values) => {
-                            let values = values[row].iter().skip(index).step_by(count);
-                            fill_with(out, values.map(|v| v.to_ne_bytes()));
-                        }
-                        Values::Counts(values) => {
-                            let values = values[row].iter().skip(index).step_by(count);
-                            fill_with(out, values.map(|v| v.to_ne_bytes()));
-                        }
-                    }
-                }
-            }
-            Content::Rgb(light_group, channel) => {
-                let xyz = match light_group {
-                    Some(group) => self.image.group_xyz(group),
-                    None => self.image.xyz(),
-                };
-                let values = xyz[pixels].iter();
-                let values = values.map(|&v| self.linear_rgb(v)[channel] as f32);
-                fill_with(out, values.map(f32::to_ne_bytes));
-            }
-        }
+    });
+    match failure {
+        Some(error) => Err(error),
+        None => Ok(written.map_err(|error| encoder_error(path, error))?),
     }
 }
 
-fn fill_with(out: &mut [u8], values: impl Iterator<Item = [u8; 4]>) {
-    for (out, value) in out.chunks_exact_mut(4).zip(values) {
-        out.copy_from_slice(&value);
+fn encoder_error(path: &Path, error: exr::error::Error) -> WriteExrError {
+    let path = path.to_owned();
+    match error {
+        exr::error::Error::Io(source) => WriteExrError::File { path, source },
+        source => WriteExrError::Encode { path, source },
     }
+}
+
+/// The header of a file with the bands and light groups of an image.
+fn header(frame: Frame, metadata: &Metadata, image: &SpectralImage, channels: &Channels) -> Header {
+    let sides = |sides: [u32; 2]| Vec2(sides[0] as usize, sides[1] as usize);
+    let [x, y] = frame.window.origin;
+    let mut header = Header::new(
+        Text::default(),
+        sides(frame.window.size),
+        channels.descriptions.clone(),
+    )
+    .with_encoding(
+        Compression::RLE,
+        BlockDescription::ScanLines,
+        LineOrder::Increasing,
+    );
+    header.own_attributes.layer_position = Vec2(x as i32, y as i32);
+    let picture = IntegerBounds::from_dimensions(sides(frame.picture));
+    header.shared_attributes = ImageAttributes::new(picture);
+    metadata.clone().into_header(image.bands(), &mut header);
+    lights::into_header(image.light_groups(), &mut header);
+    header
 }

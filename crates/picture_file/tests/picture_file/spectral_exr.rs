@@ -5,5 +5,6 @@ mod foreign;
 mod lights;
 mod reflectances;
 mod round_trip;
+mod strips;
 mod support;
 mod windows;

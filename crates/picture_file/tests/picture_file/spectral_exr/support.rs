@@ -1,9 +1,10 @@
 //! Images to write.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use pellicle_picture_file::spectral_exr::{self, Metadata, WriteOptions};
-use spectra::{BandGrid, SpectralImage};
+use spectra::{BandGrid, ImageLayer, SpectralImage, Values};
 
 /// A pseudorandom number in [0, 1) from an index.
 pub(crate) fn noise(index: u32) -> f32 {
@@ -52,4 +53,24 @@ pub(crate) fn write_noisy(directory: &Path, variance: bool) -> (PathBuf, Spectra
     let image = noisy(23, 37, 6);
     spectral_exr::write(&path, &image, &metadata(), WriteOptions { variance }).unwrap();
     (path, image)
+}
+
+/// Rows of an image as an image of their own.
+pub(crate) fn rows_of(image: &SpectralImage, rows: Range<u32>) -> SpectralImage {
+    let width = image.width() as usize;
+    let (start, end) = (rows.start as usize * width, rows.end as usize * width);
+    let bands = image.bands().count() as usize;
+    let part = |layer: &ImageLayer| {
+        let count = layer.values_per_pixel();
+        let range = start * count..end * count;
+        let values = match layer.values() {
+            Values::Floats(values) => Values::Floats(values[range].to_vec()),
+            Values::Counts(values) => Values::Counts(values[range].to_vec()),
+        };
+        ImageLayer::new(layer.key(), bands, values)
+    };
+    let layers = image.layers().iter().map(part).collect();
+    let size = [image.width(), rows.end - rows.start];
+    let groups = image.light_groups().to_vec();
+    SpectralImage::from_layers(size, *image.bands(), groups, layers).unwrap()
 }
