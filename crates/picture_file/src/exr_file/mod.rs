@@ -5,21 +5,22 @@ use std::io::{self, BufReader, Read, Seek};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use exr::block::UncompressedBlock;
-use exr::block::chunk::Chunk;
 use exr::block::lines::LineRef;
 use exr::block::reader::Reader;
 use exr::math::Vec2;
 use exr::meta::MetaData;
-use exr::meta::attribute::{ChannelList, SampleType};
+use exr::meta::attribute::SampleType;
 use exr::meta::header::Header;
 use exr::prelude::{Compression, f16};
-use rayon::prelude::*;
 
+mod blocks;
+pub(crate) mod digest;
 mod error;
 pub(crate) mod guard;
 mod window;
 
+pub use blocks::BATCH_BYTES;
+pub(crate) use blocks::{blocks_at_a_time, each_block};
 pub use error::{BandLayoutError, ReadExrError};
 pub use guard::MAX_BYTES;
 pub(crate) use window::{Run, Window};
@@ -99,52 +100,6 @@ pub(crate) fn listed(names: &[String]) -> String {
     match names.len().saturating_sub(MAX_LISTED) {
         0 => shown.join(", "),
         more => format!("{} and {more} more", shown.join(", ")),
-    }
-}
-
-/// The most bytes of uncompressed blocks in memory at a time (a single block may be larger).
-pub const BATCH_BYTES: usize = 256 << 20;
-
-/// Number of blocks to process in parallel before the next are read or these are written: two for each core, more if they are
-/// small.
-pub(crate) fn blocks_at_a_time(block_bytes: usize) -> usize {
-    const SMALL: usize = 16 << 20;
-    let block_bytes = block_bytes.max(1);
-    let enough = (2 * rayon::current_num_threads()).max(SMALL / block_bytes);
-    (BATCH_BYTES / block_bytes).clamp(1, enough)
-}
-
-/// Decompresses the blocks of a part, several at a time on all cores, and passes those of full size to `insert` in order.
-pub(crate) fn each_block(
-    context: &Context<'_>,
-    reader: Reader<BufReader<File>>,
-    part: usize,
-    mut insert: impl FnMut(&UncompressedBlock, &ChannelList) -> Option<()>,
-) -> Result<(), ReadExrError> {
-    let meta = reader.meta_data().clone();
-    let at_a_time = blocks_at_a_time(meta.headers[part].max_block_byte_size());
-    let channels = &meta.headers[part].channels;
-    let mut chunks = context.run(|| reader.all_chunks(false))?;
-    loop {
-        let batch: Vec<Chunk> = context.run(|| chunks.by_ref().take(at_a_time).collect())?;
-        if batch.is_empty() {
-            return Ok(());
-        }
-        let blocks: Vec<UncompressedBlock> = context.run(|| {
-            batch
-                .into_par_iter()
-                .filter(|chunk| chunk.layer_index == part)
-                .map(|chunk| UncompressedBlock::decompress_chunk(chunk, &meta, false))
-                .collect()
-        })?;
-        // Other levels are smaller versions of the same image.
-        let full_size = blocks
-            .iter()
-            .filter(|block| block.index.level == Vec2(0, 0));
-        for block in full_size {
-            insert(block, channels)
-                .ok_or_else(|| context.damaged("a block lies outside the image"))?;
-        }
     }
 }
 

@@ -2,10 +2,12 @@
 //!
 //! The encoder keeps attributes in a hash map, so their order, and with it the file's bytes, would change from run to run. `OpenEXR`
 //! allows any order; here attributes are sorted by name. The encoder also does not set the flag for long channel names in the
-//! version field, which the format requires.
+//! version field, which the format requires. The digest of the pixels is known only after they are written.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
+
+use crate::exr_file::digest;
 
 /// Position of the version field.
 const VERSION: u64 = 4;
@@ -16,14 +18,18 @@ const SHORT_NAME: usize = 31;
 /// Bytes that follow a channel's name and its 0: type, a flag, three reserved bytes, and two numbers for the sampling.
 const CHANNEL: usize = 16;
 
-/// Sorts the attributes of a finished single-part file in place, and sets the flag for long names. The total length stays the same,
-/// so nothing after the header moves.
-pub(super) fn finish_header(mut file: File) -> io::Result<()> {
+/// Sorts the attributes of a finished single-part file in place, sets the flag for long names, and puts the digest into the room for
+/// it. The total length stays the same, so nothing after the header moves.
+pub(super) fn finish_header(mut file: File, digest: &str) -> io::Result<()> {
     file.seek(SeekFrom::Start(VERSION))?;
     let mut version = [0; 4];
     file.read_exact(&mut version)?;
     let mut attributes = read_attributes(&mut BufReader::new(&file))?;
     attributes.sort();
+    let mut named = attributes.iter_mut();
+    if let Some(room) = named.find(|attribute| attribute.name() == digest::NAME.as_bytes()) {
+        room.set_value(digest.as_bytes())?;
+    }
     if attributes.iter().any(Attribute::has_long_name) {
         version[1] |= LONG_NAMES;
     }
@@ -42,6 +48,22 @@ struct Attribute {
 }
 
 impl Attribute {
+    fn name(&self) -> &[u8] {
+        let mut parts = self.bytes.split(|&byte| byte == 0);
+        parts.next().unwrap_or_default()
+    }
+
+    /// Replaces the value by one of the same length.
+    fn set_value(&mut self, value: &[u8]) -> io::Result<()> {
+        let room = &mut self.bytes[self.value..];
+        if room.len() != value.len() {
+            let message = "the header has no room for the digest";
+            return Err(io::Error::other(message));
+        }
+        room.copy_from_slice(value);
+        Ok(())
+    }
+
     /// Whether its name or type or, in a list of channels, the name of a channel is long.
     fn has_long_name(&self) -> bool {
         let mut parts = self.bytes.split(|&byte| byte == 0);
@@ -115,6 +137,19 @@ mod tests {
             assert_eq!(is_long(&channels(["b", name])), long);
             assert!(!is_long(&attribute("a", name.as_bytes())));
         }
+    }
+
+    #[test]
+    fn a_value_is_replaced_by_one_of_the_same_length() {
+        let bytes = attribute("digest", b"000");
+        let mut attribute = Attribute {
+            value: bytes.len() - 3,
+            bytes,
+        };
+        assert_eq!(attribute.name(), b"digest");
+        attribute.set_value(b"123").unwrap();
+        assert_eq!(attribute.bytes, self::attribute("digest", b"123"));
+        assert!(attribute.set_value(b"12").is_err());
     }
 
     #[test]

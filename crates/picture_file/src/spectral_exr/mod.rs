@@ -24,11 +24,15 @@
 //! | `pellicle.lightGroups` | string | names of the light groups, separated by spaces |
 //! | `pellicle.light.key.lamp` | string | lamp of `key`, if known: lines of wavelength in nm, a comma, and power at scale 1 |
 //! | `pellicle.setting.…` | string | settings given by the caller |
+//! | `pellicle.digest` | string | BLAKE3 of the pixels: of the y coordinate and the compressed bytes of every chunk, in order |
 //!
 //! Light groups have channels if there are several; the sum of their bands is `S0.…`. Lamps are written in any case.
 //!
 //! Our own channels are in a separate layer, so that neither an ordinary viewer nor a reader of the
 //! layout takes them for color, depth or spectrum.
+//!
+//! A file whose pixels do not have its digest is damaged, and is refused by whatever reads all of it. A program that changes the pixels
+//! must remove the attribute.
 //!
 //! Files of other programs are read too: wavelengths with any SI prefix or as frequencies, in any order, with a comma or a dot;
 //! bands of different widths; half floats; several parts; units that differ by a scale; reflectances (`T.550nm`) and bands named

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use spectra::{SpectralImage, Values};
 
 use crate::exr_file::blocks_at_a_time;
+use crate::exr_file::digest::Digest;
 use crate::spectral_exr::content::Content;
 use colorimetry::srgb;
 
@@ -19,6 +20,7 @@ pub(super) struct Lines<'a> {
     scale: f64,
     /// Number of lines written so far.
     count: usize,
+    digest: Digest,
 }
 
 impl<'a> Lines<'a> {
@@ -28,15 +30,16 @@ impl<'a> Lines<'a> {
             contents,
             scale,
             count: 0,
+            digest: Digest::default(),
         }
     }
 
-    /// Writes all rows of an image as the next lines.
+    /// Writes all rows of an image as the next lines: some are written while the next ones are compressed.
     pub(super) fn write(
         &mut self,
         image: &SpectralImage,
         meta: &MetaData,
-        writer: &mut impl ChunksWriter,
+        writer: &mut (impl ChunksWriter + Send),
     ) -> exr::error::UnitResult {
         let source = Source {
             image,
@@ -46,18 +49,40 @@ impl<'a> Lines<'a> {
         };
         self.count += image.height() as usize;
         let lines: Vec<usize> = (source.first_row..self.count).collect();
+        let mut compressed = Vec::new();
         for batch in lines.chunks(blocks_at_a_time(meta.headers[0].max_block_byte_size())) {
-            let chunks: Vec<exr::error::Result<Chunk>> = batch
-                .par_iter()
-                .map(|&line| source.line(meta, line).compress_to_chunk(&meta.headers))
-                .collect();
-            for (&line, chunk) in batch.iter().zip(chunks) {
-                writer.write_chunk(line, chunk?)?;
-            }
+            let (next, put) = rayon::join(
+                || source.compressed(meta, batch),
+                || self.put(compressed, writer),
+            );
+            put?;
+            compressed = next;
+        }
+        self.put(compressed, writer)
+    }
+
+    /// Writes compressed lines.
+    fn put(
+        &mut self,
+        lines: Vec<CompressedLine>,
+        writer: &mut impl ChunksWriter,
+    ) -> exr::error::UnitResult {
+        for (line, chunk) in lines {
+            let chunk = chunk?;
+            self.digest.add(&chunk);
+            writer.write_chunk(line, chunk)?;
         }
         Ok(())
     }
+
+    /// The digest of the lines written.
+    pub(super) fn into_digest(self) -> Digest {
+        self.digest
+    }
 }
+
+/// The number of a line, and its chunk.
+type CompressedLine = (usize, exr::error::Result<Chunk>);
 
 /// The source of samples.
 struct Source<'a> {
@@ -69,6 +94,14 @@ struct Source<'a> {
 }
 
 impl Source<'_> {
+    /// Compresses lines on all cores.
+    fn compressed(&self, meta: &MetaData, lines: &[usize]) -> Vec<CompressedLine> {
+        let lines = lines.par_iter();
+        lines
+            .map(|&line| (line, self.line(meta, line).compress_to_chunk(&meta.headers)))
+            .collect()
+    }
+
     fn line(&self, meta: &MetaData, line: usize) -> UncompressedBlock {
         let index = BlockIndex {
             layer: 0,

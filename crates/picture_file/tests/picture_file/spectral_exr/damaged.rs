@@ -132,3 +132,76 @@ fn a_huge_header_is_refused_before_memory_is_taken() {
         }
     }
 }
+
+/// Positions of bytes spread over the pixels of a written file, which follow the table of contents: a line of 8 bytes for each row.
+fn pixel_places(bytes: &[u8], rows: usize) -> Vec<usize> {
+    let header = exr::meta::MetaData::read_from_buffered(bytes, true).unwrap();
+    assert_eq!(header.headers[0].chunk_count, rows);
+    let first = first_line(bytes);
+    let step = (bytes.len() - first) / 150;
+    (first..bytes.len()).step_by(step).collect()
+}
+
+/// Position of the first line, as the table of contents gives it: its y coordinate, the number of its bytes, and its bytes.
+fn first_line(bytes: &[u8]) -> usize {
+    // A table of offsets ends where the first line begins, and the first line's y is 0.
+    let at = |table: usize| {
+        let entry = bytes[table..table + 8].try_into().unwrap();
+        u64::from_le_bytes(entry) as usize
+    };
+    let is_table = |&table: &usize| at(table) == table + 8 * 37;
+    at((0..4000).find(is_table).unwrap())
+}
+
+#[test]
+fn a_single_changed_bit_of_the_pixels_is_found() {
+    let directory = tempfile::tempdir().unwrap();
+    let (path, _) = write_noisy(directory.path(), true);
+    let bytes = fs::read(&path).unwrap();
+    let mut by_digest = 0;
+    let places = pixel_places(&bytes, 37);
+    for (turn, &place) in places.iter().chain([&(bytes.len() - 1)]).enumerate() {
+        let mut copy = bytes.clone();
+        copy[place] ^= 1 << (turn % 8);
+        fs::write(&path, &copy).unwrap();
+        let errors = [
+            spectral_exr::read(&path).map(drop),
+            spectral_exr::read_xyz(&path).map(drop),
+        ];
+        for error in errors.map(Result::unwrap_err) {
+            assert!(
+                matches!(error, ReadExrError::Damaged { .. }),
+                "{place}: {error}"
+            );
+            let said = error.to_string();
+            assert!(said.contains("image.exr"), "{said}");
+            by_digest += usize::from(said.contains("not those that were written"));
+        }
+    }
+    assert!(by_digest > 200, "{by_digest}");
+    fs::write(&path, &bytes).unwrap();
+    spectral_exr::read(&path).unwrap();
+}
+
+#[test]
+fn a_changed_digest_is_found_and_a_missing_one_is_not_missed() {
+    let directory = tempfile::tempdir().unwrap();
+    let (path, image) = write_noisy(directory.path(), true);
+    let bytes = fs::read(&path).unwrap();
+    let key = b"pellicle.digest\0string\0\x40\0\0\0";
+    let name = bytes.windows(key.len()).position(|w| w == key).unwrap();
+    let value = name + key.len();
+    for place in [value, value + 31, value + 63] {
+        let mut copy = bytes.clone();
+        copy[place] ^= 1;
+        fs::write(&path, &copy).unwrap();
+        let error = spectral_exr::read(&path).unwrap_err().to_string();
+        assert!(error.contains("not those that were written"), "{error}");
+    }
+    let mut copy = bytes.clone();
+    copy[name] = b'q';
+    fs::write(&path, &copy).unwrap();
+    let (found, metadata) = spectral_exr::read(&path).unwrap();
+    assert_eq!(found, image);
+    assert_eq!(metadata, super::support::metadata());
+}
