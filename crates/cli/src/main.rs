@@ -11,6 +11,7 @@ mod display;
 mod film;
 mod image_file;
 mod inspect;
+mod interrupt;
 mod lamp;
 mod materials;
 mod memory;
@@ -22,6 +23,7 @@ mod render;
 mod swatch;
 
 use clap::{Parser, Subcommand};
+use render::Outcome;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -64,10 +66,16 @@ enum Command {
 
 fn main() -> ExitCode {
     print::keep_lines_whole();
+    interrupt::listen();
     let arguments =
         Arguments::try_parse().unwrap_or_else(|error| print::exit_with::<Arguments>(&error));
     let result = match arguments.command {
-        Command::Render(arguments) => render::run(&arguments),
+        Command::Render(arguments) => match render::run(&arguments) {
+            Ok(Outcome::Interrupted(signal)) => {
+                return ExitCode::from(interrupt::exit_code(signal));
+            }
+            other => other.map(|_| ()),
+        },
         Command::Develop(arguments) => develop::run(&arguments),
         Command::Check {
             scene,

@@ -1,21 +1,152 @@
-//! The memory that a picture takes, printed before it is rendered.
+//! The memory that a render takes, and what the machine has.
 
+use miette::miette;
 use pellicle::scene::Scene;
+use pellicle::spectra::{Accumulation, SpectralImage, Window};
+use sysinfo::{MemoryRefreshKind, RefreshKind, System};
+
+/// What a render takes beside its pixels: the program, the driver, the lines of files that are compressed.
+const BASE: u64 = 512 << 20;
+/// Bytes of a strip that is rendered at a time.
+const STRIP: u64 = 256 << 20;
+/// Bytes of a pixel while a picture is developed: XYZ, linear red, green and blue twice, and codes.
+const DEVELOPED: u64 = 12 + 2 * 12 + 6;
+
+/// How a render uses memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Layout {
+    /// All pixels at once.
+    Whole,
+    /// This many rows at a time.
+    Strips(u32),
+}
+
+/// What decides over the memory of a render.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Needs {
+    /// Whether pictures are developed.
+    pub(crate) pictures: bool,
+    /// Whether that needs the spectra of all pixels.
+    pub(crate) spectra: bool,
+    /// Whether copies of the state are written to checkpoints.
+    pub(crate) checkpoints: bool,
+    /// Whether anything needs all pixels at once: an end other than a number of samples, previews, checkpoints.
+    pub(crate) rounds: bool,
+}
+
+/// How a render of a window fits into some memory, and the bytes that it takes.
+///
+/// # Errors
+/// When it does not fit.
+pub(crate) fn layout(
+    scene: &Scene,
+    window: Window,
+    needs: Needs,
+    available: u64,
+) -> miette::Result<(Layout, u64)> {
+    let (bands, groups) = (scene.settings().bands.count(), scene.light_groups().len());
+    let pixels = window.pixels() as u64;
+    let state = Accumulation::bytes_per_pixel(bands, groups);
+    let image = SpectralImage::bytes(1, 1, bands, groups) as u64;
+    let mut developing = if needs.pictures { DEVELOPED } else { 0 };
+    if needs.spectra {
+        developing += image;
+    }
+    let copies = if needs.checkpoints { 2 } else { 1 };
+    let whole = BASE + pixels * (copies * state + developing);
+    if whole <= available {
+        return Ok((Layout::Whole, whole));
+    }
+    // A strip, its image, and its lines before and after compression.
+    let of_row = u64::from(window.size[0]) * (state + 4 * image);
+    let rows = (STRIP / of_row).clamp(1, u64::from(window.size[1]));
+    let strips = BASE + rows * of_row + pixels * developing;
+    if strips <= available && !needs.rounds {
+        return Ok((Layout::Strips(rows as u32), strips));
+    }
+    let (takes, help) = if needs.rounds {
+        let help = "render parts of it with --part K/N and join them with `pellicle merge`, or leave out --time, --noise, --adaptive, \
+                    --preview-every and --checkpoint: rows are then rendered one after the other";
+        (whole, help)
+    } else {
+        (
+            strips,
+            "render parts of it with --part K/N, or write the .exr alone and develop it later",
+        )
+    };
+    Err(miette!(
+        help = help,
+        "this picture of {}×{} pixels with {bands} bands takes {}, but {} can be used",
+        window.size[0],
+        window.size[1],
+        shown(takes),
+        shown(available)
+    ))
+}
+
+/// Four fifths of the memory that is free now, as far as this process may use it.
+pub(crate) fn available() -> u64 {
+    let refresh = RefreshKind::nothing().with_memory(MemoryRefreshKind::nothing().with_ram());
+    // A system that does not tell has enough.
+    let Ok(system) = System::new_with_specifics(refresh) else {
+        return u64::MAX;
+    };
+    let mut free = system.available_memory();
+    if let Some(limits) = system.cgroup_limits() {
+        free = free.min(limits.free_memory);
+    }
+    free / 5 * 4
+}
 
 /// The light groups and bytes of a scene's picture: `light groups: key, sky; the picture takes 113 MB`.
 pub(crate) fn of_picture(scene: &Scene) -> String {
-    let groups = scene.light_groups().iter();
-    let names: Vec<&str> = groups.map(|group| group.name.as_str()).collect();
     format!(
-        "light {}: {}; the picture takes {}",
-        if names.len() == 1 { "group" } else { "groups" },
-        names.join(", "),
-        shown_bytes(scene.image_bytes())
+        "{}; the picture takes {}",
+        light_groups(scene),
+        shown(scene.image_bytes() as u64)
     )
 }
 
+/// The light groups of a scene, and the bytes of a render.
+pub(crate) fn of_render(scene: &Scene, bytes: u64) -> String {
+    format!(
+        "{}; the render takes up to {}",
+        light_groups(scene),
+        shown(bytes)
+    )
+}
+
+fn light_groups(scene: &Scene) -> String {
+    let groups = scene.light_groups().iter();
+    let names: Vec<&str> = groups.map(|group| group.name.as_str()).collect();
+    let noun = if names.len() == 1 { "group" } else { "groups" };
+    format!("light {noun}: {}", names.join(", "))
+}
+
+/// Reads a number of bytes, such as 4GB or 512MiB.
+pub(crate) fn bytes(text: &str) -> Result<u64, String> {
+    let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+    let unit = match &text[digits.len()..].to_lowercase()[..] {
+        "mb" => 1e6,
+        "gb" => 1e9,
+        "tb" => 1e12,
+        "mib" => f64::from(1 << 20),
+        "gib" => f64::from(1 << 30),
+        _ => 0.0,
+    };
+    let bytes = digits
+        .trim()
+        .parse()
+        .map_or(0.0, |number: f64| number * unit);
+    if bytes >= 1.0 && bytes < 1e18 {
+        Ok(bytes as u64)
+    } else {
+        Err("write a size with its unit, as in 512MB or 4GB".to_owned())
+    }
+}
+
 /// Bytes with three digits.
-fn shown_bytes(bytes: u128) -> String {
+pub(crate) fn shown(bytes: u64) -> String {
     let mut value = bytes as f64;
     for unit in ["B", "kB", "MB"] {
         if value < 999.5 {
@@ -37,7 +168,7 @@ mod tests {
 
     #[test]
     fn bytes_are_shown_in_three_digits() {
-        for (bytes, shown) in [
+        for (bytes, text) in [
             (1, "1 B"),
             (999, "999 B"),
             (1000, "1.00 kB"),
@@ -47,7 +178,50 @@ mod tests {
             (331_776_000, "332 MB"),
             (34_359_738_368, "34.4 GB"),
         ] {
-            assert_eq!(shown_bytes(bytes), shown, "{bytes}");
+            assert_eq!(shown(bytes), text, "{bytes}");
         }
+    }
+
+    #[test]
+    fn sizes_are_read() {
+        assert_eq!(bytes("4GB"), Ok(4_000_000_000));
+        assert_eq!(bytes("1.5 MiB"), Ok(1_572_864));
+        for bad in ["4", "GB", "-1GB", "4PB", "NaNGB", ""] {
+            assert!(bytes(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn what_fits_is_rendered_whole_and_the_rest_in_strips() {
+        let text = "camera = { type = 'orthographic', position = [0, 0, 9], look_at = [0, 0, 0], height = 9 }\n\
+             environment = { type = 'constant', emission = { constant = 1 } }\n\
+             render = { bands = 40, size = [7680, 4320], samples = 1 }\n";
+        let file = pellicle::scene_file::SceneFile::parse("x.toml", text, std::path::Path::new(""));
+        let scene = file.unwrap().validate().unwrap();
+        let window = Window::whole([7680, 4320]);
+        let needs = Needs {
+            pictures: true,
+            spectra: false,
+            checkpoints: false,
+            rounds: false,
+        };
+        let at = |needs, available| layout(&scene, window, needs, available);
+        let (whole, bytes) = at(needs, u64::MAX).unwrap();
+        assert_eq!((whole, bytes / 1_000_000_000), (Layout::Whole, 23));
+        let (strips, bytes) = at(needs, 8_000_000_000).unwrap();
+        assert!(matches!(strips, Layout::Strips(2..100)), "{strips:?}");
+        assert!(bytes < 2_500_000_000, "{bytes}");
+        let error = at(needs, 1_000_000_000).unwrap_err().to_string();
+        assert!(error.ends_with("but 1.0 GB can be used"), "{error}");
+        let rounds = Needs {
+            rounds: true,
+            ..needs
+        };
+        assert!(at(rounds, 8_000_000_000).is_err());
+        let copies = Needs {
+            checkpoints: true,
+            ..rounds
+        };
+        assert!(at(copies, u64::MAX).unwrap().1 > 40_000_000_000);
     }
 }

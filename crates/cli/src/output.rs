@@ -2,8 +2,8 @@
 
 use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
-use pellicle::picture_file::Destination;
-use pellicle::picture_file::spectral_exr::{Metadata, WriteOptions};
+use pellicle::picture_file::spectral_exr::{self, Frame, Metadata, WriteOptions, WriteRowsError};
+use pellicle::picture_file::{Destination, can_create_in};
 use pellicle::spectra::SpectralImage;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -27,12 +27,7 @@ impl Outputs {
         for path in asked {
             let extension = path.extension().map(OsStr::to_string_lossy);
             match extension.map(|name| name.to_lowercase()).as_deref() {
-                _ if path == Path::new("-") => {
-                    return Err(miette!(
-                        help = "-o /dev/stdout writes a PNG file there",
-                        "-o -: the file type cannot be told from this name"
-                    ));
-                }
+                _ if is_standard_output(path) => outputs.pictures.push(path.clone()),
                 _ if path.is_dir() => outputs.add_both(&path.join(stem)),
                 _ if names_a_folder(path) => return Err(no_folder("-o", path, path)),
                 Some("png") => outputs.pictures.push(path.clone()),
@@ -58,6 +53,10 @@ impl Outputs {
     /// Checks that no file is written twice, under one name or under two.
     fn check_names(&self) -> miette::Result<()> {
         let mut known: Vec<(&PathBuf, PathBuf)> = Vec::new();
+        let to_standard_output = self.pictures.iter().filter(|path| is_standard_output(path));
+        if to_standard_output.count() > 1 {
+            return Err(miette!("-o -: standard output gets one picture"));
+        }
         for path in self.pictures.iter().chain(&self.spectral) {
             let Ok(Destination::File(file)) = Destination::of(path) else {
                 continue;
@@ -106,22 +105,29 @@ impl Outputs {
         &self.pictures
     }
 
-    /// Writes the spectral images.
-    pub(crate) fn write_spectral(
+    /// The spectral images among the outputs.
+    pub(crate) fn spectral(&self) -> &[PathBuf] {
+        &self.spectral
+    }
+
+    /// Writes a spectral image whose rows are supplied while it is written.
+    pub(crate) fn write_rows(
         &self,
-        image: &SpectralImage,
+        path: &Path,
+        frame: Frame,
         metadata: &Metadata,
+        next: &mut dyn FnMut() -> miette::Result<Option<SpectralImage>>,
     ) -> miette::Result<()> {
-        for path in &self.spectral {
-            pellicle::picture_file::spectral_exr::write(
-                path,
-                image,
-                metadata,
-                WriteOptions::default(),
-            )
-            .into_diagnostic()
-            .wrap_err_with(|| format!("{} was not written", path.display()))?;
-            print::note(format_args!("wrote {}", path.display()));
+        let written =
+            spectral_exr::write_rows(path, frame, metadata, WriteOptions::default(), next);
+        match written {
+            Ok(()) => print::note(format_args!("wrote {}", path.display())),
+            Err(WriteRowsError::Source(error)) => return Err(error),
+            Err(WriteRowsError::Write(error)) => {
+                let error = Err(error).into_diagnostic();
+                return error.wrap_err_with(|| format!("{} was not written", path.display()));
+            }
+            Err(_) => return Err(miette!("{} was not written", path.display())),
         }
         Ok(())
     }
@@ -158,19 +164,25 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// Whether a path names a pipe or a device.
+/// Whether a path names a pipe or a device, or is `-`, standard output.
 pub(crate) fn is_stream(path: &Path) -> bool {
-    matches!(Destination::of(path), Ok(Destination::Stream(_)))
+    let destination = Destination::of(path);
+    matches!(
+        destination,
+        Ok(Destination::Stream(_) | Destination::StandardOutput)
+    )
+}
+
+/// Whether a path is `-`.
+pub(crate) fn is_standard_output(path: &Path) -> bool {
+    matches!(Destination::of(path), Ok(Destination::StandardOutput))
 }
 
 /// Checks that a path can be written to, so that errors are reported before the work and not after it. `option` is the
 /// option that names the path, `read` the input file, which must not be overwritten.
 pub(crate) fn check_place(option: &str, path: &Path, read: &Path) -> miette::Result<()> {
-    if path == Path::new("-") {
-        return Err(miette!(
-            help = "write ./- for a file of this name",
-            "{option} -: the file type cannot be told from this name"
-        ));
+    if is_standard_output(path) {
+        return Ok(());
     }
     if path.is_dir() {
         return Err(miette!("{option} {}: this is a folder", path.display()));
@@ -180,7 +192,7 @@ pub(crate) fn check_place(option: &str, path: &Path, read: &Path) -> miette::Res
     }
     let file = match Destination::of(path) {
         // It exists and is not replaced.
-        Ok(Destination::Stream(_)) => return Ok(()),
+        Ok(Destination::Stream(_) | Destination::StandardOutput) => return Ok(()),
         Ok(Destination::File(file)) => file,
         Err(error) => return Err(miette!("{option} {}: {error}", path.display())),
     };
@@ -200,14 +212,6 @@ pub(crate) fn check_place(option: &str, path: &Path, read: &Path) -> miette::Res
     can_create_in(folder)
         .into_diagnostic()
         .wrap_err_with(|| format!("{}: its folder cannot be written to", path.display()))
-}
-
-/// Creates an empty file and removes it: permissions alone do not reveal read-only and virtual file systems.
-fn can_create_in(folder: &Path) -> std::io::Result<()> {
-    tempfile::Builder::new()
-        .prefix(".pellicle-")
-        .tempfile_in(folder)?
-        .close()
 }
 
 #[cfg(test)]
@@ -273,9 +277,17 @@ mod tests {
 
     #[test]
     fn names_that_tell_no_kind_of_file_are_refused() {
-        for name in ["-", "a.png/", "a.exr/"] {
+        for name in ["a.png/", "a.exr/"] {
             assert!(outputs(&[name]).is_err(), "{name:?}");
         }
+    }
+
+    #[test]
+    fn standard_output_gets_the_picture() {
+        let found = outputs(&["-"]).unwrap();
+        assert_eq!(found.pictures, [PathBuf::from("-")]);
+        assert!(found.spectral.is_empty());
+        assert!(outputs(&["-", "-"]).is_err());
     }
 
     #[cfg(unix)]

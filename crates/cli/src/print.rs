@@ -9,6 +9,7 @@ use miette::{
 };
 use pellicle::document::text_file::STANDARD_INPUT;
 use pellicle::document::wording::{shortened, visible};
+use pellicle::picture_file::STANDARD_OUTPUT;
 use std::error::Error;
 use std::fmt::{self, Display};
 use std::io::{ErrorKind, Write};
@@ -47,11 +48,26 @@ pub(crate) fn name(path: &Path) -> String {
     }
 }
 
+/// The name of an output in messages.
+pub(crate) fn output(path: &Path) -> String {
+    if path.as_os_str() == STANDARD_OUTPUT {
+        "<standard output>".to_owned()
+    } else {
+        path.display().to_string()
+    }
+}
+
 /// Prints what was assumed about the input, one line each, on standard error.
 pub(crate) fn notes<N: Display>(notes: impl IntoIterator<Item = N>) {
     for said in notes {
         note(format_args!("note: {said}"));
     }
+}
+
+/// A failure and its causes in one line.
+pub(crate) fn in_a_line(report: &miette::Report) -> String {
+    let causes: Vec<String> = report.chain().map(ToString::to_string).collect();
+    causes.join(": ")
 }
 
 /// Prints what failed, with all its causes.

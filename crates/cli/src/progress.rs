@@ -1,10 +1,12 @@
 //! The progress of a render: a line that is redrawn on a terminal, and nothing elsewhere.
 
+use crate::render::percent;
 use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressState, ProgressStyle};
+use pellicle::progressive::Render;
 use std::fmt::Write;
 
 const COMPILING: &str = "{prefix}compiling shaders …";
-const RENDERING: &str = "{prefix}{bar:32} {percent:>3} %{pace}";
+const RENDERING: &str = "{prefix}{bar:32} {percent:>3} %{msg}{pace}";
 
 /// The progress line, on standard error if that is a terminal.
 pub(crate) struct Progress {
@@ -13,9 +15,24 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// A line for `total` samples, preceded by `heading`.
-    pub(crate) fn new(total: u64, heading: &str) -> Self {
-        Self::on(ProgressBar::new(total), heading)
+    /// A line preceded by `heading`.
+    pub(crate) fn new(heading: &str) -> Self {
+        Self::on(ProgressBar::new(1), heading)
+    }
+
+    /// Sets the number of samples at the end.
+    pub(crate) fn set_total(&self, samples: u64) {
+        self.bar.set_length(samples);
+    }
+
+    /// Shows the noise of a render, and how far it is.
+    pub(crate) fn set_state(&self, render: &Render) {
+        let done = render.done();
+        self.set_total(done + render.work_left());
+        self.bar.set_position(done);
+        if let Some(noise) = render.noise() {
+            self.bar.set_message(format!("  noise {}", percent(noise)));
+        }
     }
 
     fn on(bar: ProgressBar, heading: &str) -> Self {

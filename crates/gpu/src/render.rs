@@ -199,8 +199,7 @@ impl<G: Borrow<Gpu>> Session<G> {
                 return Err(RenderError::Stopped);
             }
         }
-        self.buffers
-            .read_back(gpu, tile, samples.end, accumulation)
+        self.buffers.read_back(gpu, tile, samples.end, accumulation)
     }
 }
 

@@ -92,6 +92,18 @@ impl Renderer {
         }
     }
 
+    /// What decides, beside the scene, over the bits of a picture: the adapter with its driver, or how the CPU rounds. It is the same on
+    /// all machines whose pictures have the same bits.
+    pub fn identity(&self) -> String {
+        match self {
+            Self::Gpu(gpu) => gpu.description().to_string(),
+            Self::Cpu { .. } if reference::SimdLevel::best().has_fused_multiply_add() => {
+                "CPU, f64".to_owned()
+            }
+            Self::Cpu { .. } => "CPU, f64 without fused multiply-add".to_owned(),
+        }
+    }
+
     /// Renders a scene. `on_progress` receives the samples taken so far, out of width × height × samples per pixel, and can
     /// stop the render. It receives 0 before a driver compiles the scene's shader, which can take seconds and last into the first
     /// batch of samples: from 0 to the next number the render is compiling. It receives no 0 on the CPU, or if the shader was

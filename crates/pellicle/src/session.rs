@@ -20,6 +20,9 @@ pub struct Session<'a> {
     allow_cpu: bool,
     reopened: u32,
     notes: Vec<String>,
+    /// The number of calls of [`Session::advance`], and the faults to come in some of them.
+    rounds: u32,
+    faults: Vec<(InjectedFault, u32)>,
 }
 
 enum Backend<'a> {
@@ -69,6 +72,8 @@ impl<'a> Session<'a> {
             allow_cpu: false,
             reopened: 0,
             notes: Vec::new(),
+            rounds: 0,
+            faults: Vec::new(),
         })
     }
 
@@ -93,6 +98,7 @@ impl<'a> Session<'a> {
         rounds: &[Round],
         on_progress: &mut dyn FnMut(u64) -> ControlFlow<()>,
     ) -> Result<(), RenderError> {
+        self.rounds += 1;
         let mut rounds = rounds.to_vec();
         let all: u64 = rounds.iter().map(Round::work).sum();
         loop {
@@ -113,6 +119,7 @@ impl<'a> Session<'a> {
         rounds: &[Round],
         on_progress: &mut dyn FnMut(u64) -> ControlFlow<()>,
     ) -> Result<(), RenderError> {
+        self.inject_next();
         match &mut self.backend {
             Backend::Gpu(gpu, _) => Ok(gpu.advance(accumulation, rounds, on_progress)?),
             Backend::Cpu(cpu) => cpu
@@ -133,8 +140,8 @@ impl<'a> Session<'a> {
             while self.reopened < MAX_REOPENED {
                 self.reopened += 1;
                 let opened = Gpu::open(&choice).ok().map(Arc::new);
-                let session = opened
-                    .map(|gpu| Backend::gpu(gpu, self.scene, self.reopened, on_progress));
+                let session =
+                    opened.map(|gpu| Backend::gpu(gpu, self.scene, self.reopened, on_progress));
                 match session {
                     Some(Ok(backend)) => {
                         self.notes.push(format!(
@@ -166,10 +173,18 @@ impl<'a> Session<'a> {
         matches!(self.backend, Backend::Cpu(_))
     }
 
-    /// Makes a fault happen during the next round on a device: for tests.
-    pub fn inject(&mut self, fault: InjectedFault) {
-        if let Backend::Gpu(gpu, _) = &mut self.backend {
-            gpu.inject(fault);
+    /// Makes a fault happen on the device during a call of [`Session::advance`], the first of which is 1: for tests.
+    pub fn inject(&mut self, fault: InjectedFault, round: u32) {
+        self.faults.push((fault, round));
+    }
+
+    fn inject_next(&mut self) {
+        let next = self
+            .faults
+            .iter()
+            .position(|(_, round)| *round == self.rounds);
+        if let (Some(next), Backend::Gpu(gpu, _)) = (next, &mut self.backend) {
+            gpu.inject(self.faults.remove(next).0);
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Which tiles of a picture get more samples than others.
 //!
-//! A pilot with another seed decides, and its samples do not count. So the number of samples of a pixel does not depend on their values, and the mean stays unbiased (a rule that looks at the samples it counts is
-//! biased: Kirk and Arvo, Unbiased sampling techniques for image synthesis, SIGGRAPH 1991).
+//! A pilot with another seed decides, and its samples do not count. So the number of samples of a pixel does not depend on their
+//! values, and the mean stays unbiased (a rule that looks at the samples that it counts is biased: Kirk and Arvo, Unbiased sampling
+//! techniques for image synthesis, SIGGRAPH 1991).
 
 use spectra::{Accumulation, Window, variance_of_mean};
 
@@ -17,6 +18,11 @@ const FLOOR: f64 = 0.05;
 /// Samples per pixel of the pilot for this number of samples: an eighth, from 4 to 32.
 pub fn pilot_samples(samples: u32) -> u32 {
     (samples / 8).clamp(4, 32)
+}
+
+/// The seed of the pilot of a render with this seed.
+pub fn pilot_seed(seed: u32) -> u32 {
+    seed ^ 0x5eed_9110
 }
 
 /// The tiles of a window, row by row.
@@ -36,17 +42,23 @@ pub(crate) fn tiles(window: Window) -> impl Iterator<Item = Window> {
 pub fn plan(pilot: &Accumulation, samples: u32) -> Vec<u32> {
     let window = pilot.window();
     let floor = FLOOR * mean(pilot, window);
-    let noise: Vec<f64> = tiles(window).map(|tile| deviation(pilot, tile, floor)).collect();
+    let noise: Vec<f64> = tiles(window)
+        .map(|tile| deviation(pilot, tile, floor))
+        .collect();
     let pixels: Vec<f64> = tiles(window).map(|tile| tile.pixels() as f64).collect();
     let mean = f64::from(samples);
     let bounded = |wanted: f64| wanted.clamp((LEAST * mean).max(1.0), MOST * mean);
     let budget = mean * pixels.iter().sum::<f64>();
     let spent = |factor: f64| {
         let each = noise.iter().zip(&pixels);
-        each.map(|(noise, pixels)| pixels * bounded(factor * noise)).sum::<f64>()
+        each.map(|(noise, pixels)| pixels * bounded(factor * noise))
+            .sum::<f64>()
     };
     let factor = bisected(|factor| spent(factor) < budget);
-    noise.iter().map(|noise| bounded(factor * noise).round() as u32).collect()
+    noise
+        .iter()
+        .map(|noise| bounded(factor * noise).round() as u32)
+        .collect()
 }
 
 /// The factor at which a condition that holds for small ones fails, to 2⁻⁵² of it.

@@ -109,7 +109,9 @@ pub(crate) fn write(
         };
         let (counts, sums) = (accumulation.counts(), accumulation.sums());
         let window = accumulation.window();
-        let is_f32 = sums.iter().all(|&v| f64::from(v as f32).to_bits() == v.to_bits());
+        let is_f32 = sums
+            .iter()
+            .all(|&v| f64::from(v as f32).to_bits() == v.to_bits());
         let header = Header {
             identity: identity.entries().clone(),
             origin: window.origin,
@@ -331,7 +333,9 @@ mod tests {
         let mut all = empty(0);
         let (counts, sums) = all.state_mut();
         counts.copy_from_slice(&[3, 1, 4, 1, 5, 9]);
-        sums.iter_mut().enumerate().for_each(|(i, sum)| *sum = value(i));
+        sums.iter_mut()
+            .enumerate()
+            .for_each(|(i, sum)| *sum = value(i));
         all
     }
 
@@ -353,7 +357,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("checkpoint");
         let mut lengths = Vec::new();
-        let values: [fn(usize) -> f64; 2] = [|i| (i as f64).sqrt(), |i| f64::from((i as f32).sqrt())];
+        let values: [fn(usize) -> f64; 2] =
+            [|i| (i as f64).sqrt(), |i| f64::from((i as f32).sqrt())];
         for value in values {
             let all = filled(value);
             write(&path, &identity("1"), &all, &state()).unwrap();
@@ -363,7 +368,11 @@ mod tests {
             lengths.push(std::fs::metadata(&path).unwrap().len());
         }
         let values = filled(|_| 0.0).sums().len() as u64;
-        assert_eq!(lengths[0] - lengths[1], 4 * values - 1, "false is longer than true");
+        assert_eq!(
+            lengths[0] - lengths[1],
+            4 * values - 1,
+            "false is longer than true"
+        );
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 
@@ -374,10 +383,16 @@ mod tests {
         write(&path, &identity("1"), &filled(|i| i as f64), &state()).unwrap();
         let error = read(&path, &identity("2"), &mut empty(0)).unwrap_err();
         let message = error.to_string();
-        assert!(message.ends_with("differs in seed (1 instead of 2)"), "{message}");
+        assert!(
+            message.ends_with("differs in seed (1 instead of 2)"),
+            "{message}"
+        );
         let error = read(&path, &identity("1"), &mut empty(64)).unwrap_err();
         let message = error.to_string();
-        assert!(message.ends_with("first sample (0 instead of 64)"), "{message}");
+        assert!(
+            message.ends_with("first sample (0 instead of 64)"),
+            "{message}"
+        );
     }
 
     /// Any flipped bit, and any missing end.

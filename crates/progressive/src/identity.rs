@@ -89,6 +89,13 @@ impl Identity {
         Self(entries.into_iter().collect())
     }
 
+    /// The identity of an adaptive render with this mean number of samples, which decides over those of each tile.
+    #[must_use]
+    pub fn adaptive(mut self, samples: u32) -> Self {
+        self.insert("adaptive_samples", samples.to_string());
+        self
+    }
+
     /// Adds an entry.
     pub(crate) fn insert(&mut self, name: &str, value: String) {
         self.0.insert(name.to_owned(), value);
@@ -139,7 +146,12 @@ impl Identity {
 
 fn bands(scene: &Scene) -> String {
     let bands = &scene.settings().bands;
-    format!("{} from {} to {} nm", bands.count(), bands.min_nm(), bands.max_nm())
+    format!(
+        "{} from {} to {} nm",
+        bands.count(),
+        bands.min_nm(),
+        bands.max_nm()
+    )
 }
 
 /// A digest of all values of something. Numbers are described with all their digits, so equal descriptions mean equal values.
@@ -163,16 +175,26 @@ mod tests {
     use super::*;
 
     fn identity(entries: &[(&str, &str)]) -> Identity {
-        let entries = entries.iter().map(|(a, b)| ((*a).to_owned(), (*b).to_owned()));
+        let entries = entries
+            .iter()
+            .map(|(a, b)| ((*a).to_owned(), (*b).to_owned()));
         Identity(entries.collect())
     }
 
     #[test]
     fn differences_are_named() {
         let a = identity(&[("seed", "3"), ("camera", "ab"), ("time_s", "0")]);
-        let b = identity(&[("seed", "4"), ("camera", "cd"), ("time_s", "0"), ("clamp", "2")]);
+        let b = identity(&[
+            ("seed", "4"),
+            ("camera", "cd"),
+            ("time_s", "0"),
+            ("clamp", "2"),
+        ]);
         let shown = listed(&a.differences(&b));
-        assert_eq!(shown, "camera, clamp (none instead of 2), seed (3 instead of 4)");
+        assert_eq!(
+            shown,
+            "camera, clamp (none instead of 2), seed (3 instead of 4)"
+        );
         assert!(a.differences(&a).is_empty());
     }
 

@@ -39,6 +39,10 @@
 //!
 //! The samples' own variance is a bound, as scrambled points are hardly ever worse than independent ones, and the fallback while there
 //! are too few steps.
+//!
+//! In scenes of films, metals and rooms, at 16 to 1024 samples, the estimate is by its mean within 20 % of the noise between 16
+//! seeds, and a single one mostly. What no sample has met yet it cannot know: where rare bright samples make most of the noise, it was
+//! a quarter too low below 32 samples.
 
 mod bytes;
 mod power_law;

@@ -54,8 +54,7 @@ impl Render {
     /// # Errors
     /// When the file cannot be read, is damaged, or is of another render.
     pub fn resume(
-        accumulation: Accumulation,
-        goal: Goal,
+        (accumulation, goal): (Accumulation, Goal),
         path: &Path,
         identity: &Identity,
     ) -> Result<Self, CheckpointError> {
@@ -72,8 +71,8 @@ impl Render {
         if !state.plan.is_empty() && state.plan.len() != adaptive::tiles(window).count() {
             return Err(damaged("its plan has not as many tiles as its picture"));
         }
-        own.level = own.accumulation.counts().iter().copied().max().unwrap_or(0);
         (own.plan, own.stop) = (state.plan, state.stop);
+        own.level = own.reached();
         own.judge();
         if let (Some(goal), None) = (goal.noise, own.end)
             && own.stop <= own.level
@@ -82,6 +81,23 @@ impl Render {
             own.stop = own.noise.next_stop(goal).max(own.level + 1);
         }
         Ok(own)
+    }
+
+    /// The least number of samples of a pixel that lacks some. A round that was broken off has advanced others further.
+    fn reached(&self) -> u32 {
+        let all = &self.accumulation;
+        if !self.is_adaptive() {
+            return all.counts().iter().copied().min().unwrap_or(0);
+        }
+        let tiles = adaptive::tiles(all.window()).zip(&self.plan);
+        let counts = tiles.flat_map(|(tile, &planned)| {
+            let counts = all
+                .row_indices(tile)
+                .flatten()
+                .map(|pixel| all.counts()[pixel]);
+            counts.filter(move |&count| count < planned)
+        });
+        counts.min().unwrap_or_else(|| self.last_level())
     }
 
     /// Gives tiles different numbers of samples, as [`adaptive::plan`] decides.
@@ -105,7 +121,11 @@ impl Render {
     ///
     /// # Errors
     /// When the file cannot be written; the one before it is then still there.
-    pub fn write_checkpoint(&self, path: &Path, identity: &Identity) -> Result<(), CheckpointError> {
+    pub fn write_checkpoint(
+        &self,
+        path: &Path,
+        identity: &Identity,
+    ) -> Result<(), CheckpointError> {
         let state = State {
             noise: self.noise.to_bytes(),
             stop: self.stop,
@@ -148,7 +168,8 @@ impl Render {
         let window = self.accumulation.window();
         if self.is_adaptive() {
             let tiles = adaptive::tiles(window).zip(&self.plan);
-            let of_tile = |(tile, &count): (spectra::Window, &u32)| tile.pixels() as u64 * u64::from(count);
+            let of_tile =
+                |(tile, &count): (spectra::Window, &u32)| tile.pixels() as u64 * u64::from(count);
             tiles.map(of_tile).sum()
         } else {
             window.pixels() as u64 * u64::from(self.goal.samples)
@@ -157,21 +178,27 @@ impl Render {
 
     /// The number of samples that all pixels have together.
     pub fn done(&self) -> u64 {
-        self.accumulation.counts().iter().map(|&count| u64::from(count)).sum()
+        self.accumulation
+            .counts()
+            .iter()
+            .map(|&count| u64::from(count))
+            .sum()
     }
 
-    /// Seconds until the render ends, as far as can be told.
-    pub fn seconds_left(&self) -> Option<f64> {
-        let rate = self.samples_per_s?;
-        let by_samples = (self.work() - self.done().min(self.work())) as f64 / rate;
+    /// The number of samples of all pixels until the render ends, as far as can be told: its goal may be a time or a noise.
+    pub fn work_left(&self) -> u64 {
+        if self.end.is_some() {
+            return 0;
+        }
+        let by_samples = (self.work() - self.done().min(self.work())) as f64;
         let by_noise = self.goal.noise.zip(self.noise()).map(|(goal, now)| {
             // Noise falls at least like the root of the samples.
-            let more = ((now / goal).powi(2) - 1.0).max(0.0);
-            self.done() as f64 * more / rate
+            self.done() as f64 * ((now / goal).powi(2) - 1.0).max(0.0)
         });
-        let by_time = self.goal.seconds.map(|seconds| (seconds - self.seconds).max(0.0));
+        let by_time = self.goal.seconds.zip(self.samples_per_s);
+        let by_time = by_time.map(|(seconds, rate)| (seconds - self.seconds).max(0.0) * rate);
         let all = [Some(by_samples), by_noise, by_time];
-        all.into_iter().flatten().reduce(f64::min)
+        all.into_iter().flatten().fold(f64::INFINITY, f64::min) as u64
     }
 
     /// The next round, as rectangles of pixels that have the same number of samples; `None` at the end.
@@ -185,7 +212,8 @@ impl Render {
             return Some(self.accumulation.rounds_to(window, level));
         }
         let tiles = adaptive::tiles(window).zip(&self.plan);
-        let rounds = tiles.flat_map(|(tile, &count)| self.accumulation.rounds_to(tile, level.min(count)));
+        let rounds =
+            tiles.flat_map(|(tile, &count)| self.accumulation.rounds_to(tile, level.min(count)));
         Some(rounds.collect())
     }
 
@@ -216,7 +244,10 @@ impl Render {
         self.level = self.next_level();
         self.seconds += seconds;
         let measured = work as f64 / seconds.max(1e-9);
-        self.samples_per_s = Some(self.samples_per_s.map_or(measured, |before| 0.5 * (before + measured)));
+        self.samples_per_s = Some(
+            self.samples_per_s
+                .map_or(measured, |before| 0.5 * (before + measured)),
+        );
         if !self.is_adaptive() {
             self.record_noise();
         }
@@ -246,12 +277,18 @@ impl Render {
     /// Decides whether the render has ended.
     fn judge(&mut self) {
         let no_time = self.goal.seconds.is_some_and(|seconds| {
-            self.level > 0 && self.fitting(seconds - self.seconds) == 0 && self.samples_per_s.is_some()
+            self.level > 0
+                && self.fitting(seconds - self.seconds) == 0
+                && self.samples_per_s.is_some()
         });
         // The noise is judged only where a render that is not interrupted judges it too.
         let is_quiet = self.level > 0
             && self.level == self.stop
-            && self.goal.noise.zip(self.noise()).is_some_and(|(goal, noise)| noise <= goal);
+            && self
+                .goal
+                .noise
+                .zip(self.noise())
+                .is_some_and(|(goal, noise)| noise <= goal);
         self.end = if is_quiet {
             Some(End::Noise)
         } else if self.level >= self.last_level() {

@@ -139,7 +139,10 @@ impl<'a> Session<'a> {
     fn work(&self, waiting: &Mutex<mpsc::Receiver<Task>>, finished: &mpsc::Sender<Task>) {
         let mut worker = Worker::new(self.level, &self.prepared);
         loop {
-            let next = waiting.lock().unwrap_or_else(PoisonError::into_inner).recv();
+            let next = waiting
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .recv();
             let Ok(mut task) = next else { return };
             worker.advance(&mut task);
             // The receiver is gone if the caller has stopped or panicked.

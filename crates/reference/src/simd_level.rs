@@ -22,6 +22,11 @@ impl SimdLevel {
         Self(Arch::Scalar)
     }
 
+    /// Whether products and sums are rounded once: such levels give the same bits.
+    pub fn has_fused_multiply_add(&self) -> bool {
+        !matches!(self.0, Arch::Scalar)
+    }
+
     /// Returns the name of the level.
     pub fn name(&self) -> &'static str {
         match self.0 {

@@ -71,6 +71,14 @@ impl Scene {
         &self.parts.light_groups
     }
 
+    /// The same scene with other random numbers.
+    #[must_use]
+    pub fn with_seed(&self, seed: u32) -> Self {
+        let mut scene = self.clone();
+        scene.parts.settings.seed = seed;
+        scene
+    }
+
     /// Size of the spectral image in memory, in bytes.
     pub fn image_bytes(&self) -> u128 {
         let settings = self.settings();

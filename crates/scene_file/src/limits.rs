@@ -117,5 +117,3 @@ pub const MIN_BAND_RANGE_NM: f64 = 1.0;
 pub const MAX_SAMPLES: u32 = 1 << 24;
 /// The maximum number of objects.
 pub const MAX_OBJECTS: usize = 65_536;
-/// The maximum size of a spectral image, in bytes.
-pub const MAX_IMAGE_BYTES: u128 = 32 << 30;

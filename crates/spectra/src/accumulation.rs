@@ -355,7 +355,9 @@ mod tests {
                 used.extend((0..groups).map(|group| layout.group_mean(group)));
             }
             used.extend((0..groups).map(|group| layout.xyz(group)));
-            used.into_iter().flatten().for_each(|index| uses[index] += 1);
+            used.into_iter()
+                .flatten()
+                .for_each(|index| uses[index] += 1);
             assert!(uses.iter().all(|&count| count == 1), "{groups}: {uses:?}");
         }
         assert_eq!(SumLayout::new(5, 1).group_mean(0), 0..5);
@@ -386,9 +388,14 @@ mod tests {
         };
         assert_eq!(one, [expected]);
         assert_eq!(one[0].work(), 48);
-        all.state_mut().0.copy_from_slice(&[4, 4, 1, 1, 4, 4, 1, 1, 0, 0, 9, 2]);
+        all.state_mut()
+            .0
+            .copy_from_slice(&[4, 4, 1, 1, 4, 4, 1, 1, 0, 0, 9, 2]);
         let rounds = all.rounds_to(whole, 4);
-        let found: Vec<_> = rounds.iter().map(|r| (r.window, r.samples.clone())).collect();
+        let found: Vec<_> = rounds
+            .iter()
+            .map(|r| (r.window, r.samples.clone()))
+            .collect();
         let expected = [
             (window([12, 20], [2, 2]), 1..4),
             (window([10, 22], [2, 1]), 0..4),

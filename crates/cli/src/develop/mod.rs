@@ -121,5 +121,5 @@ fn write<'a>(
 ) -> miette::Result<()> {
     let (options, outputs) = (&arguments.options, &arguments.output);
     options.check(outputs, of_image)?;
-    options.write(image, of_image, height, outputs)
+    options.write(image, of_image, height, outputs, false)
 }

@@ -154,7 +154,7 @@ impl Options {
     }
 
     /// Whether the spectra are needed, because colors are not enough.
-    pub(super) fn needs_spectra(&self) -> bool {
+    pub(crate) fn needs_spectra(&self) -> bool {
         let needs_lamp = self.adapt != Adaptation::None && self.adapt_from.is_none();
         let needs_bands = matches!(self.glare, GlareName::Mesopic | GlareName::Scotopic);
         needs_lamp || needs_bands || !self.lamps.is_nothing()

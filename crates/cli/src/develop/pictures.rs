@@ -45,13 +45,14 @@ impl Options {
         }
     }
 
-    /// Develops an image and writes each picture of it.
+    /// Develops an image and writes each picture of it, silently if it is not the last.
     pub(crate) fn write<'a>(
         &self,
         image: impl Into<Latent<'a>>,
         of_image: ImageProperties,
         height: u32,
         pictures: &[PathBuf],
+        is_preview: bool,
     ) -> miette::Result<()> {
         if pictures.is_empty() {
             return Ok(());
@@ -61,18 +62,20 @@ impl Options {
             .into_diagnostic()
             .wrap_err("the picture cannot be developed")?;
         let not_finite = linear.not_finite();
-        if not_finite > 0 {
+        if not_finite > 0 && !is_preview {
             print::note(format_args!(
                 "pixels that are not finite numbers: {not_finite}; they are shown black"
             ));
         }
-        if self.gamut_report {
+        if self.gamut_report && !is_preview {
             report(&GamutReport::of(&linear, &settings), &settings)?;
         }
         for path in pictures {
             self.write_one(path, &linear, &settings)
                 .wrap_err_with(|| format!("{} was not written", path.display()))?;
-            print::note(format_args!("wrote {}", path.display()));
+            if !is_preview {
+                print::note(format_args!("wrote {}", print::output(path)));
+            }
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! The picture of a file, and the part of it that the file holds.
 
-use std::fmt;
+use spectra::Window;
 
 /// The size of a picture, and the part of it whose pixels a file holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -11,23 +11,13 @@ pub struct Frame {
     pub window: Window,
 }
 
-/// A rectangle of pixels in a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Window {
-    /// Column and row of its first pixel.
-    pub origin: [u32; 2],
-    /// Width and height in pixels.
-    pub size: [u32; 2],
-}
-
 impl Frame {
     /// The frame of a file that holds its whole picture.
     pub fn whole(picture: [u32; 2]) -> Self {
-        let window = Window {
-            origin: [0, 0],
-            size: picture,
-        };
-        Self { picture, window }
+        Self {
+            picture,
+            window: Window::whole(picture),
+        }
     }
 
     /// Whether the window lies in the picture, and the picture is not larger than the numbers of a file.
@@ -37,12 +27,5 @@ impl Frame {
             let is_within = end.is_some_and(|end| end <= self.picture[axis]);
             is_within && i32::try_from(self.picture[axis]).is_ok()
         })
-    }
-}
-
-impl fmt::Display for Window {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let ([x, y], [width, height]) = (self.origin, self.size);
-        write!(f, "of {width}×{height} pixels at {x},{y}")
     }
 }

@@ -53,7 +53,7 @@ mod wavelength;
 mod write;
 
 pub use crate::exr_file::{BATCH_BYTES, BandLayoutError, MAX_BYTES, ReadExrError};
-pub use frame::{Frame, Window};
+pub use frame::Frame;
 pub use metadata::{Metadata, software};
 pub use read::{read, read_size, read_xyz};
 pub use write::{WriteExrError, WriteOptions, WriteRowsError, write, write_rows};

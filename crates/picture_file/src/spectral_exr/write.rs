@@ -11,12 +11,12 @@ use exr::meta::BlockDescription;
 use exr::meta::attribute::{IntegerBounds, LineOrder, Text};
 use exr::meta::header::{Header, ImageAttributes};
 use exr::prelude::Compression;
-use spectra::SpectralImage;
+use spectra::{SpectralImage, Window};
 use thiserror::Error;
 
 use super::attribute_order::finish_header;
 use super::channels::Channels;
-use super::frame::{Frame, Window};
+use super::frame::Frame;
 use super::lights;
 use super::metadata::Metadata;
 use crate::exr_file::digest::{self, Digest};

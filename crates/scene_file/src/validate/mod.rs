@@ -55,10 +55,6 @@ pub(crate) fn checked(description: &Description, folder: &Folder) -> Result<Scen
         power::spread(&mut checks, description, &mut lit.parts, peak);
         Some(lit)
     })();
-    if settings.settings.is_some() {
-        let light_groups = lit.as_ref().map_or(1, |lit| lit.light_groups.len());
-        settings::check_memory(&mut checks, &description.render, light_groups);
-    }
     let parts = || Some((settings.settings?, camera?, observer?, lit?));
     let ((settings, camera, observer, lit), assumptions) = checks.finish(parts())?;
     let spectra = spectra.into_tables();

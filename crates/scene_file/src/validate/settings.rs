@@ -5,7 +5,7 @@ use crate::description::Render;
 use crate::limits;
 use document::{FieldPath, Problem, ProblemKind, Range};
 use scene::RenderSettings;
-use spectra::{BandGrid, SpectralImage};
+use spectra::BandGrid;
 
 /// The result of checking `[render]`.
 pub(crate) struct Checked {
@@ -128,52 +128,4 @@ fn grid(checks: &mut Checks, top: &FieldPath, render: &Render) -> Option<BandGri
     let grid = BandGrid::new(first_nm, last_nm, count?);
     let refuse = |error| Problem::new(ProblemKind::OutOfRange, top, format!("{error}"));
     grid.map_err(|error| checks.report(refuse(error))).ok()
-}
-
-/// Checks that the spectral image with this many light groups fits in memory.
-pub(crate) fn check_memory(checks: &mut Checks, render: &Render, light_groups: usize) {
-    let top = FieldPath::root().key("render");
-    let ([width, height], bands) = (render.size, render.bands);
-    let bytes = SpectralImage::bytes(width, height, bands, light_groups);
-    if bytes <= limits::MAX_IMAGE_BYTES {
-        return;
-    }
-    let gib = |bytes: u128| bytes as f64 / f64::from(1 << 30);
-    let message = format!(
-        "an image of {width} × {height} pixels with {bands} bands{} takes {:.1} GiB; at most {:.0} GiB are possible",
-        of_light_groups(light_groups),
-        gib(bytes),
-        gib(limits::MAX_IMAGE_BYTES),
-    );
-    let fits = |bands, groups| {
-        SpectralImage::bytes(width, height, bands, groups) <= limits::MAX_IMAGE_BYTES
-    };
-    let bands_that_fit = (1..bands.min(BandGrid::MAX_COUNT))
-        .rev()
-        .find(|&fewer| fits(fewer, light_groups));
-    let shrink = (limits::MAX_IMAGE_BYTES as f64 / bytes as f64).sqrt();
-    let smaller = |side: u32| (f64::from(side) * shrink).max(1.0) as u32;
-    let fewer_bands = bands_that_fit
-        .map(|fewer| format!(", or {fewer} bands at this size"))
-        .unwrap_or_default();
-    let single_group = if light_groups > 1 && fits(bands, 1) {
-        ", or this with `render.light_groups = \"single\"`"
-    } else {
-        ""
-    };
-    let help = format!(
-        "{} × {} pixels would fit with {bands} bands{fewer_bands}{single_group}",
-        smaller(width),
-        smaller(height)
-    );
-    let problem = Problem::new(ProblemKind::TooLarge, &top.key("size"), message).help(help);
-    checks.report(problem.involving(top.key("bands")));
-}
-
-fn of_light_groups(count: usize) -> String {
-    if count > 1 {
-        format!(" and {count} light groups")
-    } else {
-        String::new()
-    }
 }

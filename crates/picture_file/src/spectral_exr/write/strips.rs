@@ -3,10 +3,9 @@
 use std::borrow::Borrow;
 use std::path::Path;
 
-use spectra::{BandGrid, ImageLayer, LayerKey, LightGroup, SpectralImage};
+use spectra::{BandGrid, ImageLayer, LayerKey, LightGroup, SpectralImage, Window};
 
 use super::{WriteExrError, WriteRowsError};
-use crate::spectral_exr::frame::Window;
 use crate::spectral_exr::lights;
 
 /// The strips of a window that are still to come.

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use pellicle_picture_file::spectral_exr::{
-    self, Frame, Window, WriteExrError, WriteOptions, WriteRowsError,
+    self, Frame, WriteExrError, WriteOptions, WriteRowsError,
 };
-use spectra::{BandGrid, SpectralImage};
+use spectra::{BandGrid, SpectralImage, Window};
 
 use super::support::{metadata, noisy, rows_of};
 

@@ -51,24 +51,6 @@ cases! { setting:
     );
 }
 
-#[test]
-fn an_image_that_no_memory_holds_is_reported_with_its_size() {
-    assert_problems(
-        &with_camera("[render]\nsize = [32768, 32768]\nbands = 1024\n"),
-        &[(
-            "7:8",
-            "render.size",
-            &[
-                "32768 × 32768",
-                "1024 bands",
-                "8208.0 GiB",
-                "at most 32 GiB",
-                "2 bands at this size",
-            ],
-        )],
-    );
-}
-
 /// A reflectance has these problems: places, fields within the material, phrases.
 fn reflectance(table: &str, expected: &[Expected<'_>]) {
     let fields: Vec<_> = expected

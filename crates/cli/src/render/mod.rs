@@ -1,21 +1,27 @@
 //! `pellicle render`.
 
-use crate::develop::{self, FOV_SETTING, ImageProperties};
+mod endurance;
+mod job;
+mod keeper;
+mod rounds;
+mod strips;
+
+use crate::develop::{self, ImageProperties};
 use crate::output::Outputs;
-use crate::progress::Progress;
-use crate::{memory, print};
+use crate::print;
 use clap::ValueEnum;
+use endurance::Endurance;
+use job::Job;
+pub(crate) use job::percent;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::document::text_file::STANDARD_INPUT;
 use pellicle::gpu::AdapterChoice;
-use pellicle::picture_file::spectral_exr::Metadata;
-use pellicle::scene::{RenderSettings, Scene};
+use pellicle::scene::Scene;
 use pellicle::scene_file::SceneFile;
-use pellicle::spectra::SpectralImage;
-use pellicle::{Backend, OpenError, Renderer};
+use pellicle::spectra::{Accumulation, Round, SpectralImage};
+use pellicle::{Backend, OpenError, RenderError, Renderer, Session};
 use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
@@ -41,7 +47,18 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     overrides: Overrides,
     #[command(flatten)]
+    endurance: Endurance,
+    #[command(flatten)]
     developing: develop::Options,
+}
+
+/// How a render went.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    /// To its end.
+    Finished,
+    /// Until this signal came.
+    Interrupted(i32),
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
@@ -66,9 +83,9 @@ struct Overrides {
     /// Seed of the random numbers, instead of the scene's
     #[arg(long)]
     seed: Option<u32>,
-    /// Time in seconds, instead of the scene's; with --frames, the time of frame 0
+    /// The scene's time in seconds, instead of its own; with --frames, the time of frame 0
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
-    time: Option<f64>,
+    scene_time: Option<f64>,
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {
@@ -94,7 +111,7 @@ impl Overrides {
         render.size = self.size.unwrap_or(render.size);
         render.bands = self.bands.unwrap_or(render.bands);
         render.seed = self.seed.unwrap_or(render.seed);
-        render.time_s = self.time.unwrap_or(render.time_s);
+        render.time_s = self.scene_time.unwrap_or(render.time_s);
     }
 }
 
@@ -114,24 +131,19 @@ impl Arguments {
 }
 
 /// Renders, develops and writes.
-pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> miette::Result<Outcome> {
     let mut file = SceneFile::read(&arguments.scene)?.allow_outside(arguments.allow_outside);
     arguments.overrides.apply(&mut file);
     // Report errors in the scene before opening anything.
     let scene = file.validate()?;
     print::notes(scene.notes());
-    // Standard input has no name.
-    let named = if arguments.scene.as_os_str() == STANDARD_INPUT {
-        Path::new("render")
-    } else {
-        &arguments.scene
-    };
-    let outputs = Outputs::new(named, &arguments.output)?;
-    let developing = &arguments.developing;
+    let outputs = arguments.outputs()?;
+    let (developing, endurance) = (&arguments.developing, &arguments.endurance);
     developing.check(outputs.pictures(), of_image(&scene))?;
     let mut pixel = one_pixel(&scene);
     developing.relight(&mut pixel, &mut of_image(&scene))?;
     developing.check_lamps(pixel.light_groups())?;
+    endurance.check(scene.settings(), arguments.overrides.samples)?;
     let renderer = Renderer::open(&arguments.backend()?).into_diagnostic()?;
     if let Renderer::Cpu {
         instead_of_gpu: Some(reason),
@@ -144,47 +156,87 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
         print::note(format_args!("rendering on the CPU: {reason}"));
     }
     print::note(format_args!("{}", renderer.description()));
-    print::note(format_args!("{}", memory::of_picture(&scene)));
+    let sequence = Sequence {
+        renderer: &renderer,
+        arguments,
+        outputs: &outputs,
+    };
     match &arguments.frames {
-        None => render_one(&renderer, &scene, &outputs, developing, ""),
-        Some(frames) => render_frames(&renderer, file, &outputs, developing, frames.clone()),
+        None => sequence.picture(&scene, &outputs, ""),
+        Some(frames) => sequence.frames(file, frames.clone()),
     }
 }
 
-/// Renders a sequence. An error names its frame, and the frames before it are kept.
-fn render_frames(
-    renderer: &Renderer,
-    mut file: SceneFile,
-    outputs: &Outputs,
-    developing: &develop::Options,
-    frames: Range<u32>,
-) -> miette::Result<()> {
-    let (start_s, step_s) = {
-        let render = &file.description.render;
-        (render.time_s, render.time_step_s)
-    };
-    let (first, last) = (frames.start, frames.end - 1);
-    let mut scene_of = |frame: u32| {
-        file.description.render.time_s = start_s + f64::from(frame) * step_s;
-        let of_frame = file.validate().map_err(miette::Report::from);
-        of_frame.wrap_err_with(|| format!("frame {frame} cannot be rendered"))
-    };
-    // The last frame has the latest time: report an impossible one before rendering the first.
-    let end = scene_of(last)?;
-    if first < last && scene_of(first)?.materials() == end.materials() {
-        print::note(format_args!(
-            "frames {first} to {last} are the same picture: nothing in the scene changes between their times"
-        ));
+impl Arguments {
+    fn outputs(&self) -> miette::Result<Outputs> {
+        // Standard input has no name.
+        let scene = if self.scene.as_os_str() == STANDARD_INPUT {
+            Path::new("render")
+        } else {
+            &self.scene
+        };
+        let Some(part) = self.endurance.part else {
+            return Outputs::new(scene, &self.output);
+        };
+        let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
+        let own = PathBuf::from(format!("{stem}_part_{}.exr", part.file_name()));
+        let asked = if self.output.is_empty() {
+            std::slice::from_ref(&own)
+        } else {
+            &self.output
+        };
+        Outputs::new(scene, asked)
     }
-    for frame in frames {
-        let scene = scene_of(frame)?;
-        let time = shown_time(scene.settings().time_s, step_s);
-        let heading = format!("frame {frame} of {first} to {last} at {time} s, ");
-        let outputs = outputs.of_frame(frame, last);
-        render_one(renderer, &scene, &outputs, developing, &heading)
-            .wrap_err_with(|| format!("frame {frame} failed"))?;
+}
+
+/// What the pictures of a sequence share.
+struct Sequence<'a> {
+    renderer: &'a Renderer,
+    arguments: &'a Arguments,
+    outputs: &'a Outputs,
+}
+
+impl Sequence<'_> {
+    fn picture(&self, scene: &Scene, outputs: &Outputs, heading: &str) -> miette::Result<Outcome> {
+        Job::new(self.renderer, scene, (self.arguments, outputs), heading)?.run()
     }
-    Ok(())
+
+    /// Renders a sequence. An error names its frame, and the frames before it are kept.
+    fn frames(&self, mut file: SceneFile, frames: Range<u32>) -> miette::Result<Outcome> {
+        let (start_s, step_s) = {
+            let render = &file.description.render;
+            (render.time_s, render.time_step_s)
+        };
+        let (first, last) = (frames.start, frames.end - 1);
+        let mut scene_of = |frame: u32| {
+            file.description.render.time_s = start_s + f64::from(frame) * step_s;
+            let of_frame = file.validate().map_err(miette::Report::from);
+            of_frame.wrap_err_with(|| format!("frame {frame} cannot be rendered"))
+        };
+        // The last frame has the latest time: report an impossible one before rendering the first.
+        let end = scene_of(last)?;
+        if first < last && scene_of(first)?.materials() == end.materials() {
+            print::note(format_args!(
+                "frames {first} to {last} are the same picture: nothing in the scene changes between their times"
+            ));
+        }
+        for frame in frames {
+            let scene = scene_of(frame)?;
+            let time = shown_time(scene.settings().time_s, step_s);
+            let heading = format!("frame {frame} of {first} to {last} at {time} s, ");
+            let outcome = self
+                .picture(&scene, &self.outputs.of_frame(frame, last), &heading)
+                .wrap_err_with(|| format!("frame {frame} failed"))?;
+            if let Outcome::Interrupted(_) = outcome {
+                print::note(format_args!(
+                    "render the other frames with --frames {frame}:{}",
+                    last + 1
+                ));
+                return Ok(outcome);
+            }
+        }
+        Ok(Outcome::Finished)
+    }
 }
 
 /// A time with enough digits to distinguish it from those a step before and after.
@@ -200,39 +252,21 @@ fn shown_time(time_s: f64, step_s: f64) -> String {
     }
 }
 
-/// Renders a picture and writes it; `heading` precedes the messages about it.
-fn render_one(
-    renderer: &Renderer,
-    scene: &Scene,
-    outputs: &Outputs,
-    developing: &develop::Options,
-    heading: &str,
-) -> miette::Result<()> {
-    let settings = scene.settings();
-    let total = samples_of(settings);
-    let mut progress = Progress::new(total, heading);
-    let started = Instant::now();
-    let mut image = renderer
-        .render(scene, &mut |done| {
-            progress.update(done);
-            ControlFlow::Continue(())
-        })
-        .into_diagnostic()?;
-    progress.clear();
-    let seconds = started.elapsed().as_secs_f64();
-    print::note(format_args!(
-        "{heading}{}×{}, {} bands, {} samples per pixel: {seconds:.1} s, {:.3} million samples/s",
-        settings.width,
-        settings.height,
-        settings.bands.count(),
-        settings.samples,
-        total as f64 / seconds * 1e-6,
-    ));
-    outputs.write_spectral(&image, &metadata(scene, renderer))?;
-    // Other lamps apply only to the pictures: the spectral image keeps the scene's.
-    let mut of_image = of_image(scene);
-    developing.relight(&mut image, &mut of_image)?;
-    developing.write(&image, of_image, image.height(), outputs.pictures())
+/// Advances pixels, and prints what happens to the device.
+fn advance(
+    session: &mut Session<'_>,
+    all: &mut Accumulation,
+    rounds: &[Round],
+    on_progress: &mut dyn FnMut(u64),
+) -> Result<(), RenderError> {
+    let advanced = session.advance(all, rounds, &mut |done| {
+        on_progress(done);
+        ControlFlow::Continue(())
+    });
+    for note in session.take_notes() {
+        print::note(format_args!("warning: {note}"));
+    }
+    advanced
 }
 
 /// An image of one pixel with the scene's light groups, to try what will be done to the whole image.
@@ -247,40 +281,6 @@ fn of_image(scene: &Scene) -> ImageProperties {
         exposure_ev: scene.settings().exposure_ev,
         fov_deg: scene.camera().fov_deg(),
         lamp: None,
-    }
-}
-
-fn samples_of(settings: &RenderSettings) -> u64 {
-    u64::from(settings.width) * u64::from(settings.height) * u64::from(settings.samples)
-}
-
-/// What the spectral image records about how it was made.
-fn metadata(scene: &Scene, renderer: &Renderer) -> Metadata {
-    let settings = scene.settings();
-    let said = [
-        ("renderer", renderer.description()),
-        ("samples", settings.samples.to_string()),
-        ("seed", settings.seed.to_string()),
-        ("time_s", settings.time_s.to_string()),
-        ("max_path_segments", settings.max_path_segments.to_string()),
-        (
-            "sampling",
-            format!("{:?}", settings.sampling).to_lowercase(),
-        ),
-    ];
-    let fov = scene.camera().fov_deg();
-    let fov = fov.map(|fov| (FOV_SETTING, format!("{fov:.6}")));
-    // Record that radiance was clamped.
-    let clamp = settings.clamp.map(|clamp| ("clamp", clamp.to_string()));
-    Metadata {
-        exposure_ev: settings.exposure_ev,
-        settings: said
-            .into_iter()
-            .chain(fov)
-            .chain(clamp)
-            .map(|(key, value)| (key.to_owned(), value))
-            .collect(),
-        ..Metadata::default()
     }
 }
 

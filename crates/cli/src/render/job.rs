@@ -1,0 +1,254 @@
+//! One picture: what is rendered, and what is written.
+
+use super::keeper::Keeper;
+use super::{Arguments, Endurance, Outcome, of_image, rounds, strips};
+use crate::develop::{self, FOV_SETTING};
+use crate::memory::{self, Layout, Needs};
+use crate::output::Outputs;
+use crate::print;
+use pellicle::picture_file::spectral_exr::{Frame, Metadata};
+use pellicle::progressive::{Goal, Identity, Render};
+use pellicle::relight::XyzImage;
+use pellicle::scene::Scene;
+use pellicle::spectra::{Accumulation, Window};
+use pellicle::{Renderer, Session};
+
+/// Bytes of the strips in which an image is written.
+const STRIP: usize = 32 << 20;
+
+/// A picture to render.
+pub(super) struct Job<'a> {
+    pub(super) renderer: &'a Renderer,
+    pub(super) scene: &'a Scene,
+    pub(super) outputs: &'a Outputs,
+    pub(super) developing: &'a develop::Options,
+    pub(super) endurance: &'a Endurance,
+    /// What precedes the messages about it.
+    pub(super) heading: &'a str,
+    pub(super) window: Window,
+    pub(super) goal: Goal,
+    pub(super) identity: Identity,
+    layout: Layout,
+}
+
+impl<'a> Job<'a> {
+    /// Checks that the picture fits into memory.
+    pub(super) fn new(
+        renderer: &'a Renderer,
+        scene: &'a Scene,
+        (arguments, outputs): (&'a Arguments, &'a Outputs),
+        heading: &'a str,
+    ) -> miette::Result<Self> {
+        let (endurance, developing) = (&arguments.endurance, &arguments.developing);
+        let window = endurance.window(scene.settings())?;
+        let needs = Needs {
+            pictures: !outputs.pictures().is_empty(),
+            spectra: !outputs.pictures().is_empty() && developing.needs_spectra(),
+            checkpoints: endurance.checkpoint.is_some(),
+            rounds: endurance.needs_rounds() || outputs.spectral().len() > 1,
+        };
+        let available = endurance.max_memory.unwrap_or_else(memory::available);
+        let (layout, bytes) = memory::layout(scene, window, needs, available)?;
+        print::note(memory::of_render(scene, bytes));
+        let mut identity = Identity::new(scene, &renderer.identity());
+        if endurance.adaptive {
+            identity = identity.adaptive(scene.settings().samples);
+        }
+        Ok(Self {
+            renderer,
+            scene,
+            outputs,
+            developing,
+            endurance,
+            heading,
+            window,
+            goal: endurance.goal(scene.settings(), arguments.overrides.samples),
+            identity,
+            layout,
+        })
+    }
+
+    pub(super) fn run(&self) -> miette::Result<Outcome> {
+        match self.layout {
+            Layout::Whole => rounds::run(self),
+            Layout::Strips(rows) => strips::run(self, rows),
+        }
+    }
+
+    /// The pixels of a window, without samples.
+    pub(super) fn empty(&self, window: Window) -> Accumulation {
+        let groups = self.scene.light_groups().to_vec();
+        let bands = self.scene.settings().bands;
+        Accumulation::new(window, self.endurance.samples_from, bands, groups)
+    }
+
+    /// What writes checkpoints, if they are wanted.
+    pub(super) fn keeper(&self) -> Option<Keeper> {
+        let path = self.endurance.checkpoint.clone()?;
+        let every = self.endurance.checkpoint_every;
+        Some(Keeper::new(path, every, self.identity.clone()))
+    }
+
+    /// Says how fast the render was, and what it has reached.
+    pub(super) fn print_speed(&self, render: &Render, work: u64, seconds: f64) {
+        let mut reached = format!("{} samples per pixel", render.level());
+        if render.is_adaptive() {
+            let mean = render.done() as f64 / self.window.pixels() as f64;
+            reached = format!("{mean:.1} samples per pixel in the mean");
+        }
+        if let Some(noise) = render.noise() {
+            reached += &format!(", noise {}", percent(noise));
+        }
+        self.print_pace(&reached, work, seconds);
+    }
+
+    pub(super) fn print_pace(&self, reached: &str, work: u64, seconds: f64) {
+        let [width, height] = self.window.size;
+        print::note(format_args!(
+            "{}{width}×{height}, {} bands, {reached}: {seconds:.1} s, {:.3} million samples/s",
+            self.heading,
+            self.scene.settings().bands.count(),
+            work as f64 / seconds.max(1e-9) * 1e-6,
+        ));
+    }
+
+    /// How to go on with a render that a signal has ended.
+    pub(super) fn how_to_resume(&self, render: &Render) -> String {
+        let level = render.level();
+        match &self.endurance.checkpoint {
+            Some(path) => format!(
+                "stopped at {level} samples per pixel; the same command with --resume goes on from {}",
+                path.display()
+            ),
+            None => format!(
+                "stopped at {level} samples per pixel; --samples-from {} renders others, to be joined by `pellicle merge`, \
+                 and --checkpoint FILE keeps the state of the next render",
+                u64::from(self.endurance.samples_from) + u64::from(level)
+            ),
+        }
+    }
+
+    /// Writes everything.
+    pub(super) fn write(&self, render: &Render, session: &Session<'_>) -> miette::Result<()> {
+        let all = render.accumulation();
+        let mut metadata = self.metadata(session.is_on_cpu());
+        let mut put = |name: &str, value: String| metadata.settings.insert(name.to_owned(), value);
+        put("samples", render.level().to_string());
+        put(
+            "stopped_by",
+            render
+                .end()
+                .map_or("signal".to_owned(), |end| end.to_string()),
+        );
+        if let Some(noise) = render.noise() {
+            put("noise", format!("{noise:.6}"));
+        }
+        if render.is_adaptive() {
+            put("adaptive", "by tiles of 16 × 16 pixels".to_owned());
+        }
+        for path in self.outputs.spectral() {
+            let mut strips = strips_of(all);
+            let mut next = || Ok(strips.next());
+            self.outputs
+                .write_rows(path, self.frame(), &metadata, &mut next)?;
+        }
+        self.write_pictures(all, false)
+    }
+
+    /// Develops and writes the pictures; a preview is not reported.
+    pub(super) fn write_pictures(
+        &self,
+        all: &Accumulation,
+        is_preview: bool,
+    ) -> miette::Result<()> {
+        if self.outputs.pictures().is_empty() {
+            return Ok(());
+        }
+        if self.developing.needs_spectra() {
+            let mut image = all.whole_image();
+            // Other lamps apply only to the pictures: the spectral image keeps the scene's.
+            let mut of_image = of_image(self.scene);
+            self.developing.relight(&mut image, &mut of_image)?;
+            let pictures = self.outputs.pictures();
+            return self
+                .developing
+                .write(&image, of_image, image.height(), pictures, is_preview);
+        }
+        self.write_colors(&colors(all.window(), strips_of(all)), is_preview)
+    }
+
+    /// Develops and writes the pictures from colors alone.
+    pub(super) fn write_colors(&self, colors: &XyzImage, is_preview: bool) -> miette::Result<()> {
+        let (of_image, pictures) = (of_image(self.scene), self.outputs.pictures());
+        self.developing
+            .write(colors, of_image, colors.height(), pictures, is_preview)
+    }
+
+    /// The place of the pixels in the picture.
+    pub(super) fn frame(&self) -> Frame {
+        let settings = self.scene.settings();
+        Frame {
+            picture: [settings.width, settings.height],
+            window: self.window,
+        }
+    }
+
+    /// What the spectral image records about how it was made.
+    pub(super) fn metadata(&self, is_on_cpu: bool) -> Metadata {
+        let settings = self.scene.settings();
+        let mut renderer = self.renderer.description();
+        if is_on_cpu && matches!(self.renderer, Renderer::Gpu(_)) {
+            renderer += ", then the CPU";
+        }
+        let said = [
+            ("renderer", renderer),
+            ("samples_from", self.endurance.samples_from.to_string()),
+            ("seed", settings.seed.to_string()),
+            ("time_s", settings.time_s.to_string()),
+            ("max_path_segments", settings.max_path_segments.to_string()),
+            (
+                "sampling",
+                format!("{:?}", settings.sampling).to_lowercase(),
+            ),
+        ];
+        let fov = self.scene.camera().fov_deg();
+        let fov = fov.map(|fov| (FOV_SETTING, format!("{fov:.6}")));
+        // Record that radiance was clamped.
+        let clamp = settings.clamp.map(|clamp| ("clamp", clamp.to_string()));
+        let said = said.into_iter().chain(fov).chain(clamp);
+        let said = said.map(|(key, value)| (key.to_owned(), value));
+        Metadata {
+            exposure_ev: settings.exposure_ev,
+            settings: said.chain(self.identity.settings()).collect(),
+            ..Metadata::default()
+        }
+    }
+}
+
+/// The images of an accumulation's rows, some at a time.
+fn strips_of(all: &Accumulation) -> impl Iterator<Item = pellicle::spectra::SpectralImage> + '_ {
+    let [width, height] = all.window().size;
+    let of_row = width as usize * 8 * all.layout().len();
+    let rows = (STRIP / of_row).clamp(1, height as usize);
+    (0..height)
+        .step_by(rows)
+        .map(move |row| all.image(row..(row + rows as u32).min(height)))
+}
+
+/// The colors of a window, from images of its rows.
+fn colors(
+    window: Window,
+    strips: impl Iterator<Item = pellicle::spectra::SpectralImage>,
+) -> XyzImage {
+    let mut xyz = Vec::with_capacity(window.pixels());
+    strips.for_each(|strip| xyz.extend_from_slice(strip.xyz()));
+    let [width, height] = window.size;
+    XyzImage::new(width, height, xyz).expect("the strips make up the window")
+}
+
+/// A fraction as a percentage with two digits that mean something.
+pub(crate) fn percent(fraction: f64) -> String {
+    let percent = 100.0 * fraction;
+    let decimals = (1.0 - percent.log10().floor()).clamp(0.0, 6.0) as usize;
+    format!("{percent:.decimals$} %")
+}

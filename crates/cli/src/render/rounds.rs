@@ -1,0 +1,130 @@
+//! Renders a picture that fits into memory, in rounds of samples of all its pixels.
+
+use super::keeper::{Keeper, Preview};
+use super::{Job, Outcome, advance};
+use crate::interrupt;
+use crate::print;
+use crate::progress::Progress;
+use miette::IntoDiagnostic;
+use pellicle::progressive::{Render, adaptive};
+use pellicle::scene::Scene;
+use pellicle::spectra::Round;
+use pellicle::{RenderError, Session};
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+/// Renders until the goal is reached, a signal comes or the device fails, and writes what was reached in any case.
+pub(super) fn run(job: &Job<'_>) -> miette::Result<Outcome> {
+    let _awaited = interrupt::Awaited::new();
+    let mut progress = Progress::new(job.heading);
+    let (mut session, mut render) = begin(job, &mut progress)?;
+    let (before, started) = (render.done(), Instant::now());
+    let mut keeper = job.keeper();
+    let rendered = rounds(job, &mut session, &mut render, &mut progress, &mut keeper);
+    let seconds = started.elapsed().as_secs_f64();
+    progress.clear();
+    let rendered = rendered.into_diagnostic();
+    if render.done() == 0 {
+        return rendered.map(|()| Outcome::Finished);
+    }
+    // The state is kept before anything else can fail.
+    let kept = keeper.map_or(Ok(()), |keeper| keeper.finish(&render));
+    job.print_speed(&render, render.done() - before, seconds);
+    job.write(&render, &session)?;
+    kept?;
+    rendered?;
+    match (render.end(), interrupt::signal()) {
+        (None, Some(signal)) => {
+            print::note(job.how_to_resume(&render));
+            Ok(Outcome::Interrupted(signal))
+        }
+        _ => Ok(Outcome::Finished),
+    }
+}
+
+/// Prepares the scene, and goes on from a checkpoint or begins anew.
+fn begin<'a>(job: &Job<'a>, progress: &mut Progress) -> miette::Result<(Session<'a>, Render)> {
+    let endurance = job.endurance;
+    let mut render = match &endurance.checkpoint {
+        Some(path) if endurance.resume && path.exists() => {
+            let of = (job.empty(job.window), job.goal);
+            let render = Render::resume(of, path, &job.identity).into_diagnostic()?;
+            let level = render.level();
+            print::note(format_args!(
+                "{}going on from {} at {level} samples per pixel",
+                job.heading,
+                path.display(),
+            ));
+            render
+        }
+        _ => Render::new(job.empty(job.window), job.goal),
+    };
+    if endurance.adaptive && !render.is_adaptive() {
+        render = render.with_plan(plan(job, progress)?);
+    }
+    let mut session = session(job, job.scene, progress)?;
+    for &(fault, round) in &endurance.inject_fault {
+        session.inject(fault, round);
+    }
+    progress.set_state(&render);
+    if let Some(interval) = endurance.shortest_interval() {
+        render.limit_rounds(interval.as_secs_f64());
+    }
+    Ok((session, render))
+}
+
+/// Prepares a scene; drivers may take seconds to compile it.
+pub(super) fn session<'a>(
+    job: &Job<'_>,
+    scene: &'a Scene,
+    progress: &mut Progress,
+) -> miette::Result<Session<'a>> {
+    let session = Session::new(job.renderer, scene, &mut |done| {
+        progress.update(done);
+        ControlFlow::Continue(())
+    });
+    let session = session.into_diagnostic()?;
+    Ok(session.allow_cpu(job.endurance.allow_cpu))
+}
+
+/// Decides with a pilot how many samples the tiles get.
+fn plan(job: &Job<'_>, progress: &mut Progress) -> miette::Result<Vec<u32>> {
+    let seed = adaptive::pilot_seed(job.scene.settings().seed);
+    let scene = job.scene.with_seed(seed);
+    let mut session = session(job, &scene, progress)?;
+    let mut pilot = job.empty(job.window);
+    let rounds = pilot.rounds_to(pilot.window(), adaptive::pilot_samples(job.goal.samples));
+    advance(&mut session, &mut pilot, &rounds, &mut |_| ()).into_diagnostic()?;
+    Ok(adaptive::plan(&pilot, job.goal.samples))
+}
+
+/// Takes rounds until the end or a signal.
+fn rounds(
+    job: &Job<'_>,
+    session: &mut Session<'_>,
+    render: &mut Render,
+    progress: &mut Progress,
+    keeper: &mut Option<Keeper>,
+) -> Result<(), RenderError> {
+    let mut preview = job.endurance.preview_every.map(Preview::new);
+    while let Some(rounds) = render.next_rounds() {
+        if render.level() > 0 && interrupt::signal().is_some() {
+            break;
+        }
+        let (done, started) = (render.done(), Instant::now());
+        let mut update = |more| progress.update(done + more);
+        advance(session, render.accumulation_mut(), &rounds, &mut update)?;
+        let work: u64 = rounds.iter().map(Round::work).sum();
+        render.finish_round(work, started.elapsed().as_secs_f64());
+        progress.set_state(render);
+        if render.end().is_none() {
+            if let Some(keeper) = keeper {
+                keeper.after_round(render);
+            }
+            if let Some(preview) = &mut preview {
+                preview.after_round(job, render);
+            }
+        }
+    }
+    Ok(())
+}

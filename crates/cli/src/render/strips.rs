@@ -1,0 +1,116 @@
+//! Renders a picture that does not fit into memory: strips of rows one after the other, each written when it is finished.
+
+use super::rounds::session;
+use super::{Job, Outcome, advance};
+use crate::progress::Progress;
+use crate::{interrupt, print};
+use miette::{IntoDiagnostic, miette};
+use pellicle::Session;
+use pellicle::relight::XyzImage;
+use pellicle::spectra::SpectralImage;
+use std::time::Instant;
+
+/// The strips of a picture, rendered on demand.
+struct Strips<'a, 'b> {
+    job: &'b Job<'a>,
+    session: Session<'a>,
+    rows: u32,
+    next_row: u32,
+    progress: &'b mut Progress,
+    done: u64,
+    /// The colors of all rows, if pictures are wanted.
+    xyz: Vec<[f32; 3]>,
+    /// The row before which a signal came.
+    interrupted: Option<u32>,
+}
+
+impl Strips<'_, '_> {
+    /// Renders the next strip; `None` after the last. After a signal the rows are black and have no samples.
+    fn next(&mut self) -> miette::Result<Option<SpectralImage>> {
+        let (first, height) = (self.next_row, self.job.window.size[1]);
+        if first == height {
+            return Ok(None);
+        }
+        self.next_row = (first + self.rows).min(height);
+        let window = self.job.window.rows(first..self.next_row);
+        let mut all = self.job.empty(window);
+        if first > 0 && interrupt::signal().is_some() {
+            self.interrupted.get_or_insert(first);
+        } else {
+            let rounds = all.rounds_to(window, self.job.goal.samples);
+            let (before, progress) = (self.done, &mut *self.progress);
+            advance(&mut self.session, &mut all, &rounds, &mut |more| {
+                progress.update(before + more);
+            })
+            .into_diagnostic()?;
+            self.done += window.pixels() as u64 * u64::from(self.job.goal.samples);
+        }
+        let image = all.whole_image();
+        if !self.job.outputs.pictures().is_empty() {
+            self.xyz.extend_from_slice(image.xyz());
+        }
+        Ok(Some(image))
+    }
+}
+
+/// Renders and writes strip by strip.
+pub(super) fn run(job: &Job<'_>, rows: u32) -> miette::Result<Outcome> {
+    let _awaited = interrupt::Awaited::new();
+    let (goal, [_, height]) = (job.goal.samples, job.window.size);
+    print::note(format_args!(
+        "{}the picture does not fit into memory at once: it is rendered {rows} of {height} rows at a time",
+        job.heading
+    ));
+    let mut progress = Progress::new(job.heading);
+    progress.set_total(job.window.pixels() as u64 * u64::from(goal));
+    let session = session(job, job.scene, &mut progress)?;
+    let mut metadata = job.metadata(false);
+    metadata
+        .settings
+        .insert("samples".to_owned(), goal.to_string());
+    metadata
+        .settings
+        .insert("stopped_by".to_owned(), "samples".to_owned());
+    let started = Instant::now();
+    let mut strips = Strips {
+        job,
+        session,
+        rows,
+        next_row: 0,
+        progress: &mut progress,
+        done: 0,
+        xyz: Vec::new(),
+        interrupted: None,
+    };
+    match job.outputs.spectral().first() {
+        Some(path) => {
+            let mut next = || strips.next();
+            job.outputs
+                .write_rows(path, job.frame(), &metadata, &mut next)?;
+        }
+        None => while strips.next()?.is_some() {},
+    }
+    let (done, xyz, interrupted) = (strips.done, strips.xyz, strips.interrupted);
+    progress.clear();
+    let seconds = started.elapsed().as_secs_f64();
+    job.print_pace(&format!("{goal} samples per pixel"), done, seconds);
+    if !job.outputs.pictures().is_empty() {
+        let [width, height] = job.window.size;
+        let colors = XyzImage::new(width, height, xyz);
+        let colors = colors.ok_or_else(|| miette!("the strips do not make up the picture"))?;
+        job.write_colors(&colors, false)?;
+    }
+    match (interrupted, interrupt::signal()) {
+        (Some(row), Some(signal)) => {
+            let [x, y] = job.window.origin;
+            print::note(format_args!(
+                "stopped before row {row}: the rows from there on are black; render them with --crop {x},{},{},{}",
+                y + row,
+                job.window.size[0],
+                height - row
+            ));
+            Ok(Outcome::Interrupted(signal))
+        }
+        _ => Ok(Outcome::Finished),
+    }
+}
