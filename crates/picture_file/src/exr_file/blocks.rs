@@ -3,16 +3,16 @@
 use std::fs::File;
 use std::io::BufReader;
 
-use exr::block::UncompressedBlock;
-use exr::block::chunk::Chunk;
+use exr::block::chunk::{Chunk, TileCoordinates};
 use exr::block::reader::Reader;
+use exr::block::{BlockIndex, UncompressedBlock};
 use exr::math::Vec2;
 use exr::meta::MetaData;
 use exr::meta::attribute::ChannelList;
 use rayon::prelude::*;
 
 use super::digest::Comparison;
-use super::{Context, ReadExrError};
+use super::{Context, ReadExrError, Window};
 
 /// The most bytes of uncompressed blocks in memory at a time (a single block may be larger).
 pub const BATCH_BYTES: usize = 256 << 20;
@@ -54,6 +54,32 @@ pub(crate) fn each_block(
     };
     blocks.insert_all(next)?;
     comparison.map_or(Ok(()), |comparison| comparison.finish(context))
+}
+
+/// As [`each_block`], but only with blocks that have pixels in the picture of a window, which are found by the file's table of
+/// contents. The digest is not compared.
+pub(crate) fn each_block_within(
+    context: &Context<'_>,
+    reader: Reader<BufReader<File>>,
+    part: usize,
+    window: &Window,
+    insert: impl FnMut(&UncompressedBlock, &ChannelList) -> Option<()> + Send,
+) -> Result<(), ReadExrError> {
+    let meta = reader.meta_data().clone();
+    let is_wanted = |_: &MetaData, _: TileCoordinates, block: BlockIndex| {
+        let (position, size) = (block.pixel_position, block.pixel_size);
+        block.layer == part
+            && block.level == Vec2(0, 0)
+            && window.meets((position.x(), position.y()), (size.width(), size.height()))
+    };
+    let mut chunks = context.run(|| reader.filter_chunks(false, is_wanted))?;
+    let mut blocks = Blocks {
+        context,
+        meta: &meta,
+        part,
+        insert,
+    };
+    blocks.insert_all(|count| context.run(|| chunks.by_ref().take(count).collect()))
 }
 
 /// The blocks of a part, and where they go.

@@ -3,7 +3,11 @@
 //! It is an attribute of the files that are written here: BLAKE3 over the y coordinate (four bytes, little-endian) and the compressed
 //! bytes of every chunk in the order of the file, as 64 hexadecimal digits.
 
+use std::fs::File;
+use std::io::BufReader;
+
 use exr::block::chunk::{Chunk, CompressedBlock};
+use exr::block::reader::Reader;
 use exr::meta::attribute::{AttributeValue, Text};
 use exr::meta::header::Header;
 
@@ -76,6 +80,24 @@ impl Comparison {
         }
         Err(context.damaged("its pixels are not those that were written"))
     }
+}
+
+/// Compares the digest of a part, if it has one, without decompressing anything; one chunk is in memory at a time. Returns whether
+/// there is a digest.
+pub(crate) fn verify(
+    context: &Context<'_>,
+    reader: Reader<BufReader<File>>,
+    part: usize,
+) -> Result<bool, ReadExrError> {
+    let Some(mut comparison) = Comparison::of_header(&reader.headers()[part]) else {
+        return Ok(false);
+    };
+    let mut chunks = context.run(|| reader.all_chunks(false))?;
+    while let Some(chunk) = context.run(|| chunks.next().transpose())? {
+        comparison.add(&chunk);
+    }
+    comparison.finish(context)?;
+    Ok(true)
 }
 
 fn name() -> Text {

@@ -53,6 +53,18 @@ pub enum ReadExrError {
         /// The reason.
         source: BandLayoutError,
     },
+    /// The requested rows are not among those of the image.
+    #[error("{path} has {height} rows: rows {start} to {end} cannot be read")]
+    Rows {
+        /// The file.
+        path: PathBuf,
+        /// The first row requested.
+        start: u32,
+        /// The row after the last one requested.
+        end: u32,
+        /// Height of the image in pixels.
+        height: u32,
+    },
     /// The image would take more memory than [`MAX_BYTES`](super::guard::MAX_BYTES) or than is available.
     #[error(
         "{path} holds an image of {width}×{height} pixels and {bands} bands, too large to read"

@@ -20,7 +20,7 @@ pub(crate) mod guard;
 mod window;
 
 pub use blocks::BATCH_BYTES;
-pub(crate) use blocks::{blocks_at_a_time, each_block};
+pub(crate) use blocks::{blocks_at_a_time, each_block, each_block_within};
 pub use error::{BandLayoutError, ReadExrError};
 pub use guard::MAX_BYTES;
 pub(crate) use window::{Run, Window};
@@ -31,24 +31,33 @@ const MAX_LISTED: usize = 24;
 /// Opens a file and reads its header. Returns the reader and the file's length in bytes. The header's claims are checked by
 /// [`guard::check`].
 pub(crate) fn open(path: &Path) -> Result<(Reader<BufReader<File>>, u64), ReadExrError> {
-    let file_error = |source| ReadExrError::File {
-        path: path.to_owned(),
-        source,
-    };
-    let mut file = File::open(path).map_err(file_error)?;
-    let length = file.metadata().map_err(file_error)?.len();
-    if !is_exr(&mut file).map_err(file_error)? {
+    let (file, length) = open_file(path)?;
+    Ok((reader(&Context { path }, file)?, length))
+}
+
+/// Opens a file and checks that its form is supported. Returns the file's length in bytes too.
+pub(crate) fn open_file(path: &Path) -> Result<(File, u64), ReadExrError> {
+    let context = Context { path };
+    let mut file = File::open(path).map_err(|error| context.file(error))?;
+    let metadata = file.metadata().map_err(|error| context.file(error))?;
+    if !is_exr(&mut file).map_err(|error| context.file(error))? {
         return Err(ReadExrError::NotExr {
             path: path.to_owned(),
         });
     }
-    let context = Context { path };
     let buffered = BufReader::new(&file);
     let claimed = context.run(|| MetaData::read_from_buffered(buffered, true))?;
     check_form(&context, &claimed.headers)?;
-    file.rewind().map_err(file_error)?;
-    let reader = context.run(|| exr::block::read(BufReader::new(file), false))?;
-    Ok((reader, length))
+    Ok((file, metadata.len()))
+}
+
+/// Reads the header of an open file from its start.
+pub(crate) fn reader(
+    context: &Context<'_>,
+    mut file: File,
+) -> Result<Reader<BufReader<File>>, ReadExrError> {
+    file.rewind().map_err(|error| context.file(error))?;
+    context.run(|| exr::block::read(BufReader::new(file), false))
 }
 
 /// Rejects data that the decoder does not support, with an error that names it.
@@ -142,6 +151,13 @@ impl Context<'_> {
         }
     }
 
+    pub(crate) fn file(&self, source: io::Error) -> ReadExrError {
+        ReadExrError::File {
+            path: self.path.to_owned(),
+            source,
+        }
+    }
+
     pub(crate) fn unsupported(&self, reason: &str) -> ReadExrError {
         ReadExrError::Unsupported {
             path: self.path.to_owned(),
@@ -157,10 +173,7 @@ impl Context<'_> {
         use exr::error::Error;
         match catch_unwind(AssertUnwindSafe(step)) {
             Ok(Ok(value)) => Ok(value),
-            Ok(Err(Error::Io(source))) => Err(ReadExrError::File {
-                path: self.path.to_owned(),
-                source,
-            }),
+            Ok(Err(Error::Io(source))) => Err(self.file(source)),
             Ok(Err(Error::NotSupported(reason))) => Err(self.unsupported(&reason)),
             Ok(Err(Error::Invalid(reason))) => Err(self.damaged(&reason)),
             Ok(Err(Error::Aborted)) => Err(self.damaged("reading was interrupted")),

@@ -1,5 +1,7 @@
 //! Position of a file's pixels in its picture.
 
+use std::ops::Range;
+
 use exr::meta::header::Header;
 
 /// The data window, whose pixels a file holds, in the display window, which is the picture. Pixels of the picture that the file
@@ -40,6 +42,40 @@ impl Window {
                 from(position.y(), display.position.y()),
             ),
         }
+    }
+
+    /// The same pixels, with only these rows of the picture as the picture.
+    pub(crate) fn of_rows(&self, rows: &Range<u32>) -> Self {
+        Self {
+            size: (self.size.0, rows.len()),
+            data: self.data,
+            offset: (self.offset.0, self.offset.1 - i64::from(rows.start)),
+        }
+    }
+
+    /// The part of the picture that the file holds: column and row of its first pixel, and its width and height. All are 0 if it holds
+    /// none.
+    pub(crate) fn held(&self) -> ([u32; 2], [u32; 2]) {
+        let range = |offset: i64, data: usize, size: usize| {
+            let (start, end) = (offset.max(0), (offset + data as i64).min(size as i64));
+            (start as u32, (end - start).max(0) as u32)
+        };
+        let (x, width) = range(self.offset.0, self.data.0, self.size.0);
+        let (y, height) = range(self.offset.1, self.data.1, self.size.1);
+        if width == 0 || height == 0 {
+            return ([0, 0], [0, 0]);
+        }
+        ([x, y], [width, height])
+    }
+
+    /// Whether any pixel of a block from column `x` of row `y` of the data window is in the picture.
+    pub(crate) fn meets(&self, (x, y): (usize, usize), (width, height): (usize, usize)) -> bool {
+        let overlaps = |start: usize, count: usize, offset: i64, size: usize| {
+            let start = (start as i64).saturating_add(offset);
+            start < size as i64 && start.saturating_add(count as i64) > 0
+        };
+        overlaps(x, width, self.offset.0, self.size.0)
+            && overlaps(y, height, self.offset.1, self.size.1)
     }
 
     /// Width and height of the picture in pixels.
@@ -151,6 +187,33 @@ mod tests {
             );
             assert!((0..4).all(|y| window.held_in_row(y) == 0), "{offset:?}");
             assert!(window.note().is_some());
+        }
+    }
+
+    #[test]
+    fn rows_are_a_picture_of_their_own() {
+        let crop = window((2, 1), (4, 2)).of_rows(&(2..4));
+        let run = |skip, count, x, y| Some(Run { skip, count, x, y });
+        assert_eq!(crop.size(), (8, 2));
+        assert_eq!(
+            [0, 1].map(|y| crop.place((0, y), 4)),
+            [None, run(0, 4, 2, 0)]
+        );
+        assert_eq!([0, 1].map(|y| crop.held_in_row(y)), [4, 0]);
+        assert!(!crop.meets((0, 0), (4, 1)) && crop.meets((0, 1), (4, 1)));
+        assert!(crop.meets((0, 0), (4, 2)));
+        let left = window((-2, 0), (4, 4));
+        assert!(!left.meets((0, 0), (2, 4)) && left.meets((0, 0), (3, 4)));
+    }
+
+    #[test]
+    fn the_part_of_the_picture_that_is_held_is_cut_at_its_ends() {
+        let held = |offset, data| window(offset, data).held();
+        assert_eq!(held((2, 1), (4, 2)), ([2, 1], [4, 2]));
+        assert_eq!(held((-3, -1), (14, 3)), ([0, 0], [8, 2]));
+        assert_eq!(held((5, 3), (4, 2)), ([5, 3], [3, 1]));
+        for far in [(8, 0), (-4, 0), (0, 4), (0, -2), (-(1 << 32), 1 << 32)] {
+            assert_eq!(held(far, (4, 2)), ([0, 0], [0, 0]), "{far:?}");
         }
     }
 

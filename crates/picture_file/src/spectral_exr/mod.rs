@@ -38,8 +38,8 @@
 //! bands of different widths; half floats; several parts; units that differ by a scale; reflectances (`T.550nm`) and bands named
 //! by their ends (`400.00-410.00nm`). [`Metadata::notes`] lists the changes and assumptions made on reading.
 //!
-//! The file has scan lines with lossless compression; see [`write`](write()) for its cost. [`write_rows`] writes an image in strips of
-//! rows.
+//! The file has scan lines with lossless compression; see [`write`](write()) for its cost. [`write_rows`] writes and
+//! [`RowReader`] reads an image in strips of rows.
 
 mod attribute_order;
 mod bands;
@@ -55,5 +55,5 @@ mod write;
 pub use crate::exr_file::{BATCH_BYTES, BandLayoutError, MAX_BYTES, ReadExrError};
 pub use frame::Frame;
 pub use metadata::{Metadata, software};
-pub use read::{read, read_size, read_xyz};
+pub use read::{RowReader, read, read_size, read_xyz};
 pub use write::{WriteExrError, WriteOptions, WriteRowsError, write, write_rows};

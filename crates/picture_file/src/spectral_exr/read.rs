@@ -15,10 +15,12 @@ mod colors;
 mod pixels;
 mod plan;
 mod reflectances;
+mod rows;
 
 use colors::Colors;
 use pixels::Pixels;
 use plan::Plan;
+pub use rows::RowReader;
 
 /// Reads a spectral file written by [`write`](super::write()), or by another program in the same layout.
 ///
@@ -83,20 +85,35 @@ pub fn read_xyz(path: &Path) -> Result<(XyzImage, Metadata), ReadExrError> {
 fn open(path: &Path) -> Result<(Reader<BufReader<File>>, Plan, Metadata), ReadExrError> {
     let (reader, length) = exr_file::open(path)?;
     let context = Context { path };
-    let (plan, metadata) = Plan::new(&context, reader.headers())?;
-    guard::check(&context, reader.headers(), plan.layer, length)?;
+    let (plan, metadata) = checked_plan(&context, &reader, length)?;
+    check_memory(path, &plan)?;
+    Ok((reader, plan, metadata))
+}
+
+fn checked_plan(
+    context: &Context<'_>,
+    reader: &Reader<BufReader<File>>,
+    length: u64,
+) -> Result<(Plan, Metadata), ReadExrError> {
+    let (plan, metadata) = Plan::new(context, reader.headers())?;
+    guard::check(context, reader.headers(), plan.layer, length)?;
+    Ok((plan, metadata))
+}
+
+/// Checks that there is memory for the image.
+fn check_memory(path: &Path, plan: &Plan) -> Result<(), ReadExrError> {
     let (bands, groups) = (plan.grid.count(), plan.light_groups.len());
     let bytes = |width, height| SpectralImage::bytes(width, height, bands, groups);
-    if !guard::fits(&plan.window, bytes) {
-        let (width, height) = plan.window.size();
-        return Err(ReadExrError::TooLarge {
-            path: path.to_owned(),
-            width,
-            height,
-            bands: bands as usize,
-        });
+    if guard::fits(&plan.window, bytes) {
+        return Ok(());
     }
-    Ok((reader, plan, metadata))
+    let (width, height) = plan.window.size();
+    Err(ReadExrError::TooLarge {
+        path: path.to_owned(),
+        width,
+        height,
+        bands: bands as usize,
+    })
 }
 
 /// Reads the whole image.
@@ -105,11 +122,16 @@ fn pixels(
     reader: Reader<BufReader<File>>,
     plan: Plan,
 ) -> Result<SpectralImage, ReadExrError> {
-    let illuminant = plan.illuminant.clone();
     let mut pixels = Pixels::new(plan);
-    each_block(context, reader, pixels.layer(), |block, channels| {
+    each_block(context, reader, pixels.plan().layer, |block, channels| {
         pixels.insert(block, channels)
     })?;
+    finish(context, pixels)
+}
+
+/// Checks that no pixel is missing, and lights reflectances.
+fn finish(context: &Context<'_>, pixels: Pixels) -> Result<SpectralImage, ReadExrError> {
+    let illuminant = pixels.plan().illuminant.clone();
     let missing = || context.damaged("some pixels are missing");
     let mut image = pixels.finish().ok_or_else(missing)?;
     if let Some(illuminant) = illuminant {

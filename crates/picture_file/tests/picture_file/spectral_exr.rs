@@ -5,6 +5,7 @@ mod foreign;
 mod lights;
 mod reflectances;
 mod round_trip;
+mod rows;
 mod strips;
 mod support;
 mod windows;

@@ -43,9 +43,9 @@ impl Pixels {
         }
     }
 
-    /// Index of the layer that is read.
-    pub(super) fn layer(&self) -> usize {
-        self.plan.layer
+    /// What is read.
+    pub(super) fn plan(&self) -> &Plan {
+        &self.plan
     }
 
     /// Stores a block's pixels; `None` if the block is not within the image.
@@ -67,6 +67,9 @@ impl Pixels {
         let last = channels.list.len() - 1;
         for line in block.lines(channels) {
             let (channel, y) = (line.location.channel, line.location.position.y());
+            let Some(run) = self.plan.window.place((position.x(), y), size.width()) else {
+                continue;
+            };
             if let Some(content) = self.plan.contents[channel] {
                 row.take(
                     line,
@@ -75,9 +78,7 @@ impl Pixels {
                     self.plan.scale,
                 );
             }
-            if channel == last
-                && let Some(run) = self.plan.window.place((position.x(), y), size.width())
-            {
+            if channel == last {
                 self.put(&row, run);
             }
         }

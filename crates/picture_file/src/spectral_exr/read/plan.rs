@@ -1,5 +1,7 @@
 //! The plan for reading a file: which layer and which of its channels.
 
+use std::ops::Range;
+
 use exr::meta::header::Header;
 use spectra::{BandGrid, LayerKey, LightGroup, Spectrum};
 
@@ -13,7 +15,7 @@ use crate::spectral_exr::metadata::{Metadata, range_nm};
 use crate::spectral_exr::wavelength::{Quantity, SpectralPosition, spectral_channel};
 
 /// The layer with the spectrum, and the contents of its channels.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Plan {
     /// Index of the layer.
     pub(super) layer: usize,
@@ -100,6 +102,14 @@ impl Plan {
             illuminant,
         };
         Ok((plan, metadata))
+    }
+
+    /// The plan for reading only these rows of the picture.
+    pub(super) fn of_rows(&self, rows: &Range<u32>) -> Self {
+        Self {
+            window: self.window.of_rows(rows),
+            ..self.clone()
+        }
     }
 
     /// Whether the file has X, Y and Z.

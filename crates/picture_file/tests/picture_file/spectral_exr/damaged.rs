@@ -143,7 +143,7 @@ fn pixel_places(bytes: &[u8], rows: usize) -> Vec<usize> {
 }
 
 /// Position of the first line, as the table of contents gives it: its y coordinate, the number of its bytes, and its bytes.
-fn first_line(bytes: &[u8]) -> usize {
+pub(super) fn first_line(bytes: &[u8]) -> usize {
     // A table of offsets ends where the first line begins, and the first line's y is 0.
     let at = |table: usize| {
         let entry = bytes[table..table + 8].try_into().unwrap();
