@@ -10,7 +10,7 @@ use spectra::{BandGrid, LightGroup, SpectralImage};
 
 use super::{Pixels, Plan, check_memory, checked_plan, finish, pixels};
 use crate::exr_file::{self, Context, ReadExrError, digest, each_block_within};
-use crate::spectral_exr::frame::{Frame, Window};
+use crate::spectral_exr::frame::Frame;
 use crate::spectral_exr::metadata::Metadata;
 
 /// A spectral file whose header has been read and checked, and whose rows are read when they are needed: an image that does not fit
