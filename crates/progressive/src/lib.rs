@@ -15,7 +15,7 @@ pub mod adaptive;
 mod checkpoint;
 mod goal;
 mod identity;
-mod noise;
+pub mod noise;
 mod render;
 
 pub use checkpoint::CheckpointError;

@@ -7,6 +7,8 @@ use std::path::Path;
 
 /// Seconds that a round takes at most, if its pixels take more than one sample in it.
 const ROUND_S: f64 = 2.0;
+/// The number of samples from which on the noise estimate may end a render.
+const LEAST_JUDGED: u32 = 16;
 
 /// A render in progress.
 ///
@@ -41,7 +43,7 @@ impl Render {
             noise,
             plan: Vec::new(),
             level: 0,
-            stop: 1,
+            stop: LEAST_JUDGED.min(goal.samples),
             seconds: 0.0,
             samples_per_s: None,
             round_s: ROUND_S,

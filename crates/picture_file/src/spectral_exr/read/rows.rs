@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use exr::block::reader::Reader;
-use spectra::{BandGrid, LightGroup, SpectralImage};
+use spectra::{BandGrid, LightGroup, SpectralImage, Window};
 
 use super::{Pixels, Plan, check_memory, checked_plan, finish, pixels};
 use crate::exr_file::{self, Context, ReadExrError, digest, each_block_within};
