@@ -21,7 +21,7 @@ pellicle=$(realpath "$pellicle")
 scene=$root/scenes/soap_bubble.toml
 # A part takes long enough to be stopped in the middle, and no longer.
 options=(--size 64x48 --samples 256 --bands 8)
-long=(--size 64x48 --samples 4096 --bands 8)
+long=(--size 64x48 --samples 2048 --bands 8)
 
 work=$(mktemp -d)
 venv=${VENV:-$work/venv}
@@ -45,7 +45,7 @@ same() {
         echo "$2: the same bytes as $1"
         return
     fi
-    "$pellicle" compare "$1" "$2" --format json >"$work/comparison.json"
+    "$pellicle" compare "$1" "$2" --format json >"$work/comparison.json" || fail "$2 cannot be compared with $1"
     "$venv/bin/python" - "$work/comparison.json" <<'PYTHON' || fail "$2 is not the same picture as $1"
 import json, sys
 
@@ -96,7 +96,7 @@ cat >"$work/bin/scontrol" <<'SCONTROL'
 echo "scontrol $*" | tee "$OUTPUT/scontrol.log"
 SCONTROL
 chmod +x "$work/bin/scontrol"
-PATH=$work/bin:$PATH SLURM_JOB_ID=1234 SLURM_ARRAY_TASK_ID=1 "$here/render_array.sh" "${long[@]}" &
+PATH=$work/bin:$PATH SLURM_ARRAY_JOB_ID=1234 SLURM_ARRAY_TASK_ID=1 "$here/render_array.sh" "${long[@]}" &
 task=$!
 sleep 0.5
 kill -USR1 "$task" 2>/dev/null || true # it has ended, on a very fast machine
@@ -106,7 +106,7 @@ case $code in
 143)
     [ ! -e "$OUTPUT/part_1_of_2.exr" ] || fail "a task that was stopped wrote a complete part"
     [ -e "$OUTPUT/part_1_of_2.checkpoint" ] || fail "a task that was stopped wrote no checkpoint"
-    [ "$(cat "$OUTPUT/scontrol.log")" = "scontrol requeue 1234" ] || fail "the task was not put back into the queue"
+    [ "$(cat "$OUTPUT/scontrol.log")" = "scontrol requeue 1234_1" ] || fail "the task was not put back into the queue"
     ;;
 0) echo "the task was complete before it could be stopped" ;;
 *) fail "the task that was stopped ended with exit code $code" ;;
@@ -120,7 +120,7 @@ same "$work/long_single.exr" "$work/long_array.exr"
 
 step "Slurm"
 if command -v sbatch >/dev/null; then
-    sbatch --test-only "$here/render_array.sh"
+    sbatch --test-only --cpus-per-task=1 --mem=100M "$here/render_array.sh"
 else
     echo "left out: sbatch is not installed"
 fi

@@ -13,9 +13,9 @@
 #
 #   SCENE=my_scene.toml OUTPUT=parts sbatch examples/clusters/render_array.sh [OPTIONS OF pellicle render]
 #
-# Task K of N writes the folder OUTPUT's part_K_of_N.exr, which is there only when it is complete. A task that is stopped, by pre-emption
-# or the time limit, leaves a checkpoint, and goes on from it when it is started again. Two minutes before the time limit (--signal)
-# a task puts itself back into the queue.
+# Task K of N writes part_K_of_N.exr to the folder OUTPUT, which has a file of this name only when it is complete. A task that is stopped,
+# by pre-emption or the time limit, leaves a checkpoint, and goes on from it when it is started again. Two minutes before the time limit
+# (--signal) a task puts itself back into the queue.
 #
 # SCENE            the scene file
 # OUTPUT           the folder of parts, which all machines share; parts by default
@@ -62,7 +62,8 @@ stop() {
         if [ -n "$child" ]; then kill -TERM "$child" 2>/dev/null || true; fi
     fi
 }
-# Slurm sends TERM when it ends the task, and USR1, which --signal asks for, when the time limit is near.
+# Slurm sends TERM when it ends the task, and USR1, which --signal asks for, when the time limit is near. A task that is canceled gets TERM
+# too, so only USR1 puts it back into the queue; after a pre-emption Slurm does that.
 trap stop TERM INT
 trap 'again=true; stop' USR1
 
@@ -86,8 +87,9 @@ if ((code == 0)); then
     echo "part $part of $parts: complete"
 elif ((code == 143)); then
     echo "part $part of $parts: stopped; the checkpoint is $checkpoint" >&2
-    if "$again" && [ -n "${SLURM_JOB_ID-}" ]; then
-        scontrol requeue "$SLURM_JOB_ID" || echo "part $part of $parts: not put back into the queue" >&2
+    if "$again" && [ -n "${SLURM_ARRAY_JOB_ID-}" ]; then
+        # Not SLURM_JOB_ID: that of an array's last task is the number of the whole array.
+        scontrol requeue "${SLURM_ARRAY_JOB_ID}_$part" || echo "part $part of $parts: not put back into the queue" >&2
     fi
 else
     echo "part $part of $parts: failed with exit code $code" >&2
