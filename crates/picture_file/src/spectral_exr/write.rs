@@ -151,13 +151,13 @@ pub fn write(
 /// `next` returns the next rows from the top, any number of them at a time and as wide as the frame's window, and `None` after the
 /// last. The bands, light groups and layers of the file are those of the first strip, and all strips must have the same. The metadata
 /// precedes the pixels in the file and is needed at once. The bytes of the file do not depend on how the rows are divided into strips:
-/// those of a whole frame are the bytes that [`write`] writes.
+/// those of a whole frame are the bytes that [`write`](write()) writes.
 ///
 /// One strip is in memory at a time, with up to four times the bytes of the lines being compressed; strips of a few lines for each
 /// core keep all cores busy.
 ///
 /// # Errors
-/// As [`write`], when the window is not within the picture, and when the strips do not make up the window. An error of `next` is
+/// As [`write`](write()), when the window is not within the picture, and when the strips do not make up the window. An error of `next` is
 /// returned as it is.
 pub fn write_rows<E>(
     path: &Path,
