@@ -4,6 +4,8 @@
 //! second signal always does. Temporary files are removed in any case.
 
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
+#[cfg(unix)]
+use std::time::{Duration, Instant};
 
 /// The signal that came, or 0.
 static SIGNAL: AtomicI32 = AtomicI32::new(0);
@@ -36,6 +38,10 @@ pub(crate) fn exit_code(signal: i32) -> u8 {
     128 + signal.clamp(0, 127) as u8
 }
 
+/// Signals within this time are one: a terminal or a scheduler sends it to a program and to its parent, which may pass it on.
+#[cfg(unix)]
+const SAME: Duration = Duration::from_millis(500);
+
 /// Starts to listen for signals.
 #[cfg(unix)]
 pub(crate) fn listen() {
@@ -48,11 +54,17 @@ pub(crate) fn listen() {
         return;
     };
     std::thread::spawn(move || {
+        let mut first = None;
         for signal in signals.forever() {
-            let is_first = SIGNAL.swap(signal, Ordering::SeqCst) == 0;
-            if is_first && IS_AWAITED.load(Ordering::SeqCst) {
-                crate::print::note("stopping after this round; once more stops at once");
-                continue;
+            if IS_AWAITED.load(Ordering::SeqCst) {
+                let since = *first.get_or_insert_with(Instant::now);
+                if SIGNAL.swap(signal, Ordering::SeqCst) == 0 {
+                    crate::print::note("stopping after this round; once more stops at once");
+                    continue;
+                }
+                if since.elapsed() < SAME {
+                    continue;
+                }
             }
             // Until the end no other thread can create or rename a file.
             let _all = abandon_all();

@@ -6,9 +6,9 @@ use pellicle::spectra::{Accumulation, SpectralImage, Window};
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 
 /// What a render takes beside its pixels: the program, the driver, the lines of files that are compressed.
-const BASE: u64 = 512 << 20;
+const BASE: u64 = 256 << 20;
 /// Bytes of a strip that is rendered at a time.
-const STRIP: u64 = 256 << 20;
+const STRIP: u64 = 128 << 20;
 /// Bytes of a pixel while a picture is developed: XYZ, linear red, green and blue twice, and codes.
 const DEVELOPED: u64 = 12 + 2 * 12 + 6;
 

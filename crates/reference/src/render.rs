@@ -106,26 +106,29 @@ impl<'a> Session<'a> {
             }
             drop(sender);
             let mut to_threads = Some(to_threads);
-            let mut send_next = |accumulation: &Accumulation| match (tiles.next(), &to_threads) {
-                (Some((window, samples)), Some(to)) => {
-                    let task = Task {
-                        window,
-                        samples,
-                        first_sample: accumulation.first_sample(),
-                        values: accumulation.copied(window),
-                    };
-                    // It fails only if all threads have panicked, and then nothing comes back.
-                    let _ = to.send(task);
-                }
-                _ => to_threads = None,
+            // The values of a finished tile make room for those of the next.
+            let mut send_next = |accumulation: &Accumulation, mut values: Vec<f64>| {
+                let (Some((window, samples)), Some(to)) = (tiles.next(), &to_threads) else {
+                    to_threads = None;
+                    return;
+                };
+                accumulation.copy(window, &mut values);
+                let task = Task {
+                    window,
+                    samples,
+                    first_sample: accumulation.first_sample(),
+                    values,
+                };
+                // It fails only if all threads have panicked, and then nothing comes back.
+                let _ = to.send(task);
             };
             for _ in 0..TILES_AHEAD * threads {
-                send_next(accumulation);
+                send_next(accumulation, Vec::new());
             }
             let mut done = 0;
             for task in finished {
-                send_next(accumulation);
                 accumulation.store(task.window, &task.values, task.samples.end);
+                send_next(accumulation, task.values);
                 done += task.window.pixels() as u64 * task.samples.len() as u64;
                 if on_progress(done).is_break() {
                     return Err(Stopped);

@@ -1,6 +1,7 @@
 //! The state of a render between two rounds of samples.
 
-use crate::{BandGrid, KM_LUMENS_PER_WATT, LightGroup, SpectralImage, Window};
+use crate::{BandGrid, KM_LUMENS_PER_WATT, LayerKey, LightGroup, Quantity, SpectralImage, Window};
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// Where the running means of a pixel are in its values.
@@ -193,17 +194,16 @@ impl Accumulation {
         })
     }
 
-    /// The values of the pixels of a window, row by row.
+    /// Copies the values of the pixels of a window, row by row, in place of what `values` holds.
     ///
     /// # Panics
     /// When a part of it lies outside.
-    pub fn copied(&self, window: Window) -> Vec<f64> {
+    pub fn copy(&self, window: Window, values: &mut Vec<f64>) {
         let len = self.layout.len();
-        let mut values = Vec::with_capacity(window.pixels() * len);
+        values.clear();
         for row in self.row_indices(window) {
             values.extend_from_slice(&self.sums[row.start * len..row.end * len]);
         }
-        values
     }
 
     /// Puts back the values of the pixels of a window, which have this number of samples now.
@@ -283,28 +283,56 @@ impl Accumulation {
     /// # Panics
     /// When there are no such rows.
     pub fn image(&self, rows: Range<u32>) -> SpectralImage {
-        let window = self.window.rows(rows);
-        let ([width, height], groups) = (window.size, self.light_groups.len());
-        let bands = self.bands.count() as usize;
-        let mut image =
-            SpectralImage::with_light_groups(width, height, self.bands, self.light_groups.clone());
-        let mut radiance = vec![0.0; groups * bands];
-        let (mut variance, mut xyz) = (vec![0.0; bands], vec![[0.0; 3]; groups]);
+        let ([width, height], groups) = (self.window.rows(rows.clone()).size, &self.light_groups);
+        let mut image = SpectralImage::with_light_groups(width, height, self.bands, groups.clone());
+        let start = rows.start as usize * width as usize;
+        let counts = &self.counts[start..start + image.samples().len()];
+        image.samples_mut().copy_from_slice(counts);
+        let rows = image.rows_mut().into_par_iter().enumerate();
+        rows.for_each(|(row, mut to)| {
+            let first = start + row * width as usize;
+            for (key, values) in &mut to.layers {
+                self.write_layer(*key, first, values);
+            }
+        });
+        image
+    }
+
+    /// Writes a layer of as many pixels as there is room for, from the pixel `first` on.
+    fn write_layer(&self, key: LayerKey, first: usize, to: &mut [f32]) {
+        let (layout, groups) = (self.layout, self.light_groups.len());
         let to_xyz = KM_LUMENS_PER_WATT * self.bands.width_nm();
-        for (y, row) in (0..).zip(self.row_indices(window)) {
-            for (x, pixel) in (0..).zip(row) {
-                let (sums, count) = (self.pixel(pixel), self.counts[pixel]);
-                for group in 0..groups {
-                    let of_group = &mut radiance[group * bands..][..bands];
-                    write(of_group, &sums[self.layout.group_mean(group)], 1.0);
-                    write(&mut xyz[group], &sums[self.layout.xyz(group)], to_xyz);
+        let per_pixel = key.quantity.values_per_pixel(layout.bands);
+        for (pixel, to) in (first..).zip(to.chunks_exact_mut(per_pixel)) {
+            let sums = self.pixel(pixel);
+            let of = |group: usize| match key.quantity {
+                Quantity::Xyz => (&sums[layout.xyz(group)], to_xyz),
+                _ => (&sums[layout.group_mean(group)], 1.0),
+            };
+            match (key.quantity, key.light_group) {
+                (Quantity::Variance, _) => {
+                    let factor = variance_of_mean(self.counts[pixel]);
+                    write(to, (&sums[layout.deviation()], factor));
                 }
-                let to_variance = variance_of_mean(count);
-                write(&mut variance, &sums[self.layout.deviation()], to_variance);
-                image.set_pixel_by_light((x, y), &radiance, &variance, &xyz, count);
+                (_, Some(group)) => write(to, of(group)),
+                // The total is the sum of the groups as an image holds them.
+                (_, None) => (0..groups).for_each(|group| match group {
+                    0 => write(to, of(0)),
+                    _ => add(to, of(group)),
+                }),
             }
         }
-        image
+    }
+
+    /// XYZ of all pixels, row by row, as in the image.
+    pub fn colors(&self) -> Vec<[f32; 3]> {
+        let mut colors = vec![[0.0; 3]; self.window.pixels()];
+        let some = 4096;
+        let chunks = colors.par_chunks_mut(some).enumerate();
+        chunks.for_each(|(i, chunk)| {
+            self.write_layer(LayerKey::XYZ, i * some, chunk.as_flattened_mut());
+        });
+        colors
     }
 
     /// The image of all rows.
@@ -319,9 +347,15 @@ pub fn variance_of_mean(samples: u32) -> f64 {
     if n > 1.0 { 1.0 / (n * (n - 1.0)) } else { 0.0 }
 }
 
-fn write(to: &mut [f32], values: &[f64], factor: f64) {
+fn write(to: &mut [f32], (values, factor): (&[f64], f64)) {
     for (to, value) in to.iter_mut().zip(values) {
         *to = (value * factor) as f32;
+    }
+}
+
+fn add(to: &mut [f32], (values, factor): (&[f64], f64)) {
+    for (to, value) in to.iter_mut().zip(values) {
+        *to += (value * factor) as f32;
     }
 }
 
@@ -370,7 +404,9 @@ mod tests {
         let inner = window([11, 21], [2, 2]);
         let values: Vec<f64> = (0..4 * len).map(|value| value as f64).collect();
         all.store(inner, &values, 7);
-        assert_eq!(all.copied(inner), values);
+        let mut copied = vec![5.0];
+        all.copy(inner, &mut copied);
+        assert_eq!(copied, values);
         assert_eq!(all.counts(), [0, 0, 0, 0, 0, 7, 7, 0, 0, 7, 7, 0]);
         assert_eq!(all.pixel(6), &values[len..2 * len]);
         assert!(all.pixel(7).iter().all(|&value| value == 0.0));
@@ -433,6 +469,7 @@ mod tests {
         assert_eq!(image.group_xyz(1)[3], [0.0, y as f32, 0.0]);
         assert_eq!(image.samples(), [0, 0, 0, 4]);
         assert_eq!(all.whole_image().pixel(3, 2), [1.5, 6.0]);
+        assert_eq!(all.colors(), all.whole_image().xyz());
         assert_eq!((variance_of_mean(1), variance_of_mean(0)), (0.0, 0.0));
     }
 

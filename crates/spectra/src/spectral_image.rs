@@ -277,6 +277,13 @@ impl SpectralImage {
         }
     }
 
+    /// Number of samples of each pixel, to be changed.
+    pub fn samples_mut(&mut self) -> &mut [u32] {
+        let mut layers = self.layers.iter_mut();
+        let layer = layers.find(|layer| layer.key() == LayerKey::SAMPLES);
+        layer.map_or(&mut [], ImageLayer::counts_mut)
+    }
+
     /// A light group, to be changed together with the values of [`Self::rows_mut`].
     ///
     /// # Panics

@@ -6,11 +6,12 @@ use crate::develop::{self, FOV_SETTING};
 use crate::memory::{self, Layout, Needs};
 use crate::output::Outputs;
 use crate::print;
+use miette::miette;
 use pellicle::picture_file::spectral_exr::{Frame, Metadata};
 use pellicle::progressive::{Goal, Identity, Render};
 use pellicle::relight::XyzImage;
 use pellicle::scene::Scene;
-use pellicle::spectra::{Accumulation, Window};
+use pellicle::spectra::{Accumulation, SpectralImage, Window};
 use pellicle::{Renderer, Session};
 
 /// Bytes of the strips in which an image is written.
@@ -174,7 +175,10 @@ impl<'a> Job<'a> {
                 .developing
                 .write(&image, of_image, image.height(), pictures, is_preview);
         }
-        self.write_colors(&colors(all.window(), strips_of(all)), is_preview)
+        let [width, height] = all.window().size;
+        let colors = XyzImage::new(width, height, all.colors());
+        let colors = colors.ok_or_else(|| miette!("the window has no colors"))?;
+        self.write_colors(&colors, is_preview)
     }
 
     /// Develops and writes the pictures from colors alone.
@@ -226,24 +230,13 @@ impl<'a> Job<'a> {
 }
 
 /// The images of an accumulation's rows, some at a time.
-fn strips_of(all: &Accumulation) -> impl Iterator<Item = pellicle::spectra::SpectralImage> + '_ {
+fn strips_of(all: &Accumulation) -> impl Iterator<Item = SpectralImage> + '_ {
     let [width, height] = all.window().size;
     let of_row = width as usize * 8 * all.layout().len();
     let rows = (STRIP / of_row).clamp(1, height as usize);
     (0..height)
         .step_by(rows)
         .map(move |row| all.image(row..(row + rows as u32).min(height)))
-}
-
-/// The colors of a window, from images of its rows.
-fn colors(
-    window: Window,
-    strips: impl Iterator<Item = pellicle::spectra::SpectralImage>,
-) -> XyzImage {
-    let mut xyz = Vec::with_capacity(window.pixels());
-    strips.for_each(|strip| xyz.extend_from_slice(strip.xyz()));
-    let [width, height] = window.size;
-    XyzImage::new(width, height, xyz).expect("the strips make up the window")
 }
 
 /// A fraction as a percentage with two digits that mean something.
