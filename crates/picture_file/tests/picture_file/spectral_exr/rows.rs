@@ -4,9 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use exr::prelude::*;
-use pellicle_picture_file::spectral_exr::{
-    self, Frame, ReadExrError, RowReader, Window, WriteOptions,
-};
+use pellicle_picture_file::spectral_exr::{self, Frame, ReadExrError, RowReader, WriteOptions};
+use spectra::Window;
 
 use super::support::{metadata, noise, noisy, rows_of, write_noisy};
 
