@@ -5,8 +5,12 @@ use crate::{End, Goal, Identity, NoiseEstimator, adaptive};
 use spectra::{Accumulation, Round, variance_of_mean};
 use std::path::Path;
 
-/// Seconds that a round takes at most, if its pixels take more than one sample in it.
-const ROUND_S: f64 = 2.0;
+/// Seconds that a round takes at most, if its pixels take more than one sample in it. Each round reads and writes the state of all
+/// pixels, so short rounds cost time.
+const ROUND_S: f64 = 4.0;
+/// The number of samples of the first round, and of a larger picture, whose first round shows how fast it is.
+const FIRST_ROUND: u32 = 4;
+const LARGE_PIXELS: usize = 1 << 20;
 /// The number of samples from which on the noise estimate may end a render.
 const LEAST_JUDGED: u32 = 16;
 
@@ -225,17 +229,23 @@ impl Render {
     }
 
     fn next_level(&self) -> u32 {
-        let power = (self.level + 1).next_power_of_two();
-        let mut next = power.min(self.last_level());
+        let is_first_of_large =
+            self.level == 0 && self.accumulation.window().pixels() > LARGE_PIXELS;
+        let power = (self.level + 1).next_power_of_two().max(FIRST_ROUND);
+        let mut next = if is_first_of_large { 1 } else { power }.min(self.last_level());
         if self.goal.noise.is_some() && self.level < self.stop {
             next = next.min(self.stop);
         }
         let seconds_left = self.goal.seconds.map(|seconds| seconds - self.seconds);
         let seconds = seconds_left.map_or(self.round_s, |left| left.min(self.round_s));
-        next.min(self.level + self.fitting(seconds).max(1))
+        match self.samples_per_s {
+            // The first round shows how fast the scene is.
+            None => next,
+            Some(_) => next.min(self.level + self.fitting(seconds).max(1)),
+        }
     }
 
-    /// The number of samples that all pixels can take in some seconds; 1 before the speed is known.
+    /// The number of samples that all pixels can take in some seconds; 0 before the speed is known.
     fn fitting(&self, seconds: f64) -> u32 {
         let per_s = self.samples_per_s.unwrap_or(0.0) / self.accumulation.window().pixels() as f64;
         (seconds * per_s) as u32

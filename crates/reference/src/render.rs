@@ -6,7 +6,8 @@ use crate::tiles::Tiles;
 use crate::{PreparedScene, SimdLevel};
 use scene::Scene;
 use spectra::{Accumulation, Round, SpectralImage, Window};
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError, mpsc};
 use thiserror::Error;
 
@@ -14,9 +15,6 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 #[error("stopped before the picture was finished")]
 pub struct Stopped;
-
-/// The number of tiles of each thread that wait for it, so that none waits for a tile.
-const TILES_AHEAD: usize = 2;
 
 /// Renders a scene on all cores, tile by tile.
 ///
@@ -58,13 +56,14 @@ pub struct Session<'a> {
     prepared: PreparedScene<'a>,
 }
 
-/// A tile on its way to a thread and back.
-struct Task {
+/// A tile that a thread advances.
+struct Task<'a> {
     window: Window,
     /// The number of its samples before, and after.
-    samples: std::ops::Range<u32>,
+    samples: Range<u32>,
     first_sample: u32,
-    values: Vec<f64>,
+    /// The values of its pixels, row by row.
+    rows: Vec<&'a mut [f64]>,
 }
 
 impl<'a> Session<'a> {
@@ -93,66 +92,60 @@ impl<'a> Session<'a> {
         on_progress: &mut dyn FnMut(u64) -> ControlFlow<()>,
     ) -> Result<(), Stopped> {
         let threads = rayon::current_num_threads();
-        let tiles = Tiles::new(rounds, threads as u32);
-        let mut tiles = tiles.iter();
-        let (to_threads, waiting) = mpsc::sync_channel(TILES_AHEAD * threads);
-        let waiting = Mutex::new(waiting);
+        let tiles: Vec<_> = Tiles::new(rounds, threads as u32).iter().collect();
+        let windows: Vec<Window> = tiles.iter().map(|(window, _)| *window).collect();
+        let first_sample = accumulation.first_sample();
+        let rows = accumulation.lend(&windows);
+        let tasks = tiles
+            .into_iter()
+            .zip(rows)
+            .map(|((window, samples), rows)| Task {
+                window,
+                samples,
+                first_sample,
+                rows,
+            });
+        let (waiting, is_stopped) = (Mutex::new(tasks), AtomicBool::new(false));
         // Our own threads: those of a pool that calls this function may all be waiting for it.
-        std::thread::scope(|scope| {
+        let finished = std::thread::scope(|scope| {
             let (sender, finished) = mpsc::channel();
             for _ in 0..threads {
-                let (sender, waiting) = (sender.clone(), &waiting);
-                scope.spawn(move || self.work(waiting, &sender));
+                let (sender, waiting, is_stopped) = (sender.clone(), &waiting, &is_stopped);
+                scope.spawn(move || {
+                    let mut worker = Worker::new(self.level, &self.prepared);
+                    while !is_stopped.load(Ordering::Relaxed) {
+                        let next = waiting
+                            .lock()
+                            .unwrap_or_else(PoisonError::into_inner)
+                            .next();
+                        let Some(mut task) = next else { return };
+                        worker.advance(&mut task);
+                        // The receiver is gone if the caller has panicked.
+                        if sender.send((task.window, task.samples)).is_err() {
+                            return;
+                        }
+                    }
+                });
             }
             drop(sender);
-            let mut to_threads = Some(to_threads);
-            // The values of a finished tile make room for those of the next.
-            let mut send_next = |accumulation: &Accumulation, mut values: Vec<f64>| {
-                let (Some((window, samples)), Some(to)) = (tiles.next(), &to_threads) else {
-                    to_threads = None;
-                    return;
-                };
-                accumulation.copy(window, &mut values);
-                let task = Task {
-                    window,
-                    samples,
-                    first_sample: accumulation.first_sample(),
-                    values,
-                };
-                // It fails only if all threads have panicked, and then nothing comes back.
-                let _ = to.send(task);
-            };
-            for _ in 0..TILES_AHEAD * threads {
-                send_next(accumulation, Vec::new());
-            }
-            let mut done = 0;
-            for task in finished {
-                accumulation.store(task.window, &task.values, task.samples.end);
-                send_next(accumulation, task.values);
-                done += task.window.pixels() as u64 * task.samples.len() as u64;
+            let (mut done, mut all) = (0, Vec::with_capacity(windows.len()));
+            for (window, samples) in finished {
+                done += window.pixels() as u64 * samples.len() as u64;
+                all.push((window, samples.end));
                 if on_progress(done).is_break() {
-                    return Err(Stopped);
+                    is_stopped.store(true, Ordering::Relaxed);
                 }
             }
-            Ok(())
-        })
-    }
-
-    /// What a thread does: tiles, until there are no more or nobody wants them.
-    fn work(&self, waiting: &Mutex<mpsc::Receiver<Task>>, finished: &mpsc::Sender<Task>) {
-        let mut worker = Worker::new(self.level, &self.prepared);
-        loop {
-            let next = waiting
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .recv();
-            let Ok(mut task) = next else { return };
-            worker.advance(&mut task);
-            // The receiver is gone if the caller has stopped or panicked.
-            if finished.send(task).is_err() {
-                return;
-            }
+            all
+        });
+        drop(waiting);
+        for (window, samples) in finished {
+            accumulation.set_counts(window, samples);
         }
+        if is_stopped.into_inner() {
+            return Err(Stopped);
+        }
+        Ok(())
     }
 }
 
@@ -204,23 +197,20 @@ impl<'a> Worker<'a> {
         }
     }
 
-    fn advance(&mut self, task: &mut Task) {
-        let values = task.values.chunks_exact_mut(self.pixel.len());
-        for (pixel, values) in pixels(task.window).zip(values) {
-            self.pixel.load(values, task.samples.start);
-            for sample in task.samples.clone() {
-                self.trace_path(pixel, task.first_sample + sample);
-                self.pixel.add(&self.tracer.transport);
+    fn advance(&mut self, task: &mut Task<'_>) {
+        let [left, top] = task.window.origin;
+        for (y, row) in (top..).zip(&mut task.rows) {
+            let pixels = row.chunks_exact_mut(self.pixel.len());
+            for (x, values) in (left..).zip(pixels) {
+                self.pixel.load(values, task.samples.start);
+                for sample in task.samples.clone() {
+                    self.trace_path([x, y], task.first_sample + sample);
+                    self.pixel.add(&self.tracer.transport);
+                }
+                self.pixel.save(values);
             }
-            self.pixel.save(values);
         }
     }
-}
-
-/// The pixels of a window, row by row.
-fn pixels(window: Window) -> impl Iterator<Item = [u32; 2]> {
-    let [(left, width), (top, height)] = [0, 1].map(|i| (window.origin[i], window.size[i]));
-    (top..top + height).flat_map(move |y| (left..left + width).map(move |x| [x, y]))
 }
 
 #[cfg(test)]

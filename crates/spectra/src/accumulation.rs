@@ -194,15 +194,38 @@ impl Accumulation {
         })
     }
 
-    /// Copies the values of the pixels of a window, row by row, in place of what `values` holds.
+    /// Lends the values of the pixels of some windows, to be changed on several threads: for each window a list of its rows.
+    /// [`Accumulation::set_counts`] then records what was done.
+    ///
+    /// # Panics
+    /// When a part of a window lies outside, or two overlap.
+    pub fn lend(&mut self, windows: &[Window]) -> Vec<Vec<&mut [f64]>> {
+        let len = self.layout.len();
+        let rows = |(index, window): (usize, &Window)| {
+            let rows = self.row_indices(*window);
+            rows.map(move |row| (row, index)).collect::<Vec<_>>()
+        };
+        let mut rows: Vec<_> = windows.iter().enumerate().flat_map(rows).collect();
+        rows.sort_by_key(|(row, index)| (row.start, *index));
+        let mut lent: Vec<Vec<&mut [f64]>> = windows.iter().map(|_| Vec::new()).collect();
+        let (mut rest, mut place) = (&mut self.sums[..], 0);
+        for (row, index) in rows {
+            assert!(place <= row.start, "windows do not overlap");
+            let (_, from_row) = rest.split_at_mut((row.start - place) * len);
+            let (own, behind) = from_row.split_at_mut(row.len() * len);
+            lent[index].push(own);
+            (rest, place) = (behind, row.end);
+        }
+        lent
+    }
+
+    /// Records that the pixels of a window, whose values were lent and advanced, have this number of samples.
     ///
     /// # Panics
     /// When a part of it lies outside.
-    pub fn copy(&self, window: Window, values: &mut Vec<f64>) {
-        let len = self.layout.len();
-        values.clear();
+    pub fn set_counts(&mut self, window: Window, samples: u32) {
         for row in self.row_indices(window) {
-            values.extend_from_slice(&self.sums[row.start * len..row.end * len]);
+            self.counts[row].fill(samples);
         }
     }
 
@@ -213,9 +236,9 @@ impl Accumulation {
     pub fn store(&mut self, window: Window, values: &[f64], samples: u32) {
         let len = self.layout.len();
         assert_eq!(values.len(), window.pixels() * len, "values of {window}");
+        self.set_counts(window, samples);
         let mut rows = values.chunks_exact((window.size[0] as usize * len).max(1));
         for row in self.row_indices(window) {
-            self.counts[row.clone()].fill(samples);
             if let Some(values) = rows.next() {
                 self.sums[row.start * len..row.end * len].copy_from_slice(values);
             }
@@ -398,18 +421,44 @@ mod tests {
     }
 
     #[test]
-    fn a_window_is_copied_and_put_back() {
+    fn windows_are_lent_and_put_back() {
         let mut all = accumulation(2);
         let len = all.layout().len();
         let inner = window([11, 21], [2, 2]);
         let values: Vec<f64> = (0..4 * len).map(|value| value as f64).collect();
         all.store(inner, &values, 7);
-        let mut copied = vec![5.0];
-        all.copy(inner, &mut copied);
-        assert_eq!(copied, values);
+        let mut lent = all.lend(&[window([10, 20], [4, 1]), inner]);
+        assert_eq!(lent.remove(1).concat(), values);
+        assert!(lent.remove(0).concat().iter().all(|&value| value == 0.0));
         assert_eq!(all.counts(), [0, 0, 0, 0, 0, 7, 7, 0, 0, 7, 7, 0]);
         assert_eq!(all.pixel(6), &values[len..2 * len]);
         assert!(all.pixel(7).iter().all(|&value| value == 0.0));
+    }
+
+    /// What is written to a lent row is in its pixels, also where windows are neighbors and out of order.
+    #[test]
+    fn lent_rows_are_those_of_the_pixels() {
+        let mut all = accumulation(1);
+        let len = all.layout().len();
+        let windows = [
+            window([12, 20], [2, 3]),
+            window([10, 21], [2, 1]),
+            window([10, 20], [2, 1]),
+        ];
+        let lent = all.lend(&windows);
+        for (value, rows) in (1..).zip(lent) {
+            rows.into_iter().for_each(|row| row.fill(f64::from(value)));
+        }
+        let firsts: Vec<f64> = all.sums().iter().step_by(len).copied().collect();
+        let expected = [3, 3, 1, 1, 2, 2, 1, 1, 0, 0, 1, 1].map(f64::from);
+        assert_eq!(firsts, expected);
+    }
+
+    #[test]
+    #[should_panic(expected = "windows do not overlap")]
+    fn a_pixel_is_lent_once() {
+        let mut all = accumulation(1);
+        all.lend(&[window([10, 20], [2, 2]), window([11, 21], [2, 2])]);
     }
 
     /// Every pixel below the number is in one round, with its own count.

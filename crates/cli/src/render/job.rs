@@ -15,7 +15,7 @@ use pellicle::spectra::{Accumulation, SpectralImage, Window};
 use pellicle::{Renderer, Session};
 
 /// Bytes of the strips in which an image is written.
-const STRIP: usize = 32 << 20;
+const STRIP: usize = 16 << 20;
 
 /// A picture to render.
 pub(super) struct Job<'a> {
