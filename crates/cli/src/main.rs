@@ -15,6 +15,7 @@ mod interrupt;
 mod lamp;
 mod materials;
 mod memory;
+mod merge;
 mod output;
 mod print;
 mod progress;
@@ -53,6 +54,7 @@ enum Command {
     Color(color::Arguments),
     Display(display::Arguments),
     Compare(compare::Arguments),
+    Merge(merge::Arguments),
     Inspect(inspect::Arguments),
     /// List the adapters that can render
     Devices,
@@ -85,6 +87,7 @@ fn main() -> ExitCode {
         Command::Color(arguments) => color::run(&arguments),
         Command::Display(arguments) => display::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Merge(arguments) => merge::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Devices => devices::print(),
         Command::Materials(arguments) => materials::run(&arguments),

@@ -15,11 +15,13 @@ pub mod adaptive;
 mod checkpoint;
 mod goal;
 mod identity;
+mod merge;
 pub mod noise;
 mod render;
 
 pub use checkpoint::CheckpointError;
 pub use goal::{End, Goal};
 pub use identity::{Difference, Identity};
+pub use merge::{MergeError, Merged, merge};
 pub use noise::NoiseEstimator;
 pub use render::Render;

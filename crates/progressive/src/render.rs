@@ -240,7 +240,7 @@ impl Render {
         let seconds = seconds_left.map_or(self.round_s, |left| left.min(self.round_s));
         match self.samples_per_s {
             // The first round shows how fast the scene is.
-            None => next,
+            None => next.min(self.level + FIRST_ROUND),
             Some(_) => next.min(self.level + self.fitting(seconds).max(1)),
         }
     }
