@@ -3,5 +3,6 @@
 
 mod direct_light;
 mod facet_energy;
+mod rounds;
 mod samplers;
 mod sampling;
