@@ -15,24 +15,36 @@ macro_rules! cases {
 mod adapters;
 mod booth;
 mod check;
+mod checkpoints;
 mod color;
 mod color_refusals;
 mod compare;
 mod develop;
 mod display;
+mod ends;
+mod faults;
 mod film;
 mod film_models;
 mod film_refusals;
 mod film_reports;
+#[cfg(target_os = "linux")]
+mod full_disks;
 mod images;
 mod inspect;
+#[cfg(unix)]
+mod kills;
+mod large_pictures;
 mod materials;
 mod pages;
 mod pipeline_cache;
 mod place;
 mod render;
 mod render_refusals;
+#[cfg(unix)]
+mod running;
 mod sequences;
+#[cfg(unix)]
+mod signals;
 mod standard_input;
 mod terminal;
 

@@ -13,6 +13,8 @@ pub(crate) const PELLICLE: &str = env!("CARGO_BIN_EXE_pellicle");
 pub(crate) struct Ran {
     /// Whether the exit code was 0.
     pub(crate) success: bool,
+    /// The exit code.
+    pub(crate) code: i32,
     /// Standard output.
     pub(crate) stdout: String,
     /// Standard error, without the lines that a driver writes when it finds no desktop.
@@ -26,12 +28,12 @@ impl Ran {
         let ours = |line: &&str| !line.contains("XDG_RUNTIME_DIR");
         let stderr = text(&output.stderr);
         assert!(!stderr.contains("panicked"), "{stderr}");
-        assert!(
-            output.status.code().is_some(),
-            "was ended by a signal: {stderr}"
-        );
+        let Some(code) = output.status.code() else {
+            panic!("was ended by a signal: {stderr}");
+        };
         Self {
             success: output.status.success(),
+            code,
             stdout: text(&output.stdout),
             stderr: stderr.split_inclusive('\n').filter(ours).collect(),
         }
