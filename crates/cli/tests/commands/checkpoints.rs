@@ -62,7 +62,7 @@ cases! { damaged:
     a_checkpoint_without_its_last_byte(|bytes| { bytes.pop(); }, DAMAGED);
     a_checkpoint_with_another_byte(|bytes| bytes.push(0), DAMAGED);
     the_first_line_alone(|bytes| bytes.truncate(22), DAMAGED);
-    an_empty_checkpoint(|bytes| bytes.clear(), UNKNOWN);
+    an_empty_checkpoint(Vec::clear, UNKNOWN);
     a_file_that_is_no_checkpoint(|bytes| *bytes = b"PELLICLE".repeat(99), UNKNOWN);
 }
 
@@ -95,7 +95,7 @@ fn foreign(options: &str, words: &[&str]) {
 }
 
 cases! { foreign:
-    a_checkpoint_of_another_seed("--seed 2", &["seed (1 instead of 2)"]);
+    a_checkpoint_of_another_seed("--seed 2", &["seed (0 instead of 2)"]);
     a_checkpoint_of_another_size("--size 18x24", &["size (24x18 instead of 18x24)", "window"]);
     a_checkpoint_of_other_bands("--bands 5", &["bands (4 from"]);
     a_checkpoint_of_another_backend("--backend gpu", &["backend ("]);

@@ -1,8 +1,8 @@
 //! Faults of a device in the midst of a render.
 
-use crate::assert_says;
 use crate::place::{Place, Ran};
-use crate::render::{bytes, exr, render};
+use crate::render::{bytes, exr};
+use crate::{assert_says, scene};
 use std::sync::OnceLock;
 
 /// A picture of seven rounds: to 1, 2, 4, 8, 16, 32 and 64 samples.
@@ -12,7 +12,8 @@ const TOO_MANY: &str = "--inject-fault lost@3 --inject-fault refused@3 --inject-
                         --inject-fault out-of-memory@3 --inject-fault lost@3";
 
 fn run(place: &Place, options: &str) -> Ran {
-    place.run(&render(&format!("{SETTINGS} {options}")))
+    let wedge = scene("film_wedge.toml");
+    place.run(&format!("render {wedge} {SETTINGS} {options}"))
 }
 
 /// The bytes of the picture without faults.
@@ -87,16 +88,12 @@ fn the_cpu_goes_on_if_it_may() {
 #[test]
 fn a_checkpoint_remembers_that_the_cpu_went_on() {
     let place = Place::default();
-    let settings = SETTINGS.replace("--samples 64", "");
-    let run = |options: &str| {
-        place
-            .run(&render(&format!("{settings} {options}")))
-            .succeeded()
-    };
-    let _ = run(&format!(
-        "--samples 16 {TOO_MANY} --allow-cpu --checkpoint kept -o a.exr"
-    ));
-    let _ = run("--samples 32 --checkpoint kept --resume -o a.exr");
-    let renderer = exr(&place, "a.exr").1.settings["renderer"].clone();
+    let _ = run(
+        &place,
+        &format!("{TOO_MANY} --allow-cpu --checkpoint kept -o a.exr"),
+    )
+    .succeeded();
+    let _ = run(&place, "--checkpoint kept --resume -o b.exr").succeeded();
+    let renderer = exr(&place, "b.exr").1.settings["renderer"].clone();
     assert!(renderer.contains("CPU"), "{renderer}");
 }

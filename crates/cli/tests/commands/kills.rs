@@ -4,8 +4,9 @@
 
 use crate::checkpoints::assert_is_whole;
 use crate::place::Place;
-use crate::render::{bytes, exr, render};
-use crate::running::{Random, Running, exists, temporary, tries};
+use crate::render::{bytes, exr};
+use crate::running::{Random, Running, exists, is_temporary, temporary, tries};
+use crate::scene;
 use std::time::Duration;
 
 /// The moment of a kill.
@@ -63,23 +64,20 @@ fn assert_is_sound(place: &Place) {
         let _ = exr(place, "a.exr");
     }
     for name in place.names() {
-        let is_temporary = name.starts_with('.') && name.ends_with(".tmp");
         let is_known = ["kept", "a.exr", "whole.exr"].contains(&&name[..]);
-        assert!(is_temporary || is_known, "{name}");
+        assert!(is_temporary(&name) || is_known, "{name}");
     }
 }
 
 /// Kills renders, each of which goes on from the one before, and compares what the last writes with a render in one go. A killed
 /// render leaves its temporary file; no later render removes or reads it.
-fn a_killed_render_goes_on(settings: &str, longest_ms: u64) {
+fn a_killed_render_goes_on(of: &str, settings: &str, longest_ms: u64) {
     let place = Place::default();
-    let _ = place
-        .run(&render(&format!("{settings} -o whole.exr")))
-        .succeeded();
+    let render = format!("render {} {settings}", scene(of));
+    let _ = place.run(&format!("{render} -o whole.exr")).succeeded();
     let whole = bytes(&place, "whole.exr");
-    let again = render(&format!(
-        "{settings} -o a.exr --checkpoint kept --checkpoint-every 20ms --resume"
-    ));
+    let options = "-o a.exr --checkpoint kept --checkpoint-every 20ms --resume";
+    let again = format!("{render} {options}");
     let mut random = Random(1);
     let (mut kills, mut finished) = (0, 0);
     while kills < tries(10) {
@@ -109,7 +107,10 @@ fn a_killed_render_goes_on(settings: &str, longest_ms: u64) {
     assert!(finished > 1, "one picture only");
 }
 
+const BUBBLE: &str = "--backend cpu --size 48x36 --bands 8 --samples 256";
+const WEDGE: &str = "--backend gpu --size 32x24 --bands 8 --samples 128";
+
 cases! { a_killed_render_goes_on:
-    a_killed_render_goes_on_on_the_cpu("--backend cpu --size 48x36 --bands 8 --samples 256", 800);
-    a_killed_render_goes_on_on_the_gpu("--backend gpu --size 24x18 --bands 8 --samples 64", 2000);
+    a_killed_render_goes_on_on_the_cpu("soap_bubble.toml", BUBBLE, 800);
+    a_killed_render_goes_on_on_the_gpu("film_wedge.toml", WEDGE, 1000);
 }

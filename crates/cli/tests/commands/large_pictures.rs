@@ -24,7 +24,9 @@ fn least(place: &Place, options: &str) -> f64 {
 }
 
 /// With enough memory for strips, but not for the whole picture, the bytes are the same.
-fn strips_have_the_same_bytes(options: &str) {
+#[test]
+fn strips_have_the_same_bytes() {
+    let options = "--samples 2";
     let place = Place::default();
     let _ = place
         .run(&render(&format!("{LARGE} {options} -o whole")))
@@ -45,11 +47,6 @@ fn strips_have_the_same_bytes(options: &str) {
         bytes(&place, "strips.exr") == bytes(&place, "whole.exr"),
         "other bytes"
     );
-}
-
-cases! { strips_have_the_same_bytes:
-    strips_of_one_sample("--samples 1");
-    strips_of_two_samples("--samples 2");
 }
 
 #[test]
@@ -74,6 +71,30 @@ fn what_needs_all_pixels_is_not_rendered_in_strips() {
     assert_eq!(ran.code, 1);
     assert_says(&ran.failed(), &["leave out", "--noise"]);
     assert!(place.names().is_empty());
+}
+
+/// A signal ends a render in strips after a strip: the file is whole, the other rows have no samples, and it says so.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_picture_in_strips_says_so() {
+    use crate::running::{Running, temporary};
+
+    let place = Place::default();
+    let memory = (1.01 * least(&place, "--samples 1")).ceil();
+    let settings = format!("{LARGE} --samples 1 --max-memory {memory}MB -o a.exr");
+    let mut running = Running::start(&place, &render(&settings));
+    assert!(running.wait_for(|| !temporary(&place, "a.exr").is_empty()));
+    running.signal("INT");
+    let ran = running.ran();
+    assert_eq!(ran.code, 130, "{}", ran.stderr);
+    assert_says(&ran.stderr, &["stopped before row", "--crop 0,"]);
+    assert_eq!(place.names(), ["a.exr"]);
+    let (image, metadata) = exr(&place, "a.exr");
+    let samples = image.samples();
+    assert_eq!((samples[0], samples[9999]), (1, 0));
+    assert!(samples.is_sorted_by(|a, b| a >= b), "rows in between");
+    let stopped_by = metadata.settings.get("stopped_by");
+    assert_ne!(stopped_by.map(|by| &by[..]), Some("samples"));
 }
 
 /// A crop has the pixels of the whole picture, and the file says where they are in it.

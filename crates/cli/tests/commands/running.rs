@@ -5,7 +5,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 /// How long anything may take that a test waits for: a driver's compiler on a machine with much else to do.
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_mins(2);
 /// How often a folder is looked at: files are written within milliseconds.
 const GLANCE: Duration = Duration::from_micros(200);
 
@@ -103,11 +103,17 @@ pub(crate) fn tries(usual: u32) -> u32 {
     asked.map_or(usual, |number| number.parse().unwrap())
 }
 
+/// Whether a name is that of a temporary file.
+pub(crate) fn is_temporary(name: &str) -> bool {
+    name.strip_suffix(".tmp")
+        .is_some_and(|rest| rest.starts_with('.'))
+}
+
 /// The names of temporary files for a target, or for any.
 pub(crate) fn temporary(place: &Place, target: &str) -> Vec<String> {
     let mut names = place.names();
     let start = format!(".{target}");
-    names.retain(|name| name.starts_with(&start) && name.ends_with(".tmp"));
+    names.retain(|name| name.starts_with(&start) && is_temporary(name));
     names
 }
 

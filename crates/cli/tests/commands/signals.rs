@@ -1,6 +1,7 @@
 //! SIGINT and SIGTERM while a picture is rendered and written.
 
 use crate::assert_says;
+use crate::checkpoints::assert_is_whole;
 use crate::place::{Place, Ran};
 use crate::render::{bytes, exr, png, render};
 use crate::running::{Random, Running, exists, temporary, tries};
@@ -65,7 +66,7 @@ fn without_a_checkpoint_other_samples_are_suggested() {
 #[test]
 fn a_render_that_was_interrupted_thrice_has_the_same_bytes() {
     let place = Place::default();
-    let settings = "--backend cpu --size 48x36 --bands 8 --samples 2048";
+    let settings = "--backend cpu --size 48x36 --bands 8 --samples 512";
     let _ = place
         .run(&render(&format!("{settings} -o whole.exr")))
         .succeeded();
@@ -129,46 +130,77 @@ fn two_signals_at_once_are_one() {
     assert_says(&ran.stderr, &["wrote a.exr"]);
 }
 
-/// Nothing is left of a file that a signal finds half written, whenever it comes.
+/// A folder with files from before.
+fn old_files() -> Place {
+    let place = Place::default();
+    for name in ["a.exr", "a.png"] {
+        std::fs::write(place.path(name), "old").unwrap();
+    }
+    place
+}
+
+/// Each file is the old one or whole, and there is no other.
+fn assert_none_is_half(place: &Place, ran: &Ran) {
+    assert!(matches!(ran.code, 0 | 130), "{}", ran.stderr);
+    assert_eq!(temporary(place, ""), Vec::<String>::new());
+    let is_old = |name| bytes(place, name) == b"old";
+    if !is_old("a.exr") {
+        let _ = exr(place, "a.exr");
+    }
+    if !is_old("a.png") {
+        let _ = png(place, "a.png");
+    }
+    if exists(place, "kept") {
+        assert_is_whole(place, "kept");
+    }
+    if ran.code == 0 {
+        assert!(!is_old("a.exr") && !is_old("a.png"));
+    }
+}
+
+/// Any of the files that a render writes.
+fn any_file(random: &mut Random) -> &'static str {
+    ["kept", "a.exr", "a.png"][random.below(3) as usize]
+}
+
 #[test]
 fn a_signal_while_files_are_written_leaves_none_of_them_half() {
     let mut random = Random(7);
-    let mut codes = Vec::new();
     for number in 0..tries(10) {
-        let place = Place::default();
-        for name in ["a.exr", "a.png"] {
-            std::fs::write(place.path(name), "old").unwrap();
-        }
+        let place = old_files();
         let settings = "--backend cpu --size 96x72 --bands 16 --samples 1 -o a --checkpoint kept";
         let mut running = Running::start(&place, &render(settings));
-        let target = ["kept", "a.exr", "a.png"][random.below(3) as usize];
+        let target = any_file(&mut random);
         let delay = Duration::from_micros(random.below(2) * random.below(50_000));
         running.wait_for(|| !temporary(&place, target).is_empty());
         std::thread::sleep(delay);
         running.signal("INT");
-        // Once for the rest of the picture, and once more for what is written after it.
-        std::thread::sleep(Duration::from_millis(random.below(3)));
+        let ran = running.ran();
+        println!("seed 7, try {number}: {target} and {delay:?}: {}", ran.code);
+        assert_none_is_half(&place, &ran);
+    }
+}
+
+/// The first signal comes in a round that lasts, and the second while something is written.
+#[test]
+fn a_second_signal_while_files_are_written_leaves_none_of_them_half() {
+    let mut random = Random(5);
+    for number in 0..tries(3) {
+        let place = old_files();
+        let settings = "--backend cpu --size 480x360 --bands 4 --samples 2 -o a --checkpoint kept";
+        let mut command = place.command(&render(settings));
+        let mut running = Running::of(command.env("RAYON_NUM_THREADS", "1"));
+        let target = any_file(&mut random);
+        let delay = Duration::from_micros(random.below(2) * random.below(20_000));
+        std::thread::sleep(Duration::from_millis(150));
+        running.signal("INT");
+        running.wait_for(|| !temporary(&place, target).is_empty());
+        std::thread::sleep(delay);
         running.signal("INT");
         let ran = running.ran();
-        println!(
-            "seed 7, try {number}: {target} + {delay:?}: code {}",
-            ran.code
-        );
-        codes.push(ran.code);
-        assert!(matches!(ran.code, 0 | 130), "{}", ran.stderr);
-        assert_eq!(temporary(&place, ""), Vec::<String>::new());
-        let is_old = |name| bytes(&place, name) == b"old";
-        if !is_old("a.exr") {
-            let _ = exr(&place, "a.exr");
-        }
-        if !is_old("a.png") {
-            let _ = png(&place, "a.png");
-        }
-        if ran.code == 0 {
-            assert!(!is_old("a.exr") && !is_old("a.png"));
-        }
+        println!("seed 5, try {number}: {target} and {delay:?}: {}", ran.code);
+        assert_none_is_half(&place, &ran);
     }
-    println!("{codes:?}");
 }
 
 /// Before anything is rendered a signal ends the program, with nothing written.
