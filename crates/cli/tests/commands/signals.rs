@@ -181,13 +181,13 @@ fn a_signal_while_files_are_written_leaves_none_of_them_half() {
     }
 }
 
-/// The first signal comes in a round that lasts, and the second while something is written.
+/// The first signal comes in a round that lasts, and the second, more than half a second later, while something is written.
 #[test]
 fn a_second_signal_while_files_are_written_leaves_none_of_them_half() {
     let mut random = Random(5);
     for number in 0..tries(3) {
         let place = old_files();
-        let settings = "--backend cpu --size 480x360 --bands 4 --samples 2 -o a --checkpoint kept";
+        let settings = "--backend cpu --size 800x600 --bands 4 --samples 2 -o a --checkpoint kept";
         let mut command = place.command(&render(settings));
         let mut running = Running::of(command.env("RAYON_NUM_THREADS", "1"));
         let target = any_file(&mut random);
@@ -198,7 +198,11 @@ fn a_second_signal_while_files_are_written_leaves_none_of_them_half() {
         std::thread::sleep(delay);
         running.signal("INT");
         let ran = running.ran();
-        println!("seed 5, try {number}: {target} and {delay:?}: {}", ran.code);
+        println!(
+            "seed 5, try {number}: {target} and {delay:?}: {}, {:?}",
+            ran.code,
+            place.names()
+        );
         assert_none_is_half(&place, &ran);
     }
 }
