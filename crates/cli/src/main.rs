@@ -39,7 +39,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     /// Render a scene to a picture (PNG) and a spectral image (EXR)
-    Render(render::Arguments),
+    Render(Box<render::Arguments>),
     /// Develop a spectral image into a picture for a display
     Develop(develop::Arguments),
     /// Validate a scene without rendering it

@@ -21,15 +21,24 @@ pub(crate) enum Layout {
     Strips(u32),
 }
 
+/// What pictures are developed from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Pictures {
+    /// There are none.
+    None,
+    /// The colors of the pixels.
+    OfColors,
+    /// The spectra of all pixels.
+    OfSpectra,
+}
+
 /// What decides over the memory of a render.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Needs {
-    /// Whether pictures are developed.
-    pub(crate) pictures: bool,
-    /// Whether that needs the spectra of all pixels.
-    pub(crate) spectra: bool,
-    /// Whether copies of the state are written to checkpoints.
-    pub(crate) checkpoints: bool,
+    /// Whether pictures are developed, and from what.
+    pub(crate) pictures: Pictures,
+    /// How many copies of the state there are: one more if checkpoints are written.
+    pub(crate) copies: u64,
     /// Whether anything needs all pixels at once: an end other than a number of samples, previews, checkpoints.
     pub(crate) rounds: bool,
 }
@@ -48,12 +57,12 @@ pub(crate) fn layout(
     let pixels = window.pixels() as u64;
     let state = Accumulation::bytes_per_pixel(bands, groups);
     let image = SpectralImage::bytes(1, 1, bands, groups) as u64;
-    let mut developing = if needs.pictures { DEVELOPED } else { 0 };
-    if needs.spectra {
-        developing += image;
-    }
-    let copies = if needs.checkpoints { 2 } else { 1 };
-    let whole = BASE + pixels * (copies * state + developing);
+    let developing = match needs.pictures {
+        Pictures::None => 0,
+        Pictures::OfColors => DEVELOPED,
+        Pictures::OfSpectra => DEVELOPED + image,
+    };
+    let whole = BASE + pixels * (needs.copies * state + developing);
     if whole <= available {
         return Ok((Layout::Whole, whole));
     }
@@ -138,7 +147,7 @@ pub(crate) fn bytes(text: &str) -> Result<u64, String> {
         .trim()
         .parse()
         .map_or(0.0, |number: f64| number * unit);
-    if bytes >= 1.0 && bytes < 1e18 {
+    if (1.0..1e18).contains(&bytes) {
         Ok(bytes as u64)
     } else {
         Err("write a size with its unit, as in 512MB or 4GB".to_owned())
@@ -200,9 +209,8 @@ mod tests {
         let scene = file.unwrap().validate().unwrap();
         let window = Window::whole([7680, 4320]);
         let needs = Needs {
-            pictures: true,
-            spectra: false,
-            checkpoints: false,
+            pictures: Pictures::OfColors,
+            copies: 1,
             rounds: false,
         };
         let at = |needs, available| layout(&scene, window, needs, available);
@@ -219,7 +227,7 @@ mod tests {
         };
         assert!(at(rounds, 8_000_000_000).is_err());
         let copies = Needs {
-            checkpoints: true,
+            copies: 2,
             ..rounds
         };
         assert!(at(copies, u64::MAX).unwrap().1 > 40_000_000_000);

@@ -43,11 +43,31 @@ impl Outputs {
                 }
             }
         }
-        for path in outputs.pictures.iter().chain(&outputs.spectral) {
+        for path in outputs.paths() {
             check_place("-o", path, scene)?;
         }
         outputs.check_names()?;
         Ok(outputs)
+    }
+
+    /// Checks that a file beside the outputs can be written, and is none of them.
+    pub(crate) fn check_also(&self, option: &str, path: &Path, read: &Path) -> miette::Result<()> {
+        if is_stream(path) {
+            return Err(miette!(
+                help = "name a file",
+                "{option} {}: this is no file",
+                path.display()
+            ));
+        }
+        check_place(option, path, read)?;
+        let mut all = Self::default();
+        all.spectral.extend(self.paths().cloned());
+        all.spectral.push(path.to_owned());
+        all.check_names()
+    }
+
+    fn paths(&self) -> impl Iterator<Item = &PathBuf> {
+        self.pictures.iter().chain(&self.spectral)
     }
 
     /// Checks that no file is written twice, under one name or under two.
@@ -57,7 +77,7 @@ impl Outputs {
         if to_standard_output.count() > 1 {
             return Err(miette!("-o -: standard output gets one picture"));
         }
-        for path in self.pictures.iter().chain(&self.spectral) {
+        for path in self.paths() {
             let Ok(Destination::File(file)) = Destination::of(path) else {
                 continue;
             };
@@ -66,7 +86,7 @@ impl Outputs {
             if let Some((first, _)) = known.iter().find(|(_, other)| *other == file) {
                 return Err(miette!(
                     help = "name each file once",
-                    "-o {} and -o {}: these are the same file",
+                    "{} and {}: these are the same file",
                     first.display(),
                     path.display()
                 ));
@@ -109,28 +129,25 @@ impl Outputs {
     pub(crate) fn spectral(&self) -> &[PathBuf] {
         &self.spectral
     }
+}
 
-    /// Writes a spectral image whose rows are supplied while it is written.
-    pub(crate) fn write_rows(
-        &self,
-        path: &Path,
-        frame: Frame,
-        metadata: &Metadata,
-        next: &mut dyn FnMut() -> miette::Result<Option<SpectralImage>>,
-    ) -> miette::Result<()> {
-        let written =
-            spectral_exr::write_rows(path, frame, metadata, WriteOptions::default(), next);
-        match written {
-            Ok(()) => print::note(format_args!("wrote {}", path.display())),
-            Err(WriteRowsError::Source(error)) => return Err(error),
-            Err(WriteRowsError::Write(error)) => {
-                let error = Err(error).into_diagnostic();
-                return error.wrap_err_with(|| format!("{} was not written", path.display()));
-            }
-            Err(_) => return Err(miette!("{} was not written", path.display())),
+/// Writes a spectral image whose rows are supplied while it is written.
+pub(crate) fn write_rows(
+    path: &Path,
+    frame: Frame,
+    metadata: &Metadata,
+    next: &mut dyn FnMut() -> miette::Result<Option<SpectralImage>>,
+) -> miette::Result<()> {
+    match spectral_exr::write_rows(path, frame, metadata, WriteOptions::default(), next) {
+        Ok(()) => print::note(format_args!("wrote {}", path.display())),
+        Err(WriteRowsError::Source(error)) => return Err(error),
+        Err(WriteRowsError::Write(error)) => {
+            let error = Err(error).into_diagnostic();
+            return error.wrap_err_with(|| format!("{} was not written", path.display()));
         }
-        Ok(())
+        Err(_) => return Err(miette!("{} was not written", path.display())),
     }
+    Ok(())
 }
 
 /// Inserts a number before the ending, which every output has.

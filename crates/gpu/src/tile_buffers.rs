@@ -228,9 +228,10 @@ fn unpacked(sums: &Sums<'_>, layout: SumLayout, tile: Window) -> Vec<f64> {
         }
         if light_groups > 1 {
             // The device keeps no mean of the total.
-            for band in 0..bands {
-                let of_groups = (0..light_groups).map(|group| own[layout.group_mean(group)][band]);
-                own[layout.mean()][band] = of_groups.sum();
+            for group in 0..light_groups {
+                for (band, place) in layout.group_mean(group).enumerate() {
+                    own[layout.mean().start + band] += own[place];
+                }
             }
         }
     });

@@ -19,6 +19,7 @@ pub struct Session<'a> {
     backend: Backend<'a>,
     allow_cpu: bool,
     reopened: u32,
+    has_left_gpu: bool,
     notes: Vec<String>,
     /// The number of calls of [`Session::advance`], and the faults to come in some of them.
     rounds: u32,
@@ -71,6 +72,7 @@ impl<'a> Session<'a> {
             backend,
             allow_cpu: false,
             reopened: 0,
+            has_left_gpu: false,
             notes: Vec::new(),
             rounds: 0,
             faults: Vec::new(),
@@ -158,6 +160,7 @@ impl<'a> Session<'a> {
         if self.allow_cpu {
             self.notes.push(format!("{error}; the CPU goes on"));
             self.backend = Backend::cpu(self.scene);
+            self.has_left_gpu = true;
             return Ok(());
         }
         Err(RenderError::Gpu(error))
@@ -168,9 +171,9 @@ impl<'a> Session<'a> {
         std::mem::take(&mut self.notes)
     }
 
-    /// Whether the CPU renders, from the beginning or since a device has failed.
-    pub fn is_on_cpu(&self) -> bool {
-        matches!(self.backend, Backend::Cpu(_))
+    /// Whether the CPU renders because a device has failed.
+    pub fn has_left_gpu(&self) -> bool {
+        self.has_left_gpu
     }
 
     /// Makes a fault happen on the device during a call of [`Session::advance`], the first of which is 1: for tests.

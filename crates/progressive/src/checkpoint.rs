@@ -85,6 +85,8 @@ pub(crate) struct State {
     pub(crate) stop: u32,
     /// The number of samples of each tile; empty if all pixels have as many.
     pub(crate) plan: Vec<u32>,
+    /// Whether the CPU has continued what a GPU began.
+    pub(crate) is_mixed: bool,
 }
 
 /// The identity of a render of a window and of samples from some number on.
@@ -125,7 +127,7 @@ pub(crate) fn write(
         out.write_all(MAGIC)?;
         out.write_all(&(header.len() as u64).to_le_bytes())?;
         out.write_all(&header)?;
-        write_each(&mut out, counts, |count| count.to_le_bytes())?;
+        write_each(&mut out, counts, u32::to_le_bytes)?;
         if is_f32 {
             write_each(&mut out, sums, |sum| (sum as f32).to_le_bytes())?;
         } else {
@@ -349,6 +351,7 @@ mod tests {
             noise: vec![0, 255, 3],
             stop: 16,
             plan: vec![4, 8],
+            is_mixed: true,
         }
     }
 

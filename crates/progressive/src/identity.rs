@@ -96,6 +96,15 @@ impl Identity {
         self
     }
 
+    /// The identity of a render that the CPU has continued after the GPU failed. It goes with no other file.
+    #[must_use]
+    pub fn mixed(mut self) -> Self {
+        if let Some(backend) = self.0.get_mut("backend") {
+            backend.push_str(", then the CPU");
+        }
+        self
+    }
+
     /// Adds an entry.
     pub(crate) fn insert(&mut self, name: &str, value: String) {
         self.0.insert(name.to_owned(), value);

@@ -27,6 +27,8 @@ pub struct Render {
     plan: Vec<u32>,
     /// The samples that all pixels have, or as many as their tile's.
     level: u32,
+    /// Whether the CPU has continued what a GPU began.
+    is_mixed: bool,
     /// The number of samples at which the noise is judged next.
     stop: u32,
     /// What was spent since the render began or was resumed.
@@ -47,6 +49,7 @@ impl Render {
             noise,
             plan: Vec::new(),
             level: 0,
+            is_mixed: false,
             stop: LEAST_JUDGED.min(goal.samples),
             seconds: 0.0,
             samples_per_s: None,
@@ -77,7 +80,7 @@ impl Render {
         if !state.plan.is_empty() && state.plan.len() != adaptive::tiles(window).count() {
             return Err(damaged("its plan has not as many tiles as its picture"));
         }
-        (own.plan, own.stop) = (state.plan, state.stop);
+        (own.plan, own.stop, own.is_mixed) = (state.plan, state.stop, state.is_mixed);
         own.level = own.reached();
         own.judge();
         if let (Some(goal), None) = (goal.noise, own.end)
@@ -118,6 +121,16 @@ impl Render {
         !self.plan.is_empty()
     }
 
+    /// Records that the CPU continues what a GPU began.
+    pub fn mix(&mut self) {
+        self.is_mixed = true;
+    }
+
+    /// Whether the CPU has continued what a GPU began.
+    pub fn is_mixed(&self) -> bool {
+        self.is_mixed
+    }
+
     /// Makes rounds shorter, so that what is done between them is done more often.
     pub fn limit_rounds(&mut self, seconds: f64) {
         self.round_s = self.round_s.min(seconds);
@@ -136,6 +149,7 @@ impl Render {
             noise: self.noise.to_bytes(),
             stop: self.stop,
             plan: self.plan.clone(),
+            is_mixed: self.is_mixed,
         };
         checkpoint::write(path, identity, &self.accumulation, &state)
     }

@@ -447,7 +447,9 @@ mod tests {
         ];
         let lent = all.lend(&windows);
         for (value, rows) in (1..).zip(lent) {
-            rows.into_iter().for_each(|row| row.fill(f64::from(value)));
+            for row in rows {
+                row.fill(f64::from(value));
+            }
         }
         let firsts: Vec<f64> = all.sums().iter().step_by(len).copied().collect();
         let expected = [3, 3, 1, 1, 2, 2, 1, 1, 0, 0, 1, 1].map(f64::from);

@@ -37,6 +37,7 @@ impl Window {
     }
 
     /// Some of its rows, counted from its own first one.
+    #[must_use]
     pub fn rows(&self, rows: std::ops::Range<u32>) -> Self {
         Self {
             origin: [self.origin[0], self.origin[1] + rows.start],

@@ -133,7 +133,9 @@ fn a_bias_would_be_noticed() {
     let found = adaptive_image(11, 64, |image| {
         for mut row in image.rows_mut() {
             let radiance = row.take(spectra::LayerKey::RADIANCE);
-            radiance.iter_mut().for_each(|value| *value *= 1.02);
+            for value in radiance {
+                *value *= 1.02;
+            }
         }
     });
     let noticed = same_expectation(&found, &plain);
@@ -143,7 +145,9 @@ fn a_bias_would_be_noticed() {
 /// The noise of a picture, as defined for [`pellicle::progressive::NoiseEstimator`], from renders with different seeds.
 fn measured_noise(images: &[SpectralImage]) -> f64 {
     let mut variance = SeedVariance::default();
-    images.iter().for_each(|image| variance.add(image));
+    for image in images {
+        variance.add(image);
+    }
     let bands = images[0].bands().count() as usize;
     let mean = |pixel: usize| {
         let of = |image: &SpectralImage| {
@@ -163,21 +167,21 @@ fn measured_noise(images: &[SpectralImage]) -> f64 {
 }
 
 /// A render that ends at a noise says a noise that renders with 16 seeds have.
-fn noise_is_honest(name: &str, sampler: Sampler) {
+fn noise_is_honest(name: &str, sampler: Sampler, wanted: f64) {
     let goal = Goal {
-        noise: Some(0.02),
+        noise: Some(wanted),
         ..Goal::samples(1 << 14)
     };
     let renderer = cpu();
-    let scene = small(name, [48, 36], 1, sampler);
+    let scene = small(name, [96, 72], 1, sampler);
     let render = Render::new(empty(&scene, 0), goal);
     let render = rendered(&mut session(&renderer, &scene), render);
     assert_eq!(render.end(), Some(End::Noise));
     let (said, samples) = (render.noise().unwrap(), render.level());
-    assert!(said <= 0.02);
+    assert!(said <= wanted);
     let images: Vec<_> = (0..16)
         .map(|seed| {
-            let scene = small(name, [48, 36], 100 + seed, sampler);
+            let scene = small(name, [96, 72], 100 + seed, sampler);
             let render = Render::new(empty(&scene, 0), Goal::samples(samples));
             rendered(&mut session(&renderer, &scene), render)
                 .accumulation()
@@ -195,20 +199,20 @@ fn noise_is_honest(name: &str, sampler: Sampler) {
 
 #[test]
 fn the_noise_of_a_bubble_is_honest() {
-    noise_is_honest("soap_bubble", Sampler::Sobol);
+    noise_is_honest("soap_bubble", Sampler::Sobol, 0.02);
 }
 
 #[test]
 fn the_noise_of_metals_is_honest() {
-    noise_is_honest("metals", Sampler::Sobol);
+    noise_is_honest("metals", Sampler::Sobol, 0.02);
 }
 
 #[test]
 fn the_noise_of_a_disk_is_honest() {
-    noise_is_honest("brushed_disk", Sampler::Sobol);
+    noise_is_honest("brushed_disk", Sampler::Sobol, 0.02);
 }
 
 #[test]
 fn the_noise_of_independent_samples_is_honest() {
-    noise_is_honest("soap_bubble", Sampler::Independent);
+    noise_is_honest("soap_bubble", Sampler::Independent, 0.05);
 }

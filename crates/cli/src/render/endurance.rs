@@ -223,7 +223,7 @@ mod tests {
     #[test]
     fn arguments_are_read() {
         assert_eq!(duration("90s"), Ok(Duration::from_secs(90)));
-        assert_eq!(duration("10min"), Ok(Duration::from_secs(600)));
+        assert_eq!(duration("10min"), Ok(Duration::from_mins(10)));
         assert!(
             ["90", "0s", "-1s", "soon"]
                 .iter()

@@ -3,16 +3,16 @@
 use super::keeper::Keeper;
 use super::{Arguments, Endurance, Outcome, of_image, rounds, strips};
 use crate::develop::{self, FOV_SETTING};
-use crate::memory::{self, Layout, Needs};
-use crate::output::Outputs;
+use crate::memory::{self, Layout, Needs, Pictures};
+use crate::output::{Outputs, write_rows};
 use crate::print;
 use miette::miette;
+use pellicle::Renderer;
 use pellicle::picture_file::spectral_exr::{Frame, Metadata};
 use pellicle::progressive::{Goal, Identity, Render};
 use pellicle::relight::XyzImage;
 use pellicle::scene::Scene;
 use pellicle::spectra::{Accumulation, SpectralImage, Window};
-use pellicle::{Renderer, Session};
 
 /// Bytes of the strips in which an image is written.
 const STRIP: usize = 16 << 20;
@@ -43,9 +43,12 @@ impl<'a> Job<'a> {
         let (endurance, developing) = (&arguments.endurance, &arguments.developing);
         let window = endurance.window(scene.settings())?;
         let needs = Needs {
-            pictures: !outputs.pictures().is_empty(),
-            spectra: !outputs.pictures().is_empty() && developing.needs_spectra(),
-            checkpoints: endurance.checkpoint.is_some(),
+            pictures: match (outputs.pictures(), developing.needs_spectra()) {
+                ([], _) => Pictures::None,
+                (_, false) => Pictures::OfColors,
+                (_, true) => Pictures::OfSpectra,
+            },
+            copies: if endurance.checkpoint.is_some() { 2 } else { 1 },
             rounds: endurance.needs_rounds() || outputs.spectral().len() > 1,
         };
         let available = endurance.max_memory.unwrap_or_else(memory::available);
@@ -130,9 +133,9 @@ impl<'a> Job<'a> {
     }
 
     /// Writes everything.
-    pub(super) fn write(&self, render: &Render, session: &Session<'_>) -> miette::Result<()> {
+    pub(super) fn write(&self, render: &Render) -> miette::Result<()> {
         let all = render.accumulation();
-        let mut metadata = self.metadata(session.is_on_cpu());
+        let mut metadata = self.metadata(render.is_mixed());
         let mut put = |name: &str, value: String| metadata.settings.insert(name.to_owned(), value);
         put("samples", render.level().to_string());
         put(
@@ -147,13 +150,15 @@ impl<'a> Job<'a> {
         if render.is_adaptive() {
             put("adaptive", "by tiles of 16 × 16 pixels".to_owned());
         }
-        for path in self.outputs.spectral() {
+        // A file that cannot be written does not prevent the others.
+        let spectral = self.outputs.spectral().iter().map(|path| {
             let mut strips = strips_of(all);
             let mut next = || Ok(strips.next());
-            self.outputs
-                .write_rows(path, self.frame(), &metadata, &mut next)?;
-        }
-        self.write_pictures(all, false)
+            write_rows(path, self.frame(), &metadata, &mut next)
+        });
+        let spectral: Vec<miette::Result<()>> = spectral.collect();
+        let pictures = self.write_pictures(all, false);
+        spectral.into_iter().chain([pictures]).collect()
     }
 
     /// Develops and writes the pictures; a preview is not reported.
@@ -197,12 +202,13 @@ impl<'a> Job<'a> {
         }
     }
 
-    /// What the spectral image records about how it was made.
-    pub(super) fn metadata(&self, is_on_cpu: bool) -> Metadata {
+    /// What the spectral image records about how it was made, by the renderer alone or with the CPU's help.
+    pub(super) fn metadata(&self, is_mixed: bool) -> Metadata {
         let settings = self.scene.settings();
-        let mut renderer = self.renderer.description();
-        if is_on_cpu && matches!(self.renderer, Renderer::Gpu(_)) {
+        let (mut renderer, mut identity) = (self.renderer.description(), self.identity.clone());
+        if is_mixed {
             renderer += ", then the CPU";
+            identity = identity.mixed();
         }
         let said = [
             ("renderer", renderer),
@@ -223,7 +229,7 @@ impl<'a> Job<'a> {
         let said = said.map(|(key, value)| (key.to_owned(), value));
         Metadata {
             exposure_ev: settings.exposure_ev,
-            settings: said.chain(self.identity.settings()).collect(),
+            settings: said.chain(identity.settings()).collect(),
             ..Metadata::default()
         }
     }

@@ -144,6 +144,9 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<Outcome> {
     developing.relight(&mut pixel, &mut of_image(&scene))?;
     developing.check_lamps(pixel.light_groups())?;
     endurance.check(scene.settings(), arguments.overrides.samples)?;
+    if let Some(checkpoint) = &endurance.checkpoint {
+        outputs.check_also("--checkpoint", checkpoint, &arguments.scene)?;
+    }
     let renderer = Renderer::open(&arguments.backend()?).into_diagnostic()?;
     if let Renderer::Cpu {
         instead_of_gpu: Some(reason),

@@ -30,9 +30,8 @@ pub(super) fn run(job: &Job<'_>) -> miette::Result<Outcome> {
     // The state is kept before anything else can fail.
     let kept = keeper.map_or(Ok(()), |keeper| keeper.finish(&render));
     job.print_speed(&render, render.done() - before, seconds);
-    job.write(&render, &session)?;
-    kept?;
-    rendered?;
+    let written = job.write(&render);
+    rendered.and(kept).and(written)?;
     match (render.end(), interrupt::signal()) {
         (None, Some(signal)) => {
             print::note(job.how_to_resume(&render));
@@ -62,10 +61,7 @@ fn begin<'a>(job: &Job<'a>, progress: &mut Progress) -> miette::Result<(Session<
     if endurance.adaptive && !render.is_adaptive() {
         render = render.with_plan(plan(job, progress)?);
     }
-    let mut session = session(job, job.scene, progress)?;
-    for &(fault, round) in &endurance.inject_fault {
-        session.inject(fault, round);
-    }
+    let session = session(job, job.scene, progress)?;
     progress.set_state(&render);
     if let Some(interval) = endurance.shortest_interval() {
         render.limit_rounds(interval.as_secs_f64());
@@ -83,7 +79,10 @@ pub(super) fn session<'a>(
         progress.update(done);
         ControlFlow::Continue(())
     });
-    let session = session.into_diagnostic()?;
+    let mut session = session.into_diagnostic()?;
+    for &(fault, round) in &job.endurance.inject_fault {
+        session.inject(fault, round);
+    }
     Ok(session.allow_cpu(job.endurance.allow_cpu))
 }
 
@@ -113,7 +112,11 @@ fn rounds(
         }
         let (done, started) = (render.done(), Instant::now());
         let mut update = |more| progress.update(done + more);
-        advance(session, render.accumulation_mut(), &rounds, &mut update)?;
+        let advanced = advance(session, render.accumulation_mut(), &rounds, &mut update);
+        if session.has_left_gpu() {
+            render.mix();
+        }
+        advanced?;
         let work: u64 = rounds.iter().map(Round::work).sum();
         render.finish_round(work, started.elapsed().as_secs_f64());
         progress.set_state(render);

@@ -34,9 +34,9 @@ pub(super) fn mean(images: &[SpectralImage]) -> SpectralImage {
                     |image: &SpectralImage| image.group_radiance(group)[pixel * bands + band];
                 radiance[group * bands + band] = weighted(&value) as f32;
             }
-            for axis in 0..3 {
+            for (axis, to) in xyz[group].iter_mut().enumerate() {
                 let value = |image: &SpectralImage| image.group_xyz(group)[pixel][axis];
-                xyz[group][axis] = weighted(&value) as f32;
+                *to = weighted(&value) as f32;
             }
         }
         for (band, variance) in variance.iter_mut().enumerate() {
