@@ -41,7 +41,7 @@ enum Command {
     /// Render a scene to a picture (PNG) and a spectral image (EXR)
     Render(Box<render::Arguments>),
     /// Develop a spectral image into a picture for a display
-    Develop(develop::Arguments),
+    Develop(Box<develop::Arguments>),
     /// Validate a scene without rendering it
     Check {
         /// The scene file, or - for standard input

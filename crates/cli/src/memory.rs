@@ -70,10 +70,11 @@ pub(crate) fn layout(
     let of_row = u64::from(window.size[0]) * (state + 4 * image);
     let rows = (STRIP / of_row).clamp(1, u64::from(window.size[1]));
     let strips = BASE + rows * of_row + pixels * developing;
-    if strips <= available && !needs.rounds {
+    let needs_all = needs.rounds || needs.pictures == Pictures::OfSpectra;
+    if strips <= available && !needs_all {
         return Ok((Layout::Strips(rows as u32), strips));
     }
-    let (takes, help) = if needs.rounds {
+    let (takes, help) = if needs_all {
         let help = "render parts of it with --part K/N and join them with `pellicle merge`, or leave out --time, --noise, --adaptive, \
                     --preview-every and --checkpoint: rows are then rendered one after the other";
         (whole, help)
