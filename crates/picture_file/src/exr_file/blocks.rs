@@ -11,7 +11,7 @@ use exr::meta::MetaData;
 use exr::meta::attribute::ChannelList;
 use rayon::prelude::*;
 
-use super::digest::Comparison;
+use super::digest::{Comparison, Progress};
 use super::{Context, ReadExrError, Window};
 
 /// The most bytes of uncompressed blocks in memory at a time (a single block may be larger).
@@ -57,12 +57,13 @@ pub(crate) fn each_block(
 }
 
 /// As [`each_block`], but only with blocks that have pixels in the picture of a window, which are found by the file's table of
-/// contents. The digest is not compared.
+/// contents. They are added to the `progress` of the digest, which is not compared.
 pub(crate) fn each_block_within(
     context: &Context<'_>,
     reader: Reader<BufReader<File>>,
     part: usize,
     window: &Window,
+    progress: Option<&mut Progress>,
     insert: impl FnMut(&UncompressedBlock, &ChannelList) -> Option<()> + Send,
 ) -> Result<(), ReadExrError> {
     let meta = reader.meta_data().clone();
@@ -79,7 +80,16 @@ pub(crate) fn each_block_within(
         part,
         insert,
     };
-    blocks.insert_all(|count| context.run(|| chunks.by_ref().take(count).collect()))
+    let mut progress = progress;
+    blocks.insert_all(|count| {
+        let batch: Vec<Chunk> = context.run(|| chunks.by_ref().take(count).collect())?;
+        if let Some(progress) = &mut progress {
+            for chunk in &batch {
+                progress.add(chunk);
+            }
+        }
+        Ok(batch)
+    })
 }
 
 /// The blocks of a part, and where they go.

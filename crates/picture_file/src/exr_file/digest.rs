@@ -8,7 +8,8 @@ use std::io::BufReader;
 
 use exr::block::chunk::{Chunk, CompressedBlock};
 use exr::block::reader::Reader;
-use exr::meta::attribute::{AttributeValue, Text};
+use exr::meta::BlockDescription;
+use exr::meta::attribute::{AttributeValue, LineOrder, Text};
 use exr::meta::header::Header;
 
 use super::{Context, ReadExrError};
@@ -75,10 +76,60 @@ impl Comparison {
 
     /// Compares after the last chunk.
     pub(crate) fn finish(self, context: &Context<'_>) -> Result<(), ReadExrError> {
+        self.check(context)
+    }
+
+    fn check(&self, context: &Context<'_>) -> Result<(), ReadExrError> {
         if self.found.hex() == self.expected {
             return Ok(());
         }
         Err(context.damaged("its pixels are not those that were written"))
+    }
+}
+
+/// The digest of a file of scan lines whose blocks are read by some rows at a time, from the first to the last.
+#[derive(Debug)]
+pub(crate) struct Progress {
+    comparison: Comparison,
+    /// The y coordinate of the next block, and that below the last one.
+    next_y: i64,
+    end_y: i64,
+    block_rows: i64,
+}
+
+impl Progress {
+    /// Starts before the first block; `None` if the file has no digest, or its blocks need not be in the order of their rows.
+    pub(crate) fn of_headers(headers: &[Header]) -> Option<Self> {
+        let [header] = headers else {
+            return None;
+        };
+        let in_order = header.line_order == LineOrder::Increasing
+            && header.blocks == BlockDescription::ScanLines;
+        let next_y = i64::from(header.own_attributes.layer_position.y());
+        Some(Self {
+            comparison: Comparison::of_header(header).filter(|_| in_order)?,
+            next_y,
+            end_y: next_y + header.layer_size.height() as i64,
+            block_rows: header.compression.scan_lines_per_block() as i64,
+        })
+    }
+
+    /// Adds a block if it is the next one. A block that is read twice counts once.
+    pub(crate) fn add(&mut self, chunk: &Chunk) {
+        if let CompressedBlock::ScanLine(lines) = &chunk.compressed_block
+            && i64::from(lines.y_coordinate) == self.next_y
+        {
+            self.comparison.add(chunk);
+            self.next_y += self.block_rows;
+        }
+    }
+
+    /// Compares the digest if all blocks have been added; otherwise returns false.
+    pub(crate) fn is_verified(&self, context: &Context<'_>) -> Result<bool, ReadExrError> {
+        if self.next_y < self.end_y {
+            return Ok(false);
+        }
+        self.comparison.check(context).map(|()| true)
     }
 }
 

@@ -53,6 +53,21 @@ impl Window {
         }
     }
 
+    /// The first rows of strips of `rows` rows each, above which the data window can be cut into blocks of `block_rows` rows: they begin
+    /// where a block begins. The picture's first row is among them.
+    pub(crate) fn strips(
+        &self,
+        rows: usize,
+        block_rows: usize,
+    ) -> impl Iterator<Item = u32> + use<> {
+        let block_rows = block_rows.max(1);
+        let rows = (rows / block_rows).max(1) * block_rows;
+        let above = self.offset.1.rem_euclid(block_rows as i64) as usize;
+        let first = (above > 0).then_some(0);
+        let others = (above..self.size.1).step_by(rows);
+        first.into_iter().chain(others).map(|row| row as u32)
+    }
+
     /// The part of the picture that the file holds: column and row of its first pixel, and its width and height. All are 0 if it holds
     /// none.
     pub(crate) fn held(&self) -> ([u32; 2], [u32; 2]) {
@@ -204,6 +219,26 @@ mod tests {
         assert!(crop.meets((0, 0), (4, 2)));
         let left = window((-2, 0), (4, 4));
         assert!(!left.meets((0, 0), (2, 4)) && left.meets((0, 0), (3, 4)));
+    }
+
+    #[test]
+    fn strips_begin_where_blocks_do() {
+        let starts = |offset, rows, block_rows| -> Vec<u32> {
+            let size = (8, 20);
+            let window = Window {
+                size,
+                ..window((0, offset), (8, 20))
+            };
+            window.strips(rows, block_rows).collect()
+        };
+        assert_eq!(starts(0, 7, 1), [0, 7, 14]);
+        assert_eq!(starts(0, 100, 1), [0]);
+        assert_eq!(starts(0, 0, 8), [0, 8, 16]);
+        assert_eq!(starts(0, 15, 4), [0, 12]);
+        assert_eq!(starts(3, 1, 8), [0, 3, 11, 19]);
+        assert_eq!(starts(-3, 1, 8), [0, 5, 13]);
+        assert_eq!(starts(24, 8, 8), [0, 8, 16]);
+        assert_eq!(starts(0, 1, 100), [0]);
     }
 
     #[test]

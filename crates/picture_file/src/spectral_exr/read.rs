@@ -61,24 +61,14 @@ pub fn read_size(path: &Path) -> Result<([u32; 2], BandGrid), ReadExrError> {
     Ok(([side(width), side(height)], plan.grid))
 }
 
-/// Reads the colors of a spectral file without its spectra. The XYZ are those of [`read`], but reading is faster.
+/// Reads the colors of a spectral file without keeping its spectra, so it may be larger than memory. The XYZ are those of [`read`].
 ///
 /// # Errors
 /// As [`read`].
 pub fn read_xyz(path: &Path) -> Result<(XyzImage, Metadata), ReadExrError> {
-    let (reader, plan, metadata) = open(path)?;
-    let context = Context { path };
-    let image = if plan.has_xyz() {
-        let mut colors = Colors::new(&plan);
-        each_block(&context, reader, plan.layer, |block, channels| {
-            colors.insert(&plan, block, channels)
-        })?;
-        colors.finish(&plan)
-    } else {
-        Some(XyzImage::from(&pixels(&context, reader, plan)?))
-    };
-    let missing = || context.damaged("some pixels are missing");
-    Ok((image.ok_or_else(missing)?, metadata))
+    let mut rows = RowReader::open(path)?;
+    let image = rows.read_xyz()?;
+    Ok((image, rows.into_metadata()))
 }
 
 /// Opens a file, and reads and checks its header.
@@ -104,6 +94,21 @@ fn checked_plan(
 fn check_memory(path: &Path, plan: &Plan) -> Result<(), ReadExrError> {
     let (bands, groups) = (plan.grid.count(), plan.light_groups.len());
     let bytes = |width, height| SpectralImage::bytes(width, height, bands, groups);
+    check_fits(path, plan, bytes)
+}
+
+/// Checks that there is memory for the colors of the image.
+fn check_color_memory(path: &Path, plan: &Plan) -> Result<(), ReadExrError> {
+    let bytes =
+        |width, height| u128::from(width) * u128::from(height) * size_of::<[f32; 3]>() as u128;
+    check_fits(path, plan, bytes)
+}
+
+fn check_fits(
+    path: &Path,
+    plan: &Plan,
+    bytes: impl Fn(u32, u32) -> u128,
+) -> Result<(), ReadExrError> {
     if guard::fits(&plan.window, bytes) {
         return Ok(());
     }
@@ -112,7 +117,7 @@ fn check_memory(path: &Path, plan: &Plan) -> Result<(), ReadExrError> {
         path: path.to_owned(),
         width,
         height,
-        bands: bands as usize,
+        bands: plan.grid.count() as usize,
     })
 }
 

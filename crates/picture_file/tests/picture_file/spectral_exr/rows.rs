@@ -26,6 +26,20 @@ fn check_rows(path: &Path, what: &str) {
         }
     }
     assert_eq!(reader.read(3..3).unwrap().height(), 0);
+    assert_eq!(
+        reader.read_xyz().unwrap(),
+        relight::XyzImage::from(&whole),
+        "{what}"
+    );
+    for bytes in [0, 5000, usize::MAX] {
+        let mut next = 0;
+        for rows in reader.strips(bytes) {
+            assert_eq!(rows.start, next, "{what}");
+            next = rows.end;
+            assert!(rows.start < next, "{what}: {rows:?}");
+        }
+        assert_eq!(next, whole.height(), "{what}");
+    }
 }
 
 /// Writes a file of another program, with samples that differ.
@@ -163,6 +177,28 @@ fn damage_is_found_in_its_rows_or_by_the_digest() {
 
     write_foreign(&path, "S0.", Encoding::FAST_LOSSLESS, (0, 0));
     assert!(!RowReader::open(&path).unwrap().verify().unwrap());
+}
+
+#[test]
+fn the_digest_is_compared_after_strips_in_any_order() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, _) = write_noisy(folder.path(), true);
+    let bytes = fs::read(&path).unwrap();
+    let key = b"pellicle.digest\0string\0\x40\0\0\0";
+    let name = bytes.windows(key.len()).position(|w| w == key).unwrap();
+    let mut other = bytes.clone();
+    other[name + key.len()] ^= 1;
+    for (bytes, is_same) in [(bytes, true), (other, false)] {
+        fs::write(&path, bytes).unwrap();
+        let orders = [vec![0, 10, 20, 30], vec![30, 20, 10, 0], vec![0, 5, 20]];
+        for starts in orders {
+            let mut reader = RowReader::open(&path).unwrap();
+            for start in starts {
+                reader.read(start..(start + 12).min(37)).unwrap();
+            }
+            assert_eq!(reader.verify().is_ok(), is_same);
+        }
+    }
 }
 
 #[test]
