@@ -7,7 +7,8 @@
 //!   -> picture_file       PNG, or OpenEXR of linear red, green and blue
 //! ```
 //!
-//! [`probe()`] gives the means of a region, and [`compare`] the differences of two images. Arithmetic is `f64`. Nothing here knows how the
+//! [`probe()`] gives the means of a region, and [`compare`] the differences of two images. [`Probing`] and [`compare::BandSums`] do so
+//! for images that come in strips because they do not fit into memory. Arithmetic is `f64`. Nothing here knows how the
 //! image was rendered.
 
 pub mod compare;
@@ -15,4 +16,4 @@ pub mod develop;
 mod probe;
 
 pub use develop::{DevelopSettings, develop};
-pub use probe::{GroupProbe, Probe, Region, RegionError, probe};
+pub use probe::{GroupProbe, Probe, Probing, Region, RegionError, probe};

@@ -1,5 +1,7 @@
 //! The mean values of a pixel or a region of a spectral image.
 
+use std::ops::Range;
+
 use spectra::{ImageLayer, LayerKey, Quantity, SpectralImage, Values};
 use thiserror::Error;
 
@@ -111,30 +113,72 @@ pub struct GroupProbe {
 /// # Errors
 /// When the region is empty or extends beyond the image.
 pub fn probe(image: &SpectralImage, region: Region) -> Result<Probe, RegionError> {
-    let (width, height) = (image.width(), image.height());
-    if region.width == 0 || region.height == 0 {
-        return Err(RegionError::Empty(region));
+    let mut probing = Probing::new([image.width(), image.height()], region)?;
+    probing.add(image, 0);
+    Ok(probing.finish())
+}
+
+/// A [`probe()`] of an image that comes in strips of rows, from the top. The means are those of the whole image to the last bit.
+#[derive(Clone, Debug)]
+pub struct Probing {
+    region: Region,
+    sums: Option<Sums>,
+}
+
+impl Probing {
+    /// Starts without any rows of an image of this width and height.
+    ///
+    /// # Errors
+    /// When the region is empty or extends beyond the image.
+    pub fn new([width, height]: [u32; 2], region: Region) -> Result<Self, RegionError> {
+        if region.width == 0 || region.height == 0 {
+            return Err(RegionError::Empty(region));
+        }
+        let reaches =
+            |start: u32, size: u32, end: u32| start.checked_add(size).is_none_or(|e| e > end);
+        if reaches(region.x, region.width, width) || reaches(region.y, region.height, height) {
+            return Err(RegionError::Outside {
+                region,
+                width,
+                height,
+            });
+        }
+        Ok(Self { region, sums: None })
     }
-    let reaches = |start: u32, size: u32, end: u32| start.checked_add(size).is_none_or(|e| e > end);
-    if reaches(region.x, region.width, width) || reaches(region.y, region.height, height) {
-        return Err(RegionError::Outside {
-            region,
-            width,
-            height,
-        });
+
+    /// Returns those of some rows of the image that the region needs; an empty range if it needs none.
+    pub fn rows_within(&self, rows: &Range<u32>) -> Range<u32> {
+        let (top, bottom) = (self.region.y, self.region.y + self.region.height);
+        let start = rows.start.max(top).min(rows.end);
+        start..rows.end.min(bottom).max(start)
     }
-    let mut sums = Sums::new(image);
-    for y in region.y..region.y + region.height {
-        for x in region.x..region.x + region.width {
-            sums.add(image, y as usize * width as usize + x as usize);
+
+    /// Adds a strip of the image, whose first row is row `top` of the image. Rows that the region does not need are left out.
+    pub fn add(&mut self, strip: &SpectralImage, top: u32) {
+        let rows = self.rows_within(&(top..top.saturating_add(strip.height())));
+        let region = self.region;
+        let sums = self.sums.get_or_insert_with(|| Sums::new(strip));
+        for y in rows {
+            let row = (y - top) as usize * strip.width() as usize;
+            for x in region.x..region.x + region.width {
+                sums.add(strip, row + x as usize);
+            }
         }
     }
-    Ok(sums.means(image, region))
+
+    /// Returns the means of the region, after all rows that it needs. Without any strip there are no bands.
+    pub fn finish(self) -> Probe {
+        let sums = self.sums.unwrap_or_default();
+        sums.means(self.region)
+    }
 }
 
 /// Sums over pixels of the values of each layer of an image.
+#[derive(Clone, Debug, Default)]
 struct Sums {
     layers: Vec<(LayerKey, Vec<f64>)>,
+    /// The radiance and the XYZ of each light group.
+    light_groups: Vec<[LayerKey; 2]>,
     count: u64,
     left_out: u64,
 }
@@ -144,6 +188,9 @@ impl Sums {
         let zeros = |layer: &ImageLayer| (layer.key(), vec![0.0; layer.values_per_pixel()]);
         Self {
             layers: image.layers().iter().map(zeros).collect(),
+            light_groups: (0..image.light_groups().len())
+                .map(|group| [Quantity::Radiance, Quantity::Xyz].map(|q| image.key_of(q, group)))
+                .collect(),
             count: 0,
             left_out: 0,
         }
@@ -172,7 +219,7 @@ impl Sums {
         found.map_or(&[], |(_, sums)| sums)
     }
 
-    fn means(&self, image: &SpectralImage, region: Region) -> Probe {
+    fn means(&self, region: Region) -> Probe {
         let count = self.count as f64;
         let mean = |key| self.of(key).iter().map(|sum| sum / count);
         let mean_xyz = |key| {
@@ -182,16 +229,16 @@ impl Sums {
         let variance = self.of(LayerKey::VARIANCE);
         let knows_noise = variance.iter().any(|&v| v > 0.0);
         let deviation = |variance: &f64| variance.sqrt() / count;
-        let of_light = |group| GroupProbe {
-            radiance: mean(image.key_of(Quantity::Radiance, group)).collect(),
-            xyz: mean_xyz(image.key_of(Quantity::Xyz, group)),
+        let of_light = |&[radiance, xyz]: &[LayerKey; 2]| GroupProbe {
+            radiance: mean(radiance).collect(),
+            xyz: mean_xyz(xyz),
         };
         Probe {
             region,
             deviation: knows_noise.then(|| variance.iter().map(deviation).collect()),
             radiance: mean(LayerKey::RADIANCE).collect(),
             xyz: mean_xyz(LayerKey::XYZ),
-            light_groups: (0..image.light_groups().len()).map(of_light).collect(),
+            light_groups: self.light_groups.iter().map(of_light).collect(),
             // Sums of counts are exact up to 2⁵³.
             samples: self.of(LayerKey::SAMPLES).iter().sum::<f64>() as u64,
             left_out: self.left_out,
@@ -272,6 +319,36 @@ mod tests {
         image.set_pixel((0, 0), &[f32::NAN, 1.0], &[0.0; 2], [1.0; 3], 8);
         let found = probe(&image, Region::all_of(&image)).unwrap();
         assert_eq!((found.left_out, found.radiance[0]), (1, 36.0 / 5.0));
+    }
+
+    #[test]
+    fn strips_have_the_means_of_the_whole() {
+        let whole = image();
+        let strip = |y: u32| {
+            let mut strip = SpectralImage::new(3, 1, *whole.bands());
+            for x in 0..3 {
+                let index = (3 * y + x) as usize;
+                let (xyz, samples) = (whole.xyz()[index], whole.samples()[index]);
+                strip.set_pixel((x, 0), whole.pixel(x, y), &[0.04, 0.01], xyz, samples);
+            }
+            strip
+        };
+        let lower = Region {
+            x: 1,
+            y: 1,
+            width: 2,
+            height: 1,
+        };
+        for region in [Region::all_of(&whole), Region::pixel(2, 0), lower] {
+            let mut probing = Probing::new([3, 2], region).unwrap();
+            for y in 0..2 {
+                probing.add(&strip(y), y);
+            }
+            assert_eq!(probing.finish(), probe(&whole, region).unwrap());
+        }
+        let probing = Probing::new([3, 2], lower).unwrap();
+        assert_eq!(probing.rows_within(&(0..2)), 1..2);
+        assert!(probing.rows_within(&(0..1)).is_empty() && probing.rows_within(&(2..9)).is_empty());
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Differences of two spectral images in each band.
 
 use rayon::prelude::*;
-use spectra::SpectralImage;
+use spectra::{BandGrid, SpectralImage};
 
 use super::CompareError;
 
@@ -32,13 +32,24 @@ pub struct Noise {
 }
 
 /// Sums over the pixels of a band.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     count: usize,
     reference: f64,
     difference: f64,
     squared: f64,
     variance: f64,
+}
+
+/// The [`bands()`] of two images that come in strips of rows, from the top. The differences are those of the whole images to the last
+/// bit.
+#[derive(Clone, Debug)]
+pub struct BandSums {
+    grid: BandGrid,
+    sums: Vec<Sums>,
+    pixels: usize,
+    /// Whether the first and the second have a variance.
+    has_noise: [bool; 2],
 }
 
 /// Compares the images band by band.
@@ -49,34 +60,91 @@ pub fn bands(
     reference: &SpectralImage,
     test: &SpectralImage,
 ) -> Result<Vec<BandDifference>, CompareError> {
-    let size = |image: &SpectralImage| [image.width() as usize, image.height() as usize];
-    if size(reference) != size(test) {
-        return Err(CompareError::Sizes {
-            first: size(reference),
-            second: size(test),
-        });
-    }
-    if reference.bands() != test.bands() {
-        return Err(CompareError::Bands {
-            first: *reference.bands(),
-            second: *test.bands(),
-        });
-    }
-    let pixels = reference.xyz().len();
-    if pixels == 0 {
-        return Err(CompareError::Empty);
-    }
-    let has_noise = [reference, test].map(|image| image.variance().iter().any(|&v| v > 0.0));
-    let knows_noise = has_noise == [true; 2];
-    let grid = reference.bands();
-    let sums = sums(reference, test);
-    let of_band =
-        |(band, sums): (u32, &Sums)| sums.difference(grid.center_nm(band), pixels, knows_noise);
-    Ok((0..).zip(&sums).map(of_band).collect())
+    let mut sums = BandSums::new(*reference.bands());
+    sums.add(reference, test)?;
+    sums.finish()
 }
 
-/// Sums each row of pixels on any core and adds the rows in order, so the results are the same on every machine.
-fn sums(reference: &SpectralImage, test: &SpectralImage) -> Vec<Sums> {
+impl BandSums {
+    /// Starts without any rows, for two images of these bands.
+    pub fn new(bands: BandGrid) -> Self {
+        Self {
+            sums: vec![Sums::default(); bands.count() as usize],
+            grid: bands,
+            pixels: 0,
+            has_noise: [false; 2],
+        }
+    }
+
+    /// Adds the next rows of both images.
+    ///
+    /// # Errors
+    /// When they differ in size or in bands.
+    pub fn add(
+        &mut self,
+        reference: &SpectralImage,
+        test: &SpectralImage,
+    ) -> Result<(), CompareError> {
+        let size = |image: &SpectralImage| [image.width() as usize, image.height() as usize];
+        check_sizes(size(reference), size(test))?;
+        for image in [reference, test] {
+            check_bands(&self.grid, image.bands())?;
+        }
+        self.pixels += reference.xyz().len();
+        for (known, image) in self.has_noise.iter_mut().zip([reference, test]) {
+            *known = *known || image.variance().iter().any(|&v| v > 0.0);
+        }
+        for row in sums_of_rows(reference, test) {
+            for (total, sums) in self.sums.iter_mut().zip(row) {
+                total.add_all(sums);
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the differences over all rows.
+    ///
+    /// # Errors
+    /// When there are no pixels.
+    pub fn finish(self) -> Result<Vec<BandDifference>, CompareError> {
+        if self.pixels == 0 {
+            return Err(CompareError::Empty);
+        }
+        let knows_noise = self.has_noise == [true; 2];
+        let of_band = |(band, sums): (u32, &Sums)| {
+            sums.difference(self.grid.center_nm(band), self.pixels, knows_noise)
+        };
+        Ok((0..).zip(&self.sums).map(of_band).collect())
+    }
+}
+
+/// Checks that two images have the same bands.
+///
+/// # Errors
+/// When they do not.
+pub fn check_bands(first: &BandGrid, second: &BandGrid) -> Result<(), CompareError> {
+    if first == second {
+        return Ok(());
+    }
+    Err(CompareError::Bands {
+        first: *first,
+        second: *second,
+    })
+}
+
+/// Checks that two images have the same width and height.
+///
+/// # Errors
+/// When they do not.
+pub fn check_sizes(first: [usize; 2], second: [usize; 2]) -> Result<(), CompareError> {
+    if first == second {
+        return Ok(());
+    }
+    Err(CompareError::Sizes { first, second })
+}
+
+/// Sums each row of pixels on any core, to be added in order, so the results are the same on every machine.
+fn sums_of_rows(reference: &SpectralImage, test: &SpectralImage) -> Vec<Vec<Sums>> {
     let bands = reference.bands().count() as usize;
     let row = bands * reference.width() as usize;
     let of_row = |row: &[f32], other: &[f32], variance: &[f32], other_variance: &[f32]| {
@@ -90,7 +158,7 @@ fn sums(reference: &SpectralImage, test: &SpectralImage) -> Vec<Sums> {
         }
         sums
     };
-    let rows: Vec<Vec<Sums>> = (0..reference.height() as usize)
+    (0..reference.height() as usize)
         .into_par_iter()
         .map(|y| {
             let values = y * row..(y + 1) * row;
@@ -101,18 +169,7 @@ fn sums(reference: &SpectralImage, test: &SpectralImage) -> Vec<Sums> {
                 &test.variance()[values],
             )
         })
-        .collect();
-    let mut total = vec![Sums::default(); bands];
-    for row in rows {
-        for (total, sums) in total.iter_mut().zip(row) {
-            total.count += sums.count;
-            total.reference += sums.reference;
-            total.difference += sums.difference;
-            total.squared += sums.squared;
-            total.variance += sums.variance;
-        }
-    }
-    total
+        .collect()
 }
 
 impl Sums {
@@ -122,6 +179,14 @@ impl Sums {
         self.difference += difference;
         self.squared += difference * difference;
         self.variance += variance;
+    }
+
+    fn add_all(&mut self, other: Self) {
+        self.count += other.count;
+        self.reference += other.reference;
+        self.difference += other.difference;
+        self.squared += other.squared;
+        self.variance += other.variance;
     }
 
     fn difference(&self, center_nm: f64, pixels: usize, knows_noise: bool) -> BandDifference {
@@ -144,7 +209,6 @@ impl Sums {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spectra::BandGrid;
 
     /// Two pixels of two bands.
     fn image(values: [[f32; 2]; 2], variance: f32) -> SpectralImage {
@@ -170,6 +234,32 @@ mod tests {
         assert_eq!((found[1].bias, found[1].rmse), (0.0, 0.0));
         // Swapping the images changes the sign.
         assert!((bands(&test, &reference).unwrap()[0].bias + 0.2).abs() < 1e-6);
+    }
+
+    #[test]
+    fn strips_have_the_differences_of_the_whole() {
+        let rows = [[[1.0, 2.0], [3.0, 0.1]], [[0.7, 1e6], [1e-3, 4.0]]];
+        let column = |variance: f32| {
+            let mut image = SpectralImage::new(2, 2, BandGrid::visible(2).unwrap());
+            for (y, row) in (0..).zip(&rows) {
+                for (x, values) in (0..).zip(row) {
+                    let values = values.map(|v: f32| v + 3.0 * variance);
+                    image.set_pixel((x, y), &values, &[variance * y as f32; 2], [0.0; 3], 8);
+                }
+            }
+            image
+        };
+        let strip = |y: usize, variance: f32| {
+            let values = rows[y].map(|values| values.map(|v| v + 3.0 * variance));
+            image(values, variance * y as f32)
+        };
+        let whole = bands(&column(0.1), &column(0.3)).unwrap();
+        assert!(whole[0].noise.is_some());
+        let mut sums = BandSums::new(BandGrid::visible(2).unwrap());
+        for y in 0..2 {
+            sums.add(&strip(y, 0.1), &strip(y, 0.3)).unwrap();
+        }
+        assert_eq!(sums.finish().unwrap(), whole);
     }
 
     #[test]

@@ -22,13 +22,18 @@ const PIXELS_PER_DEGREE: f64 = 3840.0 * PI / 180.0;
 pub fn flip(reference: &Picture, test: &Picture) -> Result<Vec<f64>, CompareError> {
     reference.check_alike(test)?;
     let size = reference.size();
-    let planes = [reference, test].map(opponent_planes);
-    let seen = planes.each_ref().map(|p| as_seen(p, size));
-    let features = planes.each_ref().map(|p| features(&p[0], size));
+    // One picture after the other: the planes of both at once would take half as much memory again.
+    let [(a, features_a), (b, features_b)] = [reference, test].map(|picture| {
+        let planes = opponent_planes(picture);
+        let seen = as_seen(&planes, size);
+        let [y, chroma @ ..] = planes;
+        drop(chroma);
+        (seen, features(&y, size))
+    });
     let at = |i: usize| {
-        let color = redistributed(hyab(seen[0][i], seen[1][i]).powf(0.7));
-        let edge = (features[0][i][0] - features[1][i][0]).abs();
-        let point = (features[0][i][1] - features[1][i][1]).abs();
+        let color = redistributed(hyab(a[i], b[i]).powf(0.7));
+        let edge = (features_a[i][0] - features_b[i][0]).abs();
+        let point = (features_a[i][1] - features_b[i][1]).abs();
         let feature = (edge.max(point) / 2.0_f64.sqrt()).sqrt();
         color.powf(1.0 - feature)
     };

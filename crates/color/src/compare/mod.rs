@@ -1,7 +1,7 @@
 //! Differences of two images: per band, in color, and as perceived.
 //!
 //! ```text
-//! two spectral images -> bands      RMSE, bias and noise of each band
+//! two spectral images -> bands      RMSE, bias and noise of each band; strip by strip: BandSums
 //!   -> Picture        linear sRGB, not clipped
 //!      -> delta_e       CIEDE2000 of each pixel
 //!      -> flip          FLIP of each pixel
@@ -17,7 +17,7 @@ mod map;
 mod picture;
 mod summary;
 
-pub use bands::{BandDifference, Noise, bands};
+pub use bands::{BandDifference, BandSums, Noise, bands, check_bands, check_sizes};
 pub use flip::flip;
 pub use map::heat_map;
 pub use picture::{Picture, ReadPictureError, delta_e, psnr};

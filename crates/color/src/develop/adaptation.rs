@@ -21,14 +21,33 @@ pub enum SceneWhite {
 impl SceneWhite {
     /// The lamp of the light group that contributes the most luminance to the image; `None` if that lamp is unknown.
     pub fn of_lamps(image: &SpectralImage, observer: Observer) -> Option<Self> {
-        let luminance = |group: usize| -> f64 {
-            let xyz = image.group_xyz(group).iter();
-            xyz.map(|xyz| f64::from(xyz[1]))
+        let mut luminances = LampLuminances::default();
+        luminances.add(image);
+        luminances.white(image, observer)
+    }
+}
+
+/// The luminances that the light groups contribute to an image, which may come in strips of rows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LampLuminances(Vec<f64>);
+
+impl LampLuminances {
+    /// Adds the luminances of an image, or of the next strip of it.
+    pub fn add(&mut self, image: &SpectralImage) {
+        self.0.resize(image.light_groups().len(), 0.0);
+        for (group, sum) in self.0.iter_mut().enumerate() {
+            let luminances = image.group_xyz(group).iter();
+            let luminances = luminances.map(|xyz| f64::from(xyz[1]));
+            *sum = luminances
                 .filter(|y| y.is_finite())
-                .sum()
-        };
-        let groups = 0..image.light_groups().len();
-        let brightest = groups.max_by(|&a, &b| luminance(a).total_cmp(&luminance(b)))?;
+                .fold(*sum, |sum, y| sum + y);
+        }
+    }
+
+    /// The white of the brightest lamp; `None` if it is unknown. `image` has the light groups and the bands; its pixels do not count.
+    pub fn white(&self, image: &SpectralImage, observer: Observer) -> Option<SceneWhite> {
+        let groups = 0..self.0.len().min(image.light_groups().len());
+        let brightest = groups.max_by(|&a, &b| self.0[a].total_cmp(&self.0[b]))?;
         let lamp = image.light_groups()[brightest].lamp.as_ref()?;
         // A lamp's spectrum may extend arbitrarily far beyond the bands.
         let (grid, (from_nm, to_nm)) = (image.bands(), lamp.range_nm());
@@ -37,7 +56,7 @@ impl SceneWhite {
             .map(f64::from)
             .map(|nm| observer.at(nm).map(|v| v * lamp.clamped_at(nm)))
             .fold([0.0; 3], add);
-        (sum[1] > 0.0).then(|| Self::Chromaticity(xy_of_xyz(sum)))
+        (sum[1] > 0.0).then(|| SceneWhite::Chromaticity(xy_of_xyz(sum)))
     }
 }
 

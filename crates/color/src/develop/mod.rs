@@ -25,7 +25,7 @@ use rayon::prelude::*;
 use spectra::{BandGrid, Observer, SpectralImage};
 use thiserror::Error;
 
-pub use adaptation::{SceneWhite, WhiteAdaptation};
+pub use adaptation::{LampLuminances, SceneWhite, WhiteAdaptation};
 pub use exposure::Exposure;
 pub use gamut::{Gamut, GamutMapping, GamutReport};
 pub use glare::{EyeGlare, Glare, StarGlare, Vision};
@@ -124,6 +124,22 @@ impl<'a> From<&'a XyzImage> for Latent<'a> {
             size: [image.width(), image.height()],
             xyz: image.xyz(),
             spectrum: None,
+        }
+    }
+}
+
+impl<'a> Latent<'a> {
+    /// The same colors with their radiances, as `[pixel][band]`.
+    ///
+    /// # Panics
+    /// When there is not one radiance for each pixel and band.
+    #[must_use]
+    pub fn with_bands(self, bands: &'a BandGrid, radiance: &'a [f32]) -> Self {
+        let values = self.xyz.len() * bands.count() as usize;
+        assert_eq!(radiance.len(), values, "each band of each pixel");
+        Self {
+            spectrum: Some((bands, radiance)),
+            ..self
         }
     }
 }
