@@ -4,7 +4,7 @@ use crate::lamp::Lamp;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::picture_file::RgbImage8;
 use pellicle::plot::{MAX_PICTURES, SheetColors, contact_sheet};
-use pellicle::relight::{Relight, RelightError, relight};
+use pellicle::relight::{Relight, relight};
 use pellicle::spectra::{Observer, SpectralImage};
 use std::path::{Path, PathBuf};
 
@@ -48,39 +48,36 @@ pub(crate) fn check(lamps: &[BoothLamp], outputs: &[PathBuf]) -> miette::Result<
     Ok(())
 }
 
-/// Sets all lights to each lamp in turn, develops, and returns the sheet. `develop` gets the image under a lamp.
+/// Returns the sheet of the pictures under the lamps, with their labels.
 pub(crate) fn sheet(
-    image: &SpectralImage,
-    lamps: &[BoothLamp],
-    observer: Observer,
+    pictures: &[(String, RgbImage8)],
     colors: SheetColors,
-    develop: impl Fn(&SpectralImage) -> miette::Result<RgbImage8>,
 ) -> miette::Result<RgbImage8> {
-    let mut pictures = Vec::with_capacity(lamps.len());
-    for BoothLamp { label, lamp } in lamps {
-        let relit = under(image, lamp, observer)
-            .into_diagnostic()
-            .wrap_err_with(|| format!("--booth {label}"))?;
-        pictures.push((label.clone(), develop(&relit)?));
-    }
-    contact_sheet(&pictures, colors).ok_or_else(|| miette!("--booth: there is no lamp"))
+    contact_sheet(pictures, colors).ok_or_else(|| miette!("--booth: there is no lamp"))
 }
 
-/// An image with all its lights set to a lamp.
-fn under(
-    image: &SpectralImage,
-    lamp: &Lamp,
-    observer: Observer,
-) -> Result<SpectralImage, RelightError> {
-    let mut relit = image.clone();
-    let burns = Relight {
-        lamp: Some(lamp.spectrum.clone()),
-        factor: lamp.factor,
-    };
-    let groups = image.light_groups().iter();
-    let lights: Vec<(String, Relight)> = groups
-        .map(|group| (group.name.clone(), burns.clone()))
-        .collect();
-    relight(&mut relit, &lights, observer)?;
-    Ok(relit)
+impl BoothLamp {
+    /// What is written below its picture.
+    pub(crate) fn label(&self) -> &str {
+        &self.label
+    }
+
+    /// Sets all lights of an image, or of a strip of it, to the lamp.
+    pub(crate) fn light(
+        &self,
+        image: &mut SpectralImage,
+        observer: Observer,
+    ) -> miette::Result<()> {
+        let burns = Relight {
+            lamp: Some(self.lamp.spectrum.clone()),
+            factor: self.lamp.factor,
+        };
+        let groups = image.light_groups().iter();
+        let lights: Vec<(String, Relight)> = groups
+            .map(|group| (group.name.clone(), burns.clone()))
+            .collect();
+        relight(image, &lights, observer)
+            .into_diagnostic()
+            .wrap_err_with(|| format!("--booth {}", self.label))
+    }
 }

@@ -4,8 +4,10 @@ use crate::image_file::{self, Opened};
 use crate::{output, print};
 use clap::ValueEnum;
 use miette::{IntoDiagnostic, WrapErr, miette};
-use pellicle::color::compare::{self, BandDifference, Noise, Picture, Summary};
+use pellicle::color::compare::{self, BandDifference, BandSums, Noise, Picture, Summary};
 use pellicle::picture_file::png;
+use pellicle::picture_file::spectral_exr::RowReader;
+use pellicle::relight::XyzImage;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -78,7 +80,7 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     }
     let first = Opened::read(&arguments.first)?;
     let second = Opened::read(&arguments.second)?;
-    let comparison = Comparison::new(&first, &second, arguments)?;
+    let comparison = Comparison::new(first, second, arguments)?;
     match arguments.format {
         Format::Table => print::result(comparison.table(arguments).trim_end())?,
         Format::Json => print::result(format_args!("{:#}", comparison.json(arguments)))?,
@@ -105,7 +107,7 @@ fn check_map(map: &Path, arguments: &Arguments) -> miette::Result<()> {
 }
 
 impl Comparison {
-    fn new(first: &Opened, second: &Opened, arguments: &Arguments) -> miette::Result<Self> {
+    fn new(first: Opened, second: Opened, arguments: &Arguments) -> miette::Result<Self> {
         let own = first.exposure_ev().or(second.exposure_ev());
         let exposure_ev = match arguments.exposure {
             Some(_) if own.is_none() => {
@@ -117,15 +119,18 @@ impl Comparison {
             None => own,
         };
         let ev = exposure_ev.unwrap_or_default();
-        check_tags(first, second)?;
-        // Report bands that cannot be compared before making pictures.
-        let bands = match (first, second) {
-            (Opened::Spectral(a, _), Opened::Spectral(b, _)) => {
-                compare::bands(a, b).map_err(|error| unlike(&error, arguments))?
+        check_tags(&first, &second)?;
+        let (bands, [a, b]) = match (first, second) {
+            (Opened::Spectral(mut a), Opened::Spectral(mut b)) => {
+                let (bands, colors) = spectra(&mut a, &mut b, arguments)?;
+                let pictures = colors.map(|colors| Picture::of_colors(&colors, ev));
+                (bands, pictures)
             }
-            _ => Vec::new(),
+            (a, b) => {
+                let a = a.picture(&arguments.first, ev)?;
+                (Vec::new(), [a, b.picture(&arguments.second, ev)?])
+            }
         };
-        let (a, b) = (first.picture(ev), second.picture(ev));
         let of = |error| unlike(&error, arguments);
         Ok(Self {
             size: a.size(),
@@ -317,18 +322,53 @@ fn check_tags(first: &Opened, second: &Opened) -> miette::Result<()> {
     Ok(())
 }
 
+/// Compares the bands of two files strip by strip, and returns the colors of both.
+fn spectra(
+    first: &mut RowReader,
+    second: &mut RowReader,
+    arguments: &Arguments,
+) -> miette::Result<(Vec<BandDifference>, [XyzImage; 2])> {
+    let of = |error| unlike(&error, arguments);
+    let [width, height] = first.size();
+    let sizes = [first.size(), second.size()].map(|size| size.map(|side| side as usize));
+    compare::check_sizes(sizes[0], sizes[1]).map_err(of)?;
+    compare::check_bands(first.bands(), second.bands()).map_err(of)?;
+    let mut sums = BandSums::new(*first.bands());
+    first.check_colors().into_diagnostic()?;
+    let pixels = width as usize * height as usize;
+    let mut xyz = [0; 2].map(|_| Vec::with_capacity(pixels));
+    for rows in first.strips(image_file::STRIP_BYTES) {
+        let a = image_file::strip(&arguments.first, first, rows.clone())?;
+        let b = image_file::strip(&arguments.second, second, rows)?;
+        sums.add(&a, &b).map_err(of)?;
+        for (xyz, strip) in xyz.iter_mut().zip([&a, &b]) {
+            xyz.extend_from_slice(strip.xyz());
+        }
+    }
+    image_file::verify(&arguments.first, first)?;
+    image_file::verify(&arguments.second, second)?;
+    let colors = xyz.map(|xyz| XyzImage::new(width, height, xyz));
+    match colors {
+        [Some(a), Some(b)] => Ok((sums.finish().map_err(of)?, [a, b])),
+        _ => Err(miette!("the strips do not make up the images")),
+    }
+}
+
 impl Opened {
     fn exposure_ev(&self) -> Option<f64> {
         match self {
-            Self::Spectral(_, metadata) => Some(metadata.exposure_ev),
+            Self::Spectral(rows) => Some(rows.metadata().exposure_ev),
             Self::Picture(_) => None,
         }
     }
 
-    fn picture(&self, exposure_ev: f64) -> Picture {
+    fn picture(self, path: &Path, exposure_ev: f64) -> miette::Result<Picture> {
         match self {
-            Self::Spectral(image, _) => Picture::of_spectral(image, exposure_ev),
-            Self::Picture(picture) => picture.clone(),
+            Self::Spectral(mut rows) => {
+                let colors = image_file::colors(path, &mut rows)?;
+                Ok(Picture::of_colors(&colors, exposure_ev))
+            }
+            Self::Picture(picture) => Ok(picture),
         }
     }
 }

@@ -4,33 +4,30 @@ use crate::print;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::color::compare::Picture;
 use pellicle::document::text_file::STANDARD_INPUT;
-use pellicle::picture_file::spectral_exr::{self, Metadata};
+use pellicle::picture_file::spectral_exr::{ReadExrError, RowReader};
+use pellicle::relight::XyzImage;
 use pellicle::scene_file::limits;
 use pellicle::spectra::SpectralImage;
 use std::ffi::OsStr;
+use std::ops::Range;
 use std::path::Path;
 use tempfile::NamedTempFile;
 
 /// A spectral image or a picture.
 pub(crate) enum Opened {
-    Spectral(Box<SpectralImage>, Metadata),
+    /// Its pixels are not read yet.
+    Spectral(Box<RowReader>),
     Picture(Picture),
 }
 
 impl Opened {
-    /// Reads a file that ends in `.exr` or `.png`.
+    /// Opens a file that ends in `.exr` or `.png`.
     pub(crate) fn read(path: &Path) -> miette::Result<Self> {
         let ending = path.extension().map(OsStr::to_ascii_lowercase);
         match ending.as_deref().and_then(OsStr::to_str) {
             Some("png") => Ok(Self::Picture(Picture::read_png(path).into_diagnostic()?)),
-            Some("exr") => {
-                let (image, metadata) = spectral(path)?;
-                Ok(Self::Spectral(Box::new(image), metadata))
-            }
-            _ if path == Path::new(STANDARD_INPUT) => {
-                let (image, metadata) = spectral(path)?;
-                Ok(Self::Spectral(Box::new(image), metadata))
-            }
+            Some("exr") => Ok(Self::Spectral(Box::new(rows(path)?))),
+            _ if path == Path::new(STANDARD_INPUT) => Ok(Self::Spectral(Box::new(rows(path)?))),
             _ => Err(miette!(
                 help = "give a spectral image (.exr) or a picture (.png)",
                 "{}: a file with this ending cannot be read",
@@ -52,22 +49,43 @@ fn spooled(path: &Path) -> miette::Result<Option<NamedTempFile>> {
     Ok(Some(file))
 }
 
-/// Reads a spectral image, and prints what the reader assumed or changed.
-pub(crate) fn spectral(path: &Path) -> miette::Result<(SpectralImage, Metadata)> {
+/// The bytes of the pixels of a strip that is processed at a time.
+pub(crate) const STRIP_BYTES: usize = 64 << 20;
+
+/// Opens a spectral image to be read in strips, and prints what the reader assumes or changes.
+pub(crate) fn rows(path: &Path) -> miette::Result<RowReader> {
     let spooled = spooled(path)?;
     let file = spooled.as_ref().map_or(path, |spooled| spooled.path());
-    let (image, metadata) = spectral_exr::read(file)
-        .into_diagnostic()
-        .wrap_err_with(|| format!("{} was not read", path.display()))?;
-    print_notes(path, &metadata);
-    Ok((image, metadata))
-}
-
-/// Prints what the reader of a file assumed or changed.
-pub(crate) fn print_notes(path: &Path, metadata: &Metadata) {
-    for note in &metadata.notes {
+    let reader = said(path, RowReader::open(file))?;
+    for note in &reader.metadata().notes {
         print::note(format_args!("{}: {note}", path.display()));
     }
+    Ok(reader)
+}
+
+/// Refuses a file whose pixels do not have its digest.
+pub(crate) fn verify(path: &Path, reader: &mut RowReader) -> miette::Result<()> {
+    said(path, reader.verify()).map(drop)
+}
+
+/// Reads a strip of a file.
+pub(crate) fn strip(
+    path: &Path,
+    reader: &mut RowReader,
+    rows: Range<u32>,
+) -> miette::Result<SpectralImage> {
+    said(path, reader.read(rows))
+}
+
+/// Reads the colors of a file without keeping its spectra.
+pub(crate) fn colors(path: &Path, reader: &mut RowReader) -> miette::Result<XyzImage> {
+    said(path, reader.read_xyz())
+}
+
+/// Says which file was not read.
+fn said<T>(path: &Path, read: Result<T, ReadExrError>) -> miette::Result<T> {
+    read.into_diagnostic()
+        .wrap_err_with(|| format!("{} was not read", path.display()))
 }
 
 /// Returns an exposure if it is within its limits.

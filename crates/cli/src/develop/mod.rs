@@ -1,5 +1,6 @@
 //! `pellicle develop`: turns a spectral image into a picture for a display. `render` has the same options.
 
+mod negative;
 mod options;
 mod pictures;
 mod values;
@@ -10,9 +11,10 @@ use crate::booth::{self, BoothLamp};
 use crate::output::check_place;
 use crate::{image_file, print};
 use miette::{IntoDiagnostic, WrapErr};
-use pellicle::color::develop::{Latent, SceneWhite};
-use pellicle::picture_file::png;
-use pellicle::picture_file::spectral_exr::{self, Metadata};
+use negative::{Light, Negative};
+use pellicle::color::develop::SceneWhite;
+use pellicle::picture_file::spectral_exr::{Metadata, RowReader};
+use pellicle::picture_file::{RgbImage8, png};
 use pellicle::plot::SheetColors;
 use pellicle::spectra::SpectralImage;
 use std::path::PathBuf;
@@ -68,22 +70,28 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     if !arguments.booth.is_empty() {
         return write_booth(arguments);
     }
-    if options.needs_spectra() {
-        let (mut image, metadata) = spectral_exr::read(path).into_diagnostic()?;
-        image_file::print_notes(path, &metadata);
-        let mut of_image = ImageProperties::said_by(&metadata);
-        options.relight(&mut image, &mut of_image)?;
-        write(arguments, &image, image.height(), of_image)
+    let mut rows = image_file::rows(path)?;
+    let of_image = ImageProperties::said_by(rows.metadata());
+    options.check(&arguments.output, of_image)?;
+    let negative = if options.needs_spectra() {
+        let mut negatives = Negative::in_lights(
+            path,
+            &mut rows,
+            &[&|image| options.light(image)],
+            options.observer(),
+            options.needs_bands(),
+        )?;
+        negatives.remove(0)
     } else {
-        let (image, metadata) = spectral_exr::read_xyz(path).into_diagnostic()?;
-        image_file::print_notes(path, &metadata);
-        write(
-            arguments,
-            &image,
-            image.height(),
-            ImageProperties::said_by(&metadata),
-        )
-    }
+        Negative::of_colors(image_file::colors(path, &mut rows)?)
+    };
+    let of_image = ImageProperties {
+        lamp: negative.lamp,
+        ..of_image
+    };
+    let exposed = options.expose(&negative, of_image, negative.height())?;
+    drop(negative);
+    options.write_exposed(exposed, &arguments.output, false)
 }
 
 /// Develops the image under each lamp of the booth, and writes the sheet.
@@ -91,19 +99,19 @@ fn write_booth(arguments: &Arguments) -> miette::Result<()> {
     let (lamps, options, outputs) = (&arguments.booth, &arguments.options, &arguments.output);
     booth::check(lamps, outputs)?;
     options.check_booth()?;
-    let (image, metadata) = image_file::spectral(&arguments.image)?;
-    let of_image = ImageProperties::said_by(&metadata);
-    options.check(outputs, of_image)?;
-    let observer = options.observer();
-    let develop = |relit: &SpectralImage| {
-        let of_image = ImageProperties {
-            lamp: SceneWhite::of_lamps(relit, observer),
-            ..of_image
-        };
-        options.codes(relit, of_image, relit.height())
+    let mut rows = image_file::rows(&arguments.image)?;
+    options.check(outputs, ImageProperties::said_by(rows.metadata()))?;
+    // Bands take so much memory that only those of one lamp are kept.
+    let at_a_time = if options.needs_bands() {
+        1
+    } else {
+        lamps.len().max(1)
     };
-    let colors = SheetColors::on(options.display());
-    let sheet = booth::sheet(&image, lamps, observer, colors, develop)?;
+    let mut pictures = Vec::with_capacity(lamps.len());
+    for lamps in lamps.chunks(at_a_time) {
+        pictures.extend(under_lamps(arguments, &mut rows, lamps)?);
+    }
+    let sheet = booth::sheet(&pictures, SheetColors::on(options.display()))?;
     for path in outputs {
         png::write_for_display(path, &sheet, options.display())
             .into_diagnostic()
@@ -113,13 +121,29 @@ fn write_booth(arguments: &Arguments) -> miette::Result<()> {
     Ok(())
 }
 
-fn write<'a>(
+/// The pictures of an image under these lamps, with their labels.
+fn under_lamps(
     arguments: &Arguments,
-    image: impl Into<Latent<'a>>,
-    height: u32,
-    of_image: ImageProperties,
-) -> miette::Result<()> {
-    let (options, outputs) = (&arguments.options, &arguments.output);
-    options.check(outputs, of_image)?;
-    options.write(image, of_image, height, outputs, false)
+    rows: &mut RowReader,
+    lamps: &[BoothLamp],
+) -> miette::Result<Vec<(String, RgbImage8)>> {
+    let options = &arguments.options;
+    let observer = options.observer();
+    let lit = lamps
+        .iter()
+        .map(|lamp| move |image: &mut SpectralImage| lamp.light(image, observer));
+    let lit: Vec<_> = lit.collect();
+    let lights: Vec<&Light<'_>> = lit.iter().map(|light| light as &Light<'_>).collect();
+    let needs_bands = options.needs_bands();
+    let negatives = Negative::in_lights(&arguments.image, rows, &lights, observer, needs_bands)?;
+    let of_image = ImageProperties::said_by(rows.metadata());
+    let developed = lamps.iter().zip(negatives).map(|(lamp, negative)| {
+        let of_image = ImageProperties {
+            lamp: negative.lamp,
+            ..of_image
+        };
+        let picture = options.codes(&negative, of_image, negative.height())?;
+        Ok((lamp.label().to_owned(), picture))
+    });
+    developed.collect()
 }

@@ -144,9 +144,14 @@ impl Options {
         image: &mut SpectralImage,
         of_image: &mut ImageProperties,
     ) -> miette::Result<()> {
-        self.lamps.apply(image)?;
+        self.light(image)?;
         of_image.lamp = SceneWhite::of_lamps(image, self.observer());
         Ok(())
+    }
+
+    /// Shows an image, or a strip of it, under the requested lamps and for the requested observer.
+    pub(super) fn light(&self, image: &mut SpectralImage) -> miette::Result<()> {
+        self.lamps.apply(image)
     }
 
     pub(crate) fn observer(&self) -> Observer {
@@ -156,8 +161,12 @@ impl Options {
     /// Whether the spectra are needed, because colors are not enough.
     pub(crate) fn needs_spectra(&self) -> bool {
         let needs_lamp = self.adapt != Adaptation::None && self.adapt_from.is_none();
-        let needs_bands = matches!(self.glare, GlareName::Mesopic | GlareName::Scotopic);
-        needs_lamp || needs_bands || !self.lamps.is_nothing()
+        needs_lamp || self.needs_bands() || !self.lamps.is_nothing()
+    }
+
+    /// Whether the picture depends on the bands of all pixels: the halo in an eye is a ring for each wavelength.
+    pub(super) fn needs_bands(&self) -> bool {
+        matches!(self.glare, GlareName::Mesopic | GlareName::Scotopic)
     }
 
     fn adaptation(&self, of_image: ImageProperties) -> miette::Result<Option<WhiteAdaptation>> {

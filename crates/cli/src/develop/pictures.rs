@@ -21,6 +21,12 @@ pub(super) enum Format {
     Exr(Samples),
 }
 
+/// A picture that is not yet mapped into the display's gamut, and how it goes on.
+pub(super) struct Exposed {
+    linear: LinearImage,
+    settings: DevelopSettings,
+}
+
 impl Options {
     pub(super) fn format(&self, path: &Path) -> miette::Result<Format> {
         let extension = path.extension().map(OsStr::to_string_lossy);
@@ -57,10 +63,32 @@ impl Options {
         if pictures.is_empty() {
             return Ok(());
         }
+        let exposed = self.expose(image, of_image, height)?;
+        self.write_exposed(exposed, pictures, is_preview)
+    }
+
+    /// Develops an image up to the picture that is not yet mapped into the display's gamut. The image is not needed after that.
+    pub(super) fn expose<'a>(
+        &self,
+        image: impl Into<Latent<'a>>,
+        of_image: ImageProperties,
+        height: u32,
+    ) -> miette::Result<Exposed> {
         let settings = self.settings(of_image, height)?;
         let linear = expose(image, &settings)
             .into_diagnostic()
             .wrap_err("the picture cannot be developed")?;
+        Ok(Exposed { linear, settings })
+    }
+
+    /// Writes the pictures of an exposed image. The last one takes its place in memory.
+    pub(super) fn write_exposed(
+        &self,
+        exposed: Exposed,
+        pictures: &[PathBuf],
+        is_preview: bool,
+    ) -> miette::Result<()> {
+        let Exposed { linear, settings } = exposed;
         let not_finite = linear.not_finite();
         if not_finite > 0 && !is_preview {
             print::note(format_args!(
@@ -70,12 +98,26 @@ impl Options {
         if self.gamut_report && !is_preview {
             report(&GamutReport::of(&linear, &settings), &settings)?;
         }
-        for path in pictures {
-            self.write_one(path, &linear, &settings)
-                .wrap_err_with(|| format!("{} was not written", path.display()))?;
-            if !is_preview {
-                print::note(format_args!("wrote {}", print::output(path)));
-            }
+        let Some((last, others)) = pictures.split_last() else {
+            return Ok(());
+        };
+        for path in others {
+            self.write_and_say(path, linear.clone(), &settings, is_preview)?;
+        }
+        self.write_and_say(last, linear, &settings, is_preview)
+    }
+
+    fn write_and_say(
+        &self,
+        path: &Path,
+        linear: LinearImage,
+        settings: &DevelopSettings,
+        is_preview: bool,
+    ) -> miette::Result<()> {
+        self.write_one(path, linear, settings)
+            .wrap_err_with(|| format!("{} was not written", path.display()))?;
+        if !is_preview {
+            print::note(format_args!("wrote {}", print::output(path)));
         }
         Ok(())
     }
@@ -83,7 +125,7 @@ impl Options {
     fn write_one(
         &self,
         path: &Path,
-        linear: &LinearImage,
+        mut linear: LinearImage,
         settings: &DevelopSettings,
     ) -> miette::Result<()> {
         let format = self.format(path)?;
@@ -91,16 +133,17 @@ impl Options {
         if self.gamut.is_none() && matches!(format, Format::Exr(_)) {
             settings.gamut = GamutMapping::Keep;
         }
-        let mut linear = linear.clone();
         gamut::map(&mut linear, &settings);
         let (display, dither) = (&settings.display, settings.dither);
         match format {
             Format::Png8 => {
                 let codes = quantize::codes::<u8>(&linear, display, dither);
+                drop(linear);
                 png::write_for_display(path, &codes, display).into_diagnostic()
             }
             Format::Png16 => {
                 let codes = quantize::codes::<u16>(&linear, display, dither);
+                drop(linear);
                 png::write_for_display(path, &codes, display).into_diagnostic()
             }
             Format::Exr(samples) => {

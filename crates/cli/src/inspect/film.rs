@@ -7,10 +7,10 @@ use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::coating::{Angle, FilmFits, FilmFitting, Measured, Stack, View, nearest_fit};
 use pellicle::color::Probe;
 use pellicle::pick::{self, Picked, SceneLamp, SceneLamps};
+use pellicle::picture_file::spectral_exr::RowReader;
 use pellicle::relight::xyz::exposure_scale;
 use pellicle::scene::Scene;
 use pellicle::scene_file::SceneFile;
-use pellicle::spectra::SpectralImage;
 use std::path::{Path, PathBuf};
 
 /// What is known about films.
@@ -107,9 +107,9 @@ impl KnownScene {
         let mut file = SceneFile::read(path)?.allow_outside(allow_outside);
         let image = &inspection.image;
         let render = &mut file.description.render;
-        render.size = [image.width(), image.height()];
+        render.size = image.size();
         render.bands = image.bands().count();
-        if let Some(time) = inspection.metadata.settings.get("time_s") {
+        if let Some(time) = inspection.image.metadata().settings.get("time_s") {
             render.time_s = time.parse().unwrap_or(render.time_s);
         }
         let scene = file.validate()?;
@@ -163,7 +163,7 @@ impl KnownScene {
 }
 
 /// The lamp of --lamp, or the lamps that the file records, or else D65.
-fn lamps(asked: &FilmArguments, image: &SpectralImage) -> miette::Result<Vec<SceneLamp>> {
+fn lamps(asked: &FilmArguments, image: &RowReader) -> miette::Result<Vec<SceneLamp>> {
     let nm = FilmFitting::wavelengths_nm(image.bands());
     if asked.lamp.is_none() {
         let known = pick::lamps_of_groups(image.light_groups(), &nm);

@@ -9,9 +9,8 @@ use crate::image_file;
 use clap::ValueEnum;
 use film::FilmFinding;
 use miette::IntoDiagnostic;
-use pellicle::color::{Probe, Region, probe};
-use pellicle::picture_file::spectral_exr::Metadata;
-use pellicle::spectra::SpectralImage;
+use pellicle::color::{Probe, Probing, Region};
+use pellicle::picture_file::spectral_exr::RowReader;
 use std::path::PathBuf;
 
 /// Show the spectrum, noise and color of pixels and regions of a spectral image, and the film that they show.
@@ -79,8 +78,7 @@ enum Format {
 /// An image and what is known about it.
 struct Inspection<'a> {
     arguments: &'a Arguments,
-    image: SpectralImage,
-    metadata: Metadata,
+    image: RowReader,
     exposure_ev: f64,
     places: Vec<Position>,
 }
@@ -109,12 +107,11 @@ impl<'a> Inspection<'a> {
     fn new(arguments: &'a Arguments) -> miette::Result<Self> {
         let exposure = arguments.exposure.map(image_file::checked_exposure);
         let exposure = exposure.transpose()?;
-        let (image, metadata) = image_file::spectral(&arguments.image)?;
-        let exposure_ev = exposure.unwrap_or(metadata.exposure_ev);
+        let image = image_file::rows(&arguments.image)?;
+        let exposure_ev = exposure.unwrap_or(image.metadata().exposure_ev);
         let mut inspection = Self {
             arguments,
             image,
-            metadata,
             exposure_ev,
             places: Vec::new(),
         };
@@ -122,16 +119,43 @@ impl<'a> Inspection<'a> {
         let mut regions: Vec<(String, Region)> =
             asked.map(|region| (label(region), *region)).collect();
         if regions.is_empty() {
-            let whole = Region::all_of(&inspection.image);
+            let [width, height] = inspection.image.size();
+            let whole = Region {
+                x: 0,
+                y: 0,
+                width,
+                height,
+            };
             regions.push(("the whole image".to_owned(), whole));
         }
         let films = film::Films::new(&inspection)?;
-        for (label, region) in regions {
-            let probe = probe(&inspection.image, region).into_diagnostic()?;
+        let probes = inspection.probes(regions.iter().map(|(_, region)| *region))?;
+        for ((label, _), probe) in regions.into_iter().zip(probes) {
             let film = films.find(&inspection, &probe)?;
             inspection.places.push(Position { label, probe, film });
         }
         Ok(inspection)
+    }
+
+    /// The means of regions, from those strips of the image that they need.
+    fn probes(&mut self, regions: impl Iterator<Item = Region>) -> miette::Result<Vec<Probe>> {
+        let size = self.image.size();
+        let probings = regions.map(|region| Probing::new(size, region));
+        let mut probings: Vec<Probing> = probings.collect::<Result<_, _>>().into_diagnostic()?;
+        for strip in self.image.strips(image_file::STRIP_BYTES) {
+            let needed = probings.iter().map(|probing| probing.rows_within(&strip));
+            let needed = needed.filter(|rows| !rows.is_empty());
+            let Some(rows) = needed.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)) else {
+                continue;
+            };
+            let top = rows.start;
+            let pixels = image_file::strip(&self.arguments.image, &mut self.image, rows)?;
+            for probing in &mut probings {
+                probing.add(&pixels, top);
+            }
+        }
+        image_file::verify(&self.arguments.image, &mut self.image)?;
+        Ok(probings.into_iter().map(Probing::finish).collect())
     }
 }
 

@@ -78,7 +78,7 @@ fn plot(inspection: &Inspection) -> SpectrumPlot {
             });
         }
     }
-    let unit = match inspection.metadata.emissive_units.as_str() {
+    let unit = match inspection.image.metadata().emissive_units.as_str() {
         "" => "radiance".to_owned(),
         "W.m^-2.sr^-1.nm^-1" | "W.m^-2.sr^-1" => "radiance / W m⁻² sr⁻¹ nm⁻¹".to_owned(),
         unit => format!("value / {unit}"),

@@ -40,21 +40,19 @@ impl Inspection<'_> {
     }
 
     pub(super) fn print_table(&self) -> miette::Result<()> {
-        let bands = self.image.bands();
+        let (bands, [width, height]) = (self.image.bands(), self.image.size());
         let mut text = format!(
-            "{}: {}×{} pixels, {} bands from {} to {} nm",
+            "{}: {width}×{height} pixels, {} bands from {} to {} nm",
             self.arguments.image.display(),
-            self.image.width(),
-            self.image.height(),
             bands.count(),
             bands.min_nm(),
             bands.max_nm()
         );
-        if !self.metadata.software.is_empty() {
-            let _ = write!(text, ", by {}", self.metadata.software);
+        if !self.image.metadata().software.is_empty() {
+            let _ = write!(text, ", by {}", self.image.metadata().software);
         }
         text.push('\n');
-        for (name, value) in &self.metadata.settings {
+        for (name, value) in &self.image.metadata().settings {
             let _ = writeln!(text, "  {name}: {value}");
         }
         for place in &self.places {
@@ -147,7 +145,7 @@ impl Inspection<'_> {
             }
             text.push('\n');
         }
-        let unit = &self.metadata.emissive_units;
+        let unit = &self.image.metadata().emissive_units;
         if !unit.is_empty() {
             let _ = writeln!(text, "radiance in {unit}, up to the scene's scale");
         }
@@ -182,11 +180,11 @@ impl Inspection<'_> {
                       lab is relative to the white of sRGB, at the exposure",
             "program": concat!("pellicle ", env!("CARGO_PKG_VERSION")),
             "image": self.arguments.image.display().to_string(),
-            "size": [self.image.width(), self.image.height()],
-            "software": self.metadata.software,
-            "settings": self.metadata.settings,
-            "notes": self.metadata.notes,
-            "units": self.metadata.emissive_units,
+            "size": self.image.size(),
+            "software": self.image.metadata().software,
+            "settings": self.image.metadata().settings,
+            "notes": self.image.metadata().notes,
+            "units": self.image.metadata().emissive_units,
             "range_nm": [bands.min_nm(), bands.max_nm()],
             "centers_nm": centers,
             "exposure_ev": self.exposure_ev,

@@ -149,6 +149,21 @@ fn the_gamut_report_counts_what_the_warning_marks() {
 }
 
 #[test]
+fn a_picture_goes_to_standard_output() {
+    let place = place();
+    for bits in ["8", "16"] {
+        let to_file = place.run(&format!("develop image.exr -o out.png --bits {bits}"));
+        let _ = to_file.succeeded();
+        let mut command = place.command(&format!("develop image.exr -o - --bits {bits}"));
+        let ran = command.output().unwrap();
+        assert!(ran.status.success(), "{ran:?}");
+        assert_eq!(ran.stdout, std::fs::read(place.path("out.png")).unwrap());
+        let said = String::from_utf8(ran.stderr).unwrap();
+        assert!(said.contains("wrote <standard output>"), "{said}");
+    }
+}
+
+#[test]
 fn files_have_the_requested_bit_depth() {
     let place = place();
     for (name, bits, expected) in [

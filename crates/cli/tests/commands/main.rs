@@ -33,6 +33,7 @@ mod images;
 mod inspect;
 #[cfg(unix)]
 mod kills;
+mod large_files;
 mod large_pictures;
 mod materials;
 mod pages;

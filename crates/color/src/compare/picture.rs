@@ -8,12 +8,12 @@ use std::path::{Path, PathBuf};
 use colorimetry::lab::delta_e_2000;
 use colorimetry::{Lab, srgb};
 use rayon::prelude::*;
-use spectra::SpectralImage;
 use thiserror::Error;
 
-use super::CompareError;
+use super::{CompareError, check_sizes};
 use picture_file::RgbImage8;
 use picture_file::icc;
+use relight::XyzImage;
 use relight::xyz::exposure_scale;
 
 /// A picture in linear sRGB, not clipped, with row 0 at the top.
@@ -60,7 +60,7 @@ impl Picture {
     }
 
     /// Creates a picture from an image's XYZ at an exposure in stops, neither adapted nor clipped.
-    pub fn of_spectral(image: &SpectralImage, exposure_ev: f64) -> Self {
+    pub fn of_colors(image: &XyzImage, exposure_ev: f64) -> Self {
         let scale = exposure_scale(exposure_ev);
         let rgb = |xyz: &[f32; 3]| srgb::linear_from_xyz(xyz.map(|value| f64::from(value) * scale));
         let linear = image.xyz().par_iter().map(rgb);
@@ -108,12 +108,7 @@ impl Picture {
     }
 
     pub(super) fn check_alike(&self, other: &Self) -> Result<(), CompareError> {
-        if self.size != other.size {
-            return Err(CompareError::Sizes {
-                first: self.size,
-                second: other.size,
-            });
-        }
+        check_sizes(self.size, other.size)?;
         if self.linear.is_empty() {
             return Err(CompareError::Empty);
         }
