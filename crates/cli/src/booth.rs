@@ -1,6 +1,7 @@
 //! `pellicle develop --booth`: the same image under one lamp after another, on one sheet.
 
 use crate::lamp::Lamp;
+use crate::output::is_stream;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::picture_file::RgbImage8;
 use pellicle::plot::{MAX_PICTURES, SheetColors, contact_sheet};
@@ -32,7 +33,10 @@ pub(crate) fn check(lamps: &[BoothLamp], outputs: &[PathBuf]) -> miette::Result<
         path.extension()
             .is_some_and(|e| e.eq_ignore_ascii_case("png"))
     };
-    if let Some(path) = outputs.iter().find(|path| !is_png(path)) {
+    if let Some(path) = outputs
+        .iter()
+        .find(|path| !(is_png(path) || is_stream(path)))
+    {
         return Err(miette!(
             help = "end it in .png",
             "-o {}: a contact sheet with this ending cannot be written",

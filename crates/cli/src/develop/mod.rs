@@ -116,7 +116,7 @@ fn write_booth(arguments: &Arguments) -> miette::Result<()> {
         png::write_for_display(path, &sheet, options.display())
             .into_diagnostic()
             .wrap_err_with(|| format!("{} was not written", path.display()))?;
-        print::note(format_args!("wrote {}", path.display()));
+        print::note(format_args!("wrote {}", print::output(path)));
     }
     Ok(())
 }

@@ -4,6 +4,7 @@ use super::ImageProperties;
 use super::values::{
     ExposureOption, GamutName, GlareName, White, bits, display, exposure, fov, star_length, white,
 };
+use crate::output::is_standard_output;
 use crate::print;
 use crate::relight::RelightArguments;
 use miette::{IntoDiagnostic, WrapErr, miette};
@@ -87,6 +88,17 @@ impl Options {
     ) -> miette::Result<()> {
         for path in pictures {
             self.format(path)?;
+        }
+        let streams = pictures.iter().filter(|path| is_standard_output(path));
+        match streams.count() {
+            2.. => return Err(miette!("-o -: standard output gets one picture")),
+            1 if self.gamut_report => {
+                return Err(miette!(
+                    help = "write the picture to a file",
+                    "--gamut-report: standard output gets the picture of -o -, not the report"
+                ));
+            }
+            _ => {}
         }
         if self.adapt_from.is_some() && self.adapt == Adaptation::None {
             return Err(without_effect("--adapt-from", "--adapt"));

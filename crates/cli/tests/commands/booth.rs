@@ -17,6 +17,9 @@ fn a_booth_shows_each_lamp() {
     let _ = place
         .run("develop a.exr --booth D65,A,F11 -o booth.png --gamut clip")
         .succeeded();
+    let mut command = place.command("develop a.exr --booth D65,A,F11 -o - --gamut clip");
+    let to_standard_output = command.output().unwrap().stdout;
+    assert!(to_standard_output == std::fs::read(place.path("booth.png")).unwrap());
     let _ = place
         .run("develop a.exr -o d65.png --gamut clip")
         .succeeded();

@@ -164,6 +164,17 @@ fn a_picture_goes_to_standard_output() {
 }
 
 #[test]
+fn an_image_comes_from_standard_input() {
+    let place = place();
+    let _ = place.run("develop image.exr -o out.png").succeeded();
+    let input = std::fs::read(place.path("image.exr")).unwrap();
+    let ran = place.run_with_input("develop - -o other.png", &input);
+    let _ = ran.succeeded();
+    let [out, other] = ["out.png", "other.png"].map(|name| std::fs::read(place.path(name)));
+    assert_eq!(out.unwrap(), other.unwrap());
+}
+
+#[test]
 fn files_have_the_requested_bit_depth() {
     let place = place();
     for (name, bits, expected) in [
@@ -226,6 +237,8 @@ cases! { refused:
     a_field_of_view_that_is_too_wide("image.exr -o out.png --glare mesopic --glare-fov 190", "170 degrees");
     a_star_without_length("image.exr -o out.png --glare star --star-length 0", "fraction of the height");
     no_output("image.exr", "--output");
+    two_pictures_on_standard_output("image.exr -o - -o -", "one picture");
+    a_report_with_the_picture("image.exr -o - --gamut-report", "write the picture to a file");
     a_missing_image("missing.exr -o out.png", "missing.exr");
     a_text_as_image("notes.txt -o out.png", "not an OpenEXR file");
 }
