@@ -74,6 +74,14 @@ const ARROWS: &[(&str, &[&str])] = &[
     ),
     ("pellicle-gpu", &["pellicle-scene", "pellicle-spectra"]),
     (
+        "pellicle-progressive",
+        &[
+            "pellicle-picture-file",
+            "pellicle-scene",
+            "pellicle-spectra",
+        ],
+    ),
+    (
         "pellicle-coating",
         &[
             "pellicle-colorimetry",
@@ -97,6 +105,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "pellicle-optics",
             "pellicle-picture-file",
             "pellicle-plot",
+            "pellicle-progressive",
             "pellicle-reference",
             "pellicle-relight",
             "pellicle-scene",

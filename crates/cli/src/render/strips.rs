@@ -77,9 +77,6 @@ pub(super) fn run(job: &Job<'_>, rows: u32) -> miette::Result<Outcome> {
     metadata
         .settings
         .insert("samples".to_owned(), goal.to_string());
-    metadata
-        .settings
-        .insert("stopped_by".to_owned(), "samples".to_owned());
     let started = Instant::now();
     let mut strips = Strips {
         job,

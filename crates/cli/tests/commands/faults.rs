@@ -5,8 +5,8 @@ use crate::render::{bytes, exr};
 use crate::{assert_says, scene};
 use std::sync::OnceLock;
 
-/// A picture of seven rounds: to 1, 2, 4, 8, 16, 32 and 64 samples.
-const SETTINGS: &str = "--backend gpu --size 24x18 --bands 4 --samples 64";
+/// A picture of seven rounds: to 4, 8, 16, 32, 64, 128 and 256 samples.
+const SETTINGS: &str = "--backend gpu --size 24x18 --bands 4 --samples 256";
 /// More faults in one round than are forgiven.
 const TOO_MANY: &str = "--inject-fault lost@3 --inject-fault refused@3 --inject-fault lost@3 \
                         --inject-fault out-of-memory@3 --inject-fault lost@3";
@@ -57,8 +57,8 @@ fn a_device_that_fails_for_good_leaves_what_was_done() {
     assert_eq!(stderr.matches("  × ").count(), 1, "{stderr}");
     assert_eq!(place.names(), ["a.exr", "a.png", "kept"]);
     let (image, metadata) = exr(&place, "a.exr");
-    assert_eq!(image.samples()[0], 2);
-    assert_eq!(metadata.settings["samples"], "2");
+    assert_eq!(image.samples()[0], 8);
+    assert_eq!(metadata.settings["samples"], "8");
     // The checkpoint is one to go on from.
     let _ = run(&place, "--checkpoint kept --resume -o b.exr").succeeded();
     assert!(bytes(&place, "b.exr") == whole(), "other bytes");
@@ -79,7 +79,7 @@ fn the_cpu_goes_on_if_it_may() {
     let ran = run(&place, &format!("{TOO_MANY} --allow-cpu -o a.exr")).succeeded();
     assert_says(&ran.stderr, &["the CPU goes on"]);
     let (image, metadata) = exr(&place, "a.exr");
-    assert!(image.samples().iter().all(|&samples| samples == 64));
+    assert!(image.samples().iter().all(|&samples| samples == 256));
     let renderer = &metadata.settings["renderer"];
     assert!(renderer.ends_with(", then the CPU"), "{renderer}");
 }

@@ -36,6 +36,7 @@ mod kills;
 mod large_files;
 mod large_pictures;
 mod materials;
+mod merge;
 mod pages;
 mod pipeline_cache;
 mod place;

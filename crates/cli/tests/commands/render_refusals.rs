@@ -14,7 +14,7 @@ pub(crate) fn refused(arguments: &str, words: &[&str]) {
 cases! { refused:
     an_empty_picture("--size 0x0", &["render.size[0]", "render.size[1]", "from 1"]);
     a_picture_that_is_too_large("--size 99999x99999", &["render.size", "99999", "32768"]);
-    an_image_larger_than_memory("--size 32768x32768 --bands 1024", &["GiB"]);
+    an_image_larger_than_memory("--size 32768x32768 --bands 1024 --max-memory 4GB", &["GB", "4.0 GB can be used", "--part"]);
     a_size_of_one_number("--size 4", &["--size", "640x480"]);
     no_samples("--samples 0", &["render.samples", "from 1"]);
     too_many_samples("--samples 4294967296", &["--samples"]);

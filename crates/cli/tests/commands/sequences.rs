@@ -1,4 +1,4 @@
-//! Tests of `pellicle render --frames` and `--time`.
+//! Tests of `pellicle render --frames` and `--scene-time`.
 
 use crate::assert_says;
 use crate::place::Place;
@@ -34,7 +34,7 @@ fn a_sequence_has_a_numbered_file_for_each_frame_at_its_time() {
         &["frame 2 of 2 to 3 at 20 s", "wrote a_0003.exr"],
     );
     let _ = place
-        .run("render film.toml --backend cpu --time 25 -o still.exr")
+        .run("render film.toml --backend cpu --scene-time 25 -o still.exr")
         .succeeded();
     let (third, metadata) = exr(&place, "a_0003.exr");
     assert_eq!(metadata.settings["time_s"], "25");
@@ -63,7 +63,7 @@ cases! { refused:
     a_range_of_frames_has_two_ends("--frames 4", &["write frames as in 0:48"]);
     a_range_of_frames_is_not_empty("--frames 4:4", &["must be larger than the first"]);
     a_frame_is_not_negative("--frames -1:4", &["write frames as in 0:48"]);
-    a_time_is_not_negative("--time -3", &["render.time_s", "found -3", "set outside the file"]);
+    a_time_is_not_negative("--scene-time -3", &["render.time_s", "found -3", "set outside the file"]);
 }
 
 #[test]
