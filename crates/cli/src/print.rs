@@ -57,6 +57,13 @@ pub(crate) fn output(path: &Path) -> String {
     }
 }
 
+/// A fraction as a percentage with two digits that mean something.
+pub(crate) fn percent(fraction: f64) -> String {
+    let percent = 100.0 * fraction;
+    let decimals = (1.0 - percent.log10().floor()).clamp(0.0, 6.0) as usize;
+    format!("{percent:.decimals$} %")
+}
+
 /// Prints what was assumed about the input, one line each, on standard error.
 pub(crate) fn notes<N: Display>(notes: impl IntoIterator<Item = N>) {
     for said in notes {

@@ -1,6 +1,6 @@
 //! The progress of a render: a line that is redrawn on a terminal, and nothing elsewhere.
 
-use crate::render::percent;
+use crate::print::percent;
 use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 use pellicle::progressive::Render;
 use std::fmt::Write;

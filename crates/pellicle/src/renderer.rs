@@ -1,10 +1,6 @@
 //! One interface to both renderers.
 
-use crate::Session;
 use gpu::{AdapterChoice, Gpu};
-use scene::Scene;
-use spectra::{Accumulation, Round, SpectralImage, Window};
-use std::ops::ControlFlow;
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -102,30 +98,5 @@ impl Renderer {
             }
             Self::Cpu { .. } => "CPU, f64 without fused multiply-add".to_owned(),
         }
-    }
-
-    /// Renders a scene. `on_progress` receives the samples taken so far, out of width × height × samples per pixel, and can
-    /// stop the render. It receives 0 before a driver compiles the scene's shader, which can take seconds and last into the first
-    /// batch of samples: from 0 to the next number the render is compiling. It receives no 0 on the CPU, or if the shader was
-    /// compiled for an earlier picture.
-    ///
-    /// # Errors
-    /// When the device fails, the scene is too large for it, or the caller stops the render.
-    pub fn render(
-        &self,
-        scene: &Scene,
-        on_progress: &mut dyn FnMut(u64) -> ControlFlow<()>,
-    ) -> Result<SpectralImage, RenderError> {
-        let settings = scene.settings();
-        let window = Window::whole([settings.width, settings.height]);
-        let groups = scene.light_groups().to_vec();
-        let mut accumulation = Accumulation::new(window, 0, settings.bands, groups);
-        let round = Round {
-            window,
-            samples: 0..settings.samples,
-        };
-        let mut session = Session::new(self, scene, on_progress)?;
-        session.advance(&mut accumulation, &[round], on_progress)?;
-        Ok(accumulation.whole_image())
     }
 }

@@ -1,7 +1,7 @@
 //! One picture: what is rendered, and what is written.
 
 use super::keeper::Keeper;
-use super::{Arguments, Endurance, Outcome, of_image, rounds, strips};
+use super::{Arguments, Endurance, of_image};
 use crate::develop::{self, FOV_SETTING};
 use crate::memory::{self, Layout, Needs, Pictures};
 use crate::output::{Outputs, write_rows};
@@ -29,7 +29,8 @@ pub(super) struct Job<'a> {
     pub(super) window: Window,
     pub(super) goal: Goal,
     pub(super) identity: Identity,
-    layout: Layout,
+    /// How the picture fits into memory.
+    pub(super) layout: Layout,
 }
 
 impl<'a> Job<'a> {
@@ -72,13 +73,6 @@ impl<'a> Job<'a> {
         })
     }
 
-    pub(super) fn run(&self) -> miette::Result<Outcome> {
-        match self.layout {
-            Layout::Whole => rounds::run(self),
-            Layout::Strips(rows) => strips::run(self, rows),
-        }
-    }
-
     /// The pixels of a window, without samples.
     pub(super) fn empty(&self, window: Window) -> Accumulation {
         let groups = self.scene.light_groups().to_vec();
@@ -101,7 +95,7 @@ impl<'a> Job<'a> {
             reached = format!("{mean:.1} samples per pixel in the mean");
         }
         if let Some(noise) = render.noise() {
-            reached += &format!(", noise {}", percent(noise));
+            reached += &format!(", noise {}", print::percent(noise));
         }
         self.print_pace(&reached, work, seconds);
     }
@@ -243,11 +237,4 @@ fn strips_of(all: &Accumulation) -> impl Iterator<Item = SpectralImage> + '_ {
     (0..height)
         .step_by(rows)
         .map(move |row| all.image(row..(row + rows as u32).min(height)))
-}
-
-/// A fraction as a percentage with two digits that mean something.
-pub(crate) fn percent(fraction: f64) -> String {
-    let percent = 100.0 * fraction;
-    let decimals = (1.0 - percent.log10().floor()).clamp(0.0, 6.0) as usize;
-    format!("{percent:.decimals$} %")
 }

@@ -1,6 +1,5 @@
-//! What is done between the rounds of a render: checkpoints and previews.
+//! Checkpoints, which are written between the rounds of a render.
 
-use super::Job;
 use crate::print;
 use miette::IntoDiagnostic;
 use pellicle::progressive::{CheckpointError, Identity, Render};
@@ -68,34 +67,5 @@ impl Keeper {
             .into_diagnostic()?;
         print::note(format_args!("wrote {}", self.path.display()));
         Ok(())
-    }
-}
-
-/// Writes the pictures again and again.
-pub(super) struct Preview {
-    every: Duration,
-    last: Instant,
-}
-
-impl Preview {
-    pub(super) fn new(every: Duration) -> Self {
-        Self {
-            every,
-            last: Instant::now(),
-        }
-    }
-
-    /// Writes the pictures if it is time. A failure is reported, and the render goes on.
-    pub(super) fn after_round(&mut self, job: &Job<'_>, render: &Render) {
-        if self.last.elapsed() < self.every {
-            return;
-        }
-        if let Err(error) = job.write_pictures(render.accumulation(), true) {
-            print::note(format_args!(
-                "warning: no preview: {}",
-                print::in_a_line(&error)
-            ));
-        }
-        self.last = Instant::now();
     }
 }

@@ -7,12 +7,12 @@ mod rounds;
 mod strips;
 
 use crate::develop::{self, ImageProperties};
+use crate::memory::Layout;
 use crate::output::Outputs;
 use crate::print;
 use clap::ValueEnum;
 use endurance::Endurance;
 use job::Job;
-pub(crate) use job::percent;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use pellicle::document::text_file::STANDARD_INPUT;
 use pellicle::gpu::AdapterChoice;
@@ -201,7 +201,11 @@ struct Sequence<'a> {
 
 impl Sequence<'_> {
     fn picture(&self, scene: &Scene, outputs: &Outputs, heading: &str) -> miette::Result<Outcome> {
-        Job::new(self.renderer, scene, (self.arguments, outputs), heading)?.run()
+        let job = Job::new(self.renderer, scene, (self.arguments, outputs), heading)?;
+        match job.layout {
+            Layout::Whole => rounds::run(&job),
+            Layout::Strips(rows) => strips::run(&job, rows),
+        }
     }
 
     /// Renders a sequence. An error names its frame, and the frames before it are kept.

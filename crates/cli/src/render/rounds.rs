@@ -1,6 +1,6 @@
 //! Renders a picture that fits into memory, in rounds of samples of all its pixels.
 
-use super::keeper::{Keeper, Preview};
+use super::keeper::Keeper;
 use super::{Job, Outcome, advance};
 use crate::interrupt;
 use crate::print;
@@ -11,7 +11,7 @@ use pellicle::scene::Scene;
 use pellicle::spectra::Round;
 use pellicle::{RenderError, Session};
 use std::ops::ControlFlow;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Renders until the goal is reached, a signal comes or the device fails, and writes what was reached in any case.
 pub(super) fn run(job: &Job<'_>) -> miette::Result<Outcome> {
@@ -130,4 +130,33 @@ fn rounds(
         }
     }
     Ok(())
+}
+
+/// Writes the pictures again and again.
+struct Preview {
+    every: Duration,
+    last: Instant,
+}
+
+impl Preview {
+    fn new(every: Duration) -> Self {
+        Self {
+            every,
+            last: Instant::now(),
+        }
+    }
+
+    /// Writes the pictures if it is time. A failure is reported, and the render goes on.
+    fn after_round(&mut self, job: &Job<'_>, render: &Render) {
+        if self.last.elapsed() < self.every {
+            return;
+        }
+        if let Err(error) = job.write_pictures(render.accumulation(), true) {
+            print::note(format_args!(
+                "warning: no preview: {}",
+                print::in_a_line(&error)
+            ));
+        }
+        self.last = Instant::now();
+    }
 }
