@@ -72,9 +72,10 @@ fn assert_within_an_ulp(found: &SpectralImage, expected: &SpectralImage) {
         let is_variance = a.key().quantity == Quantity::Variance;
         for (a, b) in a.floats().iter().zip(b.floats()) {
             let distance = (a.to_bits().cast_signed() - b.to_bits().cast_signed()).abs();
-            let is_near = match is_variance {
-                true => (a - b).abs() <= 0.01 * b.abs(),
-                false => distance <= most,
+            let is_near = if is_variance {
+                (a - b).abs() <= 0.01 * b.abs()
+            } else {
+                distance <= most
             };
             assert!(is_near, "{a} instead of {b}");
         }
