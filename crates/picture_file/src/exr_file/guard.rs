@@ -14,8 +14,10 @@ pub const MAX_BYTES: u128 = 64 << 30;
 
 /// How many times as large as its pixels in the file a picture may be, plus [`MISSING_BYTES`].
 const MAX_MISSING: u128 = 16;
-/// By how many further bytes a picture may exceed its pixels in the file: missing pixels take memory without bytes in the file.
+/// By how many further bytes a picture may exceed its pixels in the file: missing pixels take memory without bytes in the file. A file of a
+/// few hundred bytes may ask for less: this many bytes for each of its own.
 const MISSING_BYTES: u128 = 1 << 30;
+const MISSING_BYTES_PER_BYTE: u128 = 1 << 16;
 
 /// Returns the largest factor by which a compression can shrink a block, with a margin for the data around it.
 ///
@@ -64,7 +66,7 @@ pub(crate) fn check(
 
 /// Whether an image of the display window may be as large as it is, and memory for it is available; `bytes_of` returns the bytes
 /// of an image of a width and a height.
-pub(crate) fn fits(window: &Window, bytes_of: impl Fn(u32, u32) -> u128) -> bool {
+pub(crate) fn fits(window: &Window, file_bytes: u64, bytes_of: impl Fn(u32, u32) -> u128) -> bool {
     let bytes =
         |(width, height): (usize, usize)| match (u32::try_from(width), u32::try_from(height)) {
             (Ok(width), Ok(height)) => Some(bytes_of(width, height)),
@@ -73,12 +75,8 @@ pub(crate) fn fits(window: &Window, bytes_of: impl Fn(u32, u32) -> u128) -> bool
     let (Some(shown), Some(held)) = (bytes(window.size()), bytes(window.data())) else {
         return false;
     };
-    if shown > MAX_BYTES
-        || shown
-            > held
-                .saturating_mul(MAX_MISSING)
-                .saturating_add(MISSING_BYTES)
-    {
+    let missing = MISSING_BYTES.min(MISSING_BYTES_PER_BYTE * u128::from(file_bytes));
+    if shown > MAX_BYTES || shown > held.saturating_mul(MAX_MISSING).saturating_add(missing) {
         return false;
     }
     // A failed allocation is an error here; in the image it would abort the program.

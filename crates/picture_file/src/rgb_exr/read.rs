@@ -90,7 +90,7 @@ impl RgbFile {
         let header = &reader.headers()[layer.part];
         let window = Window::of(header);
         let bytes = |width, height| u128::from(width) * u128::from(height) * 12;
-        if !guard::fits(&window, bytes) {
+        if !guard::fits(&window, length, bytes) {
             let (width, height) = window.size();
             let reason = format!("a picture of {width}×{height} pixels, too large to read");
             return Err(context.unsupported(&reason).into());

@@ -109,7 +109,9 @@ fn check_fits(
     plan: &Plan,
     bytes: impl Fn(u32, u32) -> u128,
 ) -> Result<(), ReadExrError> {
-    if guard::fits(&plan.window, bytes) {
+    // An image that is read by rows is checked by its rows.
+    let file_bytes = std::fs::metadata(path).map_or(u64::MAX, |data| data.len());
+    if guard::fits(&plan.window, file_bytes, bytes) {
         return Ok(());
     }
     let (width, height) = plan.window.size();
