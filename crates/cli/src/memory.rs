@@ -76,7 +76,7 @@ pub(crate) fn layout(
     }
     let (takes, help) = if needs_all {
         let help = "render parts of it with --part K/N and join them with `pellicle merge`, or leave out --time, --noise, --adaptive, \
-                    --preview-every and --checkpoint: rows are then rendered one after the other";
+                    --preview-every, --checkpoint, other lamps and a second .exr: rows are then rendered one after the other";
         (whole, help)
     } else {
         (

@@ -66,6 +66,11 @@ impl Outputs {
         all.check_names()
     }
 
+    /// Whether an output is a pipe or a device.
+    pub(crate) fn has_stream(&self) -> bool {
+        self.paths().any(|path| is_stream(path))
+    }
+
     fn paths(&self) -> impl Iterator<Item = &PathBuf> {
         self.pictures.iter().chain(&self.spectral)
     }

@@ -71,6 +71,18 @@ pub(crate) fn notes<N: Display>(notes: impl IntoIterator<Item = N>) {
     }
 }
 
+/// The last of some failures, after the others are printed.
+pub(crate) fn all_but_last(
+    results: impl IntoIterator<Item = miette::Result<()>>,
+) -> miette::Result<()> {
+    let mut failures: Vec<miette::Report> = results.into_iter().filter_map(Result::err).collect();
+    let last = failures.pop();
+    for failure in &failures {
+        error(failure);
+    }
+    last.map_or(Ok(()), Err)
+}
+
 /// A failure and its causes in one line.
 pub(crate) fn in_a_line(report: &miette::Report) -> String {
     let causes: Vec<String> = report.chain().map(ToString::to_string).collect();

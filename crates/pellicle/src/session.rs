@@ -135,7 +135,12 @@ impl<'a> Session<'a> {
             let mut progress = |done| on_progress(before + done);
             match self.try_advance(accumulation, &rounds, &mut progress) {
                 Err(RenderError::Gpu(error)) => self.recover(error, on_progress)?,
-                other => return other,
+                Err(stopped) => return Err(stopped),
+                Ok(()) => {
+                    // A device that works again may fail again, some day.
+                    self.reopened = 0;
+                    return Ok(());
+                }
             }
             let left = |round: &Round| accumulation.rounds_to(round.window, round.samples.end);
             rounds = rounds.iter().flat_map(left).collect();

@@ -50,8 +50,15 @@ impl Destination {
                 let message = "is a directory";
                 return Err(io::Error::new(io::ErrorKind::IsADirectory, message));
             }
-            // Open files have names in these folders, and may be regular files.
-            let is_of_system = path.starts_with("/dev/") || path.starts_with("/proc/");
+            // These are names of open files, which may be regular ones. (Other folders in /dev may hold files, such as /dev/shm.)
+            let streams = [
+                "/proc",
+                "/dev/fd",
+                "/dev/stdin",
+                "/dev/stdout",
+                "/dev/stderr",
+            ];
+            let is_of_system = streams.iter().any(|stream| path.starts_with(stream));
             let is_special = kind.is_some_and(|kind| !kind.is_file());
             if is_special || (is_of_system && kind.is_some()) {
                 return Ok(Self::Stream(path));
@@ -295,6 +302,18 @@ mod tests {
         assert_eq!(reader.join().unwrap(), b"picture");
         assert!(fs::symlink_metadata(&pipe).unwrap().file_type().is_fifo());
         assert_eq!(names(directory.path()), ["pipe"]);
+    }
+
+    /// A folder in memory that is below the devices.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_file_in_shared_memory_is_replaced() {
+        let directory = tempfile::tempdir_in("/dev/shm").unwrap();
+        let path = directory.path().join("picture");
+        for bytes in [&b"a long picture"[..], b"short"] {
+            put(&path, bytes);
+            assert_eq!(fs::read(&path).unwrap(), bytes);
+        }
     }
 
     /// The destination is checked first, since a wrong one would replace the device by a file.

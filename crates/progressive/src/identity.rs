@@ -96,6 +96,16 @@ impl Identity {
         self
     }
 
+    /// Whether it is that of an adaptive render.
+    pub(crate) fn is_adaptive(&self) -> bool {
+        self.0.contains_key("adaptive_samples")
+    }
+
+    /// A digest of all entries.
+    pub fn digest(&self) -> String {
+        digest(&self.0)
+    }
+
     /// The identity of a render that the CPU has continued after the GPU failed. It goes with no other file.
     #[must_use]
     pub fn mixed(mut self) -> Self {
@@ -123,6 +133,11 @@ impl Identity {
     pub fn settings(&self) -> impl Iterator<Item = (String, String)> {
         let entries = self.0.iter();
         entries.map(|(name, value)| (format!("{PREFIX}{name}"), value.clone()))
+    }
+
+    /// Whether a setting of a spectral image belongs to its identity.
+    pub fn has(setting: &str) -> bool {
+        setting.starts_with(PREFIX)
     }
 
     /// The identity among the settings of a spectral image; `None` if there is none.

@@ -18,8 +18,8 @@ const STRIP: u64 = 64 << 20;
 #[derive(Debug, Error)]
 pub enum MergeError {
     /// There is nothing to join.
-    #[error("one file alone cannot be joined with anything")]
-    TooFew,
+    #[error("there are no files to join")]
+    None,
     /// A file cannot be read, or is damaged.
     #[error(transparent)]
     Read(#[from] ReadExrError),
@@ -109,6 +109,25 @@ impl Piece {
         u64::from(window.origin[1])..window.end()[1]
     }
 
+    /// Reads rows, all of whose pixels must have all samples: a render that was broken off has left others.
+    fn read(&mut self, rows: Range<u32>) -> Result<SpectralImage, MergeError> {
+        let image = self.reader.read(rows.clone())?;
+        let (width, window) = (image.width() as usize, self.reader.window());
+        let (left, count) = (
+            window.origin[0] as usize,
+            self.samples.end - self.samples.start,
+        );
+        for (row, samples) in rows.zip(image.samples().chunks(width.max(1))) {
+            let own = &samples[left..left + window.size[0] as usize];
+            if own.iter().any(|&samples| u64::from(samples) != count) {
+                return Err(self.unfit(format!(
+                    "is not finished: row {row} has pixels without its {count} samples"
+                )));
+            }
+        }
+        Ok(image)
+    }
+
     fn unfit(&self, reason: String) -> MergeError {
         MergeError::Unfit {
             path: self.path.clone(),
@@ -137,10 +156,10 @@ pub fn merge(paths: &[PathBuf], output: &Path) -> Result<Merged, MergeError> {
     let pieces: Result<Vec<Piece>, MergeError> =
         paths.iter().map(|path| Piece::open(path)).collect();
     let mut pieces = pieces?;
-    let (Some(first), true) = (pieces.first(), pieces.len() > 1) else {
-        return Err(MergeError::TooFew);
+    let Some(first) = pieces.first() else {
+        return Err(MergeError::None);
     };
-    for piece in &pieces[1..] {
+    for piece in &pieces {
         check_identity(first, piece)?;
     }
     let is_range = pieces.iter().all(|piece| piece.rows() == first.rows());
@@ -163,9 +182,9 @@ pub fn merge(paths: &[PathBuf], output: &Path) -> Result<Merged, MergeError> {
     let mut next = || strips.next();
     match spectral_exr::write_rows(output, frame, &metadata, WriteOptions::default(), &mut next) {
         Ok(()) => Ok(merged),
-        Err(WriteRowsError::Source(error)) => Err(error.into()),
+        Err(WriteRowsError::Source(error)) => Err(error),
         Err(WriteRowsError::Write(error)) => Err(error.into()),
-        Err(_) => Err(MergeError::TooFew),
+        Err(_) => Err(MergeError::None),
     }
 }
 
@@ -177,6 +196,10 @@ fn check_identity(first: &Piece, piece: &Piece) -> Result<(), MergeError> {
             first: first.path.clone(),
             differences: listed(&differences),
         });
+    }
+    if piece.identity.is_adaptive() {
+        let reason = "has other numbers of samples in each tile, as --adaptive asks for";
+        return Err(piece.unfit(reason.to_owned()));
     }
     let exposure = |piece: &Piece| piece.reader.metadata().exposure_ev;
     if piece.reader.light_groups() != first.reader.light_groups()
@@ -240,7 +263,7 @@ fn check_parts(pieces: &mut [Piece]) -> Result<(), MergeError> {
         }
         if piece.samples != samples {
             return Err(piece.unfit(format!(
-                "has {}, but {} has {}; was one of them stopped?",
+                "has {}, but {} has {}; was one of them stopped? (Of parts with ranges of samples, join the ranges of each part first.)",
                 shown("samples", &piece.samples),
                 pieces[0].path.display(),
                 shown("samples", &samples)
@@ -315,7 +338,7 @@ impl Strips {
         }
     }
 
-    fn next(&mut self) -> Result<Option<SpectralImage>, ReadExrError> {
+    fn next(&mut self) -> Result<Option<SpectralImage>, MergeError> {
         if self.next == self.end {
             return Ok(None);
         }
@@ -330,11 +353,11 @@ impl Strips {
                 // All rows are in a piece.
                 let Some(piece) = piece else { return Ok(None) };
                 end = end.min(piece.rows().end as u32);
-                piece.reader.read(self.next..end)?
+                piece.read(self.next..end)?
             }
             Merged::Ranges => {
                 let rows = self.next..end;
-                let read = |piece: &mut Piece| piece.reader.read(rows.clone());
+                let read = |piece: &mut Piece| piece.read(rows.clone());
                 let images: Result<Vec<_>, _> = self.pieces.iter_mut().map(read).collect();
                 self.within_window(average::mean(&images?))
             }

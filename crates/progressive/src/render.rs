@@ -87,7 +87,11 @@ impl Render {
             && own.stop <= own.level
         {
             // It had another goal.
-            own.stop = own.noise.next_stop(goal).max(own.level + 1);
+            own.stop = own
+                .noise
+                .next_stop(goal)
+                .max(own.level + 1)
+                .max(LEAST_JUDGED);
         }
         Ok(own)
     }

@@ -6,6 +6,7 @@ use crate::print;
 use crate::swatch::swatch;
 use pellicle::coating::{FilmFit, FilmFits, MatchPlace, Verdict};
 use pellicle::colorimetry::{Lab, chromaticity, srgb};
+use pellicle::progressive::Identity;
 use pellicle::relight::xyz::exposure_scale;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -52,7 +53,12 @@ impl Inspection<'_> {
             let _ = write!(text, ", by {}", self.image.metadata().software);
         }
         text.push('\n');
-        for (name, value) in &self.image.metadata().settings {
+        let settings = &self.image.metadata().settings;
+        if let Some(identity) = Identity::of_settings(settings) {
+            let _ = writeln!(text, "  identity: {}", identity.digest());
+        }
+        let is_own = |(name, _): &(&String, &String)| !Identity::has(name);
+        for (name, value) in settings.iter().filter(is_own) {
             let _ = writeln!(text, "  {name}: {value}");
         }
         for place in &self.places {

@@ -89,9 +89,10 @@ fn noise(text: &str) -> Result<f64, String> {
     };
     parsed
         .ok()
-        .filter(|noise: &f64| (1e-6..=1.0).contains(noise))
+        .filter(|noise: &f64| (1e-6..0.5).contains(noise))
         .ok_or_else(|| {
-            "write a fraction of the radiance, as in 1% or 0.01, from 0.0001% to 100%".to_owned()
+            "write a fraction of the radiance, as in 1% or 0.01, from 0.0001% and below 50%"
+                .to_owned()
         })
 }
 

@@ -4,7 +4,7 @@ use super::keeper::Keeper;
 use super::{Arguments, Endurance, of_image};
 use crate::develop::{self, FOV_SETTING};
 use crate::memory::{self, Layout, Needs, Pictures};
-use crate::output::{Outputs, write_rows};
+use crate::output::{Outputs, is_stream, write_rows};
 use crate::print;
 use miette::miette;
 use pellicle::Renderer;
@@ -13,6 +13,7 @@ use pellicle::progressive::{Goal, Identity, Render};
 use pellicle::relight::XyzImage;
 use pellicle::scene::Scene;
 use pellicle::spectra::{Accumulation, SpectralImage, Window};
+use std::path::PathBuf;
 
 /// Bytes of the strips in which an image is written.
 const STRIP: usize = 16 << 20;
@@ -118,6 +119,7 @@ impl<'a> Job<'a> {
                 "stopped at {level} samples per pixel; the same command with --resume goes on from {}",
                 path.display()
             ),
+            None if !self.heading.is_empty() => format!("stopped at {level} samples per pixel"),
             None => format!(
                 "stopped at {level} samples per pixel; --samples-from {} renders others, to be joined by `pellicle merge`, \
                  and --checkpoint FILE keeps the state of the next render",
@@ -126,18 +128,13 @@ impl<'a> Job<'a> {
         }
     }
 
-    /// Writes everything.
-    pub(super) fn write(&self, render: &Render) -> miette::Result<()> {
+    /// Writes everything; `stopped_by` is what ended the render. All files are tried, and all errors printed but the last.
+    pub(super) fn write(&self, render: &Render, stopped_by: String) -> miette::Result<()> {
         let all = render.accumulation();
         let mut metadata = self.metadata(render.is_mixed());
         let mut put = |name: &str, value: String| metadata.settings.insert(name.to_owned(), value);
         put("samples", render.level().to_string());
-        put(
-            "stopped_by",
-            render
-                .end()
-                .map_or("signal".to_owned(), |end| end.to_string()),
-        );
+        put("stopped_by", stopped_by);
         if let Some(noise) = render.noise() {
             put("noise", format!("{noise:.6}"));
         }
@@ -152,7 +149,7 @@ impl<'a> Job<'a> {
         });
         let spectral: Vec<miette::Result<()>> = spectral.collect();
         let pictures = self.write_pictures(all, false);
-        spectral.into_iter().chain([pictures]).collect()
+        print::all_but_last(spectral.into_iter().chain([pictures]))
     }
 
     /// Develops and writes the pictures; a preview is not reported.
@@ -169,10 +166,10 @@ impl<'a> Job<'a> {
             // Other lamps apply only to the pictures: the spectral image keeps the scene's.
             let mut of_image = of_image(self.scene);
             self.developing.relight(&mut image, &mut of_image)?;
-            let pictures = self.outputs.pictures();
+            let pictures = self.pictures(is_preview);
             return self
                 .developing
-                .write(&image, of_image, image.height(), pictures, is_preview);
+                .write(&image, of_image, image.height(), &pictures, is_preview);
         }
         let [width, height] = all.window().size;
         let colors = XyzImage::new(width, height, all.colors());
@@ -182,9 +179,17 @@ impl<'a> Job<'a> {
 
     /// Develops and writes the pictures from colors alone.
     pub(super) fn write_colors(&self, colors: &XyzImage, is_preview: bool) -> miette::Result<()> {
-        let (of_image, pictures) = (of_image(self.scene), self.outputs.pictures());
+        let (of_image, pictures) = (of_image(self.scene), self.pictures(is_preview));
         self.developing
-            .write(colors, of_image, colors.height(), pictures, is_preview)
+            .write(colors, of_image, colors.height(), &pictures, is_preview)
+    }
+
+    /// The pictures to write. A pipe gets a single one.
+    fn pictures(&self, is_preview: bool) -> Vec<PathBuf> {
+        let all = self.outputs.pictures().iter();
+        all.filter(|path| !is_preview || !is_stream(path))
+            .cloned()
+            .collect()
     }
 
     /// The place of the pixels in the picture.

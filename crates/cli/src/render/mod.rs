@@ -9,7 +9,7 @@ mod strips;
 use crate::develop::{self, ImageProperties};
 use crate::memory::Layout;
 use crate::output::Outputs;
-use crate::print;
+use crate::{interrupt, print};
 use clap::ValueEnum;
 use endurance::Endurance;
 use job::Job;
@@ -143,6 +143,12 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<Outcome> {
     let mut pixel = one_pixel(&scene);
     developing.relight(&mut pixel, &mut of_image(&scene))?;
     developing.check_lamps(pixel.light_groups())?;
+    if arguments.frames.is_some() && outputs.has_stream() {
+        return Err(miette!(
+            help = "name files, or a folder",
+            "--frames: a pipe, a device or standard output cannot have one name for each frame"
+        ));
+    }
     endurance.check(scene.settings(), arguments.overrides.samples)?;
     if let Some(checkpoint) = &endurance.checkpoint {
         outputs.check_also("--checkpoint", checkpoint, &arguments.scene)?;
@@ -234,7 +240,14 @@ impl Sequence<'_> {
             let outcome = self
                 .picture(&scene, &self.outputs.of_frame(frame, last), &heading)
                 .wrap_err_with(|| format!("frame {frame} failed"))?;
-            if let Outcome::Interrupted(_) = outcome {
+            // A signal while a finished frame is written ends the sequence too.
+            let next = match (outcome, interrupt::signal()) {
+                (Outcome::Interrupted(_), _) => Some(frame),
+                (Outcome::Finished, Some(_)) if frame < last => Some(frame + 1),
+                _ => None,
+            };
+            if let (Some(frame), Some(signal)) = (next, interrupt::signal()) {
+                let outcome = Outcome::Interrupted(signal);
                 print::note(format_args!(
                     "render the other frames with --frames {frame}:{}",
                     last + 1

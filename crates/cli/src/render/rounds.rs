@@ -30,8 +30,16 @@ pub(super) fn run(job: &Job<'_>) -> miette::Result<Outcome> {
     // The state is kept before anything else can fail.
     let kept = keeper.map_or(Ok(()), |keeper| keeper.finish(&render));
     job.print_speed(&render, render.done() - before, seconds);
-    let written = job.write(&render);
-    rendered.and(kept).and(written)?;
+    let stopped_by = match (&rendered, render.end()) {
+        (Err(_), _) => "failure".to_owned(),
+        (_, Some(end)) => end.to_string(),
+        (_, None) => "signal".to_owned(),
+    };
+    let written = job.write(&render, stopped_by);
+    if rendered.is_err() {
+        print::note(job.how_to_resume(&render));
+    }
+    print::all_but_last([kept, written, rendered])?;
     match (render.end(), interrupt::signal()) {
         (None, Some(signal)) => {
             print::note(job.how_to_resume(&render));
@@ -45,7 +53,7 @@ pub(super) fn run(job: &Job<'_>) -> miette::Result<Outcome> {
 fn begin<'a>(job: &Job<'a>, progress: &mut Progress) -> miette::Result<(Session<'a>, Render)> {
     let endurance = job.endurance;
     let mut render = match &endurance.checkpoint {
-        Some(path) if endurance.resume && path.exists() => {
+        Some(path) if endurance.resume && path.try_exists().into_diagnostic()? => {
             let of = (job.empty(job.window), job.goal);
             let render = Render::resume(of, path, &job.identity).into_diagnostic()?;
             let level = render.level();
@@ -59,7 +67,11 @@ fn begin<'a>(job: &Job<'a>, progress: &mut Progress) -> miette::Result<(Session<
         _ => Render::new(job.empty(job.window), job.goal),
     };
     if endurance.adaptive && !render.is_adaptive() {
-        render = render.with_plan(plan(job, progress)?);
+        let (plan, is_mixed) = plan(job, progress)?;
+        render = render.with_plan(plan);
+        if is_mixed {
+            render.mix();
+        }
     }
     let session = session(job, job.scene, progress)?;
     progress.set_state(&render);
@@ -86,15 +98,16 @@ pub(super) fn session<'a>(
     Ok(session.allow_cpu(job.endurance.allow_cpu))
 }
 
-/// Decides with a pilot how many samples the tiles get.
-fn plan(job: &Job<'_>, progress: &mut Progress) -> miette::Result<Vec<u32>> {
+/// Decides with a pilot how many samples the tiles get. Returns whether the CPU had to help.
+fn plan(job: &Job<'_>, progress: &mut Progress) -> miette::Result<(Vec<u32>, bool)> {
     let seed = adaptive::pilot_seed(job.scene.settings().seed);
     let scene = job.scene.with_seed(seed);
     let mut session = session(job, &scene, progress)?;
     let mut pilot = job.empty(job.window);
     let rounds = pilot.rounds_to(pilot.window(), adaptive::pilot_samples(job.goal.samples));
     advance(&mut session, &mut pilot, &rounds, &mut |_| ()).into_diagnostic()?;
-    Ok(adaptive::plan(&pilot, job.goal.samples))
+    let plan = adaptive::plan(&pilot, job.goal.samples);
+    Ok((plan, session.has_left_gpu()))
 }
 
 /// Takes rounds until the end or a signal.

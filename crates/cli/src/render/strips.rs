@@ -72,7 +72,8 @@ pub(super) fn run(job: &Job<'_>, rows: u32) -> miette::Result<Outcome> {
     ));
     let mut progress = Progress::new(job.heading);
     progress.set_total(job.window.pixels() as u64 * u64::from(goal));
-    let session = session(job, job.scene, &mut progress)?;
+    // The file says at its beginning which renderer made it, so no other may go on.
+    let session = session(job, job.scene, &mut progress)?.allow_cpu(false);
     let mut metadata = job.metadata(false);
     metadata
         .settings

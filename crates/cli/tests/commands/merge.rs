@@ -3,6 +3,7 @@
 use crate::assert_says;
 use crate::place::{Place, Ran};
 use crate::render::{bytes, exr, render};
+use picture_file::spectral_exr;
 use spectra::{LayerKey, Quantity, SpectralImage};
 use std::fs;
 
@@ -164,7 +165,7 @@ fn a_missing_part_is_refused() {
 
 #[test]
 fn one_part_is_refused() {
-    refused(nothing, "1.exr", &["one file alone"]);
+    refused(nothing, "1.exr", &["rows 12 to 35 are missing"]);
 }
 
 #[test]
@@ -252,6 +253,39 @@ fn overlapping_ranges_are_refused() {
         "r0.exr r3.exr",
         &["r3.exr and r0.exr", "samples 3 to 3"],
     );
+}
+
+/// One file is all parts if it is the whole picture.
+#[test]
+fn the_only_part_is_the_whole() {
+    let place = Place::default();
+    make(&place, "--backend cpu --samples 4 --part 1/1 -o 1.exr");
+    let _ = merge(&place, &["1.exr".to_owned()], "merged.exr").succeeded();
+    assert!(exr(&place, "merged.exr").0 == exr(&place, "1.exr").0);
+}
+
+/// The header alone is not believed.
+#[test]
+fn an_unfinished_part_is_refused() {
+    let unfinished = |place: &Place| {
+        let (mut image, metadata) = exr(place, "2.exr");
+        image.samples_mut()[14 * 40] = 3;
+        let image = image.clone();
+        let frame = spectral_exr::Frame::whole([40, 36]);
+        let mut strip = Some(image);
+        let mut next = || Ok::<_, std::convert::Infallible>(strip.take());
+        let options = spectral_exr::WriteOptions::default();
+        let path = place.path("2.exr");
+        spectral_exr::write_rows(&path, frame, &metadata, options, &mut next).unwrap();
+    };
+    let words = ["2.exr is not finished: row 0 has pixels without its 4 samples"];
+    refused(unfinished, "2.exr", &words);
+}
+
+#[test]
+fn an_adaptive_picture_is_refused() {
+    let words = ["other.exr has other numbers of samples"];
+    refused(other("--samples 4 --adaptive"), "other.exr", &words);
 }
 
 /// A flipped bit in the pixels of a part.
