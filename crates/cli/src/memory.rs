@@ -7,8 +7,9 @@ use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 
 /// What a render takes beside its pixels: the program, the driver, the lines of files that are compressed.
 const BASE: u64 = 256 << 20;
-/// Bytes of a strip that is rendered at a time.
+/// The least and the most bytes of a strip that is rendered at a time. A GPU is busy with half a million pixels.
 const STRIP: u64 = 128 << 20;
+const LARGE_STRIP: u64 = 1 << 30;
 /// Bytes of a pixel while a picture is developed: XYZ, linear red, green and blue twice, and codes.
 const DEVELOPED: u64 = 12 + 2 * 12 + 6;
 
@@ -68,8 +69,10 @@ pub(crate) fn layout(
     }
     // A strip, its image, and its lines before and after compression.
     let of_row = u64::from(window.size[0]) * (state + 4 * image);
-    let rows = (STRIP / of_row).clamp(1, u64::from(window.size[1]));
-    let strips = BASE + rows * of_row + pixels * developing;
+    let fixed = BASE + pixels * developing;
+    let strip = (available.saturating_sub(fixed) / 2).clamp(STRIP, LARGE_STRIP);
+    let rows = (strip / of_row).clamp(1, u64::from(window.size[1]));
+    let strips = fixed + rows * of_row;
     let needs_all = needs.rounds || needs.pictures == Pictures::OfSpectra;
     if strips <= available && !needs_all {
         return Ok((Layout::Strips(rows as u32), strips));
@@ -218,8 +221,8 @@ mod tests {
         let (whole, bytes) = at(needs, u64::MAX).unwrap();
         assert_eq!((whole, bytes / 1_000_000_000), (Layout::Whole, 23));
         let (strips, bytes) = at(needs, 8_000_000_000).unwrap();
-        assert!(matches!(strips, Layout::Strips(2..100)), "{strips:?}");
-        assert!(bytes < 2_500_000_000, "{bytes}");
+        assert!(matches!(strips, Layout::Strips(50..100)), "{strips:?}");
+        assert!(bytes < 2_800_000_000, "{bytes}");
         let error = at(needs, 1_000_000_000).unwrap_err().to_string();
         assert!(error.ends_with("but 1.0 GB can be used"), "{error}");
         let rounds = Needs {

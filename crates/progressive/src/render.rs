@@ -225,6 +225,11 @@ impl Render {
         all.into_iter().flatten().fold(f64::INFINITY, f64::min) as u64
     }
 
+    /// Seconds until the render ends, as far as can be told.
+    pub fn seconds_left(&self) -> Option<f64> {
+        Some(self.work_left() as f64 / self.samples_per_s?)
+    }
+
     /// The next round, as rectangles of pixels that have the same number of samples; `None` at the end.
     pub fn next_rounds(&self) -> Option<Vec<Round>> {
         if self.end.is_some() {

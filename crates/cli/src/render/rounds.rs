@@ -10,6 +10,7 @@ use pellicle::progressive::{Render, adaptive};
 use pellicle::scene::Scene;
 use pellicle::spectra::Round;
 use pellicle::{RenderError, Session};
+use std::io::IsTerminal;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
@@ -133,6 +134,9 @@ fn rounds(
         let work: u64 = rounds.iter().map(Round::work).sum();
         render.finish_round(work, started.elapsed().as_secs_f64());
         progress.set_state(render);
+        if done == 0 {
+            print_estimate(job, render);
+        }
         if render.end().is_none() {
             if let Some(keeper) = keeper {
                 keeper.after_round(render);
@@ -143,6 +147,18 @@ fn rounds(
         }
     }
     Ok(())
+}
+
+/// The shortest render whose time is estimated.
+const LONG_S: f64 = 10.0;
+
+/// Says after the first round how long the render will take, where no line shows it all the time.
+fn print_estimate(job: &Job<'_>, render: &Render) {
+    let seconds = render.seconds_left().filter(|&seconds| seconds > LONG_S);
+    if let (Some(seconds), false) = (seconds, std::io::stderr().is_terminal()) {
+        let left = humantime::format_duration(Duration::from_secs(seconds as u64));
+        print::note(format_args!("{}about {left} left", job.heading));
+    }
 }
 
 /// Writes the pictures again and again.
