@@ -184,6 +184,7 @@ impl<G: Borrow<Gpu>> Session<G> {
     ) -> Result<(), RenderError> {
         let gpu = self.gpu.borrow();
         let mut taken = samples.start;
+        self.planner.goes_on(taken);
         self.buffers.upload(gpu, accumulation, tile, taken);
         while taken < samples.end {
             let count = self.planner.batch(tile, samples.end - taken);

@@ -106,6 +106,11 @@ impl Planner {
         Some(tile)
     }
 
+    /// Says that earlier rounds took this many samples of the tile, so that its cost is no surprise.
+    pub(crate) fn goes_on(&mut self, taken: u32) {
+        self.last_batch = taken;
+    }
+
     /// Returns how many samples the next batch of a tile takes, out of `left`: one at first, then at most four times as many as
     /// before, because the next tile may cost many times as much as this one.
     pub(crate) fn batch(&mut self, tile: Window, left: u32) -> u32 {
@@ -209,6 +214,9 @@ mod tests {
         assert_eq!(planner.batch(tile, 7), 7);
         planner.learn(tile, 7, ms(70));
         assert_eq!(planner.batch(tile, 1000), 20, "the target is 200 ms");
+        // A tile that goes on begins at the target, too.
+        planner.goes_on(20);
+        assert_eq!(planner.batch(tile, 1000), 20);
         // Twenty times slower: the next batch is back at the target.
         planner.learn(tile, 20, ms(4000));
         assert_eq!(planner.batch(tile, 1000), 1);
