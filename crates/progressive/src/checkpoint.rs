@@ -373,7 +373,7 @@ mod tests {
         let values = filled(|_| 0.0).sums().len() as u64;
         assert_eq!(
             lengths[0] - lengths[1],
-            4 * values - 1,
+            4 * values + 1,
             "false is longer than true"
         );
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
