@@ -64,6 +64,12 @@ impl At {
             .map(move |lane| Self(chunk, lane))
     }
 
+    /// Returns the same lanes of another chunk.
+    #[inline(always)]
+    pub(crate) fn in_chunk(self, chunk: usize) -> Self {
+        Self(chunk, self.1)
+    }
+
     /// Returns the indices of the bands.
     #[inline(always)]
     pub(crate) fn band<S: Simd>(self, simd: S) -> Lanes<S> {

@@ -123,15 +123,13 @@ impl WithSimd for Add<'_, '_> {
             for (seen_by, mean) in observer.iter().zip(xyz) {
                 // The sums of every eighth band, whatever the width of a register.
                 let mut sums = [Chunk::default()];
-                for chunk in bands.chunks() {
-                    for (at, sum) in At::lanes::<S>(chunk).zip(At::lanes::<S>(0)) {
-                        let product = at.load(simd, radiance);
-                        let so_far = sum.load(simd, &sums);
-                        sum.store(
-                            product.mul_add(seen_by.value(&bands, at), so_far),
-                            &mut sums,
-                        );
+                for sum in At::lanes::<S>(0) {
+                    let mut total = bands.splat(0.0);
+                    for at in bands.chunks().map(|chunk| sum.in_chunk(chunk)) {
+                        let value = at.load(simd, radiance);
+                        total = value.mul_add(seen_by.value(&bands, at), total);
                     }
+                    sum.store(total, &mut sums);
                 }
                 *mean += (sums[0].sum() - *mean) * part;
             }
