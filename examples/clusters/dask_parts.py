@@ -49,7 +49,7 @@ def render_part(command, part, parts, folder, run, hold):
         attempts = folder / f"attempts_{run}"
         first = not (attempts / name).exists()
         if hold and first:
-            stop_within(child.pid)
+            stop_within(child.pid, command[0])
         with open(attempts / name, "a") as log:
             log.write(f"{os.getpid()} {child.pid}\n")
         if hold and first:
@@ -69,11 +69,11 @@ def render_part(command, part, parts, folder, run, hold):
     return str(complete)
 
 
-def stop_within(pid):
-    """Stops a process as soon as it is no longer `setpriv`, but Pellicle."""
+def stop_within(pid, program):
+    """Stops a process as soon as it is Pellicle: it is Python first, and then `setpriv`, which must have done its work."""
     name = Path(f"/proc/{pid}/comm")
-    # The name of a process that has ended is still there, since nothing has waited for it.
-    while name.read_text().strip() == "setpriv":
+    # Linux keeps 15 letters of a name. That of a process that has ended is still there, since nothing has waited for it.
+    while name.read_text().strip() != Path(program).name[:15] and state(pid) != "Z":
         pass
     os.kill(pid, signal.SIGSTOP)
 
