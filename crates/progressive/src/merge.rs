@@ -148,7 +148,7 @@ pub enum Merged {
 /// Joins files into one: rows of a picture to its bits, or different samples of the same pixels to their mean, with the variance of all.
 ///
 /// The files must have been rendered from the same scene with the same settings by the same version and backend. All are checked before
-/// anything is written.
+/// anything is written, but for the samples of each pixel, which are checked while the file is written; it appears only if all are right.
 ///
 /// # Errors
 /// When a file is damaged, of another render, missing or there twice, or the result cannot be written. The message names the file.
