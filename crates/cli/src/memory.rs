@@ -54,10 +54,9 @@ pub(crate) fn layout(
     needs: Needs,
     available: u64,
 ) -> miette::Result<(Layout, u64)> {
-    let (bands, groups) = (scene.settings().bands.count(), scene.light_groups().len());
     let pixels = window.pixels() as u64;
-    let state = Accumulation::bytes_per_pixel(bands, groups);
-    let image = SpectralImage::bytes(1, 1, bands, groups) as u64;
+    let state = Accumulation::bytes_per_pixel(scene.content());
+    let image = SpectralImage::bytes(1, 1, scene.content()) as u64;
     let developing = match needs.pictures {
         Pictures::None => 0,
         Pictures::OfColors => DEVELOPED,
@@ -89,9 +88,10 @@ pub(crate) fn layout(
     };
     Err(miette!(
         help = help,
-        "this picture of {}×{} pixels with {bands} bands takes {}, but {} can be used",
+        "this picture of {}×{} pixels with {} bands takes {}, but {} can be used",
         window.size[0],
         window.size[1],
+        scene.content().bands,
         shown(takes),
         shown(available)
     ))

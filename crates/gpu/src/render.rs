@@ -47,9 +47,8 @@ pub fn render_divided(
         caution: 0,
     };
     let mut session = Session::new(gpu, scene, work, on_progress)?;
-    let window = Window::whole([settings.width, settings.height]);
-    let mut accumulation =
-        Accumulation::new(window, 0, settings.bands, scene.light_groups().to_vec());
+    let window = scene.window();
+    let mut accumulation = scene.accumulation(window, 0);
     let round = Round {
         window,
         samples: 0..settings.samples,

@@ -4,7 +4,7 @@ use crate::{RenderError, Renderer};
 use gpu::{AdapterChoice, Gpu, InjectedFault, Work};
 use reference::SimdLevel;
 use scene::Scene;
-use spectra::{Accumulation, Round, SpectralImage, Window};
+use spectra::{Accumulation, Round, SpectralImage};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -67,9 +67,8 @@ impl Renderer {
         on_progress: &mut dyn FnMut(u64) -> ControlFlow<()>,
     ) -> Result<SpectralImage, RenderError> {
         let settings = scene.settings();
-        let window = Window::whole([settings.width, settings.height]);
-        let groups = scene.light_groups().to_vec();
-        let mut accumulation = Accumulation::new(window, 0, settings.bands, groups);
+        let window = scene.window();
+        let mut accumulation = scene.accumulation(window, 0);
         let round = Round {
             window,
             samples: 0..settings.samples,

@@ -113,7 +113,7 @@ mod tests {
     fn pilot(noise: [f64; 3]) -> Accumulation {
         let groups = vec![LightGroup::unknown()];
         let bands = BandGrid::visible(2).unwrap();
-        let mut all = Accumulation::new(Window::whole([40, 16]), 0, bands, groups);
+        let mut all = Accumulation::new(Window::whole([40, 16]), 0, bands, groups, false);
         let layout = all.layout();
         for (tile, noise) in tiles(all.window()).zip(noise).collect::<Vec<_>>() {
             let mut values = vec![0.0; layout.len()];

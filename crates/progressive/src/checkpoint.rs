@@ -328,7 +328,13 @@ mod tests {
 
     fn empty(first_sample: u32) -> Accumulation {
         let groups = vec![LightGroup::unknown()];
-        Accumulation::new(WINDOW, first_sample, BandGrid::visible(4).unwrap(), groups)
+        Accumulation::new(
+            WINDOW,
+            first_sample,
+            BandGrid::visible(4).unwrap(),
+            groups,
+            false,
+        )
     }
 
     fn filled(value: impl Fn(usize) -> f64) -> Accumulation {

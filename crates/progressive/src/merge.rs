@@ -321,13 +321,12 @@ struct Strips {
 
 impl Strips {
     fn new(pieces: Vec<Piece>, merged: Merged, frame: Frame) -> Self {
-        let bands = pieces[0].reader.bands().count();
-        let groups = pieces[0].reader.light_groups().len();
+        let content = pieces[0].reader.content();
         let at_once = match merged {
             Merged::Parts => 1,
             Merged::Ranges => pieces.len() as u64 + 1,
         };
-        let row = SpectralImage::bytes(frame.picture[0], 1, bands, groups) as u64 * at_once;
+        let row = SpectralImage::bytes(frame.picture[0], 1, content) as u64 * at_once;
         let (top, rows) = (frame.window.origin[1], frame.window.size[1]);
         Self {
             pieces,

@@ -39,9 +39,8 @@ pub fn render_at(
     on_progress: &mut dyn FnMut(u64) -> ControlFlow<()>,
 ) -> Result<SpectralImage, Stopped> {
     let settings = scene.settings();
-    let window = Window::whole([settings.width, settings.height]);
-    let mut accumulation =
-        Accumulation::new(window, 0, settings.bands, scene.light_groups().to_vec());
+    let window = scene.window();
+    let mut accumulation = scene.accumulation(window, 0);
     let round = Round {
         window,
         samples: 0..settings.samples,
@@ -185,7 +184,7 @@ impl<'a> Worker<'a> {
         let path = SpectralPath::new(level.0, &prepared.tables, light_groups);
         Self {
             tracer: PathTracer::new(prepared, path),
-            pixel: Pixel::new(level.0, &prepared.tables, light_groups),
+            pixel: Pixel::new(level.0, &prepared.tables, prepared.scene.content()),
             clamp: settings.clamp,
         }
     }

@@ -3,6 +3,7 @@
 use crate::PixelFilter;
 use crate::rounding::RoundToF32;
 use glam::DVec3;
+use spectra::stokes::Polarizer;
 
 /// A camera, whose rays start at one point, start on a lens, or are parallel.
 ///
@@ -24,6 +25,8 @@ pub struct Camera {
     pub lens: Option<Lens>,
     /// The reconstruction filter of the pixels.
     pub filter: PixelFilter,
+    /// The polarizer in front of the camera. It matters only to polarized light.
+    pub polarizer: Option<Polarizer>,
 }
 
 /// A thin lens: objects at its focus distance are in focus.
@@ -75,6 +78,8 @@ impl RoundToF32 for Camera {
                 focus_distance: lens.focus_distance.rounded(),
             }),
             filter: self.filter.rounded(),
+            // An angle decides over sines and cosines, which the renderers round.
+            polarizer: self.polarizer,
         }
     }
 }

@@ -32,7 +32,7 @@ mod validated;
 pub use camera::{Camera, Lens, Projection};
 pub use coated_body::{CoatEstimate, CoatedBody};
 pub use cook::{Cook1981, CookDistribution, CookFacets, DiffuseTerm};
-pub use emission::Emission;
+pub use emission::{Emission, EmittedPolarization};
 pub use environment::{
     Environment, EnvironmentPart, EnvironmentPicture, EnvironmentShape, PictureSpectra,
 };

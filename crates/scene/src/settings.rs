@@ -22,6 +22,8 @@ pub struct RenderSettings {
     pub bands: BandGrid,
     /// Where the wavelengths of a sample lie in their bands.
     pub sampling: WavelengthSampling,
+    /// Whether light is traced with its polarization. Otherwise it is taken as unpolarized at every surface.
+    pub polarization: bool,
     /// The maximum number of segments of a path, from 1 to [`RenderSettings::MAX_PATH_SEGMENTS`]. The camera ray is the first; the segment
     /// that reaches a light or the environment counts too.
     pub max_path_segments: u32,
@@ -95,6 +97,7 @@ impl RoundToF32 for RenderSettings {
             // Validation has already rounded the ends of the bands.
             bands: self.bands,
             sampling: self.sampling,
+            polarization: self.polarization,
             max_path_segments: self.max_path_segments,
             direct_light: self.direct_light,
             film_splits: self.film_splits,

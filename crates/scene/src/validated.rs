@@ -5,7 +5,7 @@ use crate::{
     Camera, EmitterSource, EmitterTree, Environment, EnvironmentPart, Estimate, Hierarchy, Light,
     Material, MaterialId, Object, RenderSettings, SceneParts, Sheet, SpectrumId, trees,
 };
-use spectra::{BandTable, LightGroup, SpectralImage};
+use spectra::{Accumulation, BandTable, LightGroup, PixelContent, SpectralImage, Window};
 
 /// A scene that can be rendered.
 ///
@@ -82,13 +82,34 @@ impl Scene {
     /// Size of the spectral image in memory, in bytes.
     pub fn image_bytes(&self) -> u128 {
         let settings = self.settings();
-        let bands = settings.bands.count();
-        SpectralImage::bytes(
-            settings.width,
-            settings.height,
-            bands,
-            self.parts.light_groups.len(),
+        SpectralImage::bytes(settings.width, settings.height, self.content())
+    }
+
+    /// What a pixel of the spectral image holds: all components of polarized light, unless a polarizer is in front of the camera.
+    pub fn content(&self) -> PixelContent {
+        PixelContent {
+            bands: self.settings().bands.count(),
+            light_groups: self.light_groups().len(),
+            is_polarized: self.settings().polarization && self.camera().polarizer.is_none(),
+        }
+    }
+
+    /// The state of a render of a window of the picture that has not begun. Its samples are numbered from `first_sample` on.
+    pub fn accumulation(&self, window: Window, first_sample: u32) -> Accumulation {
+        let groups = self.light_groups().to_vec();
+        let is_polarized = self.content().is_polarized;
+        Accumulation::new(
+            window,
+            first_sample,
+            self.settings().bands,
+            groups,
+            is_polarized,
         )
+    }
+
+    /// The whole picture.
+    pub fn window(&self) -> Window {
+        Window::whole([self.settings().width, self.settings().height])
     }
 
     /// All materials.

@@ -1,6 +1,9 @@
 //! The state of a render between two rounds of samples.
 
-use crate::{BandGrid, KM_LUMENS_PER_WATT, LayerKey, LightGroup, Quantity, SpectralImage, Window};
+use crate::{
+    BandGrid, KM_LUMENS_PER_WATT, LayerKey, LightGroup, PixelContent, Quantity, SpectralImage,
+    Stokes, Window,
+};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -12,15 +15,32 @@ use std::ops::Range;
 pub struct SumLayout {
     bands: usize,
     light_groups: usize,
+    is_polarized: bool,
 }
 
 impl SumLayout {
-    /// The layout for this number of bands and of light groups.
-    pub fn new(bands: usize, light_groups: usize) -> Self {
+    /// The layout for this content.
+    pub fn new(content: PixelContent) -> Self {
         Self {
-            bands,
-            light_groups,
+            bands: content.bands as usize,
+            light_groups: content.light_groups,
+            is_polarized: content.is_polarized,
         }
+    }
+
+    /// Number of values of one light group and one component of its Stokes vector beyond S0.
+    fn of_component(&self) -> usize {
+        self.bands + 3
+    }
+
+    /// Number of values without S1, S2 and S3.
+    fn unpolarized(&self) -> usize {
+        self.bands * (2 + self.apart()) + 3 * self.light_groups
+    }
+
+    /// Whether S1, S2 and S3 are kept.
+    pub fn is_polarized(&self) -> bool {
+        self.is_polarized
     }
 
     /// Number of light groups whose means are kept apart: a single one is the total.
@@ -34,7 +54,12 @@ impl SumLayout {
 
     /// Number of values of a pixel.
     pub fn len(&self) -> usize {
-        self.bands * (2 + self.apart()) + 3 * self.light_groups
+        let polarized = if self.is_polarized {
+            Stokes::POLARIZED.len()
+        } else {
+            0
+        };
+        self.unpolarized() + polarized * self.light_groups * self.of_component()
     }
 
     /// Never: a pixel has values.
@@ -65,6 +90,36 @@ impl SumLayout {
     pub fn xyz(&self, light_group: usize) -> Range<usize> {
         let start = self.bands * (2 + self.apart()) + 3 * light_group;
         start..start + 3
+    }
+
+    /// Mean of a component of the Stokes vector of a light group, by band.
+    ///
+    /// # Panics
+    /// When it is not S0 and the light is not kept as polarized.
+    pub fn component(&self, light_group: usize, stokes: Stokes) -> Range<usize> {
+        match self.beyond_s0(light_group, stokes) {
+            None => self.group_mean(light_group),
+            Some(start) => start..start + self.bands,
+        }
+    }
+
+    /// As [`Self::xyz`], of a component of the Stokes vector.
+    ///
+    /// # Panics
+    /// When it is not S0 and the light is not kept as polarized.
+    pub fn component_xyz(&self, light_group: usize, stokes: Stokes) -> Range<usize> {
+        match self.beyond_s0(light_group, stokes) {
+            None => self.xyz(light_group),
+            Some(start) => start + self.bands..start + self.of_component(),
+        }
+    }
+
+    /// Where the values of a component beyond S0 begin.
+    fn beyond_s0(&self, light_group: usize, stokes: Stokes) -> Option<usize> {
+        let before = stokes.index().checked_sub(1)?;
+        assert!(self.is_polarized, "polarized light is kept");
+        let place = before * self.light_groups + light_group;
+        Some(self.unpolarized() + place * self.of_component())
     }
 }
 
@@ -100,7 +155,8 @@ pub struct Accumulation {
 }
 
 impl Accumulation {
-    /// Begins a render: no samples, all sums 0. Its samples are numbered from `first_sample` on.
+    /// Begins a render: no samples, all sums 0. Its samples are numbered from `first_sample` on. Of polarized light, all components of the
+    /// Stokes vector are kept.
     ///
     /// # Panics
     /// When `light_groups` is empty.
@@ -109,9 +165,14 @@ impl Accumulation {
         first_sample: u32,
         bands: BandGrid,
         light_groups: Vec<LightGroup>,
+        is_polarized: bool,
     ) -> Self {
         assert!(!light_groups.is_empty(), "an image has a light group");
-        let layout = SumLayout::new(bands.count() as usize, light_groups.len());
+        let layout = SumLayout::new(PixelContent {
+            bands: bands.count(),
+            light_groups: light_groups.len(),
+            is_polarized,
+        });
         let pixels = window.pixels();
         Self {
             window,
@@ -125,8 +186,8 @@ impl Accumulation {
     }
 
     /// Bytes of memory that a pixel takes.
-    pub fn bytes_per_pixel(bands: u32, light_groups: usize) -> u64 {
-        let values = SumLayout::new(bands as usize, light_groups).len();
+    pub fn bytes_per_pixel(content: PixelContent) -> u64 {
+        let values = SumLayout::new(content).len();
         (size_of::<u32>() + values * size_of::<f64>()) as u64
     }
 
@@ -308,6 +369,9 @@ impl Accumulation {
     pub fn image(&self, rows: Range<u32>) -> SpectralImage {
         let ([width, height], groups) = (self.window.rows(rows.clone()).size, &self.light_groups);
         let mut image = SpectralImage::with_light_groups(width, height, self.bands, groups.clone());
+        if self.layout.is_polarized {
+            image = image.with_polarization();
+        }
         let start = rows.start as usize * width as usize;
         let counts = &self.counts[start..start + image.samples().len()];
         image.samples_mut().copy_from_slice(counts);
@@ -329,8 +393,8 @@ impl Accumulation {
         for (pixel, to) in (first..).zip(to.chunks_exact_mut(per_pixel)) {
             let sums = self.pixel(pixel);
             let of = |group: usize| match key.quantity {
-                Quantity::Xyz => (&sums[layout.xyz(group)], to_xyz),
-                _ => (&sums[layout.group_mean(group)], 1.0),
+                Quantity::Xyz => (&sums[layout.component_xyz(group, key.stokes)], to_xyz),
+                _ => (&sums[layout.component(group, key.stokes)], 1.0),
             };
             match (key.quantity, key.light_group) {
                 (Quantity::Variance, _) => {
@@ -395,29 +459,76 @@ mod tests {
             name: format!("g{i}"),
             lamp: None,
         });
-        Accumulation::new(window, 0, BandGrid::visible(2).unwrap(), groups.collect())
+        Accumulation::new(
+            window,
+            0,
+            BandGrid::visible(2).unwrap(),
+            groups.collect(),
+            false,
+        )
     }
 
     fn window(origin: [u32; 2], size: [u32; 2]) -> Window {
         Window { origin, size }
     }
 
+    fn layout(light_groups: usize, is_polarized: bool) -> SumLayout {
+        SumLayout::new(PixelContent {
+            bands: 5,
+            light_groups,
+            is_polarized,
+        })
+    }
+
+    /// The image has each component where the layers say, and the total of the light groups.
+    #[test]
+    fn the_components_of_polarized_light_reach_the_image() {
+        let groups = accumulation(2).light_groups;
+        let bands = BandGrid::visible(2).unwrap();
+        let mut all = Accumulation::new(Window::whole([1, 1]), 0, bands, groups, true);
+        let layout = all.layout();
+        let (counts, sums) = all.state_mut();
+        counts[0] = 1;
+        for (group, stokes) in (0..2).flat_map(|g| Stokes::ALL.map(|s| (g, s))) {
+            let value = 10.0 * group as f64 + stokes.index() as f64;
+            sums[layout.component(group, stokes)].fill(value);
+            sums[layout.component_xyz(group, stokes)].fill(value);
+        }
+        let image = all.whole_image();
+        assert!(image.is_polarized());
+        for stokes in Stokes::ALL {
+            let of = |key: LayerKey| image.layer(key.component(stokes)).unwrap().floats()[0];
+            let own = stokes.index() as f32;
+            assert_eq!(of(LayerKey::of_light(Quantity::Radiance, 1)), 10.0 + own);
+            assert_eq!(of(LayerKey::RADIANCE), 10.0 + 2.0 * own);
+            let factor = (KM_LUMENS_PER_WATT * bands.width_nm()) as f32;
+            assert!((of(LayerKey::XYZ) / factor - (10.0 + 2.0 * own)).abs() < 1e-5);
+        }
+    }
+
     #[test]
     fn the_values_of_a_pixel_do_not_overlap() {
-        for groups in [1, 2, 3] {
-            let layout = SumLayout::new(5, groups);
+        for (groups, is_polarized) in [1, 2, 3].into_iter().flat_map(|g| [(g, false), (g, true)]) {
+            let layout = layout(groups, is_polarized);
             let mut uses = vec![0; layout.len()];
             let mut used = vec![layout.mean(), layout.deviation()];
             if groups > 1 {
                 used.extend((0..groups).map(|group| layout.group_mean(group)));
             }
             used.extend((0..groups).map(|group| layout.xyz(group)));
+            if is_polarized {
+                for (group, stokes) in (0..groups).flat_map(|g| Stokes::POLARIZED.map(|s| (g, s))) {
+                    used.push(layout.component(group, stokes));
+                    used.push(layout.component_xyz(group, stokes));
+                }
+            }
             used.into_iter()
                 .flatten()
                 .for_each(|index| uses[index] += 1);
             assert!(uses.iter().all(|&count| count == 1), "{groups}: {uses:?}");
         }
-        assert_eq!(SumLayout::new(5, 1).group_mean(0), 0..5);
+        assert_eq!(layout(1, false).group_mean(0), 0..5);
+        assert_eq!(layout(1, true).component(0, Stokes::S0), 0..5);
     }
 
     #[test]
@@ -529,7 +640,10 @@ mod tests {
         for groups in [1, 3] {
             let all = accumulation(groups);
             let bytes = 4 * all.counts().len() + 8 * all.sums().len();
-            assert_eq!(12 * Accumulation::bytes_per_pixel(2, groups), bytes as u64);
+            assert_eq!(
+                12 * Accumulation::bytes_per_pixel(all.whole_image().content()),
+                bytes as u64
+            );
         }
     }
 }

@@ -11,6 +11,7 @@
 //! * [`BandTable`] is a spectrum resampled onto a grid, fine enough for any wavelength sampled within a band.
 //! * [`table_file`] reads users' tables.
 //! * [`SpectralImage`] is the output of a renderer: radiance per pixel and band, by [`LightGroup`], as a list of [`ImageLayer`]s.
+//! * [`stokes`] defines the components of polarized light.
 //! * [`Accumulation`] is a render in progress: running means, advanced in [`Round`]s.
 //! * [`find_illuminant`], [`Observer`], [`optical_constants()`] and [`reflectance`] give access to the built-in data;
 //!   [`material_info`] gives the source of a material's data.
@@ -30,6 +31,7 @@ pub mod sky;
 mod spectral_image;
 mod spectrum;
 mod sprague;
+pub mod stokes;
 pub mod table_file;
 mod window;
 
@@ -50,8 +52,9 @@ pub use light_group::LightGroup;
 pub use optical_constants::OpticalConstants;
 pub use out_of_range::OutOfRange;
 pub use spectral_image::{
-    ImageLayer, LayerError, LayerKey, Quantity, RowMut, SpectralImage, Values,
+    ImageLayer, LayerError, LayerKey, PixelContent, Quantity, RowMut, SpectralImage, Values,
 };
 pub use spectrum::{Spectrum, Tabulated, TabulatedError};
 pub use sprague::sprague;
+pub use stokes::Stokes;
 pub use window::Window;

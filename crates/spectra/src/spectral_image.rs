@@ -1,6 +1,6 @@
 //! The output of a renderer: radiance per pixel and band.
 
-use crate::{BandGrid, LightGroup};
+use crate::{BandGrid, LightGroup, Stokes};
 use thiserror::Error;
 
 mod layer;
@@ -9,7 +9,7 @@ pub use layer::{ImageLayer, LayerKey, Quantity, Values};
 
 /// Radiance per pixel and band, with variance and XYZ, in total and by light group: a list of layers.
 ///
-/// The layers of [`LayerKey::all`] are always there; others may follow. Row 0 is at the top. Per-band data is pixel-major: the value
+/// The layers of [`LayerKey::all`] are always there; others may follow, such as those of [`LayerKey::polarized`]. Row 0 is at the top. Per-band data is pixel-major: the value
 /// of band `b` at (x, y) has the index `(y·width + x)·bands + b`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpectralImage {
@@ -18,6 +18,17 @@ pub struct SpectralImage {
     bands: BandGrid,
     light_groups: Vec<LightGroup>,
     layers: Vec<ImageLayer>,
+}
+
+/// What the pixels of an image hold, which decides over their size.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct PixelContent {
+    /// Number of bands.
+    pub bands: u32,
+    /// Number of light groups.
+    pub light_groups: usize,
+    /// Whether all components of the Stokes vector are there, or the radiance alone.
+    pub is_polarized: bool,
 }
 
 /// Why layers do not make an image.
@@ -81,6 +92,23 @@ impl SpectralImage {
         }
     }
 
+    /// Adds black layers of S1, S2 and S3, for polarized light.
+    #[must_use]
+    pub fn with_polarization(mut self) -> Self {
+        let (bands, pixels) = (self.bands.count() as usize, self.samples().len());
+        let missing = LayerKey::polarized(self.light_groups.len())
+            .filter(|key| self.layer(*key).is_none())
+            .map(|key| ImageLayer::zeros(key, bands, pixels));
+        let missing: Vec<_> = missing.collect();
+        self.layers.extend(missing);
+        self
+    }
+
+    /// Whether it holds all components of polarized light.
+    pub fn is_polarized(&self) -> bool {
+        LayerKey::polarized(self.light_groups.len()).all(|key| self.layer(key).is_some())
+    }
+
     /// Creates an image from its layers: those of [`LayerKey::all`], and any others, in any order.
     ///
     /// # Errors
@@ -123,10 +151,23 @@ impl SpectralImage {
     }
 
     /// Bytes of memory that an image of this size takes.
-    pub fn bytes(width: u32, height: u32, bands: u32, light_groups: usize) -> u128 {
-        let values = |key: LayerKey| key.quantity.values_per_pixel(bands as usize) as u128;
-        let per_pixel: u128 = LayerKey::all(light_groups).map(values).sum();
+    pub fn bytes(width: u32, height: u32, content: PixelContent) -> u128 {
+        let values = |key: LayerKey| key.quantity.values_per_pixel(content.bands as usize) as u128;
+        let groups = content.light_groups;
+        let mut per_pixel: u128 = LayerKey::all(groups).map(values).sum();
+        if content.is_polarized {
+            per_pixel += LayerKey::polarized(groups).map(values).sum::<u128>();
+        }
         u128::from(width) * u128::from(height) * 4 * per_pixel
+    }
+
+    /// What its pixels hold.
+    pub fn content(&self) -> PixelContent {
+        PixelContent {
+            bands: self.bands.count(),
+            light_groups: self.light_groups.len(),
+            is_polarized: self.is_polarized(),
+        }
     }
 
     /// Width in pixels.
@@ -260,6 +301,7 @@ impl SpectralImage {
         for layer in &mut self.layers {
             let (key, values) = (layer.key(), layer.values_of(pixel));
             let given = match (key.quantity, key.light_group) {
+                _ if key.stokes != Stokes::S0 => continue,
                 (Quantity::Radiance, _) => radiance,
                 (Quantity::Xyz, _) => xyz.as_flattened(),
                 (Quantity::Variance, None) => variance,
@@ -365,6 +407,27 @@ mod tests {
     }
 
     #[test]
+    fn a_polarized_image_has_all_components_of_all_light_groups() {
+        for names in [&["a"][..], &["a", "b"]] {
+            let plain = image(names);
+            let mut polarized = plain.clone().with_polarization();
+            assert!(polarized.is_polarized() && !plain.is_polarized());
+            assert_eq!(polarized.clone().with_polarization(), polarized);
+            let groups = if names.len() > 1 { names.len() } else { 0 };
+            assert_eq!(
+                polarized.layers().len(),
+                plain.layers().len() + 3 * (2 + 2 * groups)
+            );
+            let key = LayerKey::RADIANCE.component(Stokes::S2);
+            assert_eq!(polarized.layer(key).unwrap().floats().len(), 12);
+            // Setting S0 leaves the others.
+            let (values, xyz) = (vec![1.0; 2 * names.len()], vec![[1.0; 3]; names.len()]);
+            polarized.set_pixel_by_light((0, 0), &values, &[0.0; 2], &xyz, 1);
+            assert_eq!(polarized.layer(key).unwrap().floats(), [0.0; 12]);
+        }
+    }
+
+    #[test]
     fn one_light_group_is_the_total_and_is_kept_once() {
         let mut image = SpectralImage::new(3, 2, BandGrid::visible(2).unwrap());
         image.set_pixel((0, 0), &[1.0, -0.0], &[0.0; 2], [1.0; 3], 1);
@@ -380,9 +443,10 @@ mod tests {
     #[test]
     fn the_bytes_are_those_of_the_lists() {
         for names in [&["a"][..], &["a", "b", "c"]] {
-            let image = image(names);
-            let lists: usize = image.layers.iter().map(|l| 4 * l.values().len()).sum();
-            assert_eq!(SpectralImage::bytes(3, 2, 2, names.len()), lists as u128);
+            for image in [image(names), image(names).with_polarization()] {
+                let lists: usize = image.layers.iter().map(|l| 4 * l.values().len()).sum();
+                assert_eq!(SpectralImage::bytes(3, 2, image.content()), lists as u128);
+            }
         }
     }
 

@@ -23,10 +23,7 @@ fn small(name: &str, size: [u32; 2], seed: u32, sampler: Sampler) -> Scene {
 }
 
 fn empty(scene: &Scene, first_sample: u32) -> Accumulation {
-    let settings = scene.settings();
-    let window = Window::whole([settings.width, settings.height]);
-    let groups = scene.light_groups().to_vec();
-    Accumulation::new(window, first_sample, settings.bands, groups)
+    scene.accumulation(scene.window(), first_sample)
 }
 
 fn cpu() -> Renderer {

@@ -76,9 +76,7 @@ impl<'a> Job<'a> {
 
     /// The pixels of a window, without samples.
     pub(super) fn empty(&self, window: Window) -> Accumulation {
-        let groups = self.scene.light_groups().to_vec();
-        let bands = self.scene.settings().bands;
-        Accumulation::new(window, self.endurance.samples_from, bands, groups)
+        self.scene.accumulation(window, self.endurance.samples_from)
     }
 
     /// What writes checkpoints, if they are wanted.

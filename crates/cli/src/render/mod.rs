@@ -18,7 +18,7 @@ use pellicle::document::text_file::STANDARD_INPUT;
 use pellicle::gpu::AdapterChoice;
 use pellicle::scene::Scene;
 use pellicle::scene_file::SceneFile;
-use pellicle::spectra::{Accumulation, Round, SpectralImage};
+use pellicle::spectra::{Accumulation, Round, SpectralImage, Window};
 use pellicle::{Backend, OpenError, RenderError, Renderer, Session};
 use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
@@ -291,8 +291,7 @@ fn advance(
 
 /// An image of one pixel with the scene's light groups, to try what will be done to the whole image.
 fn one_pixel(scene: &Scene) -> SpectralImage {
-    let groups = scene.light_groups().to_vec();
-    SpectralImage::with_light_groups(1, 1, scene.settings().bands, groups)
+    scene.accumulation(Window::whole([1, 1]), 0).whole_image()
 }
 
 /// The properties of an image that developing needs.

@@ -2,7 +2,7 @@
 
 use exr::meta::attribute::{ChannelDescription, Text};
 use exr::prelude::SmallVec;
-use spectra::{BandGrid, LayerKey, LightGroup, Quantity, SpectralImage};
+use spectra::{BandGrid, LayerKey, LightGroup, Quantity, SpectralImage, Stokes};
 
 use super::bands::{band_of_text, radiance_name, wavelength_text};
 use super::content::Content;
@@ -60,6 +60,7 @@ pub(super) fn content(name: &str, grid: &BandGrid, light_groups: &[LightGroup]) 
     let key = LayerKey {
         quantity,
         light_group,
+        stokes: Stokes::S0,
     };
     Some(Content::Value(key, index))
 }

@@ -92,8 +92,7 @@ fn checked_plan(
 
 /// Checks that there is memory for the image.
 fn check_memory(path: &Path, plan: &Plan) -> Result<(), ReadExrError> {
-    let (bands, groups) = (plan.grid.count(), plan.light_groups.len());
-    let bytes = |width, height| SpectralImage::bytes(width, height, bands, groups);
+    let bytes = |width, height| SpectralImage::bytes(width, height, plan.content());
     check_fits(path, plan, bytes)
 }
 

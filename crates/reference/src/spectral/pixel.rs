@@ -4,7 +4,7 @@ use super::SpectralPath;
 use crate::bands::{At, Chunk, Spectrum, Tables};
 use optics::wide::Real;
 use pulp::{Arch, Simd, WithSimd};
-use spectra::SumLayout;
+use spectra::{PixelContent, SumLayout};
 
 /// The running means of a pixel's samples, and the sum of squared deviations of the light of all groups together (Welford 1962).
 pub(crate) struct Pixel<'a> {
@@ -21,13 +21,14 @@ pub(crate) struct Pixel<'a> {
 }
 
 impl<'a> Pixel<'a> {
-    pub(crate) fn new(arch: Arch, tables: &'a Tables, light_groups: usize) -> Self {
+    pub(crate) fn new(arch: Arch, tables: &'a Tables, content: PixelContent) -> Self {
+        let light_groups = content.light_groups;
         let zero = Spectrum::zero(tables.chunks());
         let several = if light_groups > 1 { light_groups } else { 0 };
         Self {
             arch,
             tables,
-            layout: SumLayout::new(tables.bands(), light_groups),
+            layout: SumLayout::new(content),
             count: 0,
             mean: zero.clone(),
             deviation: zero.clone(),

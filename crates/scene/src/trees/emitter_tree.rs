@@ -352,6 +352,7 @@ mod tests {
             spectrum: SpectrumId::new(0),
             scale,
             light_group: LightGroupId::new(0),
+            polarization: None,
         };
         let (mut objects, mut shapes) = (
             Vec::new(),
@@ -404,6 +405,7 @@ mod tests {
                 projection: Projection::Panorama,
                 lens: None,
                 filter: PixelFilter::new(Filter::Box),
+                polarizer: None,
             },
             observer: [one.clone(), one.clone(), one.clone()],
             spectra: vec![one],
@@ -432,6 +434,7 @@ mod tests {
             seed: 0,
             bands,
             sampling: WavelengthSampling::Random,
+            polarization: false,
             max_path_segments: 2,
             direct_light: DirectLight::Both,
             film_splits: 0,

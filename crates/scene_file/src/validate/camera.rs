@@ -62,6 +62,7 @@ pub(crate) fn check(checks: &mut Checks, camera: &description::Camera) -> Option
         projection: projection?,
         lens,
         filter: PixelFilter::new(filter),
+        polarizer: None,
     })
 }
 

@@ -199,6 +199,7 @@ impl SpectrumList {
             spectrum: self.single(&table, limits::EMISSION),
             scale,
             light_group,
+            polarization: None,
         })
     }
 

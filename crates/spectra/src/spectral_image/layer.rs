@@ -1,5 +1,7 @@
 //! The layers of a spectral image: what each holds, and its values.
 
+use crate::Stokes;
+
 /// What the values of a layer are.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Quantity {
@@ -41,6 +43,8 @@ pub struct LayerKey {
     pub quantity: Quantity,
     /// Index of the light group whose light it is; `None` for all light.
     pub light_group: Option<usize>,
+    /// The component of the Stokes vector. Variances and samples are only those of S0.
+    pub stokes: Stokes,
 }
 
 impl LayerKey {
@@ -58,6 +62,7 @@ impl LayerKey {
         Self {
             quantity,
             light_group: None,
+            stokes: Stokes::S0,
         }
     }
 
@@ -66,7 +71,14 @@ impl LayerKey {
         Self {
             quantity,
             light_group: Some(light_group),
+            stokes: Stokes::S0,
         }
+    }
+
+    /// The same quantity of a component of the Stokes vector.
+    #[must_use]
+    pub const fn component(self, stokes: Stokes) -> Self {
+        Self { stokes, ..self }
     }
 
     /// The number of light groups with layers of their own.
@@ -84,6 +96,20 @@ impl LayerKey {
         totals
             .into_iter()
             .chain((0..Self::groups_apart(light_groups)).flat_map(of_group))
+    }
+
+    /// The layers that an image of polarized light has besides those of [`Self::all`]: radiance and XYZ of S1, S2 and S3, component by
+    /// component, in total and of each light group.
+    pub fn polarized(light_groups: usize) -> impl Iterator<Item = Self> {
+        Stokes::POLARIZED.into_iter().flat_map(move |stokes| {
+            let of_s0 = Self::all(light_groups).filter(|key| key.has_components());
+            of_s0.map(move |key| key.component(stokes))
+        })
+    }
+
+    /// Whether the quantity has all components of the Stokes vector.
+    pub fn has_components(self) -> bool {
+        matches!(self.quantity, Quantity::Radiance | Quantity::Xyz)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use exr::meta::header::Header;
-use spectra::{BandGrid, LayerKey, LightGroup, Spectrum};
+use spectra::{BandGrid, LayerKey, LightGroup, PixelContent, Spectrum};
 
 use super::reflectances;
 use crate::exr_file::{BandLayoutError, Context, ReadExrError, Window, name_of};
@@ -44,6 +44,15 @@ struct Spectral {
 }
 
 impl Plan {
+    /// What the pixels of the image hold.
+    pub(super) fn content(&self) -> PixelContent {
+        PixelContent {
+            bands: self.grid.count(),
+            light_groups: self.light_groups.len(),
+            is_polarized: false,
+        }
+    }
+
     /// Chooses the first flat layer that has a spectrum, with radiances preferred to reflectances. The changes and assumptions that
     /// reading needs are in the notes of the returned metadata.
     pub(super) fn new(

@@ -9,7 +9,7 @@ use exr::block::reader::Reader;
 use exr::meta::BlockDescription;
 use exr::meta::header::Header;
 use relight::XyzImage;
-use spectra::{BandGrid, LightGroup, SpectralImage, Window};
+use spectra::{BandGrid, LightGroup, PixelContent, SpectralImage, Window};
 
 use super::{Colors, Pixels, Plan, check_color_memory, check_memory, checked_plan, finish, pixels};
 use crate::exr_file::digest::Progress;
@@ -92,6 +92,11 @@ impl RowReader {
         &self.light_groups
     }
 
+    /// What the pixels of the image hold.
+    pub fn content(&self) -> PixelContent {
+        self.plan.content()
+    }
+
     /// The data of the file other than its pixels.
     pub fn metadata(&self) -> &Metadata {
         &self.metadata
@@ -131,8 +136,7 @@ impl RowReader {
     /// no block is in two strips, so reading them one after the other decompresses each block once.
     pub fn strips(&self, bytes: usize) -> impl Iterator<Item = Range<u32>> + use<> {
         let [width, height] = self.size();
-        let (bands, groups) = (self.plan.grid.count(), self.plan.light_groups.len());
-        let row = SpectralImage::bytes(width, 1, bands, groups).max(1);
+        let row = SpectralImage::bytes(width, 1, self.plan.content()).max(1);
         let rows = usize::try_from(bytes as u128 / row).unwrap_or(usize::MAX);
         let starts = self.plan.window.strips(rows, self.block_rows);
         let ends = self.plan.window.strips(rows, self.block_rows).skip(1);
