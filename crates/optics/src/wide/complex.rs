@@ -40,6 +40,15 @@ impl<T: Real> WideComplex<T> {
         Self::new(self.re * factor, -(self.im * factor))
     }
 
+    /// self · b*.
+    #[inline(always)]
+    pub(crate) fn times_conj(self, b: Self) -> Self {
+        Self {
+            re: self.im.mul_add(b.im, self.re * b.re),
+            im: self.re.negate_mul_add(b.im, self.im * b.re),
+        }
+    }
+
     /// self · b + c.
     #[inline(always)]
     pub(crate) fn mul_add(self, b: Self, c: Self) -> Self {

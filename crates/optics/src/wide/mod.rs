@@ -21,6 +21,7 @@ mod elementary;
 mod film;
 mod interface;
 mod lanes;
+mod polarized;
 mod real;
 mod stack;
 
@@ -29,5 +30,8 @@ pub use elementary::{decay, sin_cos_half_turns, sin_cos_turns, sin_half_turns};
 pub use film::{clear_film_reflectance, two_beam_powers};
 pub use interface::interface_reflectance;
 pub use lanes::{Lanes, MAX};
+pub use polarized::{
+    PolarizedPowers, clear_film_polarized, interface_polarized, two_beam_polarized,
+};
 pub use real::Real;
 pub use stack::{Index, SCALED_AFTER, Sweep, Wave};

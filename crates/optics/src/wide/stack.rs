@@ -7,7 +7,7 @@
 //! operations and a product, and would lose its digits where q → 0, at a layer's critical angle.
 
 use super::elementary::{decay, sin_cos_half_turns};
-use super::{Real, WideComplex};
+use super::{PolarizedPowers, Real, WideComplex};
 
 /// Least q²; smaller values are replaced by it (as in [`stack`](crate::stack)).
 const LEAST_Q2: f64 = 1e-100;
@@ -168,6 +168,15 @@ impl<T: Real> Field<T> {
         (reflectance, over * eta * eta.constant(4.0))
     }
 
+    /// Returns r, and the 1 / (η₀U + V) from which t follows.
+    #[inline(always)]
+    fn amplitudes(self, eta: T) -> (WideComplex<T>, WideComplex<T>) {
+        let Self { u, v } = self;
+        let (re, im) = (eta * u.re, eta * u.im);
+        let over = WideComplex::new(re + v.re, im + v.im).recip();
+        (WideComplex::new(re - v.re, im - v.im) * over, over)
+    }
+
     #[inline(always)]
     fn size(self) -> T {
         self.u.norm_sqr() + self.v.norm_sqr()
@@ -267,6 +276,35 @@ impl<T: Real> Sweep<T> {
             r_p,
             over_s * self.passing_s * self.leaving_s,
             over_p * self.passing_p * self.leaving_p,
+        ]
+    }
+
+    /// Returns what is reflected and what is transmitted of polarized light, from η of the incident medium.
+    ///
+    /// Powers are those of [`powers`](Self::powers). The phase between s and p is that of r = (η₀U − V) / (η₀U + V) and of
+    /// t ∝ 1 / (η₀U + V), with the sign by which r_p = −r_s at normal incidence. For p, U is the magnetic field; in a clear substrate
+    /// the phase of t is that of the electric field too. (In an absorbing substrate the two differ.)
+    #[inline(always)]
+    pub fn polarized(&self, eta_s: T, eta_p: T) -> [PolarizedPowers<T>; 2] {
+        let (r_s, over_s) = self.s.amplitudes(eta_s);
+        let (r_p, over_p) = self.p.amplitudes(eta_p);
+        let t_s = (eta_s * self.passing_s * self.leaving_s).times(4.0);
+        let t_p = (eta_p * self.passing_p * self.leaving_p).times(4.0);
+        let (r, t) = (r_s.times_conj(r_p), over_s.times_conj(over_p));
+        let between = (t_s * t_p).sqrt();
+        [
+            PolarizedPowers {
+                s: r_s.norm_sqr(),
+                p: r_p.norm_sqr(),
+                re: r.re,
+                im: r.im,
+            },
+            PolarizedPowers {
+                s: over_s.norm_sqr() * t_s,
+                p: over_p.norm_sqr() * t_p,
+                re: t.re * between,
+                im: t.im * between,
+            },
         ]
     }
 }
