@@ -1,10 +1,14 @@
 //! Thin layers, free or on a surface, at a point of a path.
 
-use crate::bands::{At, BandPowers, Bands, Knots, Row, Tables, Through};
+use crate::bands::{
+    At, BandMueller, BandPowers, Bands, Knots, Mueller, Row, Spectrum, StoredMueller, Tables,
+    Through,
+};
 use crate::{SurfacePoint, layer_thickness};
 use glam::DVec3;
 use optics::wide::{
-    Index, Lanes, Real, SCALED_AFTER, Sweep, clear_film_reflectance, interface_reflectance,
+    Index, Lanes, PolarizedPowers, Real, SCALED_AFTER, Sweep, clear_film_polarized,
+    clear_film_reflectance, interface_polarized, interface_reflectance, two_beam_polarized,
     two_beam_powers,
 };
 use pulp::Simd;
@@ -45,6 +49,18 @@ impl Medium {
     ) -> Lanes<S> {
         let (n, k) = (self.n(bands, at), bands.spectrum(self.k, at));
         interface_reflectance(n, k, cosine.max(GRAZING))
+    }
+
+    /// Returns what is reflected of polarized light from air.
+    #[inline(always)]
+    pub(crate) fn polarized<S: Simd>(
+        &self,
+        bands: &Bands<'_, S>,
+        at: At,
+        cosine: f64,
+    ) -> PolarizedPowers<Lanes<S>> {
+        let (n, k) = (self.n(bands, at), bands.spectrum(self.k, at));
+        interface_polarized(n, k, cosine.max(GRAZING))
     }
 
     #[inline(always)]
@@ -98,15 +114,15 @@ impl<'a> Layers<'a> {
         layers.map(optical).sum()
     }
 
-    /// Returns R_s, R_p, T_s and T_p on a substrate for light from air, or from behind for free layers (then in reverse order).
+    /// Returns the fields on top of the layers on a substrate, for light from air, or from behind for free layers (then in reverse order).
     #[inline(always)]
-    fn powers<S: Simd>(
+    fn sweep<S: Simd>(
         &self,
         (bands, at): (&Bands<'_, S>, At),
         nm: &[f64],
         substrate: &Index<Lanes<S>>,
         (cosine, from_behind): (f64, bool),
-    ) -> [Lanes<S>; 4] {
+    ) -> Sweep<Lanes<S>> {
         let half_waves_per_nm = bands.inverse_wavelength(at).times(2.0);
         let cos2 = cosine * cosine;
         let q0_squared = bands.splat(cos2);
@@ -121,8 +137,34 @@ impl<'a> Layers<'a> {
             let wave = index.wave(q0_squared, cos2, half_waves_per_nm);
             sweep.pass(&wave, bands.splat(nm[layer]));
         }
-        let eta = bands.splat(cosine);
-        sweep.powers(eta, eta)
+        sweep
+    }
+
+    /// Returns R_s, R_p, T_s and T_p on a substrate, with the arguments of [`Self::sweep`].
+    #[inline(always)]
+    fn powers<S: Simd>(
+        &self,
+        (bands, at): (&Bands<'_, S>, At),
+        nm: &[f64],
+        substrate: &Index<Lanes<S>>,
+        met: (f64, bool),
+    ) -> [Lanes<S>; 4] {
+        let eta = bands.splat(met.0);
+        self.sweep((bands, at), nm, substrate, met).powers(eta, eta)
+    }
+
+    /// Returns what is reflected and what is transmitted of polarized light, with the arguments of [`Self::sweep`].
+    #[inline(always)]
+    fn polarized<S: Simd>(
+        &self,
+        (bands, at): (&Bands<'_, S>, At),
+        nm: &[f64],
+        substrate: &Index<Lanes<S>>,
+        met: (f64, bool),
+    ) -> [PolarizedPowers<Lanes<S>>; 2] {
+        let eta = bands.splat(met.0);
+        self.sweep((bands, at), nm, substrate, met)
+            .polarized(eta, eta)
     }
 }
 
@@ -177,8 +219,13 @@ impl<'a> Film<'a> {
         Self { layers, kind }
     }
 
-    /// Returns the film at the point where a path meets it.
-    pub(crate) fn at(&'a self, shape: &'a Shape, point: &SurfacePoint) -> FilmAt<'a> {
+    /// Returns the film at the point where a path with this direction meets it.
+    pub(crate) fn at(
+        &'a self,
+        shape: &'a Shape,
+        point: &SurfacePoint,
+        direction: DVec3,
+    ) -> FilmAt<'a> {
         FilmAt {
             film: self,
             surface: SurfaceAt {
@@ -187,6 +234,8 @@ impl<'a> Film<'a> {
             },
             cosine: point.cosine.max(GRAZING),
             is_front: point.is_front,
+            direction,
+            normal: point.normal,
         }
     }
 }
@@ -198,6 +247,9 @@ pub(crate) struct FilmAt<'a> {
     surface: SurfaceAt<'a>,
     cosine: f64,
     is_front: bool,
+    /// The direction of the path that meets it, and the normal on the side that it comes from: unit vectors.
+    pub(crate) direction: DVec3,
+    pub(crate) normal: DVec3,
 }
 
 impl FilmAt<'_> {
@@ -232,6 +284,79 @@ impl FilmAt<'_> {
     }
 }
 
+/// The matrices of a film in each band, from the powers of reflected and transmitted light.
+trait BandPolarized {
+    fn polarized<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> [PolarizedPowers<Lanes<S>>; 2];
+}
+
+/// The matrix of the reflected light, or of the transmitted light.
+struct OneOf<'a, T>(&'a T, usize);
+
+impl<T: BandPolarized> BandMueller for OneOf<'_, T> {
+    #[inline(always)]
+    fn mueller<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> Mueller<Lanes<S>> {
+        Mueller::of(&self.0.polarized(bands, at)[self.1], 1.0)
+    }
+}
+
+impl FilmAt<'_> {
+    /// Writes the matrices of reflected and transmitted light for layers of these thicknesses, where they are wanted.
+    #[inline(always)]
+    pub(crate) fn mueller<S: Simd>(
+        &self,
+        bands: &Bands<'_, S>,
+        nm: &[f64],
+        to: [Option<StoredMueller>; 2],
+        rows: &mut [Spectrum],
+    ) {
+        let layers = &self.film.layers;
+        let one = || (bands.knots(layers.0[0].0.n), 2.0 * nm[0]);
+        match self.film.kind {
+            FilmKind::Clear => {
+                let (n, twice_nm) = one();
+                let cos2 = self.cosine * self.cosine;
+                write_both(bands, &ClearFilm { n, twice_nm, cos2 }, to, rows);
+            }
+            FilmKind::TwoBeam(path) => {
+                let ((n, twice_nm), cosine) = (one(), self.cosine);
+                let film = TwoBeamFilm {
+                    n,
+                    twice_nm,
+                    cosine,
+                    path,
+                };
+                write_both(bands, &film, to, rows);
+            }
+            FilmKind::Stack => write_both(bands, &(self, nm), to, rows),
+        }
+    }
+}
+
+/// Writes the matrices of a film. A film that splits the path computes both at once.
+#[inline(always)]
+fn write_both<S: Simd>(
+    bands: &Bands<'_, S>,
+    film: &impl BandPolarized,
+    to: [Option<StoredMueller>; 2],
+    rows: &mut [Spectrum],
+) {
+    if let [Some(reflected), Some(transmitted)] = to {
+        for chunk in bands.chunks() {
+            for at in At::lanes::<S>(chunk) {
+                let [r, t] = film.polarized(bands, at);
+                reflected.store((bands, at), rows, &Mueller::of(&r, 1.0));
+                transmitted.store((bands, at), rows, &Mueller::of(&t, 1.0));
+            }
+        }
+        return;
+    }
+    for (side, to) in to.into_iter().enumerate() {
+        if let Some(to) = to {
+            bands.write_mueller(&OneOf(film, side), to, rows);
+        }
+    }
+}
+
 /// A clear film of one layer.
 struct ClearFilm<'a> {
     n: Knots<'a>,
@@ -249,6 +374,15 @@ impl BandPowers for ClearFilm<'_> {
     }
 }
 
+impl BandPolarized for ClearFilm<'_> {
+    #[inline(always)]
+    fn polarized<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> [PolarizedPowers<Lanes<S>>; 2] {
+        let n = self.n.value(bands, at);
+        let inverse_wavelength = bands.inverse_wavelength(at);
+        clear_film_polarized(n, self.twice_nm, inverse_wavelength, self.cos2)
+    }
+}
+
 /// A film of one layer by the two-beam formula.
 struct TwoBeamFilm<'a> {
     n: Knots<'a>,
@@ -263,6 +397,26 @@ impl BandPowers for TwoBeamFilm<'_> {
         let n = self.n.value(bands, at);
         let inverse_wavelength = bands.inverse_wavelength(at);
         two_beam_powers(n, self.twice_nm, inverse_wavelength, self.cosine, self.path)
+    }
+}
+
+impl BandPolarized for TwoBeamFilm<'_> {
+    #[inline(always)]
+    fn polarized<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> [PolarizedPowers<Lanes<S>>; 2] {
+        let n = self.n.value(bands, at);
+        let inverse_wavelength = bands.inverse_wavelength(at);
+        two_beam_polarized(n, self.twice_nm, inverse_wavelength, self.cosine, self.path)
+    }
+}
+
+impl BandPolarized for (&FilmAt<'_>, &[f64]) {
+    #[inline(always)]
+    fn polarized<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> [PolarizedPowers<Lanes<S>>; 2] {
+        let (film, nm) = self;
+        let (zero, one) = (bands.splat(0.0), bands.splat(1.0));
+        let air = Index::new(one, zero, true, one);
+        let met = (film.cosine, !film.is_front);
+        film.film.layers.polarized((bands, at), nm, &air, met)
     }
 }
 
@@ -302,5 +456,22 @@ impl Coating<'_> {
         let met = (cosine, false);
         let [s, p, ..] = self.layers.powers((bands, at), nm, &substrate, met);
         (s + p).times(0.5)
+    }
+
+    /// Returns what is reflected of polarized light at a cosine; `nm` are the thicknesses of the layers.
+    #[inline(always)]
+    pub(crate) fn polarized<S: Simd>(
+        &self,
+        bands: &Bands<'_, S>,
+        at: At,
+        (nm, cosine): (&[f64], f64),
+    ) -> PolarizedPowers<Lanes<S>> {
+        if self.layers.0.is_empty() {
+            return self.medium.polarized(bands, at, cosine);
+        }
+        let substrate = self.medium.index(bands, at);
+        let met = (cosine.max(GRAZING), false);
+        let [reflected, _] = self.layers.polarized((bands, at), nm, &substrate, met);
+        reflected
     }
 }

@@ -34,6 +34,7 @@ mod mis;
 mod noise;
 mod path;
 mod picture;
+mod polarization;
 mod prepared;
 mod random;
 mod render;
@@ -61,6 +62,7 @@ pub use lifting::smooth_value;
 pub use mis::{mis_weight_bsdf, mis_weight_emitter};
 pub use noise::{Noise, gradient_noise, swirls};
 
+pub use polarization::{Turn, axis_across, emitted_stokes};
 pub use prepared::PreparedScene;
 pub use random::{pcg4d, random4, unit_interval};
 pub use render::{PathSample, Session, Stopped, render, render_at};

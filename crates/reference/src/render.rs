@@ -1,7 +1,7 @@
 //! Rendering a picture in rounds of samples.
 
 use crate::path::PathTracer;
-use crate::spectral::{Pixel, SpectralPath};
+use crate::spectral::{Found, Pixel, SpectralPath, SpectralTransport, StokesPath};
 use crate::tiles::Tiles;
 use crate::{PreparedScene, SimdLevel};
 use scene::Scene;
@@ -74,6 +74,17 @@ impl<'a> Session<'a> {
         }
     }
 
+    /// Returns what advances tiles on a core: with or without polarization.
+    fn worker(&self) -> Box<dyn FnMut(&mut Task<'_>) + '_> {
+        if self.prepared.scene.settings().polarization {
+            let mut worker = Worker::<StokesPath<'_>>::new(self.level, &self.prepared);
+            Box::new(move |task| worker.advance(task))
+        } else {
+            let mut worker = Worker::<SpectralPath<'_>>::new(self.level, &self.prepared);
+            Box::new(move |task| worker.advance(task))
+        }
+    }
+
     /// Advances pixels on all cores. The rounds must not overlap, and their pixels must have the samples that they say.
     ///
     /// `on_progress` receives the number of samples of these rounds that were taken so far, and may stop them. The pixels of finished tiles
@@ -111,14 +122,14 @@ impl<'a> Session<'a> {
             for _ in 0..threads {
                 let (sender, waiting, is_stopped) = (sender.clone(), &waiting, &is_stopped);
                 scope.spawn(move || {
-                    let mut worker = Worker::new(self.level, &self.prepared);
+                    let mut worker = self.worker();
                     while !is_stopped.load(Ordering::Relaxed) {
                         let next = waiting
                             .lock()
                             .unwrap_or_else(PoisonError::into_inner)
                             .next();
                         let Some(mut task) = next else { return };
-                        worker.advance(&mut task);
+                        worker(&mut task);
                         // The receiver is gone if the caller has panicked.
                         if sender.send((task.window, task.samples)).is_err() {
                             return;
@@ -160,39 +171,54 @@ pub struct PathSample {
 impl PreparedScene<'_> {
     /// Traces one sample of a pixel.
     pub fn sample(&self, pixel: [u32; 2], sample: u32) -> PathSample {
-        let mut worker = Worker::new(SimdLevel::best(), self);
-        worker.trace_path(pixel, sample);
-        let path = &worker.tracer.transport;
-        PathSample {
-            offset: path.offset(),
-            radiance: path.radiance().map(<[f64]>::to_vec).collect(),
+        if self.scene.settings().polarization {
+            self.sample_by::<StokesPath<'_>>(pixel, sample)
+        } else {
+            self.sample_by::<SpectralPath<'_>>(pixel, sample)
         }
+    }
+
+    fn sample_by<'a, T: SpectralTransport<'a>>(
+        &'a self,
+        pixel: [u32; 2],
+        sample: u32,
+    ) -> PathSample {
+        let mut worker = Worker::<T>::new(SimdLevel::best(), self);
+        let found = worker.tracer.find(pixel, sample, worker.clamp);
+        PathSample {
+            offset: found.offset(),
+            radiance: found.radiance().map(<[f64]>::to_vec).collect(),
+        }
+    }
+}
+
+impl<'a, T: SpectralTransport<'a>> PathTracer<'a, T> {
+    /// Traces one sample of a pixel and returns the light that it found, scaled down to `clamp` in its brightest band.
+    fn find(&mut self, pixel: [u32; 2], sample: u32, clamp: Option<f64>) -> Found<'_, 'a> {
+        self.trace_path(pixel, sample);
+        let mut found = self.transport.found();
+        if let Some(most) = clamp {
+            found.dim(most);
+        }
+        found
     }
 }
 
 /// The state with which a core renders.
-struct Worker<'a> {
-    tracer: PathTracer<'a, SpectralPath<'a>>,
+struct Worker<'a, T> {
+    tracer: PathTracer<'a, T>,
     pixel: Pixel<'a>,
     clamp: Option<f64>,
 }
 
-impl<'a> Worker<'a> {
+impl<'a, T: SpectralTransport<'a>> Worker<'a, T> {
     fn new(level: SimdLevel, prepared: &'a PreparedScene<'a>) -> Self {
-        let settings = prepared.scene.settings();
-        let light_groups = prepared.scene.light_groups().len();
-        let path = SpectralPath::new(level.0, &prepared.tables, light_groups);
+        let content = prepared.scene.content();
+        let path = T::of_scene(level.0, prepared);
         Self {
             tracer: PathTracer::new(prepared, path),
-            pixel: Pixel::new(level.0, &prepared.tables, prepared.scene.content()),
-            clamp: settings.clamp,
-        }
-    }
-
-    fn trace_path(&mut self, pixel: [u32; 2], sample: u32) {
-        self.tracer.trace_path(pixel, sample);
-        if let Some(most) = self.clamp {
-            self.tracer.transport.dim(most);
+            pixel: Pixel::new(level.0, &prepared.tables, content),
+            clamp: prepared.scene.settings().clamp,
         }
     }
 
@@ -203,8 +229,10 @@ impl<'a> Worker<'a> {
             for (x, values) in (left..).zip(pixels) {
                 self.pixel.load(values, task.samples.start);
                 for sample in task.samples.clone() {
-                    self.trace_path([x, y], task.first_sample + sample);
-                    self.pixel.add(&self.tracer.transport);
+                    let found = self
+                        .tracer
+                        .find([x, y], task.first_sample + sample, self.clamp);
+                    self.pixel.add(&found);
                 }
                 self.pixel.save(values);
             }

@@ -2,8 +2,8 @@
 
 use crate::bsdf::{Bsdf, Lobes};
 use crate::spectral::SpectralPath;
-use crate::transport::Transport;
-use crate::{PreparedScene, SimdLevel, SurfacePoint};
+use crate::transport::{Scattering, Transport};
+use crate::{PreparedScene, Ray, SimdLevel, SurfacePoint};
 use glam::DVec3;
 
 /// The BSDF of an object at a point, as paths use it. `wo` points to the camera's side of a path, `wi` to the light's; both are
@@ -37,9 +37,19 @@ impl<'a> SurfaceFunction<'a> {
     /// Returns the BSDF from `wi` to `wo` times cos θi in each band, sr⁻¹, without a specular part.
     pub fn values(&self, wo: DVec3, wi: DVec3) -> Vec<f64> {
         let mut path = SpectralPath::new(SimdLevel::best().0, &self.prepared.tables, 1);
-        path.begin(self.offset);
-        path.scatter(&self.bsdf, &self.bsdf.eval(wo, wi).lobes);
+        path.begin(self.offset, &ANY_RAY);
+        path.scatter(&self.scattering(self.bsdf.eval(wo, wi).lobes, wo, wi));
         path.throughput().to_vec()
+    }
+
+    fn scattering(&self, lobes: Lobes, wo: DVec3, wi: DVec3) -> Scattering<'_> {
+        Scattering {
+            bsdf: &self.bsdf,
+            lobes,
+            wo,
+            wi,
+            normal: DVec3::Z,
+        }
     }
 
     /// Returns the density with which [`Self::sample`] finds `wi`, sr⁻¹. Below a smooth coat it integrates to the probability that
@@ -54,6 +64,12 @@ impl<'a> SurfaceFunction<'a> {
     }
 }
 
+/// A ray where only what depends on the wavelength matters.
+const ANY_RAY: Ray = Ray {
+    origin: DVec3::ZERO,
+    direction: DVec3::NEG_Z,
+};
+
 impl PreparedScene<'_> {
     /// Returns reflectance and transmittance of an object's film, for unpolarized light in each band, as paths use them. `None` for
     /// objects that are not films.
@@ -64,12 +80,12 @@ impl PreparedScene<'_> {
         offset: f64,
     ) -> Option<[Vec<f64>; 2]> {
         let object = &self.scene.objects()[object];
-        let film = self
-            .surface(object.material)
-            .film()?
-            .at(&object.shape, point);
+        let film =
+            self.surface(object.material)
+                .film()?
+                .at(&object.shape, point, ANY_RAY.direction);
         let mut path = SpectralPath::new(SimdLevel::best().0, &self.tables, 1);
-        path.begin(offset);
+        path.begin(offset, &ANY_RAY);
         path.split(&film);
         let reflectance = path.throughput().to_vec();
         path.resume();
@@ -97,8 +113,14 @@ impl PreparedScene<'_> {
             return None;
         }
         let mut path = SpectralPath::new(SimdLevel::best().0, &self.tables, 1);
-        path.begin(offset);
-        path.scatter(&bsdf, &Lobes::specular(point.cosine));
+        path.begin(offset, &ANY_RAY);
+        path.scatter(&Scattering {
+            bsdf: &bsdf,
+            lobes: Lobes::specular(point.cosine),
+            wo,
+            wi: wo * DVec3::new(-1.0, -1.0, 1.0),
+            normal: DVec3::Z,
+        });
         Some(path.throughput().to_vec())
     }
 }

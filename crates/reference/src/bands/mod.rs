@@ -2,8 +2,10 @@
 //!
 //! Formulas come from `optics::wide`, written for one wavelength; here they are called in loops over the bands.
 
+mod mueller;
 mod spectrum;
 
+pub(crate) use mueller::{BandMueller, Mueller, MuellerKind, StoredMueller};
 pub(crate) use spectrum::{Row, Tables};
 
 use bytemuck::{Pod, Zeroable};

@@ -1,7 +1,7 @@
 //! A diffuse body below a clear coat, smooth or rough.
 
 use super::{BsdfEval, Lobes, Rough};
-use crate::bands::{At, BandValue, Bands, Row, Tables};
+use crate::bands::{At, BandMueller, BandValue, Bands, Mueller, MuellerKind, Row, Tables};
 use crate::layers::{Coating, GRAZING, Layers, Medium};
 use crate::sample_cosine_hemisphere;
 use crate::surface::Reflectance;
@@ -30,6 +30,11 @@ impl<'a> Coated<'a> {
         let rough = rough.map(|of| Rough::new(tables, &coat, of));
         Self { body, coat, rough }
     }
+
+    /// Whether the coat is smooth.
+    pub(super) fn is_smooth(&self) -> bool {
+        self.rough.is_none()
+    }
 }
 
 /// A coated body at a point.
@@ -39,6 +44,18 @@ pub(crate) struct CoatedAt<'a> {
 }
 
 impl CoatedAt<'_> {
+    pub(super) fn mueller_kind(&self, lobes: &Lobes) -> MuellerKind {
+        if self.coated.is_smooth() && lobes.single > 0.0 {
+            return MuellerKind::Amplitudes;
+        }
+        MuellerKind::General
+    }
+
+    /// Whether light with these lobes came from the body below a smooth coat.
+    pub(super) fn is_from_body(&self, lobes: &Lobes) -> bool {
+        self.coated.is_smooth() && lobes.single <= 0.0
+    }
+
     /// Returns the probability of the specular reflection, which only a smooth coat has.
     pub(super) fn specular_probability(&self, wo: DVec3) -> f64 {
         match self.coated.rough {
@@ -113,6 +130,37 @@ impl BandValue for (&CoatedAt<'_>, Lobes) {
         let into = rough_coat(body, bands, at, lobes.wi_cosine);
         let body = out.complement() * into.complement() * inside;
         once.times(lobes.single) + several + body
+    }
+}
+
+/// A smooth coat reflects by its amplitudes, and transmits s and p each by its own part into the body, which depolarizes, and out of it
+/// (Baek, Jeon, Tong and Kim, Simultaneous acquisition of polarimetric SVBRDF and normals, 2018, section 4). Facets reflect by their amplitudes; a
+/// rough coat transmits and depolarizes.
+impl BandMueller for (&CoatedAt<'_>, Lobes) {
+    #[inline(always)]
+    fn mueller<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> Mueller<Lanes<S>> {
+        let (surface, lobes) = self;
+        let Coated { body, coat, rough } = surface.coated;
+        let Some(rough) = rough else {
+            if lobes.single > 0.0 {
+                let mirrored = coat.medium.polarized(bands, at, lobes.cosine);
+                return Mueller::of(&mirrored, lobes.single);
+            }
+            let through = |cosine| {
+                let reflected = coat.medium.polarized(bands, at, cosine);
+                [reflected.s.complement(), reflected.p.complement()]
+            };
+            let inside = surface.below_coat(bands, at).times(lobes.body);
+            let (out, into) = (through(lobes.wo_cosine), through(lobes.wi_cosine));
+            return Mueller::product(out, into, inside);
+        };
+        let once = coat.medium.polarized(bands, at, lobes.cosine);
+        let inside = surface.below_coat(bands, at).times(lobes.body);
+        let several = rough.color(coat, (bands, at), &[]).times(lobes.multiple);
+        let out = rough_coat(body, bands, at, lobes.wo_cosine);
+        let into = rough_coat(body, bands, at, lobes.wi_cosine);
+        let body = out.complement() * into.complement() * inside;
+        Mueller::of(&once, lobes.single).and_depolarizer(several + body)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The model of Cook and Torrance (1982), with a Lambertian fraction.
 
 use super::{BsdfEval, Lobes, mirrored};
-use crate::bands::{At, BandValue, Bands, Tables};
+use crate::bands::{At, BandMueller, BandValue, Bands, Mueller, MuellerKind, Tables};
 use crate::layers::Medium;
 use crate::sample_cosine_hemisphere;
 use glam::DVec3;
@@ -27,6 +27,13 @@ impl<'a> Cook<'a> {
         self.model
             .diffuse
             .map_or(0.0, |diffuse| diffuse.probability)
+    }
+
+    pub(super) fn mueller_kind(&self) -> MuellerKind {
+        match self.model.diffuse {
+            None => MuellerKind::Amplitudes,
+            Some(_) => MuellerKind::General,
+        }
     }
 
     pub(super) fn eval(&self, wo: DVec3, wi: DVec3) -> BsdfEval {
@@ -61,6 +68,23 @@ impl BandValue for (&Cook<'_>, Lobes) {
             Some(diffuse) => {
                 let base = bands.spectrum(diffuse.reflectance.into(), at);
                 single + base.times(lobes.body)
+            }
+        }
+    }
+}
+
+/// Facets act by their amplitudes; the Lambertian fraction depolarizes.
+impl BandMueller for (&Cook<'_>, Lobes) {
+    #[inline(always)]
+    fn mueller<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> Mueller<Lanes<S>> {
+        let (cook, lobes) = self;
+        let once = cook.medium.polarized(bands, at, lobes.cosine);
+        let once = Mueller::of(&once, lobes.single);
+        match cook.model.diffuse {
+            None => once,
+            Some(diffuse) => {
+                let base = bands.spectrum(diffuse.reflectance.into(), at);
+                once.and_depolarizer(base.times(lobes.body))
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The boundary of an opaque medium, bare or below thin layers: smooth, or made of specular facets.
 
 use super::{BsdfEval, Lobes, Rough};
-use crate::bands::{At, BandValue, Bands, Tables};
+use crate::bands::{At, BandMueller, BandValue, Bands, Mueller, MuellerKind, Tables};
 use crate::layers::{Coating, Layers, Medium, Nanometers, SurfaceAt};
 use glam::DVec3;
 use optics::wide::{Lanes, Real};
@@ -65,6 +65,13 @@ impl InterfaceAt<'_> {
         }
     }
 
+    pub(super) fn mueller_kind(&self) -> MuellerKind {
+        match self.interface.rough {
+            None => MuellerKind::Amplitudes,
+            Some(_) => MuellerKind::General,
+        }
+    }
+
     pub(super) fn has_layers(&self) -> bool {
         !self.interface.coating.layers.is_empty()
     }
@@ -88,6 +95,24 @@ impl BandValue for (&InterfaceAt<'_>, &[f64], Lobes) {
             Some(rough) => {
                 let color = rough.color(coating, (bands, at), nm);
                 once.times(lobes.single) + color.times(lobes.multiple)
+            }
+        }
+    }
+}
+
+/// Facets and smooth surfaces act by their amplitudes; light that met several facets is unpolarized.
+impl BandMueller for (&InterfaceAt<'_>, &[f64], Lobes) {
+    #[inline(always)]
+    fn mueller<S: Simd>(&self, bands: &Bands<'_, S>, at: At) -> Mueller<Lanes<S>> {
+        let (InterfaceAt { interface, .. }, nm, lobes) = self;
+        let Interface { coating, rough } = interface;
+        let once = coating.polarized(bands, at, (nm, lobes.cosine));
+        let once = Mueller::of(&once, lobes.single);
+        match rough {
+            None => once,
+            Some(rough) => {
+                let color = rough.color(coating, (bands, at), nm);
+                once.and_depolarizer(color.times(lobes.multiple))
             }
         }
     }

@@ -22,7 +22,7 @@ pub(crate) use lobes::{BsdfEval, Lobes};
 use rough::Rough;
 
 use crate::SurfacePoint;
-use crate::bands::{Bands, Spectrum, Tables};
+use crate::bands::{Bands, MuellerKind, Spectrum, StoredMueller, Tables};
 use crate::layers::{Film, Nanometers, SurfaceAt};
 use crate::surface::{Reflectance, pattern_reflectance};
 use glam::DVec3;
@@ -196,6 +196,52 @@ impl Bsdf<'_> {
             Self::Interface(interface) => bands.product(spectrum, &(interface, nm, lobes), to),
             Self::Coated(coated) => bands.product(spectrum, &(coated, lobes), to),
             Self::Cook(cook) => bands.product(spectrum, &(*cook, lobes), to),
+        }
+    }
+}
+
+/// The value of a BSDF for polarized light.
+impl Bsdf<'_> {
+    /// Returns which elements its matrix has.
+    pub(crate) fn mueller_kind(&self, lobes: &Lobes) -> MuellerKind {
+        match self {
+            Self::Diffuse(_) => MuellerKind::Depolarizer,
+            Self::Interface(interface) => interface.mueller_kind(),
+            Self::Coated(coated) => coated.mueller_kind(lobes),
+            Self::Cook(cook) => cook.mueller_kind(),
+        }
+    }
+
+    /// Whether its reflection has a single direction.
+    pub(crate) fn is_smooth(&self) -> bool {
+        match self {
+            Self::Interface(at) => at.interface.is_smooth(),
+            Self::Coated(at) => at.coated.is_smooth(),
+            Self::Diffuse(_) | Self::Cook(_) => false,
+        }
+    }
+
+    /// Whether light with these lobes passed a smooth coat, out of the body and into it, in planes of its own.
+    pub(crate) fn is_from_body(&self, lobes: &Lobes) -> bool {
+        matches!(self, Self::Coated(coated) if coated.is_from_body(lobes))
+    }
+
+    /// Writes the matrix for these lobes; `nm` comes from [`Self::thickness_nm`].
+    #[inline(always)]
+    pub(crate) fn mueller<S: Simd>(
+        &self,
+        bands: &Bands<'_, S>,
+        (nm, lobes): (&[f64], Lobes),
+        to: StoredMueller,
+        rows: &mut [Spectrum],
+    ) {
+        match self {
+            Self::Diffuse(diffuse) => {
+                bands.write(&(diffuse.0, lobes.single), &mut rows[to.first]);
+            }
+            Self::Interface(interface) => bands.write_mueller(&(interface, nm, lobes), to, rows),
+            Self::Coated(coated) => bands.write_mueller(&(coated, lobes), to, rows),
+            Self::Cook(cook) => bands.write_mueller(&(*cook, lobes), to, rows),
         }
     }
 }

@@ -4,7 +4,7 @@ use super::{PathTracer, Use};
 use crate::bsdf::Bsdf;
 use crate::emitter_choice::ShadingPoint;
 use crate::prepared::SceneEmitter;
-use crate::transport::{Emitted, Transport};
+use crate::transport::{Emitted, Scattering, Transport};
 use crate::{
     Emitter, Hit, Ray, SurfacePoint, environment_pixel, mis_weight_emitter, nearest_hit,
     surface_point,
@@ -44,9 +44,15 @@ impl<'a, T: Transport> PathTracer<'a, T> {
                 _ => 1.0,
             };
             let weight = self.path.weight * sample.weight * mis;
-            let scattering = (bsdf, &eval.lobes);
+            let scattering = Scattering {
+                bsdf,
+                lobes: eval.lobes,
+                wo: -self.path.ray.direction,
+                wi: sample.direction,
+                normal: point.normal,
+            };
             self.transport
-                .connect(scattering, &sample.emitted, weight, &self.films);
+                .connect(&scattering, &sample.emitted, weight, &self.films);
         }
     }
 
@@ -95,7 +101,11 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         let emission = chosen.source.emission;
         Some(EmitterSample {
             emitter: chosen,
-            emitted: Emitted { emission, pixel },
+            emitted: Emitted {
+                emission,
+                pixel,
+                toward: direction,
+            },
             direction,
             pmf: choice.pmf,
             density,
@@ -129,7 +139,7 @@ impl<'a, T: Transport> PathTracer<'a, T> {
                 return false;
             }
             let point = surface_point(&met.shape, &ray, hit.distance);
-            self.films.push(film.at(&met.shape, &point));
+            self.films.push(film.at(&met.shape, &point, ray.direction));
             ray.origin = point.position;
             from = hit.object;
         }

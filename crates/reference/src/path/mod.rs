@@ -9,7 +9,7 @@ use crate::bsdf::{Bsdf, Lobes};
 use crate::emitter_choice::Weighted;
 use crate::layers::FilmAt;
 use crate::sobol::{SobolNumbers, SobolPixel};
-use crate::transport::{Emitted, Side, Transport};
+use crate::transport::{Emitted, Scattering, Side, Transport};
 use crate::{
     Hit, PreparedScene, SurfacePoint, environment_pixel, environment_strength, nearest_hit,
     random4, reflection_probability, rr_survival_probability, sampled_camera_ray, surface_frame,
@@ -93,11 +93,12 @@ impl<'a, T: Transport> PathTracer<'a, T> {
             }
             None => [0.0; 2],
         };
-        self.transport.begin(match settings.sampling {
+        let ray = sampled_camera_ray(scene, pixel, [numbers.get(0), numbers.get(1)], on_lens);
+        let offset = match settings.sampling {
             WavelengthSampling::Random => numbers.get(2),
             WavelengthSampling::Center => 0.5,
-        });
-        let ray = sampled_camera_ray(scene, pixel, [numbers.get(0), numbers.get(1)], on_lens);
+        };
+        self.transport.begin(offset, &ray);
         self.path = PathState::new(ray, settings.film_splits);
         self.follow_path();
         while let Some(path) = self.waiting.pop() {
@@ -179,8 +180,12 @@ impl<'a, T: Transport> PathTracer<'a, T> {
                 }
                 _ => None,
             };
-            let emission = part.emission;
-            self.emit(&Emitted { emission, pixel }, strength * mis);
+            let light = Emitted {
+                emission: part.emission,
+                pixel,
+                toward: direction,
+            };
+            self.emit(&light, strength * mis);
         }
     }
 
@@ -198,11 +203,15 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         let point = surface_point(&object.shape, &self.path.ray, hit.distance);
         if let Some(emission) = surface.emission {
             let mis = self.mis_weight_of_hit(EmitterKind::Object(hit.object));
-            let pixel = None;
-            self.emit(&Emitted { emission, pixel }, mis);
+            let light = Emitted {
+                emission,
+                pixel: None,
+                toward: self.path.ray.direction,
+            };
+            self.emit(&light, mis);
         }
         if let Some(film) = surface.film() {
-            let film = film.at(&object.shape, &point);
+            let film = film.at(&object.shape, &point, self.path.ray.direction);
             self.shade_film(hit.object, &point, &film, surface.estimate);
             return true;
         }
@@ -271,10 +280,17 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         }
         let random = self.random_at(Use::Bsdf);
         if specular > 0.0 && (specular >= 1.0 || random.get(2) < specular) {
-            self.transport.scatter(bsdf, &Lobes::specular(point.cosine));
+            let wo = -self.path.ray.direction;
+            self.path.mirror(object, point);
+            self.transport.scatter(&Scattering {
+                bsdf,
+                lobes: Lobes::specular(point.cosine),
+                wo,
+                wi: self.path.ray.direction,
+                normal: point.normal,
+            });
             self.path.weight /= specular;
             self.path.rr_throughput *= estimate.albedo;
-            self.path.mirror(object, point);
             return true;
         }
         let wi = bsdf.sample(wo, |lane| random.get(lane));
@@ -283,10 +299,16 @@ impl<'a, T: Transport> PathTracer<'a, T> {
         if onward.pdf <= 0.0 || weight <= 0.0 {
             return false;
         }
-        self.transport.scatter(bsdf, &onward.lobes);
+        let direction = (world_from_local * wi).normalize();
+        self.transport.scatter(&Scattering {
+            bsdf,
+            lobes: onward.lobes,
+            wo: -self.path.ray.direction,
+            wi: direction,
+            normal: point.normal,
+        });
         self.path.weight /= onward.pdf;
         self.path.rr_throughput *= weight * estimate.albedo;
-        let direction = (world_from_local * wi).normalize();
         let scattered = Scattered {
             position: point.position,
             normal: point.normal,

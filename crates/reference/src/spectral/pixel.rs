@@ -1,10 +1,10 @@
 //! Statistics of the samples of a pixel.
 
-use super::SpectralPath;
-use crate::bands::{At, Chunk, Spectrum, Tables};
-use optics::wide::Real;
+use super::Found;
+use crate::bands::{At, Bands, Chunk, Knots, Spectrum, Tables};
+use optics::wide::{Lanes, Real};
 use pulp::{Arch, Simd, WithSimd};
-use spectra::{PixelContent, SumLayout};
+use spectra::{PixelContent, Stokes, SumLayout};
 
 /// The running means of a pixel's samples, and the sum of squared deviations of the light of all groups together (Welford 1962).
 pub(crate) struct Pixel<'a> {
@@ -18,12 +18,19 @@ pub(crate) struct Pixel<'a> {
     group_means: Vec<Spectrum>,
     /// For each light group, the mean of radiance times the observer's functions, summed over the bands.
     xyz: Vec<[f64; 3]>,
+    /// For each light group, the means of S1, S2 and S3, and of these times the observer's functions; empty where they are not kept.
+    polarized: Vec<[(Spectrum, [f64; 3]); 3]>,
 }
 
 impl<'a> Pixel<'a> {
     pub(crate) fn new(arch: Arch, tables: &'a Tables, content: PixelContent) -> Self {
         let light_groups = content.light_groups;
         let zero = Spectrum::zero(tables.chunks());
+        let kept = if content.is_polarized {
+            light_groups
+        } else {
+            0
+        };
         let several = if light_groups > 1 { light_groups } else { 0 };
         Self {
             arch,
@@ -32,8 +39,9 @@ impl<'a> Pixel<'a> {
             count: 0,
             mean: zero.clone(),
             deviation: zero.clone(),
-            group_means: vec![zero; several],
+            group_means: vec![zero.clone(); several],
             xyz: vec![[0.0; 3]; light_groups],
+            polarized: vec![std::array::from_fn(|_| (zero.clone(), [0.0; 3])); kept],
         }
     }
 
@@ -57,6 +65,12 @@ impl<'a> Pixel<'a> {
         for (group, xyz) in self.xyz.iter_mut().enumerate() {
             xyz.copy_from_slice(&values[layout.xyz(group)]);
         }
+        for (group, components) in self.polarized.iter_mut().enumerate() {
+            for (stokes, (mean, xyz)) in Stokes::POLARIZED.into_iter().zip(components) {
+                read(mean, &values[layout.component(group, stokes)]);
+                xyz.copy_from_slice(&values[layout.component_xyz(group, stokes)]);
+            }
+        }
     }
 
     /// Writes the pixel's values.
@@ -73,24 +87,31 @@ impl<'a> Pixel<'a> {
         for (group, xyz) in self.xyz.iter().enumerate() {
             values[layout.xyz(group)].copy_from_slice(xyz);
         }
+        for (group, components) in self.polarized.iter().enumerate() {
+            for (stokes, (mean, xyz)) in Stokes::POLARIZED.into_iter().zip(components) {
+                let mean = &mean.values()[..bands];
+                values[layout.component(group, stokes)].copy_from_slice(mean);
+                values[layout.component_xyz(group, stokes)].copy_from_slice(xyz);
+            }
+        }
     }
 
     /// Adds a sample.
-    pub(crate) fn add(&mut self, path: &SpectralPath<'a>) {
+    pub(crate) fn add(&mut self, found: &Found<'_, 'a>) {
         self.count += 1;
-        self.arch.dispatch(Add(self, path));
+        self.arch.dispatch(Add(self, found));
     }
 }
 
-struct Add<'b, 'a>(&'b mut Pixel<'a>, &'b SpectralPath<'a>);
+struct Add<'c, 'b, 'a>(&'c mut Pixel<'a>, &'c Found<'b, 'a>);
 
-impl WithSimd for Add<'_, '_> {
+impl WithSimd for Add<'_, '_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self(pixel, path) = self;
-        let bands = path.bands(simd);
+        let bands = path.wavelengths.bands(simd);
         let part = 1.0 / f64::from(pixel.count);
         let over = bands.splat(part);
         let count = bands.chunks().len();
@@ -99,7 +120,7 @@ impl WithSimd for Add<'_, '_> {
         for chunk in bands.chunks() {
             for at in At::lanes::<S>(chunk) {
                 let mut total = bands.splat(0.0);
-                for radiance in &path.radiance {
+                for radiance in path.radiance.iter() {
                     total = total + at.load(simd, &radiance.0);
                 }
                 let before = total - at.load(simd, mean);
@@ -110,30 +131,54 @@ impl WithSimd for Add<'_, '_> {
             }
         }
         for (radiance, mean) in path.radiance.iter().zip(&mut pixel.group_means) {
-            let (radiance, mean) = (&radiance.0[..count], &mut mean.0[..count]);
-            for chunk in bands.chunks() {
-                for at in At::lanes::<S>(chunk) {
-                    let before = at.load(simd, radiance) - at.load(simd, mean);
-                    at.store(before.mul_add(over, at.load(simd, mean)), mean);
-                }
-            }
+            advance(&bands, over, radiance, mean);
         }
         let observer = pixel.tables.observer().map(|row| bands.knots(row));
-        for (radiance, xyz) in path.radiance.iter().zip(&mut pixel.xyz) {
-            let radiance = &radiance.0[..count];
-            for (seen_by, mean) in observer.iter().zip(xyz) {
-                // The sums of every eighth band, whatever the width of a register.
-                let mut sums = [Chunk::default()];
-                for sum in At::lanes::<S>(0) {
-                    let mut total = bands.splat(0.0);
-                    for at in bands.chunks().map(|chunk| sum.in_chunk(chunk)) {
-                        let value = at.load(simd, radiance);
-                        total = value.mul_add(seen_by.value(&bands, at), total);
-                    }
-                    sum.store(total, &mut sums);
-                }
-                *mean += (sums[0].sum() - *mean) * part;
+        for (radiance, mean) in path.radiance.iter().zip(&mut pixel.xyz) {
+            advance_xyz(&bands, (&observer, part), radiance, mean);
+        }
+        let polarized = path.polarized.iter().zip(&mut pixel.polarized);
+        for (of, to) in polarized {
+            for (component, (mean, xyz)) in of.iter().zip(to) {
+                advance(&bands, over, component, mean);
+                advance_xyz(&bands, (&observer, part), component, xyz);
             }
         }
+    }
+}
+
+/// Advances a mean by a value.
+#[inline(always)]
+fn advance<S: Simd>(bands: &Bands<'_, S>, over: Lanes<S>, value: &Spectrum, mean: &mut Spectrum) {
+    for chunk in bands.chunks() {
+        for at in At::lanes::<S>(chunk) {
+            let so_far = bands.load(at, mean);
+            let before = bands.load(at, value) - so_far;
+            bands.store(at, before.mul_add(over, so_far), mean);
+        }
+    }
+}
+
+/// Advances the mean of a value times the observer's functions, summed over the bands.
+#[inline(always)]
+fn advance_xyz<S: Simd>(
+    bands: &Bands<'_, S>,
+    (observer, part): (&[Knots<'_>; 3], f64),
+    value: &Spectrum,
+    xyz: &mut [f64; 3],
+) {
+    for (seen_by, mean) in observer.iter().zip(xyz) {
+        // The sums of every eighth band, whatever the width of a register.
+        let mut sums = [Chunk::default()];
+        for sum in At::lanes::<S>(0) {
+            let mut total = bands.splat(0.0);
+            for at in bands.chunks().map(|chunk| sum.in_chunk(chunk)) {
+                total = bands
+                    .load(at, value)
+                    .mul_add(seen_by.value(bands, at), total);
+            }
+            sum.store(total, &mut sums);
+        }
+        *mean += (sums[0].sum() - *mean) * part;
     }
 }

@@ -1,10 +1,13 @@
 //! The spectrum of a path, updated as the path is traced.
 
+use super::found::{Found, SpectralTransport};
+use super::wavelengths::Wavelengths;
 use crate::bands::{At, BandValue, Bands, Spectrum, Tables, Through};
 use crate::bsdf::{Bsdf, Lobes};
 use crate::layers::{FilmAt, Nanometers};
 use crate::lifting::smooth_value;
-use crate::transport::{Emitted, Side, Transport};
+use crate::transport::{Emitted, Scattering, Side, Transport};
+use crate::{PreparedScene, Ray};
 use optics::wide::{Lanes, Real};
 use pulp::{Arch, Simd, WithSimd};
 use scene::limits::MAX_LAYERS;
@@ -12,14 +15,7 @@ use scene::{EnvironmentPicture, PictureSpectra, RenderSettings};
 
 /// The throughput of a path and the radiance that it has found.
 pub(crate) struct SpectralPath<'a> {
-    arch: Arch,
-    tables: &'a Tables,
-    /// Position of the wavelengths in their bands, in [0, 1).
-    offset: f64,
-    place: (usize, f64),
-    /// 1/λ, where it has been needed.
-    inverse_wavelength: Spectrum,
-    knows_wavelengths: bool,
+    wavelengths: Wavelengths<'a>,
     throughput: Spectrum,
     /// Throughputs of the branches that wait, the one that was split off first in front.
     waiting: Vec<Spectrum>,
@@ -37,12 +33,7 @@ impl<'a> SpectralPath<'a> {
         let zero = Spectrum::zero(tables.chunks());
         let most = RenderSettings::MAX_FILM_SPLITS as usize;
         Self {
-            arch,
-            tables,
-            offset: 0.0,
-            place: (0, 0.0),
-            inverse_wavelength: zero.clone(),
-            knows_wavelengths: false,
+            wavelengths: Wavelengths::new(arch, tables),
             throughput: zero.clone(),
             waiting: vec![zero.clone(); most],
             waits: 0,
@@ -52,40 +43,23 @@ impl<'a> SpectralPath<'a> {
         }
     }
 
-    /// Returns the position of the wavelengths in their bands, in [0, 1).
-    pub(crate) fn offset(&self) -> f64 {
-        self.offset
-    }
-
-    #[inline(always)]
-    pub(super) fn bands<S: Simd>(&self, simd: S) -> Bands<'_, S> {
-        Bands::new(simd, self.tables, self.place, &self.inverse_wavelength)
-    }
-
-    /// Returns the radiance of each light group in the bands: `[light group][band]`.
-    pub(crate) fn radiance(&self) -> impl Iterator<Item = &[f64]> {
-        let bands = self.tables.bands();
-        self.radiance.iter().map(move |of| &of.values()[..bands])
-    }
-
     /// Returns the throughput in each band.
     pub(crate) fn throughput(&self) -> &[f64] {
-        &self.throughput.values()[..self.tables.bands()]
+        &self.throughput.values()[..self.wavelengths.tables.bands()]
+    }
+}
+
+impl<'a> SpectralTransport<'a> for SpectralPath<'a> {
+    fn of_scene(arch: Arch, prepared: &'a PreparedScene<'a>) -> Self {
+        let light_groups = prepared.scene.light_groups().len();
+        Self::new(arch, &prepared.tables, light_groups)
     }
 
-    fn know_wavelengths(&mut self) {
-        if !self.knows_wavelengths {
-            self.arch.dispatch(Wavelengths(self));
-            self.knows_wavelengths = true;
-        }
-    }
-
-    /// Scales down a path that is brighter than `most` in a band.
-    pub(crate) fn dim(&mut self, most: f64) {
-        let of_band = |band: usize| self.radiance().map(|group| group[band]).sum::<f64>();
-        let brightest = (0..self.tables.bands()).map(of_band).fold(most, f64::max);
-        for value in self.radiance.iter_mut().flat_map(Spectrum::values_mut) {
-            *value *= most / brightest;
+    fn found(&mut self) -> Found<'_, 'a> {
+        Found {
+            wavelengths: &self.wavelengths,
+            radiance: &mut self.radiance,
+            polarized: &mut [],
         }
     }
 }
@@ -110,20 +84,18 @@ impl BandValue for (&EnvironmentPicture, [u32; 2]) {
 }
 
 impl Transport for SpectralPath<'_> {
-    fn begin(&mut self, offset: f64) {
-        self.offset = offset;
-        self.place = self.tables.place(offset);
+    fn begin(&mut self, offset: f64, _: &Ray) {
+        self.wavelengths.begin(offset);
         self.waits = 0;
         self.throughput.fill(1.0);
         for radiance in &mut self.radiance {
             radiance.fill(0.0);
         }
-        self.knows_wavelengths = false;
     }
 
     fn split(&mut self, film: &FilmAt<'_>) {
-        self.know_wavelengths();
-        self.arch.dispatch(Split(self, film));
+        self.wavelengths.know();
+        self.wavelengths.arch.dispatch(Split(self, film));
     }
 
     fn resume(&mut self) {
@@ -132,62 +104,44 @@ impl Transport for SpectralPath<'_> {
     }
 
     fn film(&mut self, film: &FilmAt<'_>, side: Side) {
-        self.know_wavelengths();
-        self.arch.dispatch(Pass(self, film, side));
+        self.wavelengths.know();
+        self.wavelengths.arch.dispatch(Pass(self, film, side));
     }
 
-    fn scatter(&mut self, bsdf: &Bsdf<'_>, lobes: &Lobes) {
-        if bsdf.needs_wavelengths() {
-            self.know_wavelengths();
+    fn scatter(&mut self, at: &Scattering<'_>) {
+        if at.bsdf.needs_wavelengths() {
+            self.wavelengths.know();
         }
-        self.arch.dispatch(Scatter(self, bsdf, lobes));
+        self.wavelengths
+            .arch
+            .dispatch(Scatter(self, at.bsdf, &at.lobes));
     }
 
     fn emit(&mut self, light: &Emitted<'_>, weight: f64) {
         if light.pixel.is_some() {
-            self.know_wavelengths();
+            self.wavelengths.know();
         }
-        self.arch.dispatch(Emit(self, light, weight));
+        self.wavelengths.arch.dispatch(Emit(self, light, weight));
     }
 
     fn connect(
         &mut self,
-        (bsdf, lobes): (&Bsdf<'_>, &Lobes),
+        at: &Scattering<'_>,
         light: &Emitted<'_>,
         weight: f64,
         films: &[FilmAt<'_>],
     ) {
-        if bsdf.needs_wavelengths() || light.pixel.is_some() || !films.is_empty() {
-            self.know_wavelengths();
+        if at.bsdf.needs_wavelengths() || light.pixel.is_some() || !films.is_empty() {
+            self.wavelengths.know();
         }
-        self.arch.dispatch(Connect {
+        self.wavelengths.arch.dispatch(Connect {
             path: self,
-            bsdf,
-            lobes,
+            bsdf: at.bsdf,
+            lobes: &at.lobes,
             light,
             weight,
             films,
         });
-    }
-}
-
-struct Wavelengths<'b, 'a>(&'b mut SpectralPath<'a>);
-
-impl WithSimd for Wavelengths<'_, '_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Self(path) = self;
-        let grid = path.tables.grid();
-        let [offset, width, first_nm] =
-            [path.offset, grid.width_nm(), grid.min_nm()].map(|number| Lanes::splat(simd, number));
-        for chunk in 0..path.inverse_wavelength.0.len() {
-            for at in At::lanes::<S>(chunk) {
-                let nm = (at.band(simd) + offset).mul_add(width, first_nm);
-                at.store(nm.recip(), &mut path.inverse_wavelength.0);
-            }
-        }
     }
 }
 
@@ -199,7 +153,7 @@ impl WithSimd for Split<'_, '_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self(path, film) = self;
-        let bands = Bands::new(simd, path.tables, path.place, &path.inverse_wavelength);
+        let bands = path.wavelengths.bands(simd);
         let both = Through::Both(&mut path.throughput, &mut path.waiting[path.waits]);
         film.pass(&bands, film.thickness_nm(&mut path.nm), both);
         path.waits += 1;
@@ -214,7 +168,7 @@ impl WithSimd for Pass<'_, '_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self(path, film, side) = self;
-        let bands = Bands::new(simd, path.tables, path.place, &path.inverse_wavelength);
+        let bands = path.wavelengths.bands(simd);
         let through = match side {
             Side::Reflected => Through::Reflected(&mut path.throughput),
             Side::Transmitted => Through::Transmitted(&mut path.throughput),
@@ -231,7 +185,7 @@ impl WithSimd for Scatter<'_, '_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self(path, bsdf, lobes) = self;
-        let bands = Bands::new(simd, path.tables, path.place, &path.inverse_wavelength);
+        let bands = path.wavelengths.bands(simd);
         let nm = bsdf.thickness_nm(&mut path.nm);
         bsdf.product(&bands, (nm, *lobes), &path.throughput, &mut path.product);
         std::mem::swap(&mut path.throughput, &mut path.product);
@@ -245,8 +199,14 @@ impl WithSimd for Emit<'_, '_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self(path, Emitted { emission, pixel }, weight) = self;
-        let bands = Bands::new(simd, path.tables, path.place, &path.inverse_wavelength);
+        let Self(
+            path,
+            Emitted {
+                emission, pixel, ..
+            },
+            weight,
+        ) = self;
+        let bands = path.wavelengths.bands(simd);
         let light = bands.emission(emission, weight);
         let radiance = &mut path.radiance[emission.light_group.index()];
         match pixel {
@@ -274,8 +234,10 @@ impl WithSimd for Connect<'_, '_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { path, bsdf, .. } = self;
-        let Emitted { emission, pixel } = self.light;
-        let bands = Bands::new(simd, path.tables, path.place, &path.inverse_wavelength);
+        let Emitted {
+            emission, pixel, ..
+        } = self.light;
+        let bands = path.wavelengths.bands(simd);
         let product = &mut path.product;
         let nm = bsdf.thickness_nm(&mut path.nm);
         bsdf.product(&bands, (nm, *self.lobes), &path.throughput, product);

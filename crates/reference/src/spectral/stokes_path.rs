@@ -1,0 +1,398 @@
+//! The polarized light of a path: recorded as the path is traced, and evaluated when it is asked for.
+
+use super::events::{Event, Record};
+use super::found::{Found, SpectralTransport};
+use super::wavelengths::Wavelengths;
+use crate::bands::{At, Bands, MuellerKind, Spectrum, StoredMueller};
+use crate::layers::{FilmAt, Nanometers};
+use crate::polarization::{Turn, axis_across, emitted_stokes};
+use crate::transport::{Emitted, Scattering, Side, Transport};
+use crate::{PreparedScene, Ray};
+use glam::DVec3;
+use optics::wide::{Lanes, Real, sin_cos_half_turns};
+use pulp::{Arch, Simd, WithSimd};
+use scene::limits::MAX_LAYERS;
+use spectra::stokes::{Analyzer, Polarizer, Retardance};
+
+/// A path of polarized light.
+pub(crate) struct StokesPath<'a> {
+    wavelengths: Wavelengths<'a>,
+    record: Record,
+    /// The reference axis of light on the current segment, toward the camera.
+    axis: DVec3,
+    /// The axes where branches wait.
+    waiting: Vec<DVec3>,
+    /// What stands in front of the camera.
+    analyzer: Option<Analyzer>,
+    /// Vertical in the picture.
+    up: DVec3,
+    nm: Nanometers,
+    radiance: Vec<Spectrum>,
+    polarized: Vec<[Spectrum; 3]>,
+}
+
+impl<'a> SpectralTransport<'a> for StokesPath<'a> {
+    fn of_scene(arch: Arch, prepared: &'a PreparedScene<'a>) -> Self {
+        let (scene, tables) = (prepared.scene, &prepared.tables);
+        let zero = Spectrum::zero(tables.chunks());
+        let groups = scene.light_groups().len();
+        let kept = if scene.content().is_polarized {
+            groups
+        } else {
+            0
+        };
+        Self {
+            wavelengths: Wavelengths::new(arch, tables),
+            record: Record::new(tables.chunks()),
+            axis: DVec3::X,
+            waiting: Vec::new(),
+            analyzer: scene.camera().polarizer.as_ref().map(Polarizer::analyzer),
+            up: scene.camera().up,
+            nm: [0.0; MAX_LAYERS],
+            radiance: vec![zero.clone(); groups],
+            polarized: vec![std::array::from_fn(|_| zero.clone()); kept],
+        }
+    }
+
+    fn found(&mut self) -> Found<'_, 'a> {
+        let has_path = matches!(
+            self.analyzer,
+            Some(Analyzer {
+                retardance: Retardance::Path { .. },
+                ..
+            })
+        );
+        if has_path {
+            self.wavelengths.know();
+        }
+        let arch = self.wavelengths.arch;
+        arch.dispatch(Evaluate(self));
+        Found {
+            wavelengths: &self.wavelengths,
+            radiance: &mut self.radiance,
+            polarized: &mut self.polarized,
+        }
+    }
+}
+
+impl StokesPath<'_> {
+    /// Returns new spectra for a matrix.
+    fn take(&mut self, kind: MuellerKind) -> StoredMueller {
+        let first = self.record.take(kind.rows());
+        StoredMueller { kind, first }
+    }
+
+    /// Turns the axis of the current segment to one across it and another direction, and returns the turn back.
+    fn turn_to(&mut self, axis: DVec3, wo: DVec3) -> Turn {
+        let turn = Turn::between(axis, self.axis, wo);
+        self.axis = axis;
+        turn
+    }
+
+    /// Computes the matrices of a film: for the reflected and for the transmitted light.
+    fn film_matrices(
+        &mut self,
+        film: &FilmAt<'_>,
+        reflects: bool,
+        transmits: bool,
+    ) -> [Option<StoredMueller>; 2] {
+        self.wavelengths.know();
+        let wanted = [reflects, transmits];
+        let matrices = wanted.map(|wanted| wanted.then(|| self.take(MuellerKind::Amplitudes)));
+        let arch = self.wavelengths.arch;
+        arch.dispatch(FilmMatrices {
+            path: self,
+            film,
+            to: matrices,
+        });
+        matrices
+    }
+}
+
+impl Transport for StokesPath<'_> {
+    fn begin(&mut self, offset: f64, ray: &Ray) {
+        self.wavelengths.begin(offset);
+        self.record.begin();
+        self.waiting.clear();
+        self.axis = axis_across(ray.direction, self.up);
+    }
+
+    fn split(&mut self, film: &FilmAt<'_>) {
+        if let [Some(reflected), Some(transmitted)] = self.film_matrices(film, true, true) {
+            let axis = axis_across(film.direction, film.normal);
+            let turn = self.turn_to(axis, -film.direction);
+            self.waiting.push(axis);
+            self.record.events.push(Event::Splits {
+                reflected,
+                transmitted,
+                turn,
+            });
+        }
+    }
+
+    fn resume(&mut self) {
+        if let Some(axis) = self.waiting.pop() {
+            self.axis = axis;
+            self.record.events.push(Event::Resumes);
+        }
+    }
+
+    fn film(&mut self, film: &FilmAt<'_>, side: Side) {
+        let is_reflected = side == Side::Reflected;
+        let [reflected, transmitted] = self.film_matrices(film, is_reflected, !is_reflected);
+        if let Some(matrix) = reflected.or(transmitted) {
+            let axis = axis_across(film.direction, film.normal);
+            let turn = self.turn_to(axis, -film.direction);
+            self.record.events.push(Event::Meets { matrix, turn });
+        }
+    }
+
+    fn scatter(&mut self, at: &Scattering<'_>) {
+        if at.bsdf.needs_wavelengths() {
+            self.wavelengths.know();
+        }
+        let matrix = self.take(at.bsdf.mueller_kind(&at.lobes));
+        let arch = self.wavelengths.arch;
+        arch.dispatch(Matrix(self, at, matrix));
+        let [toward_camera, toward_light] = at.axes();
+        let turn = self.turn_to(toward_camera, at.wo);
+        self.axis = toward_light;
+        self.record.events.push(Event::Meets { matrix, turn });
+    }
+
+    fn emit(&mut self, light: &Emitted<'_>, weight: f64) {
+        if light.pixel.is_some() {
+            self.wavelengths.know();
+        }
+        let radiance = self.record.take(1);
+        let arch = self.wavelengths.arch;
+        arch.dispatch(Shine(self, light, weight, radiance));
+        let of = light.emission.polarization.as_ref();
+        self.record.events.push(Event::Shines {
+            light_group: light.emission.light_group.index(),
+            radiance,
+            stokes: of.map(|of| emitted_stokes(of, light.toward, self.axis)),
+        });
+    }
+
+    fn connect(
+        &mut self,
+        at: &Scattering<'_>,
+        light: &Emitted<'_>,
+        weight: f64,
+        films: &[FilmAt<'_>],
+    ) {
+        if at.bsdf.needs_wavelengths() || light.pixel.is_some() || !films.is_empty() {
+            self.wavelengths.know();
+        }
+        let first = self.record.take(4);
+        let matrix = self.take(at.bsdf.mueller_kind(&at.lobes));
+        let arch = self.wavelengths.arch;
+        arch.dispatch(Shine(self, light, weight, first));
+        let [toward_camera, toward_light] = at.axes();
+        // The axes of the segments on the way to the light: beside the surface, and behind each film.
+        let axis_of = |film: &FilmAt<'_>| axis_across(film.direction, film.normal);
+        let last = films.last().map_or(toward_light, axis_of);
+        let of = light.emission.polarization.as_ref();
+        let stokes = of.map_or([0.0; 3], |of| emitted_stokes(of, light.toward, last));
+        arch.dispatch(Spread(self, first, stokes));
+        for (i, film) in films.iter().enumerate().rev() {
+            let before = i
+                .checked_sub(1)
+                .map_or(toward_light, |i| axis_of(&films[i]));
+            let turn = Turn::between(axis_of(film), before, -film.direction);
+            if let [_, Some(transmitted)] = self.film_matrices(film, false, true) {
+                arch.dispatch(Apply(self, transmitted, turn, first));
+                self.record.give_back(transmitted.first);
+            }
+        }
+        arch.dispatch(Matrix(self, at, matrix));
+        arch.dispatch(Apply(self, matrix, Turn::NONE, first));
+        self.record.give_back(matrix.first);
+        let light_group = light.emission.light_group.index();
+        self.record.events.push(match matrix.kind {
+            // The rest is 0.
+            MuellerKind::Depolarizer => Event::Shines {
+                light_group,
+                radiance: first,
+                stokes: None,
+            },
+            _ => Event::Joins {
+                light_group,
+                first,
+                turn: Turn::between(toward_camera, self.axis, at.wo),
+            },
+        });
+    }
+}
+
+/// Computes the matrices of a film.
+struct FilmMatrices<'b, 'a> {
+    path: &'b mut StokesPath<'a>,
+    film: &'b FilmAt<'b>,
+    /// For the reflected and for the transmitted light.
+    to: [Option<StoredMueller>; 2],
+}
+
+impl WithSimd for FilmMatrices<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { path, film, to } = self;
+        let bands = path.wavelengths.bands(simd);
+        let nm = film.thickness_nm(&mut path.nm);
+        film.mueller(&bands, nm, to, &mut path.record.spectra);
+    }
+}
+
+/// Computes the matrix of a surface.
+struct Matrix<'b, 'a>(&'b mut StokesPath<'a>, &'b Scattering<'b>, StoredMueller);
+
+impl WithSimd for Matrix<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self(path, at, to) = self;
+        let bands = path.wavelengths.bands(simd);
+        let nm = at.bsdf.thickness_nm(&mut path.nm);
+        at.bsdf
+            .mueller(&bands, (nm, at.lobes), to, &mut path.record.spectra);
+    }
+}
+
+/// Computes the radiance of an emitter.
+struct Shine<'b, 'a>(&'b mut StokesPath<'a>, &'b Emitted<'b>, f64, usize);
+
+impl WithSimd for Shine<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self(path, light, weight, to) = self;
+        let bands = path.wavelengths.bands(simd);
+        let emission = bands.emission(&light.emission, weight);
+        let radiance = &mut path.record.spectra[to];
+        bands.write(&emission, radiance);
+        if let Some(pixel) = &light.pixel {
+            bands.multiply(radiance, pixel);
+        }
+    }
+}
+
+/// Writes S1, S2 and S3 of light behind its radiance.
+struct Spread<'b, 'a>(&'b mut StokesPath<'a>, usize, [f64; 3]);
+
+impl WithSimd for Spread<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self(path, first, stokes) = self;
+        let bands = path.wavelengths.bands(simd);
+        let spectra = &mut path.record.spectra;
+        each(&bands, |at| {
+            let radiance = bands.load(at, &spectra[first]);
+            for (i, part) in stokes.into_iter().enumerate() {
+                bands.store(at, radiance.times(part), &mut spectra[first + 1 + i]);
+            }
+        });
+    }
+}
+
+/// Multiplies light by a matrix, and turns its axis.
+struct Apply<'b, 'a>(&'b mut StokesPath<'a>, StoredMueller, Turn, usize);
+
+impl WithSimd for Apply<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self(path, matrix, turn, first) = self;
+        let bands = path.wavelengths.bands(simd);
+        let spectra = &mut path.record.spectra;
+        each(&bands, |at| {
+            let light = std::array::from_fn(|i| bands.load(at, &spectra[first + i]));
+            let light = bands.turned(turn, matrix.apply((&bands, at), spectra, light));
+            for (i, component) in light.into_iter().enumerate() {
+                bands.store(at, component, &mut spectra[first + i]);
+            }
+        });
+    }
+}
+
+/// Evaluates the record.
+struct Evaluate<'b, 'a>(&'b mut StokesPath<'a>);
+
+impl WithSimd for Evaluate<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self(path) = self;
+        let bands = path.wavelengths.bands(simd);
+        for (group, radiance) in path.radiance.iter_mut().enumerate() {
+            if !path.record.has_light(group) {
+                radiance.fill(0.0);
+                if let Some(polarized) = path.polarized.get_mut(group) {
+                    polarized.iter_mut().for_each(|of| of.fill(0.0));
+                }
+                continue;
+            }
+            each(&bands, |at| {
+                let light = path.record.arriving((&bands, at), group);
+                if let Some(analyzer) = &path.analyzer {
+                    bands.store(at, transmitted(&bands, at, analyzer, light), radiance);
+                    return;
+                }
+                bands.store(at, light[0], radiance);
+                if let Some(polarized) = path.polarized.get_mut(group) {
+                    for (to, component) in polarized.iter_mut().zip(&light[1..]) {
+                        bands.store(at, *component, to);
+                    }
+                }
+            });
+        }
+    }
+}
+
+/// Returns the radiance that passes the polarizer in front of the camera.
+#[inline(always)]
+fn transmitted<S: Simd>(
+    bands: &Bands<'_, S>,
+    at: At,
+    analyzer: &Analyzer,
+    [s0, rest @ ..]: [Lanes<S>; 4],
+) -> Lanes<S> {
+    let weights: [Lanes<S>; 3] = match analyzer.retardance {
+        // The same at every wavelength.
+        Retardance::Phase { .. } => analyzer.weights(1.0).map(|weight| bands.splat(weight)),
+        Retardance::Path { nm } => {
+            // Of half the phase, both perhaps with the opposite sign.
+            let (half_sin, half_cos) = sin_cos_half_turns(bands.inverse_wavelength(at).times(nm));
+            let sin = (half_sin * half_cos).times(2.0);
+            let cos = (half_sin * half_sin).times(2.0).complement();
+            std::array::from_fn(|i| {
+                let fixed = bands.splat(analyzer.constant[i]);
+                let fixed = cos.mul_add(bands.splat(analyzer.cosine[i]), fixed);
+                sin.mul_add(bands.splat(analyzer.sine[i]), fixed)
+            })
+        }
+    };
+    let mut sum = s0;
+    for (weight, component) in weights.into_iter().zip(rest) {
+        sum = weight.mul_add(component, sum);
+    }
+    sum.times(0.5)
+}
+
+/// Calls a function for the bands of each register.
+#[inline(always)]
+fn each<S: Simd>(bands: &Bands<'_, S>, mut of: impl FnMut(At)) {
+    for chunk in bands.chunks() {
+        for at in At::lanes::<S>(chunk) {
+            of(at);
+        }
+    }
+}
