@@ -5,6 +5,15 @@ fn is_delta(emitter: u32) -> bool {
     return HAS_DELTA_EMITTERS && emitter_at(emitter).kind >= EMITTER_DIRECTION;
 }
 
+/// Returns the row of the polarization of an emitter's light, or NONE.
+fn emitter_polarization(emitter: u32) -> u32 {
+    let record = emitter_at(emitter).record;
+    if (HAS_ENVIRONMENT_PICTURE && emitter_at(emitter).kind == EMITTER_PICTURE) {
+        return load_panorama(record).polarization;
+    }
+    return record;
+}
+
 /// Whether an emitter is a part of the environment.
 fn is_environment(emitter: u32) -> bool {
     return HAS_ENVIRONMENT && emitter_at(emitter).kind >= EMITTER_EVERYWHERE && emitter_at(emitter).kind < EMITTER_DIRECTION;

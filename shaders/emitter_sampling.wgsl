@@ -64,7 +64,27 @@ fn connect(path: PathState, object: u32, point: SurfacePoint, sampled: EmitterSa
     if (HAS_ENVIRONMENT_PICTURE) {
         pending_texel = sampled.texel;
     }
+    if (HAS_POLARIZATION) {
+        let axes = scattering_axes(shape_at(object).material, -path.ray.direction, sampled.direction, point.normal);
+        pending_planes.emission_turn = turn_between(axes.toward_camera, light_axis, -path.ray.direction);
+        pending_planes.emission = emission_behind_films(emitter, first_crossing, axes.toward_light, sampled.direction);
+    }
     record_lit(eval.lobes, mis * strength * emitter_at(emitter).scale / (sampled.pmf * sampled.density));
+}
+
+/// Records the turns of light from an emitter in this direction, from each film that it crosses to the one before, beginning with the axis at the
+/// surface. Returns S1, S2 and S3 of the emission, over S0, about the last axis.
+fn emission_behind_films(emitter: u32, first_crossing: u32, at_surface: vec3f, direction: vec3f) -> vec3f {
+    var axis = at_surface;
+    for (var i = first_crossing; i < crossing_count; i++) {
+        let across = crossing_axes[i];
+        crossing_turns[i] = turn_between(across, axis, -direction);
+        axis = across;
+    }
+    if (HAS_EMITTED_POLARIZATION) {
+        return emitted_stokes(emitter_polarization(emitter), direction, axis);
+    }
+    return vec3f(0.0);
 }
 
 /// Writes to the pending vertex how the surface scatters the emission that joins it.
@@ -101,6 +121,9 @@ fn is_visible(ray_in: Ray, from_object: u32, emitter: u32, allowed: u32) -> bool
         }
         let point = surface_point(hit.object, ray, hit.distance);
         let film = film_at(hit.object, point);
+        if (HAS_POLARIZATION && crossing_count < MAX_CROSSINGS) {
+            crossing_axes[crossing_count] = axis_across(ray.direction, point.normal);
+        }
         push_crossing(Crossing(film.factor, film.cosine, film.thickness_nm), film.first_thickness);
         ray.origin = point.position;
         from_now = hit.object;

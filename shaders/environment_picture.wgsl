@@ -15,7 +15,7 @@ struct DirectionTable {
 }
 
 fn direction_table(emitter: u32) -> DirectionTable {
-    let picture = load_panorama(emitter_at(emitter).picture);
+    let picture = load_panorama(emitter_at(emitter).record);
     let heights = picture.first_number;
     let marginal = heights + picture.rows + 1u;
     return DirectionTable(picture.columns, picture.rows, picture.even_density, heights, marginal, marginal + picture.rows + 1u);
@@ -32,7 +32,7 @@ fn environment_uv(emitter: u32, direction: vec3f) -> vec2f {
 
 /// Returns the first texel of the pixel that a path uses for a direction, chosen by a random number.
 fn environment_pixel(emitter: u32, direction: vec3f, random: f32) -> u32 {
-    let picture = load_panorama(emitter_at(emitter).picture);
+    let picture = load_panorama(emitter_at(emitter).record);
     let pixel = chosen_pixel(picture.head, environment_uv(emitter, direction), true, random);
     return picture.head + 1u + pixel * picture.per_pixel;
 }

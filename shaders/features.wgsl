@@ -51,6 +51,12 @@ const HAS_ROULETTE: bool = true;
 const HAS_CLAMP: bool = true;
 /// Samples by Sobol's sequence.
 const HAS_SOBOL_SAMPLES: bool = true;
+/// Light that is traced with its polarization.
+const HAS_POLARIZATION: bool = true;
+/// Emitters of polarized light.
+const HAS_EMITTED_POLARIZATION: bool = true;
+/// A polarizer in front of the camera.
+const HAS_POLARIZER: bool = true;
 /// A camera that sees all directions.
 const HAS_PANORAMA: bool = true;
 /// A camera with parallel directions of view.

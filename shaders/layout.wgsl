@@ -30,6 +30,12 @@ const SHAPE_RECTANGLE: u32 = 2u;
 /// Shape: a plane bounded to a disk.
 const SHAPE_DISK: u32 = 3u;
 
+/// Polarization of emitted light: the same Stokes vector in all directions.
+const POLARIZED_STOKES: u32 = 0u;
+
+/// Polarization of emitted light: a clear sky.
+const POLARIZED_SKY: u32 = 1u;
+
 /// Emitter: a sphere.
 const EMITTER_SPHERE: u32 = 0u;
 
@@ -264,7 +270,19 @@ struct Frame {
     /// Row after the last node of the tree of emitters.
     end_emitter_node: u32,
     /// Padding to the alignment.
-    padding: vec2u,
+    padding_1: vec2u,
+    /// Weights of S1, S2 and S3 in what the camera's polarizer transmits, without those that depend on the retarder's phase.
+    analyzer: vec3f,
+    /// Path difference of the retarder, nm: its phase is 2π times this over the wavelength.
+    retarder_nm: f32,
+    /// The weights times the cosine of that phase.
+    analyzer_cosine: vec3f,
+    /// Padding to the alignment.
+    padding_2: u32,
+    /// The weights times its sine.
+    analyzer_sine: vec3f,
+    /// Padding to the alignment.
+    padding_3: u32,
 }
 
 /// Values for one dispatch: a run of samples of one tile.

@@ -6,7 +6,11 @@ fn trace_path(sample: Sample) -> Wavelengths {
     begin_record();
     waiting_count = 0u;
     let first = numbers_of(sample, 0u);
-    var path = PathState(first_ray(sample, first.xy), NONE, vec3f(0.0), 0.0, vec3f(0.0), 0.0, 1u, true, frame.film_splits, 0u, 1.0);
+    let ray = first_ray(sample, first.xy);
+    if (HAS_POLARIZATION) {
+        light_axis = axis_across(ray.direction, frame.camera_up);
+    }
+    var path = PathState(ray, NONE, vec3f(0.0), 0.0, vec3f(0.0), 0.0, 1u, true, frame.film_splits, 0u, 1.0);
     loop {
         path = extend_path(path, sample);
         write_vertex();
@@ -69,6 +73,9 @@ fn shade_environment(path: PathState, sample: Sample) {
                 texel = environment_pixel(part, path.ray.direction, random_at(sample, path, FOR_EMITTER).w);
             }
             add_emission(emitter_at(part).emission, texel, emitter_at(part).scale * strength * mis_weight_of_hit(path, part));
+            if (HAS_EMITTED_POLARIZATION) {
+                pending_planes.emission = emitted_stokes(emitter_polarization(part), path.ray.direction, light_axis);
+            }
         }
     }
 }
@@ -84,6 +91,9 @@ fn shade_object(path: PathState, sample: Sample, hit: Hit) -> PathState {
             mis = mis_weight_of_hit(path, shape_at(hit.object).emitter);
         }
         add_emission(head.emission, 0u, head.emission_scale * mis);
+        if (HAS_EMITTED_POLARIZATION) {
+            pending_planes.emission = emitted_stokes(head.polarization, path.ray.direction, light_axis);
+        }
     }
     if (head.surface == SURFACE_BLACK) {
         var ended = path;
@@ -123,6 +133,9 @@ fn shade_film(path: PathState, object: u32, point: SurfacePoint, random: vec4f) 
     pending.thickness_nm = film.thickness_nm;
     if (RECORDS_THICKNESSES) {
         pending_thickness = film.first_thickness;
+    }
+    if (HAS_POLARIZATION) {
+        turn_axis(axis_across(path.ray.direction, point.normal), -path.ray.direction);
     }
     if (HAS_SPLITS && path.splits > 0u && path.segment < MAX_PATH_SEGMENTS) {
         mirror.splits -= 1u;
@@ -170,6 +183,9 @@ fn shade_surface(path: PathState, sample: Sample, object: u32, point: SurfacePoi
         pending.weight = 1.0 / specular;
         var mirror = scatter(path, object, point, mirrored_at(path.ray.direction, point.normal), 0.0, 0.0);
         mirror.rr_throughput *= material_at(material).albedo;
+        if (HAS_POLARIZATION) {
+            turn_axis(axis_across(path.ray.direction, point.normal), -path.ray.direction);
+        }
         return mirror;
     }
     let wi = bsdf_sample(material, wo, random);
@@ -179,6 +195,11 @@ fn shade_surface(path: PathState, sample: Sample, object: u32, point: SurfacePoi
     next.alive = onward.pdf > 0.0;
     let inverse_pdf = select(0.0, 1.0 / onward.pdf, next.alive);
     record_onward(onward.lobes, inverse_pdf);
+    if (HAS_POLARIZATION) {
+        let axes = scattering_axes(material, -path.ray.direction, next.ray.direction, point.normal);
+        turn_axis(axes.toward_camera, -path.ray.direction);
+        light_axis = axes.toward_light;
+    }
     next.rr_throughput *= lobes_sum(onward.lobes) * inverse_pdf * material_at(material).albedo;
     return next;
 }

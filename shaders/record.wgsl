@@ -61,6 +61,16 @@ struct Body {
     emission_wi_cosine: f32,
 }
 
+/// The reference axes of polarized light at a vertex.
+struct Planes {
+    /// The turn of light that continues to the camera, from the plane of incidence to the axis of the segment before: cos 2φ and sin 2φ.
+    turn: vec2f,
+    /// The same of emission that the surface scatters.
+    emission_turn: vec2f,
+    /// S1, S2 and S3, over S0, of the emission that joins here, about the axis of its last segment.
+    emission: vec3f,
+}
+
 /// A film that emission crosses on its way to a vertex.
 struct Crossing {
     factor: u32,
@@ -78,9 +88,16 @@ var<private> emission_texels: array<u32, MAX_VERTICES>;
 /// For a vertex with layers whose thicknesses vary, the first of them.
 var<private> first_thicknesses: array<u32, MAX_VERTICES>;
 
+/// The reference axes of the vertices, for polarized light.
+var<private> vertex_planes: array<Planes, MAX_VERTICES>;
+
 var<private> crossings: array<Crossing, MAX_CROSSINGS>;
 var<private> crossing_count: u32;
 var<private> crossing_thicknesses: array<u32, MAX_CROSSINGS>;
+/// The axes across the planes of incidence at the crossings.
+var<private> crossing_axes: array<vec3f, MAX_CROSSINGS>;
+/// Turns of light from the plane of incidence at a crossing to the axis of the segment toward the vertex.
+var<private> crossing_turns: array<vec2f, MAX_CROSSINGS>;
 
 /// Thicknesses of layers where they vary over a surface, at the points of the path, nm.
 var<private> thicknesses: array<f32, MAX_THICKNESSES>;
@@ -93,6 +110,9 @@ var<private> pending_multiple: MultipleScattering;
 var<private> pending_body: Body;
 var<private> pending_texel: u32;
 var<private> pending_thickness: u32;
+var<private> pending_planes: Planes;
+/// The reference axis of light on the current segment, toward the camera.
+var<private> light_axis: vec3f;
 /// Whether it contributes anything and has to be written.
 var<private> is_pending: bool;
 
@@ -135,6 +155,12 @@ fn begin_record() {
     vertices[0] = pending;
 }
 
+/// Turns the axis of the current segment to another one, for light that leaves toward `wo`, and records the turn back.
+fn turn_axis(axis: vec3f, wo: vec3f) {
+    pending_planes.turn = turn_between(axis, light_axis, wo);
+    light_axis = axis;
+}
+
 /// Begins a vertex without any effect yet; `resumes` is its RESUMES_FROM.
 fn begin_vertex(resumes: u32) {
     is_pending = false;
@@ -148,6 +174,9 @@ fn begin_vertex(resumes: u32) {
     }
     if (HAS_ENVIRONMENT_PICTURE) {
         pending_texel = 0u;
+    }
+    if (HAS_POLARIZATION) {
+        pending_planes = Planes(vec2f(1.0, 0.0), vec2f(1.0, 0.0), vec3f(0.0));
     }
 }
 
@@ -168,6 +197,9 @@ fn write_vertex() {
     }
     if (RECORDS_THICKNESSES) {
         first_thicknesses[vertex_count] = pending_thickness;
+    }
+    if (HAS_POLARIZATION) {
+        vertex_planes[vertex_count] = pending_planes;
     }
     vertex_count += 1u;
 }

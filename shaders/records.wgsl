@@ -92,8 +92,8 @@ struct Emitter {
     edge_height: f32,
     /// Row of its node in the tree of emitters.
     node: u32,
-    /// Row of the record of its picture, a `Panorama`; NONE where it has none.
-    picture: u32,
+    /// Row of the record of its picture, a `Panorama`; without a picture, that of its polarization, an `EmittedPolarization`, or NONE.
+    record: u32,
 }
 const EMITTER_ROWS: u32 = 6u;
 fn load_emitter(row: u32) -> Emitter {
@@ -137,8 +137,10 @@ struct Material {
     emission: u32,
     /// Factor of its emission; 0 where it emits nothing.
     emission_scale: f32,
+    /// Row of the polarization of its emission, an `EmittedPolarization`; NONE where that is unpolarized.
+    polarization: u32,
     /// Padding to whole rows.
-    padding: vec2u,
+    padding: u32,
 }
 const MATERIAL_ROWS: u32 = 2u;
 fn load_material(row: u32) -> Material {
@@ -151,7 +153,31 @@ fn load_material(row: u32) -> Material {
         bitcast<f32>(row_0.w),
         row_1.x,
         bitcast<f32>(row_1.y),
-        vec2u(row_1.z, row_1.w),
+        row_1.z,
+        row_1.w,
+    );
+}
+
+/// How emitted light is polarized.
+struct EmittedPolarization {
+    /// S1, S2 and S3 over S0.
+    stokes: vec3f,
+    /// A `POLARIZED_` tag.
+    kind: u32,
+    /// The reference axis, or the direction toward the sun: a unit vector.
+    axis: vec3f,
+    /// The degree of polarization of the sky at 90° from the sun.
+    degree: f32,
+}
+const EMITTEDPOLARIZATION_ROWS: u32 = 2u;
+fn load_emittedpolarization(row: u32) -> EmittedPolarization {
+    let row_0 = records_row(row + 0u);
+    let row_1 = records_row(row + 1u);
+    return EmittedPolarization(
+        vec3f(bitcast<f32>(row_0.x), bitcast<f32>(row_0.y), bitcast<f32>(row_0.z)),
+        row_0.w,
+        vec3f(bitcast<f32>(row_1.x), bitcast<f32>(row_1.y), bitcast<f32>(row_1.z)),
+        bitcast<f32>(row_1.w),
     );
 }
 
@@ -452,8 +478,10 @@ struct Panorama {
     first_number: u32,
     /// Density of light at the picture's mean brightness, on the scale of the density of the sampled light; 0 where all light is sampled.
     even_density: f32,
+    /// Row of the polarization of its light, an `EmittedPolarization`; NONE where that is unpolarized.
+    polarization: u32,
     /// Padding to whole rows.
-    padding: vec2u,
+    padding: u32,
 }
 const PANORAMA_ROWS: u32 = 2u;
 fn load_panorama(row: u32) -> Panorama {
@@ -466,7 +494,8 @@ fn load_panorama(row: u32) -> Panorama {
         row_0.w,
         row_1.x,
         bitcast<f32>(row_1.y),
-        vec2u(row_1.z, row_1.w),
+        row_1.z,
+        row_1.w,
     );
 }
 

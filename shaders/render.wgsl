@@ -5,13 +5,57 @@
 const FIRST_DEVIATION: u32 = LIGHT_GROUPS * GROUPS;
 const FIRST_COLOR: u32 = FIRST_DEVIATION + GROUPS;
 
+/// Whether S1, S2 and S3 are kept.
+const KEEPS_STOKES: bool = HAS_POLARIZATION && !HAS_POLARIZER;
+/// The first of the means of S1, S2 and S3, `[component][light group][group]`, and of their colors, `[component][light group]`.
+const FIRST_POLARIZED: u32 = FIRST_COLOR + LIGHT_GROUPS;
+const FIRST_POLARIZED_COLOR: u32 = FIRST_POLARIZED + 3u * LIGHT_GROUPS * GROUPS;
+const POLARIZED_COLORS: u32 = 3u * LIGHT_GROUPS;
+
+/// X, Y, Z per nm of band width of S1, S2 and S3 of a sample, `[component][light group]`.
+var<private> polarized_color: array<vec3f, POLARIZED_COLORS>;
+
+/// Returns the radiance by light group that the camera measures of a path in the four bands of a group. Adds S1, S2 and S3 to the running
+/// means and to the colors of the sample.
+fn polarized_radiance(pixel: u32, pixels: u32, count: f32, group: u32, at: Wavelengths, dimmed: f32) -> array<vec4f, LIGHT_GROUPS> {
+    let light = path_stokes(group, at);
+    var radiance: array<vec4f, LIGHT_GROUPS>;
+    for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
+        radiance[light_group] = sensed(light[light_group], group, at);
+        if (KEEPS_STOKES) {
+            let found = light[light_group];
+            for (var component = 0u; component < 3u; component++) {
+                let kept = select(select(found.s3, found.s2, component == 1u), found.s1, component == 0u);
+                let place = component * LIGHT_GROUPS + light_group;
+                add_component(place, ((FIRST_POLARIZED + place * GROUPS) + group) * pixels + pixel, count, dimmed * kept, group, at);
+            }
+        }
+    }
+    return radiance;
+}
+
+/// Adds a value of a component of the Stokes vector to its running mean and to its color.
+fn add_component(color: u32, place: u32, count: f32, value: vec4f, group: u32, at: Wavelengths) {
+    let so_far = sums[place];
+    sums[place] = so_far + (value - so_far) / count;
+    let x = spectrum_at(frame.observer, group, at);
+    let y = spectrum_at(frame.observer + 1u, group, at);
+    let z = spectrum_at(frame.observer + 2u, group, at);
+    polarized_color[color] += vec3f(dot(value, x), dot(value, y), dot(value, z));
+}
+
 /// Adds a path's spectrum to the running means (Welford 1962) and returns its X, Y, Z per nm of band width, by light group.
 fn accumulate(pixel: u32, pixels: u32, count: f32, at: Wavelengths) -> array<vec3f, LIGHT_GROUPS> {
     var color: array<vec3f, LIGHT_GROUPS>;
     let dimmed = dimming(at);
     var group = 0u;
     loop {
-        let radiance = path_radiance(group, at);
+        var radiance: array<vec4f, LIGHT_GROUPS>;
+        if (HAS_POLARIZATION) {
+            radiance = polarized_radiance(pixel, pixels, count, group, at, dimmed);
+        } else {
+            radiance = path_radiance(group, at);
+        }
         let x = spectrum_at(frame.observer, group, at);
         let y = spectrum_at(frame.observer + 1u, group, at);
         let z = spectrum_at(frame.observer + 2u, group, at);
@@ -64,7 +108,19 @@ fn render(@builtin(global_invocation_id) id: vec3u) {
         let index = batch.first_sample + i;
         let count = f32(batch.taken + i + 1u);
         let at = trace_path(Sample(batch.tile_origin + id.xy, index));
+        if (KEEPS_STOKES) {
+            for (var k = 0u; k < POLARIZED_COLORS; k++) {
+                polarized_color[k] = vec3f(0.0);
+            }
+        }
         let xyz = accumulate(pixel, pixels, count, at);
+        if (KEEPS_STOKES) {
+            for (var k = 0u; k < POLARIZED_COLORS; k++) {
+                let place = (FIRST_POLARIZED_COLOR + k) * pixels + pixel;
+                let so_far = sums[place].xyz;
+                sums[place] = vec4f(so_far + (polarized_color[k] - so_far) / count, 0.0);
+            }
+        }
         for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
             color[light_group] += vec4f((xyz[light_group] - color[light_group].xyz) / count, 0.0);
         }

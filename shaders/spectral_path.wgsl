@@ -67,7 +67,12 @@ fn dimming(at: Wavelengths) -> f32 {
     }
     var brightest = vec4f(frame.clamp);
     for (var group = 0u; group < GROUPS; group++) {
-        let radiance = path_radiance(group, at);
+        var radiance: array<vec4f, LIGHT_GROUPS>;
+        if (HAS_POLARIZATION) {
+            radiance = sensed_radiance(group, at);
+        } else {
+            radiance = path_radiance(group, at);
+        }
         var total = vec4f(0.0);
         for (var i = 0u; i < LIGHT_GROUPS; i++) {
             total += radiance[i];

@@ -28,10 +28,15 @@ fn reflection_probability(reflected: f32) -> f32 {
 /// Paths that wait for the current one to end.
 var<private> waiting_paths: array<PathState, MAX_SPLITS>;
 var<private> waiting_count: u32;
+/// Their reference axes of polarized light.
+var<private> waiting_axes: array<vec3f, MAX_SPLITS>;
 
 /// Puts a path aside and returns its index.
 fn wait(path: PathState) -> u32 {
     waiting_paths[waiting_count] = path;
+    if (HAS_POLARIZATION) {
+        waiting_axes[waiting_count] = light_axis;
+    }
     waiting_count += 1u;
     return waiting_count - 1u;
 }
@@ -39,6 +44,9 @@ fn wait(path: PathState) -> u32 {
 /// Returns the path that was put aside last.
 fn resume() -> PathState {
     waiting_count -= 1u;
+    if (HAS_POLARIZATION) {
+        light_axis = waiting_axes[waiting_count];
+    }
     return waiting_paths[waiting_count];
 }
 

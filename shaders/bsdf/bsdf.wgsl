@@ -63,6 +63,39 @@ fn bsdf_factor(object: u32, point: SurfacePoint, random: f32) -> u32 {
     return diffuse_factor(head.record, object, point.position, random);
 }
 
+/// The reference axes of light that leaves a surface toward the camera, and of light that arrives.
+struct ScatteringAxes {
+    toward_camera: vec3f,
+    toward_light: vec3f,
+}
+
+/// Returns the axes across the plane of incidence at the facet, or across the planes in which light leaves and enters the body below a smooth
+/// coat. Directions are in world space.
+fn scattering_axes(material: u32, wo: vec3f, wi: vec3f, normal: vec3f) -> ScatteringAxes {
+    let head = material_at(material);
+    if (HAS_COATED_BODIES && head.surface == SURFACE_COATED && (!HAS_ROUGH_COATS || head.facets == NONE)) {
+        return ScatteringAxes(axis_across(wo, normal), axis_across(wi, normal));
+    }
+    let across = axis_across(wo, wi);
+    return ScatteringAxes(across, across);
+}
+
+/// Returns the matrices at a vertex in four bands; `first` is the spectrum with the factor's index.
+fn bsdf_mueller(at: At, vertex: Vertex, first: vec4f) -> MuellerValues {
+    let tag = factor_tag(vertex.factor);
+    if ((HAS_COATED_BODIES || HAS_ROUGH_COATS) && tag == FACTOR_COATED) {
+        return coated_mueller(at, vertex, first);
+    }
+    if (HAS_COOK && tag == FACTOR_COOK) {
+        return cook_mueller(at, vertex, first);
+    }
+    if (HAS_INTERFACES && (tag == FACTOR_INTERFACE || tag == FACTOR_COATING)) {
+        return interface_mueller(at, vertex, first);
+    }
+    let values = diffuse_value(at, vertex, first);
+    return MuellerValues(mueller_depolarizer(values.onward), mueller_depolarizer(values.lit));
+}
+
 /// Returns the spectrum at a vertex in four bands; `first` is the spectrum with the factor's index.
 fn bsdf_value(at: At, vertex: Vertex, first: vec4f) -> Values {
     let tag = factor_tag(vertex.factor);

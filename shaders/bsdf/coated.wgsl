@@ -109,6 +109,37 @@ fn coated_value(at: At, vertex: Vertex, n: vec4f) -> Values {
     return values;
 }
 
+/// Returns the matrices. A smooth coat reflects by its amplitudes, and transmits s and p each by its own part into the body, which depolarizes,
+/// and out of it (Baek, Jeon, Tong and Kim 2018, section 4). Facets reflect by their amplitudes; a rough coat transmits and depolarizes.
+fn coated_mueller(at: At, vertex: Vertex, n: vec4f) -> MuellerValues {
+    let body = bodies[at.vertex];
+    let coated = coated_of(body.material);
+    let k = spectrum_at(coated.spectrum + 1u, at.group, at.wavelengths);
+    let base = reflectance_at(at, body.base, factor_value(body.base, at));
+    let outer = spectrum_at(coated.mean_reflectance, at.group, at.wavelengths);
+    let inside = base * coated_albedo_factor(base, n, outer);
+    if (HAS_ROUGH_COATS && material_at(body.material).facets != NONE) {
+        let first = coated.coat_reflectances;
+        let wo = rough_coat_transmittance(first, body.wo_cosine, at.group, at.wavelengths);
+        let wi = rough_coat_transmittance(first, body.wi_cosine, at.group, at.wavelengths);
+        let emission_wi = rough_coat_transmittance(first, body.emission_wi_cosine, at.group, at.wavelengths);
+        let once = bare_mueller(at, vertex, n, k);
+        return MuellerValues(
+            mueller_and_depolarizer(once.onward, body.weight * (wo * wi * inside)),
+            mueller_and_depolarizer(once.lit, body.emission_weight * (wo * emission_wi * inside)),
+        );
+    }
+    let mirrored = mueller_of(interface_polarized(n, k, vertex.cosine), vertex.weight);
+    let wo = interface_polarized(n, vec4f(0.0), max(body.wo_cosine, 1e-6));
+    let wi = interface_polarized(n, vec4f(0.0), max(body.wi_cosine, 1e-6));
+    let emission_wi = interface_polarized(n, vec4f(0.0), max(body.emission_wi_cosine, 1e-6));
+    let scattered = mueller_product(1.0 - wo.s, 1.0 - wo.p, 1.0 - wi.s, 1.0 - wi.p, body.weight * inside);
+    return MuellerValues(
+        mueller_sum(mirrored, scattered),
+        mueller_product(1.0 - wo.s, 1.0 - wo.p, 1.0 - emission_wi.s, 1.0 - emission_wi.p, body.emission_weight * inside),
+    );
+}
+
 /// The transmittance of a coat toward the camera, from the path's next vertex, and from the emitter sample.
 struct CoatTransmittance {
     wo: vec4f,

@@ -101,3 +101,19 @@ fn cook_value(at: At, vertex: Vertex, n: vec4f) -> Values {
     }
     return values;
 }
+
+/// Returns the matrices: facets act by their amplitudes, the Lambertian fraction depolarizes.
+fn cook_mueller(at: At, vertex: Vertex, n: vec4f) -> MuellerValues {
+    let k = spectrum_at(factor_number(vertex.factor) + 1u, at.group, at.wavelengths);
+    var values = MuellerValues(
+        mueller_of(interface_polarized(n, k, vertex.cosine), vertex.weight),
+        mueller_of(interface_polarized(n, k, vertex.emission_cosine), vertex.emission_weight),
+    );
+    if (HAS_BASES) {
+        let body = bodies[at.vertex];
+        let base = spectrum_at(factor_number(body.base), at.group, at.wavelengths);
+        values.onward = mueller_and_depolarizer(values.onward, body.weight * base);
+        values.lit = mueller_and_depolarizer(values.lit, body.emission_weight * base);
+    }
+    return values;
+}

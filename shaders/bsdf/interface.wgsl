@@ -65,10 +65,7 @@ fn coating_value(at: At, vertex: Vertex) -> Values {
     let layers = Layers(boundary.first_layer, boundary.layer_count, boundary.varying_layers, first_thickness);
     var values = Values(vec4f(0.0), vec4f(0.0));
     var mean = vec4f(0.0);
-    var count = select(1u, 2u, HAS_SCATTERING);
-    if (HAS_MULTIPLE_SCATTERING && multiples[at.vertex].weight + multiples[at.vertex].emission_weight > 0.0) {
-        count = COATING_COSINES;
-    }
+    let count = coating_cosines(at);
     var i = 0u;
     loop {
         var cosine = select(vertex.emission_cosine, vertex.cosine, i == 0u);
@@ -96,4 +93,86 @@ fn coating_value(at: At, vertex: Vertex) -> Values {
         return with_multiple(values, multiples[at.vertex], mean);
     }
     return values;
+}
+
+/// Returns the matrices: facets and smooth surfaces act by their amplitudes; light that met several facets is unpolarized.
+fn interface_mueller(at: At, vertex: Vertex, first: vec4f) -> MuellerValues {
+    if (HAS_COATINGS && factor_tag(vertex.factor) == FACTOR_COATING) {
+        return coating_mueller(at, vertex);
+    }
+    return bare_mueller(at, vertex, first, spectrum_at(factor_number(vertex.factor) + 1u, at.group, at.wavelengths));
+}
+
+/// Returns the matrices of a bare conductor of index n + ik.
+fn bare_mueller(at: At, vertex: Vertex, n: vec4f, k: vec4f) -> MuellerValues {
+    let onward = mueller_of(interface_polarized(n, k, vertex.cosine), vertex.weight);
+    var values = MuellerValues(onward, onward);
+    if (HAS_SCATTERING) {
+        values.lit = mueller_of(interface_polarized(n, k, vertex.emission_cosine), vertex.emission_weight);
+    }
+    if (HAS_MULTIPLE_SCATTERING) {
+        var mean = MEAN_WEIGHTS.x * reflectance_unpolarized(n, k, MEAN_COSINES.x);
+        mean += MEAN_WEIGHTS.y * reflectance_unpolarized(n, k, MEAN_COSINES.y);
+        mean += MEAN_WEIGHTS.z * reflectance_unpolarized(n, k, MEAN_COSINES.z);
+        return mueller_with_multiple(values, multiples[at.vertex], mean);
+    }
+    return values;
+}
+
+/// Adds multiple scattering to the matrices, by the mean of the reflectance over a hemisphere.
+fn mueller_with_multiple(once: MuellerValues, multiple: MultipleScattering, mean: vec4f) -> MuellerValues {
+    let several = multiple_color(mean, multiple.mean_energy);
+    return MuellerValues(
+        mueller_and_depolarizer(once.onward, multiple.weight * several),
+        mueller_and_depolarizer(once.lit, multiple.emission_weight * several),
+    );
+}
+
+/// Returns the matrices of layers on a conductor, one cosine after the other, so that their code occurs only once.
+fn coating_mueller(at: At, vertex: Vertex) -> MuellerValues {
+    let boundary = load_interface(factor_number(vertex.factor));
+    let n = spectrum_at(boundary.spectrum, at.group, at.wavelengths);
+    let k = spectrum_at(boundary.spectrum + 1u, at.group, at.wavelengths);
+    var first_thickness = 0u;
+    if (RECORDS_THICKNESSES) {
+        first_thickness = first_thicknesses[at.vertex];
+    }
+    let layers = Layers(boundary.first_layer, boundary.layer_count, boundary.varying_layers, first_thickness);
+    var values: MuellerValues;
+    var mean = vec4f(0.0);
+    let count = coating_cosines(at);
+    var i = 0u;
+    loop {
+        var cosine = select(vertex.emission_cosine, vertex.cosine, i == 0u);
+        if (HAS_MULTIPLE_SCATTERING && i >= 2u) {
+            cosine = MEAN_COSINES[i - 2u];
+        }
+        let incident = air_above(cosine);
+        let substrate = substrate_admittances(n, k, incident);
+        let stack = with_layers(stack_on(substrate), layers, incident, true, at);
+        let reflected = stack_polarized(stack, substrate, incident).reflected;
+        if (i == 0u) {
+            values.onward = mueller_of(reflected, vertex.weight);
+        } else if (i == 1u) {
+            values.lit = mueller_of(reflected, vertex.emission_weight);
+        } else if (HAS_MULTIPLE_SCATTERING) {
+            mean += MEAN_WEIGHTS[i - 2u] * 0.5 * (reflected.s + reflected.p);
+        }
+        continuing {
+            i++;
+            break if i >= count;
+        }
+    }
+    if (HAS_MULTIPLE_SCATTERING) {
+        return mueller_with_multiple(values, multiples[at.vertex], mean);
+    }
+    return values;
+}
+
+/// Returns the number of cosines at which layers on a conductor are evaluated: of the path, of the emission, and for multiple scattering.
+fn coating_cosines(at: At) -> u32 {
+    if (HAS_MULTIPLE_SCATTERING && multiples[at.vertex].weight + multiples[at.vertex].emission_weight > 0.0) {
+        return COATING_COSINES;
+    }
+    return select(1u, 2u, HAS_SCATTERING);
 }

@@ -92,6 +92,13 @@ features! {
     /// Samples by Sobol's sequence.
     SobolSamples = "HAS_SOBOL_SAMPLES", Some(|scene| scene.settings().sampler == Sampler::Sobol);
 
+    /// Light that is traced with its polarization.
+    Polarization = "HAS_POLARIZATION", Some(|scene| scene.settings().polarization);
+    /// Emitters of polarized light.
+    EmittedPolarization = "HAS_EMITTED_POLARIZATION", Some(has_emitted_polarization);
+    /// A polarizer in front of the camera.
+    Polarizer = "HAS_POLARIZER", Some(|scene| scene.settings().polarization && scene.camera().polarizer.is_some());
+
     /// A camera that sees all directions.
     Panorama = "HAS_PANORAMA", Some(|scene| scene.camera().projection == Projection::Panorama);
     /// A camera with parallel directions of view.
@@ -209,6 +216,16 @@ impl Features {
         };
         Feature::ALL.iter().map(declare).collect()
     }
+}
+
+fn has_emitted_polarization(scene: &Scene) -> bool {
+    let materials = scene.objects().iter().map(|o| scene.material(o.material));
+    let of_objects = materials.filter_map(Material::emission);
+    let of_environment = scene.environment_parts();
+    let of_environment = of_environment.iter().map(|part| part.emission);
+    let of_lights = scene.lights().iter().map(|light| light.emission);
+    let mut all = of_objects.chain(of_environment).chain(of_lights);
+    scene.settings().polarization && all.any(|emission| emission.polarization.is_some())
 }
 
 fn is_sphere(shape: &Shape) -> bool {

@@ -18,8 +18,9 @@ use crate::features::Features;
 use crate::layout::{self, Frame, Record};
 use glam::DVec3;
 use scene::limits::{MAX_LAYERS, MAX_LIGHT_GROUPS, MAX_MATERIALS};
-use scene::{Emission, Projection, Scene, SpectrumId, WavelengthSampling};
+use scene::{Emission, EmittedPolarization, Projection, Scene, SpectrumId, WavelengthSampling};
 use spectra::BandTable;
+use spectra::stokes::{Polarizer, Retardance};
 use surface::Passes;
 use tables::Tables;
 use trees::Trees;
@@ -159,6 +160,47 @@ fn emission_ref(emission: Emission) -> u32 {
     spectrum | group << layout::LIGHT_GROUP_SHIFT
 }
 
+/// Adds the polarization of an emission to the records and returns its row, or NONE.
+fn polarization_row(tables: &mut Tables, emission: Emission) -> u32 {
+    let Some(polarization) = emission.polarization else {
+        return layout::NONE;
+    };
+    tables.push(&match polarization {
+        EmittedPolarization::Stokes { stokes, axis } => layout::EmittedPolarization {
+            stokes: stokes.map(|component| component as f32),
+            kind: layout::POLARIZED_STOKES,
+            axis: vec3(axis),
+            degree: 0.0,
+        },
+        EmittedPolarization::Sky { sun, most } => layout::EmittedPolarization {
+            stokes: [0.0; 3],
+            kind: layout::POLARIZED_SKY,
+            axis: vec3(sun),
+            degree: most as f32,
+        },
+    })
+}
+
+/// Returns the values for the polarizer in front of a camera.
+fn pack_polarizer(polarizer: &Polarizer) -> Frame {
+    let analyzer = polarizer.analyzer();
+    let vec = |weights: [f64; 3]| weights.map(|weight| weight as f32);
+    match analyzer.retardance {
+        Retardance::Path { nm } => Frame {
+            analyzer: vec(analyzer.constant),
+            retarder_nm: nm as f32,
+            analyzer_cosine: vec(analyzer.cosine),
+            analyzer_sine: vec(analyzer.sine),
+            ..Default::default()
+        },
+        // The same at every wavelength.
+        Retardance::Phase { .. } => Frame {
+            analyzer: vec(analyzer.weights(1.0)),
+            ..Default::default()
+        },
+    }
+}
+
 fn pack_frame(scene: &Scene) -> Frame {
     let (camera, settings) = (scene.camera(), scene.settings());
     let half_height = match camera.projection {
@@ -185,7 +227,10 @@ fn pack_frame(scene: &Scene) -> Frame {
         bands: settings.bands.count(),
         lens_radius: camera.lens.map_or(0.0, |lens| lens.radius as f32),
         focus_distance: camera.lens.map_or(1.0, |lens| lens.focus_distance as f32),
-        ..Default::default()
+        ..camera
+            .polarizer
+            .as_ref()
+            .map_or_else(Default::default, pack_polarizer)
     }
 }
 

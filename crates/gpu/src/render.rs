@@ -114,6 +114,7 @@ impl<G: Borrow<Gpu>> Session<G> {
         let shape = PixelShape {
             groups: u64::from(settings.bands.count().div_ceil(4)),
             light_groups: u64::from(packed.limits.light_groups),
+            is_polarized: scene.content().is_polarized,
         };
         let limits = device.limits();
         let largest = limits

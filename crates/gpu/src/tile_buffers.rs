@@ -4,7 +4,7 @@ use crate::layout::bindings::{BATCHES, SCENE_GROUP, SUMS, TILE_GROUP};
 use crate::layout::{BATCH_COPIES, Batch, WORKGROUP_SIDE};
 use crate::{DeviceError, Gpu, Pipeline, RenderError, SceneBindings};
 use rayon::prelude::*;
-use spectra::{Accumulation, Quantity, SumLayout, Window};
+use spectra::{Accumulation, LayerKey, Quantity, Stokes, SumLayout, Window};
 
 /// The sizes of a pixel's running means.
 #[derive(Clone, Copy)]
@@ -12,17 +12,27 @@ pub(crate) struct PixelShape {
     /// Groups of four bands.
     pub(crate) groups: u64,
     pub(crate) light_groups: u64,
+    /// Whether S1, S2 and S3 are kept.
+    pub(crate) is_polarized: bool,
 }
 
 impl PixelShape {
     /// Returns the lists of running means in the order of the buffer: what a list is for, and its number of sets of four. The means
     /// and colors are of each light group, the deviations of all light.
-    fn lists(self) -> [(Quantity, u64); 3] {
-        [
-            (Quantity::Radiance, self.groups * self.light_groups),
-            (Quantity::Variance, self.groups),
-            (Quantity::Xyz, self.light_groups),
-        ]
+    fn lists(self) -> Vec<(LayerKey, u64)> {
+        let means = self.groups * self.light_groups;
+        let mut lists = vec![
+            (LayerKey::RADIANCE, means),
+            (LayerKey::VARIANCE, self.groups),
+            (LayerKey::XYZ, self.light_groups),
+        ];
+        if self.is_polarized {
+            let of =
+                |key: LayerKey, sets| Stokes::POLARIZED.map(|stokes| (key.component(stokes), sets));
+            lists.extend(of(LayerKey::RADIANCE, means));
+            lists.extend(of(LayerKey::XYZ, self.light_groups));
+        }
+        lists
     }
 
     /// Returns the bytes of all of them.
@@ -159,7 +169,7 @@ impl TileBuffers {
                 .map_err(|error| DeviceError::Refused(error.to_string()))?;
             let sums: &[[f32; 4]] = bytemuck::cast_slice(&mapped);
             let sums = Sums::new(self.shape, tile, sums);
-            check_count(tile, sums.of(Quantity::Xyz), samples)?;
+            check_count(tile, sums.of(LayerKey::XYZ), samples)?;
             let values = unpacked(&sums, accumulation.layout(), tile);
             accumulation.store(tile, &values, samples);
         }
@@ -169,21 +179,21 @@ impl TileBuffers {
 }
 
 /// The running means of a tile, list by list.
-struct Sums<'a>(Vec<(Quantity, &'a [[f32; 4]])>);
+struct Sums<'a>(Vec<(LayerKey, &'a [[f32; 4]])>);
 
 impl<'a> Sums<'a> {
     fn new(shape: PixelShape, tile: Window, mut rest: &'a [[f32; 4]]) -> Self {
-        let lists = shape.lists().into_iter().map(|(quantity, sets)| {
+        let lists = shape.lists().into_iter().map(|(key, sets)| {
             let own;
             (own, rest) = rest.split_at((sets * tile.pixels() as u64) as usize);
-            (quantity, own)
+            (key, own)
         });
         Self(lists.collect())
     }
 
-    /// Returns the list for a quantity.
-    fn of(&self, quantity: Quantity) -> &'a [[f32; 4]] {
-        let found = self.0.iter().find(|(own, _)| *own == quantity);
+    /// Returns the list for a layer of an image.
+    fn of(&self, key: LayerKey) -> &'a [[f32; 4]] {
+        let found = self.0.iter().find(|(own, _)| *own == key);
         found.map_or(&[], |(_, sums)| sums)
     }
 }
@@ -202,30 +212,43 @@ fn check_count(tile: Window, colors: &[[f32; 4]], samples: u32) -> Result<(), Re
 
 /// Reorders the sums of a tile from `[list][set of four][pixel]` to `[pixel][value]`.
 fn unpacked(sums: &Sums<'_>, layout: SumLayout, tile: Window) -> Vec<f64> {
-    let [means, deviations, colors] =
-        [Quantity::Radiance, Quantity::Variance, Quantity::Xyz].map(|quantity| sums.of(quantity));
     let (pixels, bands) = (tile.pixels(), layout.mean().len());
-    let light_groups = colors.len() / pixels;
-    let value = |values: &[[f32; 4]], first: usize, band: usize, pixel: usize| {
-        f64::from(values[(first + band / 4) * pixels + pixel][band % 4])
+    let light_groups = sums.of(LayerKey::XYZ).len() / pixels;
+    let deviations = sums.of(LayerKey::VARIANCE);
+    // The means and colors of S0 and, where they are kept, of the other components.
+    let components = Stokes::ALL.map(|stokes| {
+        let of = |key: LayerKey| sums.of(key.component(stokes));
+        (stokes, of(LayerKey::RADIANCE), of(LayerKey::XYZ))
+    });
+    let read = |to: &mut [f64], from: &[[f32; 4]], first: usize, pixel: usize| {
+        for (band, to) in to.iter_mut().enumerate() {
+            *to = f64::from(from[(first + band / 4) * pixels + pixel][band % 4]);
+        }
     };
     let mut all = vec![0.0; pixels * layout.len()];
     let each = all.par_chunks_exact_mut(layout.len()).enumerate();
     each.with_min_len(1024).for_each(|(pixel, own)| {
-        for light_group in 0..light_groups {
-            let first = light_group * bands.div_ceil(4);
-            let mean = &mut own[layout.group_mean(light_group)];
-            for (band, mean) in mean.iter_mut().enumerate() {
-                *mean = value(means, first, band, pixel);
+        for (stokes, means, colors) in components {
+            if means.is_empty() {
+                continue;
             }
-            let color = colors[light_group * pixels + pixel];
-            for (to, from) in own[layout.xyz(light_group)].iter_mut().zip(color) {
-                *to = f64::from(from);
+            for group in 0..light_groups {
+                let first = group * bands.div_ceil(4);
+                read(
+                    &mut own[layout.component(group, stokes)],
+                    means,
+                    first,
+                    pixel,
+                );
+                read(
+                    &mut own[layout.component_xyz(group, stokes)],
+                    colors,
+                    group,
+                    pixel,
+                );
             }
         }
-        for (band, deviation) in own[layout.deviation()].iter_mut().enumerate() {
-            *deviation = value(deviations, 0, band, pixel);
-        }
+        read(&mut own[layout.deviation()], deviations, 0, pixel);
         if light_groups > 1 {
             // The device keeps no mean of the total.
             for group in 0..light_groups {
@@ -252,21 +275,33 @@ fn packed(
         let value = |i: usize| values.get(4 * group + i).map_or(0.0, |&value| value as f32);
         std::array::from_fn(value)
     };
-    let mut push = |range: std::ops::Range<usize>, group: usize| {
+    let push = |sets: &mut Vec<[f32; 4]>, range: std::ops::Range<usize>, group: usize| {
         let of_pixel = |&index: &usize| four(&accumulation.pixel(index)[range.clone()], group);
         sets.par_extend(indices.par_iter().with_min_len(1024).map(of_pixel));
     };
     let (groups, light_groups) = (shape.groups as usize, shape.light_groups as usize);
-    for light_group in 0..light_groups {
-        (0..groups).for_each(|group| push(layout.group_mean(light_group), group));
-    }
-    (0..groups).for_each(|group| push(layout.deviation(), group));
-    for light_group in 0..light_groups {
-        push(layout.xyz(light_group), 0);
+    let mut count_place = 0;
+    for (key, _) in shape.lists() {
+        let of_group = |group| match key.quantity {
+            Quantity::Xyz => (layout.component_xyz(group, key.stokes), 1),
+            Quantity::Variance => (layout.deviation(), groups),
+            _ => (layout.component(group, key.stokes), groups),
+        };
+        let times = match key.quantity {
+            Quantity::Variance => 1,
+            _ => light_groups,
+        };
+        for (range, count) in (0..times).map(of_group) {
+            for set in 0..count {
+                if key == LayerKey::XYZ && range == layout.xyz(0) {
+                    count_place = sets.len();
+                }
+                push(&mut sets, range.clone(), set);
+            }
+        }
     }
     // The first light group's colors have the count: the others have 0 there.
-    let first = sets.len() - light_groups * indices.len();
-    for color in &mut sets[first..first + indices.len()] {
+    for color in &mut sets[count_place..count_place + indices.len()] {
         color[3] = taken as f32;
     }
     sets

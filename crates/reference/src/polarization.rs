@@ -62,7 +62,9 @@ pub fn emitted_stokes(of: &EmittedPolarization, toward: DVec3, axis: DVec3) -> [
         EmittedPolarization::Sky { sun, most } => {
             let cosine = toward.dot(sun);
             let sin2 = toward.cross(sun).length_squared();
-            let degree = most * sin2 / (1.0 + cosine * cosine);
+            // The ground is not polarized.
+            let above = f64::from(u8::from(toward.y >= 0.0));
+            let degree = above * most * sin2 / (1.0 + cosine * cosine);
             (axis_across(toward, sun), [degree, 0.0, 0.0])
         }
     };
@@ -125,6 +127,18 @@ mod tests {
         let sun = DVec3::new(0.0, 0.75_f64.sqrt(), -0.5);
         let found = emitted_stokes(&sky(sun), TOWARD, DVec3::X);
         assert!(close(found, [0.75 * 0.6, 0.0, 0.0]), "{found:?}");
+    }
+
+    #[test]
+    fn the_ground_is_not_polarized() {
+        let sky = EmittedPolarization::Sky {
+            sun: DVec3::Z,
+            most: 1.0,
+        };
+        let below = DVec3::new(0.8, -0.6, 0.0);
+        let across = axis_across(below, DVec3::Y);
+        assert_eq!(emitted_stokes(&sky, below, across)[..2], [0.0; 2]);
+        assert!(emitted_stokes(&sky, -below, across)[0].abs() > 0.1);
     }
 
     #[test]

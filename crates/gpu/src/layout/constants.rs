@@ -26,6 +26,11 @@ constants! { CONSTANTS;
     /// Shape: a plane bounded to a disk.
     pub const SHAPE_DISK = 3;
 
+    /// Polarization of emitted light: the same Stokes vector in all directions.
+    pub const POLARIZED_STOKES = 0;
+    /// Polarization of emitted light: a clear sky.
+    pub const POLARIZED_SKY = 1;
+
     /// Emitter: a sphere.
     pub const EMITTER_SPHERE = 0;
     /// Emitter: a rectangle.

@@ -75,8 +75,8 @@ records! { EMITTERS;
         pub edge_height: f32,
         /// Row of its node in the tree of emitters.
         pub node: u32,
-        /// Row of the record of its picture, a [`Panorama`]; NONE where it has none.
-        pub picture: u32,
+        /// Row of the record of its picture, a [`Panorama`]; without a picture, that of its polarization, an [`EmittedPolarization`], or NONE.
+        pub record: u32,
     }
 }
 
@@ -95,8 +95,22 @@ records! { RECORDS;
         pub emission: u32,
         /// Factor of its emission; 0 where it emits nothing.
         pub emission_scale: f32,
+        /// Row of the polarization of its emission, an [`EmittedPolarization`]; NONE where that is unpolarized.
+        pub polarization: u32,
         /// Padding to whole rows.
-        pub padding: [u32; 2],
+        pub padding: u32,
+    }
+
+    /// How emitted light is polarized.
+    pub struct EmittedPolarization {
+        /// S1, S2 and S3 over S0.
+        pub stokes: [f32; 3],
+        /// A `POLARIZED_` tag.
+        pub kind: u32,
+        /// The reference axis, or the direction toward the sun: a unit vector.
+        pub axis: [f32; 3],
+        /// The degree of polarization of the sky at 90° from the sun.
+        pub degree: f32,
     }
 
     /// A reflectance that may vary over a surface.
@@ -273,8 +287,10 @@ records! { RECORDS;
         pub first_number: u32,
         /// Density of light at the picture's mean brightness, on the scale of the density of the sampled light; 0 where all light is sampled.
         pub even_density: f32,
+        /// Row of the polarization of its light, an [`EmittedPolarization`]; NONE where that is unpolarized.
+        pub polarization: u32,
         /// Padding to whole rows.
-        pub padding: [u32; 2],
+        pub padding: u32,
     }
 }
 

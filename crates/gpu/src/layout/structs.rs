@@ -48,7 +48,19 @@ structs! { STRUCTS, Struct;
         /// Row after the last node of the tree of emitters.
         pub end_emitter_node: u32,
         /// Padding to the alignment.
-        pub padding: [u32; 2],
+        pub padding_1: [u32; 2],
+        /// Weights of S1, S2 and S3 in what the camera's polarizer transmits, without those that depend on the retarder's phase.
+        pub analyzer: [f32; 3],
+        /// Path difference of the retarder, nm: its phase is 2π times this over the wavelength.
+        pub retarder_nm: f32,
+        /// The weights times the cosine of that phase.
+        pub analyzer_cosine: [f32; 3],
+        /// Padding to the alignment.
+        pub padding_2: u32,
+        /// The weights times its sine.
+        pub analyzer_sine: [f32; 3],
+        /// Padding to the alignment.
+        pub padding_3: u32,
     }
 
     /// Values for one dispatch: a run of samples of one tile.

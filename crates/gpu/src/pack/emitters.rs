@@ -1,7 +1,7 @@
 //! Packing of emitters: objects that emit, the environment part by part, and lights that are not objects.
 
 use super::tables::Tables;
-use super::{emission_ref, vec3};
+use super::{emission_ref, polarization_row, vec3};
 use crate::layout::{self, NONE};
 use scene::{Emission, EmitterKind, EmitterSource, EnvironmentShape, LightShape, Scene};
 
@@ -28,7 +28,8 @@ pub(super) fn pack(
     let mut places = Vec::new();
     for (part, number) in environment.iter().zip(numbers) {
         let number = number.unwrap_or_else(|| {
-            emitters.push(emitter(surrounding(part.shape, tables), part.emission));
+            let shape = surrounding(part.shape, part.emission, tables);
+            emitters.push(emitter(shape, part.emission));
             emitters.len() as u32 - 1
         });
         places.push(f64::from(number));
@@ -43,11 +44,19 @@ fn sampled(
     tables: &mut Tables,
 ) -> layout::Emitter {
     let shape = match source.kind {
-        EmitterKind::Object(index) => object(index, &shapes[index]),
-        EmitterKind::Environment(index) => {
-            surrounding(scene.environment_parts()[index].shape, tables)
-        }
-        EmitterKind::Light(index) => single_direction(scene.lights()[index].shape),
+        EmitterKind::Object(index) => layout::Emitter {
+            record: polarization_row(tables, source.emission),
+            ..object(index, &shapes[index])
+        },
+        EmitterKind::Environment(index) => surrounding(
+            scene.environment_parts()[index].shape,
+            source.emission,
+            tables,
+        ),
+        EmitterKind::Light(index) => layout::Emitter {
+            record: polarization_row(tables, source.emission),
+            ..single_direction(scene.lights()[index].shape)
+        },
     };
     layout::Emitter {
         brightness: source.brightness as f32,
@@ -68,7 +77,7 @@ fn plain(kind: u32) -> layout::Emitter {
     layout::Emitter {
         kind,
         object: NONE,
-        picture: NONE,
+        record: NONE,
         ..Default::default()
     }
 }
@@ -93,8 +102,13 @@ fn object(index: usize, shape: &layout::Shape) -> layout::Emitter {
     }
 }
 
-fn surrounding(shape: EnvironmentShape<'_>, tables: &mut Tables) -> layout::Emitter {
-    match shape {
+fn surrounding(
+    shape: EnvironmentShape<'_>,
+    emission: Emission,
+    tables: &mut Tables,
+) -> layout::Emitter {
+    let polarization = polarization_row(tables, emission);
+    let packed = match shape {
         EnvironmentShape::Everywhere => plain(layout::EMITTER_EVERYWHERE),
         EnvironmentShape::Horizon => plain(layout::EMITTER_HORIZON),
         EnvironmentShape::Pole(pole) => layout::Emitter {
@@ -103,19 +117,26 @@ fn surrounding(shape: EnvironmentShape<'_>, tables: &mut Tables) -> layout::Emit
         },
         EnvironmentShape::Picture(picture) => {
             let pictures = &mut tables.pictures;
-            let panorama = pictures.add_environment(picture, &mut tables.numbers);
-            layout::Emitter {
+            let panorama = layout::Panorama {
+                polarization,
+                ..pictures.add_environment(picture, &mut tables.numbers)
+            };
+            return layout::Emitter {
                 axis: vec3(picture.forward),
                 tangent: vec3(picture.right),
-                picture: tables.push(&panorama),
+                record: tables.push(&panorama),
                 ..plain(layout::EMITTER_PICTURE)
-            }
+            };
         }
         EnvironmentShape::DistantDisk { toward, height } => layout::Emitter {
             axis: vec3(toward),
             edge_height: height as f32,
             ..plain(layout::EMITTER_DISTANT_DISK)
         },
+    };
+    layout::Emitter {
+        record: polarization,
+        ..packed
     }
 }
 

@@ -115,7 +115,7 @@ mod tests {
         };
         let mut emitters = packed.emitters.iter();
         let emitter = emitters.find(|emitter| emitter.kind == crate::layout::EMITTER_PICTURE);
-        let panorama: Panorama = packed.record(emitter.unwrap().picture);
+        let panorama: Panorama = packed.record(emitter.unwrap().record);
         let table = &picture.table;
         assert_eq!(
             [panorama.columns, panorama.rows],

@@ -336,7 +336,9 @@ impl WithSimd for Evaluate<'_, '_> {
             if !path.record.has_light(group) {
                 radiance.fill(0.0);
                 if let Some(polarized) = path.polarized.get_mut(group) {
-                    polarized.iter_mut().for_each(|of| of.fill(0.0));
+                    for of in polarized {
+                        of.fill(0.0);
+                    }
                 }
                 continue;
             }

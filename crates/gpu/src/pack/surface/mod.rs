@@ -9,7 +9,7 @@ mod film;
 mod interface;
 
 use super::tables::Tables;
-use super::{emission_ref, id};
+use super::{emission_ref, id, polarization_row};
 use crate::features::Feature;
 use crate::layout;
 use scene::{Estimate, Material, Pattern, Scene};
@@ -95,6 +95,7 @@ pub(super) fn pack(
         albedo: estimate.albedo as f32,
         emission: emission.map_or(0, emission_ref),
         emission_scale: emission.map_or(0.0, |emission| emission.scale as f32),
+        polarization: emission.map_or(layout::NONE, |emission| polarization_row(tables, emission)),
         ..Default::default()
     };
     tables.set_material(number, &head);
