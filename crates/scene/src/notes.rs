@@ -13,11 +13,18 @@ impl Scene {
             .chain(self.note_on_mirrors())
             .chain(self.notes_on_stacks())
             .chain(self.note_on_gain())
+            .chain(self.note_on_polarization())
             .collect()
     }
 
     /// The number of objects and lights that emit light, including the sun of a sky.
     pub fn lamps(&self) -> usize {
+        let all = self.emissions();
+        all.filter(|&emission| self.shines(emission)).count()
+    }
+
+    /// What objects and lights emit.
+    fn emissions(&self) -> impl Iterator<Item = Emission> {
         let of_objects =
             self.objects()
                 .iter()
@@ -26,8 +33,7 @@ impl Scene {
                     material => material.emission(),
                 });
         let of_lights = self.lights().iter().map(|light| light.emission);
-        let all = of_objects.chain(of_lights);
-        all.filter(|&emission| self.shines(emission)).count()
+        of_objects.chain(of_lights)
     }
 
     /// Whether the environment emits light. The disks of distant lights do not count.
@@ -108,6 +114,19 @@ impl Scene {
                 "a surface by cook1981 with printed constants reflects up to {gain:.1} times the incident light, and more after every \
                  reflection; render.max_path_segments = 2 gives the single reflection of the paper (found {segments})"
             )
+        })
+    }
+
+    /// A note if emitted light is polarized, and traced without that.
+    fn note_on_polarization(&self) -> Option<String> {
+        let parts = self.environment().parts();
+        let of_environment = parts.iter().map(|part| part.emission);
+        let is_polarized =
+            |emission: Emission| emission.polarization.is_some() && self.shines(emission);
+        let has_polarized = self.emissions().chain(of_environment).any(is_polarized);
+        (has_polarized && !self.settings().polarization).then(|| {
+            "the polarization of emitted light has no effect; render.polarization = true traces light with it"
+                .to_owned()
         })
     }
 }
