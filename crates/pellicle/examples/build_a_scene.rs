@@ -28,6 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             up: [0.0, 1.0, 0.0],
             height: 1.0,
             filter: Filter::default(),
+            polarizer: None,
         },
         render: Render {
             size: [8 * COUNT, 8],

@@ -90,6 +90,18 @@ pub const TURBIDITY: Range = Range::new(
 );
 /// A rotation of the environment.
 pub const ROTATION_DEG: Range = Range::new(-360.0, 360.0, "°");
+/// The angle of a polarizer, a retarder or polarized light.
+pub const POLARIZATION_DEG: Range = Range::new(-360.0, 360.0, "°");
+/// Ellipticity of polarized light: circular at both ends.
+pub const ELLIPTICITY_DEG: Range = Range::new(-45.0, 45.0, "°");
+/// A component of a Stokes vector relative to S0.
+pub const STOKES: Range = Range::new(-1.0, 1.0, "");
+/// How far rounding may take the length of a Stokes vector relative to S0 above 1.
+pub const STOKES_ROUNDING: f64 = 1e-6;
+/// The phase of a retarder: up to ten turns.
+pub const RETARDANCE_DEG: Range = Range::new(-3600.0, 3600.0, "°");
+/// The path difference of a retarder. 100 µm are 250 wavelengths of 400 nm; `f32` resolves its phase to 0.01°.
+pub const RETARDANCE_NM: Range = Range::new(0.0, 100_000.0, " nm");
 /// The maximum number of slopes of a surface by Cook's model.
 pub const MAX_SLOPES: usize = 8;
 /// The constant c of Cook's Gaussian distribution; the resulting gain must be at most [`MAX_COOK_GAIN`].

@@ -1,5 +1,6 @@
 //! The camera as written in a scene file.
 
+use super::Polarizer;
 use crate::limits;
 use scene::Filter;
 use schemars::JsonSchema;
@@ -27,6 +28,9 @@ pub enum Camera {
         /// The reconstruction filter of the pixels.
         #[serde(default)]
         filter: Filter,
+        /// A polarizer in front of the camera, which needs `render.polarization = true`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        polarizer: Option<Polarizer>,
     },
     /// All directions by longitude and latitude, which suits `environment = { type = "image" }`. The picture should be twice as wide as
     /// high.
@@ -42,6 +46,9 @@ pub enum Camera {
         /// The reconstruction filter of the pixels.
         #[serde(default)]
         filter: Filter,
+        /// A polarizer in front of the camera, which needs `render.polarization = true`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        polarizer: Option<Polarizer>,
     },
     /// All rays are parallel.
     Orthographic {
@@ -58,6 +65,9 @@ pub enum Camera {
         /// The reconstruction filter of the pixels.
         #[serde(default)]
         filter: Filter,
+        /// A polarizer in front of the camera, which needs `render.polarization = true`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        polarizer: Option<Polarizer>,
     },
 }
 
@@ -72,6 +82,17 @@ pub struct Lens {
     #[schemars(range(min = limits::LENGTH.low, max = limits::LENGTH.high))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub focus_distance: Option<f64>,
+}
+
+impl Camera {
+    /// The polarizer in front of it.
+    pub fn polarizer(&self) -> Option<&Polarizer> {
+        match self {
+            Self::Perspective { polarizer, .. }
+            | Self::Panorama { polarizer, .. }
+            | Self::Orthographic { polarizer, .. } => polarizer.as_ref(),
+        }
+    }
 }
 
 fn up_default() -> [f64; 3] {

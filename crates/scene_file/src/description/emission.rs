@@ -1,12 +1,12 @@
 //! What emitters emit, as written in a scene file.
 
-use super::{Extrapolate, TableColumn};
+use super::{Extrapolate, Polarization, TableColumn};
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// What an emitter emits: a spectrum and one number for its strength.
+/// What an emitter emits: a spectrum, one number for its strength, and its polarization.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Emission {
     /// The spectrum.
@@ -15,6 +15,9 @@ pub struct Emission {
     /// The strength.
     #[serde(flatten)]
     pub strength: Strength,
+    /// The polarization; unpolarized when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub polarization: Option<Polarization>,
 }
 
 /// The spectrum of an emitter.
@@ -156,6 +159,7 @@ impl Emission {
                 extrapolate: Extrapolate::Error,
             },
             strength,
+            polarization: None,
         }
     }
 
@@ -164,6 +168,7 @@ impl Emission {
         Self {
             spectrum: EmissionSpectrum::Constant { constant: 1.0 },
             strength,
+            polarization: None,
         }
     }
 }

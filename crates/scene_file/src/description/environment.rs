@@ -1,6 +1,6 @@
 //! The environment as written in a scene file.
 
-use super::{Emission, Reflectance};
+use super::{Emission, Polarization, Reflectance};
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -41,6 +41,9 @@ pub enum Environment {
         #[serde(default)]
         #[schemars(range(min = limits::ROTATION_DEG.low, max = limits::ROTATION_DEG.high))]
         rotation_deg: f64,
+        /// The polarization, the same in every direction; unpolarized when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        polarization: Option<Polarization>,
         /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, it shares a group with all emitters
         /// of the same spectrum that name none.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -69,6 +72,12 @@ pub enum Environment {
         #[serde(default = "one")]
         #[schemars(range(min = limits::EMISSION.low, max = limits::EMISSION.high))]
         scale: f64,
+        /// The degree of polarization at 90° from the sun, where it is largest, by single Rayleigh scattering; measured clear skies reach
+        /// 0.7 to 0.8. The sun's disk is unpolarized, and so is the sky when this is absent. It matters only with
+        /// `render.polarization = true`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(range(min = limits::FRACTION.low, max = limits::FRACTION.high))]
+        polarization_degree: Option<f64>,
         /// The light group that it belongs to: 1 to 32 ASCII letters, digits, `_` or `-`. When absent, it shares a group with all emitters
         /// of the same spectrum that name none.
         #[serde(default, skip_serializing_if = "Option::is_none")]

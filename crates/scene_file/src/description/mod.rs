@@ -13,6 +13,7 @@ mod light;
 mod material;
 mod microsurface;
 mod object;
+mod polarization;
 mod render;
 mod thickness;
 
@@ -30,6 +31,7 @@ pub use media::{
 };
 pub use microsurface::{Brushed, Finish, Roughness};
 pub use object::Object;
+pub use polarization::{Polarization, Polarizer, Retarder};
 pub use render::{LightGroups, Render};
 /// Choices that a validated scene has as they are written.
 pub use scene::{DirectLight, Distribution, Filter, PathDifference, Sampler, WavelengthSampling};

@@ -23,6 +23,8 @@ pub struct Render {
     pub wavelengths_nm: [f64; 2],
     /// Where the wavelengths of a sample lie in their bands.
     pub sampling: WavelengthSampling,
+    /// Whether light is traced with its polarization, which takes more time and memory. Otherwise it counts as unpolarized at every surface.
+    pub polarization: bool,
     /// Which emitters are kept apart in the spectral image, so that their lamps can be changed without rendering again.
     pub light_groups: LightGroups,
     /// The source of the random numbers that paths are sampled with.
@@ -79,6 +81,7 @@ impl Default for Render {
             bands: 40,
             wavelengths_nm: [380.0, 780.0],
             sampling: WavelengthSampling::Random,
+            polarization: false,
             light_groups: LightGroups::BySpectrum,
             sampler: Sampler::Sobol,
             direct_light: DirectLight::Both,

@@ -1,6 +1,7 @@
 //! The camera: from `[camera]` to its axes.
 
 use super::checks::Checks;
+use super::polarization;
 use crate::description;
 use crate::limits;
 use document::{FieldPath, Problem, ProblemKind};
@@ -30,6 +31,10 @@ pub(crate) fn check(checks: &mut Checks, camera: &description::Camera) -> Option
         } => ([*x, *y, *z], look_at.unwrap_or([*x, *y, *z - 1.0]), *up),
     };
     let projection = projection(checks, &top, camera);
+    let polarizer = camera.polarizer().map(|polarizer| {
+        let field = top.key("polarizer");
+        polarization::check_polarizer(checks, &field, polarizer)
+    });
     let (position_field, look_at_field) = (top.key("position"), top.key("look_at"));
     let origin = checks.point(&position_field, position);
     let target = checks.point(&look_at_field, look_at);
@@ -62,7 +67,10 @@ pub(crate) fn check(checks: &mut Checks, camera: &description::Camera) -> Option
         projection: projection?,
         lens,
         filter: PixelFilter::new(filter),
-        polarizer: None,
+        polarizer: match polarizer {
+            Some(checked) => Some(checked?),
+            None => None,
+        },
     })
 }
 

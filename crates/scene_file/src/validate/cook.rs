@@ -319,6 +319,7 @@ fn ambient_light(
     };
     Some(Emission {
         spectrum: spectra.combined([light.spectrum, returned], |[light, part]| light * part),
+        polarization: None,
         ..light
     })
 }

@@ -7,11 +7,11 @@ use super::sky::Sky;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
 use crate::description;
-use crate::description::{Description, Emission, EmissionSpectrum, Extrapolate, Strength};
+use crate::description::{Description, EmissionSpectrum, Extrapolate, Polarization, Strength};
 use crate::limits;
 use document::{FieldPath, Problem, ProblemKind, Shown};
 use scene::Sampled;
-use scene::{DirectLight, Environment, Light, PictureSpectra};
+use scene::{DirectLight, Emission, Environment, Light, PictureSpectra};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -39,6 +39,7 @@ pub(crate) fn check<'a>(
             let black = description::Emission {
                 spectrum: description::EmissionSpectrum::Constant { constant: 0.0 },
                 strength: description::Strength::scale(0.0),
+                polarization: None,
             };
             emission("emission", &black).map(Environment::Constant)
         }
@@ -52,6 +53,7 @@ pub(crate) fn check<'a>(
             ground,
             scale,
             sun,
+            polarization_degree,
             light_group,
             sun_light_group,
         }) => {
@@ -60,6 +62,7 @@ pub(crate) fn check<'a>(
                 sun_azimuth_deg: *sun_azimuth_deg,
                 turbidity: *turbidity,
                 ground,
+                polarization_degree: polarization_degree.unwrap_or_default(),
             };
             let (sky, sunlight) = check_sky(checks, spectra, &sky, (*scale, *sun, sampled))?;
             let name = sun_light_group.as_deref().or(light_group.as_deref());
@@ -72,6 +75,7 @@ pub(crate) fn check<'a>(
             scale,
             illuminant,
             rotation_deg,
+            polarization,
             ..
         }) => {
             let written = Image {
@@ -80,6 +84,7 @@ pub(crate) fn check<'a>(
                 scale: *scale,
                 illuminant: illuminant.as_deref(),
                 rotation_deg: *rotation_deg,
+                polarization: *polarization,
             };
             written.check(checks, spectra, sampled)
         }
@@ -117,6 +122,10 @@ fn check_sky(
     let factor = times(EmissionSpectrum::Constant { constant: 1.0 }, scale);
     let emission = spectra.emission(checks, &top, &factor, Radiator::Environment)?;
     let checked = checked?;
+    let emission = Emission {
+        polarization: checked.polarization,
+        ..emission
+    };
     let picture = Arc::new(checked.sphere.turned(-sky.sun_azimuth_deg, sampled));
     let sky = Environment::Picture { emission, picture };
     if !has_sun {
@@ -132,13 +141,14 @@ fn check_sky(
 }
 
 /// A spectrum times a factor.
-fn times(spectrum: EmissionSpectrum, scale: f64) -> Emission {
-    Emission {
+fn times(spectrum: EmissionSpectrum, scale: f64) -> description::Emission {
+    description::Emission {
         spectrum,
         strength: Strength {
             scale: Some(scale),
             ..Strength::default()
         },
+        polarization: None,
     }
 }
 
@@ -149,6 +159,7 @@ struct Image<'a> {
     scale: f64,
     illuminant: Option<&'a str>,
     rotation_deg: f64,
+    polarization: Option<Polarization>,
 }
 
 impl Image<'_> {
@@ -177,7 +188,10 @@ impl Image<'_> {
                 extrapolate: Extrapolate::Error,
             }
         };
-        let factor = times(lamp, self.scale);
+        let factor = description::Emission {
+            polarization: self.polarization,
+            ..times(lamp, self.scale)
+        };
         let emission = spectra.emission(checks, &top, &factor, Radiator::Environment);
         let (sphere, emission) = (sphere?, emission?);
         self.check_brightest(

@@ -1,6 +1,7 @@
 //! Lights that are not objects: from `[[lights]]` to [`Light`].
 
 use super::checks::Checks;
+use super::polarization;
 use super::spectrum_list::SpectrumList;
 use super::strength::Radiator;
 use crate::description;
@@ -115,10 +116,9 @@ fn check(
     };
     let radiator = shape.map_or(any_radiator(light), radiator);
     let emission = spectra.emission(checks, &field.key("emission"), light.emission(), radiator);
-    Some(Light {
-        shape: shape?,
-        emission: emission?,
-    })
+    let (shape, emission) = (shape?, emission?);
+    polarization::check_across(checks, field, &shape, emission.polarization)?;
+    Some(Light { shape, emission })
 }
 
 /// The radiator that stands in for a light with an invalid shape.

@@ -14,6 +14,7 @@ mod material;
 mod microsurface;
 mod object;
 mod picture_file;
+mod polarization;
 mod power;
 mod settings;
 mod sky;
@@ -34,6 +35,7 @@ pub(crate) fn checked(description: &Description, folder: &Folder) -> Result<Scen
     check_counts(&mut checks, description);
     let settings = settings::check(&mut checks, &description.render);
     let camera = camera::check(&mut checks, &description.camera);
+    polarization::check_is_traced(&mut checks, description);
     let mut spectra = SpectrumList::new(settings.grid, description.render.sampling);
     let materials = material::check_all(&mut checks, &mut spectra, &description.materials);
     let objects = object::check_all(&mut checks, &description.materials, &description.objects);

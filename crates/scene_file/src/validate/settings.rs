@@ -57,7 +57,7 @@ pub(crate) fn check(checks: &mut Checks, render: &Render) -> Checked {
             seed: render.seed,
             bands: grid?,
             sampling: render.sampling,
-            polarization: false,
+            polarization: render.polarization,
             max_path_segments: max_path_segments?,
             direct_light: render.direct_light,
             film_splits: film_splits?,

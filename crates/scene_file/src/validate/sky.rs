@@ -8,7 +8,7 @@ use crate::limits;
 use document::FieldPath;
 use glam::DVec3;
 use rayon::prelude::*;
-use scene::LightShape;
+use scene::{EmittedPolarization, LightShape};
 use spectra::sky::{ClearSky, SUN_DIAMETER_DEG, daylight_basis};
 use spectra::{BandGrid, BandTable, Spectrum, Tabulated};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -22,6 +22,8 @@ pub(super) struct Sky<'a> {
     pub(super) sun_azimuth_deg: f64,
     pub(super) turbidity: f64,
     pub(super) ground: &'a Reflectance,
+    /// The degree of polarization at 90° from the sun.
+    pub(super) polarization_degree: f64,
 }
 
 /// A sky after the checks.
@@ -30,6 +32,8 @@ pub(super) struct Checked {
     pub(super) sphere: Sphere,
     /// The radiance of the sun's disk.
     pub(super) sunlight: Spectrum,
+    /// The polarization of the sky.
+    pub(super) polarization: Option<EmittedPolarization>,
     /// The direction and size of the sun's disk.
     pub(super) disk: LightShape,
 }
@@ -49,7 +53,13 @@ impl Sky<'_> {
             &limits::ROTATION_DEG,
         );
         let turbidity = number("turbidity", self.turbidity, &limits::TURBIDITY);
+        let most = number(
+            "polarization_degree",
+            self.polarization_degree,
+            &limits::FRACTION,
+        );
         let ground = spectra.reflectance(checks, &top.key("ground"), self.ground)?;
+        let most = most?;
         let (elevation, azimuth) = (elevation?.to_radians(), azimuth?.to_radians());
         let grid = spectra.grid()?;
         let sun_angle = FRAC_PI_2 - elevation;
@@ -60,11 +70,13 @@ impl Sky<'_> {
         let ground = means(&grid, spectra.table(ground));
         let (sin_a, cos_a) = azimuth.sin_cos();
         let (height, radius) = elevation.sin_cos();
+        let toward = DVec3::new(radius * sin_a, height, -radius * cos_a);
         Some(Checked {
             sphere: sky.over(&ground, &of_sun),
             sunlight,
+            polarization: (most > 0.0).then_some(EmittedPolarization::Sky { sun: toward, most }),
             disk: LightShape::DistantDisk {
-                toward: DVec3::new(radius * sin_a, height, -radius * cos_a),
+                toward,
                 height: 2.0 * (0.25 * SUN_DIAMETER_DEG.to_radians()).sin().powi(2),
             },
         })

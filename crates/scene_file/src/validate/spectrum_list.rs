@@ -1,6 +1,7 @@
 //! Spectra: from names, tables and constants to band tables without duplicates.
 
 use super::checks::Checks;
+use super::polarization;
 use super::strength::{self, Amount, Radiator};
 use crate::description::{
     self, EmissionSpectrum, Extrapolate, Index, Reflectance, WavelengthSampling,
@@ -162,15 +163,20 @@ impl SpectrumList {
     ) -> Option<Emission> {
         let spectrum = emission_spectrum(checks, field, &written.spectrum);
         let name = lamp_name(&written.spectrum);
-        self.emission_of(
+        let polarization = polarization::check(checks, field, written, radiator);
+        let emission = self.emission_of(
             checks,
             field,
             (name, spectrum),
             (&written.strength, radiator),
-        )
+        );
+        Some(Emission {
+            polarization: polarization?,
+            ..emission?
+        })
     }
 
-    /// Like [`Self::emission`], for a spectrum that is not written in the file, with the name of its lamp.
+    /// Like [`Self::emission`], for unpolarized light with a spectrum that is not written in the file, with the name of its lamp.
     pub(crate) fn emission_of(
         &mut self,
         checks: &mut Checks,

@@ -97,7 +97,7 @@ impl Radiator {
         }
     }
 
-    fn noun(self) -> &'static str {
+    pub(crate) fn noun(self) -> &'static str {
         match self {
             Self::Emitter => "an emitter",
             Self::Environment => "a constant environment",

@@ -22,6 +22,7 @@ mod layers;
 mod light_groups;
 mod lights;
 mod pictures;
+mod polarization;
 mod problems;
 mod schema;
 mod thickness;

@@ -2,6 +2,7 @@
 
 mod documents;
 mod materials;
+mod polarization;
 mod values;
 
 use crate::said;

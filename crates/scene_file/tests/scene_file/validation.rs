@@ -470,6 +470,7 @@ fn a_scene_can_be_built_in_code() {
             fov_deg: 30.0,
             lens: None,
             filter: description::Filter::Box,
+            polarizer: None,
         },
         render: description::Render {
             samples: 2,
