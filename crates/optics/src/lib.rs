@@ -11,6 +11,7 @@
 //! | formulas for your own loop over wavelengths, in SIMD registers | [`wide`] |
 //! | a film by the two beams of Suzuki, Yokoi and Toriwaki | [`two_beam`] |
 //! | one boundary | [`fresnel`], [`reflectance_unpolarized`] |
+//! | what becomes of polarized light | [`Mueller`]; fast, [`wide::PolarizedPowers`] |
 //! | the model of Cook and Torrance as printed in 1981 and later | [`gaussian_d1`], [`beckmann_d2`], [`index_from_normal_reflectance`] |
 //! | a diffuse body below a coat | [`hemispherical_reflectance`], [`coated_albedo_factor`] |
 //! | rough surfaces | [`Microsurface`], [`multiple_color`] |
@@ -44,7 +45,8 @@
 //! the angle between a ray and the normal, measured in the medium that contains the ray.
 //!
 //! s is the polarization whose electric field is perpendicular to the plane of incidence; the field of p
-//! is in that plane. The sign of r_p is such that it equals −r_s at normal incidence.
+//! is in that plane. The sign of r_p is such that it equals −r_s at normal incidence. For every ray with direction d, p = d × s.
+//! [`Mueller`] says what Stokes vectors are.
 
 pub mod batch;
 mod coat;
@@ -53,6 +55,7 @@ mod fresnel;
 mod gaussian;
 mod microfacet;
 mod microsurface;
+mod polarization;
 mod stack;
 mod two_beam;
 pub mod wide;
@@ -69,6 +72,7 @@ pub use microsurface::{
     Distribution, MEAN_COSINES, Microsurface, mean_reflectance, multiple_color,
 };
 pub use num_complex::Complex64;
+pub use polarization::Mueller;
 pub use stack::{
     Layer, StackAmplitudes, ThicknessDerivative, absorptance, film, stack, thickness_derivatives,
 };

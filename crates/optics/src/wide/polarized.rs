@@ -10,7 +10,7 @@ const LEAST_Q2: f64 = 1e-100;
 /// What an interface or a film does to polarized light, reflected or transmitted, in the frame whose reference axis is s.
 ///
 /// The amplitudes a_s and a_p are those of reflection, or of transmission in units in which their squares are powers. These four
-/// numbers are all that light's Stokes vector depends on. Signs are those of the crate: r_p = −r_s at normal incidence, waves vary as
+/// numbers are all that light's Stokes vector depends on: [`Mueller::from_powers`](crate::Mueller::from_powers) is the matrix. Signs are those of the crate: r_p = −r_s at normal incidence, waves vary as
 /// exp(−iωt).
 #[derive(Clone, Copy, Debug)]
 pub struct PolarizedPowers<T> {
