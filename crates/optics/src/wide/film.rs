@@ -48,15 +48,18 @@ pub fn two_beam_powers<T: Real>(
     // cos 2πl/λ = 1 − 2 sin² πl/λ.
     let sine = sin_half_turns(optical.times(twice_nm) * inverse_wavelength);
     let cos_phase = (sine * sine).times(2.0).complement();
-    let square = |r: T| r * r;
-    let of = |r2: T| {
-        let rest = r2.complement();
-        let reflected = r2 * (rest * (rest - cos_phase.times(2.0)) + n.constant(1.0));
-        (reflected, rest * rest)
-    };
-    let (r_s, t_s) = of(square((c - q) / (c + q)));
-    let (r_p, t_p) = of(square((n2 * c - q) / (n2 * c + q)));
+    let (r_s, t_s) = two_beams((c - q) / (c + q), cos_phase);
+    let (r_p, t_p) = two_beams((n2 * c - q) / (n2 * c + q), cos_phase);
     ((r_s + r_p).times(0.5), (t_s + t_p).times(0.5))
+}
+
+/// R and T from the amplitude of the upper surface and cos 2πl/λ. (A closure would not be inlined.)
+#[inline(always)]
+fn two_beams<T: Real>(r: T, cos_phase: T) -> (T, T) {
+    let r2 = r * r;
+    let rest = r2.complement();
+    let reflected = r2 * (rest * (rest - cos_phase.times(2.0)) + r.constant(1.0));
+    (reflected, rest * rest)
 }
 
 #[cfg(test)]
