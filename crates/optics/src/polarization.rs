@@ -75,7 +75,7 @@ impl Mueller {
             .map(|row| row.iter().zip(stokes).map(|(m, s)| m * s).sum())
     }
 
-    /// The coherency matrix H = ¼ Σ mᵢⱼ σᵢ ⊗ σⱼ* (Cloude, "Group theory and polarisation algebra", Optik 75, 26–36, 1986).
+    /// The coherency matrix H = ¼ Σ mᵢⱼ σᵢ ⊗ σⱼ* (Cloude, Optik 75, 26–36, 1986).
     ///
     /// The σᵢ are those by which ½ Σ Sᵢ σᵢ is the matrix of the products Eₐ E_b*: 1, diag(1, −1), ((0, 1), (1, 0)) and ((0, i), (−i, 0)).
     /// The trace of H is m₀₀. For a matrix that has amplitudes, Jones' matrix J, H is ½ v v† with v = (Jₓₓ, Jₓᵧ, Jᵧₓ, Jᵧᵧ). Sums of such

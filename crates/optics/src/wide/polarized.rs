@@ -10,8 +10,8 @@ const LEAST_Q2: f64 = 1e-100;
 /// What an interface or a film does to polarized light, reflected or transmitted, in the frame whose reference axis is s.
 ///
 /// The amplitudes a_s and a_p are those of reflection, or of transmission in units in which their squares are powers. These four
-/// numbers are all that light's Stokes vector depends on: [`Mueller::from_powers`](crate::Mueller::from_powers) is the matrix. Signs are those of the crate: r_p = −r_s at normal incidence, waves vary as
-/// exp(−iωt).
+/// numbers are all that light's Stokes vector depends on: [`Mueller::from_powers`](crate::Mueller::from_powers) is the matrix.
+/// Signs are those of the crate: r_p = −r_s at normal incidence, waves vary as exp(−iωt).
 #[derive(Clone, Copy, Debug)]
 pub struct PolarizedPowers<T> {
     /// |a_s|².
@@ -29,11 +29,11 @@ pub struct PolarizedPowers<T> {
 ///
 /// With c the cosine, s² = 1 − c² and q = a + ib, q² = (n + ik)² − s²: r_s = (c − q) / (c + q) and
 /// r_p = −r_s (cq − s²) / (cq + s²) (Born and Wolf, Principles of Optics, 7th ed., section 1.5, equation 21, factored by
-/// n² = q² + s² and 1 = c² + s²). Hence
-/// r_s r_p* = −R_s (c²|q|² − s⁴ − 2i s² c b) / |cq + s²|². All terms are multiplied by the larger part of q: it is a root, and the smaller
-/// part times it is nk, without cancellation.
+/// n² = q² + s² and 1 = c² + s²). Hence r_s r_p* = −R_s (c²|q|² − s⁴ − 2i s² c b) / |cq + s²|². All terms are multiplied by the
+/// larger part of q: it is a root, and the smaller part times it is nk, without cancellation.
 ///
-/// Domain: n ≥ 0, k ≥ 0, not both 0; `cosine` in (0, 1]. It agrees with [`stack`](crate::stack) without layers within 1e-14.
+/// Domain: n ≥ 0, k ≥ 0, not both 0; `cosine` in (0, 1]. It agrees with [`stack`](crate::stack) without layers within 1e-14 where
+/// |n + ik| is at least 0.1.
 #[inline(always)]
 pub fn interface_polarized<T: Real>(n: T, k: T, cosine: f64) -> PolarizedPowers<T> {
     let sin2 = (1.0 - cosine) * (1.0 + cosine);
@@ -122,7 +122,8 @@ pub fn clear_film_polarized<T: Real>(
 /// Reflection and transmission of polarized light by [`two_beam`](crate::two_beam), with the same domain.
 ///
 /// R is the square of r − (1 − r²) r exp(2πil/λ), with r Fresnel's amplitude of the upper surface: here the phase between s and p is that
-/// of these amplitudes. (It is small, and the beams left out are of the same order: the phase of [`film`](crate::film) differs.) The transmitted light does not interfere, so its amplitudes 1 − r² are real.
+/// of these amplitudes. (It is small, and the beams left out are of the same order: the phase of [`film`](crate::film) differs.)
+/// The transmitted light does not interfere, so its amplitudes 1 − r² are real.
 #[inline(always)]
 pub fn two_beam_polarized<T: Real>(
     n: T,
