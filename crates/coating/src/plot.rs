@@ -4,7 +4,7 @@ use crate::response::{Angle, absorptance};
 use crate::stack_color::{Color, Polarization, Side, View};
 use optics::batch::Powers;
 use picture_file::RgbImage8;
-use plot::{CurveName, Panel, PanelPlot, Swatch};
+use plot::{CurveName, Over, Panel, PanelPlot, Swatch, Vertical};
 
 /// A plot of R, T and A over wavelength, with a curve and a color swatch per angle.
 #[derive(Clone, Debug)]
@@ -99,7 +99,7 @@ impl Plot {
         let note = self.curves.iter().any(is_clipped);
         PanelPlot {
             title: self.title.clone(),
-            wavelengths_nm: self.wavelengths_nm.clone(),
+            over: Over::Wavelengths(self.wavelengths_nm.clone()),
             panels: self.quantities().iter().map(|q| self.panel(q)).collect(),
             heading: self.heading().into(),
             names: self.curves.iter().map(|curve| self.name(curve)).collect(),
@@ -112,7 +112,7 @@ impl Plot {
         let values = |curve| self.values(quantity, curve).collect();
         Panel {
             name: quantity.name.to_owned(),
-            range: (low, high.min(1.0)),
+            range: Vertical::AtLeast(low, high.min(1.0)),
             curves: self.curves.iter().map(values).collect(),
         }
     }

@@ -2,12 +2,35 @@
 
 use crate::picture::{Drawn, FAINT, INK, Scale};
 use plotters::coord::Shift;
-use plotters::coord::ranged1d::{BoldPoints, Ranged};
+use plotters::coord::ranged1d::{BoldPoints, DefaultFormatting, KeyPointHint, Ranged};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
 /// Coordinates of a drawing with two axes.
-pub(crate) type Plane = Cartesian2d<RangedCoordf64, RangedCoordf64>;
+pub(crate) type Plane = Cartesian2d<RangedCoordf64, Ticked>;
+
+/// A coordinate whose labels are at given values.
+pub(crate) struct Ticked {
+    coordinate: RangedCoordf64,
+    ticks: Vec<f64>,
+}
+
+impl Ranged for Ticked {
+    type FormatOption = DefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        self.coordinate.map(value, limit)
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
+        self.ticks.clone()
+    }
+
+    fn range(&self) -> std::ops::Range<f64> {
+        self.coordinate.range()
+    }
+}
 
 /// An axis.
 pub(crate) struct Axis<'a> {
@@ -31,6 +54,8 @@ pub(crate) struct Labels {
 pub(crate) struct Axes<'a> {
     pub(crate) x: Axis<'a>,
     pub(crate) y: Axis<'a>,
+    /// The step between the labels of the vertical axis, which starts at 0; `None` for a round one.
+    pub(crate) y_step: Option<f64>,
     /// Whether the horizontal axis has its name and labels. Without them, another one stands below it.
     pub(crate) names_x: bool,
     /// Whether lines continue the ticks.
@@ -58,8 +83,20 @@ impl Axes<'_> {
             .set_label_area_size(LabelAreaPosition::Bottom, scale.px(self.below))
             .build_cartesian_2d(
                 self.x.range.0..self.x.range.1,
-                self.y.range.0..self.y.range.1,
+                Ticked {
+                    coordinate: (self.y.range.0..self.y.range.1).into(),
+                    ticks: self.y_ticks(),
+                },
             )
+    }
+
+    /// The values of the labels of the vertical axis.
+    fn y_ticks(&self) -> Vec<f64> {
+        let Some(step) = self.y_step else {
+            return self.y.ticks();
+        };
+        let count = (self.y.range.1 / step + 1e-9) as u32;
+        (0..=count).map(|tick| f64::from(tick) * step).collect()
     }
 
     /// Draws the axes with their names, labels and grid.
@@ -68,7 +105,8 @@ impl Axes<'_> {
         chart: &mut ChartContext<'_, B, Plane>,
         scale: Scale,
     ) -> Drawn<B> {
-        let (x_decimals, y_decimals) = (self.x.decimals(), self.y.decimals());
+        let [x_decimals, y_decimals] = [(&self.x, self.x.ticks()), (&self.y, self.y_ticks())]
+            .map(|(axis, ticks)| decimals(axis.range, &ticks, axis.labels.decimals));
         let x_label = |value: &f64| {
             if self.names_x {
                 format!("{value:.x_decimals$}")
@@ -98,10 +136,9 @@ impl Axes<'_> {
 }
 
 impl Axis<'_> {
-    /// The number of decimals of its labels.
-    fn decimals(&self) -> usize {
-        let (from, to) = self.range;
-        decimals(from, to, self.labels.most, self.labels.decimals)
+    /// The values of its labels, in round steps.
+    fn ticks(&self) -> Vec<f64> {
+        round_ticks(self.range, self.labels.most)
     }
 }
 
@@ -120,10 +157,13 @@ pub(crate) fn round_range(low: f64, high: f64) -> (f64, f64) {
     (first, last.max(first + step))
 }
 
-/// Returns the number of decimals for the labels of an axis, at least `least`: as many as their steps have. `most` is the maximum
-/// number of labels.
-fn decimals(from: f64, to: f64, most: usize, least: usize) -> usize {
-    let ticks = RangedCoordf64::from(from..to).key_points(BoldPoints(most));
+/// Returns at most `most` values for the labels of an axis, in round steps.
+fn round_ticks((from, to): (f64, f64), most: usize) -> Vec<f64> {
+    RangedCoordf64::from(from..to).key_points(BoldPoints(most))
+}
+
+/// Returns the number of decimals for the labels of an axis, at least `least`: as many as their steps have.
+fn decimals((from, to): (f64, f64), ticks: &[f64], least: usize) -> usize {
     let step = ticks
         .windows(2)
         .map(|pair| pair[1] - pair[0])
@@ -142,11 +182,12 @@ mod tests {
 
     #[test]
     fn labels_differ() {
-        assert_eq!(decimals(380.0, 780.0, 9, 0), 0);
-        assert_eq!(decimals(0.0, 1.0, 6, 2), 2);
-        for (from, to) in [(500.0, 502.0), (0.0, 1e-3), (0.92, 0.93), (380.0, 380.001)] {
-            let decimals = decimals(from, to, 6, 0);
-            let ticks = RangedCoordf64::from(from..to).key_points(BoldPoints(6));
+        let least = |range, most, least| decimals(range, &round_ticks(range, most), least);
+        assert_eq!(least((380.0, 780.0), 9, 0), 0);
+        assert_eq!(least((0.0, 1.0), 6, 2), 2);
+        for range in [(500.0, 502.0), (0.0, 1e-3), (0.92, 0.93), (380.0, 380.001)] {
+            let ticks = round_ticks(range, 6);
+            let decimals = decimals(range, &ticks, 0);
             let labels: std::collections::BTreeSet<String> = ticks
                 .iter()
                 .map(|tick| format!("{tick:.decimals$}"))

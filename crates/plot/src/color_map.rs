@@ -52,6 +52,7 @@ impl ColorMap<'_> {
         Axes {
             x: self.x.with_labels(11),
             y: self.y.with_labels(10),
+            y_step: None,
             names_x: true,
             grid: false,
             above: 14.0,

@@ -4,7 +4,7 @@
 //! that comes with the program.
 //!
 //! ```text
-//! PanelPlot       curves over wavelength, in panels one above another, with a legend
+//! PanelPlot       curves over wavelength or angle, in panels one above another, with a legend
 //! SpectrumPlot    spectra of pixels: each band's mean as a step, with its noise
 //! ColorMap        a color at each place of two axes
 //! contact_sheet   pictures side by side, each with a label above it
@@ -24,6 +24,6 @@ mod wavelengths;
 
 pub use color_map::{ColorMap, MapAxis};
 pub use legend::Swatch;
-pub use panel_plot::{CurveName, Panel, PanelPlot};
+pub use panel_plot::{CurveName, Over, Panel, PanelPlot, Vertical};
 pub use sheet::{MAX_PICTURES, SheetColors, contact_sheet};
 pub use spectrum_plot::{Series, SpectrumPlot};

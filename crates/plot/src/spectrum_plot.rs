@@ -160,6 +160,7 @@ impl Drawing for SpectrumPlot {
                     decimals: 0,
                 },
             },
+            y_step: None,
             names_x: true,
             grid: true,
             above: 8.0,
