@@ -11,6 +11,10 @@ use optics::Complex64;
 use spectra::OutOfRange;
 use thiserror::Error;
 
+/// Why an incident medium that absorbs is refused: the Poynting vector has a term of both waves, which is no part of either
+/// (Macleod, Thin-Film Optical Filters, chapter 2).
+const WHY_TRANSPARENT: &str = "in a medium that absorbs, incident and reflected light carry no separate powers, so R and T are not defined";
+
 /// A stack: the incident medium, the layers in order from there, and the substrate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stack {
@@ -70,7 +74,10 @@ pub enum SampleError {
         fault: String,
     },
     /// The incident medium absorbs there.
-    #[error("at {nm} nm the incident medium, {label}, has k = {k}; it must be transparent (k = 0)")]
+    #[error(
+        "at {nm} nm the incident medium, {label}, has k = {k}; it must be transparent (k = 0), since {}",
+        WHY_TRANSPARENT
+    )]
     IncidentAbsorbs {
         /// Name of the medium.
         label: String,
@@ -168,9 +175,11 @@ impl Stack {
     /// Returns why `medium` cannot be the incident medium; `None` if it can.
     pub(crate) fn fault_of_incident(medium: &Medium) -> Option<String> {
         let label = medium.label();
-        medium
-            .absorbs()
-            .then(|| format!("{label} absorbs; the incident medium must be transparent (k = 0)"))
+        medium.absorbs().then(|| {
+            format!(
+                "{label} absorbs; the incident medium must be transparent (k = 0), since {WHY_TRANSPARENT}"
+            )
+        })
     }
 
     /// The incident medium.
