@@ -5,10 +5,11 @@
 //!   -> Stack                media (n + ik over wavelength) and layers with their thickness
 //!   -> Sampled              the stack at chosen wavelengths: numbers alone
 //!   -> powers               R, T and A for s and p over wavelength at an angle
+//!   -> amplitudes           r and t, and the ellipsometric angles
 //!   -> Light::xyz           color under an illuminant for an observer, sums at 1 nm
 //!   -> sensitivity, tolerance, matching: how the color depends on the thicknesses
 //!   -> film_fit             which thickness gives a measured or rendered spectrum
-//!   -> plot, chart          pictures of these results
+//!   -> plot, phase_plot, chart  pictures of these results
 //! ```
 //!
 //! ```
@@ -38,6 +39,8 @@ mod matching;
 mod medium;
 mod model;
 mod open;
+mod phase;
+mod phase_plot;
 mod plot;
 mod response;
 mod sensitivity;
@@ -48,6 +51,7 @@ mod tolerance;
 mod view;
 
 pub use self::plot::{Curve, Plot};
+pub use ::plot::Over;
 pub use angle::{Angle, AngleError};
 pub use chart::{Chart, ChartOf};
 pub use file::{LayerDescription, OpticalThickness, StackDescription};
@@ -58,8 +62,10 @@ pub use matching::{Match, MatchBy, MatchPlace, Matching, matches};
 pub use medium::{Layer, Medium};
 pub use model::Model;
 pub use open::StackError;
-pub use optics::PathDifference;
 pub use optics::batch::Powers;
+pub use optics::{Amplitudes, PathDifference};
+pub use phase::{EllipsometricAngles, PSign};
+pub use phase_plot::PhasePlot;
 pub use response::{Batch, Sampled, absorptance};
 pub use sensitivity::{LayerSensitivity, Sensitivity, sensitivity};
 pub use stack::{SampleError, Stack};

@@ -238,7 +238,7 @@ impl Sampled {
     }
 
     /// Evaluates a function of the incident index, layers, substrate and wavelength at each wavelength.
-    fn each<T>(
+    pub(crate) fn each<T>(
         &self,
         thicknesses_nm: &[f64],
         of: impl Fn(f64, &[Layer], Complex64, f64) -> T,
