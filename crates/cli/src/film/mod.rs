@@ -3,6 +3,7 @@
 mod look;
 mod model;
 pub(crate) mod numbers;
+mod phase;
 mod pictures;
 mod report;
 mod spectra;
@@ -19,6 +20,7 @@ use pellicle::document::wording::number;
 use pellicle::gpu::AdapterChoice;
 use pellicle::spectra::Observer;
 use pellicle::{Backend, Renderer, coating, stacks};
+use phase::PhaseOptions;
 use std::path::PathBuf;
 
 /// Compute spectra, colors, plots and tolerances of a stack of thin films.
@@ -65,6 +67,8 @@ pub(crate) struct Arguments {
     /// Also print the absorptance of each layer (always computed on the CPU)
     #[arg(long)]
     absorptance: bool,
+    #[command(flatten)]
+    phases: PhaseOptions,
     /// Device that computes R and T: the CPU in f64, or a GPU in f32. On a GPU, ordinary stacks seen from air are accurate to 5e-5 up to
     /// 88°; errors are larger for incidence from a denser medium near a critical angle, films beyond 10 µm, and hundreds of layers
     #[arg(long, value_enum, default_value_t = BackendName::Cpu)]
@@ -109,7 +113,7 @@ pub(crate) struct Arguments {
 enum Format {
     /// A text table, with the color at each angle
     Table,
-    /// wavelength_nm,angle_deg,Rs,Rp,Ts,Tp with 17 digits
+    /// wavelength_nm,angle_deg,Rs,Rp,Ts,Tp with 17 digits; then the columns of --absorptance and --phase
     Csv,
     /// All results, with the stack and its refractive indices
     Json,

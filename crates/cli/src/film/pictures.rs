@@ -1,5 +1,6 @@
 //! Plots and charts of stacks, written to files.
 
+use super::phase::{self, OverName};
 use super::{Film, Vary, model};
 use crate::{output, print};
 use miette::{IntoDiagnostic, WrapErr, miette};
@@ -21,18 +22,7 @@ pub(crate) fn check(film: &Film) -> miette::Result<()> {
     let arguments = film.arguments;
     if let Some(path) = &arguments.plot {
         place("--plot", path, &[Kind::Svg, Kind::Png], film)?;
-        let nm = film.wavelengths_nm(1)?;
-        if nm.len() < 2 || !nm.windows(2).all(|pair| pair[0] < pair[1]) {
-            return Err(miette!(
-                "--plot: there must be two or more wavelengths, in increasing order"
-            ));
-        }
-        if film.angles.len() > Plot::MAX_CURVES {
-            let (found, most) = (film.angles.len(), Plot::MAX_CURVES);
-            return Err(miette!(
-                "--plot: {found} angles; at most {most} can be told apart"
-            ));
-        }
+        check_axis(film)?;
     }
     if let Some(path) = &arguments.chart {
         place("--chart", path, &[Kind::Png], film)?;
@@ -48,14 +38,39 @@ pub(crate) fn check(film: &Film) -> miette::Result<()> {
     Ok(())
 }
 
+/// Checks the horizontal axis of a plot and the number of its curves.
+fn check_axis(film: &Film) -> miette::Result<()> {
+    let nm = film.wavelengths_nm(1)?;
+    let degrees: Vec<f64> = film.angles.iter().map(|angle| angle.degrees()).collect();
+    let (axis, values, curves, count) = match film.arguments.phases.plot_over {
+        OverName::Wavelength => ("wavelengths", nm, "angles", degrees.len()),
+        OverName::Angle => ("angles", degrees, "wavelengths", nm.len()),
+    };
+    if values.len() < 2 || !values.windows(2).all(|pair| pair[0] < pair[1]) {
+        return Err(miette!(
+            help = format!("use --{axis}"),
+            "--plot: there must be two or more {axis}, in increasing order"
+        ));
+    }
+    let most = Plot::MAX_CURVES;
+    if count > most {
+        return Err(miette!(
+            help = format!("use --{curves}"),
+            "--plot: {count} {curves}; at most {most} can be told apart"
+        ));
+    }
+    Ok(())
+}
+
 /// Draws and writes the requested pictures.
 pub(crate) fn write(film: &Film) -> miette::Result<()> {
     if let Some(path) = &film.arguments.plot {
-        let plot = plot(film)?;
-        if kind(path) == Some(Kind::Svg) {
-            write_text(path, &plot.svg())?;
-        } else {
-            write_pixels(path, &plot.pixels())?;
+        let is_svg = kind(path) == Some(Kind::Svg);
+        match (film.arguments.phases.phase, is_svg) {
+            (false, true) => write_text(path, &plot(film)?.svg())?,
+            (false, false) => write_pixels(path, &plot(film)?.pixels())?,
+            (true, true) => write_text(path, &phase::plot(film)?.svg())?,
+            (true, false) => write_pixels(path, &phase::plot(film)?.pixels())?,
         }
         print::note(format_args!("wrote {}", path.display()));
     }

@@ -1,5 +1,6 @@
 //! R and T over wavelength and angle, as a table, as CSV or as JSON.
 
+use super::phase::{self, Phase};
 use super::{Film, Format};
 use crate::print;
 use crate::swatch::swatch;
@@ -22,6 +23,8 @@ struct AtAngle {
     powers: Vec<Powers>,
     /// The absorptances of the layers at each wavelength; empty if they were not requested.
     absorptances: Vec<Vec<Polarized>>,
+    /// Amplitudes and ellipsometric angles at each wavelength; empty if they were not requested.
+    phases: Vec<Phase>,
     /// `None` if the data of the stack do not cover visible light.
     color: Option<Color>,
 }
@@ -51,6 +54,7 @@ impl<'a> Spectra<'a> {
             } else {
                 Vec::new()
             },
+            phases: phase::phases(film, &sampled, angle),
             color: color.as_ref().map(|color| color.at(thicknesses, angle)),
         };
         let angles = film.angles.iter().zip(powers).map(at_angle).collect();
@@ -66,11 +70,11 @@ impl<'a> Spectra<'a> {
     fn rows<'b>(
         &'b self,
         at: &'b AtAngle,
-    ) -> impl Iterator<Item = (f64, &'b Powers, &'b [Polarized])> {
+    ) -> impl Iterator<Item = (f64, &'b Powers, &'b [Polarized], Option<&'b Phase>)> {
         let numbered = self.sampled.wavelengths_nm().iter().enumerate();
         numbered.map(|(w, &nm)| {
             let absorptances = at.absorptances.get(w).map_or(&[][..], Vec::as_slice);
-            (nm, &at.powers[w], absorptances)
+            (nm, &at.powers[w], absorptances, at.phases.get(w))
         })
     }
 
@@ -95,9 +99,12 @@ impl<'a> Spectra<'a> {
         self.layers().for_each(|layer| {
             let _ = write!(head, " {:>9}", format!("A{layer}"));
         });
+        if self.film.arguments.phases.phase {
+            head += &format!(" {:>9} {:>9}", "psi_deg", "delta_deg");
+        }
         for at in &self.angles {
             let _ = writeln!(text, "\n{}\n{head}", self.heading(at));
-            for (nm, powers, absorptances) in self.rows(at) {
+            for (nm, powers, absorptances, phase) in self.rows(at) {
                 let (r, t) = (powers.reflectance, powers.transmittance);
                 // Two beams have no absorptance.
                 let a = is_exact.then(|| absorptance(*powers).unpolarized());
@@ -107,6 +114,9 @@ impl<'a> Spectra<'a> {
                 for figure in figures.into_iter().chain(a).chain(layers) {
                     // A value that rounds to 0 is shown without a sign.
                     let _ = write!(text, " {:>9.6}", (figure * 1e6).round() / 1e6 + 0.0);
+                }
+                for degrees in phase.map(Phase::angles).iter().flatten() {
+                    let _ = write!(text, " {:>9}", shown_angle(*degrees));
                 }
                 text.push('\n');
             }
@@ -127,9 +137,12 @@ impl<'a> Spectra<'a> {
         for layer in self.layers() {
             let _ = write!(text, ",A{layer}s,A{layer}p");
         }
+        if self.film.arguments.phases.phase {
+            let _ = write!(text, ",{}", Phase::COLUMNS.join(","));
+        }
         text.push('\n');
         for at in &self.angles {
-            for (nm, powers, absorptances) in self.rows(at) {
+            for (nm, powers, absorptances, phase) in self.rows(at) {
                 let _ = write!(text, "{nm},{}", at.angle.degrees());
                 let layers = absorptances.iter().copied();
                 for power in [powers.reflectance, powers.transmittance]
@@ -138,6 +151,10 @@ impl<'a> Spectra<'a> {
                 {
                     // + 0 turns −0 into 0.
                     let _ = write!(text, ",{:.16e},{:.16e}", power.s + 0.0, power.p + 0.0);
+                }
+                for figure in phase.map(Phase::figures).iter().flatten() {
+                    let cell = figure.map_or_else(String::new, |figure| format!("{figure:.16e}"));
+                    let _ = write!(text, ",{cell}");
                 }
                 text.push('\n');
             }
@@ -171,6 +188,9 @@ impl<'a> Spectra<'a> {
         if let Some(path) = stack.model().path_difference() {
             value["path_difference"] = json!(path);
         }
+        if self.film.arguments.phases.phase {
+            value["phase"] = phase::about(self.film);
+        }
         value
     }
 
@@ -196,6 +216,12 @@ impl<'a> Spectra<'a> {
             };
             value["layers"] = self.layers().map(of_layer).collect();
         }
+        if !at.phases.is_empty() {
+            for (column, name) in Phase::COLUMNS.into_iter().enumerate() {
+                let figures = at.phases.iter().map(|phase| phase.figures()[column]);
+                value[name] = figures.collect();
+            }
+        }
         if let Some(color) = at.color {
             let lab = color.lab();
             value["color"] = json!({
@@ -211,6 +237,14 @@ impl<'a> Spectra<'a> {
         }
         value
     }
+}
+
+/// An ellipsometric angle in a table; "-" where it is not defined. What rounds to 360° is 0°.
+fn shown_angle(degrees: Option<f64>) -> String {
+    let Some(degrees) = degrees else {
+        return "-".to_owned();
+    };
+    format!("{:.4}", (degrees * 1e4).round() / 1e4 % 360.0)
 }
 
 /// The side of the stack that is shown, as a word.

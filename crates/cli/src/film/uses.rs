@@ -26,9 +26,12 @@ impl Arguments {
         })
     }
 
-    /// Whether no output has a color: CSV has none.
+    /// Whether no output has a color: CSV has none, and neither has a plot of phases.
     pub(super) fn shows_no_color(&self) -> bool {
-        self.format == Some(Format::Csv) && self.plot.is_none() && self.chart.is_none()
+        let plots_colors = self.plot.is_some() && !self.phases.phase;
+        let prints_colors = self.prints_spectra() && self.format != Some(Format::Csv);
+        let reports = self.wanted.is_some() || self.tolerance.is_some() || self.sensitivity;
+        !(prints_colors || plots_colors || self.chart.is_some() || reports)
     }
 
     /// Returns an error if an option has no effect.
@@ -46,6 +49,21 @@ impl Arguments {
                 "--backend gpu",
                 self.backend == BackendName::Gpu && !is_exact,
                 "the exact model; two beams are computed on the CPU",
+            ),
+            (
+                "--backend gpu",
+                self.backend == BackendName::Gpu && self.phases.phase && !spectra,
+                "R and T; ψ and Δ are computed on the CPU",
+            ),
+            (
+                "--phase",
+                self.phases.phase && !is_exact,
+                "the exact model; two beams are powers alone, without phases",
+            ),
+            (
+                "--phase",
+                self.phases.phase && !spectra_or_plot,
+                "printed R and T, and --plot; add --format table or --plot",
             ),
             (
                 "--absorptance",

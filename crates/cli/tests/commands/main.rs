@@ -25,6 +25,7 @@ mod ends;
 mod faults;
 mod film;
 mod film_models;
+mod film_phase;
 mod film_refusals;
 mod film_reports;
 #[cfg(target_os = "linux")]

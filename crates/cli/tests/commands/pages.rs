@@ -61,6 +61,7 @@ fn the_commands_of_the_readme_run() {
         let _ = Ran::of(&shell.output().unwrap()).succeeded();
         count += 1;
     }
-    assert_eq!(count, 7);
-    assert_eq!(place.names(), ["mirror.svg", "mirror.toml", "newton.png"]);
+    assert_eq!(count, 8);
+    let names = ["mirror.svg", "mirror.toml", "newton.png", "psi_delta.svg"];
+    assert_eq!(place.names(), names);
 }
