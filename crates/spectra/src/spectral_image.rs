@@ -299,17 +299,43 @@ impl SpectralImage {
         assert_eq!(xyz.len(), groups, "one color per light group");
         let pixel = self.pixel_index(x, y);
         for layer in &mut self.layers {
+            let values = layer.values_of(pixel);
+            match layer.key() {
+                LayerKey::VARIANCE => layer.floats_mut()[values].copy_from_slice(variance),
+                LayerKey::SAMPLES => layer.counts_mut()[pixel] = samples,
+                _ => {}
+            }
+        }
+        self.put_component(pixel, Stokes::S0, radiance, xyz);
+    }
+
+    /// Writes a component of the Stokes vector of pixel (x, y): its radiance as `[light group][band]`, and XYZ of each light group. The
+    /// totals are the sums over the light groups in their order. Nothing is written if the image does not hold the component.
+    ///
+    /// # Panics
+    /// When the pixel lies outside the image, or a slice has the wrong length.
+    pub fn set_component_by_light(
+        &mut self,
+        (x, y): (u32, u32),
+        stokes: Stokes,
+        radiance: &[f32],
+        xyz: &[[f32; 3]],
+    ) {
+        let groups = self.light_groups.len();
+        let bands = self.bands.count() as usize;
+        assert_eq!(radiance.len(), groups * bands, "one value per band");
+        assert_eq!(xyz.len(), groups, "one color per light group");
+        self.put_component(self.pixel_index(x, y), stokes, radiance, xyz);
+    }
+
+    fn put_component(&mut self, pixel: usize, stokes: Stokes, radiance: &[f32], xyz: &[[f32; 3]]) {
+        for layer in &mut self.layers {
             let (key, values) = (layer.key(), layer.values_of(pixel));
-            let given = match (key.quantity, key.light_group) {
-                _ if key.stokes != Stokes::S0 => continue,
-                (Quantity::Radiance, _) => radiance,
-                (Quantity::Xyz, _) => xyz.as_flattened(),
-                (Quantity::Variance, None) => variance,
-                (Quantity::Samples, None) => {
-                    layer.counts_mut()[pixel] = samples;
-                    continue;
-                }
-                _ => continue,
+            let given = match key.quantity {
+                _ if key.stokes != stokes => continue,
+                Quantity::Radiance => radiance,
+                Quantity::Xyz => xyz.as_flattened(),
+                Quantity::Variance | Quantity::Samples => continue,
             };
             let own = &mut layer.floats_mut()[values];
             match key.light_group {
@@ -317,6 +343,27 @@ impl SpectralImage {
                 Some(group) => own.copy_from_slice(&given[group * own.len()..][..own.len()]),
             }
         }
+    }
+
+    /// Mean radiance of a component of the Stokes vector due to the emitters of a group; otherwise as [`Self::radiance`]. Empty if the
+    /// image does not hold the component.
+    ///
+    /// # Panics
+    /// When there is no such light group.
+    pub fn group_component(&self, light_group: usize, stokes: Stokes) -> &[f32] {
+        self.floats(
+            self.key_of(Quantity::Radiance, light_group)
+                .component(stokes),
+        )
+    }
+
+    /// XYZ of a component of the Stokes vector due to the emitters of a group. Empty if the image does not hold the component.
+    ///
+    /// # Panics
+    /// When there is no such light group.
+    pub fn group_component_xyz(&self, light_group: usize, stokes: Stokes) -> &[[f32; 3]] {
+        let key = self.key_of(Quantity::Xyz, light_group).component(stokes);
+        self.floats(key).as_chunks().0
     }
 
     /// Number of samples of each pixel, to be changed.

@@ -24,6 +24,16 @@ impl Stokes {
     /// Those that describe the polarization.
     pub const POLARIZED: [Self; 3] = [Self::S1, Self::S2, Self::S3];
 
+    /// Its name: `S0` to `S3`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::S0 => "S0",
+            Self::S1 => "S1",
+            Self::S2 => "S2",
+            Self::S3 => "S3",
+        }
+    }
+
     /// Its place in a Stokes vector.
     pub const fn index(self) -> usize {
         self as usize

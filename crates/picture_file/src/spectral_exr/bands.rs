@@ -1,6 +1,6 @@
 //! The bands of a file's channels, and the band grid onto which they are read.
 
-use spectra::BandGrid;
+use spectra::{BandGrid, Stokes};
 
 use super::wavelength::SpectralPosition;
 use crate::exr_file::BandLayoutError;
@@ -10,9 +10,6 @@ const UNIFORM_WITHIN: f64 = 1e-3;
 
 /// The visible range. A band that extends beyond [`BandGrid::LIMITS_NM`] is left out unless part of it is in this range.
 const SEEN_NM: (f64, f64) = (380.0, 780.0);
-
-/// The layer of the emissive, unpolarized radiance: the first Stokes component.
-const PREFIX: &str = "S0.";
 
 /// Formats a wavelength as in the layout: `385,000000nm`.
 pub(super) fn wavelength_text(nm: f64) -> String {
@@ -28,9 +25,9 @@ pub(super) fn band_of_text(text: &str, grid: &BandGrid) -> Option<usize> {
     (wavelength_text(grid.center_nm(band)) == text).then_some(band as usize)
 }
 
-/// Returns the name of the channel of the band with center `nm`.
-pub(super) fn radiance_name(nm: f64) -> String {
-    format!("{PREFIX}{}", wavelength_text(nm))
+/// Returns the name of the channel of a component of the emissive radiance in the band with center `nm`.
+pub(super) fn radiance_name(stokes: Stokes, nm: f64) -> String {
+    format!("{}.{}", stokes.name(), wavelength_text(nm))
 }
 
 /// The grid onto which a file's bands are read.
@@ -259,8 +256,9 @@ mod tests {
 
     #[test]
     fn names_are_those_of_the_layout() {
-        assert_eq!(radiance_name(550.0), "S0.550,000000nm");
-        assert_eq!(radiance_name(380.0 + 400.0 / 48.0), "S0.388,333333nm");
+        assert_eq!(radiance_name(Stokes::S0, 550.0), "S0.550,000000nm");
+        let nm = 380.0 + 400.0 / 48.0;
+        assert_eq!(radiance_name(Stokes::S3, nm), "S3.388,333333nm");
     }
 
     #[test]
@@ -268,7 +266,7 @@ mod tests {
         for count in [2, 31, 40, 48, 61] {
             let grid = BandGrid::visible(count).unwrap();
             let place = |band| {
-                let name = radiance_name(grid.center_nm(band));
+                let name = radiance_name(Stokes::S0, grid.center_nm(band));
                 spectral_channel(&name).unwrap().unwrap().1
             };
             let places: Vec<SpectralPosition> = (0..count).map(place).collect();

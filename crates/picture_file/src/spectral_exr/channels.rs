@@ -23,9 +23,13 @@ fn value_name(key: LayerKey, index: usize, grid: &BandGrid, light_groups: &[Ligh
     let own = key.light_group.map_or(OWN.to_owned(), |group| {
         lights::prefix(&light_groups[group].name)
     });
+    let own = match key.stokes {
+        Stokes::S0 => own,
+        stokes => own + stokes.name() + ".",
+    };
     let center_nm = || grid.center_nm(index as u32);
     match (key.quantity, key.light_group) {
-        (Quantity::Radiance, None) => radiance_name(center_nm()),
+        (Quantity::Radiance, None) => radiance_name(key.stokes, center_nm()),
         (Quantity::Radiance, Some(_)) => own + &wavelength_text(center_nm()),
         (Quantity::Variance, _) => own + VARIANCE + &wavelength_text(center_nm()),
         (Quantity::Xyz, _) => own + XYZ[index],
@@ -47,10 +51,17 @@ pub(super) fn content(name: &str, grid: &BandGrid, light_groups: &[LightGroup]) 
         Some((group, rest)) => (Some(group), rest),
         None => (None, name.strip_prefix(OWN)?),
     };
+    let polarized = Stokes::POLARIZED.into_iter().find_map(|stokes| {
+        let rest = rest.strip_prefix(stokes.name())?.strip_prefix('.')?;
+        Some((stokes, rest))
+    });
+    let (stokes, rest) = polarized.unwrap_or((Stokes::S0, rest));
     let (quantity, index) = if let Some(axis) = XYZ.iter().position(|xyz| *xyz == rest) {
         (Quantity::Xyz, axis)
     } else if light_group.is_some() {
         (Quantity::Radiance, band_of_text(rest, grid)?)
+    } else if stokes != Stokes::S0 {
+        return None;
     } else if rest == SAMPLES {
         (Quantity::Samples, 0)
     } else {
@@ -60,7 +71,7 @@ pub(super) fn content(name: &str, grid: &BandGrid, light_groups: &[LightGroup]) 
     let key = LayerKey {
         quantity,
         light_group,
-        stokes: Stokes::S0,
+        stokes,
     };
     Some(Content::Value(key, index))
 }
@@ -88,7 +99,7 @@ impl Channels {
                 let name = value_name(key, index, grid, groups);
                 named.push((name, Content::Value(key, index)));
             }
-            if key.quantity == Quantity::Xyz {
+            if key.quantity == Quantity::Xyz && key.stokes == Stokes::S0 {
                 let names = rgb_names(key.light_group.map(|group| &groups[group]));
                 let contents = (0..).map(|channel| Content::Rgb(key.light_group, channel));
                 named.extend(names.into_iter().zip(contents));
@@ -122,17 +133,20 @@ mod tests {
             name: name.to_owned(),
             lamp: None,
         };
-        let groups = ["key", "S0_sky"].map(group);
+        let groups = ["S1", "S0_sky"].map(group);
+        let is_spectrum = |key: LayerKey| key.component(Stokes::S0) == LayerKey::RADIANCE;
         let image =
             |groups: &[LightGroup]| SpectralImage::with_light_groups(1, 1, grid, groups.to_vec());
-        let channels = Channels::new(&image(&groups), true);
-        assert_eq!(channels.contents.len(), 2 * 48 + 7 + 2 * (48 + 6));
-        let spectrum = LayerKey::RADIANCE;
+        let channels = Channels::new(&image(&groups).with_polarization(), true);
+        let of_s0 = 2 * 48 + 7 + 2 * (48 + 6);
+        assert_eq!(channels.contents.len(), of_s0 + 3 * 3 * (48 + 3));
         for (description, &own) in channels.descriptions.iter().zip(&channels.contents) {
             let name = description.name.to_string();
             let found = content(&name, &grid, &groups);
             match own {
-                Content::Value(key, _) if key != spectrum => assert_eq!(found, Some(own), "{name}"),
+                Content::Value(key, _) if !is_spectrum(key) => {
+                    assert_eq!(found, Some(own), "{name}");
+                }
                 _ => assert_eq!(found, None),
             }
         }
@@ -144,11 +158,21 @@ mod tests {
             "R",
             "variance.384,166667nm",
             "pellicle.384,166667nm",
-            "pellicle.light.key.samples",
+            "pellicle.S1.384,166667nm",
+            "pellicle.S1.samples",
+            "pellicle.S1.variance.384,166667nm",
+            "pellicle.S4.cieX",
+            "pellicle.light.S1.samples",
             "pellicle.light.fill.cieX",
         ] {
             assert_eq!(content(other, &grid, &groups), None, "{other}");
         }
-        assert!(content("pellicle.light.key.384,166667nm", &grid, &groups).is_some());
+        for own in [
+            "pellicle.light.S1.384,166667nm",
+            "pellicle.light.S1.S2.384,166667nm",
+            "pellicle.S3.cieY",
+        ] {
+            assert!(content(own, &grid, &groups).is_some(), "{own}");
+        }
     }
 }

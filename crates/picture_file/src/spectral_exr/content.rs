@@ -13,14 +13,6 @@ pub(super) enum Content {
 }
 
 impl Content {
-    /// The light group whose light alone the channel holds.
-    pub(super) fn light_group(self) -> Option<usize> {
-        match self {
-            Self::Value(key, _) => key.light_group,
-            Self::Rgb(light_group, _) => light_group,
-        }
-    }
-
     pub(super) fn sample_type(self) -> SampleType {
         match self {
             Self::Value(key, _) if key.quantity == Quantity::Samples => SampleType::U32,

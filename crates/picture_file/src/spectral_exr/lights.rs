@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use exr::meta::attribute::AttributeValue;
 use exr::meta::header::Header;
-use spectra::{BandGrid, LayerKey, LightGroup, Tabulated};
+use spectra::{BandGrid, LayerKey, LightGroup, Stokes, Tabulated};
 
 use super::content::Content;
 use super::metadata::{text, unicode};
@@ -30,18 +30,22 @@ pub(super) fn split<'a>(name: &'a str, groups: &[LightGroup]) -> Option<(usize, 
     (groups.len() > 1).then_some((index, rest))
 }
 
-/// Returns the first light group that lacks some of its channels.
+/// Returns the first light group that lacks some of its channels of a component of the Stokes vector.
 pub(super) fn incomplete<'a>(
     groups: &'a [LightGroup],
     contents: &[Option<Content>],
     grid: &BandGrid,
+    stokes: Stokes,
 ) -> Option<&'a str> {
     if groups.len() < 2 {
         return None;
     }
     let mut counts = vec![0; groups.len()];
     for content in contents.iter().flatten() {
-        if let Some(group) = content.light_group() {
+        if let Content::Value(key, _) = content
+            && let Some(group) = key.light_group
+            && key.stokes == stokes
+        {
             counts[group] += 1;
         }
     }

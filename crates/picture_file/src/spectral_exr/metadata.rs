@@ -14,6 +14,7 @@ const UNITS_KEY: &str = "emissiveUnits";
 const UNITS: &str = Quantity::Radiance.unit();
 const LAMBDA_MIN: &str = "pellicle.lambdaMin";
 const LAMBDA_MAX: &str = "pellicle.lambdaMax";
+const HANDEDNESS: &str = "polarisationHandedness";
 const EXPOSURE: &str = "pellicle.exposureEv";
 const SETTING: &str = "pellicle.setting.";
 
@@ -69,7 +70,7 @@ impl Metadata {
     }
 
     /// Writes everything into the header of a file.
-    pub(super) fn into_header(self, grid: &BandGrid, header: &mut Header) {
+    pub(super) fn into_header(self, grid: &BandGrid, is_polarized: bool, header: &mut Header) {
         let own = &mut header.own_attributes;
         own.layer_name = None;
         own.software_name = Some(text(&self.software));
@@ -79,6 +80,9 @@ impl Metadata {
         put(LAMBDA_MIN, AttributeValue::F64(grid.min_nm()));
         put(LAMBDA_MAX, AttributeValue::F64(grid.max_nm()));
         put(EXPOSURE, AttributeValue::F64(self.exposure_ev));
+        if is_polarized {
+            put(HANDEDNESS, string("right"));
+        }
         for (name, value) in &self.settings {
             put(&format!("{SETTING}{name}"), string(value));
         }
@@ -131,6 +135,29 @@ impl Metadata {
 /// Returns the ends of the band grid in nm, if the file has them.
 pub(super) fn range_nm(header: &Header) -> Option<(f64, f64)> {
     Some((number(header, LAMBDA_MIN)?, number(header, LAMBDA_MAX)?))
+}
+
+/// Returns the factor on S3 that makes it positive for right-handed light, of a file that has S3. Light is right-handed where S3 > 0 if
+/// the file does not say which it is.
+pub(super) fn sign_of_s3(header: &Header, notes: &mut Vec<String>) -> f32 {
+    let said = attribute_text(
+        &header.shared_attributes,
+        &header.own_attributes,
+        HANDEDNESS,
+    );
+    match said.as_deref().map(str::trim) {
+        Some(text) if text.eq_ignore_ascii_case("right") => 1.0,
+        Some(text) if text.eq_ignore_ascii_case("left") => {
+            notes.push("its S3 is positive for left-handed light: the sign is changed".to_owned());
+            -1.0
+        }
+        _ => {
+            notes.push(format!(
+                "its {HANDEDNESS} is neither right nor left: S3 > 0 is taken as right-handed"
+            ));
+            1.0
+        }
+    }
 }
 
 /// Returns the exposure in stops; 0 if the file has none, or none that is plausible.

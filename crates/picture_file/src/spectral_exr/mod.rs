@@ -6,17 +6,21 @@
 //! | channel | type | content |
 //! | --- | --- | --- |
 //! | `S0.385,000000nm` … | float | mean radiance over the band with this center, W m⁻² sr⁻¹ nm⁻¹ |
+//! | `S1.385,000000nm` …, `S2.…`, `S3.…` | float | the other components of the Stokes vector, if the light is polarized |
 //! | `R`, `G`, `B` | float | developed linear sRGB for viewers, not clipped |
 //! | `pellicle.cieX`, `.cieY`, `.cieZ` | float | CIE 1931 XYZ of the pixel, cd/m² |
+//! | `pellicle.S1.cieX`, `.cieY`, `.cieZ` … | float | XYZ of S1, S2 and S3 |
 //! | `pellicle.samples` | uint | number of samples of the pixel |
 //! | `pellicle.variance.385,000000nm` … | float | variance of the mean of `S0.…`, if requested |
 //! | `pellicle.light.key.385,000000nm` …, `.cieX`, `.cieY`, `.cieZ` | float | radiance and XYZ of the light group `key` alone |
+//! | `pellicle.light.key.S1.385,000000nm` …, `.S1.cieX` … | float | S1, S2 and S3 of the light group alone |
 //! | `key.R`, `key.G`, `key.B` | float | developed color of the light group, as a layer for viewers |
 //!
 //! | attribute | type | content |
 //! | --- | --- | --- |
 //! | `spectralLayoutVersion` | string | `1.0` |
 //! | `emissiveUnits` | string | `W.m^-2.sr^-1.nm^-1` |
+//! | `polarisationHandedness` | string | `right`: S3 > 0 is right-handed, if the light is polarized |
 //! | `chromaticities` | | primaries and white of sRGB |
 //! | `software` | string | name and version |
 //! | `pellicle.lambdaMin`, `pellicle.lambdaMax` | double | ends of the band grid, nm |

@@ -14,6 +14,7 @@ use relight::XyzImage;
 mod colors;
 mod pixels;
 mod plan;
+mod polarization;
 mod reflectances;
 mod rows;
 
@@ -38,7 +39,8 @@ pub use rows::RowReader;
 /// its value at the nearest end (CIE 15:2018, 7.2.3).
 ///
 /// The image is the file's display window: its pixels that the data window lacks are black and have 0 samples; pixels outside it are
-/// cut off. Polarized components, light emitted at a wavelength other than that of its absorption,
+/// cut off. The image is polarized if the file has S1, S2 and S3 at the wavelengths of S0; S3 changes its sign if the file says that it is
+/// positive for left-handed light. Light emitted at a wavelength other than that of its absorption,
 /// and other channels are ignored. Assumptions and changes are in the metadata's notes.
 ///
 /// # Errors

@@ -1,6 +1,7 @@
 //! Wavelengths in channel names, as in the layout and as other programs write them.
 
 use crate::exr_file::BandLayoutError;
+use spectra::Stokes;
 
 /// Speed of light in vacuum, m/s (exact in the SI).
 const LIGHT_M_PER_S: f64 = 299_792_458.0;
@@ -86,6 +87,12 @@ pub(super) fn spectral_channel(
         .or_else(|| reflective().map(|nm| (Quantity::Reflectance, SpectralPosition::Center(nm))))
         .or_else(range)?;
     Some(Ok(found))
+}
+
+/// Returns the wavelength of a channel of S1, S2 or S3 by its name: `S1.550nm`, or `S1550nm` as some programs write it.
+pub(super) fn component_nm(name: &str, stokes: Stokes) -> Option<f64> {
+    let text = name.strip_prefix(stokes.name())?;
+    wavelength_nm(text.strip_prefix('.').unwrap_or(text))
 }
 
 /// Whether a text is two wavelengths separated by a dot.

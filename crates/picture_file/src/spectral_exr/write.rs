@@ -271,7 +271,10 @@ fn header(frame: Frame, metadata: &Metadata, image: &SpectralImage, channels: &C
     header.own_attributes.layer_position = Vec2(x as i32, y as i32);
     let picture = IntegerBounds::from_dimensions(sides(frame.picture));
     header.shared_attributes = ImageAttributes::new(picture);
-    metadata.clone().into_header(image.bands(), &mut header);
+    let is_polarized = image.is_polarized();
+    metadata
+        .clone()
+        .into_header(image.bands(), is_polarized, &mut header);
     lights::into_header(image.light_groups(), &mut header);
     digest::reserve(&mut header);
     header

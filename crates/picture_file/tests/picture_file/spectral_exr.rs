@@ -3,6 +3,7 @@
 mod damaged;
 mod foreign;
 mod lights;
+mod polarized;
 mod reflectances;
 mod round_trip;
 mod rows;

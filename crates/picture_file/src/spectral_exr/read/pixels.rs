@@ -3,7 +3,7 @@
 use exr::block::UncompressedBlock;
 use exr::block::lines::LineRef;
 use exr::meta::attribute::{ChannelList, SampleType};
-use spectra::{ImageLayer, LayerKey, Observer, Quantity, SpectralImage};
+use spectra::{ImageLayer, LayerKey, Observer, Quantity, SpectralImage, Stokes};
 
 use super::Plan;
 use crate::exr_file::{Run, each_sample, words};
@@ -16,8 +16,10 @@ pub(super) struct Pixels {
     image: SpectralImage,
     /// Number of pixels of each row stored so far.
     filled: Vec<usize>,
-    /// Computes XYZ if the file has none.
+    /// Computes XYZ if the file lacks some.
     observer: Option<BandWeights>,
+    /// The components of the Stokes vector whose XYZ the file lacks.
+    lacks_xyz: [bool; 4],
 }
 
 /// The pixels of one row of a block: a layer for each of the image. That of the radiance of all light has a value for each spectral
@@ -29,16 +31,25 @@ struct Row {
 impl Pixels {
     pub(super) fn new(plan: Plan) -> Self {
         let (width, height) = plan.window.size();
+        let image = SpectralImage::with_light_groups(
+            width as u32,
+            height as u32,
+            plan.grid,
+            plan.light_groups.clone(),
+        );
+        let lacks_xyz = Stokes::ALL
+            .map(|stokes| plan.components().contains(&stokes) && !plan.has_xyz_of(stokes));
         Self {
-            image: SpectralImage::with_light_groups(
-                width as u32,
-                height as u32,
-                plan.grid,
-                plan.light_groups.clone(),
-            ),
+            image: if plan.is_polarized {
+                image.with_polarization()
+            } else {
+                image
+            },
             filled: vec![0; height],
-            observer: (!plan.has_xyz())
+            observer: lacks_xyz
+                .contains(&true)
                 .then(|| BandWeights::observed(&plan.grid, Observer::Cie1931Deg2)),
+            lacks_xyz,
             plan,
         }
     }
@@ -75,7 +86,7 @@ impl Pixels {
                     line,
                     channels.list[channel].sample_type,
                     content,
-                    self.plan.scale,
+                    &self.plan,
                 );
             }
             if channel == last {
@@ -88,35 +99,55 @@ impl Pixels {
     fn put(&mut self, row: &Row, run: Run) {
         let mut even = vec![0.0; self.plan.grid.count() as usize];
         let mut lights = (Vec::new(), Vec::new());
-        let totals = [LayerKey::RADIANCE, LayerKey::VARIANCE, LayerKey::XYZ];
         for x in run.skip..run.skip + run.count {
-            let [radiance, variance, xyz] = totals.map(|key| row.pixel(key, x));
-            let radiance = match &self.plan.shares {
-                None => radiance,
-                Some(shares) => {
-                    for (even, shares) in even.iter_mut().zip(shares) {
-                        *even = shares.iter().map(|&(i, share)| share * radiance[i]).sum();
-                    }
-                    &even
-                }
-            };
-            let xyz = match &self.observer {
-                Some(observer) => observer.xyz(radiance).map(|v| v as f32),
-                None => [xyz[0], xyz[1], xyz[2]],
-            };
             let place = ((run.x + x - run.skip) as u32, run.y as u32);
-            let samples = row.samples(x);
-            if self.plan.light_groups.len() == 1 {
-                self.image
-                    .set_pixel(place, radiance, variance, xyz, samples);
-            } else {
-                row.by_light(x, &mut lights);
-                let (radiance, xyz) = &lights;
-                self.image
-                    .set_pixel_by_light(place, radiance, variance, xyz, samples);
+            for &stokes in self.plan.components() {
+                let own_xyz;
+                let (radiance, xyz) = if self.plan.light_groups.len() == 1 {
+                    let radiance = self.total(row, x, stokes, &mut even);
+                    own_xyz = [self.xyz(row, x, stokes, radiance)];
+                    (radiance, &own_xyz[..])
+                } else {
+                    row.by_light(x, stokes, &mut lights);
+                    (&lights.0[..], &lights.1[..])
+                };
+                if stokes == Stokes::S0 {
+                    let variance = row.pixel(LayerKey::VARIANCE, x);
+                    let samples = row.samples(x);
+                    self.image
+                        .set_pixel_by_light(place, radiance, variance, xyz, samples);
+                } else {
+                    self.image
+                        .set_component_by_light(place, stokes, radiance, xyz);
+                }
             }
         }
         self.filled[run.y] += run.count;
+    }
+
+    /// A component of all light of a pixel of a row, on the bands of the image, for which `even` has room.
+    fn total<'a>(&self, row: &'a Row, x: usize, stokes: Stokes, even: &'a mut [f32]) -> &'a [f32] {
+        let radiance = row.pixel(LayerKey::RADIANCE.component(stokes), x);
+        let Some(shares) = &self.plan.shares else {
+            return radiance;
+        };
+        for (even, shares) in even.iter_mut().zip(shares) {
+            *even = shares.iter().map(|&(i, share)| share * radiance[i]).sum();
+        }
+        even
+    }
+
+    /// XYZ of a component of all light of a pixel of a row: those of the file, or of this radiance.
+    fn xyz(&self, row: &Row, x: usize, stokes: Stokes, radiance: &[f32]) -> [f32; 3] {
+        match &self.observer {
+            Some(observer) if self.lacks_xyz[stokes.index()] => {
+                observer.xyz(radiance).map(|v| v as f32)
+            }
+            _ => {
+                let xyz = row.pixel(LayerKey::XYZ.component(stokes), x);
+                [xyz[0], xyz[1], xyz[2]]
+            }
+        }
     }
 
     /// Returns the image, if every pixel was stored exactly once.
@@ -130,8 +161,8 @@ impl Pixels {
 
 impl Row {
     fn new(width: usize, plan: &Plan) -> Self {
-        let layer = |key| {
-            let bands = if key == LayerKey::RADIANCE {
+        let layer = |key: LayerKey| {
+            let bands = if key.component(Stokes::S0) == LayerKey::RADIANCE {
                 plan.spectral_channels
             } else {
                 plan.grid.count() as usize
@@ -139,7 +170,7 @@ impl Row {
             ImageLayer::zeros(key, bands, width)
         };
         Self {
-            layers: LayerKey::all(plan.light_groups.len()).map(layer).collect(),
+            layers: keys(plan).map(layer).collect(),
         }
     }
 
@@ -156,11 +187,12 @@ impl Row {
         counts.map_or(0, |counts| counts[x])
     }
 
-    /// Collects the light groups of a pixel: radiance as `[light group][band]`, and XYZ.
-    fn by_light(&self, x: usize, (radiance, xyz): &mut (Vec<f32>, Vec<[f32; 3]>)) {
+    /// Collects a component of the light groups of a pixel: radiance as `[light group][band]`, and XYZ.
+    fn by_light(&self, x: usize, stokes: Stokes, (radiance, xyz): &mut (Vec<f32>, Vec<[f32; 3]>)) {
         radiance.clear();
         xyz.clear();
-        let of_groups = |layer: &&ImageLayer| layer.key().light_group.is_some();
+        let of_groups =
+            |layer: &&ImageLayer| layer.key().light_group.is_some() && layer.key().stokes == stokes;
         for layer in self.layers.iter().filter(of_groups) {
             let values = &layer.floats()[layer.values_of(x)];
             match layer.key().quantity {
@@ -172,10 +204,11 @@ impl Row {
     }
 
     /// Stores the samples of one channel. The scale of the file's unit applies to all light in the file.
-    fn take(&mut self, line: LineRef<'_>, kind: SampleType, content: Content, scale: f32) {
+    fn take(&mut self, line: LineRef<'_>, kind: SampleType, content: Content, plan: &Plan) {
         let Content::Value(key, index) = content else {
             return;
         };
+        let scale = plan.scale_of(key);
         let Some(layer) = self.layers.iter_mut().find(|layer| layer.key() == key) else {
             return;
         };
@@ -202,6 +235,13 @@ impl Row {
             }
         }
     }
+}
+
+/// The layers that are read.
+fn keys(plan: &Plan) -> impl Iterator<Item = LayerKey> {
+    let groups = plan.light_groups.len();
+    let polarized = plan.is_polarized.then(|| LayerKey::polarized(groups));
+    LayerKey::all(groups).chain(polarized.into_iter().flatten())
 }
 
 /// Calls `put` with the index and value of every sample of a line.

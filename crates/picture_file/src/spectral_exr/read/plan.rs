@@ -3,15 +3,16 @@
 use std::ops::Range;
 
 use exr::meta::header::Header;
-use spectra::{BandGrid, LayerKey, LightGroup, PixelContent, Spectrum};
+use spectra::{BandGrid, LayerKey, LightGroup, PixelContent, Spectrum, Stokes};
 
+use super::polarization::Polarization;
 use super::reflectances;
 use crate::exr_file::{BandLayoutError, Context, ReadExrError, Window, name_of};
 use crate::spectral_exr::bands::{BandMix, Bands};
 use crate::spectral_exr::channels::content;
 use crate::spectral_exr::content::Content;
 use crate::spectral_exr::lights;
-use crate::spectral_exr::metadata::{Metadata, range_nm};
+use crate::spectral_exr::metadata::{Metadata, range_nm, sign_of_s3};
 use crate::spectral_exr::wavelength::{Quantity, SpectralPosition, spectral_channel};
 
 /// The layer with the spectrum, and the contents of its channels.
@@ -33,14 +34,18 @@ pub(super) struct Plan {
     pub(super) scale: f32,
     /// The light groups, at least one.
     pub(super) light_groups: Vec<LightGroup>,
+    /// Whether S1, S2 and S3 are read.
+    pub(super) is_polarized: bool,
+    /// The factor on S3 besides the scale: −1 if it is positive for left-handed light.
+    pub(super) sign_of_s3: f32,
     /// The illuminant of reflectances; `None` if the channels are radiances.
     pub(super) illuminant: Option<Spectrum>,
 }
 
 /// The spectral channels of a layer, in order of their wavelengths.
-struct Spectral {
-    quantity: Quantity,
-    channels: Vec<(SpectralPosition, usize)>,
+pub(super) struct Spectral {
+    pub(super) quantity: Quantity,
+    pub(super) channels: Vec<(SpectralPosition, usize)>,
 }
 
 impl Plan {
@@ -49,7 +54,7 @@ impl Plan {
         PixelContent {
             bands: self.grid.count(),
             light_groups: self.light_groups.len(),
-            is_polarized: false,
+            is_polarized: self.is_polarized,
         }
     }
 
@@ -90,8 +95,9 @@ impl Plan {
             let groups = lights::of_header(header, &bands.grid, &mut metadata.notes);
             (groups, None)
         };
-        let contents = contents(header, &spectrum, &bands, &light_groups);
-        if let Some(name) = lights::incomplete(&light_groups, &contents, &bands.grid) {
+        let mut contents = contents(header, &spectrum, &bands, &light_groups);
+        let lacking = lights::incomplete(&light_groups, &contents, &bands.grid, Stokes::S0);
+        if let Some(name) = lacking {
             return Err(context.damaged(&format!("the light group {name:?} lacks channels")));
         }
         let scale = match spectrum.quantity {
@@ -99,6 +105,18 @@ impl Plan {
             Quantity::Radiance | Quantity::Range => metadata.take_units(),
         };
         note(&mut metadata, headers, &spectrum, &bands);
+        let polarization = Polarization {
+            header,
+            spectrum: &spectrum,
+            bands: &bands,
+            light_groups: &light_groups,
+        };
+        let is_polarized = polarization.plan(&mut contents, &mut metadata.notes);
+        let sign_of_s3 = if is_polarized {
+            sign_of_s3(header, &mut metadata.notes)
+        } else {
+            1.0
+        };
         let plan = Self {
             layer,
             window,
@@ -108,6 +126,8 @@ impl Plan {
             shares: bands.shares,
             scale: scale as f32,
             light_groups,
+            is_polarized,
+            sign_of_s3,
             illuminant,
         };
         Ok((plan, metadata))
@@ -123,11 +143,33 @@ impl Plan {
 
     /// Whether the file has X, Y and Z.
     pub(super) fn has_xyz(&self) -> bool {
+        self.has_xyz_of(Stokes::S0)
+    }
+
+    /// Whether the file has X, Y and Z of a component of the Stokes vector.
+    pub(super) fn has_xyz_of(&self, stokes: Stokes) -> bool {
         self.illuminant.is_none()
             && (0..3).all(|axis| {
-                let content = Content::Value(LayerKey::XYZ, axis);
+                let content = Content::Value(LayerKey::XYZ.component(stokes), axis);
                 self.contents.contains(&Some(content))
             })
+    }
+
+    /// The components of the Stokes vector that are read.
+    pub(super) fn components(&self) -> &'static [Stokes] {
+        if self.is_polarized {
+            &Stokes::ALL
+        } else {
+            &Stokes::ALL[..1]
+        }
+    }
+
+    /// The factor on a radiance or color of the file.
+    pub(super) fn scale_of(&self, key: LayerKey) -> f32 {
+        match key.stokes {
+            Stokes::S3 => self.sign_of_s3 * self.scale,
+            _ => self.scale,
+        }
     }
 }
 
@@ -161,7 +203,7 @@ impl Spectral {
     }
 }
 
-fn names(header: &Header) -> Vec<String> {
+pub(super) fn names(header: &Header) -> Vec<String> {
     let channels = header.channels.list.iter();
     channels
         .map(|channel| name_of(channel.name.as_slice()))
