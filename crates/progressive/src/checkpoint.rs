@@ -327,14 +327,13 @@ mod tests {
     };
 
     fn empty(first_sample: u32) -> Accumulation {
+        with_components(first_sample, false)
+    }
+
+    fn with_components(first_sample: u32, is_polarized: bool) -> Accumulation {
         let groups = vec![LightGroup::unknown()];
-        Accumulation::new(
-            WINDOW,
-            first_sample,
-            BandGrid::visible(4).unwrap(),
-            groups,
-            false,
-        )
+        let bands = BandGrid::visible(4).unwrap();
+        Accumulation::new(WINDOW, first_sample, bands, groups, is_polarized)
     }
 
     fn filled(value: impl Fn(usize) -> f64) -> Accumulation {
@@ -402,6 +401,30 @@ mod tests {
             message.ends_with("first sample (0 instead of 64)"),
             "{message}"
         );
+    }
+
+    #[test]
+    fn components_of_polarized_light_come_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("checkpoint");
+        let mut all = with_components(0, true);
+        let (counts, sums) = all.state_mut();
+        counts.fill(2);
+        (0..)
+            .zip(sums)
+            .for_each(|(i, sum)| *sum = -f64::from(i) / 3.0);
+        write(&path, &identity("1"), &all, &state()).unwrap();
+        let mut found = with_components(0, true);
+        read(&path, &identity("1"), &mut found).unwrap();
+        assert_eq!(found, all);
+        // A render without them does not go on from it, even if its identity were the same.
+        let error = read(&path, &identity("1"), &mut empty(0)).unwrap_err();
+        assert!(error.to_string().contains("do not fit"), "{error}");
+        let mut polarized = identity("1");
+        polarized.insert("polarization", "all components".to_owned());
+        let error = read(&path, &polarized, &mut found).unwrap_err();
+        let said = "differs in polarization (none instead of all components)";
+        assert!(error.to_string().ends_with(said), "{error}");
     }
 
     /// Any flipped bit, and any missing end.

@@ -85,8 +85,13 @@ impl Identity {
             ("roulette_after", settings.roulette_after.to_string()),
             ("clamp", clamp),
         ];
-        let entries = entries.map(|(name, value)| (name.to_owned(), value));
-        Self(entries.into_iter().collect())
+        let polarization = polarization(scene).map(|value| ("polarization", value));
+        let entries = entries.into_iter().chain(polarization);
+        Self(
+            entries
+                .map(|(name, value)| (name.to_owned(), value))
+                .collect(),
+        )
     }
 
     /// The identity of an adaptive render with this mean number of samples, which decides over those of each tile.
@@ -176,6 +181,16 @@ fn bands(scene: &Scene) -> String {
         bands.min_nm(),
         bands.max_nm()
     )
+}
+
+/// What is kept of light that is traced with its polarization; `None` if it is traced without. The polarizer itself is in the camera.
+fn polarization(scene: &Scene) -> Option<String> {
+    let kept = if scene.content().is_polarized {
+        "all components"
+    } else {
+        "behind a polarizer"
+    };
+    scene.settings().polarization.then(|| kept.to_owned())
 }
 
 /// A digest of all values of something. Numbers are described with all their digits, so equal descriptions mean equal values.

@@ -10,6 +10,8 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 mod average;
+#[cfg(test)]
+mod tests;
 
 /// Bytes of the rows that are in memory at a time, of all files together.
 const STRIP: u64 = 64 << 20;
@@ -202,6 +204,14 @@ fn check_identity(first: &Piece, piece: &Piece) -> Result<(), MergeError> {
         return Err(piece.unfit(reason.to_owned()));
     }
     let exposure = |piece: &Piece| piece.reader.metadata().exposure_ev;
+    if piece.reader.content().is_polarized != first.reader.content().is_polarized {
+        let (some, others) = ("S1, S2 and S3", first.path.display());
+        return Err(piece.unfit(if piece.reader.content().is_polarized {
+            format!("has {some} of polarized light, but {others} does not")
+        } else {
+            format!("does not have {some} of polarized light, but {others} does")
+        }));
+    }
     if piece.reader.light_groups() != first.reader.light_groups()
         || exposure(piece) != exposure(first)
     {

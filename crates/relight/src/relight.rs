@@ -3,7 +3,8 @@
 use crate::weights::{BandWeights, DarkBand};
 use rayon::prelude::*;
 use spectra::{
-    BandGrid, LayerKey, Observer, OutOfRange, Quantity, RowMut, SpectralImage, Spectrum, Tabulated,
+    BandGrid, LayerKey, Observer, OutOfRange, Quantity, RowMut, SpectralImage, Spectrum, Stokes,
+    Tabulated,
 };
 use thiserror::Error;
 
@@ -77,6 +78,9 @@ pub enum RelightError {
 ///
 /// A band that a new lamp would make negative is 0; XYZ are summed before that and are not clipped. Bands in which the old lamp has
 /// no light stay dark; that is an error if they contain more than [`BandWeights::DARK_SHARE`] of the new lamp's Y.
+///
+/// S1, S2 and S3 of polarized light change as S0 does: what a polarizer transmits is the same before and after. In a band that gets
+/// another lamp, none of them becomes larger than S0.
 ///
 /// The variance of a band keeps its relative size, since the part of each light group in it is unknown. Where the band was 0 or is
 /// not finite, the variance keeps its value.
@@ -182,19 +186,26 @@ impl Change {
         })
     }
 
-    /// Changes the radiance and XYZ of pixels.
-    fn apply(&self, radiance: &mut [f32], xyz: &mut [[f32; 3]], bands: usize) {
+    /// Changes the radiance and XYZ of pixels: of S0, or of a component that the changed S0 limits.
+    fn apply(&self, light: &mut Component<'_>, s0: Option<&[f32]>, bands: usize) {
         let scaled = |value: f64| (value * self.factor) as f32;
         let mut relit = vec![0.0; bands];
-        for (radiance, xyz) in radiance.chunks_exact_mut(bands).zip(xyz) {
+        let pixels = light.radiance.chunks_exact_mut(bands);
+        for (pixel, (radiance, xyz)) in pixels.zip(light.xyz.as_chunks_mut().0).enumerate() {
             *xyz = match &self.weights {
                 None => xyz.map(|value| scaled(f64::from(value))),
                 Some(weights) => weights.xyz(radiance).map(scaled),
             };
             match &self.weights {
                 Some(weights) if self.lamp.is_some() => {
-                    for (relit, value) in relit.iter_mut().zip(weights.relit(radiance)) {
-                        *relit = scaled(value);
+                    match s0 {
+                        None => put(&mut relit, weights.relit(radiance).map(scaled)),
+                        Some(s0) => {
+                            let limits = &s0[pixel * bands..(pixel + 1) * bands];
+                            let values = weights.relit_component(radiance).map(scaled);
+                            let limited = values.zip(limits).map(|(v, s0)| v.max(-s0).min(*s0));
+                            put(&mut relit, limited);
+                        }
                     }
                     radiance.copy_from_slice(&relit);
                 }
@@ -203,6 +214,31 @@ impl Change {
                     .for_each(|value| *value = scaled(f64::from(*value))),
             }
         }
+    }
+}
+
+/// A component of the Stokes vector in a row, of all light or of a light group; empty if the image does not have it.
+struct Component<'a> {
+    radiance: &'a mut [f32],
+    xyz: &'a mut [f32],
+}
+
+impl<'a> Component<'a> {
+    fn take(row: &mut RowMut<'a>, light_group: Option<usize>, stokes: Stokes) -> Self {
+        let [radiance, xyz] = [Quantity::Radiance, Quantity::Xyz].map(|quantity| {
+            row.take(LayerKey {
+                quantity,
+                light_group,
+                stokes,
+            })
+        });
+        Self { radiance, xyz }
+    }
+}
+
+fn put(to: &mut [f32], values: impl Iterator<Item = f32>) {
+    for (to, value) in to.iter_mut().zip(values) {
+        *to = value;
     }
 }
 
@@ -229,28 +265,39 @@ pub fn over(grid: &BandGrid, lamp: &Spectrum) -> Result<Tabulated, OutOfRange> {
 }
 
 fn relight_row(mut row: RowMut<'_>, changes: &[Change], bands: usize) {
-    let [radiance, variance, xyz] =
-        [LayerKey::RADIANCE, LayerKey::VARIANCE, LayerKey::XYZ].map(|key| row.take(key));
-    let before = radiance.to_vec();
+    let variance = row.take(LayerKey::VARIANCE);
+    let mut total = Stokes::ALL.map(|stokes| Component::take(&mut row, None, stokes));
+    let before = total[0].radiance.to_vec();
     if let [change] = changes {
-        change.apply(radiance, xyz.as_chunks_mut().0, bands);
+        apply_all(change, &mut total, bands);
     } else {
-        radiance.fill(0.0);
-        xyz.fill(0.0);
+        for component in &mut total {
+            component.radiance.fill(0.0);
+            component.xyz.fill(0.0);
+        }
         for (group, change) in changes.iter().enumerate() {
-            let [own_radiance, own_xyz] = [Quantity::Radiance, Quantity::Xyz]
-                .map(|quantity| row.take(LayerKey::of_light(quantity, group)));
-            change.apply(own_radiance, own_xyz.as_chunks_mut().0, bands);
-            add(radiance, own_radiance);
-            add(xyz, own_xyz);
+            let mut own = Stokes::ALL.map(|stokes| Component::take(&mut row, Some(group), stokes));
+            apply_all(change, &mut own, bands);
+            for (total, own) in total.iter_mut().zip(&own) {
+                add(total.radiance, own.radiance);
+                add(total.xyz, own.xyz);
+            }
         }
     }
-    let changed = before.iter().zip(radiance.iter());
+    let changed = before.iter().zip(total[0].radiance.iter());
     for (variance, (&before, &after)) in variance.iter_mut().zip(changed) {
         let ratio = after / before;
         if before != after && ratio.is_finite() {
             *variance *= ratio * ratio;
         }
+    }
+}
+
+/// Changes all components of light.
+fn apply_all(change: &Change, [s0, polarized @ ..]: &mut [Component<'_>; 4], bands: usize) {
+    change.apply(s0, None, bands);
+    for component in polarized {
+        change.apply(component, Some(s0.radiance), bands);
     }
 }
 

@@ -133,11 +133,18 @@ impl BandWeights {
     /// # Panics
     /// When the number of values is not the number of bands.
     pub fn relit<'a>(&'a self, radiance: &'a [f32]) -> impl Iterator<Item = f64> + 'a {
+        self.relit_component(radiance).map(|sum| sum.max(0.0))
+    }
+
+    /// As [`Self::relit`] for a component of the Stokes vector, which may be below 0.
+    ///
+    /// # Panics
+    /// When the number of values is not the number of bands.
+    pub fn relit_component<'a>(&'a self, radiance: &'a [f32]) -> impl Iterator<Item = f64> + 'a {
         assert_eq!(radiance.len(), self.bands.len(), "one value per band");
         self.bands.iter().map(|(first, weights)| {
             let values = radiance[*first..].iter().zip(weights);
-            let sum: f64 = values.map(|(&value, w)| f64::from(value) * w).sum();
-            sum.max(0.0)
+            values.map(|(&value, w)| f64::from(value) * w).sum()
         })
     }
 }

@@ -1,6 +1,6 @@
 //! The mean of renders of different samples of the same pixels.
 
-use spectra::{SpectralImage, variance_of_mean};
+use spectra::{SpectralImage, Stokes, variance_of_mean};
 use std::ops::Range;
 
 /// The image of all samples together: means weighted by the numbers of samples, and the variance of the mean of all samples (Chan,
@@ -13,7 +13,8 @@ pub(super) fn mean(images: &[SpectralImage]) -> SpectralImage {
     let (width, height, grid) = (first.width(), first.height(), *first.bands());
     let groups = first.light_groups().to_vec();
     let bands = grid.count() as usize;
-    let mut image = SpectralImage::with_light_groups(width, height, grid, groups.clone());
+    let mut image = empty(first, [width, height]);
+    let components = components(first);
     let mut radiance = vec![0.0; groups.len() * bands];
     let (mut variance, mut xyz) = (vec![0.0; bands], vec![[0.0; 3]; groups.len()]);
     for pixel in 0..first.samples().len() {
@@ -28,17 +29,25 @@ pub(super) fn mean(images: &[SpectralImage]) -> SpectralImage {
             each.map(|(image, weight)| weight * f64::from(value(image)))
                 .sum::<f64>()
         };
-        for group in 0..groups.len() {
-            for band in 0..bands {
-                let value =
-                    |image: &SpectralImage| image.group_radiance(group)[pixel * bands + band];
-                radiance[group * bands + band] = weighted(&value) as f32;
-            }
-            for (axis, to) in xyz[group].iter_mut().enumerate() {
-                let value = |image: &SpectralImage| image.group_xyz(group)[pixel][axis];
+        let take = |stokes, radiance: &mut [f32], xyz: &mut [[f32; 3]]| {
+            for (i, to) in radiance.iter_mut().enumerate() {
+                let (group, at) = (i / bands, pixel * bands + i % bands);
+                let value = |image: &SpectralImage| image.group_component(group, stokes)[at];
                 *to = weighted(&value) as f32;
             }
+            for (i, to) in xyz.as_flattened_mut().iter_mut().enumerate() {
+                let (group, axis) = (i / 3, i % 3);
+                let value =
+                    |image: &SpectralImage| image.group_component_xyz(group, stokes)[pixel][axis];
+                *to = weighted(&value) as f32;
+            }
+        };
+        let at = (pixel as u32 % width, pixel as u32 / width);
+        for &stokes in components {
+            take(stokes, &mut radiance, &mut xyz);
+            image.set_component_by_light(at, stokes, &radiance, &xyz);
         }
+        take(Stokes::S0, &mut radiance, &mut xyz);
         for (band, variance) in variance.iter_mut().enumerate() {
             let at = pixel * bands + band;
             let mean = weighted(&|image| image.radiance()[at]);
@@ -49,28 +58,55 @@ pub(super) fn mean(images: &[SpectralImage]) -> SpectralImage {
             });
             *variance = (deviations.sum::<f64>() * variance_of_mean(all)) as f32;
         }
-        let at = (pixel as u32 % width, pixel as u32 / width);
         image.set_pixel_by_light(at, &radiance, &variance, &xyz, all);
     }
     image
 }
 
+/// A black image of another size with the same content.
+fn empty(like: &SpectralImage, [width, height]: [u32; 2]) -> SpectralImage {
+    let groups = like.light_groups().to_vec();
+    let image = SpectralImage::with_light_groups(width, height, *like.bands(), groups);
+    if like.is_polarized() {
+        image.with_polarization()
+    } else {
+        image
+    }
+}
+
+/// The components beyond S0 that an image holds.
+fn components(image: &SpectralImage) -> &'static [Stokes] {
+    if image.is_polarized() {
+        &Stokes::POLARIZED
+    } else {
+        &[]
+    }
+}
+
 /// Some columns of an image.
 pub(super) fn columns(image: &SpectralImage, columns: Range<u32>) -> SpectralImage {
-    let groups = image.light_groups().to_vec();
     let (count, height) = (columns.end - columns.start, image.height());
-    let (bands, lights) = (image.bands().count() as usize, groups.len());
-    let mut own = SpectralImage::with_light_groups(count, height, *image.bands(), groups);
+    let (bands, lights) = (image.bands().count() as usize, image.light_groups().len());
+    let mut own = empty(image, [count, height]);
     for y in 0..height {
         for x in 0..count {
             let pixel = (y * image.width() + columns.start + x) as usize;
             let of_bands = pixel * bands..(pixel + 1) * bands;
-            let each = |group| image.group_radiance(group)[of_bands.clone()].to_vec();
-            let radiance: Vec<f32> = (0..lights).flat_map(each).collect();
-            let xyz: Vec<[f32; 3]> = (0..lights)
-                .map(|group| image.group_xyz(group)[pixel])
-                .collect();
-            let variance = &image.variance()[of_bands];
+            let component = |stokes| -> (Vec<f32>, Vec<[f32; 3]>) {
+                let each = |group| image.group_component(group, stokes)[of_bands.clone()].to_vec();
+                let xyz = |group| image.group_component_xyz(group, stokes)[pixel];
+                let groups = 0..lights;
+                (
+                    groups.clone().flat_map(each).collect(),
+                    groups.map(xyz).collect(),
+                )
+            };
+            for &stokes in components(image) {
+                let (radiance, xyz) = component(stokes);
+                own.set_component_by_light((x, y), stokes, &radiance, &xyz);
+            }
+            let (radiance, xyz) = component(Stokes::S0);
+            let variance = &image.variance()[of_bands.clone()];
             own.set_pixel_by_light((x, y), &radiance, variance, &xyz, image.samples()[pixel]);
         }
     }
@@ -124,6 +160,31 @@ mod tests {
         assert!(near(found.xyz()[0][2], whole.xyz()[0][2]));
         assert!((found.variance()[0] / whole.variance()[0] - 1.0).abs() < 1e-5);
         assert_eq!(found.samples(), [23]);
+    }
+
+    /// Components are weighted by samples, in total and by light group, and are cut out with their pixels.
+    #[test]
+    fn components_are_averaged_and_cut_like_s0() {
+        let piece = |samples: u32, value: f32| {
+            let samples = vec![[f64::from(value), 1.0]; samples as usize];
+            let mut image = image(&samples).with_polarization();
+            for (stokes, factor) in Stokes::POLARIZED.into_iter().zip([1.0, -2.0, 4.0]) {
+                let values = [factor * value, 0.5];
+                image.set_component_by_light((0, 0), stokes, &values, &values.map(|v| [v; 3]));
+            }
+            image
+        };
+        let found = mean(&[piece(3, 1.0), piece(1, 5.0)]);
+        for image in [&found, &columns(&found, 0..1)] {
+            assert!(image.is_polarized() && image.samples() == [4]);
+            for (stokes, expected) in Stokes::ALL.into_iter().zip([2.0, 2.0, -4.0, 8.0]) {
+                assert_eq!(image.group_component(0, stokes), [expected], "{stokes:?}");
+                assert_eq!(image.group_component_xyz(0, stokes), [[expected; 3]]);
+                let rest = if stokes == Stokes::S0 { 1.0 } else { 0.5 };
+                let total = image.layer(spectra::LayerKey::RADIANCE.component(stokes));
+                assert_eq!(total.unwrap().floats(), [expected + rest]);
+            }
+        }
     }
 
     #[test]

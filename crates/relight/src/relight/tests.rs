@@ -186,3 +186,63 @@ fn variance_stays_where_a_band_gives_no_ratio() {
     relight(&mut image, &[change("all", Some("A"), 1.0)], DEG2).unwrap();
     assert!((pixel(&image)[3] / pixel(&before)[3] - 1.0).abs() < 1e-5);
 }
+
+/// Light that is polarized alike in all bands keeps its degree under another lamp, in bands and in XYZ, and with a factor.
+#[test]
+fn components_change_as_s0_does() {
+    for names in [&["key", "sky"][..], &["key"]] {
+        let groups: Vec<_> = names.iter().map(|name| (*name, Some("D65"))).collect();
+        let shares = [-0.5, 0.25, 0.125_f32];
+        let mut image = image(&groups).with_polarization();
+        let count = names.len();
+        for (x, y) in (0..6).map(|i| (i % 3, i / 3)) {
+            let place = (y * 3 + x) as usize;
+            for (stokes, share) in Stokes::POLARIZED.into_iter().zip(shares) {
+                let of_group = |g| image.group_radiance(g)[place * 16..][..16].to_vec();
+                let s0: Vec<f32> = (0..count).flat_map(of_group).collect();
+                let radiance: Vec<f32> = s0.iter().map(|v| share * v).collect();
+                let xyz: Vec<_> = (0..count)
+                    .map(|g| image.group_xyz(g)[place].map(|v| share * v))
+                    .collect();
+                image.set_component_by_light((x, y), stokes, &radiance, &xyz);
+            }
+        }
+        let before = image.clone();
+        relight(&mut image, &[change("key", Some("A"), 0.5)], DEG2).unwrap();
+        assert_ne!(image.radiance(), before.radiance());
+        for (stokes, share) in Stokes::POLARIZED.into_iter().zip(shares) {
+            for quantity in [Quantity::Radiance, Quantity::Xyz] {
+                let keys = LayerKey::all(count).filter(|key| key.quantity == quantity);
+                for key in keys {
+                    let of = |key| image.layer(key).unwrap().floats();
+                    let pairs = of(key).iter().zip(of(key.component(stokes)));
+                    for (s0, own) in pairs {
+                        assert!((share * s0 - own).abs() <= 1e-5 * s0.abs(), "{key:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Bands that a new lamp would make negative are 0, and nothing is more than fully polarized.
+#[test]
+fn no_component_is_larger_than_s0_under_another_lamp() {
+    let mut image = image(&[("key", Some("D65"))]).with_polarization();
+    let spiky: Vec<f32> = (0..16)
+        .map(|b| if b % 4 == 1 { 1.0 } else { 1e-3 })
+        .collect();
+    image.set_pixel((0, 0), &spiky, &[0.0; 16], [1.0; 3], 1);
+    let other: Vec<f32> = spiky
+        .iter()
+        .zip([1.0, -1.0].into_iter().cycle())
+        .map(|(v, s)| s * v)
+        .collect();
+    image.set_component_by_light((0, 0), Stokes::S2, &other, &[[0.5; 3]]);
+    relight(&mut image, &[change("key", Some("FL11"), 1.0)], DEG2).unwrap();
+    let s2 = image.group_component(0, Stokes::S2);
+    assert!(s2.iter().any(|&v| v < 0.0));
+    for (s2, s0) in s2.iter().zip(image.radiance()) {
+        assert!(s2.abs() <= *s0, "{s2} {s0}");
+    }
+}
