@@ -96,17 +96,18 @@ pub fn contact_sheet(pictures: &[(String, RgbImage8)], colors: SheetColors) -> O
         );
         sheet.put(picture, (x, y + label), width);
     }
-    RgbImage8::new(sheet.width, sheet.height, sheet.codes)
+    sheet.finish()
 }
 
-struct Sheet {
+/// A picture onto which others are put.
+pub(crate) struct Sheet {
     width: u32,
     height: u32,
     codes: Vec<u8>,
 }
 
 impl Sheet {
-    fn new(width: u32, height: u32, ground: [u8; 3]) -> Self {
+    pub(crate) fn new(width: u32, height: u32, ground: [u8; 3]) -> Self {
         Self {
             width,
             height,
@@ -115,13 +116,17 @@ impl Sheet {
     }
 
     /// Copies the left `width` pixels of a picture.
-    fn put(&mut self, picture: &RgbImage8, (x, y): (u32, u32), width: u32) {
+    pub(crate) fn put(&mut self, picture: &RgbImage8, (x, y): (u32, u32), width: u32) {
         let rows = picture.data().chunks(3 * picture.width() as usize);
         for (row, codes) in (y as usize..).zip(rows) {
             let start = 3 * (row * self.width as usize + x as usize);
             let length = 3 * width.min(picture.width()) as usize;
             self.codes[start..start + length].copy_from_slice(&codes[..length]);
         }
+    }
+
+    pub(crate) fn finish(self) -> Option<RgbImage8> {
+        RgbImage8::new(self.width, self.height, self.codes)
     }
 }
 

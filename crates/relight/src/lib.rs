@@ -4,11 +4,13 @@
 //! [`XyzImage`] holds the colors alone.
 
 mod knots;
+mod polarizer;
 mod relight;
 mod weights;
 pub mod xyz;
 mod xyz_image;
 
+pub use polarizer::{NotPolarized, behind};
 pub use relight::{Relight, RelightError, over, relight};
 pub use weights::{BandWeights, DarkBand};
 pub use xyz_image::XyzImage;

@@ -104,6 +104,11 @@ impl SpectralImage {
         self
     }
 
+    /// Removes the layers of S1, S2 and S3.
+    pub fn remove_polarization(&mut self) {
+        self.layers.retain(|layer| layer.key().stokes == Stokes::S0);
+    }
+
     /// Whether it holds all components of polarized light.
     pub fn is_polarized(&self) -> bool {
         LayerKey::polarized(self.light_groups.len()).all(|key| self.layer(key).is_some())

@@ -3,6 +3,7 @@
 mod negative;
 mod options;
 mod pictures;
+mod stokes;
 mod values;
 
 pub(crate) use options::Options;
@@ -18,6 +19,7 @@ use pellicle::picture_file::{RgbImage8, png};
 use pellicle::plot::SheetColors;
 use pellicle::spectra::SpectralImage;
 use std::path::PathBuf;
+use stokes::StokesName;
 use values::{FOV_DEG, number};
 
 #[derive(clap::Args)]
@@ -31,6 +33,13 @@ pub(crate) struct Arguments {
     /// A,D65,F11,LED-B3, each with or without a factor
     #[arg(long, conflicts_with = "lights", value_name = "LAMP,LAMP,…", value_delimiter = ',', value_parser = booth::lamp)]
     booth: Vec<BoothLamp>,
+    /// Write a picture (.png) of the polarization in false colors, with their scale: degrees of polarization (dop, dolp, docp), the
+    /// angle of linear polarization (aolp), or a component over S0, from the luminances of S0 to S3
+    #[arg(long, value_enum, value_name = "dop|dolp|docp|aolp|s1|s2|s3", hide_possible_values = true, conflicts_with_all = [
+        "booth", "polarizer", "exposure", "display", "adapt", "adapt_from", "glare", "glare_fov", "star_length", "gamut",
+        "gamut_warning", "gamut_report", "bits", "dither",
+    ])]
+    stokes: Option<StokesName>,
     #[command(flatten)]
     options: Options,
 }
@@ -66,6 +75,9 @@ pub(crate) fn run(arguments: &Arguments) -> miette::Result<()> {
     for output in &arguments.output {
         options.format(output)?;
         check_place("-o", output, path)?;
+    }
+    if let Some(shown) = arguments.stokes {
+        return stokes::write(arguments, shown);
     }
     if !arguments.booth.is_empty() {
         return write_booth(arguments);
@@ -129,9 +141,12 @@ fn under_lamps(
 ) -> miette::Result<Vec<(String, RgbImage8)>> {
     let options = &arguments.options;
     let observer = options.observer();
-    let lit = lamps
-        .iter()
-        .map(|lamp| move |image: &mut SpectralImage| lamp.light(image, observer));
+    let lit = lamps.iter().map(|lamp| {
+        move |image: &mut SpectralImage| {
+            options.polarize(image)?;
+            lamp.light(image, observer)
+        }
+    });
     let lit: Vec<_> = lit.collect();
     let lights: Vec<&Light<'_>> = lit.iter().map(|light| light as &Light<'_>).collect();
     let needs_bands = options.needs_bands();

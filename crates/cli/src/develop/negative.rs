@@ -82,6 +82,9 @@ impl Keeping {
         let [width, height] = rows.size();
         let (grid, groups) = (*rows.bands(), rows.light_groups().to_vec());
         let mut empty = SpectralImage::with_light_groups(width, 0, grid, groups);
+        if rows.content().is_polarized {
+            empty = empty.with_polarization();
+        }
         light(&mut empty)?;
         let pixels = width as usize * height as usize;
         let mut radiance = Vec::new();

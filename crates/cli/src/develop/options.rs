@@ -2,7 +2,8 @@
 
 use super::ImageProperties;
 use super::values::{
-    ExposureOption, GamutName, GlareName, White, bits, display, exposure, fov, star_length, white,
+    ExposureOption, GamutName, GlareName, White, bits, display, exposure, fov, polarizer,
+    star_length, white,
 };
 use crate::output::is_standard_output;
 use crate::print;
@@ -14,6 +15,8 @@ use pellicle::color::develop::{
 };
 use pellicle::colorimetry::{Adaptation, Display};
 use pellicle::picture_file::RgbImage8;
+use pellicle::relight::{NotPolarized, behind};
+use pellicle::spectra::stokes::Polarizer;
 use pellicle::spectra::{LightGroup, Observer, SpectralImage};
 use std::path::PathBuf;
 
@@ -23,6 +26,10 @@ use std::path::PathBuf;
 pub(crate) struct Options {
     #[command(flatten)]
     lamps: RelightArguments,
+    /// Put an ideal linear polarizer in front of the camera, at this angle of the light that passes, counterclockwise from the horizontal
+    /// as the camera sees it: 0 for horizontal, 90 for vertical. The image must be rendered with its polarization
+    #[arg(long, value_name = "DEGREES", value_parser = polarizer, allow_hyphen_values = true)]
+    polarizer: Option<Polarizer>,
     /// Light that becomes the display's white: stops (3), a luminance in the scene (250cd), the luminance of the display's white
     /// (display), or the luminance that a percentage of the pixels do not exceed (auto, which is auto:99) [default: the scene's stops]
     #[arg(long, value_name = "STOPS|CDcd|display|auto[:PERCENT]", value_parser = exposure, allow_hyphen_values = true)]
@@ -69,6 +76,14 @@ fn unknown_lamp() -> miette::Report {
     miette!(
         help = "name the lamp that is white with --adapt-from, or `mean` for the image's mean",
         "--adapt: the lamp of the image's brightest lights is not known"
+    )
+}
+
+/// The error of an option that needs polarized light.
+pub(super) fn not_polarized(option: &str, error: &NotPolarized) -> miette::Report {
+    miette!(
+        help = "render the scene with `render.polarization = true`, and without a polarizer in front of its camera",
+        "{option}: {error}"
     )
 }
 
@@ -161,9 +176,20 @@ impl Options {
         Ok(())
     }
 
-    /// Shows an image, or a strip of it, under the requested lamps and for the requested observer.
+    /// Shows an image, or a strip of it, behind the requested polarizer, under the requested lamps and for the requested observer.
     pub(super) fn light(&self, image: &mut SpectralImage) -> miette::Result<()> {
+        self.polarize(image)?;
         self.lamps.apply(image)
+    }
+
+    /// Puts the requested polarizer in front of an image, or of a strip of it.
+    pub(super) fn polarize(&self, image: &mut SpectralImage) -> miette::Result<()> {
+        match &self.polarizer {
+            None => Ok(()),
+            Some(polarizer) => {
+                behind(image, polarizer).map_err(|error| not_polarized("--polarizer", &error))
+            }
+        }
     }
 
     pub(crate) fn observer(&self) -> Observer {
@@ -173,7 +199,7 @@ impl Options {
     /// Whether the spectra are needed, because colors are not enough.
     pub(crate) fn needs_spectra(&self) -> bool {
         let needs_lamp = self.adapt != Adaptation::None && self.adapt_from.is_none();
-        needs_lamp || self.needs_bands() || !self.lamps.is_nothing()
+        needs_lamp || self.needs_bands() || !self.lamps.is_nothing() || self.polarizer.is_some()
     }
 
     /// Whether the picture depends on the bands of all pixels: the halo in an eye is a ring for each wavelength.

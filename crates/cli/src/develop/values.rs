@@ -6,6 +6,7 @@ use miette::{IntoDiagnostic, WrapErr};
 use pellicle::color::develop::{Exposure, GamutMapping, SceneWhite, Vision};
 use pellicle::colorimetry::chromaticity::xy_of_xyz;
 use pellicle::colorimetry::{Display, tristimulus};
+use pellicle::spectra::stokes::Polarizer;
 use pellicle::spectra::{Observer, Spectrum};
 use std::ops::RangeInclusive;
 
@@ -45,6 +46,7 @@ pub(super) const STOPS: RangeInclusive<f64> = -40.0..=40.0;
 /// The luminances that can become the white.
 pub(super) const LUMINANCES: RangeInclusive<f64> = 1e-9..=1e12;
 pub(super) const FOV_DEG: RangeInclusive<f64> = 0.01..=170.0;
+pub(super) const ANGLES_DEG: RangeInclusive<f64> = -360.0..=360.0;
 pub(super) const STAR_LENGTHS: RangeInclusive<f64> = 1e-4..=10.0;
 
 /// Parses a number within a range.
@@ -106,6 +108,15 @@ impl White {
             .wrap_err_with(|| format!("--adapt-from {name}"))?;
         Ok(SceneWhite::Chromaticity(xy_of_xyz(xyz)))
     }
+}
+
+pub(super) fn polarizer(text: &str) -> Result<Polarizer, String> {
+    let angle_deg = number(text, &ANGLES_DEG)
+        .ok_or_else(|| "the angle of a polarizer is -360 to 360 degrees".to_owned())?;
+    Ok(Polarizer {
+        angle_deg,
+        retarder: None,
+    })
 }
 
 pub(super) fn fov(text: &str) -> Result<f64, String> {

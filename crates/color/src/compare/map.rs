@@ -26,7 +26,7 @@ const MAGMA: [[u8; 3]; 17] = [
 ];
 
 /// The color of NaN.
-const NOT_A_NUMBER: [u8; 3] = [0, 255, 0];
+pub(crate) const NOT_A_NUMBER: [u8; 3] = [0, 255, 0];
 
 /// Returns a picture of one value per pixel: 0 is black, `full` and above pale yellow, NaN green. `None` unless there are
 /// `width` × `height` values.
@@ -39,6 +39,11 @@ fn color(share: f64) -> [u8; 3] {
     if share.is_nan() {
         return NOT_A_NUMBER;
     }
+    magma(share)
+}
+
+/// The color at a place from 0 to 1 in [`MAGMA`].
+pub(crate) fn magma(share: f64) -> [u8; 3] {
     let (below, along) = knot_before(share.clamp(0.0, 1.0), MAGMA.len());
     std::array::from_fn(|i| {
         let (low, high) = (f64::from(MAGMA[below][i]), f64::from(MAGMA[below + 1][i]));

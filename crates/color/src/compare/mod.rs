@@ -20,6 +20,7 @@ mod summary;
 pub use bands::{BandDifference, BandSums, Noise, bands, check_bands, check_sizes};
 pub use flip::flip;
 pub use map::heat_map;
+pub(crate) use map::{NOT_A_NUMBER, magma};
 pub use picture::{Picture, ReadPictureError, delta_e, psnr};
 pub use summary::Summary;
 
