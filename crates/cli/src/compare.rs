@@ -8,6 +8,7 @@ use pellicle::color::compare::{self, BandDifference, BandSums, Noise, Picture, S
 use pellicle::picture_file::png;
 use pellicle::picture_file::spectral_exr::RowReader;
 use pellicle::relight::XyzImage;
+use pellicle::spectra::Stokes;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -71,6 +72,8 @@ struct Comparison {
     psnr_db: f64,
     /// Empty if one of the images has none.
     bands: Vec<BandDifference>,
+    /// S1, S2 and S3, if both images are polarized.
+    components: Vec<(Stokes, Vec<BandDifference>)>,
 }
 
 /// Compares and prints.
@@ -120,16 +123,22 @@ impl Comparison {
         };
         let ev = exposure_ev.unwrap_or_default();
         check_tags(&first, &second)?;
-        let (bands, [a, b]) = match (first, second) {
+        let (mut components, [a, b]) = match (first, second) {
             (Opened::Spectral(mut a), Opened::Spectral(mut b)) => {
-                let (bands, colors) = spectra(&mut a, &mut b, arguments)?;
+                say_polarization(&a, &b, arguments);
+                let (components, colors) = spectra(&mut a, &mut b, arguments)?;
                 let pictures = colors.map(|colors| Picture::of_colors(&colors, ev));
-                (bands, pictures)
+                (components, pictures)
             }
             (a, b) => {
                 let a = a.picture(&arguments.first, ev)?;
                 (Vec::new(), [a, b.picture(&arguments.second, ev)?])
             }
+        };
+        let bands = if components.is_empty() {
+            Vec::new()
+        } else {
+            components.remove(0).1
         };
         let of = |error| unlike(&error, arguments);
         Ok(Self {
@@ -139,6 +148,7 @@ impl Comparison {
             flip: compare::flip(&a, &b).map_err(of)?,
             psnr_db: compare::psnr(&a, &b).map_err(of)?,
             bands,
+            components,
         })
     }
 
@@ -186,7 +196,40 @@ impl Comparison {
             text.push('\n');
             self.table_of_bands(&mut text);
         }
+        if !self.components.is_empty() {
+            text.push('\n');
+            self.table_of_components(&mut text);
+        }
         text
+    }
+
+    /// S1, S2 and S3 over all bands, relative to the mean of S0.
+    fn table_of_components(&self, text: &mut String) {
+        let of_s0 = mean(&self.bands, |band| band.reference_mean);
+        let _ = writeln!(
+            text,
+            "{:>9} {:>12} {:>12} {:>12} {:>12}",
+            "over S0", "mean", "bias", "RMSE", "RMSE/noise"
+        );
+        for (stokes, bands) in &self.components {
+            let rmse = mean(bands, |band| band.rmse * band.rmse).sqrt();
+            let figures = [
+                mean(bands, |band| band.reference_mean),
+                mean(bands, |band| band.bias),
+                rmse,
+            ];
+            let _ = write!(text, "{:>9}", stokes.name());
+            for figure in figures {
+                let _ = write!(text, " {:>12.4e}", figure / of_s0);
+            }
+            match over_noise(bands) {
+                Some(ratio) => _ = writeln!(text, " {ratio:>12.3}"),
+                None => text.push('\n'),
+            }
+        }
+        text.push_str(
+            "the noise is that of S0: S1 to S3 have less where light is not fully polarized\n",
+        );
     }
 
     fn table_of_bands(&self, text: &mut String) {
@@ -214,25 +257,13 @@ impl Comparison {
             }
             text.push('\n');
         }
-        if let Some(ratio) = self.over_noise() {
+        if let Some(ratio) = over_noise(&self.bands) {
             let _ = writeln!(
                 text,
                 "\nover all bands the RMSE is {ratio:.3} times the RMSE expected from noise: \
                  about 1 if images with different seeds differ only by noise"
             );
         }
-    }
-
-    /// The root mean square difference divided by that of noise alone, over all bands where noise is known.
-    fn over_noise(&self) -> Option<f64> {
-        let known = || {
-            let with_noise =
-                |band: &BandDifference| band.noise.map(|noise| (band.rmse, noise.rmse));
-            self.bands.iter().filter_map(with_noise)
-        };
-        let difference: f64 = known().map(|(rmse, _)| rmse * rmse).sum();
-        let noise: f64 = known().map(|(_, noise)| noise * noise).sum();
-        (noise > 0.0).then(|| (difference / noise).sqrt())
     }
 
     fn json(&self, arguments: &Arguments) -> Value {
@@ -263,7 +294,12 @@ impl Comparison {
             "flip": summary(flip),
             "psnr_db": self.psnr_db.is_finite().then_some(self.psnr_db),
             "bands": self.bands.iter().map(band).collect::<Vec<_>>(),
-            "rmse_over_noise": self.over_noise(),
+            "rmse_over_noise": over_noise(&self.bands),
+            "components": self.components.iter().map(|(stokes, bands)| json!({
+                "component": stokes.name(),
+                "bands": bands.iter().map(band).collect::<Vec<_>>(),
+                "rmse_over_noise_of_s0": over_noise(bands),
+            })).collect::<Vec<_>>(),
         })
     }
 
@@ -281,6 +317,38 @@ impl Comparison {
         Ok(())
     }
 }
+
+/// The root mean square difference divided by that of noise alone, over all bands where noise is known.
+fn over_noise(bands: &[BandDifference]) -> Option<f64> {
+    let known = || {
+        let with_noise = |band: &BandDifference| band.noise.map(|noise| (band.rmse, noise.rmse));
+        bands.iter().filter_map(with_noise)
+    };
+    let difference: f64 = known().map(|(rmse, _)| rmse * rmse).sum();
+    let noise: f64 = known().map(|(_, noise)| noise * noise).sum();
+    (noise > 0.0).then(|| (difference / noise).sqrt())
+}
+
+/// The mean over all bands.
+fn mean(bands: &[BandDifference], of: impl Fn(&BandDifference) -> f64) -> f64 {
+    bands.iter().map(of).sum::<f64>() / bands.len().max(1) as f64
+}
+
+/// Notes that only one of two images is polarized.
+fn say_polarization(first: &RowReader, second: &RowReader, arguments: &Arguments) {
+    let with = match [first, second].map(|rows| rows.content().is_polarized) {
+        [true, false] => &arguments.first,
+        [false, true] => &arguments.second,
+        _ => return,
+    };
+    print::note(format_args!(
+        "only {} holds S1, S2 and S3 of polarized light: the images are compared by their radiance, S0",
+        with.display()
+    ));
+}
+
+/// The differences of one component of the Stokes vector after the other, from S0 on.
+type Components = Vec<(Stokes, Vec<BandDifference>)>;
 
 fn decibels(psnr_db: f64) -> String {
     if psnr_db.is_finite() {
@@ -322,25 +390,34 @@ fn check_tags(first: &Opened, second: &Opened) -> miette::Result<()> {
     Ok(())
 }
 
-/// Compares the bands of two files strip by strip, and returns the colors of both.
+/// Compares the bands of two files strip by strip, of all components if both are polarized, and returns the colors of both.
 fn spectra(
     first: &mut RowReader,
     second: &mut RowReader,
     arguments: &Arguments,
-) -> miette::Result<(Vec<BandDifference>, [XyzImage; 2])> {
+) -> miette::Result<(Components, [XyzImage; 2])> {
     let of = |error| unlike(&error, arguments);
     let [width, height] = first.size();
     let sizes = [first.size(), second.size()].map(|size| size.map(|side| side as usize));
     compare::check_sizes(sizes[0], sizes[1]).map_err(of)?;
     compare::check_bands(first.bands(), second.bands()).map_err(of)?;
-    let mut sums = BandSums::new(*first.bands());
+    let are_polarized = first.content().is_polarized && second.content().is_polarized;
+    let components = if are_polarized {
+        &Stokes::ALL[..]
+    } else {
+        &[Stokes::S0]
+    };
+    let sums = |stokes: &Stokes| (*stokes, BandSums::of_component(*first.bands(), *stokes));
+    let mut sums: Vec<(Stokes, BandSums)> = components.iter().map(sums).collect();
     first.check_colors().into_diagnostic()?;
     let pixels = width as usize * height as usize;
     let mut xyz = [0; 2].map(|_| Vec::with_capacity(pixels));
     for rows in first.strips(image_file::STRIP_BYTES) {
         let a = image_file::strip(&arguments.first, first, rows.clone())?;
         let b = image_file::strip(&arguments.second, second, rows)?;
-        sums.add(&a, &b).map_err(of)?;
+        for (_, sums) in &mut sums {
+            sums.add(&a, &b).map_err(of)?;
+        }
         for (xyz, strip) in xyz.iter_mut().zip([&a, &b]) {
             xyz.extend_from_slice(strip.xyz());
         }
@@ -349,7 +426,11 @@ fn spectra(
     image_file::verify(&arguments.second, second)?;
     let colors = xyz.map(|xyz| XyzImage::new(width, height, xyz));
     match colors {
-        [Some(a), Some(b)] => Ok((sums.finish().map_err(of)?, [a, b])),
+        [Some(a), Some(b)] => {
+            let finish = |(stokes, sums): (_, BandSums)| Ok((stokes, sums.finish().map_err(of)?));
+            let components: miette::Result<Components> = sums.into_iter().map(finish).collect();
+            Ok((components?, [a, b]))
+        }
         _ => Err(miette!("the strips do not make up the images")),
     }
 }

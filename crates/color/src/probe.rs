@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use spectra::{ImageLayer, LayerKey, Quantity, SpectralImage, Values};
+use spectra::{ImageLayer, LayerKey, Quantity, SpectralImage, Stokes, Values};
 use thiserror::Error;
 
 /// A rectangle of pixels.
@@ -93,19 +93,40 @@ pub struct Probe {
     pub xyz: [f64; 3],
     /// The part of each of the image's light groups in radiance and XYZ, in the order of the groups.
     pub light_groups: Vec<GroupProbe>,
+    /// Means of S1, S2 and S3, if the image is polarized.
+    pub polarized: Option<[GroupProbe; 3]>,
     /// Number of samples of all its pixels.
     pub samples: u64,
     /// Number of pixels left out because one of their values is not finite.
     pub left_out: u64,
 }
 
-/// The light of one light group.
+/// The light of one light group, or a component of the Stokes vector.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroupProbe {
     /// Mean radiance of each band.
     pub radiance: Vec<f64>,
     /// Mean XYZ.
     pub xyz: [f64; 3],
+}
+
+impl Probe {
+    /// The mean Stokes vector of a band, if the image is polarized.
+    ///
+    /// # Panics
+    /// When there is no such band.
+    pub fn stokes(&self, band: usize) -> Option<[f64; 4]> {
+        let of = self.polarized.as_ref()?;
+        let [s1, s2, s3] = of.each_ref().map(|component| component.radiance[band]);
+        Some([self.radiance[band], s1, s2, s3])
+    }
+
+    /// The mean Stokes vector of the luminance, Y of the XYZ of each component, if the image is polarized.
+    pub fn stokes_of_luminance(&self) -> Option<[f64; 4]> {
+        let of = self.polarized.as_ref()?;
+        let [s1, s2, s3] = of.each_ref().map(|component| component.xyz[1]);
+        Some([self.xyz[1], s1, s2, s3])
+    }
 }
 
 /// Returns the means of a region; they are NaN if no pixel of the region is finite.
@@ -233,12 +254,22 @@ impl Sums {
             radiance: mean(radiance).collect(),
             xyz: mean_xyz(xyz),
         };
+        let is_polarized = Stokes::POLARIZED.iter().all(|stokes| {
+            let key = LayerKey::RADIANCE.component(*stokes);
+            !self.of(key).is_empty()
+        });
         Probe {
             region,
             deviation: knows_noise.then(|| variance.iter().map(deviation).collect()),
             radiance: mean(LayerKey::RADIANCE).collect(),
             xyz: mean_xyz(LayerKey::XYZ),
             light_groups: self.light_groups.iter().map(of_light).collect(),
+            polarized: is_polarized.then(|| {
+                Stokes::POLARIZED.map(|stokes| {
+                    let totals = [LayerKey::RADIANCE, LayerKey::XYZ];
+                    of_light(&totals.map(|key| key.component(stokes)))
+                })
+            }),
             // Sums of counts are exact up to 2⁵³.
             samples: self.of(LayerKey::SAMPLES).iter().sum::<f64>() as u64,
             left_out: self.left_out,
@@ -311,6 +342,33 @@ mod tests {
         assert_eq!(found.light_groups[1].radiance, [4.0, 5.0]);
         assert_eq!((found.light_groups[1].xyz, found.xyz), ([3.0; 3], [4.0; 3]));
         assert_eq!(found.radiance, [4.5, 6.0]);
+    }
+
+    #[test]
+    fn components_are_averaged_too() {
+        let mut image = image().with_polarization();
+        assert_eq!(
+            probe(&super::tests::image(), Region::pixel(0, 0))
+                .unwrap()
+                .polarized,
+            None
+        );
+        for (stokes, value) in Stokes::POLARIZED.into_iter().zip([1.0, -2.0, 3.0]) {
+            for x in 0..2 {
+                let values = [value + x as f32, 0.5];
+                image.set_component_by_light((x, 1), stokes, &values, &[[value; 3]]);
+            }
+        }
+        let region = Region {
+            x: 0,
+            y: 1,
+            width: 2,
+            height: 1,
+        };
+        let found = probe(&image, region).unwrap();
+        assert_eq!(found.stokes(0), Some([10.5, 1.5, -1.5, 3.5]));
+        assert_eq!(found.stokes(1), Some([1.0, 0.5, 0.5, 0.5]));
+        assert_eq!(found.stokes_of_luminance(), Some([21.0, 1.0, -2.0, 3.0]));
     }
 
     #[test]

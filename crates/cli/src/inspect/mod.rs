@@ -2,6 +2,7 @@
 
 mod film;
 mod plot;
+mod polarization;
 mod report;
 
 use crate::film::numbers::{self, Vary};

@@ -1,7 +1,7 @@
 //! The results as a table, as CSV or as JSON.
 
 use super::film::{FilmFinding, Fitted};
-use super::{Inspection, Position};
+use super::{Inspection, Position, polarization};
 use crate::print;
 use crate::swatch::swatch;
 use pellicle::coating::{FilmFit, FilmFits, MatchPlace, Verdict};
@@ -109,6 +109,9 @@ impl Inspection<'_> {
             lab.hue_deg()
         );
         self.light_groups(text, place);
+        if let Some(stokes) = probe.stokes_of_luminance() {
+            let _ = writeln!(text, "  {}", polarization::line(stokes));
+        }
         let _ = write!(text, "  {} samples", probe.samples);
         if probe.left_out > 0 {
             let _ = write!(
@@ -138,6 +141,9 @@ impl Inspection<'_> {
             if place.probe.deviation.is_some() {
                 let _ = write!(text, " {:>9}", "±");
             }
+            if place.probe.polarized.is_some() {
+                text.push_str(&polarization::heading());
+            }
         }
         text.push('\n');
         for band in 0..self.image.bands().count() {
@@ -147,6 +153,9 @@ impl Inspection<'_> {
                 let _ = write!(text, " {:>13.6e}", place.probe.radiance[band]);
                 if let Some(deviation) = &place.probe.deviation {
                     let _ = write!(text, " {:>9.2e}", deviation[band]);
+                }
+                if let Some(stokes) = place.probe.stokes(band) {
+                    text.push_str(&polarization::columns(stokes));
                 }
             }
             text.push('\n');
@@ -162,6 +171,9 @@ impl Inspection<'_> {
         for place in &self.places {
             let name = place.label.replace([',', ' '], "_");
             let _ = write!(text, ",radiance_{name},deviation_{name}");
+            if place.probe.polarized.is_some() {
+                let _ = write!(text, ",s1_{name},s2_{name},s3_{name}");
+            }
         }
         for band in 0..self.image.bands().count() {
             let _ = write!(text, "\n{}", self.image.bands().center_nm(band));
@@ -170,6 +182,9 @@ impl Inspection<'_> {
                 let _ = write!(text, ",{:.9e},", probe.radiance[band]);
                 if let Some(deviation) = &probe.deviation {
                     let _ = write!(text, "{:.3e}", deviation[band]);
+                }
+                if let Some([_, s1, s2, s3]) = probe.stokes(band) {
+                    let _ = write!(text, ",{s1:.9e},{s2:.9e},{s3:.9e}");
                 }
             }
         }
@@ -212,6 +227,7 @@ impl Inspection<'_> {
             "light_groups": self.image.light_groups().iter().zip(&probe.light_groups).map(|(group, share)| json!({
                 "name": group.name, "radiance": share.radiance, "xyz": share.xyz,
             })).collect::<Vec<_>>(),
+            "polarization": polarization::json(probe),
             "samples": probe.samples,
             "left_out": probe.left_out,
             "xyz": probe.xyz,

@@ -41,6 +41,7 @@ mod merge;
 mod pages;
 mod pipeline_cache;
 mod place;
+mod polarized;
 mod render;
 mod render_refusals;
 #[cfg(unix)]

@@ -1,7 +1,7 @@
 //! Differences of two spectral images in each band.
 
 use rayon::prelude::*;
-use spectra::{BandGrid, SpectralImage};
+use spectra::{BandGrid, LayerKey, SpectralImage, Stokes};
 
 use super::CompareError;
 
@@ -46,6 +46,8 @@ struct Sums {
 #[derive(Clone, Debug)]
 pub struct BandSums {
     grid: BandGrid,
+    /// The component of the Stokes vector that is compared.
+    stokes: Stokes,
     sums: Vec<Sums>,
     pixels: usize,
     /// Whether the first and the second have a variance.
@@ -68,7 +70,14 @@ pub fn bands(
 impl BandSums {
     /// Starts without any rows, for two images of these bands.
     pub fn new(bands: BandGrid) -> Self {
+        Self::of_component(bands, Stokes::S0)
+    }
+
+    /// As [`Self::new`], for a component of the Stokes vector. The noise of S1, S2 and S3 is not known: that of S0 is given, which theirs
+    /// is like where light is fully polarized, and which is larger where it is not. Images without the component do not count.
+    pub fn of_component(bands: BandGrid, stokes: Stokes) -> Self {
         Self {
+            stokes,
             sums: vec![Sums::default(); bands.count() as usize],
             grid: bands,
             pixels: 0,
@@ -94,7 +103,7 @@ impl BandSums {
         for (known, image) in self.has_noise.iter_mut().zip([reference, test]) {
             *known = *known || image.variance().iter().any(|&v| v > 0.0);
         }
-        for row in sums_of_rows(reference, test) {
+        for row in sums_of_rows(reference, test, self.stokes) {
             for (total, sums) in self.sums.iter_mut().zip(row) {
                 total.add_all(sums);
             }
@@ -144,7 +153,12 @@ pub fn check_sizes(first: [usize; 2], second: [usize; 2]) -> Result<(), CompareE
 }
 
 /// Sums each row of pixels on any core, to be added in order, so the results are the same on every machine.
-fn sums_of_rows(reference: &SpectralImage, test: &SpectralImage) -> Vec<Vec<Sums>> {
+fn sums_of_rows(reference: &SpectralImage, test: &SpectralImage, stokes: Stokes) -> Vec<Vec<Sums>> {
+    let key = LayerKey::RADIANCE.component(stokes);
+    let (Some(first), Some(second)) = (reference.layer(key), test.layer(key)) else {
+        return Vec::new();
+    };
+    let (first, second) = (first.floats(), second.floats());
     let bands = reference.bands().count() as usize;
     let row = bands * reference.width() as usize;
     let of_row = |row: &[f32], other: &[f32], variance: &[f32], other_variance: &[f32]| {
@@ -163,8 +177,8 @@ fn sums_of_rows(reference: &SpectralImage, test: &SpectralImage) -> Vec<Vec<Sums
         .map(|y| {
             let values = y * row..(y + 1) * row;
             of_row(
-                &reference.radiance()[values.clone()],
-                &test.radiance()[values.clone()],
+                &first[values.clone()],
+                &second[values.clone()],
                 &reference.variance()[values.clone()],
                 &test.variance()[values],
             )
@@ -260,6 +274,28 @@ mod tests {
             sums.add(&strip(y, 0.1), &strip(y, 0.3)).unwrap();
         }
         assert_eq!(sums.finish().unwrap(), whole);
+    }
+
+    #[test]
+    fn components_are_compared_by_themselves() {
+        let with = |s2: f32| {
+            let mut image = image([[1.0; 2]; 2], 0.02).with_polarization();
+            image.set_component_by_light((1, 0), Stokes::S2, &[s2, -s2], &[[0.0; 3]]);
+            image
+        };
+        let of = |stokes| {
+            let mut sums = BandSums::of_component(BandGrid::visible(2).unwrap(), stokes);
+            sums.add(&with(0.5), &with(0.25)).unwrap();
+            sums.finish().unwrap()
+        };
+        let s2 = of(Stokes::S2);
+        assert_eq!((s2[0].reference_mean, s2[0].bias), (0.25, -0.125));
+        assert_eq!((s2[1].reference_mean, s2[1].bias), (-0.25, 0.125));
+        assert!((s2[0].rmse - 0.25 / 2.0_f64.sqrt()).abs() < 1e-12);
+        assert!((s2[0].noise.unwrap().rmse - 0.2).abs() < 1e-6);
+        for other in [Stokes::S0, Stokes::S1, Stokes::S3] {
+            assert_eq!(of(other)[0].rmse, 0.0, "{other:?}");
+        }
     }
 
     #[test]
