@@ -80,7 +80,7 @@ fn unknown_lamp() -> miette::Report {
 }
 
 /// The error of an option that needs polarized light.
-pub(super) fn not_polarized(option: &str, error: &NotPolarized) -> miette::Report {
+pub(super) fn not_polarized(option: &str, error: NotPolarized) -> miette::Report {
     miette!(
         help = "render the scene with `render.polarization = true`, and without a polarizer in front of its camera",
         "{option}: {error}"
@@ -187,7 +187,7 @@ impl Options {
         match &self.polarizer {
             None => Ok(()),
             Some(polarizer) => {
-                behind(image, polarizer).map_err(|error| not_polarized("--polarizer", &error))
+                behind(image, polarizer).map_err(|error| not_polarized("--polarizer", error))
             }
         }
     }

@@ -111,7 +111,7 @@ fn picture(arguments: &Arguments, shown: StokesName) -> miette::Result<RgbImage8
     let path = &arguments.image;
     let mut rows = image_file::rows(path)?;
     if !rows.content().is_polarized {
-        return Err(not_polarized("--stokes", &NotPolarized));
+        return Err(not_polarized("--stokes", NotPolarized));
     }
     rows.check_colors().into_diagnostic()?;
     let [width, height] = rows.size();
