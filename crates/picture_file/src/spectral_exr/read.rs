@@ -17,6 +17,7 @@ mod plan;
 mod polarization;
 mod reflectances;
 mod rows;
+mod spectral;
 
 use colors::Colors;
 use pixels::Pixels;

@@ -7,13 +7,14 @@ use spectra::{BandGrid, LayerKey, LightGroup, PixelContent, Spectrum, Stokes};
 
 use super::polarization::Polarization;
 use super::reflectances;
-use crate::exr_file::{BandLayoutError, Context, ReadExrError, Window, name_of};
+use super::spectral::{Spectral, names};
+use crate::exr_file::{BandLayoutError, Context, ReadExrError, Window};
 use crate::spectral_exr::bands::{BandMix, Bands};
 use crate::spectral_exr::channels::content;
 use crate::spectral_exr::content::Content;
 use crate::spectral_exr::lights;
 use crate::spectral_exr::metadata::{Metadata, range_nm, sign_of_s3};
-use crate::spectral_exr::wavelength::{Quantity, SpectralPosition, spectral_channel};
+use crate::spectral_exr::wavelength::{Quantity, SpectralPosition};
 
 /// The layer with the spectrum, and the contents of its channels.
 #[derive(Clone, Debug)]
@@ -40,12 +41,6 @@ pub(super) struct Plan {
     pub(super) sign_of_s3: f32,
     /// The illuminant of reflectances; `None` if the channels are radiances.
     pub(super) illuminant: Option<Spectrum>,
-}
-
-/// The spectral channels of a layer, in order of their wavelengths.
-pub(super) struct Spectral {
-    pub(super) quantity: Quantity,
-    pub(super) channels: Vec<(SpectralPosition, usize)>,
 }
 
 impl Plan {
@@ -184,30 +179,6 @@ fn find(headers: &[Header]) -> Result<Option<(usize, Spectral)>, BandLayoutError
         }
     }
     Ok(None)
-}
-
-impl Spectral {
-    fn of(header: &Header, quantity: Quantity) -> Result<Self, BandLayoutError> {
-        let mut channels = Vec::new();
-        for (channel, name) in names(header).iter().enumerate() {
-            if let Some(found) = spectral_channel(name) {
-                let (of_channel, place) = found?;
-                if of_channel == quantity {
-                    channels.push((place, channel));
-                }
-            }
-        }
-        // Other writers may not pad their numbers, so names may not be in the order of wavelengths.
-        channels.sort_by(|a, b| a.0.center_nm().total_cmp(&b.0.center_nm()));
-        Ok(Self { quantity, channels })
-    }
-}
-
-pub(super) fn names(header: &Header) -> Vec<String> {
-    let channels = header.channels.list.iter();
-    channels
-        .map(|channel| name_of(channel.name.as_slice()))
-        .collect()
 }
 
 /// Returns the content of each channel.

@@ -3,7 +3,7 @@
 use exr::meta::header::Header;
 use spectra::{LayerKey, LightGroup, Stokes};
 
-use super::plan::{Spectral, names};
+use super::spectral::{Spectral, names};
 use crate::spectral_exr::bands::Bands;
 use crate::spectral_exr::content::Content;
 use crate::spectral_exr::lights;
