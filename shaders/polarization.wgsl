@@ -33,7 +33,7 @@ fn emitted_stokes(row: u32, toward: vec3f, axis: vec3f) -> vec3f {
     if (row == NONE) {
         return vec3f(0.0);
     }
-    let light = load_emitted_polarization(row);
+    let light = load_polarization(row);
     let side = axis_across(toward, light.axis);
     if (light.kind == POLARIZED_SKY) {
         let cosine = dot(toward, light.axis);

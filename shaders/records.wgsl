@@ -92,7 +92,7 @@ struct Emitter {
     edge_height: f32,
     /// Row of its node in the tree of emitters.
     node: u32,
-    /// Row of the record of its picture, a `Panorama`; without a picture, that of its polarization, an `EmittedPolarization`, or NONE.
+    /// Row of the record of its picture, a `Panorama`; without a picture, that of its polarization, an `Polarization`, or NONE.
     record: u32,
 }
 const EMITTER_ROWS: u32 = 6u;
@@ -137,7 +137,7 @@ struct Material {
     emission: u32,
     /// Factor of its emission; 0 where it emits nothing.
     emission_scale: f32,
-    /// Row of the polarization of its emission, an `EmittedPolarization`; NONE where that is unpolarized.
+    /// Row of the polarization of its emission, an `Polarization`; NONE where that is unpolarized.
     polarization: u32,
     /// Padding to whole rows.
     padding: u32,
@@ -159,7 +159,7 @@ fn load_material(row: u32) -> Material {
 }
 
 /// How emitted light is polarized.
-struct EmittedPolarization {
+struct Polarization {
     /// S1, S2 and S3 over S0.
     stokes: vec3f,
     /// A `POLARIZED_` tag.
@@ -170,10 +170,10 @@ struct EmittedPolarization {
     degree: f32,
 }
 const EMITTEDPOLARIZATION_ROWS: u32 = 2u;
-fn load_emittedpolarization(row: u32) -> EmittedPolarization {
+fn load_polarization(row: u32) -> Polarization {
     let row_0 = records_row(row + 0u);
     let row_1 = records_row(row + 1u);
-    return EmittedPolarization(
+    return Polarization(
         vec3f(bitcast<f32>(row_0.x), bitcast<f32>(row_0.y), bitcast<f32>(row_0.z)),
         row_0.w,
         vec3f(bitcast<f32>(row_1.x), bitcast<f32>(row_1.y), bitcast<f32>(row_1.z)),
@@ -478,7 +478,7 @@ struct Panorama {
     first_number: u32,
     /// Density of light at the picture's mean brightness, on the scale of the density of the sampled light; 0 where all light is sampled.
     even_density: f32,
-    /// Row of the polarization of its light, an `EmittedPolarization`; NONE where that is unpolarized.
+    /// Row of the polarization of its light, an `Polarization`; NONE where that is unpolarized.
     polarization: u32,
     /// Padding to whole rows.
     padding: u32,

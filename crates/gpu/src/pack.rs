@@ -166,13 +166,13 @@ fn polarization_row(tables: &mut Tables, emission: Emission) -> u32 {
         return layout::NONE;
     };
     tables.push(&match polarization {
-        EmittedPolarization::Stokes { stokes, axis } => layout::EmittedPolarization {
+        EmittedPolarization::Stokes { stokes, axis } => layout::Polarization {
             stokes: stokes.map(|component| component as f32),
             kind: layout::POLARIZED_STOKES,
             axis: vec3(axis),
             degree: 0.0,
         },
-        EmittedPolarization::Sky { sun, most } => layout::EmittedPolarization {
+        EmittedPolarization::Sky { sun, most } => layout::Polarization {
             stokes: [0.0; 3],
             kind: layout::POLARIZED_SKY,
             axis: vec3(sun),

@@ -341,12 +341,10 @@ fn write_both<S: Simd>(
     rows: &mut [Spectrum],
 ) {
     if let [Some(reflected), Some(transmitted)] = to {
-        for chunk in bands.chunks() {
-            for at in At::lanes::<S>(chunk) {
-                let [r, t] = film.polarized(bands, at);
-                reflected.store((bands, at), rows, &Mueller::of(&r, 1.0));
-                transmitted.store((bands, at), rows, &Mueller::of(&t, 1.0));
-            }
+        for at in bands.registers() {
+            let [r, t] = film.polarized(bands, at);
+            reflected.store((bands, at), rows, &Mueller::of(&r, 1.0));
+            transmitted.store((bands, at), rows, &Mueller::of(&t, 1.0));
         }
         return;
     }

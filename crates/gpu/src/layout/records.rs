@@ -102,7 +102,7 @@ records! { RECORDS;
     }
 
     /// How emitted light is polarized.
-    pub struct EmittedPolarization {
+    pub struct Polarization {
         /// S1, S2 and S3 over S0.
         pub stokes: [f32; 3],
         /// A `POLARIZED_` tag.

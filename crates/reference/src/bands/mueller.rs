@@ -1,6 +1,6 @@
 //! Mueller matrices of interfaces and surfaces, in all bands at once.
 
-use super::{At, BandValue, Bands, Spectrum};
+use super::{At, BandValue, Bands, CHUNK, Spectrum};
 use crate::polarization::Turn;
 use optics::wide::{Lanes, PolarizedPowers, Real};
 use pulp::Simd;
@@ -63,9 +63,9 @@ impl<T: Real> Mueller<T> {
     /// A matrix that takes the powers of s and p of what arrives and gives those of what leaves, without phases.
     #[inline(always)]
     pub(crate) fn product([out_s, out_p]: [T; 2], [in_s, in_p]: [T; 2], weight: T) -> Self {
-        let half = |a: T, b: T| ((a + b).times(0.5), (a - b).times(0.5));
-        let ((out_mean, out_half), (in_mean, in_half)) = (half(out_s, out_p), half(in_s, in_p));
-        let (out_mean, out_half) = (out_mean * weight, out_half * weight);
+        let weight = weight.times(0.5);
+        let (out_mean, out_half) = ((out_s + out_p) * weight, (out_s - out_p) * weight);
+        let (in_mean, in_half) = ((in_s + in_p).times(0.5), (in_s - in_p).times(0.5));
         let zero = out_mean.constant(0.0);
         Self {
             m00: out_mean * in_mean,
@@ -103,17 +103,17 @@ impl StoredMueller {
         rows: &mut [Spectrum],
         m: &Mueller<Lanes<S>>,
     ) {
-        let mut put = |place: usize, value| bands.store(at, value, &mut rows[self.first + place]);
-        put(0, m.m00);
+        let rows = &mut rows[self.first..];
+        bands.store(at, m.m00, &mut rows[0]);
         if self.kind == MuellerKind::Depolarizer {
             return;
         }
-        put(1, m.m01);
-        put(2, m.m22);
-        put(3, m.m23);
+        bands.store(at, m.m01, &mut rows[1]);
+        bands.store(at, m.m22, &mut rows[2]);
+        bands.store(at, m.m23, &mut rows[3]);
         if self.kind == MuellerKind::General {
-            put(4, m.m10);
-            put(5, m.m11);
+            bands.store(at, m.m10, &mut rows[4]);
+            bands.store(at, m.m11, &mut rows[5]);
         }
     }
 
@@ -125,15 +125,15 @@ impl StoredMueller {
         rows: &[Spectrum],
         [s0, s1, s2, s3]: [Lanes<S>; 4],
     ) -> [Lanes<S>; 4] {
-        let row = |place: usize| bands.load(at, &rows[self.first + place]);
-        let m00 = row(0);
+        let rows = &rows[self.first..];
+        let m00 = bands.load(at, &rows[0]);
         match self.kind {
             MuellerKind::Depolarizer => {
                 let zero = bands.splat(0.0);
                 [m00 * s0, zero, zero, zero]
             }
             MuellerKind::Amplitudes => {
-                let (m01, m22, m23) = (row(1), row(2), row(3));
+                let [_, m01, m22, m23] = bands.load_four(at, rows);
                 [
                     m01.mul_add(s1, m00 * s0),
                     m01.mul_add(s0, m00 * s1),
@@ -142,8 +142,8 @@ impl StoredMueller {
                 ]
             }
             MuellerKind::General => {
-                let (m01, m22, m23) = (row(1), row(2), row(3));
-                let (m10, m11) = (row(4), row(5));
+                let [_, m01, m22, m23] = bands.load_four(at, rows);
+                let (m10, m11) = (bands.load(at, &rows[4]), bands.load(at, &rows[5]));
                 [
                     m01.mul_add(s1, m00 * s0),
                     m11.mul_add(s1, m10 * s0),
@@ -162,6 +162,24 @@ impl<S: Simd> Bands<'_, S> {
         at.load(self.simd, &spectrum.0[..self.chunks().len()])
     }
 
+    /// Loads some bands of the first four spectra.
+    #[inline(always)]
+    pub(crate) fn load_four(&self, at: At, spectra: &[Spectrum]) -> [Lanes<S>; 4] {
+        [
+            self.load(at, &spectra[0]),
+            self.load(at, &spectra[1]),
+            self.load(at, &spectra[2]),
+            self.load(at, &spectra[3]),
+        ]
+    }
+
+    /// Returns all bands, one register after the other.
+    #[inline(always)]
+    pub(crate) fn registers(&self) -> impl Iterator<Item = At> + use<S> {
+        let lanes = CHUNK / Lanes::<S>::COUNT;
+        (0..self.chunks().len() * lanes).map(move |i| At(i / lanes, i % lanes * Lanes::<S>::COUNT))
+    }
+
     /// Stores some bands of a spectrum.
     #[inline(always)]
     pub(crate) fn store(&self, at: At, values: Lanes<S>, to: &mut Spectrum) {
@@ -171,10 +189,8 @@ impl<S: Simd> Bands<'_, S> {
     /// Writes a value to a spectrum.
     #[inline(always)]
     pub(crate) fn write(&self, value: &impl BandValue, to: &mut Spectrum) {
-        for chunk in self.chunks() {
-            for at in At::lanes::<S>(chunk) {
-                self.store(at, value.value(self, at), to);
-            }
+        for at in self.registers() {
+            self.store(at, value.value(self, at), to);
         }
     }
 
@@ -186,10 +202,8 @@ impl<S: Simd> Bands<'_, S> {
         to: StoredMueller,
         rows: &mut [Spectrum],
     ) {
-        for chunk in self.chunks() {
-            for at in At::lanes::<S>(chunk) {
-                to.store((self, at), rows, &value.mueller(self, at));
-            }
+        for at in self.registers() {
+            to.store((self, at), rows, &value.mueller(self, at));
         }
     }
 

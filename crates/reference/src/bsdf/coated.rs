@@ -146,13 +146,14 @@ impl BandMueller for (&CoatedAt<'_>, Lobes) {
                 let mirrored = coat.medium.polarized(bands, at, lobes.cosine);
                 return Mueller::of(&mirrored, lobes.single);
             }
-            let through = |cosine| {
-                let reflected = coat.medium.polarized(bands, at, cosine);
-                [reflected.s.complement(), reflected.p.complement()]
-            };
             let inside = surface.below_coat(bands, at).times(lobes.body);
-            let (out, into) = (through(lobes.wo_cosine), through(lobes.wi_cosine));
-            return Mueller::product(out, into, inside);
+            let out = coat.medium.polarized(bands, at, lobes.wo_cosine);
+            let into = coat.medium.polarized(bands, at, lobes.wi_cosine);
+            return Mueller::product(
+                [out.s.complement(), out.p.complement()],
+                [into.s.complement(), into.p.complement()],
+                inside,
+            );
         };
         let once = coat.medium.polarized(bands, at, lobes.cosine);
         let inside = surface.below_coat(bands, at).times(lobes.body);

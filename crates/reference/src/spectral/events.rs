@@ -109,8 +109,7 @@ impl Record {
                     waits -= 1;
                     let through = transmitted.apply((bands, at), &self.spectra, waiting[waits]);
                     let mirrored = reflected.apply((bands, at), &self.spectra, light);
-                    let both = std::array::from_fn(|i| mirrored[i] + through[i]);
-                    light = bands.turned(turn, both);
+                    light = bands.turned(turn, sum(mirrored, through));
                 }
                 Event::Resumes => {
                     waiting[waits] = light;
@@ -124,10 +123,10 @@ impl Record {
                 } if light_group == group => {
                     let radiance = bands.load(at, &self.spectra[radiance]);
                     light[0] = light[0] + radiance;
-                    if let Some(stokes) = stokes {
-                        for (sum, part) in light[1..].iter_mut().zip(stokes) {
-                            *sum = radiance.mul_add(bands.splat(part), *sum);
-                        }
+                    if let Some([s1, s2, s3]) = stokes {
+                        light[1] = radiance.mul_add(bands.splat(s1), light[1]);
+                        light[2] = radiance.mul_add(bands.splat(s2), light[2]);
+                        light[3] = radiance.mul_add(bands.splat(s3), light[3]);
                     }
                 }
                 Event::Joins {
@@ -135,13 +134,18 @@ impl Record {
                     first,
                     turn,
                 } if light_group == group => {
-                    let own = std::array::from_fn(|i| bands.load(at, &self.spectra[first + i]));
+                    let own = bands.load_four(at, &self.spectra[first..]);
                     let own = bands.turned(turn, own);
-                    light = std::array::from_fn(|i| light[i] + own[i]);
+                    light = sum(light, own);
                 }
                 Event::Shines { .. } | Event::Joins { .. } => {}
             }
         }
         light
     }
+}
+
+#[inline(always)]
+fn sum<T: Real>([a0, a1, a2, a3]: [T; 4], [b0, b1, b2, b3]: [T; 4]) -> [T; 4] {
+    [a0 + b0, a1 + b1, a2 + b2, a3 + b3]
 }

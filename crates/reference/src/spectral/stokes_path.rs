@@ -292,12 +292,12 @@ impl WithSimd for Spread<'_, '_> {
         let Self(path, first, stokes) = self;
         let bands = path.wavelengths.bands(simd);
         let spectra = &mut path.record.spectra;
-        each(&bands, |at| {
+        for at in bands.registers() {
             let radiance = bands.load(at, &spectra[first]);
             for (i, part) in stokes.into_iter().enumerate() {
                 bands.store(at, radiance.times(part), &mut spectra[first + 1 + i]);
             }
-        });
+        }
     }
 }
 
@@ -312,13 +312,13 @@ impl WithSimd for Apply<'_, '_> {
         let Self(path, matrix, turn, first) = self;
         let bands = path.wavelengths.bands(simd);
         let spectra = &mut path.record.spectra;
-        each(&bands, |at| {
-            let light = std::array::from_fn(|i| bands.load(at, &spectra[first + i]));
+        for at in bands.registers() {
+            let light = bands.load_four(at, &spectra[first..]);
             let light = bands.turned(turn, matrix.apply((&bands, at), spectra, light));
             for (i, component) in light.into_iter().enumerate() {
                 bands.store(at, component, &mut spectra[first + i]);
             }
-        });
+        }
     }
 }
 
@@ -342,11 +342,11 @@ impl WithSimd for Evaluate<'_, '_> {
                 }
                 continue;
             }
-            each(&bands, |at| {
+            for at in bands.registers() {
                 let light = path.record.arriving((&bands, at), group);
                 if let Some(analyzer) = &path.analyzer {
                     bands.store(at, transmitted(&bands, at, analyzer, light), radiance);
-                    return;
+                    continue;
                 }
                 bands.store(at, light[0], radiance);
                 if let Some(polarized) = path.polarized.get_mut(group) {
@@ -354,7 +354,7 @@ impl WithSimd for Evaluate<'_, '_> {
                         bands.store(at, *component, to);
                     }
                 }
-            });
+            }
         }
     }
 }
@@ -365,36 +365,39 @@ fn transmitted<S: Simd>(
     bands: &Bands<'_, S>,
     at: At,
     analyzer: &Analyzer,
-    [s0, rest @ ..]: [Lanes<S>; 4],
+    [s0, s1, s2, s3]: [Lanes<S>; 4],
 ) -> Lanes<S> {
-    let weights: [Lanes<S>; 3] = match analyzer.retardance {
+    let [w1, w2, w3] = match analyzer.retardance {
         // The same at every wavelength.
-        Retardance::Phase { .. } => analyzer.weights(1.0).map(|weight| bands.splat(weight)),
+        Retardance::Phase { .. } => {
+            let [w1, w2, w3] = analyzer.weights(1.0);
+            [bands.splat(w1), bands.splat(w2), bands.splat(w3)]
+        }
         Retardance::Path { nm } => {
             // Of half the phase, both perhaps with the opposite sign.
             let (half_sin, half_cos) = sin_cos_half_turns(bands.inverse_wavelength(at).times(nm));
             let sin = (half_sin * half_cos).times(2.0);
             let cos = (half_sin * half_sin).times(2.0).complement();
-            std::array::from_fn(|i| {
-                let fixed = bands.splat(analyzer.constant[i]);
-                let fixed = cos.mul_add(bands.splat(analyzer.cosine[i]), fixed);
-                sin.mul_add(bands.splat(analyzer.sine[i]), fixed)
-            })
+            [
+                weight(bands, analyzer, 0, (sin, cos)),
+                weight(bands, analyzer, 1, (sin, cos)),
+                weight(bands, analyzer, 2, (sin, cos)),
+            ]
         }
     };
-    let mut sum = s0;
-    for (weight, component) in weights.into_iter().zip(rest) {
-        sum = weight.mul_add(component, sum);
-    }
+    let sum = w1.mul_add(s1, w2.mul_add(s2, w3.mul_add(s3, s0)));
     sum.times(0.5)
 }
 
-/// Calls a function for the bands of each register.
+/// Returns the weight of a component for the sine and cosine of a phase.
 #[inline(always)]
-fn each<S: Simd>(bands: &Bands<'_, S>, mut of: impl FnMut(At)) {
-    for chunk in bands.chunks() {
-        for at in At::lanes::<S>(chunk) {
-            of(at);
-        }
-    }
+fn weight<S: Simd>(
+    bands: &Bands<'_, S>,
+    analyzer: &Analyzer,
+    component: usize,
+    (sin, cos): (Lanes<S>, Lanes<S>),
+) -> Lanes<S> {
+    let fixed = bands.splat(analyzer.constant[component]);
+    let fixed = cos.mul_add(bands.splat(analyzer.cosine[component]), fixed);
+    sin.mul_add(bands.splat(analyzer.sine[component]), fixed)
 }
