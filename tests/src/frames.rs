@@ -1,7 +1,7 @@
 //! Comparing pictures band by band.
 
 use crate::tolerances::{FrameTolerance, VarianceTolerance, Z_MEAN, Z_OVER_3};
-use spectra::SpectralImage;
+use spectra::{LayerKey, SpectralImage, Stokes};
 
 /// Values of an image, pixel by pixel, `bands` per pixel.
 #[derive(Clone, Copy, Debug)]
@@ -112,6 +112,69 @@ pub fn same_numbers(
         && bias.abs() <= tolerance.bias
         && share <= tolerance.outlier_fraction;
     if good { Ok(report) } else { Err(report) }
+}
+
+/// Compares S1, S2 and S3 of two pictures rendered with the same random numbers, in total and of each light group, in the bands and as XYZ. Errors
+/// are relative to S0, with the tolerances of a frame.
+///
+/// # Errors
+/// A report of the first component that is missing in either, has a value that is not finite, or differs too much. Polarization of less than a
+/// thousandth in every pixel is an error too, if `must_be_polarized`: it would prove nothing.
+pub fn same_polarization(
+    actual: &SpectralImage,
+    expected: &SpectralImage,
+    must_be_polarized: bool,
+    tolerance: &FrameTolerance,
+) -> Result<String, String> {
+    let mut worst = (0.0, String::new());
+    let mut strongest = 0.0_f64;
+    for key in LayerKey::polarized(expected.light_groups().len()) {
+        let of = |image: &SpectralImage, key| image.layer(key).map(|layer| layer.floats().to_vec());
+        let (Some(found), Some(sought)) = (of(actual, key), of(expected, key)) else {
+            return Err(format!("{key:?} is missing"));
+        };
+        let all = of(expected, key.component(Stokes::S0)).unwrap_or_default();
+        if found.len() != sought.len() || sought.len() != all.len() {
+            return Err("the pictures have different shapes".to_owned());
+        }
+        let mean = all.iter().map(|&x| f64::from(x)).sum::<f64>() / all.len().max(1) as f64;
+        let floor = tolerance.floor * mean;
+        let mut errors = Vec::with_capacity(found.len());
+        for ((a, e), s0) in found.iter().zip(&sought).zip(&all) {
+            let [a, e, s0] = [a, e, s0].map(|&x| f64::from(x));
+            let error = (a - e).abs() / (s0.abs() + floor);
+            if !error.is_finite() && s0.abs() + floor > 0.0 {
+                return Err(format!("{key:?} has the value {a}"));
+            }
+            // Where there is no light at all, both are 0.
+            errors.push(if a == e { 0.0 } else { error });
+            if s0 > floor {
+                strongest = strongest.max(e.abs() / s0);
+            }
+        }
+        let outliers = errors.iter().filter(|&&e| e > tolerance.outlier).count();
+        let share = outliers as f64 / errors.len().max(1) as f64;
+        errors.sort_by(f64::total_cmp);
+        let p99 = errors[(errors.len() - 1) * 99 / 100];
+        if !(p99 <= tolerance.p99 && share <= tolerance.outlier_fraction) {
+            return Err(format!(
+                "{key:?}: p99 {p99:.1e}, outliers {:.3} %",
+                100.0 * share
+            ));
+        }
+        if p99 >= worst.0 {
+            worst = (p99, format!("{key:?}"));
+        }
+    }
+    if must_be_polarized && strongest < 1e-3 {
+        return Err(format!(
+            "no light is polarized to more than {strongest:.1e}"
+        ));
+    }
+    let (p99, key) = worst;
+    Ok(format!(
+        "polarization: p99 {p99:.1e} ({key}), up to {strongest:.2} polarized"
+    ))
 }
 
 /// The largest mean signed error divided by the mean, and its band, without the outliers.
@@ -291,6 +354,58 @@ mod tests {
             .flat_map(|p| [p[1], p[0], p[2], p[3]])
             .collect();
         assert!(check(&swapped).is_err());
+    }
+
+    /// A picture of 20×20 pixels with some polarization, changed in one component.
+    fn polarized(change: impl Fn(Stokes, usize, f32) -> f32) -> SpectralImage {
+        let mut image = SpectralImage::new(20, 20, spectra::BandGrid::visible(2).unwrap());
+        for i in 0..400 {
+            image.set_pixel((i % 20, i / 20), &[1.0; 2], &[0.0; 2], [1.0; 3], 1);
+        }
+        let mut image = image.with_polarization();
+        for row in image.rows_mut() {
+            for (key, values) in row.layers {
+                if key.stokes != Stokes::S0 {
+                    for (i, value) in values.iter_mut().enumerate() {
+                        *value = change(key.stokes, i, 0.1 * (i % 5) as f32);
+                    }
+                }
+            }
+        }
+        image
+    }
+
+    #[test]
+    fn a_wrong_component_is_noticed() {
+        let expected = polarized(|_, _, value| value);
+        let compare = |actual: &SpectralImage| same_polarization(actual, &expected, true, &FRAMES);
+        assert!(compare(&expected).is_ok());
+        let unpolarized = SpectralImage::new(20, 20, *expected.bands());
+        assert!(compare(&unpolarized).is_err());
+        let wrong: [fn(Stokes, usize, f32) -> f32; 4] = [
+            |s, _, value| if s == Stokes::S3 { -value } else { value },
+            |s, _, value| {
+                if s == Stokes::S1 {
+                    value + 0.002
+                } else {
+                    value
+                }
+            },
+            |s, i, value| {
+                if s == Stokes::S2 && i == 7 {
+                    f32::NAN
+                } else {
+                    value
+                }
+            },
+            |_, _, _| 0.0,
+        ];
+        for wrong in wrong {
+            assert!(compare(&polarized(wrong)).is_err());
+        }
+        let dark = polarized(|_, _, _| 0.0);
+        assert!(same_polarization(&dark, &dark, true, &FRAMES).is_err());
+        assert!(same_polarization(&dark, &dark, false, &FRAMES).is_ok());
     }
 
     #[test]

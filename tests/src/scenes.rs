@@ -3,6 +3,8 @@
 use crate::sources::root;
 use scene::Scene;
 use scene_file::SceneFile;
+use scene_file::description::Environment;
+use std::sync::LazyLock;
 
 /// Scenes in `scenes/`.
 pub const SHIPPED: &[&str] = &[
@@ -50,15 +52,52 @@ pub fn all() -> Vec<&'static str> {
     SHIPPED.iter().chain(MADE).copied().collect()
 }
 
+/// What follows a scene's name where its light is traced with polarization.
+const POLARIZED: &str = ", polarized";
+
+static ALL_POLARIZED: LazyLock<Vec<String>> = LazyLock::new(|| {
+    all()
+        .iter()
+        .map(|name| format!("{name}{POLARIZED}"))
+        .collect()
+});
+
+/// All scenes, with light that is traced with its polarization.
+pub fn all_polarized() -> Vec<&'static str> {
+    ALL_POLARIZED.iter().map(String::as_str).collect()
+}
+
+/// [`MADE`], with light that is traced with its polarization.
+pub fn made_polarized() -> Vec<&'static str> {
+    let is_made = |name: &&str| {
+        MADE.iter()
+            .any(|made| *name == format!("{made}{POLARIZED}"))
+    };
+    all_polarized().into_iter().filter(is_made).collect()
+}
+
 /// Number of bands in the suites that compare whole scenes: three groups, the last one half empty. It is the same in all, so that a
 /// driver with a cache of compiled shaders compiles each scene once.
 pub const BANDS: u32 = 10;
 
-/// A scene in `scenes/`, or one of [`MADE`], as a file that can still be changed.
+/// A scene in `scenes/`, or one of [`MADE`], as a file that can still be changed; one of [`all_polarized`] by its name there.
 ///
 /// # Panics
 /// When it cannot be read.
 pub fn file(name: &str) -> SceneFile {
+    if let Some(name) = name.strip_suffix(POLARIZED) {
+        let mut file = file(name);
+        let described = &mut file.description;
+        described.render.polarization = true;
+        if let Some(Environment::Sky {
+            polarization_degree,
+            ..
+        }) = &mut described.environment
+        {
+            *polarization_degree = Some(0.8);
+        }
+        return file;
+    }
     let made = |text| SceneFile::parse(&format!("{name}.toml"), text, &root());
     let read = match name {
         "everything" => made(EVERYTHING),
@@ -130,6 +169,33 @@ pub const PROVED_ON_PATHS: &[&str] = &[
     "lobes_sum",
     "with_layers",
     "with_emission",
+];
+
+/// WGSL functions that make sense only within a path of polarized light; the polarized pictures of the suite `frames` prove them.
+pub const PROVED_ON_POLARIZED: &[&str] = &[
+    "add_component",
+    "bare_mueller",
+    "bsdf_mueller",
+    "coated_mueller",
+    "coating_cosines",
+    "coating_mueller",
+    "cook_mueller",
+    "emission_behind_films",
+    "emission_stokes",
+    "emitted_stokes",
+    "emitter_polarization",
+    "film_polarized_value",
+    "interface_mueller",
+    "light_through_crossings",
+    "lights_from_film",
+    "lights_through",
+    "mueller_with_multiple",
+    "path_stokes",
+    "polarized_radiance",
+    "scattering_axes",
+    "sensed",
+    "sensed_radiance",
+    "turn_axis",
 ];
 
 /// WGSL functions that `stack_batches` of the suite `films` proves: batches of film stacks.

@@ -24,6 +24,10 @@ pub const FRESNEL: Tolerance = of(2e-6, 2e-6);
 pub const FILM: Tolerance = of(5e-5, 0.0);
 /// A film of up to 1 µm beyond 88°, where the fringes are steepest (the same computation: 1.3e-4 at 89°).
 pub const FILM_GRAZING: Tolerance = of(3e-4, 0.0);
+/// The same for s and p apart, where a fringe is as steep as for the brighter of the two.
+pub const FILM_POLARIZED_GRAZING: Tolerance = of(6e-4, 0.0);
+/// Axes across two directions at least some 0.1 apart: their cross product loses a digit.
+pub const AXIS: Tolerance = of(5e-6, 0.0);
 /// A film of up to 20 µm, up to 80°: 280 half turns, ten times the phase error (the same computation: 1e-4 at 10 µm).
 pub const FILM_THICK: Tolerance = of(3e-4, 0.0);
 /// Stacks of 64 layers of up to 150 nm without absorption: 40 half turns in all, and resonances between distant layers, whose

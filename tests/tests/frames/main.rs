@@ -7,12 +7,15 @@ use gpu::Gpu;
 use libtest_mimic::Trial;
 use pellicle_tests::cases::{self, comparisons, report};
 use pellicle_tests::device::{is_short, lend};
-use pellicle_tests::frames::{Values, same_expectation, same_numbers, same_variances};
-use pellicle_tests::scenes::{BANDS, MADE, all, file, small};
+use pellicle_tests::frames::{
+    Values, same_expectation, same_numbers, same_polarization, same_variances,
+};
+use pellicle_tests::scenes::{BANDS, MADE, all, all_polarized, file, made_polarized, small};
 use pellicle_tests::tolerances::{FRAMES, SAME_COLOR, SUMS, VARIANCES, Z_FURNACE, Z_MEAN};
 use scene::{DirectLight, Scene};
-use scene_file::description::Sampler;
-use spectra::SpectralImage;
+use scene_file::description::{self, Sampler, WavelengthSampling};
+use spectra::stokes::{Polarizer, Retardance, Retarder};
+use spectra::{LayerKey, SpectralImage, Stokes};
 use std::ops::ControlFlow;
 use std::process::ExitCode;
 
@@ -30,6 +33,17 @@ fn main() -> ExitCode {
         .into_iter()
         .map(|name| comparisons(name, || compared(name)))
         .collect();
+    // Each is one more shader to compile: in the short form, the scenes that contain everything stand for the others.
+    let polarized = if is_short() {
+        made_polarized()
+    } else {
+        all_polarized()
+    };
+    all.extend(
+        polarized
+            .into_iter()
+            .map(|name| comparisons(name, || compared_polarized(name))),
+    );
     for name in ["everything_bodies", "everything_pictured"] {
         for way in [DirectLight::Emitters, DirectLight::Bsdf] {
             let what = format!("{name}, direct light by {way:?} alone");
@@ -38,6 +52,8 @@ fn main() -> ExitCode {
     }
     all.extend(pellicle_tests::cases![
         paths::the_probe_reaches_the_whole_path_tracer,
+        paths::the_renderer_reaches_all_of_polarized_light,
+        a_polarizer_passes_what_the_components_say,
         light_groups_add_up_to_the_picture,
         a_wrong_picture_is_noticed,
         the_furnace_is_white,
@@ -57,6 +73,93 @@ fn compared(name: &str) -> Vec<Result<String, String>> {
         compared.push(by_different_numbers(&gpu, name));
     }
     compared
+}
+
+/// Pictures of polarized light with the same random numbers: S0 as any picture, and the other components.
+fn compared_polarized(name: &str) -> Vec<Result<String, String>> {
+    let scene = small(name, [96, 72], 4, BANDS, 1);
+    let (actual, expected) = (on_gpu(&lend(), &scene), on_cpu(&scene));
+    let colors = (Values::of_xyz(&actual), Values::of_xyz(&expected));
+    let mut compared = vec![
+        same_numbers(Values::of(&actual), Values::of(&expected), &FRAMES),
+        same_numbers(colors.0, colors.1, &FRAMES).map_err(|report| format!("XYZ: {report}")),
+        same_variances(&actual, &expected, &VARIANCES),
+        same_polarization(&actual, &expected, !DEPOLARIZED.contains(&name), &FRAMES),
+    ];
+    compared.extend(same_light_groups(&actual, &expected));
+    compared
+}
+
+/// Scenes without any light that is polarized.
+const DEPOLARIZED: &[&str] = &["furnace, polarized"];
+
+/// A polarizer in front of the camera, with a retarder whose phase depends on the wavelength: both renderers measure the same, and it is what the
+/// components of the picture without it say.
+fn a_polarizer_passes_what_the_components_say() {
+    let (angle_deg, fast_axis_deg, nm) = (30.0, -20.0, 500.0);
+    let polarizer = Polarizer {
+        angle_deg,
+        retarder: Some(Retarder {
+            fast_axis_deg,
+            retardance: Retardance::Path { nm },
+        }),
+    };
+    let described = description::Polarizer {
+        angle_deg,
+        retarder: Some(description::Retarder {
+            fast_axis_deg,
+            retardance_deg: None,
+            retardance_nm: Some(nm),
+        }),
+    };
+    let scene = |has_polarizer| {
+        let mut file = file("everything, polarized");
+        let render = &mut file.description.render;
+        (render.size, render.samples, render.bands, render.seed) = ([48, 36], 8, BANDS, 3);
+        render.sampling = WavelengthSampling::Center;
+        render.clamp = None;
+        if has_polarizer {
+            let description::Camera::Perspective { polarizer, .. } = &mut file.description.camera
+            else {
+                panic!("a perspective camera");
+            };
+            *polarizer = Some(described);
+        }
+        file.validate().expect("valid").rounded_to_f32()
+    };
+    let bare = on_cpu(&scene(false));
+    let grid = *bare.bands();
+    let analyzer = polarizer.analyzer();
+    let [s0, s1, s2, s3] = Stokes::ALL.map(|stokes| {
+        let layer = bare.layer(LayerKey::RADIANCE.component(stokes));
+        layer.expect("polarized").floats()
+    });
+    let passed = (0..s0.len()).map(|i| {
+        let light = [s0[i], s1[i], s2[i], s3[i]].map(f64::from);
+        let nm = grid.center_nm((i % BANDS as usize) as u32);
+        analyzer.transmitted(light, nm) as f32
+    });
+    let passed: Vec<f32> = passed.collect();
+    let behind = scene(true);
+    assert!(!behind.content().is_polarized);
+    for (who, seen) in [("cpu", on_cpu(&behind)), ("gpu", on_gpu(&lend(), &behind))] {
+        assert!(!seen.is_polarized());
+        let expected = Values {
+            bands: BANDS as usize,
+            values: &passed,
+        };
+        let compared = same_numbers(Values::of(&seen), expected, &FRAMES);
+        report(&format!(
+            "{who}: {}",
+            compared.unwrap_or_else(|report| panic!("{who}: {report}"))
+        ));
+        // Another angle is noticed.
+        let all = Values {
+            values: s0,
+            ..expected
+        };
+        assert!(same_numbers(Values::of(&seen), all, &FRAMES).is_err());
+    }
 }
 
 fn by_the_same_numbers(gpu: &Gpu, name: &str) -> Vec<Result<String, String>> {

@@ -1,10 +1,13 @@
 //! Single paths: the recorded and evaluated path of the shader against the reference, band by band, with the same random numbers.
 
 use crate::{on_cpu, on_gpu};
+use gpu::modules::Shader;
 use gpu::{Gpu, PackedScene};
 use pellicle_tests::frames::{Values, same_numbers};
 use pellicle_tests::probe::Probe;
-use pellicle_tests::scenes::{BANDS, MADE, PROVED_ON_PATHS, small};
+use pellicle_tests::scenes::{
+    BANDS, MADE, PROVED_ON_PATHS, PROVED_ON_POLARIZED, made_polarized, small,
+};
 use pellicle_tests::tolerances::PATHS;
 use std::collections::BTreeSet;
 
@@ -47,5 +50,19 @@ pub(crate) fn the_probe_reaches_the_whole_path_tracer() {
         .collect();
     for name in PROVED_ON_PATHS {
         assert!(called.contains(*name), "{name} is not called");
+    }
+}
+
+/// The renderer reaches all functions that pictures of polarized light are claimed to prove.
+pub(crate) fn the_renderer_reaches_all_of_polarized_light() {
+    let mut left = BTreeSet::new();
+    for name in made_polarized() {
+        let packed = PackedScene::new(&small(name, [SIDE, SIDE], 1, BANDS, 3));
+        let shader = Shader::assemble(&packed.specialization(false), "");
+        let module = shader.specialized("render").expect("valid");
+        left.extend(module.functions.iter().filter_map(|(_, f)| f.name.clone()));
+    }
+    for name in PROVED_ON_POLARIZED {
+        assert!(left.contains(*name), "{name} is not called");
     }
 }

@@ -11,6 +11,7 @@ mod factors;
 mod many_emitters;
 mod numbers;
 mod optics_functions;
+mod polarized;
 mod rays;
 mod shapes;
 mod spectra;
@@ -25,7 +26,9 @@ use libtest_mimic::Trial;
 use pellicle_tests::agreement::{Tolerance, compare};
 use pellicle_tests::device::lend;
 use pellicle_tests::probe::Probe;
-use pellicle_tests::scenes::{PROVED_ON_FRAMES, PROVED_ON_PATHS, PROVED_ON_STACKS};
+use pellicle_tests::scenes::{
+    PROVED_ON_FRAMES, PROVED_ON_PATHS, PROVED_ON_POLARIZED, PROVED_ON_STACKS,
+};
 use pellicle_tests::{cases, cases::comparisons};
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::ExitCode;
@@ -111,6 +114,7 @@ fn checks() -> Vec<Check> {
         many_emitters::checks(),
         numbers::checks(),
         optics_functions::checks(),
+        polarized::checks(),
         rays::checks(),
         shapes::checks(),
         spectra::checks(),
@@ -166,6 +170,7 @@ fn every_function_of_the_shaders_is_proved() {
         .flat_map(|check| check.proves)
         .chain(PROVED_ON_PATHS)
         .chain(PROVED_ON_FRAMES)
+        .chain(PROVED_ON_POLARIZED)
         .chain(PROVED_ON_STACKS)
         .map(|&name| name.to_owned())
         .collect();

@@ -3,7 +3,7 @@
 use gpu::modules::{Shader, Specialization};
 use gpu::{Feature, PackedScene};
 use naga::{Block, Expression, Function, Handle, Literal, Module, Statement};
-use pellicle_tests::scenes::{BANDS, all, small};
+use pellicle_tests::scenes::{BANDS, all, made_polarized, small};
 use std::collections::{BTreeMap, BTreeSet};
 
 fn made_for(name: &str, is_software: bool) -> Specialization {
@@ -21,7 +21,7 @@ fn functions(module: &Module) -> BTreeSet<String> {
 
 #[test]
 fn specialized_shaders_are_valid_and_bind_few_buffers() {
-    for name in all() {
+    for name in all().into_iter().chain(made_polarized()) {
         for is_software in [false, true] {
             let module = shader(&made_for(name, is_software)).specialized("render");
             let module = module.unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -168,7 +168,7 @@ impl<'a> Walk<'a> {
 #[test]
 fn removed_functions_cannot_run() {
     let mut removed = 0;
-    for name in all() {
+    for name in all().into_iter().chain(made_polarized()) {
         let shader = shader(&made_for(name, false));
         let whole = shader.parse().expect("valid");
         let left = functions(&shader.specialized("render").expect("valid"));

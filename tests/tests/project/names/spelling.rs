@@ -77,6 +77,7 @@ const RIGHT: &[(&str, &str)] = &[
     ("SDS_COLOURCHECKERS", "a name of a library"),
     ("import colour", "the name of a library"),
     ("colour.", "the name of a library"),
+    ("polarisationHandedness", "a name in a file format"),
     ("specification.is_polarised", "a name of a library"),
     ("Colour Developers", "a copyright"),
     ("Colour and Vision Research Laboratory", "a laboratory"),

@@ -137,6 +137,76 @@ const WITHOUT_TWIN: &[(&str, &[&str], &str)] = &[
         "precision of f32; `erfc_and_gauss`",
     ),
     (
+        "bsdf",
+        &["scattering_axes"],
+        "`Scattering::axes` of `transport.rs`",
+    ),
+    (
+        "emitter",
+        &["emitter_polarization"],
+        "`scene::Emission::polarization`",
+    ),
+    (
+        "emitter_sampling",
+        &["emission_behind_films"],
+        "inline in `StokesPath::connect`",
+    ),
+    (
+        "interface",
+        &[
+            "bare_mueller",
+            "coating_mueller",
+            "coating_cosines",
+            "mueller_with_multiple",
+        ],
+        "the cases of `InterfaceAt::mueller`",
+    ),
+    (
+        "mueller",
+        &["mueller_depolarizer", "mueller_sum", "stokes_sum"],
+        "kinds of matrices in the reference; operators in Rust",
+    ),
+    ("mueller", &["stokes_turned"], "`Bands::turned`"),
+    ("polarization", &["turned_axis"], "`Turn::turned`"),
+    (
+        "polarized",
+        &["film_polarized", "boundary_amplitudes"],
+        "a film that absorbs is a stack of one layer in the reference",
+    ),
+    (
+        "polarized",
+        &["amplitude_powers", "scaled_powers"],
+        "inline in Rust",
+    ),
+    (
+        "polarized",
+        &["stack_polarized", "top_amplitudes"],
+        "`Sweep::polarized` of `wide/stack.rs`",
+    ),
+    (
+        "polarized",
+        &["film_polarized_value"],
+        "the record, and four bands in place of all",
+    ),
+    (
+        "render",
+        &["add_component", "polarized_radiance"],
+        "`spectral::Pixel`",
+    ),
+    (
+        "stokes_path",
+        &[
+            "path_stokes",
+            "emission_stokes",
+            "light_through_crossings",
+            "lights_from_film",
+            "lights_through",
+            "sensed",
+            "sensed_radiance",
+        ],
+        "reads a record vertex by vertex; `StokesPath` has the matrices of its events",
+    ),
+    (
         "path",
         &["first_ray", "record_onward"],
         "inline in `PathTracer::trace_path`; the record",
