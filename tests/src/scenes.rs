@@ -189,6 +189,7 @@ pub const PROVED_ON_POLARIZED: &[&str] = &[
     "light_through_crossings",
     "lights_from_film",
     "lights_through",
+    "load_polarization",
     "mueller_with_multiple",
     "path_stokes",
     "polarized_radiance",

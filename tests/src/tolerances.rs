@@ -24,7 +24,9 @@ pub const FRESNEL: Tolerance = of(2e-6, 2e-6);
 pub const FILM: Tolerance = of(5e-5, 0.0);
 /// A film of up to 1 µm beyond 88°, where the fringes are steepest (the same computation: 1.3e-4 at 89°).
 pub const FILM_GRAZING: Tolerance = of(3e-4, 0.0);
-/// The same for s and p apart, where a fringe is as steep as for the brighter of the two.
+/// A film for s and p apart: the fringes of s are up to twice as steep as those of unpolarized light (at worst 5.4e-5 in 800 000 numbers).
+pub const FILM_POLARIZED: Tolerance = of(1e-4, 0.0);
+/// The same beyond 88°.
 pub const FILM_POLARIZED_GRAZING: Tolerance = of(6e-4, 0.0);
 /// Axes across two directions at least some 0.1 apart: their cross product loses a digit.
 pub const AXIS: Tolerance = of(5e-6, 0.0);
