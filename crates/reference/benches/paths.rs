@@ -104,6 +104,24 @@ fn all(c: &mut Criterion) {
         small(file, 40)
     };
     measure(c, "segments", &rows(&[2, 4, 8, 16, 32], segments));
+    let names = [
+        "bench/bubble",
+        "bench/metals",
+        "soap_bubble",
+        "studio",
+        "brushed_disk",
+    ];
+    measure(
+        c,
+        "unpolarized",
+        &rows(&names, |name| small(file(name), 40)),
+    );
+    let polarized = |name: &&str| {
+        let mut file = file(name);
+        file.description.render.polarization = true;
+        small(file, 40)
+    };
+    measure(c, "polarized", &rows(&names, polarized));
 }
 
 criterion_group! {
