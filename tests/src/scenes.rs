@@ -35,6 +35,14 @@ pub const SHIPPED: &[&str] = &[
     "bench/wedge",
 ];
 
+/// Scenes in `scenes/` whose light is traced with its polarization.
+const SHIPPED_POLARIZED: &[&str] = &[
+    "polarized_bubble",
+    "polarized_sky",
+    "brewster",
+    "elliptical_metals",
+];
+
 /// A scene with every kind of surface, pattern, thickness, light and environment.
 pub const EVERYTHING: &str = include_str!("everything.toml");
 
@@ -62,9 +70,10 @@ static ALL_POLARIZED: LazyLock<Vec<String>> = LazyLock::new(|| {
         .collect()
 });
 
-/// All scenes, with light that is traced with its polarization.
+/// All scenes, with light that is traced with its polarization; also those that are so in `scenes/`.
 pub fn all_polarized() -> Vec<&'static str> {
-    ALL_POLARIZED.iter().map(String::as_str).collect()
+    let others = ALL_POLARIZED.iter().map(String::as_str);
+    SHIPPED_POLARIZED.iter().copied().chain(others).collect()
 }
 
 /// [`MADE`], with light that is traced with its polarization.

@@ -50,7 +50,7 @@ impl StokesName {
             Self::Dop => "degree of polarization",
             Self::Dolp => "degree of linear polarization",
             Self::Docp => "degree of circular polarization",
-            Self::Aolp => "angle in °, brighter: more polarized",
+            Self::Aolp => "angle of polarization, °",
             Self::S1 => "S1/S0",
             Self::S2 => "S2/S0",
             Self::S3 => "S3/S0",
