@@ -207,6 +207,17 @@ pub const FURNACE_ROUGH: f64 = 5e-3;
 pub const FURNACE_ERROR: f64 = 2e-3;
 /// Closed forms without random numbers: a Fresnel quotient or an interpolation, in f32.
 pub const CLOSED_FORM_EXACT: f64 = 5e-6;
+/// Stokes vectors of a few events, relative to S0: the reference computes in f64 and stores f32, which rounds by 6e-8.
+pub const POLARIZED: f64 = 1e-6;
+/// The same in f32, as FILM: the phase between s and p is the difference of two phases of the film.
+pub const POLARIZED_F32: f64 = 5e-5;
+/// S0 of one interaction with and without polarization in f32: the same formulas up to the order of their sums.
+pub const SAME_S0_F32: f64 = 1e-5;
+/// Polarization of a sky over pixels of 22°, against the mean over 64 of their rays: radiance, which is the weight of a ray, varies over
+/// a pixel by some tens of percent.
+pub const SKY_POLARIZATION: f64 = 0.02;
+/// Ellipsometric angles, degrees: a fiftieth of what a nanometer of oxide on silicon changes ψ by.
+pub const ELLIPSOMETRY_DEG: f64 = 0.01;
 /// Films of some 30 half turns at fixed wavelengths: as FILM, relative to an R of a tenth.
 pub const CLOSED_FORM_FILM: f64 = 2e-4;
 /// Transmission of light from a small emitter through a film, against T at normal incidence: at θ ≤ 0.02 the phase (three half turns of

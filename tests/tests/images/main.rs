@@ -6,4 +6,5 @@ mod environment;
 mod fields;
 mod photometry;
 mod pictures;
+mod polarization;
 mod relighting;

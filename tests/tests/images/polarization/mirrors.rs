@@ -1,0 +1,192 @@
+//! Smooth surfaces: Brewster's angle, metals, two mirrors, and films that light passes.
+
+use super::bench::{
+    NM, SAMPLE, about, assert_matrix, assert_stokes, body, camera_at, coated, free, in_plane,
+    mueller, render, seen, surroundings,
+};
+use super::oracle::{airy, bare};
+use glam::DVec3;
+use optics::{Complex64, Layer};
+use pellicle_tests::device::lend;
+
+const GLASS: Complex64 = Complex64::new(1.5, 0.0);
+const GOLD: Complex64 = Complex64::new(0.2, 3.2);
+
+/// tan θ = n (Brewster, Philosophical Transactions 105, 125–159, 1815).
+fn brewster_deg() -> f64 {
+    1.5_f64.atan().to_degrees()
+}
+
+/// At tan θ = 1.5, θ = 56.3099°: rₛ = −5/13, rₚ = 0.
+#[test]
+fn glass_at_brewsters_angle_reflects_s_alone() {
+    let gpu = lend();
+    let half = 25.0 / 338.0;
+    assert!((half - 0.073_964_5_f64).abs() < 1e-7);
+    let camera = camera_at(brewster_deg(), "");
+    for (stokes, expected) in [
+        ([0.0, 0.0, 0.0], half),
+        ([1.0, 0.0, 0.0], 2.0 * half),
+        ([-1.0, 0.0, 0.0], 0.0),
+        ([0.4, 0.0, 0.0], 1.4 * half),
+        ([0.0, 1.0, 0.0], half),
+        ([0.0, 0.0, -1.0], half),
+    ] {
+        let parts = [
+            &camera,
+            &render(1),
+            &body(GLASS),
+            SAMPLE,
+            &surroundings(stokes),
+        ];
+        for (renderer, found) in seen(&gpu, &parts) {
+            for found in found {
+                let expected = [expected, expected, 0.0, 0.0];
+                assert_stokes(&format!("{stokes:?}"), renderer, found, expected);
+            }
+        }
+    }
+}
+
+/// All of a surface's matrix, from every side of Brewster's angle to near grazing.
+#[test]
+fn surfaces_have_the_matrices_of_their_amplitudes() {
+    let gpu = lend();
+    for index in [GLASS, GOLD] {
+        for degrees in [0.0, 20.0, 45.0, 60.0, 75.0, 85.0] {
+            let camera = camera_at(degrees, "");
+            let parts = |stokes| {
+                [
+                    &camera,
+                    &render(1),
+                    &body(index),
+                    SAMPLE,
+                    &surroundings(stokes),
+                ]
+                .join("\n")
+            };
+            let amplitudes = bare(index, degrees);
+            for (renderer, matrices) in mueller(&gpu, parts) {
+                let what = format!("{index}, {degrees}°");
+                for matrix in &matrices {
+                    assert_matrix(&what, renderer, matrix, |s| amplitudes.apply(s));
+                }
+            }
+        }
+    }
+}
+
+/// At normal incidence S1 stays and S2 and S3 change their signs, since the reflected light travels back; near grazing a metal leaves both.
+#[test]
+fn a_metal_turns_circular_light_around() {
+    let gpu = lend();
+    let circular = surroundings([0.0, 0.0, 1.0]);
+    for (degrees, sign) in [(0.0, -1.0), (30.0, -1.0), (89.0, 1.0)] {
+        let camera = camera_at(degrees, "");
+        let parts = [&camera, &render(1), &body(GOLD), SAMPLE, &circular];
+        for (renderer, found) in seen(&gpu, &parts) {
+            assert!(
+                found[0][3] * sign > 0.5 * found[0][0],
+                "{renderer}, {degrees}°: {found:?}"
+            );
+        }
+    }
+}
+
+/// Unpolarized light that two mirrors reflect, with the angle φ between the planes of incidence: S0 = a² + b² cos 2φ, with a and b half the
+/// sum and half the difference of Rₛ and Rₚ. Without polarization it would be a². At Brewster's angle crossed mirrors extinguish.
+#[test]
+fn crossed_mirrors_extinguish_at_brewsters_angle() {
+    let gpu = lend();
+    for (degrees, index) in [(brewster_deg(), GLASS), (45.0, GLASS), (65.0, GOLD)] {
+        for between in [0.0_f64, 30.0, 90.0, 135.0] {
+            let amplitudes = bare(index, degrees);
+            let [r_s, r_p] = amplitudes.powers();
+            let (a, b) = (0.5 * (r_s + r_p), 0.5 * (r_s - r_p));
+            let s0 = a * a + b * b * (2.0 * between).to_radians().cos();
+            let camera = camera_at(degrees, "");
+            let second = second_mirror(degrees, between);
+            let light = surroundings([0.0; 3]);
+            let parts = [&camera, &render(2), &body(index), SAMPLE, &second, &light];
+            for (renderer, found) in seen(&gpu, &parts) {
+                let what = format!("{index}, {degrees:.1}°, {between}° between");
+                let mut expected = found[0];
+                expected[0] = s0;
+                assert_stokes(&what, renderer, found[0], expected);
+            }
+        }
+    }
+}
+
+/// A mirror that the light meets before the sample, at the same angle, in a plane of incidence turned by an angle.
+fn second_mirror(degrees: f64, between: f64) -> String {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    // From the sample along the reflected ray of the camera.
+    let along = DVec3::new(-sin, cos, 0.0);
+    let (turn_sin, turn_cos) = between.to_radians().sin_cos();
+    let aside = DVec3::new(cos, sin, 0.0) * turn_cos + DVec3::Z * turn_sin;
+    let normal = aside * sin - along * cos;
+    format!(
+        "[[objects]]\ntype = \"rectangle\"\nmaterial = \"sample\"\ncenter = {:?}\nnormal = {:?}\nsize = [1, 1]\n",
+        (along * 3.0).to_array(),
+        normal.to_array()
+    )
+}
+
+const METAL: Layer = Layer {
+    index: Complex64::new(0.15, 3.5),
+    thickness_nm: 12.0,
+};
+const CLEAR: Layer = Layer {
+    index: Complex64::new(2.2, 0.0),
+    thickness_nm: 130.0,
+};
+
+/// The camera looks through the film at a luminous panel, from both sides of the film.
+#[test]
+fn a_film_has_the_matrix_of_its_transmission() {
+    let gpu = lend();
+    let degrees = 62.0;
+    for (name, layers) in [("clear", &[CLEAR][..]), ("absorbing", &[CLEAR, METAL])] {
+        let expected = |nm| airy(layers, Complex64::ONE, nm, degrees)[1];
+        for side in [1.0, -1.0] {
+            let behind = in_plane(degrees) * -side;
+            let camera = super::bench::camera(-behind, DVec3::NEG_Z, "");
+            let panel = |stokes| {
+                format!(
+                    "[materials.panel]\ntype = \"emitter\"\nemission = {{ constant = 1, {} }}\n[[objects]]\ntype = \"rectangle\"\n\
+                     material = \"panel\"\ncenter = {:?}\nnormal = {:?}\nsize = [1, 1]\n",
+                    about(stokes, DVec3::Z),
+                    (behind * 3.0).to_array(),
+                    (-behind).to_array()
+                )
+            };
+            let parts =
+                |stokes| [&camera, &render(1), &free(layers), SAMPLE, &panel(stokes)].join("\n");
+            for (renderer, matrices) in mueller(&gpu, parts) {
+                for (matrix, nm) in matrices.iter().zip(NM) {
+                    let what = format!("{name}, side {side}, {nm} nm");
+                    assert_matrix(&what, renderer, matrix, |s| expected(nm).apply(s));
+                }
+            }
+        }
+    }
+}
+
+/// The two faces of a coating: the same from both sides of its sheet.
+#[test]
+fn a_coating_has_the_matrix_of_its_stack() {
+    let gpu = lend();
+    let (layers, degrees) = ([CLEAR, METAL], 50.0);
+    let camera = camera_at(degrees, "");
+    let parts = |stokes| {
+        let sample = coated(&layers, GLASS);
+        [&camera, &render(1), &sample, SAMPLE, &surroundings(stokes)].join("\n")
+    };
+    for (renderer, matrices) in mueller(&gpu, parts) {
+        for (matrix, nm) in matrices.iter().zip(NM) {
+            let [r, _] = airy(&layers, GLASS, nm, degrees);
+            assert_matrix(&format!("{nm} nm"), renderer, matrix, |s| r.apply(s));
+        }
+    }
+}
