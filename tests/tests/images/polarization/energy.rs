@@ -49,7 +49,8 @@ const MATERIALS: [(&str, &str); 14] = [
     ),
     (
         "cook",
-        "type = \"conductor\"\nindex = [0.2, 3.2]\n[materials.sample.model.cook1981]\nslopes = [{ m = 0.2, weight = 0.4 }, { m = 0.6, weight = 0.6 }]\nspecular = 0.7\ndiffuse = 0.3\ndiffuse_reflectance = 0.5",
+        "type = \"conductor\"\nindex = [0.2, 3.2]\n[materials.sample.model.cook1981]\nspecular = 0.7\ndiffuse = 0.3\n\
+         diffuse_reflectance = 0.5\nslopes = [{ m = 0.2, weight = 0.4 }, { m = 0.6, weight = 0.6 }]",
     ),
     ("diffuse", "type = \"diffuse\"\nreflectance = 0.7"),
     ("bare glass", "type = \"dielectric\"\nindex = [1.5, 0.1]"),

@@ -4,8 +4,9 @@ use super::bench::{
     NM, SAMPLE, about, assert_matrix, assert_stokes, body, camera_at, coated, free, in_plane,
     mueller, render, seen, surroundings,
 };
-use super::oracle::{airy, bare};
+use super::oracle::{Pair, airy, bare};
 use glam::DVec3;
+use gpu::Gpu;
 use optics::{Complex64, Layer};
 use pellicle_tests::device::lend;
 
@@ -142,38 +143,74 @@ const CLEAR: Layer = Layer {
     thickness_nm: 130.0,
 };
 
-/// The camera looks through the film at a luminous panel, from both sides of the film.
+/// The camera sees a luminous panel through the film or in it, from either side of the film.
 #[test]
-fn a_film_has_the_matrix_of_its_transmission() {
+fn a_film_has_the_matrices_of_its_amplitudes() {
     let gpu = lend();
     let degrees = 62.0;
-    for (name, layers) in [("clear", &[CLEAR][..]), ("absorbing", &[CLEAR, METAL])] {
-        let expected = |nm| airy(layers, Complex64::ONE, nm, degrees)[1];
-        for side in [1.0, -1.0] {
-            let behind = in_plane(degrees) * -side;
-            let camera = super::bench::camera(-behind, DVec3::NEG_Z, "");
-            let panel = |stokes| {
-                format!(
-                    "[materials.panel]\ntype = \"emitter\"\nemission = {{ constant = 1, {} }}\n[[objects]]\ntype = \"rectangle\"\n\
-                     material = \"panel\"\ncenter = {:?}\nnormal = {:?}\nsize = [1, 1]\n",
-                    about(stokes, DVec3::Z),
-                    (behind * 3.0).to_array(),
-                    (-behind).to_array()
-                )
-            };
-            let parts =
-                |stokes| [&camera, &render(1), &free(layers), SAMPLE, &panel(stokes)].join("\n");
-            for (renderer, matrices) in mueller(&gpu, parts) {
-                for (matrix, nm) in matrices.iter().zip(NM) {
-                    let what = format!("{name}, side {side}, {nm} nm");
-                    assert_matrix(&what, renderer, matrix, |s| expected(nm).apply(s));
-                }
+    let behind = SAMPLE.replace("normal = [0, 1, 0]", "normal = [0, -1, 0]");
+    for (name, layers, object, seen) in [
+        ("clear", &[CLEAR][..], SAMPLE, &[CLEAR][..]),
+        ("absorbing", &[CLEAR, METAL], SAMPLE, &[CLEAR, METAL]),
+        ("from behind", &[CLEAR, METAL], &behind, &[METAL, CLEAR]),
+    ] {
+        let sample = [&free(layers), object].concat();
+        let expected = |nm| airy(seen, Complex64::ONE, nm, degrees);
+        assert_film(&gpu, name, &sample, degrees, expected);
+    }
+}
+
+/// R is the square of r − (1 − r²) r exp(2πil/λ) with l = 2nd cos θ', and T that of 1 − r², for Fresnel's amplitude r of the upper surface.
+#[test]
+fn two_beams_have_the_matrices_of_their_amplitudes() {
+    let gpu = lend();
+    let (n, thickness_nm, degrees) = (1.4, 350.0, 50.0_f64);
+    let sample = format!(
+        "[materials.sample]\ntype = \"film\"\nmodel = \"two_beam\"\nindex = {n:?}\nthickness_nm = {thickness_nm:?}\n\
+         {SAMPLE}"
+    );
+    assert_film(&gpu, "two beams", &sample, degrees, |nm| {
+        let r = bare(n.into(), degrees);
+        let path = 2.0 * thickness_nm * (n * n - degrees.to_radians().sin().powi(2)).sqrt();
+        let late = (Complex64::I * std::f64::consts::TAU * path / nm).exp();
+        let both = |r: Complex64| [r - (1.0 - r * r) * r * late, 1.0 - r * r];
+        let ([r_s, t_s], [r_p, t_p]) = (both(r.s), both(r.p));
+        [Pair { s: r_s, p: r_p }, Pair { s: t_s, p: t_p }]
+    });
+}
+
+/// Compares the matrices of a film with its amplitudes of reflection and transmission at each wavelength.
+#[track_caller]
+fn assert_film(
+    gpu: &Gpu,
+    name: &str,
+    sample: &str,
+    degrees: f64,
+    expected: impl Fn(f64) -> [Pair; 2],
+) {
+    let camera = camera_at(degrees, "");
+    for (which, toward) in [(0, in_plane(-degrees)), (1, -in_plane(degrees))] {
+        let panel = |stokes| {
+            format!(
+                "[materials.panel]\ntype = \"emitter\"\nemission = {{ constant = 1, {} }}\n[[objects]]\ntype = \"rectangle\"\n\
+                 material = \"panel\"\ncenter = {:?}\nnormal = {:?}\nsize = [1, 1]\n",
+                about(stokes, DVec3::Z),
+                (toward * 3.0).to_array(),
+                (-toward).to_array()
+            )
+        };
+        let parts = |stokes| [&camera, &render(1), sample, &panel(stokes)].join("\n");
+        for (renderer, matrices) in mueller(gpu, parts) {
+            for (matrix, nm) in matrices.iter().zip(NM) {
+                let what = format!("{name}, {}, {nm} nm", ["R", "T"][which]);
+                let amplitudes = expected(nm)[which];
+                assert_matrix(&what, renderer, matrix, |light| amplitudes.apply(light));
             }
         }
     }
 }
 
-/// The two faces of a coating: the same from both sides of its sheet.
+/// Layers count from the outside.
 #[test]
 fn a_coating_has_the_matrix_of_its_stack() {
     let gpu = lend();

@@ -1,34 +1,51 @@
-//! Rough metals: the matrix between two directions, measured with four lights.
+//! Rough surfaces and coats: the matrix between two directions, measured with four lights.
 
 use super::bench::NM;
 use super::bench::{SAMPLE, about, angle_between, assert_stokes, camera, mueller, render};
-use super::oracle::airy;
+use super::oracle::{airy, bare};
 use glam::DVec3;
 use optics::{Complex64, Layer, Mueller};
 use pellicle_tests::device::lend;
 
 const METAL: Complex64 = Complex64::new(0.2, 3.2);
+const GLASS: Complex64 = Complex64::new(1.5, 0.0);
 const FILM: Layer = Layer {
     index: Complex64::new(1.7, 0.1),
     thickness_nm: 150.0,
 };
 
-/// Rough samples, and the layers on their facets.
-const ROUGH: [(&str, &str, &[Layer]); 3] = [
+/// Rough samples: their name, how they are written, and the layers and the body of their facets.
+const ROUGH: [(&str, &str, &[Layer], Complex64); 5] = [
     (
         "bare",
         "type = \"conductor\"\nindex = [0.2, 3.2]\nroughness = 0.3",
         &[],
+        METAL,
     ),
     (
         "brushed",
         "type = \"conductor\"\nindex = [0.2, 3.2]\nroughness = [0.2, 0.6]\nbrushed = { along = [1, 0, 0.4] }\ndistribution = \"ggx\"",
         &[],
+        METAL,
     ),
     (
-        "coated",
+        "under a layer",
         "type = \"coated\"\nsubstrate = [0.2, 3.2]\nroughness = 0.4\nlayers = [{ index = [1.7, 0.1], thickness_nm = 150 }]",
         &[FILM],
+        METAL,
+    ),
+    (
+        "coat",
+        "type = \"dielectric\"\nindex = 1.5\nroughness = 0.4\nbase = 0.1",
+        &[],
+        GLASS,
+    ),
+    (
+        "cook",
+        "type = \"conductor\"\nindex = [0.2, 3.2]\n[materials.sample.model.cook1981]\nspecular = 0.7\ndiffuse = 0.3\n\
+         diffuse_reflectance = 0.2\nslopes = [{ m = 0.4, weight = 0.4 }, { m = 0.6, weight = 0.6 }]",
+        &[],
+        METAL,
     ),
 ];
 
@@ -67,10 +84,10 @@ fn parts(
 /// What leaves a surface backward of how it arrived has the matrix Q Mᵀ Q with Q = diag(1, 1, −1, 1), for axes x that stay, since y = d × x
 /// changes its direction with d (van de Hulst, Light Scattering by Small Particles, 1957, section 5.22). The BSDF is the matrix over cos θᵢ.
 #[test]
-fn rough_metals_are_reciprocal_and_physical() {
+fn rough_surfaces_are_reciprocal_and_physical() {
     let gpu = lend();
     let [one, other] = [port(30.0, 20.0), port(60.0, 170.0)];
-    for (name, material, _) in ROUGH {
+    for (name, material, ..) in ROUGH {
         let there = mueller(&gpu, |stokes| parts(material, one, other, stokes));
         let back = mueller(&gpu, |stokes| parts(material, other, one, stokes));
         for ((renderer, there), (_, back)) in there.iter().zip(&back) {
@@ -111,8 +128,8 @@ fn transposed_back(m: &Mueller) -> Mueller {
     }))
 }
 
-/// The facet between two directions reflects by its own Fresnel amplitudes, in its own plane of incidence; light that met several facets
-/// is unpolarized and adds to M00 alone. The amount of both is not compared here.
+/// The facet between two directions reflects by its own Fresnel amplitudes, in its own plane of incidence; light that met several facets,
+/// or a body below a rough coat, is unpolarized and adds to M00 alone. The amount of both is not compared here.
 #[test]
 fn a_facet_has_the_matrix_of_its_amplitudes() {
     let gpu = lend();
@@ -120,11 +137,11 @@ fn a_facet_has_the_matrix_of_its_amplitudes() {
     let ([to_eye, eye_axis], [to_light, light_axis]) = (eye, light);
     let degrees = 0.5 * to_eye.angle_between(to_light).to_degrees();
     let across = to_light.cross(to_eye).normalize();
-    for (name, material, layers) in ROUGH {
+    for (name, material, layers, body) in ROUGH {
         let found = mueller(&gpu, |stokes| parts(material, eye, light, stokes));
         for (renderer, found) in found {
             for (found, nm) in found.iter().zip(NM) {
-                let [r, _] = airy(layers, METAL, nm, degrees);
+                let [r, _] = airy(layers, body, nm, degrees);
                 let facet = Mueller::from_amplitudes(r.s, r.p);
                 let arrives = Mueller::rotation(angle_between(light_axis, across, -to_light));
                 let leaves = Mueller::rotation(angle_between(across, eye_axis, to_eye));
@@ -138,7 +155,7 @@ fn a_facet_has_the_matrix_of_its_amplitudes() {
                 assert!(strength > 1e-3, "{name}, {renderer}: {strength}");
                 let several = found.0[0][0] / strength - expected.0[0][0];
                 assert!(
-                    (-1e-6..2.0).contains(&several),
+                    (-1e-6..20.0).contains(&several),
                     "{name}, {renderer}: {several}"
                 );
                 for (row, (found, mut expected)) in found.0.iter().zip(expected.0).enumerate() {
@@ -149,7 +166,7 @@ fn a_facet_has_the_matrix_of_its_amplitudes() {
                     let off = super::bench::furthest(found.map(|m| m / strength), expected);
                     println!("{what}, {renderer}: off by {off:.1e}");
                     assert!(
-                        off <= renderer.tolerance(),
+                        off <= renderer.tolerance() * (1.0 + several),
                         "{what}, {renderer}: {found:?} {expected:?}"
                     );
                 }
@@ -167,4 +184,51 @@ fn a_rough_metal_polarizes() {
     let [s0, s1, s2, s3] = found[0].apply([1.0, 0.0, 0.0, 0.0]);
     assert!(s1.hypot(s2) > 0.01 * s0, "{renderer}: {found:?}");
     assert_stokes("no S3", renderer, [s0, s1, s2, s3], [s0, s1, s2, 0.0]);
+}
+
+/// What a body below a smooth coat scatters: what arrives is transmitted by Tₛ and Tₚ, loses its polarization, and is transmitted again, so
+/// that M/M00 is the product of the column (1, a(θₒ), 0, 0) and the row (1, a(θᵢ), 0, 0) with a = (Tₛ − Tₚ) / (Tₛ + Tₚ), about s on both ways.
+#[test]
+fn a_coat_polarizes_what_its_body_scatters() {
+    let gpu = lend();
+    let material = "type = \"dielectric\"\nindex = 1.5\nbase = 0.6";
+    for (eye, light) in [
+        (port(70.0, 40.0), port(55.0, 160.0)),
+        (port(20.0, 0.0), port(80.0, 75.0)),
+    ] {
+        let along = |[toward, _]: [DVec3; 2], to: [f64; 2]| {
+            let [r_s, r_p] = bare(GLASS, toward.angle_between(DVec3::Y).to_degrees()).powers();
+            let a = (r_p - r_s) / (2.0 - r_s - r_p);
+            [1.0, a * to[0], a * to[1], 0.0]
+        };
+        let double = |from, to, direction| {
+            let (sin, cos) = (2.0 * angle_between(from, to, direction)).sin_cos();
+            [cos, sin]
+        };
+        let across = |[toward, _]: [DVec3; 2]| DVec3::Y.cross(toward).normalize();
+        // Components about s of light that is polarized along the light's axis, and along s about the camera's axis.
+        let row = along(light, double(light[1], across(light), -light[0]));
+        let [cos, sin] = double(across(eye), eye[1], eye[0]);
+        let column = along(eye, [cos, -sin]);
+        let found = mueller(&gpu, |stokes| parts(material, eye, light, stokes));
+        for (renderer, found) in found {
+            for found in found {
+                assert!(
+                    found.is_physical(renderer.tolerance()),
+                    "{renderer}: {found:?}"
+                );
+                for (m, element) in found.0.iter().zip(column) {
+                    let off = super::bench::furthest(
+                        m.map(|m| m / found.0[0][0]),
+                        row.map(|m| m * element),
+                    );
+                    println!("body, {renderer}: off by {off:.1e}");
+                    assert!(
+                        off <= renderer.tolerance(),
+                        "{renderer}: {found:?}, {column:?} {row:?}"
+                    );
+                }
+            }
+        }
+    }
 }
