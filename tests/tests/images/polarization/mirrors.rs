@@ -1,13 +1,13 @@
 //! Smooth surfaces: Brewster's angle, metals, two mirrors, and films that light passes.
 
 use super::bench::{
-    NM, SAMPLE, about, assert_matrix, assert_stokes, body, camera_at, coated, free, in_plane,
-    mueller, render, seen, surroundings,
+    NM, SAMPLE, about, angle_between, assert_matrix, assert_stokes, body, camera_at, coated, free,
+    in_plane, mueller, render, seen, surroundings,
 };
 use super::oracle::{Pair, airy, bare};
 use glam::DVec3;
 use gpu::Gpu;
-use optics::{Complex64, Layer};
+use optics::{Complex64, Layer, Mueller};
 use pellicle_tests::device::lend;
 
 const GLASS: Complex64 = Complex64::new(1.5, 0.0);
@@ -121,17 +121,78 @@ fn crossed_mirrors_extinguish_at_brewsters_angle() {
 
 /// A mirror that the light meets before the sample, at the same angle, in a plane of incidence turned by an angle.
 fn second_mirror(degrees: f64, between: f64) -> String {
-    let (sin, cos) = degrees.to_radians().sin_cos();
-    // From the sample along the reflected ray of the camera.
-    let along = DVec3::new(-sin, cos, 0.0);
-    let (turn_sin, turn_cos) = between.to_radians().sin_cos();
-    let aside = DVec3::new(cos, sin, 0.0) * turn_cos + DVec3::Z * turn_sin;
-    let normal = aside * sin - along * cos;
+    let [center, normal] = second_place(degrees, between);
     format!(
         "[[objects]]\ntype = \"rectangle\"\nmaterial = \"sample\"\ncenter = {:?}\nnormal = {:?}\nsize = [1, 1]\n",
-        (along * 3.0).to_array(),
+        center.to_array(),
         normal.to_array()
     )
+}
+
+/// The center and the normal of the second mirror.
+fn second_place(degrees: f64, between: f64) -> [DVec3; 2] {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    // From the sample along the reflected ray of the camera.
+    let along = in_plane(-degrees);
+    let (turn_sin, turn_cos) = between.to_radians().sin_cos();
+    let aside = DVec3::new(cos, sin, 0.0) * turn_cos + DVec3::Z * turn_sin;
+    [along * 3.0, aside * sin - along * cos]
+}
+
+/// A panel, a mirror and the sample, or a film and another one: the product of their matrices, with the turn between their axes. The films
+/// also transmit, to where it is dark.
+#[test]
+fn two_surfaces_have_the_product_of_their_matrices() {
+    let gpu = lend();
+    let degrees = 55.0;
+    let films = &[CLEAR, METAL][..];
+    for (name, sample, amplitudes) in [
+        ("mirrors", body(GOLD), [bare(GOLD, degrees); NM.len()]),
+        (
+            "films",
+            free(films),
+            NM.map(|nm| airy(films, Complex64::ONE, nm, degrees)[0]),
+        ),
+    ] {
+        for between in [0.0, 35.0, 115.0] {
+            let [center, normal] = second_place(degrees, between);
+            let ray = center.normalize();
+            let onward = ray.reflect(normal);
+            let [axis, first_axis] =
+                [(ray, normal), (ray, DVec3::Y)].map(|(ray, n)| ray.cross(n).normalize());
+            let panel = panel(center + onward * 2.0, -onward, |stokes| about(stokes, axis));
+            let camera = camera_at(degrees, "");
+            let render = format!("{}film_splits = 2\n", render(2));
+            let second = second_mirror(degrees, between);
+            let parts =
+                |stokes| [&camera, &render, &sample, SAMPLE, &second, &panel(stokes)].join("\n");
+            let turn = Mueller::rotation(angle_between(axis, first_axis, -ray));
+            for (renderer, matrices) in mueller(&gpu, parts) {
+                for ((matrix, pair), nm) in matrices.iter().zip(amplitudes).zip(NM) {
+                    let what = format!("{name}, {between}°, {nm} nm");
+                    let expected = |light| pair.apply(turn.apply(pair.apply(light)));
+                    assert_matrix(&what, renderer, matrix, expected);
+                }
+            }
+        }
+    }
+}
+
+/// A luminous panel of radiance 1.
+fn panel(
+    center: DVec3,
+    normal: DVec3,
+    polarization: impl Fn([f64; 3]) -> String,
+) -> impl Fn([f64; 3]) -> String {
+    move |stokes| {
+        format!(
+            "[materials.panel]\ntype = \"emitter\"\nemission = {{ constant = 1, {} }}\n[[objects]]\ntype = \"rectangle\"\n\
+             material = \"panel\"\ncenter = {:?}\nnormal = {:?}\nsize = [1, 1]\n",
+            polarization(stokes),
+            center.to_array(),
+            normal.to_array()
+        )
+    }
 }
 
 const METAL: Layer = Layer {
@@ -190,15 +251,7 @@ fn assert_film(
 ) {
     let camera = camera_at(degrees, "");
     for (which, toward) in [(0, in_plane(-degrees)), (1, -in_plane(degrees))] {
-        let panel = |stokes| {
-            format!(
-                "[materials.panel]\ntype = \"emitter\"\nemission = {{ constant = 1, {} }}\n[[objects]]\ntype = \"rectangle\"\n\
-                 material = \"panel\"\ncenter = {:?}\nnormal = {:?}\nsize = [1, 1]\n",
-                about(stokes, DVec3::Z),
-                (toward * 3.0).to_array(),
-                (-toward).to_array()
-            )
-        };
+        let panel = panel(toward * 3.0, -toward, |stokes| about(stokes, DVec3::Z));
         let parts = |stokes| [&camera, &render(1), sample, &panel(stokes)].join("\n");
         for (renderer, matrices) in mueller(gpu, parts) {
             for (matrix, nm) in matrices.iter().zip(NM) {
