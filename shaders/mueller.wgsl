@@ -48,6 +48,23 @@ fn mueller_of(powers: PolarizedPowers, weight: f32) -> Mueller {
     return Mueller(mean, half, half, mean, weight * powers.re, -weight * powers.im);
 }
 
+/// Returns the powers of one of two sides.
+fn selected_powers(a: PolarizedPowers, b: PolarizedPowers, is_second: bool) -> PolarizedPowers {
+    return PolarizedPowers(
+        select(a.s, b.s, is_second),
+        select(a.p, b.p, is_second),
+        select(a.re, b.re, is_second),
+        select(a.im, b.im, is_second),
+    );
+}
+
+/// Returns the matrix that changes nothing.
+fn mueller_identity() -> Mueller {
+    let one = vec4f(1.0);
+    let zero = vec4f(0.0);
+    return Mueller(one, zero, zero, one, one, zero);
+}
+
 /// Returns the matrix of a surface that only depolarizes.
 fn mueller_depolarizer(value: vec4f) -> Mueller {
     let zero = vec4f(0.0);
@@ -98,4 +115,9 @@ fn stokes_turned(turn: vec2f, light: Stokes4) -> Stokes4 {
 /// Returns the sum of two Stokes vectors.
 fn stokes_sum(a: Stokes4, b: Stokes4) -> Stokes4 {
     return Stokes4(a.s0 + b.s0, a.s1 + b.s1, a.s2 + b.s2, a.s3 + b.s3);
+}
+
+/// Returns a Stokes vector times a factor.
+fn stokes_scaled(light: Stokes4, factor: f32) -> Stokes4 {
+    return Stokes4(factor * light.s0, factor * light.s1, factor * light.s2, factor * light.s3);
 }

@@ -15,33 +15,41 @@ const POLARIZED_COLORS: u32 = 3u * LIGHT_GROUPS;
 /// X, Y, Z per nm of band width of S1, S2 and S3 of a sample, `[component][light group]`.
 var<private> polarized_color: array<vec3f, POLARIZED_COLORS>;
 
-/// Returns the radiance by light group that the camera measures of a path in the four bands of a group. Adds S1, S2 and S3 to the running
-/// means and to the colors of the sample.
-fn polarized_radiance(pixel: u32, pixels: u32, count: f32, group: u32, at: Wavelengths, dimmed: f32) -> array<vec4f, LIGHT_GROUPS> {
-    let light = path_stokes(group, at);
-    var radiance: array<vec4f, LIGHT_GROUPS>;
-    for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
-        radiance[light_group] = sensed(light[light_group], group, at);
-        if (KEEPS_STOKES) {
-            let found = light[light_group];
-            for (var component = 0u; component < 3u; component++) {
-                let kept = select(select(found.s3, found.s2, component == 1u), found.s1, component == 0u);
-                let place = component * LIGHT_GROUPS + light_group;
-                add_component(place, ((FIRST_POLARIZED + place * GROUPS) + group) * pixels + pixel, count, dimmed * kept, group, at);
-            }
-        }
-    }
-    return radiance;
+/// The observer's functions in four bands.
+struct Observed {
+    x: vec4f,
+    y: vec4f,
+    z: vec4f,
 }
 
-/// Adds a value of a component of the Stokes vector to its running mean and to its color.
-fn add_component(color: u32, place: u32, count: f32, value: vec4f, group: u32, at: Wavelengths) {
-    let so_far = sums[place];
-    sums[place] = so_far + (value - so_far) / count;
-    let x = spectrum_at(frame.observer, group, at);
-    let y = spectrum_at(frame.observer + 1u, group, at);
-    let z = spectrum_at(frame.observer + 2u, group, at);
-    polarized_color[color] += vec3f(dot(value, x), dot(value, y), dot(value, z));
+/// Returns X, Y, Z of four bands, per nm of band width.
+fn observed_color(value: vec4f, by: Observed) -> vec3f {
+    return vec3f(dot(value, by.x), dot(value, by.y), dot(value, by.z));
+}
+
+/// Adds S1, S2 and S3 of a light group to the running means and to the colors of the sample. `place` is the group's mean of S1.
+fn add_components(light_group: u32, place: u32, pixels: u32, count: f32, dimmed: f32, light: Stokes4, by: Observed) {
+    let next = LIGHT_GROUPS * GROUPS * pixels;
+    let s1 = dimmed * light.s1;
+    let s2 = dimmed * light.s2;
+    let s3 = dimmed * light.s3;
+    let over = 1.0 / count;
+    sums[place] += (s1 - sums[place]) * over;
+    sums[place + next] += (s2 - sums[place + next]) * over;
+    sums[place + 2u * next] += (s3 - sums[place + 2u * next]) * over;
+    polarized_color[light_group] += observed_color(s1, by);
+    polarized_color[LIGHT_GROUPS + light_group] += observed_color(s2, by);
+    polarized_color[2u * LIGHT_GROUPS + light_group] += observed_color(s3, by);
+}
+
+/// Adds the colors of S1, S2 and S3 of a sample to the running means.
+fn add_polarized_colors(pixel: u32, pixels: u32, count: f32) {
+    for (var k = 0u; k < POLARIZED_COLORS; k++) {
+        let place = (FIRST_POLARIZED_COLOR + k) * pixels + pixel;
+        let so_far = sums[place].xyz;
+        sums[place] = vec4f(so_far + (polarized_color[k] - so_far) / count, 0.0);
+        polarized_color[k] = vec3f(0.0);
+    }
 }
 
 /// Adds a path's spectrum to the running means (Welford 1962) and returns its X, Y, Z per nm of band width, by light group.
@@ -52,7 +60,20 @@ fn accumulate(pixel: u32, pixels: u32, count: f32, at: Wavelengths) -> array<vec
     loop {
         var radiance: array<vec4f, LIGHT_GROUPS>;
         if (HAS_POLARIZATION) {
-            radiance = polarized_radiance(pixel, pixels, count, group, at, dimmed);
+            let light = path_stokes(group, at);
+            for (var k = 0u; k < LIGHT_GROUPS; k++) {
+                radiance[k] = sensed(light[k], group, at);
+            }
+            if (KEEPS_STOKES) {
+                let by = Observed(
+                    spectrum_at(frame.observer, group, at),
+                    spectrum_at(frame.observer + 1u, group, at),
+                    spectrum_at(frame.observer + 2u, group, at),
+                );
+                for (var k = 0u; k < LIGHT_GROUPS; k++) {
+                    add_components(k, ((FIRST_POLARIZED + k * GROUPS) + group) * pixels + pixel, pixels, count, dimmed, light[k], by);
+                }
+            }
         } else {
             radiance = path_radiance(group, at);
         }
@@ -108,18 +129,9 @@ fn render(@builtin(global_invocation_id) id: vec3u) {
         let index = batch.first_sample + i;
         let count = f32(batch.taken + i + 1u);
         let at = trace_path(Sample(batch.tile_origin + id.xy, index));
-        if (KEEPS_STOKES) {
-            for (var k = 0u; k < POLARIZED_COLORS; k++) {
-                polarized_color[k] = vec3f(0.0);
-            }
-        }
         let xyz = accumulate(pixel, pixels, count, at);
         if (KEEPS_STOKES) {
-            for (var k = 0u; k < POLARIZED_COLORS; k++) {
-                let place = (FIRST_POLARIZED_COLOR + k) * pixels + pixel;
-                let so_far = sums[place].xyz;
-                sums[place] = vec4f(so_far + (polarized_color[k] - so_far) / count, 0.0);
-            }
+            add_polarized_colors(pixel, pixels, count);
         }
         for (var light_group = 0u; light_group < LIGHT_GROUPS; light_group++) {
             color[light_group] += vec4f((xyz[light_group] - color[light_group].xyz) / count, 0.0);

@@ -7,6 +7,9 @@ var<private> waiting_light: array<Stokes4, WAITING_LIGHT>;
 const WAITING_LIGHT: u32 = MAX_SPLITS * LIGHT_GROUPS;
 
 /// Returns the light that reaches the camera along the recorded path, in the four bands of a group, by light group.
+///
+/// Branches decide over matrices alone, and each vertex changes the light at one place: a software driver pays for every value that a branch
+/// may change.
 fn path_stokes(group: u32, wavelengths: Wavelengths) -> array<Stokes4, LIGHT_GROUPS> {
     var light: array<Stokes4, LIGHT_GROUPS>;
     if (HAS_SPLITS) {
@@ -25,68 +28,107 @@ fn path_stokes(group: u32, wavelengths: Wavelengths) -> array<Stokes4, LIGHT_GRO
         let at = At(i, group, wavelengths);
         let first = factor_value(vertex.factor, at);
         let tag = factor_tag(vertex.factor);
-        let planes = vertex_planes[i];
-        let weight = mueller_depolarizer(vec4f(vertex.weight));
-        var values = MuellerValues(weight, weight);
+        var values = MuellerValues(mueller_identity(), mueller_identity());
         if (HAS_BSDFS && tag != FACTOR_ONE && (!HAS_FILMS || tag < FACTOR_FILM)) {
             values = bsdf_mueller(at, vertex, first);
-            light = lights_through(values.onward, planes.turn, light);
         }
+        var through = PolarizedPowers();
         if (HAS_FILMS && tag >= FACTOR_FILM) {
-            light = lights_from_film(at, vertex, first, light);
+            let film = film_of_vertex(at, vertex, first);
+            let transmits = (vertex.marks & TRANSMITS) != 0u;
+            values.onward = mueller_of(selected_powers(film.reflected, film.transmitted, transmits), vertex.weight);
+            through = film.transmitted;
         }
-        let joining = emission_stokes(at, vertex, values.lit);
-        for (var k = 0u; k < LIGHT_GROUPS; k++) {
-            if (k == light_group_of(vertex.emission)) {
-                light[k] = stokes_sum(light[k], joining);
-            }
+        let step = Step(
+            values.onward,
+            mueller_of(through, 1.0),
+            vertex_planes[i].turn,
+            emission_stokes(at, vertex, values.lit),
+            light_group_of(vertex.emission),
+            (vertex.marks >> SPLITS_TO) & 0xffu,
+            (vertex.marks >> RESUMES_FROM) & 0xffu,
+        );
+        light[0] = light_after(step, light[0], 0u);
+        if (LIGHT_GROUPS > 1u) {
+            light[GROUP_1] = light_after(step, light[GROUP_1], 1u);
         }
-        if (HAS_SPLITS) {
-            let resumes = (vertex.marks >> RESUMES_FROM) & 0xffu;
-            if (resumes > 0u) {
-                for (var k = 0u; k < LIGHT_GROUPS; k++) {
-                    waiting_light[(resumes - 1u) * LIGHT_GROUPS + k] = light[k];
-                    light[k] = Stokes4();
-                }
+        if (LIGHT_GROUPS > 2u) {
+            light[GROUP_2] = light_after(step, light[GROUP_2], 2u);
+        }
+        if (LIGHT_GROUPS > 3u) {
+            light[GROUP_3] = light_after(step, light[GROUP_3], 3u);
+        }
+        if (LIGHT_GROUPS > 4u) {
+            light[GROUP_4] = light_after(step, light[GROUP_4], 4u);
+        }
+        if (LIGHT_GROUPS > 5u) {
+            light[GROUP_5] = light_after(step, light[GROUP_5], 5u);
+        }
+        if (LIGHT_GROUPS > 6u) {
+            light[GROUP_6] = light_after(step, light[GROUP_6], 6u);
+        }
+        if (LIGHT_GROUPS > 7u) {
+            light[GROUP_7] = light_after(step, light[GROUP_7], 7u);
+        }
+        if (LIGHT_GROUPS > 8u) {
+            for (var k = 8u; k < LIGHT_GROUPS; k++) {
+                light[k] = light_after(step, light[k], k);
             }
         }
     }
     return light;
 }
 
-/// Returns the light of all groups after a matrix and a turn of its axis.
-fn lights_through(matrix: Mueller, turn: vec2f, light: array<Stokes4, LIGHT_GROUPS>) -> array<Stokes4, LIGHT_GROUPS> {
-    var after = light;
-    for (var k = 0u; k < LIGHT_GROUPS; k++) {
-        after[k] = stokes_turned(turn, mueller_apply(matrix, after[k]));
-    }
-    return after;
+/// The places of the first light groups, written out: at an index that is not a constant, the driver of a processor keeps the array in memory and
+/// reads it one path after the other. A place that is not there is the last one, and is not used.
+const GROUP_1: u32 = min(1u, LIGHT_GROUPS - 1u);
+const GROUP_2: u32 = min(2u, LIGHT_GROUPS - 1u);
+const GROUP_3: u32 = min(3u, LIGHT_GROUPS - 1u);
+const GROUP_4: u32 = min(4u, LIGHT_GROUPS - 1u);
+const GROUP_5: u32 = min(5u, LIGHT_GROUPS - 1u);
+const GROUP_6: u32 = min(6u, LIGHT_GROUPS - 1u);
+const GROUP_7: u32 = min(7u, LIGHT_GROUPS - 1u);
+
+/// What a vertex does to the light of each group.
+struct Step {
+    onward: Mueller,
+    /// What a film transmits.
+    through: Mueller,
+    turn: vec2f,
+    joining: Stokes4,
+    light_group: u32,
+    /// See `Vertex.marks`.
+    splits: u32,
+    resumes: u32,
 }
 
-/// Returns the light that leaves a film toward the camera. Where the film splits the path, `light` is what it reflects, and what it transmits
-/// has waited.
-fn lights_from_film(at: At, vertex: Vertex, first: vec4f, light: array<Stokes4, LIGHT_GROUPS>) -> array<Stokes4, LIGHT_GROUPS> {
+/// Returns the light of a group after a vertex; where another branch is to follow, it waits, and none is returned.
+fn light_after(step: Step, light: Stokes4, group: u32) -> Stokes4 {
+    var arriving = mueller_apply(step.onward, light);
+    if (HAS_SPLITS) {
+        // What the film transmits has waited; where it does not split the path, nothing is added.
+        let waited = waiting_light[(max(step.splits, 1u) - 1u) * LIGHT_GROUPS + group];
+        let through = stokes_scaled(mueller_apply(step.through, waited), select(0.0, 1.0, step.splits > 0u));
+        arriving = stokes_sum(arriving, through);
+    }
+    let joins = select(0.0, 1.0, group == step.light_group);
+    let found = stokes_sum(stokes_turned(step.turn, arriving), stokes_scaled(step.joining, joins));
+    if (!HAS_SPLITS) {
+        return found;
+    }
+    if (step.resumes > 0u) {
+        waiting_light[(step.resumes - 1u) * LIGHT_GROUPS + group] = found;
+    }
+    return stokes_scaled(found, select(1.0, 0.0, step.resumes > 0u));
+}
+
+/// Returns what the film of a vertex reflects and transmits.
+fn film_of_vertex(at: At, vertex: Vertex, first: vec4f) -> PolarizedFilm {
     var film = FilmAt(vertex.factor, vertex.cosine, vertex.thickness_nm, 0u);
     if (RECORDS_THICKNESSES) {
         film.first_thickness = first_thicknesses[at.vertex];
     }
-    let both = film_polarized_value(film, first, at);
-    let reflected = mueller_of(both.reflected, vertex.weight);
-    let turn = vertex_planes[at.vertex].turn;
-    if ((vertex.marks & TRANSMITS) != 0u) {
-        return lights_through(mueller_of(both.transmitted, vertex.weight), turn, light);
-    }
-    var after = lights_through(reflected, turn, light);
-    if (HAS_SPLITS) {
-        let splits = (vertex.marks >> SPLITS_TO) & 0xffu;
-        if (splits > 0u) {
-            for (var k = 0u; k < LIGHT_GROUPS; k++) {
-                let through = mueller_apply(mueller_of(both.transmitted, 1.0), waiting_light[(splits - 1u) * LIGHT_GROUPS + k]);
-                after[k] = stokes_sum(after[k], stokes_turned(turn, through));
-            }
-        }
-    }
-    return after;
+    return film_polarized_value(film, first, at);
 }
 
 /// Returns the light of an emitter that joins the path at a vertex; `lit` is the matrix of the surface where that scatters it.
@@ -105,8 +147,7 @@ fn emission_stokes(at: At, vertex: Vertex, lit: Mueller) -> Stokes4 {
         }
         return stokes_turned(planes.emission_turn, mueller_apply(lit, light));
     }
-    let weight = vertex.emission_weight;
-    return Stokes4(weight * light.s0, weight * light.s1, weight * light.s2, weight * light.s3);
+    return stokes_scaled(light, vertex.emission_weight);
 }
 
 /// Returns the light of an emitter after the films between it and a vertex, the one beside the emitter first.

@@ -281,7 +281,8 @@ fn matrices() -> Vec<Check> {
                  let light = Stokes4(vec4f(a(6u)), vec4f(a(7u)), vec4f(a(8u)), vec4f(a(9u)));
                  let turn = vec2f(cos(a(10u)), sin(a(10u)));
                  let sum = mueller_and_depolarizer(mueller_sum(m, mueller_depolarizer(vec4f(a(11u)))), vec4f(1.0));
-                 let found = stokes_sum(stokes_turned(turn, mueller_apply(sum, light)), light);
+                 let turned = stokes_turned(turn, mueller_apply(sum, light));
+                 let found = stokes_sum(turned, mueller_apply(mueller_identity(), stokes_scaled(light, a(11u))));
                  put4(0u, vec4f(found.s0.x, found.s1.y, found.s2.z, found.s3.w));",
             ),
             proves: &[
@@ -291,6 +292,8 @@ fn matrices() -> Vec<Check> {
                 "mueller_and_depolarizer",
                 "stokes_turned",
                 "stokes_sum",
+                "stokes_scaled",
+                "mueller_identity",
             ],
             inputs: lazy(|| table(&[VECTORS; 12], &[])),
             twin: |a| {
@@ -303,7 +306,7 @@ fn matrices() -> Vec<Check> {
                 let light = [a[6], a[7], a[8], a[9]];
                 let turned = optics::Mueller::rotation(0.5 * a[10]) * optics::Mueller(rows);
                 let found = turned.apply(light);
-                found.iter().zip(light).map(|(x, y)| x + y).collect()
+                found.iter().zip(light).map(|(x, y)| x + a[11] * y).collect()
             },
             tolerance: Tolerance {
                 absolute: 2e-6,

@@ -22,10 +22,11 @@ pub(super) fn of_sample(scene: &Scene, limits: RecordLimits, surfaces: Passes) -
     let factors = segments * (1 + surfaces.spectrum) + crossings * (1 + surfaces.crossing);
     // The clamp evaluates the whole spectrum before it is added.
     let times = 1 + u64::from(scene.settings().clamp.is_some());
-    let polarized = match scene.settings().polarization {
-        // Loops over the light groups at each vertex, and over the components in the end.
-        true => (4 * segments + u64::from(limits.splits) + 5) * light_groups,
-        false => 0,
+    // Loops over the light groups at each vertex, and over the components in the end.
+    let polarized = if scene.settings().polarization {
+        (segments + u64::from(limits.splits) + 5) * light_groups
+    } else {
+        0
     };
     let spectrum = times * groups * (1 + 2 * segments + factors + 2 * light_groups + polarized);
     let environment = scene.environment_parts().len() as u64 + 1 + segments * searches(scene);

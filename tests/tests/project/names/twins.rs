@@ -163,7 +163,14 @@ const WITHOUT_TWIN: &[(&str, &[&str], &str)] = &[
     ),
     (
         "mueller",
-        &["mueller_depolarizer", "mueller_sum", "stokes_sum"],
+        &[
+            "mueller_depolarizer",
+            "mueller_identity",
+            "mueller_sum",
+            "selected_powers",
+            "stokes_scaled",
+            "stokes_sum",
+        ],
         "kinds of matrices in the reference; operators in Rust",
     ),
     ("mueller", &["stokes_turned"], "`Bands::turned`"),
@@ -190,7 +197,7 @@ const WITHOUT_TWIN: &[(&str, &[&str], &str)] = &[
     ),
     (
         "render",
-        &["add_component", "polarized_radiance"],
+        &["add_components", "add_polarized_colors", "observed_color"],
         "`spectral::Pixel`",
     ),
     (
@@ -198,9 +205,9 @@ const WITHOUT_TWIN: &[(&str, &[&str], &str)] = &[
         &[
             "path_stokes",
             "emission_stokes",
+            "light_after",
             "light_through_crossings",
-            "lights_from_film",
-            "lights_through",
+            "film_of_vertex",
             "sensed",
             "sensed_radiance",
         ],
