@@ -1,7 +1,8 @@
 // The polarized light along a recorded path, four bands at a time: the second evaluation of the record that spectral_path.wgsl evaluates
 // for unpolarized light. It follows the path as light goes, from its end to the camera, so that a Stokes vector is carried and not a matrix.
 
-/// The light of the branches that films split off.
+/// The light of the branches that films split off, and 0 where none waits: a branch that finds nothing is not in the record. What the first
+/// vertex of a branch writes, the vertex of the film reads and clears.
 var<private> waiting_light: array<Stokes4, WAITING_LIGHT>;
 
 const WAITING_LIGHT: u32 = MAX_SPLITS * LIGHT_GROUPS;
@@ -12,12 +13,6 @@ const WAITING_LIGHT: u32 = MAX_SPLITS * LIGHT_GROUPS;
 /// may change.
 fn path_stokes(group: u32, wavelengths: Wavelengths) -> array<Stokes4, LIGHT_GROUPS> {
     var light: array<Stokes4, LIGHT_GROUPS>;
-    if (HAS_SPLITS) {
-        // A branch that found nothing is not in the record.
-        for (var i = 0u; i < WAITING_LIGHT; i++) {
-            waiting_light[i] = Stokes4();
-        }
-    }
     var i = vertex_count;
     loop {
         if (i == 0u) {
@@ -107,9 +102,13 @@ fn light_after(step: Step, light: Stokes4, group: u32) -> Stokes4 {
     var arriving = mueller_apply(step.onward, light);
     if (HAS_SPLITS) {
         // What the film transmits has waited; where it does not split the path, nothing is added.
-        let waited = waiting_light[(max(step.splits, 1u) - 1u) * LIGHT_GROUPS + group];
+        let place = (max(step.splits, 1u) - 1u) * LIGHT_GROUPS + group;
+        let waited = waiting_light[place];
         let through = stokes_scaled(mueller_apply(step.through, waited), select(0.0, 1.0, step.splits > 0u));
         arriving = stokes_sum(arriving, through);
+        if (step.splits > 0u) {
+            waiting_light[place] = Stokes4();
+        }
     }
     let joins = select(0.0, 1.0, group == step.light_group);
     let found = stokes_sum(stokes_turned(step.turn, arriving), stokes_scaled(step.joining, joins));

@@ -52,8 +52,16 @@ pub const EVERYTHING_BODIES: &str = include_str!("everything_bodies.toml");
 /// What the other two lack: an environment from a picture, and a panorama.
 pub const EVERYTHING_PICTURED: &str = include_str!("everything_pictured.toml");
 
+/// A scene whose films split a path into branches of which most find nothing.
+const OPEN_FILMS: &str = include_str!("open_films.toml");
+
 /// The names of the scenes that were written for the suites.
-pub const MADE: &[&str] = &["everything", "everything_bodies", "everything_pictured"];
+pub const MADE: &[&str] = &[
+    "everything",
+    "everything_bodies",
+    "everything_pictured",
+    "open_films",
+];
 
 /// All scenes: [`SHIPPED`] and [`MADE`].
 pub fn all() -> Vec<&'static str> {
@@ -112,6 +120,7 @@ pub fn file(name: &str) -> SceneFile {
         "everything" => made(EVERYTHING),
         "everything_bodies" => made(EVERYTHING_BODIES),
         "everything_pictured" => made(EVERYTHING_PICTURED),
+        "open_films" => made(OPEN_FILMS),
         _ => SceneFile::read(root().join("scenes").join(format!("{name}.toml"))),
     };
     read.unwrap_or_else(|problems| panic!("{problems}"))
