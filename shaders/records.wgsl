@@ -92,7 +92,7 @@ struct Emitter {
     edge_height: f32,
     /// Row of its node in the tree of emitters.
     node: u32,
-    /// Row of the record of its picture, a `Panorama`; without a picture, that of its polarization, an `EmittedPolarization`, or NONE.
+    /// Row of the record of its picture, a `Panorama`; without a picture, that of its polarization, an `Polarization`, or NONE.
     record: u32,
 }
 const EMITTER_ROWS: u32 = 6u;
@@ -137,7 +137,7 @@ struct Material {
     emission: u32,
     /// Factor of its emission; 0 where it emits nothing.
     emission_scale: f32,
-    /// Row of the polarization of its emission, an `EmittedPolarization`; NONE where that is unpolarized.
+    /// Row of the polarization of its emission, an `Polarization`; NONE where that is unpolarized.
     polarization: u32,
     /// Padding to whole rows.
     padding: u32,
@@ -478,7 +478,7 @@ struct Panorama {
     first_number: u32,
     /// Density of light at the picture's mean brightness, on the scale of the density of the sampled light; 0 where all light is sampled.
     even_density: f32,
-    /// Row of the polarization of its light, an `EmittedPolarization`; NONE where that is unpolarized.
+    /// Row of the polarization of its light, an `Polarization`; NONE where that is unpolarized.
     polarization: u32,
     /// Padding to whole rows.
     padding: u32,

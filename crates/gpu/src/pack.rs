@@ -20,7 +20,7 @@ use glam::DVec3;
 use scene::limits::{MAX_LAYERS, MAX_LIGHT_GROUPS, MAX_MATERIALS};
 use scene::{Emission, EmittedPolarization, Projection, Scene, SpectrumId, WavelengthSampling};
 use spectra::BandTable;
-use spectra::stokes::{Polarizer, Retardance};
+use spectra::stokes::Polarizer;
 use surface::Passes;
 use tables::Tables;
 use trees::Trees;
@@ -185,19 +185,12 @@ fn polarization_row(tables: &mut Tables, emission: Emission) -> u32 {
 fn pack_polarizer(polarizer: &Polarizer) -> Frame {
     let analyzer = polarizer.analyzer();
     let vec = |weights: [f64; 3]| weights.map(|weight| weight as f32);
-    match analyzer.retardance {
-        Retardance::Path { nm } => Frame {
-            analyzer: vec(analyzer.constant),
-            retarder_nm: nm as f32,
-            analyzer_cosine: vec(analyzer.cosine),
-            analyzer_sine: vec(analyzer.sine),
-            ..Default::default()
-        },
-        // The same at every wavelength.
-        Retardance::Phase { .. } => Frame {
-            analyzer: vec(analyzer.weights(1.0)),
-            ..Default::default()
-        },
+    Frame {
+        analyzer: vec(analyzer.constant),
+        retarder_nm: analyzer.path_nm.unwrap_or(0.0) as f32,
+        analyzer_cosine: vec(analyzer.cosine),
+        analyzer_sine: vec(analyzer.sine),
+        ..Default::default()
     }
 }
 

@@ -2,13 +2,15 @@
 
 use crate::weights::BandWeights;
 use rayon::prelude::*;
-use spectra::stokes::{Analyzer, Polarizer, Retardance};
+use spectra::stokes::{Analyzer, Polarizer};
 use spectra::{BandGrid, LayerKey, Observer, Quantity, RowMut, SpectralImage, Stokes};
 use thiserror::Error;
 
 /// The image does not have S1, S2 and S3, so nothing is known of its polarization.
 #[derive(Clone, Copy, Debug, Error, Eq, PartialEq)]
-#[error("the image has no polarization: it holds the radiance alone, without S1, S2 and S3")]
+#[error(
+    "the image has no polarization that can be used: S1, S2 and S3 are missing or were ignored"
+)]
 pub struct NotPolarized;
 
 /// Turns an image into that behind an ideal linear polarizer, optionally with a retarder in front of it.
@@ -53,8 +55,8 @@ enum XyzWeights {
 impl Filter {
     fn new(grid: &BandGrid, analyzer: &Analyzer) -> Self {
         let bands = (0..grid.count()).map(|band| analyzer.weights(grid.center_nm(band)));
-        let depends = matches!(analyzer.retardance, Retardance::Path { .. })
-            && [analyzer.cosine, analyzer.sine] != [[0.0; 3]; 2];
+        let depends =
+            analyzer.path_nm.is_some() && [analyzer.cosine, analyzer.sine] != [[0.0; 3]; 2];
         Self {
             bands: bands.collect(),
             xyz: if depends {
@@ -158,7 +160,7 @@ fn add(sums: &mut Vec<f32>, values: &[f32]) {
 mod tests {
     use super::*;
     use spectra::LightGroup;
-    use spectra::stokes::Retarder;
+    use spectra::stokes::{Retardance, Retarder};
 
     fn at(angle_deg: f64, retarder: Option<Retarder>) -> Polarizer {
         Polarizer {

@@ -113,8 +113,8 @@ pub struct Analyzer {
     pub cosine: [f64; 3],
     /// Factor of sin δ.
     pub sine: [f64; 3],
-    /// The phase.
-    pub retardance: Retardance,
+    /// The path difference, nm, if the phase depends on the wavelength: it is 2π times this over the wavelength.
+    pub path_nm: Option<f64>,
 }
 
 impl Polarizer {
@@ -129,11 +129,24 @@ impl Polarizer {
         let (sin, cos) = double_angle(retarder.fast_axis_deg);
         // The polarizer's axis, seen from the fast axis.
         let (across, along) = double_angle(self.angle_deg - retarder.fast_axis_deg);
-        Analyzer {
+        let analyzer = Analyzer {
             constant: [along * cos, along * sin, 0.0],
             cosine: [-across * sin, across * cos, 0.0],
             sine: [0.0, 0.0, across],
-            retardance: retarder.retardance,
+            path_nm: None,
+        };
+        match retarder.retardance {
+            // The same at every wavelength: the constant has all.
+            Retardance::Phase { deg } => Analyzer {
+                constant: analyzer.with(sin_cos_deg(deg)),
+                cosine: [0.0; 3],
+                sine: [0.0; 3],
+                ..analyzer
+            },
+            Retardance::Path { nm } => Analyzer {
+                path_nm: Some(nm),
+                ..analyzer
+            },
         }
     }
 }
@@ -141,10 +154,14 @@ impl Polarizer {
 impl Analyzer {
     /// Returns the weights at a wavelength, nm.
     pub fn weights(&self, wavelength_nm: f64) -> [f64; 3] {
-        let (sin, cos) = match self.retardance {
-            Retardance::Phase { deg } => sin_cos_deg(deg),
-            Retardance::Path { nm } => sin_cos_deg(360.0 * (nm / wavelength_nm).fract()),
-        };
+        match self.path_nm {
+            None => self.constant,
+            Some(nm) => self.with(sin_cos_deg(360.0 * (nm / wavelength_nm).fract())),
+        }
+    }
+
+    /// Returns the weights for the sine and cosine of a phase.
+    fn with(&self, (sin, cos): (f64, f64)) -> [f64; 3] {
         std::array::from_fn(|i| self.constant[i] + cos * self.cosine[i] + sin * self.sine[i])
     }
 

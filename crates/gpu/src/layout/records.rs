@@ -75,7 +75,7 @@ records! { EMITTERS;
         pub edge_height: f32,
         /// Row of its node in the tree of emitters.
         pub node: u32,
-        /// Row of the record of its picture, a [`Panorama`]; without a picture, that of its polarization, an [`EmittedPolarization`], or NONE.
+        /// Row of the record of its picture, a [`Panorama`]; without a picture, that of its polarization, an [`Polarization`], or NONE.
         pub record: u32,
     }
 }
@@ -95,7 +95,7 @@ records! { RECORDS;
         pub emission: u32,
         /// Factor of its emission; 0 where it emits nothing.
         pub emission_scale: f32,
-        /// Row of the polarization of its emission, an [`EmittedPolarization`]; NONE where that is unpolarized.
+        /// Row of the polarization of its emission, an [`Polarization`]; NONE where that is unpolarized.
         pub polarization: u32,
         /// Padding to whole rows.
         pub padding: u32,
@@ -287,7 +287,7 @@ records! { RECORDS;
         pub first_number: u32,
         /// Density of light at the picture's mean brightness, on the scale of the density of the sampled light; 0 where all light is sampled.
         pub even_density: f32,
-        /// Row of the polarization of its light, an [`EmittedPolarization`]; NONE where that is unpolarized.
+        /// Row of the polarization of its light, an [`Polarization`]; NONE where that is unpolarized.
         pub polarization: u32,
         /// Padding to whole rows.
         pub padding: u32,

@@ -12,7 +12,7 @@ use glam::DVec3;
 use optics::wide::{Lanes, Real, sin_cos_half_turns};
 use pulp::{Arch, Simd, WithSimd};
 use scene::limits::MAX_LAYERS;
-use spectra::stokes::{Analyzer, Polarizer, Retardance};
+use spectra::stokes::{Analyzer, Polarizer};
 
 /// A path of polarized light.
 pub(crate) struct StokesPath<'a> {
@@ -55,14 +55,7 @@ impl<'a> SpectralTransport<'a> for StokesPath<'a> {
     }
 
     fn found(&mut self) -> Found<'_, 'a> {
-        let has_path = matches!(
-            self.analyzer,
-            Some(Analyzer {
-                retardance: Retardance::Path { .. },
-                ..
-            })
-        );
-        if has_path {
+        if self.analyzer.is_some_and(|of| of.path_nm.is_some()) {
             self.wavelengths.know();
         }
         let arch = self.wavelengths.arch;
@@ -189,6 +182,18 @@ impl Transport for StokesPath<'_> {
         let matrix = self.take(at.bsdf.mueller_kind(&at.lobes));
         let arch = self.wavelengths.arch;
         arch.dispatch(Shine(self, light, weight, first));
+        if matrix.kind == MuellerKind::Depolarizer && films.is_empty() {
+            // S0 alone counts, and what leaves is unpolarized.
+            arch.dispatch(Matrix(self, at, matrix));
+            arch.dispatch(Dim(self, matrix.first, first));
+            self.record.give_back(first + 1);
+            self.record.events.push(Event::Shines {
+                light_group: light.emission.light_group.index(),
+                radiance: first,
+                stokes: None,
+            });
+            return;
+        }
         let [toward_camera, toward_light] = at.axes();
         // The axes of the segments on the way to the light: beside the surface, and behind each film.
         let axis_of = |film: &FilmAt<'_>| axis_across(film.direction, film.normal);
@@ -281,6 +286,24 @@ impl WithSimd for Shine<'_, '_> {
     }
 }
 
+/// Multiplies a radiance by a value for each band.
+struct Dim<'b, 'a>(&'b mut StokesPath<'a>, usize, usize);
+
+impl WithSimd for Dim<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self(path, by, radiance) = self;
+        let bands = path.wavelengths.bands(simd);
+        let spectra = &mut path.record.spectra;
+        for at in bands.registers() {
+            let product = bands.load(at, &spectra[radiance]) * bands.load(at, &spectra[by]);
+            bands.store(at, product, &mut spectra[radiance]);
+        }
+    }
+}
+
 /// Writes S1, S2 and S3 of light behind its radiance.
 struct Spread<'b, 'a>(&'b mut StokesPath<'a>, usize, [f64; 3]);
 
@@ -367,13 +390,12 @@ fn transmitted<S: Simd>(
     analyzer: &Analyzer,
     [s0, s1, s2, s3]: [Lanes<S>; 4],
 ) -> Lanes<S> {
-    let [w1, w2, w3] = match analyzer.retardance {
-        // The same at every wavelength.
-        Retardance::Phase { .. } => {
-            let [w1, w2, w3] = analyzer.weights(1.0);
+    let [w1, w2, w3] = match analyzer.path_nm {
+        None => {
+            let [w1, w2, w3] = analyzer.constant;
             [bands.splat(w1), bands.splat(w2), bands.splat(w3)]
         }
-        Retardance::Path { nm } => {
+        Some(nm) => {
             // Of half the phase, both perhaps with the opposite sign.
             let (half_sin, half_cos) = sin_cos_half_turns(bands.inverse_wavelength(at).times(nm));
             let sin = (half_sin * half_cos).times(2.0);
