@@ -17,7 +17,8 @@ use std::path::{Path, PathBuf};
 ///
 /// The first image is the reference: a bias above 0 means that the second is brighter. Both are spectral images (.exr) or
 /// pictures (.png), which have no bands. Colors are compared as an sRGB display shows them, both at the exposure of the first.
-/// Color differences (CIEDE2000) include what the display would clip; FLIP and PSNR do not.
+/// Color differences (CIEDE2000) include what the display would clip; FLIP and PSNR do not. Of polarized images, S1, S2 and S3 are
+/// compared too.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The reference image, .exr or .png
@@ -220,16 +221,27 @@ impl Comparison {
             ];
             let _ = write!(text, "{:>9}", stokes.name());
             for figure in figures {
-                let _ = write!(text, " {:>12.4e}", figure / of_s0);
+                // Where there is no light at all, nothing is a part of it.
+                let _ = if of_s0 > 0.0 {
+                    write!(text, " {:>12.4e}", figure / of_s0)
+                } else {
+                    write!(text, " {:>12}", "-")
+                };
             }
             match over_noise(bands) {
                 Some(ratio) => _ = writeln!(text, " {ratio:>12.3}"),
                 None => text.push('\n'),
             }
         }
-        text.push_str(
-            "the noise is that of S0: S1 to S3 have less where light is not fully polarized\n",
-        );
+        if self
+            .components
+            .iter()
+            .any(|(_, bands)| over_noise(bands).is_some())
+        {
+            text.push_str(
+                "the noise is that of S0: S1 to S3 have less where light is not fully polarized\n",
+            );
+        }
     }
 
     fn table_of_bands(&self, text: &mut String) {

@@ -81,7 +81,8 @@ fn delta_deg(r_s: Complex64, r_p: Complex64) -> f64 {
     if delta > 360.0 - ROUNDING_DEG {
         0.0
     } else {
-        delta
+        // −0 is 0.
+        delta + 0.0
     }
 }
 
@@ -90,7 +91,7 @@ impl Sampled {
     /// reflected at the first boundary to incident there, and transmitted at the last boundary to incident at the first one. The time
     /// factor is exp(−iωt).
     ///
-    /// They are exact, whatever the model is: two beams have powers alone.
+    /// They are those of the exact model, whatever the model is: of two beams, only powers are computed here.
     ///
     /// # Panics
     /// If there is not one thickness per layer.

@@ -99,7 +99,9 @@ impl PanelPlot {
         };
         let mut chart = axes.on(area, scale)?;
         axes.draw(&mut chart, scale)?;
-        if is_last && matches!(self.over, Over::Wavelengths(_)) {
+        // A strip would hide curves of angles near 0.
+        let has_strip = matches!(self.over, Over::Wavelengths(_)) && panel.range != Vertical::Turn;
+        if is_last && has_strip {
             let inside = chart.plotting_area().strip_coord_spec();
             draw_colors(&inside, scale, self.over.ends())?;
         }

@@ -27,7 +27,8 @@ pub(crate) struct Options {
     #[command(flatten)]
     lamps: RelightArguments,
     /// Put an ideal linear polarizer in front of the camera, at this angle of the light that passes, counterclockwise from the horizontal
-    /// as the camera sees it: 0 for horizontal, 90 for vertical. The image must be rendered with its polarization
+    /// as the camera sees it: 0 for horizontal, 90 for vertical. The image must be rendered with its polarization. It is for pictures: a
+    /// spectral image keeps all components
     #[arg(long, value_name = "DEGREES", value_parser = polarizer, allow_hyphen_values = true)]
     polarizer: Option<Polarizer>,
     /// Light that becomes the display's white: stops (3), a luminance in the scene (250cd), the luminance of the display's white

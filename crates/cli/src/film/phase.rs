@@ -13,7 +13,7 @@ pub(super) struct PhaseOptions {
     /// Amplitudes are for the time factor exp(-iωt) and the index n + ik; r is at the first boundary, t from the first to the last.
     /// ψ and Δ are those of ellipsometers (Nebraska convention): rp/rs = tan ψ exp(iΔ) for exp(+iωt), which is tan ψ exp(-iΔ) in the
     /// printed amplitudes; with --p-sign verdet, Δ is 180° at normal incidence, and a thin film lowers it. Δ is from 0 to less than 360.
-    /// Where rs or rp is 0, as at Brewster's angle, Δ is empty (null in JSON, - in the table). All are computed on the CPU in f64.
+    /// Where rs or rp is 0, as at Brewster's angle, Δ is empty (null in JSON, - in the table); ψ too where both are. All are computed on the CPU in f64.
     #[arg(long)]
     pub(super) phase: bool,
     /// Positive direction of p in reflected light

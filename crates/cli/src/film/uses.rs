@@ -58,7 +58,7 @@ impl Arguments {
             (
                 "--phase",
                 self.phases.phase && !is_exact,
-                "the exact model; two beams are powers alone, without phases",
+                "the exact model; of two beams, `film` computes powers alone",
             ),
             (
                 "--phase",

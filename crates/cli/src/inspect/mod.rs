@@ -70,7 +70,7 @@ struct FilmArguments {
 enum Format {
     /// A text table
     Table,
-    /// wavelength_nm, then radiance and its standard deviation at each position
+    /// wavelength_nm, then radiance, its standard deviation and, of a polarized image, S1 to S3 at each position
     Csv,
     /// All results
     Json,

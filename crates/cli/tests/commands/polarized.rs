@@ -79,7 +79,11 @@ fn an_image_without_polarization_has_no_polarizer() {
         let name = option.split(' ').next().unwrap();
         assert_says(
             &message,
-            &[name, "has no polarization", "render.polarization = true"],
+            &[
+                name,
+                "has no polarization that can be used",
+                "render.polarization = true",
+            ],
         );
     }
     let message = place
