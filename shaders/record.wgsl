@@ -67,7 +67,7 @@ struct Planes {
     turn: vec2f,
     /// The same of emission that the surface scatters.
     emission_turn: vec2f,
-    /// S1, S2 and S3, over S0, of the emission that joins here, about the axis of its last segment.
+    /// S1, S2 and S3, over S0, of the emission that joins here, about the axis of the segment beside the emitter.
     emission: vec3f,
 }
 
