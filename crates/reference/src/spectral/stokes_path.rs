@@ -82,6 +82,32 @@ impl StokesPath<'_> {
         turn
     }
 
+    /// Makes a Stokes vector, in four spectra from `first` on, of the radiance of an emitter, and takes it through the films on its way to a
+    /// surface, where it refers to an axis.
+    fn arrive(
+        &mut self,
+        first: usize,
+        light: &Emitted<'_>,
+        films: &[FilmAt<'_>],
+        at_surface: DVec3,
+    ) {
+        let arch = self.wavelengths.arch;
+        // The axes of the segments: beside the surface, and behind each film.
+        let axis_of = |film: &FilmAt<'_>| axis_across(film.direction, film.normal);
+        let last = films.last().map_or(at_surface, axis_of);
+        let of = light.emission.polarization.as_ref();
+        let stokes = of.map_or([0.0; 3], |of| emitted_stokes(of, light.toward, last));
+        arch.dispatch(Spread(self, first, stokes));
+        for (i, film) in films.iter().enumerate().rev() {
+            let before = i.checked_sub(1).map_or(at_surface, |i| axis_of(&films[i]));
+            let turn = Turn::between(axis_of(film), before, -film.direction);
+            if let [_, Some(transmitted)] = self.film_matrices(film, false, true) {
+                arch.dispatch(Apply(self, transmitted, turn, first));
+                self.record.give_back(transmitted.first);
+            }
+        }
+    }
+
     /// Computes the matrices of a film: for the reflected and for the transmitted light.
     fn film_matrices(
         &mut self,
@@ -180,53 +206,31 @@ impl Transport for StokesPath<'_> {
         }
         let first = self.record.take(4);
         let matrix = self.take(at.bsdf.mueller_kind(&at.lobes));
+        let light_group = light.emission.light_group.index();
         let arch = self.wavelengths.arch;
         arch.dispatch(Shine(self, light, weight, first));
-        if matrix.kind == MuellerKind::Depolarizer && films.is_empty() {
+        arch.dispatch(Matrix(self, at, matrix));
+        let [toward_camera, toward_light] = at.axes();
+        if matrix.kind != MuellerKind::Depolarizer || !films.is_empty() {
+            self.arrive(first, light, films, toward_light);
+        }
+        if matrix.kind == MuellerKind::Depolarizer {
             // S0 alone counts, and what leaves is unpolarized.
-            arch.dispatch(Matrix(self, at, matrix));
             arch.dispatch(Dim(self, matrix.first, first));
             self.record.give_back(first + 1);
             self.record.events.push(Event::Shines {
-                light_group: light.emission.light_group.index(),
+                light_group,
                 radiance: first,
                 stokes: None,
             });
             return;
         }
-        let [toward_camera, toward_light] = at.axes();
-        // The axes of the segments on the way to the light: beside the surface, and behind each film.
-        let axis_of = |film: &FilmAt<'_>| axis_across(film.direction, film.normal);
-        let last = films.last().map_or(toward_light, axis_of);
-        let of = light.emission.polarization.as_ref();
-        let stokes = of.map_or([0.0; 3], |of| emitted_stokes(of, light.toward, last));
-        arch.dispatch(Spread(self, first, stokes));
-        for (i, film) in films.iter().enumerate().rev() {
-            let before = i
-                .checked_sub(1)
-                .map_or(toward_light, |i| axis_of(&films[i]));
-            let turn = Turn::between(axis_of(film), before, -film.direction);
-            if let [_, Some(transmitted)] = self.film_matrices(film, false, true) {
-                arch.dispatch(Apply(self, transmitted, turn, first));
-                self.record.give_back(transmitted.first);
-            }
-        }
-        arch.dispatch(Matrix(self, at, matrix));
         arch.dispatch(Apply(self, matrix, Turn::NONE, first));
         self.record.give_back(matrix.first);
-        let light_group = light.emission.light_group.index();
-        self.record.events.push(match matrix.kind {
-            // The rest is 0.
-            MuellerKind::Depolarizer => Event::Shines {
-                light_group,
-                radiance: first,
-                stokes: None,
-            },
-            _ => Event::Joins {
-                light_group,
-                first,
-                turn: Turn::between(toward_camera, self.axis, at.wo),
-            },
+        self.record.events.push(Event::Joins {
+            light_group,
+            first,
+            turn: Turn::between(toward_camera, self.axis, at.wo),
         });
     }
 }
