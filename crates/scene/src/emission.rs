@@ -29,7 +29,8 @@ pub enum EmittedPolarization {
         axis: DVec3,
     },
     /// A clear sky by single Rayleigh scattering: at an angle γ from the sun, light is polarized across the plane of sun and ray to the degree
-    /// `most` · sin²γ / (1 + cos²γ) (Strutt 1871; Coulson, Polarization and Intensity of Light in the Atmosphere, 1988, chapter 2).
+    /// `most` · sin²γ / (1 + cos²γ) (Strutt 1871; Coulson, Polarization and Intensity of Light in the Atmosphere, 1988, chapter 2). Light from
+    /// below the horizon is unpolarized.
     Sky {
         /// Unit vector toward the sun.
         sun: DVec3,
