@@ -158,7 +158,7 @@ fn refused(arguments: &str, words: &[&str]) {
 }
 
 cases! { refused:
-    phases_of_two_beams("--phase --model two_beam", &["--phase has no effect", "without phases"]);
+    phases_of_two_beams("--phase --model two_beam", &["--phase has no effect", "powers alone"]);
     phases_without_effect("--phase --sensitivity", &["--phase has no effect", "--format table"]);
     a_plot_of_phases_on_the_gpu(
         "--phase --plot a.png --backend gpu",
